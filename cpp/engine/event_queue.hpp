@@ -1,0 +1,112 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace lorentz {
+
+/// One particle on its way to a scatterer: its only pending event.
+struct Flight {
+  double time;           // of arrival
+  double velocity;       // u
+  std::uint32_t target;  // scatterer
+  std::uint32_t next;    // link of the bucket's list; EventQueue's own
+};
+
+/// Pending flights in the order of (time, slot): the particle's slot breaks ties, so simultaneous
+/// events have a defined order that depends on nothing else.
+///
+/// Nothing ever invalidates a pending flight, so insert and take-minimum suffice. A timing wheel of
+/// narrow buckets (a fraction of an event each) holds the flights of the current turn, 64 coarse
+/// buckets of one turn each the later ones, one list the rest. Buckets are linked lists through the
+/// flights themselves, and a bitmap finds the next occupied bucket: O(1) per event, no allocation.
+/// Arrivals at or after end_time are frozen: kept, never queued.
+///
+/// The bucket width follows the measured rate of events. It is a matter of speed only: the order is
+/// exact for every width, because floor(time / width) is monotone in time also when rounded.
+class EventQueue {
+ public:
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+  /// flights: one slot per particle. rate: expected events per unit time, for the first turn.
+  EventQueue(std::vector<Flight> flights, double rate, double end_time);
+
+  const std::vector<Flight>& flights() const { return flights_; }
+  Flight& operator[](std::uint32_t slot) { return flights_[slot]; }
+  double end_time() const { return end_time_; }
+
+  /// Takes out the first flight that arrives before `until` (at most end_time). Returns its slot, or
+  /// none. The caller gives the flight its next arrival, not earlier than this one, and schedules it.
+  std::uint32_t take_before(double until) {
+    for (;;) {
+      while (word_bits_ == 0) {
+        if (word_ + 1 < occupied_.size())
+          word_bits_ = std::exchange(occupied_[++word_], 0);
+        else if (!begin_turn())
+          return none;
+      }
+      const std::size_t bucket = (word_ << 6) + static_cast<std::size_t>(std::countr_zero(word_bits_));
+      const std::uint32_t head = buckets_[bucket];
+      if (flights_[head].next != none) return take_first_of_list(bucket, until);
+      if (!(flights_[head].time < until)) return none;
+      buckets_[bucket] = none;
+      word_bits_ &= word_bits_ - 1;
+      ++taken_in_turn_;
+      return head;
+    }
+  }
+
+  void schedule(std::uint32_t slot) {
+    const double time = flights_[slot].time;
+    if (!(time < end_time_)) return;
+    const std::uint64_t tick = tick_of(time);
+    if (tick < turn_end_) {
+      const std::uint64_t bucket = tick & bucket_mask_;
+      const std::uint64_t bit = std::uint64_t{1} << (tick & 63);
+      push(buckets_[bucket], slot);
+      if (bucket >> 6 == word_) [[unlikely]]
+        word_bits_ |= bit;
+      else
+        occupied_[bucket >> 6] |= bit;
+    } else {
+      schedule_beyond_turn(slot, tick);
+    }
+  }
+
+ private:
+  static constexpr std::uint64_t coarse_buckets = 64;
+
+  std::uint64_t tick_of(double time) const {
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(time * ticks_per_time_));
+  }
+
+  void push(std::uint32_t& list, std::uint32_t slot) {
+    flights_[slot].next = list;
+    list = slot;
+  }
+
+  std::uint32_t take_first_of_list(std::size_t bucket, double until);
+  void schedule_beyond_turn(std::uint32_t slot, std::uint64_t tick);
+  bool begin_turn();
+  void set_width(double rate);
+
+  std::vector<Flight> flights_;
+  double end_time_;
+  double ticks_per_time_ = 0;
+  std::vector<std::uint32_t> buckets_;   // heads of lists
+  std::vector<std::uint64_t> occupied_;  // one bit per bucket
+  std::uint64_t bucket_mask_ = 0;
+  std::size_t word_ = 0;          // of occupied_; the words below it are done with
+  std::uint64_t word_bits_ = 0;   // stands for occupied_[word_], which is 0
+  std::uint64_t turn_end_ = 0;    // first tick after the current turn
+  std::uint64_t coarse_end_ = 0;  // first turn after those of the coarse buckets
+  std::vector<std::uint32_t> coarse_;
+  std::uint32_t beyond_ = none;
+  std::size_t waiting_ = 0;  // flights in coarse_ and beyond_
+  std::uint64_t taken_in_turn_ = 0;
+};
+
+}  // namespace lorentz

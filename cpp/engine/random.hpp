@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Random123/philox.h>
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace lorentz {
+
+/// What a stream of random numbers is for. Append only: a value in use never changes its meaning.
+enum class Purpose : std::uint64_t {
+  initial_position = 0,
+  initial_particle_momentum = 1,
+  initial_scatterer_momentum = 2,
+};
+
+/// Counter-based stream: Philox4x64-10 keyed by (seed, purpose), counted by (block, entity,
+/// replica). Streams need no shared state, so results do not depend on the number of threads.
+/// (Salmon et al., SC11, doi:10.1145/2063384.2063405)
+class RandomStream {
+ public:
+  static constexpr const char* description =
+      "Philox4x64-10; key (seed, purpose); counter (block, entity, replica, 0)";
+
+  RandomStream(std::uint64_t seed, Purpose purpose, std::uint64_t replica, std::uint64_t entity = 0)
+      : key_{{seed, static_cast<std::uint64_t>(purpose)}}, counter_{{0, entity, replica, 0}} {}
+
+  /// Uniform in the open interval (0, 1), a multiple of 2^-53 plus 2^-54.
+  double uniform() { return (static_cast<double>(next() >> 11) + 0.5) * 0x1p-53; }
+
+  /// Standard normal, by the Box-Muller transform; two words per number.
+  double gaussian() {
+    const double radius = std::sqrt(-2 * std::log(uniform()));
+    return radius * std::cos(2 * std::numbers::pi * uniform());
+  }
+
+ private:
+  std::uint64_t next() {
+    if (used_ == 4) {
+      block_ = r123::Philox4x64()(counter_, key_);
+      ++counter_[0];
+      used_ = 0;
+    }
+    return block_[used_++];
+  }
+
+  r123::Philox4x64::key_type key_;
+  r123::Philox4x64::ctr_type counter_;
+  r123::Philox4x64::ctr_type block_{};
+  unsigned used_ = 4;
+};
+
+}  // namespace lorentz

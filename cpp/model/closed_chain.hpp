@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace lorentz {
+
+/// A ring of cells, each with one fixed scatterer at its centre. m = k_B = 1; lengths and momenta
+/// set the unit of time.
+struct ClosedChain {
+  std::uint32_t cells = 11;
+  std::uint32_t particles_per_cell = 20;
+  double cell_length = 1;
+  double sigma = 0.5;  // (M-m)/(M+m)
+
+  std::uint32_t particles() const { return cells * particles_per_cell; }
+};
+
+struct Particle {
+  double position;  // in [0, cells * cell_length)
+  double velocity;  // u = p/sqrt(m)
+};
+
+/// Every degree of freedom of a chain at one time.
+struct PhasePoint {
+  std::vector<Particle> particles;
+  std::vector<double> scatterers;  // U = P/sqrt(M), one per cell
+};
+
+/// The two invariants of the closed chain and the magnitude against which the second is compared.
+/// At sigma = 1 the scatterers are walls, which take up momentum without limit: momentum is NaN.
+struct Invariants {
+  double energy = 0;          // sum of u^2/2 + sum of U^2/2
+  double momentum = 0;        // sum p + sum P
+  double momentum_scale = 0;  // sum |p| + sum |P|
+};
+
+}  // namespace lorentz

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <hdf5.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "program/options.hpp"
+
+namespace lorentz {
+
+/// Owner of one HDF5 identifier.
+class Hdf5Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+
+  /// Throws NumericalError if the identifier is not valid.
+  Hdf5Handle(hid_t id, Close close);
+  Hdf5Handle(const Hdf5Handle&) = delete;
+  Hdf5Handle& operator=(const Hdf5Handle&) = delete;
+  ~Hdf5Handle() { close_(id_); }
+  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor)
+
+ private:
+  hid_t id_;
+  Close close_;
+};
+
+using Shape = std::vector<std::size_t>;  // empty for a 0-d dataset
+
+/// Builds an HDF5 file in memory, so that writing it is one write that can fail cleanly. Equal calls
+/// give equal bytes: no time stamps are stored.
+class Hdf5Writer {
+ public:
+  Hdf5Writer();
+
+  /// Groups along the path are made as needed.
+  void group(const std::string& path);
+  void dataset(const std::string& path, const Shape& shape, std::span<const double> values);
+  void dataset(const std::string& path, const Shape& shape, std::span<const std::uint64_t> values);
+  void attribute(const std::string& object, const std::string& name, const AttributeValue& value);
+
+  /// The bytes of the file.
+  std::vector<std::byte> image();
+
+ private:
+  void write(const std::string& path, const Shape& shape, hid_t memory_type, hid_t file_type,
+             const void* values, std::size_t size);
+
+  Hdf5Handle file_;
+};
+
+/// Reads what Hdf5Writer wrote. Throws UsageError, naming the file, when something is missing.
+class Hdf5Reader {
+ public:
+  explicit Hdf5Reader(const std::string& path);
+
+  std::vector<double> doubles(const std::string& dataset) const;
+  std::vector<std::uint64_t> counts(const std::string& dataset) const;
+  std::string text_attribute(const std::string& object, const std::string& name) const;
+
+ private:
+  template <class Value>
+  std::vector<Value> read(const std::string& dataset, hid_t memory_type) const;
+
+  std::string path_;
+  Hdf5Handle file_;
+};
+
+}  // namespace lorentz

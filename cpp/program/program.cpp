@@ -1,0 +1,119 @@
+#include "program/program.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cstdio>
+#include <new>
+
+#include "program/atomic_file.hpp"
+#include "program/build_info.hpp"
+#include "program/interruption.hpp"
+
+namespace lorentz {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t space_asked_for = 1 << 18;  // bytes; larger than a typical output file
+
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+std::string cost_path(const std::string& output) {
+  const std::string stem = output.ends_with(".h5") ? output.substr(0, output.size() - 3) : output;
+  return stem + ".cost.json";
+}
+
+/// What the run cost, kept apart from its results because no two runs cost the same.
+std::string cost(Clock::time_point start, std::uint64_t events) {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  constexpr std::int64_t bytes_per_unit = 1024;  // Linux reports kilobytes
+  return fmt::format(
+      "{{\"wall_seconds\": {:.6f}, \"cpu_seconds\": {:.6f}, \"peak_memory_bytes\": {}, \"events\": {}}}\n",
+      std::chrono::duration<double>(Clock::now() - start).count(),
+      seconds(usage.ru_utime) + seconds(usage.ru_stime), usage.ru_maxrss * bytes_per_unit, events);
+}
+
+std::string version_text(const std::string& program) {
+  return fmt::format("{} {} (build {})", program, build_info.version, build_info.build_id);
+}
+
+}  // namespace
+
+Program::Program(const std::string& name, const std::string& description) : options_(name, description) {
+  options_.text("--output", output_, "HDF5 file to write, whole or not at all (required)",
+                Options::Role::conduct);
+  options_.choice("--progress", progress_, {"auto", "bar", "log", "none"},
+                  "How to show progress on standard error", Options::Role::conduct);
+}
+
+void Program::write_output(const Outcome& outcome) const {
+  Hdf5Writer file;
+  file.group("/parameters");
+  for (const Parameter& parameter : options_.parameters())
+    file.attribute("/parameters", parameter.name, parameter.value);
+
+  file.group("/provenance");
+  const std::vector<Parameter> provenance = {
+      {"format", std::string("lorentz-gas")},
+      {"format_version", std::int64_t{1}},
+      {"program", options_.program()},
+      {"source_hash", std::string(build_info.source_hash)},
+      {"build_id", std::string(build_info.build_id)},
+      {"compiler", std::string(build_info.compiler)},
+      {"flags", std::string(build_info.flags)},
+      {"libraries", std::string(build_info.libraries)},
+      {"seed", outcome.seed},
+      {"streams", outcome.streams},
+      {"events", outcome.events},
+      {"target_quantity", outcome.target_quantity},
+      {"target_error", outcome.target_error},
+      {"achieved_error", outcome.achieved_error},
+      {"converged", outcome.converged},
+  };
+  for (const Parameter& entry : provenance) file.attribute("/provenance", entry.name, entry.value);
+
+  write_results(file, outcome.results);
+  write_atomically(output_, file.image());
+}
+
+ExitStatus Program::run_or_throw(int argc, char** argv, const std::function<Outcome(Progress&)>& compute) {
+  const Clock::time_point start = Clock::now();
+  if (!options_.parse(argc, argv, version_text(options_.program()))) return ExitStatus::done;
+  if (output_.empty())
+    throw UsageError("--output is missing: the results need a file. Add --output FILE.h5.");
+  require_writable(output_, space_asked_for);
+  watch_for_signals();
+
+  Progress progress(options_.program(), progress_);
+  const Outcome outcome = compute(progress);
+  write_output(outcome);
+  write_atomically(cost_path(output_), cost(start, outcome.events));
+  return outcome.converged ? ExitStatus::done : ExitStatus::not_converged;
+}
+
+int Program::run(int argc, char** argv, const std::function<Outcome(Progress&)>& compute) {
+  const auto complain = [this](const char* kind, const char* what) {
+    fmt::print(stderr, "{}: {}: {}\n", options_.program(), kind, what);
+  };
+  try {
+    return static_cast<int>(run_or_throw(argc, argv, compute));
+  } catch (const UsageError& error) {
+    complain("error", error.what());
+    return static_cast<int>(ExitStatus::usage);
+  } catch (const Interrupted& interruption) {
+    return static_cast<int>(ExitStatus::interrupted) + interruption.signal;
+  } catch (const std::bad_alloc&) {
+    complain("error", "the memory does not suffice. Choose fewer cells, particles or threads.");
+    return static_cast<int>(ExitStatus::usage);
+  } catch (const std::exception& error) {
+    complain("numerical failure", error.what());
+    return static_cast<int>(ExitStatus::numerical_failure);
+  }
+}
+
+}  // namespace lorentz

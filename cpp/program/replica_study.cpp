@@ -1,0 +1,118 @@
+#include "program/replica_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "program/build_info.hpp"
+#include "program/checkpoint.hpp"
+#include "program/errors.hpp"
+
+namespace lorentz {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
+Clock::time_point later(double seconds) {
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(Seconds(seconds));
+}
+
+Records as_records(const FinishedReplicas& finished) {
+  Records records(finished.begin()->second.values.size());
+  for (const auto& [index, record] : finished) records.append(record.values);
+  return records;
+}
+
+const Quantity& quantity_named(const Results& results, const std::string& name) {
+  const auto found = std::find_if(results.begin(), results.end(),
+                                  [&](const Quantity& quantity) { return quantity.name == name; });
+  if (found == results.end()) throw std::logic_error("no quantity named " + name);
+  return *found;
+}
+
+/// Standard error of a number, relative to it unless `absolute`. An error of exactly 0 is 0 either way.
+double error_of(const Quantity& target, bool absolute) {
+  const double error = target.standard_error.front();
+  return absolute || error == 0 ? error : error / std::abs(target.mean.front());
+}
+
+}  // namespace
+
+ReplicaOptions::ReplicaOptions(Program& program)
+    : program_(program), threads_(std::max(1U, std::thread::hardware_concurrency())) {
+  Options& options = program.options();
+  constexpr auto conduct = Options::Role::conduct;
+  options.integer("--replicas", replicas_, {1, 100'000'000},
+                  "Independent replicas; with a target error, replicas per batch");
+  options.integer("--max-replicas", max_replicas_, {1, 100'000'000},
+                  "With a target error, give up after so many");
+  options.integer("--seed", seed_, {}, "Key of all random streams");
+  options.real("--target-error", target_error_, non_negative,
+               "Add replicas until the target quantity has this relative standard error; 0: no target");
+  options.real("--target-absolute", target_absolute_, non_negative,
+               "The same for the standard error itself; 0: no target");
+  options.integer("--threads", threads_, {1, 4096}, "Threads; no result depends on them", conduct);
+  options.real(
+      "--time-limit", time_limit_, non_negative,
+      "Seconds after which no replica is begun (the first two always are); those begun are finished; 0: none",
+      conduct);
+  options.real("--checkpoint-interval", checkpoint_interval_, positive,
+               "Seconds between checkpoints in OUTPUT.checkpoint", conduct);
+  options.flag("--resume", resume_, "Go on from OUTPUT.checkpoint if it is there", conduct);
+}
+
+Outcome ReplicaOptions::run(const ReplicaStudy& study, Progress& progress) const {
+  if (target_error_ > 0 && target_absolute_ > 0)
+    throw UsageError("--target-error and --target-absolute exclude each other: give one.");
+  const bool absolute = target_absolute_ > 0;
+  const double target = absolute ? target_absolute_ : target_error_;
+  const Clock::time_point deadline = time_limit_ > 0 ? later(time_limit_) : Clock::time_point::max();
+
+  const Checkpoint checkpoint(
+      program_.output(),
+      fmt::format("{}build_id = {}\n", as_text(program_.options().parameters()), build_info.build_id));
+  FinishedReplicas finished;
+  if (resume_) finished = checkpoint.load();
+  const auto resumed = static_cast<double>(finished.size());
+  Clock::time_point next_checkpoint = later(checkpoint_interval_);
+
+  ReplicaRun batch{.wanted = 0, .threads = threads_, .deadline = deadline, .report = {}};
+  batch.report = [&](double done, const FinishedReplicas& so_far) {
+    progress.show(done, static_cast<double>(batch.wanted), resumed);
+    if (Clock::now() < next_checkpoint) return;
+    checkpoint.save(so_far);
+    next_checkpoint = later(checkpoint_interval_);
+  };
+
+  Outcome outcome{.seed = seed_, .streams = study.streams, .target_quantity = study.target_quantity};
+  outcome.target_error = target > 0 ? target : std::numeric_limits<double>::quiet_NaN();
+  for (;;) {
+    batch.wanted += replicas_;
+    try {
+      run_replicas(batch, study.measure, finished);
+    } catch (const Interrupted& interruption) {
+      checkpoint.save(finished);
+      progress.say(fmt::format("interrupted after {} replicas; --resume goes on from '{}'", finished.size(),
+                               checkpoint.path()));
+      throw;
+    }
+    outcome.results = study.summarise(as_records(finished));
+    const Quantity& quantity = quantity_named(outcome.results, study.target_quantity);
+    outcome.achieved_error = error_of(quantity, absolute);
+    const bool out_of_time = finished.size() < batch.wanted;
+    outcome.converged = !out_of_time && (target == 0 || outcome.achieved_error <= target);
+    progress.say(fmt::format("{} replicas: {} = {:.8g} +- {:.2g}{}", finished.size(), quantity.name,
+                             quantity.mean.front(), quantity.standard_error.front(),
+                             outcome.converged ? "" : ", not converged"));
+    if (outcome.converged || out_of_time || batch.wanted + replicas_ > max_replicas_) break;
+  }
+  for (const auto& [index, record] : finished) outcome.events += record.events;
+  checkpoint.remove();
+  return outcome;
+}
+
+}  // namespace lorentz

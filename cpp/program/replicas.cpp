@@ -1,0 +1,101 @@
+#include "program/replicas.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "program/errors.hpp"
+#include "program/interruption.hpp"
+
+namespace lorentz {
+namespace {
+
+/// The state that the workers share; everything under the mutex but the fractions.
+class Team {
+ public:
+  Team(const ReplicaRun& run, const Measurement& measure, FinishedReplicas& finished)
+      : run_(run), measure_(measure), finished_(finished), fractions_(run.threads) {
+    for (std::uint64_t index = 0; index < run.wanted; ++index)
+      if (!finished.contains(index)) todo_.push_back(index);
+    std::reverse(todo_.begin(), todo_.end());
+  }
+
+  void run() {
+    {
+      std::vector<std::jthread> workers;
+      const auto needed = std::min<std::size_t>(run_.threads, todo_.size());
+      active_ = needed;
+      for (std::size_t worker = 0; worker < needed; ++worker)
+        workers.emplace_back([this, worker] { work(fractions_[worker]); });
+      report_until_done();
+    }
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  /// The next replica to begin; false if there is none.
+  bool begin_next(std::uint64_t& index) {
+    const std::lock_guard lock(mutex_);
+    if (todo_.empty() || failure_) return false;
+    index = todo_.back();
+    if (index >= 2 && std::chrono::steady_clock::now() >= run_.deadline) return false;
+    todo_.pop_back();
+    return true;
+  }
+
+  void work(std::atomic<double>& fraction) {
+    std::uint64_t index = 0;
+    while (begin_next(index)) {
+      const auto heartbeat = [this, &fraction](double part) {
+        fraction.store(part, std::memory_order_relaxed);
+        if (const int signal = received_signal()) throw Interrupted(signal);
+        if (failed_.load(std::memory_order_relaxed)) throw Interrupted(0);
+      };
+      try {
+        ReplicaRecord record = measure_({index, heartbeat});
+        const std::lock_guard lock(mutex_);
+        finished_.emplace(index, std::move(record));
+        fraction.store(0, std::memory_order_relaxed);
+      } catch (...) {
+        const std::lock_guard lock(mutex_);
+        if (!failure_) failure_ = std::current_exception();
+        failed_ = true;
+      }
+    }
+    const std::lock_guard lock(mutex_);
+    --active_;
+    changed_.notify_one();
+  }
+
+  void report_until_done() {
+    constexpr std::chrono::milliseconds interval(100);
+    std::unique_lock lock(mutex_);
+    while (!changed_.wait_for(lock, interval, [this] { return active_ == 0; })) {
+      auto done = static_cast<double>(finished_.size());
+      for (const auto& fraction : fractions_) done += fraction.load(std::memory_order_relaxed);
+      run_.report(done, finished_);
+    }
+  }
+
+  const ReplicaRun& run_;
+  const Measurement& measure_;
+  FinishedReplicas& finished_;
+  std::vector<std::uint64_t> todo_;  // the next one last
+  std::vector<std::atomic<double>> fractions_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::size_t active_ = 0;
+  std::exception_ptr failure_;
+  std::atomic<bool> failed_{false};
+};
+
+}  // namespace
+
+void run_replicas(const ReplicaRun& run, const Measurement& measure, FinishedReplicas& finished) {
+  Team(run, measure, finished).run();
+}
+
+}  // namespace lorentz

@@ -1,0 +1,35 @@
+#include "statistics/jackknife.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace lorentz {
+
+Estimate jackknife(const Records& records, const RecordFunction& f) {
+  const std::vector<double> mean = records.mean();
+  const auto replicas = static_cast<double>(records.size());
+  Estimate estimate{f(mean), {}};
+  const std::size_t quantities = estimate.mean.size();
+  if (records.size() < 2) {
+    estimate.standard_error.assign(quantities, std::numeric_limits<double>::quiet_NaN());
+    return estimate;
+  }
+
+  // Welford's update over the delete-one values: stable when they differ in the last digits only.
+  std::vector<double> centre(quantities, 0), squares(quantities, 0), without(mean.size());
+  for (std::size_t replica = 0; replica < records.size(); ++replica) {
+    for (std::size_t i = 0; i < mean.size(); ++i)
+      without[i] = mean[i] + (mean[i] - records[replica][i]) / (replicas - 1);
+    const std::vector<double> value = f(without);
+    for (std::size_t k = 0; k < quantities; ++k) {
+      const double deviation = value[k] - centre[k];
+      centre[k] += deviation / static_cast<double>(replica + 1);
+      squares[k] += deviation * (value[k] - centre[k]);
+    }
+  }
+  for (const double square : squares)
+    estimate.standard_error.push_back(std::sqrt((replicas - 1) / replicas * square));
+  return estimate;
+}
+
+}  // namespace lorentz

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <queue>
+#include <vector>
+
+namespace reference {
+
+/// The closed chain, written again as plainly as possible to check and to time the engine against:
+/// a binary heap, every crossing an event, momenta (p, P) and masses as the paper prints them. It
+/// shares no code with the engine. Real may be long double.
+template <class Real>
+class HeapSimulator {
+ public:
+  struct Event {
+    Real time;
+    std::size_t particle, scatterer;
+    Real p_before, p_after, P_before, P_after;
+  };
+
+  /// Positions in [0, cells * cell_length), particle momenta p and scatterer momenta P; m = 1.
+  HeapSimulator(Real sigma, Real cell_length, const std::vector<Real>& positions,
+                const std::vector<Real>& momenta, const std::vector<Real>& scatterers)
+      : sigma_(sigma), cell_length_(cell_length), P_(scatterers) {
+    const auto cells = static_cast<long>(P_.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const Real p = momenta[i];
+      // Walk from the particle's own cell to the first scatterer ahead.
+      long cell = static_cast<long>(positions[i] / cell_length_);
+      if (p > 0 && centre(cell) <= positions[i]) ++cell;
+      if (p <= 0 && centre(cell) >= positions[i]) --cell;
+      const Real distance = std::abs(centre(cell) - positions[i]);
+      pending_.push({distance / std::abs(p), i, static_cast<std::size_t>((cell + cells) % cells), p});
+    }
+  }
+
+  Real scatterer_mass() const { return (1 + sigma_) / (1 - sigma_); }
+
+  /// Processes the next event if it lies before `until`.
+  bool step(Real until, Event& event) {
+    if (pending_.empty() || !(pending_.top().time < until)) return false;
+    Pending next = pending_.top();
+    pending_.pop();
+    const Real p = next.p;
+    Real& P = P_[next.scatterer];
+    event = {next.time,
+             next.particle,
+             next.scatterer,
+             p,
+             -sigma_ * p + (1 - sigma_) * P,
+             P,
+             (1 + sigma_) * p + sigma_ * P};
+    P = event.P_after;
+    next.p = event.p_after;
+    const std::size_t cells = P_.size();
+    next.scatterer = (next.scatterer + (next.p > 0 ? 1 : cells - 1)) % cells;
+    next.time += cell_length_ / std::abs(next.p);
+    pending_.push(next);
+    return true;
+  }
+
+ private:
+  struct Pending {
+    Real time;
+    std::size_t particle, scatterer;
+    Real p;
+    bool operator<(const Pending& other) const {  // the heap's top is the largest
+      return time > other.time || (time == other.time && particle > other.particle);
+    }
+  };
+
+  Real centre(long cell) const { return (static_cast<Real>(cell) + Real(0.5)) * cell_length_; }
+
+  Real sigma_, cell_length_;
+  std::vector<Real> P_;
+  std::priority_queue<Pending> pending_;
+};
+
+/// The simulator at the start that the engine uses: any type with particles[i].{position,velocity}
+/// and scatterers[i] in energy-normalised variables.
+template <class Real, class PhasePoint>
+HeapSimulator<Real> heap_simulator(double sigma, double cell_length, const PhasePoint& start) {
+  std::vector<Real> positions, momenta, scatterers;
+  for (const auto& particle : start.particles) {
+    positions.push_back(particle.position);
+    momenta.push_back(particle.velocity);
+  }
+  const Real root_mass = std::sqrt((1 + Real(sigma)) / (1 - Real(sigma)));
+  for (const double scatterer : start.scatterers) scatterers.push_back(root_mass * scatterer);
+  return {Real(sigma), Real(cell_length), positions, momenta, scatterers};
+}
+
+}  // namespace reference

@@ -1,0 +1,85 @@
+"""Identity of an executable: what it was built from, as a hash that names no path, host or time.
+
+The include closure of a source is the source, every file that it includes with quotes (relative to
+the root), and for each included header `x.hpp` the source `x.cpp` beside it, transitively.
+Writes OUTPUT.json for the pipeline and OUTPUT.cpp for the executable, each only if it changes, and
+a dependency file for the build. Standard library only: the build runs before anything is installed.
+"""
+
+import argparse
+import hashlib
+import json
+import re
+from pathlib import Path
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
+
+
+def include_closure(root: Path, source: str) -> list[str]:
+    """Paths relative to root of all project files that `source` is built from, sorted.
+
+    Raises FileNotFoundError if the source is not there. Quoted includes that are not files below
+    the root belong to libraries and are left to the library versions.
+    """
+    closure: set[str] = set()
+    pending = [source]
+    while pending:
+        name = pending.pop()
+        if name in closure:
+            continue
+        closure.add(name)
+        included = [i for i in INCLUDE.findall((root / name).read_text("utf-8")) if (root / i).is_file()]
+        twins = [str(Path(i).with_suffix(".cpp")) for i in included]
+        pending += included + [twin for twin in twins if (root / twin).is_file()]
+    return sorted(closure)
+
+
+def source_hash(root: Path, closure: list[str]) -> str:
+    """sha256 over names and contents of the files."""
+    digest = hashlib.sha256()
+    for name in closure:
+        content = hashlib.sha256((root / name).read_bytes()).hexdigest()
+        digest.update(f"{name} {content}\n".encode())
+    return digest.hexdigest()
+
+
+def write_if_changed(path: Path, text: str) -> None:
+    if not path.is_file() or path.read_text("utf-8") != text:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, "utf-8")
+
+
+def cpp_source(identity: dict[str, str]) -> str:
+    fields = ",\n".join(f"    {json.dumps(identity[name])}" for name in
+                        ("version", "source_hash", "build_id", "compiler", "flags", "libraries"))
+    return f'#include "program/build_info.hpp"\n\nconst lorentz::BuildInfo lorentz::build_info{{\n{fields}}};\n'
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    for option in ("root", "source", "version", "compiler", "flags", "libraries", "output", "depfile"):
+        parser.add_argument(f"--{option}", required=True)
+    options = parser.parse_args()
+    root = Path(options.root)
+
+    closure = include_closure(root, options.source)
+    identity = {
+        "program": Path(options.source).stem,
+        "version": options.version,
+        "source_hash": source_hash(root, closure),
+        "compiler": options.compiler,
+        "flags": options.flags.replace(";", " "),
+        "libraries": options.libraries,
+    }
+    identity["build_id"] = hashlib.sha256(json.dumps(identity, sort_keys=True).encode()).hexdigest()
+    identity["sources"] = closure
+
+    write_if_changed(Path(f"{options.output}.json"), json.dumps(identity, indent=2) + "\n")
+    write_if_changed(Path(f"{options.output}.cpp"), cpp_source(identity))
+    files = [f"{options.output}.cpp", *(str(root / name) for name in closure)]
+    target, *prerequisites = (name.replace(" ", "\\ ") for name in files)
+    Path(options.depfile).write_text(f"{target}: {' '.join(prerequisites)}\n", "utf-8")
+
+
+if __name__ == "__main__":
+    main()
