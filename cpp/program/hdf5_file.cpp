@@ -29,7 +29,7 @@ Hdf5Handle memory_file() {
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   constexpr std::size_t growth = 1 << 16;
   check(H5Pset_fapl_core(access, growth, false), "use memory as a file");
-  check(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18), "fix the format version");
+  check(H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V18), "fix the format version");
   const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   check(H5Pset_obj_track_times(creation, false), "switch time stamps off");
   return {H5Fcreate("in memory", H5F_ACC_TRUNC, creation, access), H5Fclose};
