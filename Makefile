@@ -1,0 +1,90 @@
+# Front door. `make help` lists what it can do.
+#
+# Every recipe runs in an environment of its own: .SHELLFLAGS below starts it with nothing but what is
+# named there, so no variable of the caller's shell changes a result. Options are arguments of make.
+
+QUALITY := standard
+JOBS := $(shell nproc 2>/dev/null || sysctl -n hw.ncpu)
+PANEL :=
+FRESH :=
+
+.DEFAULT_GOAL := help
+.NOTPARALLEL:
+.SILENT:
+.DELETE_ON_ERROR:
+MAKEFLAGS += --no-builtin-rules
+
+# What reaches the network only; the locks' hashes vouch for the content.
+NETWORK := PIP_INDEX_URL PIP_EXTRA_INDEX_URL PIP_TRUSTED_HOST PIP_CERT PIP_CONFIG_FILE PIP_FIND_LINKS \
+  PIP_DEFAULT_TIMEOUT SSL_CERT_FILE http_proxy https_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY
+SHELL := /usr/bin/env
+.SHELLFLAGS := -i HOME='$(HOME)' PATH=/opt/homebrew/bin:/usr/local/bin:/usr/bin:/bin:/usr/sbin:/sbin \
+  LC_ALL=C.UTF-8 TZ=UTC SOURCE_DATE_EPOCH=1230768000 \
+  PYTHONHASHSEED=0 PYTHONNOUSERSITE=1 PYTHONDONTWRITEBYTECODE=1 PYTHONUNBUFFERED=1 \
+  OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MPLBACKEND=Agg MPLCONFIGDIR=.cache/matplotlib \
+  XDG_CACHE_HOME=.cache $(foreach name,$(NETWORK),$(if $($(name)),$(name)='$($(name))')) \
+  /bin/bash -euo pipefail -c
+
+PYTHON := .venv/bin/python
+SNAKEMAKE := $(PYTHON) -m snakemake --profile workflow/profiles/local --cores $(JOBS) --config quality=$(QUALITY)
+FORCE := $(if $(FRESH),--forcerun simulate)
+
+.PHONY: help figures panel build test check format lock bench clean
+help:  ## This list
+	sed -nE 's/^([a-z]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 16
+	echo 'Options: QUALITY=smoke|standard|paper|deep  PANEL=fig05  FRESH=1  JOBS=2'
+
+figures: build .venv/runtime  ## Build, simulate and draw every figure into figures/QUALITY
+	$(SNAKEMAKE) $(FORCE) -- figures
+	echo 'Figures are in figures/$(QUALITY)'
+
+panel: build .venv/runtime  ## The same for one panel, PANEL=fig05; FRESH=1 simulates it anew
+	$(if $(PANEL),,echo 'make panel: PANEL is missing; try make panel PANEL=fig05'; exit 2)
+	$(SNAKEMAKE) $(FORCE) -- $(foreach kind,pdf png svg csv,figures/$(QUALITY)/$(PANEL).$(kind))
+	echo 'The panel is figures/$(QUALITY)/$(PANEL).pdf, .png, .svg and .csv'
+
+build: build/system-packages  ## The executables in build/bin
+	test -f build/build.ninja || cmake -S cpp -B build -G Ninja >build/cmake.log || { cat build/cmake.log; exit 1; }
+	ninja -C build --quiet
+
+test: build .venv/runtime .venv/dev  ## All tests; ends with the count
+	$(PYTHON) -m tests.run
+
+check: build .venv/runtime .venv/dev  ## Format and lint
+	git ls-files -z '*.hpp' '*.cpp' | xargs -0 .venv/bin/clang-format --dry-run --Werror
+	.venv/bin/ruff check --quiet . && .venv/bin/ruff format --quiet --check .
+	.venv/bin/snakefmt --check --compact-diff Snakefile workflow/rules
+	$(SNAKEMAKE) --lint
+
+format: .venv/dev  ## Format every source in place
+	git ls-files -z '*.hpp' '*.cpp' | xargs -0 .venv/bin/clang-format -i
+	.venv/bin/ruff check --quiet --fix . && .venv/bin/ruff format --quiet .
+	.venv/bin/snakefmt --quiet Snakefile workflow/rules
+
+bench: build  ## Cost of an event, engine and reference simulator side by side
+	build/bin/engine_benchmark --benchmark_min_time=1
+
+lock: .venv/dev  ## Renew both locks of Python packages
+	for name in requirements requirements-dev; do \
+	  .venv/bin/uv pip compile --quiet --no-header --no-annotate --upgrade --generate-hashes --universal \
+	    --python-version 3.11 workflow/environment/$$name.in -o $$name.lock; \
+	done
+
+clean:  ## Remove what can be made again, results included
+	rm -rf build data/*/ figures/*/ .snakemake .cache
+
+build/system-packages: workflow/environment/system_packages.sh
+	mkdir -p build
+	bash workflow/environment/system_packages.sh
+	touch $@
+
+.venv/runtime: requirements.lock build/system-packages
+	echo 'Installing Python packages of requirements.lock into .venv'
+	test -x $(PYTHON) || python3 -m venv .venv
+	$(PYTHON) -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
+	touch $@
+
+.venv/dev: requirements-dev.lock .venv/runtime
+	echo 'Installing Python packages of requirements-dev.lock into .venv'
+	$(PYTHON) -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-dev.lock
+	touch $@

@@ -1,0 +1,30 @@
+"""Every figure of the paper: programs write data/<quality>/<panel>/*.h5, scripts draw them."""
+
+import sys
+
+from snakemake.exceptions import WorkflowError
+
+sys.path.insert(0, workflow.basedir)
+from workflow.config.plan import QUALITIES, ConfigurationError, load_plan
+
+QUALITY = config.get("quality", "standard")
+try:
+    PANELS = load_plan(QUALITY)
+except ConfigurationError as error:
+    raise WorkflowError(str(error))
+
+KINDS = ("pdf", "png", "svg", "csv")
+
+
+wildcard_constraints:
+    quality="|".join(QUALITIES),
+    panel="|".join(PANELS),
+
+
+rule figures:
+    input:
+        expand("figures/{quality}/{panel}.{kind}", quality=QUALITY, panel=PANELS, kind=KINDS),
+
+
+include: "workflow/rules/simulate.smk"
+include: "workflow/rules/draw.smk"

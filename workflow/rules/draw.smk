@@ -1,0 +1,28 @@
+"""One panel from its runs: figures/<quality>/<panel>.{pdf,png,svg,csv}."""
+
+
+rule draw:
+    input:
+        data=lambda wildcards: expand(
+            "data/{quality}/{panel}/{run}.h5",
+            quality=wildcards.quality,
+            panel=wildcards.panel,
+            run=[run.name for run in PANELS[wildcards.panel].runs],
+        ),
+        script=lambda wildcards: f"workflow/scripts/{PANELS[wildcards.panel].script}.py",
+        shared=expand("workflow/scripts/{module}.py", module=["figure", "load", "save", "style"]),
+        lock="requirements.lock",
+    output:
+        multiext("figures/{quality}/{panel}", ".pdf", ".png", ".svg", ".csv"),
+    log:
+        "build/logs/{quality}/{panel}.log",
+    benchmark:
+        "build/benchmarks/{quality}/{panel}.tsv"
+    params:
+        module=lambda wildcards: f"workflow.scripts.{PANELS[wildcards.panel].script}",
+        configuration=lambda wildcards: PANELS[wildcards.panel].hash(),
+        stem="figures/{quality}/{panel}",
+    shell:
+        ".venv/bin/python -m {params.module} --configuration {params.configuration}"
+        " --sources {input.script} {input.shared} --lock {input.lock}"
+        " --output {params.stem} --data {input.data} 2> {log}"

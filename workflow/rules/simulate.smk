@@ -1,0 +1,43 @@
+"""One run of a program: data/<quality>/<panel>/<run>.h5.
+
+The program's build id is the input, not the program: an identical rebuild changes its time stamp but
+not its id. Partial results and checkpoints lie in build/partial, under a name that changes with build
+and options, so that an interrupted run goes on and one with other parameters starts anew. A program
+that stops before its target error exits with 4; its result is marked and is drawn as such.
+"""
+
+
+def run_of(wildcards):
+    return PANELS[wildcards.panel].run(wildcards.run)
+
+
+def program_of(wildcards):
+    return PANELS[wildcards.panel].program
+
+
+rule simulate:
+    input:
+        build_id=lambda wildcards: f"build/id/{program_of(wildcards)}.json",
+    output:
+        "data/{quality}/{panel}/{run}.h5",
+    log:
+        "build/logs/{quality}/{panel}/{run}.log",
+    benchmark:
+        "build/benchmarks/{quality}/{panel}/{run}.tsv"
+    params:
+        program=program_of,
+        arguments=lambda wildcards: run_of(wildcards).arguments(),
+        work="build/partial/{quality}/{panel}/{run}",
+        cost="build/costs/{quality}/{panel}/{run}.json",
+    threads: lambda wildcards: max(1, workflow.cores // len(PANELS[wildcards.panel].runs))
+    shell:
+        """
+        exec 2> {log}
+        identity=$(echo '{params.arguments}' | cat - {input.build_id} | sha256sum | cut -c 1-16)
+        partial={params.work}-$identity
+        mkdir -p "$(dirname $partial)" "$(dirname {params.cost})"
+        build/bin/{params.program} {params.arguments} --threads {threads} --resume --progress log \
+            --output $partial.h5 || [ $? -eq 4 ]
+        mv $partial.cost.json {params.cost}
+        mv $partial.h5 {output}
+        """

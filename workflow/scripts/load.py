@@ -1,0 +1,65 @@
+"""Reads the files that the programs write; the layout is described in docs/format.md."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+FORMAT = "lorentz-gas"
+FORMAT_VERSION = 1
+
+
+class FormatError(ValueError):
+    """The file is not a result of this project, or of a version that this loader does not know."""
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """mean, standard_error and count have one shape; axes maps names to one-dimensional arrays."""
+
+    mean: np.ndarray
+    standard_error: np.ndarray
+    count: np.ndarray
+    axes: dict[str, np.ndarray]
+    units: str
+
+
+@dataclass(frozen=True)
+class Result:
+    path: Path
+    parameters: dict[str, Any]
+    provenance: dict[str, Any]
+    quantities: dict[str, Quantity]
+
+    def __getitem__(self, name: str) -> Quantity:
+        return self.quantities[name]
+
+    @property
+    def converged(self) -> bool:
+        return bool(self.provenance["converged"])
+
+
+def load(path: Path) -> Result:
+    """One result file. Raises FormatError if it is not one."""
+    try:
+        with h5py.File(path) as file:
+            provenance = _attributes(file["provenance"])
+            if (provenance["format"], provenance["format_version"]) != (FORMAT, FORMAT_VERSION):
+                raise FormatError(f"{path}: the format is {provenance['format']} {provenance['format_version']}, "
+                                  f"not {FORMAT} {FORMAT_VERSION}; make the file again")
+            quantities = {name: _quantity(group) for name, group in file["results"].items()}
+            return Result(path, _attributes(file["parameters"]), provenance, quantities)
+    except (OSError, KeyError) as error:
+        raise FormatError(f"{path} is not a result file: {error}") from error
+
+
+def _attributes(group: h5py.Group) -> dict[str, Any]:
+    return {name: value.decode() if isinstance(value, bytes) else value for name, value in group.attrs.items()}
+
+
+def _quantity(group: h5py.Group) -> Quantity:
+    values = {name: dataset[()] for name, dataset in group.items()}
+    mean, standard_error, count = (values.pop(name) for name in ("mean", "standard_error", "count"))
+    return Quantity(mean, standard_error, count, values, _attributes(group["mean"])["units"])

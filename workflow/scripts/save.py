@@ -1,0 +1,62 @@
+"""Writes a panel: PDF, PNG, SVG and the plotted numbers as CSV, each naming its parents by hash.
+
+Equal inputs give equal bytes: no file holds a time, a host, a user or an absolute path.
+"""
+
+import hashlib
+import io
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+CREATOR = "lorentz-gas"
+
+
+@dataclass(frozen=True)
+class Parents:
+    """What a panel was made from; paths are relative to the project."""
+
+    data: dict[str, str]  # path: sha256
+    sources: dict[str, str]  # script and shared modules
+    lock: str  # sha256 of the locked Python packages
+    configuration: str  # sha256 of the panel's configuration
+    build_ids: tuple[str, ...]
+
+    def as_json(self) -> str:
+        return json.dumps(vars(self), sort_keys=True)
+
+
+def file_hash(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def save(figure: Figure, table: pd.DataFrame, stem: Path, title: str, parents: Parents) -> None:
+    """Writes stem.pdf, .png, .svg and .csv, all or none."""
+    described = parents.as_json()
+    pictures = {
+        "pdf": {"Title": title, "Creator": CREATOR, "Producer": CREATOR, "Subject": described, "CreationDate": None},
+        "png": {"Title": title, "Software": CREATOR, "Description": described},
+        "svg": {"Title": title, "Creator": CREATOR, "Description": described, "Date": None},
+    }
+    contents = {kind: _picture(figure, kind, metadata) for kind, metadata in pictures.items()}
+    contents["csv"] = _csv(table, title, described)
+    stem.parent.mkdir(parents=True, exist_ok=True)
+    unfinished = {kind: stem.with_suffix(f".{kind}.tmp") for kind in contents}
+    for kind, path in unfinished.items():
+        path.write_bytes(contents[kind])
+    for kind, path in unfinished.items():
+        path.replace(stem.with_suffix(f".{kind}"))
+
+
+def _picture(figure: Figure, kind: str, metadata: dict) -> bytes:
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format=kind, metadata=metadata)
+    return buffer.getvalue()
+
+
+def _csv(table: pd.DataFrame, title: str, described: str) -> bytes:
+    header = f"# {title}\n# parents: {described}\n"
+    return (header + table.to_csv(index=False, float_format="%.12g", lineterminator="\n")).encode()

@@ -1,0 +1,49 @@
+"""How every figure looks: sizes, fonts, colours that differ also for the colour-blind and in grey."""
+
+import matplotlib as mpl
+
+# Width of one column of a journal, and the height that goes with it, in inches.
+COLUMN = 3.4
+HEIGHT = 3.0
+
+# Okabe and Ito (2008), ordered so that neighbours differ in lightness; markers differ too.
+BLACK = "#000000"
+BLUE = "#0072B2"
+ORANGE = "#E69F00"
+GREEN = "#009E73"
+VERMILLION = "#D55E00"
+SKY = "#56B4E9"
+
+POINTS = {"linestyle": "none", "capsize": 1.5, "elinewidth": 0.8, "capthick": 0.8, "markeredgewidth": 0.8}
+
+_SETTINGS = {
+    "font.family": "STIXGeneral",
+    "font.size": 9,
+    "mathtext.fontset": "stix",
+    "axes.linewidth": 0.6,
+    "axes.labelsize": 9,
+    "legend.fontsize": 8,
+    "legend.frameon": False,
+    "legend.handlelength": 1.6,
+    "lines.linewidth": 1.0,
+    "lines.markersize": 3.5,
+    "xtick.direction": "in",
+    "ytick.direction": "in",
+    "xtick.top": True,
+    "ytick.right": True,
+    "xtick.labelsize": 8,
+    "ytick.labelsize": 8,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "figure.constrained_layout.use": True,
+    "savefig.dpi": 300,
+    "pdf.fonttype": 42,
+    "svg.fonttype": "path",
+    "svg.hashsalt": "lorentz-gas",
+}
+
+
+def apply() -> None:
+    """From now on figures are drawn in this style, whatever matplotlibrc says."""
+    mpl.rcdefaults()
+    mpl.rcParams.update(_SETTINGS)
