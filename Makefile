@@ -27,6 +27,7 @@ SHELL := /usr/bin/env
 
 PYTHON := .venv/bin/python
 SNAKEMAKE := $(PYTHON) -m snakemake --profile workflow/profiles/local --cores $(JOBS) --config quality=$(QUALITY)
+SNAKEFMT := .venv/bin/snakefmt --no-format-shell --line-length 110
 FORCE := $(if $(FRESH),--forcerun simulate)
 
 .PHONY: help figures panel build test check format lock bench clean
@@ -48,21 +49,23 @@ build: build/system-packages  ## The executables in build/bin
 	ninja -C build --quiet
 
 test: build .venv/runtime .venv/dev  ## All tests; ends with the count
+	ninja -C build --quiet cpp_tests
 	$(PYTHON) -m tests.run
 
 check: build .venv/runtime .venv/dev  ## Format and lint
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 .venv/bin/clang-format --dry-run --Werror
 	.venv/bin/ruff check --quiet . && .venv/bin/ruff format --quiet --check .
-	.venv/bin/snakefmt --check --compact-diff Snakefile workflow/rules
+	$(SNAKEFMT) --check --compact-diff Snakefile workflow/rules
 	$(SNAKEMAKE) --lint
 
 format: .venv/dev  ## Format every source in place
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 .venv/bin/clang-format -i
 	.venv/bin/ruff check --quiet --fix . && .venv/bin/ruff format --quiet .
-	.venv/bin/snakefmt --quiet Snakefile workflow/rules
+	$(SNAKEFMT) Snakefile workflow/rules
 
 bench: build  ## Cost of an event, engine and reference simulator side by side
-	build/bin/engine_benchmark --benchmark_min_time=1
+	ninja -C build --quiet benchmarks
+	build/bin/benchmarks --benchmark_min_time=1
 
 lock: .venv/dev  ## Renew both locks of Python packages
 	for name in requirements requirements-dev; do \

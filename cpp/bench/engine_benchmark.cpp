@@ -69,5 +69,3 @@ BENCHMARK(engine)->Apply(sizes);
 BENCHMARK(reference_heap)->Apply(sizes);
 
 }  // namespace
-
-BENCHMARK_MAIN();

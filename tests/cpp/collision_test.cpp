@@ -1,2 +1,148 @@
+#include "model/collision.hpp"
+
 #include <gtest/gtest.h>
-TEST(a, b) {}
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using lorentz::CollisionRule;
+
+constexpr double unit = 0x1p-53;  // largest relative error of one rounding
+
+const std::vector<double> sigmas = {-1,    -1 + 1e-12, -0.9, -0.5, -0.49999,  -1e-10, 0,
+                                    1e-10, 0.3,        0.5,  0.9,  1 - 1e-12, 1};
+
+/// Bound on the error of u' and U' in units of 2^-53 max(|u|, |U|). The worst case is U' at
+/// sigma <= -1/2: w = U / scale carries 3.5 roundings (its own, 2.5 of the scale), which reach U' with
+/// weight |sigma|; w - u and its product with 1-sigma carry one each, on magnitudes of at most
+/// 2 (1 + 1/sqrt(3)); the sum one, scale and its multiplication 3.5, on |U'| <= sqrt(2). Total 16.2.
+constexpr double roundings = 18;
+
+/// For |sigma| >= 1/2 the rule stores 1+|sigma| in 53 bits, so it stands for a sigma this far away.
+double sigma_rounding(double sigma) { return std::abs(sigma) < 0.5 ? 0 : unit; }
+
+struct Pair {
+  double u, scatterer;
+};
+
+Pair collide(const CollisionRule& rule, Pair before) {
+  double u = before.u;
+  double w = before.scatterer / rule.scatterer_scale();
+  rule(u, w);
+  return {u, rule.scatterer_scale() * w};
+}
+
+/// Velocities of every ratio: comparable, and up to 12 decades apart either way; at rest; equal.
+std::vector<Pair> velocities() {
+  std::vector<Pair> result = {{1, 0}, {0, 1}, {1, 1}, {1, -1}, {1e-300, 1}, {1, 1e-300}, {-0.75, 1e-9}};
+  std::mt19937_64 generator(1);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> decades(-12, 12);
+  for (int i = 0; i < 10000; ++i) {
+    result.push_back({normal(generator), normal(generator)});
+    result.push_back({normal(generator), std::pow(10.0, decades(generator)) * normal(generator)});
+  }
+  return result;
+}
+
+double larger(Pair pair) { return std::max(std::abs(pair.u), std::abs(pair.scatterer)); }
+
+TEST(Collision, EqualsTheClosedForm) {
+  for (const double sigma : sigmas) {
+    const CollisionRule rule(sigma);
+    const long double s = sigma;
+    const auto c = [](long double x) { return std::sqrt((1 - x) * (1 + x)); };
+    // How far sigma and c = sqrt(1-sigma^2) move with the stored sigma; c at most by
+    // |sigma|/c times as much, which is a large part of c where c itself is small.
+    const long double shift = sigma_rounding(sigma);
+    const long double c_shift =
+        std::abs(s) == 1 ? 0 : std::abs(c(std::abs(s) - shift) - c(std::abs(s))) * (1 + 1e-3L);
+    for (const Pair before : velocities()) {
+      const Pair after = collide(rule, before);
+      const double bound = static_cast<double>((roundings * unit + shift + c_shift) * larger(before));
+      EXPECT_LE(std::abs(after.u - (-s * before.u + c(s) * before.scatterer)), bound) << sigma;
+      EXPECT_LE(std::abs(after.scatterer - (c(s) * before.u + s * before.scatterer)), bound) << sigma;
+    }
+  }
+}
+
+// Velocities grow by sqrt(2) at most in the first collision: twice the error of one, on sqrt(2) max.
+TEST(Collision, IsItsOwnInverse) {
+  for (const double sigma : sigmas) {
+    const CollisionRule rule(sigma);
+    for (const Pair before : velocities()) {
+      const Pair back = collide(rule, collide(rule, before));
+      const double bound = 2 * std::sqrt(2.0) * roundings * unit * larger(before);
+      EXPECT_NEAR(back.u, before.u, bound) << sigma;
+      EXPECT_NEAR(back.scatterer, before.scatterer, bound) << sigma;
+    }
+  }
+}
+
+// The stored coefficients conserve both invariants exactly, so no error of sigma enters here, not even
+// at sigma = 1 - 1e-12, where c is known to four digits only.
+TEST(Collision, ConservesEnergyAndMomentum) {
+  for (const double sigma : sigmas) {
+    const CollisionRule rule(sigma);
+    const long double root_mass = rule.root_mass();
+    for (const Pair before : velocities()) {
+      const Pair after = collide(rule, before);
+      const long double u = before.u, scatterer = before.scatterer, u2 = after.u,
+                        scatterer2 = after.scatterer;
+      // |d(u^2+U^2)| <= 2 (|u'|+|U'|) times the error of each, and |u'|+|U'| <= sqrt(2(u^2+U^2)).
+      EXPECT_LE(std::abs(u2 * u2 + scatterer2 * scatterer2 - u * u - scatterer * scatterer),
+                2 * std::sqrt(2.0) * roundings * unit * (before.u * before.u + scatterer * scatterer))
+          << sigma;
+      if (sigma == 1) continue;  // a wall: its momentum is left out
+      const long double magnitude =
+          std::abs(u) + std::abs(u2) + root_mass * (std::abs(scatterer) + std::abs(scatterer2));
+      EXPECT_LE(std::abs(u2 - u + root_mass * (scatterer2 - scatterer)), roundings * unit * magnitude)
+          << sigma;
+    }
+  }
+}
+
+TEST(Collision, ExchangesVelocitiesBitForBitAtEqualMasses) {
+  const CollisionRule rule(0);
+  ASSERT_EQ(rule.scatterer_scale(), 1);
+  ASSERT_EQ(rule.root_mass(), 1);
+  const double tiny = std::numeric_limits<double>::denorm_min();
+  const std::vector<double> values = {tiny, -3 * tiny, 1e-310, 1e-300, -1e-300, 1, -22.36, 0.1, 1e300};
+  for (const double first : values) {
+    for (const double second : values) {
+      double u = first, w = second;
+      rule(u, w);
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(u), std::bit_cast<std::uint64_t>(second));
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(w), std::bit_cast<std::uint64_t>(first));
+    }
+  }
+}
+
+TEST(Collision, LimitsAreExact) {
+  const CollisionRule wall(1), feather(-1);
+  for (const Pair before : velocities()) {
+    const Pair reflected = collide(wall, before);
+    EXPECT_EQ(reflected.u, -before.u);
+    EXPECT_EQ(reflected.scatterer, before.scatterer);
+    const Pair passed = collide(feather, before);
+    EXPECT_EQ(passed.u, before.u);
+    EXPECT_EQ(passed.scatterer, -before.scatterer);
+  }
+}
+
+TEST(Collision, RefusesSigmaOutOfRange) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double next = std::nextafter(1.0, 2.0);
+  for (const double sigma : {next, -next, 2.0, -2.0, infinity, -infinity, std::nan("")})
+    EXPECT_THROW(CollisionRule{sigma}, std::invalid_argument) << sigma;
+}
+
+}  // namespace

@@ -32,7 +32,8 @@ class Run:
         """The options as they stand on the command line."""
         given = {key: value for key, value in self.options.items() if value is not False}
         return " ".join(
-            f"--{key}" if value is True else f"--{key} {shlex.quote(str(value))}" for key, value in given.items()
+            f"--{key}" if value is True else f"--{key} {shlex.quote(str(value))}"
+            for key, value in given.items()
         )
 
 
@@ -85,7 +86,9 @@ def _load(path: Path, schema: dict) -> dict:
         content = yaml.safe_load(path.read_text())
     except yaml.YAMLError as error:
         raise ConfigurationError(f"{path.name} is not valid YAML: {error}") from error
-    errors = sorted(Draft202012Validator(schema).iter_errors(content), key=lambda error: len(error.absolute_path))
+    errors = sorted(
+        Draft202012Validator(schema).iter_errors(content), key=lambda error: len(error.absolute_path)
+    )
     if errors:
         deepest = errors[-1]
         while deepest.context:  # of the alternatives, the last is a list of values
@@ -149,7 +152,8 @@ def _paper_schema(options: dict) -> dict:
 def _quality_schema(options: dict, paper: dict) -> dict:
     effort = _object(_one_or_list(options["effort"]))
     panels = {
-        name: _object({series: effort for series in panel["series"]}) for name, panel in paper["panels"].items()
+        name: _object({series: effort for series in panel["series"]})
+        for name, panel in paper["panels"].items()
     }
     schema = _object({"default": effort, "panels": _object(panels)}, required=("default",))
     return {**schema, "$defs": options}

@@ -50,9 +50,13 @@ def write_if_changed(path: Path, text: str) -> None:
 
 
 def cpp_source(identity: dict[str, str]) -> str:
-    fields = ",\n".join(f"    {json.dumps(identity[name])}" for name in
-                        ("version", "source_hash", "build_id", "compiler", "flags", "libraries"))
-    return f'#include "program/build_info.hpp"\n\nconst lorentz::BuildInfo lorentz::build_info{{\n{fields}}};\n'
+    fields = ",\n".join(
+        f"    {json.dumps(identity[name])}"
+        for name in ("version", "source_hash", "build_id", "compiler", "flags", "libraries")
+    )
+    return (
+        f'#include "program/build_info.hpp"\n\nconst lorentz::BuildInfo lorentz::build_info{{\n{fields}}};\n'
+    )
 
 
 def main() -> None:

@@ -18,6 +18,8 @@ rule draw:
         "build/logs/{quality}/{panel}.log",
     benchmark:
         "build/benchmarks/{quality}/{panel}.tsv"
+    conda:
+        "../environment/conda.yaml"
     params:
         module=lambda wildcards: f"workflow.scripts.{PANELS[wildcards.panel].script}",
         configuration=lambda wildcards: PANELS[wildcards.panel].hash(),

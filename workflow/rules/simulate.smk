@@ -7,29 +7,23 @@ that stops before its target error exits with 4; its result is marked and is dra
 """
 
 
-def run_of(wildcards):
-    return PANELS[wildcards.panel].run(wildcards.run)
-
-
-def program_of(wildcards):
-    return PANELS[wildcards.panel].program
-
-
 rule simulate:
     input:
-        build_id=lambda wildcards: f"build/id/{program_of(wildcards)}.json",
+        build_id=lambda wildcards: f"build/id/{PANELS[wildcards.panel].program}.json",
     output:
         "data/{quality}/{panel}/{run}.h5",
     log:
         "build/logs/{quality}/{panel}/{run}.log",
     benchmark:
         "build/benchmarks/{quality}/{panel}/{run}.tsv"
+    conda:
+        "../environment/conda.yaml"
+    threads: lambda wildcards: max(1, workflow.cores // len(PANELS[wildcards.panel].runs))
     params:
-        program=program_of,
-        arguments=lambda wildcards: run_of(wildcards).arguments(),
+        program=lambda wildcards: PANELS[wildcards.panel].program,
+        arguments=lambda wildcards: PANELS[wildcards.panel].run(wildcards.run).arguments(),
         work="build/partial/{quality}/{panel}/{run}",
         cost="build/costs/{quality}/{panel}/{run}.json",
-    threads: lambda wildcards: max(1, workflow.cores // len(PANELS[wildcards.panel].runs))
     shell:
         """
         exec 2> {log}

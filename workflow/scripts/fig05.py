@@ -15,6 +15,7 @@ MARKS = [
     {"marker": "o", "color": style.BLUE, "markerfacecolor": style.BLUE},
     {"marker": "s", "color": style.VERMILLION, "markerfacecolor": "white"},
 ]
+DASHES = ["dashed", "dotted"]
 
 
 def law(sigma: np.ndarray) -> np.ndarray:
@@ -47,6 +48,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     table = pd.DataFrame(rows).sort_values(["particles_per_cell", "sigma"], ignore_index=True)
     table.insert(4, "law", law(table.sigma))
     table.insert(5, "deviation", table.mu - table.law)
+    table["law_at_local_energies"] = law_at_local_energies(table)
     return table
 
 
@@ -58,13 +60,18 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
     sigma = np.sin(np.linspace(-np.pi / 2, np.pi / 2, 401))
     above.plot(sigma, law(sigma), color=style.BLACK, label=r"$\arccos(\sigma)/\pi$", zorder=1)
     below.axhline(0, color=style.BLACK, zorder=1)
-    for (particles, series), mark in zip(table.groupby("particles_per_cell"), MARKS, strict=True):
+    for (particles, series), mark, dashes in zip(
+        table.groupby("particles_per_cell"), MARKS, DASHES, strict=True
+    ):
         label = f"$n = {particles}$"
         above.errorbar(series.sigma, series.mu, series.mu_error, label=label, **mark, **style.POINTS)
         below.errorbar(series.sigma, 1e3 * series.deviation, 1e3 * series.mu_error, **mark, **style.POINTS)
+        expected = 1e3 * (series.law_at_local_energies - series.law)
+        below.plot(series.sigma, expected, color=mark["color"], linestyle=dashes, zorder=1)
+        style.cross_out(above, series.sigma, series.mu, ~series.converged)
     above.set(ylabel=r"persistence $\mu$", xlim=(-1.04, 1.04), ylim=(-0.03, 1.03))
     above.legend(loc="upper right", title=f"$N = {results[0].parameters['cells']}$")
-    below.set(xlabel=r"mass ratio $\sigma = (M-m)/(M+m)$", ylabel=r"$10^3\,[\mu - \arccos(\sigma)/\pi]$")
+    below.set(xlabel=r"mass ratio $\sigma = (M-m)/(M+m)$", ylabel=r"$10^3\,(\mu - \mathrm{law})$")
     figure.align_ylabels()
     return figure, table
 

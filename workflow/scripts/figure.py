@@ -21,7 +21,9 @@ def run(draw: Draw, title: str) -> None:
     """draw gets the panel's results and returns the figure and the table of what it shows."""
     parser = argparse.ArgumentParser(description=title)
     parser.add_argument("--data", type=Path, nargs="+", required=True, help="result files of the panel")
-    parser.add_argument("--sources", type=Path, nargs="+", required=True, help="this script and what it imports")
+    parser.add_argument(
+        "--sources", type=Path, nargs="+", required=True, help="this script and what it imports"
+    )
     parser.add_argument("--lock", type=Path, required=True, help="locked Python packages")
     parser.add_argument("--configuration", required=True, help="hash of the panel's configuration")
     parser.add_argument("--output", type=Path, required=True, help="path of the panel without suffix")

@@ -47,8 +47,10 @@ def load(path: Path) -> Result:
         with h5py.File(path) as file:
             provenance = _attributes(file["provenance"])
             if (provenance["format"], provenance["format_version"]) != (FORMAT, FORMAT_VERSION):
-                raise FormatError(f"{path}: the format is {provenance['format']} {provenance['format_version']}, "
-                                  f"not {FORMAT} {FORMAT_VERSION}; make the file again")
+                raise FormatError(
+                    f"{path}: the format is {provenance['format']} {provenance['format_version']}, "
+                    f"not {FORMAT} {FORMAT_VERSION}; make the file again"
+                )
             quantities = {name: _quantity(group) for name, group in file["results"].items()}
             return Result(path, _attributes(file["parameters"]), provenance, quantities)
     except (OSError, KeyError) as error:
@@ -56,7 +58,9 @@ def load(path: Path) -> Result:
 
 
 def _attributes(group: h5py.Group) -> dict[str, Any]:
-    return {name: value.decode() if isinstance(value, bytes) else value for name, value in group.attrs.items()}
+    return {
+        name: value.decode() if isinstance(value, bytes) else value for name, value in group.attrs.items()
+    }
 
 
 def _quantity(group: h5py.Group) -> Quantity:

@@ -37,7 +37,13 @@ def save(figure: Figure, table: pd.DataFrame, stem: Path, title: str, parents: P
     """Writes stem.pdf, .png, .svg and .csv, all or none."""
     described = parents.as_json()
     pictures = {
-        "pdf": {"Title": title, "Creator": CREATOR, "Producer": CREATOR, "Subject": described, "CreationDate": None},
+        "pdf": {
+            "Title": title,
+            "Creator": CREATOR,
+            "Producer": CREATOR,
+            "Subject": described,
+            "CreationDate": None,
+        },
         "png": {"Title": title, "Software": CREATOR, "Description": described},
         "svg": {"Title": title, "Creator": CREATOR, "Description": described, "Date": None},
     }

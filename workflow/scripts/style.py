@@ -1,6 +1,8 @@
 """How every figure looks: sizes, fonts, colours that differ also for the colour-blind and in grey."""
 
 import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
 
 # Width of one column of a journal, and the height that goes with it, in inches.
 COLUMN = 3.4
@@ -47,3 +49,8 @@ def apply() -> None:
     """From now on figures are drawn in this style, whatever matplotlibrc says."""
     mpl.rcdefaults()
     mpl.rcParams.update(_SETTINGS)
+
+
+def cross_out(axes: Axes, x: np.ndarray, y: np.ndarray, where: np.ndarray) -> None:
+    """Marks the points whose run stopped before its target error."""
+    axes.plot(x[where], y[where], linestyle="none", marker="x", color=BLACK, markersize=6, zorder=5)

@@ -1,0 +1,44 @@
+import os
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+# A chain that a fraction of a second suffices for.
+SMALL = {"cells": 5, "particles-per-cell": 4, "relaxation-time": 5, "observation-time": 10, "replicas": 4}
+
+Program = Callable[..., subprocess.CompletedProcess]
+
+
+def command_line(program: str, options: dict) -> list[str]:
+    """A value of True stands for a flag; None leaves an option of SMALL out."""
+    words = [str(ROOT / "build/bin" / program)]
+    for name, value in {**SMALL, **options}.items():
+        if value is True:
+            words.append(f"--{name}")
+        elif value is not None:
+            words += [f"--{name}", str(value)]
+    return words
+
+
+@pytest.fixture
+def persistence(tmp_path: Path) -> Program:
+    """Runs the program in an empty folder; options as keywords, underscores for dashes."""
+
+    def run(**options: object) -> subprocess.CompletedProcess:
+        named = {name.replace("_", "-"): value for name, value in options.items()}
+        named = {"output": "out.h5", "progress": "none", **named}
+        return subprocess.run(
+            command_line("persistence", named),
+            cwd=tmp_path,
+            env={"PATH": os.defpath},
+            capture_output=True,
+            text=True,
+            timeout=120,
+            check=False,
+        )
+
+    return run

@@ -1,0 +1,60 @@
+"""The build id changes with what an executable is built from, and with nothing else."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.python.conftest import ROOT
+from workflow.provenance.build_id import include_closure
+
+SCRIPT = ROOT / "workflow/provenance/build_id.py"
+
+SOURCES = {
+    "observables/a.cpp": '#include <vector>\n#include "engine/x.hpp"\nint main() {}\n',
+    "engine/x.hpp": '  #  include "model/y.hpp"\n#include "library/z.h"\n',
+    "engine/x.cpp": '#include "engine/x.hpp"\n#include "engine/own.hpp"\n',
+    "engine/own.hpp": "",
+    "model/y.hpp": '#include "engine/x.hpp"\n',  # a circle must not hang it
+    "model/unused.hpp": "",
+}
+
+
+@pytest.fixture
+def tree(tmp_path: Path) -> Path:
+    for name, text in SOURCES.items():
+        (tmp_path / "cpp" / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "cpp" / name).write_text(text)
+    return tmp_path
+
+
+def identify(tree: Path, flags: str = "-O3") -> dict:
+    command = [sys.executable, "-I", str(SCRIPT), "--root", "cpp", "--source", "observables/a.cpp"]
+    command += ["--version", "1", "--compiler", "g 1", f"--flags={flags}", "--libraries", "l 1"]
+    subprocess.run([*command, "--output", "out/a", "--depfile", "out.d"], cwd=tree, check=True)
+    return json.loads((tree / "out/a.json").read_text())
+
+
+def test_closure(tree: Path) -> None:
+    expected = ["engine/own.hpp", "engine/x.cpp", "engine/x.hpp", "model/y.hpp", "observables/a.cpp"]
+    assert include_closure(tree / "cpp", "observables/a.cpp") == expected
+
+
+def test_id_follows_sources_and_flags_only(tree: Path) -> None:
+    first = identify(tree)
+    stamp = (tree / "out/a.json").stat().st_mtime_ns
+    (tree / "cpp/model/unused.hpp").write_text("// changed\n")
+    (tree / "cpp/engine/x.hpp").touch()
+    assert identify(tree) == first
+    assert (tree / "out/a.json").stat().st_mtime_ns == stamp  # not even written again
+    assert identify(tree, flags="-O2")["build_id"] != first["build_id"]
+    (tree / "cpp/engine/own.hpp").write_text("// changed\n")
+    assert identify(tree)["source_hash"] != first["source_hash"]
+
+
+def test_id_names_no_place(tree: Path) -> None:
+    identify(tree)
+    for name in ("out/a.json", "out/a.cpp"):
+        assert str(tree) not in (tree / name).read_text()

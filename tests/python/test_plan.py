@@ -1,0 +1,113 @@
+"""The configuration: what it expands to, and how it complains."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+import yaml
+
+from tests.python.conftest import ROOT
+from workflow.config.plan import FOLDER, QUALITIES, ConfigurationError, Run, load_plan
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    copy = tmp_path / "config"
+    shutil.copytree(FOLDER, copy)
+    return copy
+
+
+def edit(path: Path, *keys: str, value: object) -> None:
+    content = yaml.safe_load(path.read_text())
+    place = content
+    for key in keys[:-1]:
+        place = place[key]
+    place[keys[-1]] = value
+    path.write_text(yaml.safe_dump(content))
+
+
+@pytest.mark.parametrize("quality", QUALITIES)
+def test_every_quality_describes_every_panel(quality: str) -> None:
+    for panel in load_plan(quality).values():
+        assert (ROOT / f"cpp/observables/{panel.program}.cpp").is_file()
+        assert (ROOT / f"workflow/scripts/{panel.script}.py").is_file()
+        assert panel.runs
+        assert all(run.options["replicas"] >= 2 for run in panel.runs)
+
+
+def test_names_and_seeds_are_unique() -> None:
+    panels = load_plan("paper").values()
+    names = [(panel.name, run.name) for panel in panels for run in panel.runs]
+    seeds = [run.options["seed"] for panel in panels for run in panel.runs]
+    assert len(set(names)) == len(names)
+    assert len(set(seeds)) == len(seeds)
+
+
+def test_quality_changes_effort_only() -> None:
+    effort = {"replicas", "max-replicas", "target-error", "target-absolute", "cells"}
+    plans = [load_plan(quality) for quality in QUALITIES]
+    for name, panel in plans[0].items():
+        for run in panel.runs:
+            physics = [
+                {key: value for key, value in plan[name].run(run.name).options.items() if key not in effort}
+                for plan in plans
+                if any(other.name == run.name for other in plan[name].runs)
+            ]
+            assert all(options == physics[0] for options in physics)
+
+
+def test_fig05_covers_the_range_and_its_limits() -> None:
+    sigmas = {run.options["sigma"] for run in load_plan("smoke")["fig05"].runs}
+    assert {-1, 0, 1} <= sigmas
+    assert len([sigma for sigma in sigmas if -0.99 <= sigma <= 0.99]) >= 19
+
+
+def test_arguments() -> None:
+    run = Run("a", {"sigma": -0.5, "zero-total-momentum": True, "random-direction": False, "gamma": "N"})
+    assert run.arguments() == "--sigma -0.5 --zero-total-momentum --gamma N"
+
+
+@pytest.mark.parametrize(
+    ("keys", "value", "words"),
+    [
+        (("panels", "fig05", "series", "paper", "sigma"), 2, ["panels.fig05.series.paper.sigma = 2", "1"]),
+        (("panels", "fig05", "series", "paper", "sigma"), [0.5, -3], ["sigma.1 = -3", "minimum -1", "maximum 1"]),
+        (("panels", "fig05", "series", "paper", "sigma"), "half", ["sigma", "half", "type number"]),
+        (("panels", "fig05", "common", "cells"), 0, ["panels.fig05.common.cells = 0", "minimum 1"]),
+        (("panels", "fig05", "common", "cels"), 11, ["panels.fig05.common", "cels"]),
+        (("panels", "fig05", "common", "replicas"), 11, ["panels.fig05.common", "replicas"]),
+        (("panels", "fig05", "program"), 7, ["panels.fig05.program = 7", "string"]),
+        (("panels", "fig05", "series"), {}, ["panels.fig05.series"]),
+    ],
+)
+def test_bad_paper_configuration(folder: Path, keys: tuple[str, ...], value: object, words: list[str]) -> None:
+    edit(folder / "paper.yaml", *keys, value=value)
+    with pytest.raises(ConfigurationError) as raised:
+        load_plan("smoke", folder)
+    for word in ["paper.yaml", *words]:
+        assert word in str(raised.value)
+
+
+@pytest.mark.parametrize(
+    ("keys", "value", "words"),
+    [
+        (("default", "replicas"), 0, ["default.replicas = 0", "minimum 1"]),
+        (("default", "sigma"), 0.5, ["default", "sigma"]),
+        (("panels", "fig99"), {}, ["panels", "fig99"]),
+        (("panels", "fig05", "denser"), {"replicas": 3}, ["panels.fig05", "denser"]),
+    ],
+)
+def test_bad_quality(folder: Path, keys: tuple[str, ...], value: object, words: list[str]) -> None:
+    edit(folder / "quality/smoke.yaml", *keys, value=value)
+    with pytest.raises(ConfigurationError) as raised:
+        load_plan("smoke", folder)
+    for word in ["smoke.yaml", *words]:
+        assert word in str(raised.value)
+
+
+def test_unknown_quality_and_broken_yaml(folder: Path) -> None:
+    with pytest.raises(ConfigurationError, match=r"QUALITY=best.*smoke"):
+        load_plan("best")
+    (folder / "paper.yaml").write_text("panels: [")
+    with pytest.raises(ConfigurationError, match=r"paper\.yaml is not valid YAML"):
+        load_plan("smoke", folder)

@@ -1,0 +1,160 @@
+"""What every executable promises: output layout, determinism, interruption, targets and limits."""
+
+import json
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+from tests.python.conftest import ROOT, Program, command_line
+from workflow.scripts.load import load
+
+PROVENANCE = {
+    "format", "format_version", "program", "source_hash", "build_id", "compiler", "flags", "libraries", "seed",
+    "streams", "events", "target_quantity", "target_error", "achieved_error", "converged",
+}  # fmt: skip
+NOT_PARAMETERS = {"threads", "progress", "config", "output", "resume", "checkpoint-interval", "time-limit"}
+
+
+def test_layout(persistence: Program, tmp_path: Path) -> None:
+    assert persistence(sigma=0.25, seed=7).returncode == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["out.cost.json", "out.h5"]
+    result = load(tmp_path / "out.h5")
+    assert set(result.provenance) == PROVENANCE
+    assert result.provenance["seed"] == 7
+    assert result.provenance["events"] > 0
+    assert result.provenance["target_quantity"] == "mu"
+    assert result.converged
+    assert result.parameters["sigma"] == 0.25
+    assert result.parameters["cells"] == 5
+    assert result.parameters["zero-total-momentum"] in (False, np.False_)
+    assert not NOT_PARAMETERS & set(result.parameters)
+    with h5py.File(tmp_path / "out.h5") as file:
+        for quantity in file["results"].values():
+            assert {"mean", "standard_error", "count"} <= set(quantity)
+            assert quantity["mean"].shape == quantity["standard_error"].shape == quantity["count"].shape
+            for dataset in quantity.values():
+                assert dataset.attrs["units"]
+                assert dataset.attrs["description"]
+
+
+def test_every_other_option_is_recorded(persistence: Program, tmp_path: Path) -> None:
+    text = persistence(help=True).stdout
+    offered = {word.lstrip("-") for line in text.splitlines() for word in line.split()[:1] if word.startswith("--")}
+    persistence()
+    recorded = set(load(tmp_path / "out.h5").parameters)
+    assert recorded == offered - NOT_PARAMETERS - {"version"}
+
+
+def test_file_names_no_place_and_no_time(persistence: Program, tmp_path: Path) -> None:
+    persistence()
+    content = (tmp_path / "out.h5").read_bytes()
+    for text in (str(ROOT), str(tmp_path), "/home/", "/tmp/", subprocess.check_output(["hostname"]).strip().decode()):
+        assert text.encode() not in content
+
+
+def test_cost_is_kept_beside(persistence: Program, tmp_path: Path) -> None:
+    persistence()
+    cost = json.loads((tmp_path / "out.cost.json").read_text())
+    assert cost["cpu_seconds"] > 0
+    assert cost["peak_memory_bytes"] > 1e6
+    assert cost["events"] == load(tmp_path / "out.h5").provenance["events"]
+
+
+def test_bytes_do_not_depend_on_threads_or_time(persistence: Program, tmp_path: Path) -> None:
+    for threads, name in ((1, "one.h5"), (2, "two.h5"), (7, "seven.h5")):
+        assert persistence(threads=threads, replicas=9, output=name).returncode == 0
+        time.sleep(0.6)
+    assert len({(tmp_path / name).read_bytes() for name in ("one.h5", "two.h5", "seven.h5")}) == 1
+
+
+def test_configuration_file_and_command_line_agree(persistence: Program, tmp_path: Path) -> None:
+    (tmp_path / "run.toml").write_text("sigma = -0.25\nzero-total-momentum = true\n")
+    persistence(config="run.toml", output="a.h5")
+    persistence(sigma=-0.25, zero_total_momentum=True, output="b.h5")
+    assert (tmp_path / "a.h5").read_bytes() == (tmp_path / "b.h5").read_bytes()
+
+
+LONG = {"observation-time": 2000, "replicas": 60, "output": "out.h5", "checkpoint-interval": 0.2, "threads": 2}
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+def test_interrupted_and_resumed_run_gives_the_same_bytes(
+    persistence: Program, tmp_path: Path, number: signal.Signals
+) -> None:
+    long = {name.replace("-", "_"): value for name, value in LONG.items()}
+    assert persistence(**{**long, "output": "whole.h5"}).returncode == 0
+    process = subprocess.Popen(command_line("persistence", LONG), cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+    checkpoint = tmp_path / "out.h5.checkpoint"
+    deadline = time.monotonic() + 30
+    while not checkpoint.exists() and time.monotonic() < deadline:
+        time.sleep(0.01)
+    process.send_signal(number)
+    _, message = process.communicate(timeout=10)
+    if number != signal.SIGKILL:
+        assert process.returncode == 128 + number
+        assert "--resume" in message
+    assert checkpoint.exists()
+    assert not (tmp_path / "out.h5").exists()
+
+    other = persistence(**{**long, "sigma": 0.1}, resume=True)
+    assert other.returncode == 2
+    assert "other parameters" in other.stderr
+    assert persistence(**long, resume=True).returncode == 0
+    assert (tmp_path / "out.h5").read_bytes() == (tmp_path / "whole.h5").read_bytes()
+    assert not checkpoint.exists()
+
+
+def test_damaged_checkpoint_is_refused(persistence: Program, tmp_path: Path) -> None:
+    (tmp_path / "out.h5.checkpoint").write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(100))
+    result = persistence(resume=True)
+    assert result.returncode == 2
+    assert "out.h5.checkpoint" in result.stderr
+    assert "Remove it" in result.stderr
+    assert not (tmp_path / "out.h5").exists()
+
+
+def test_target_error_is_reached_in_whole_batches(persistence: Program, tmp_path: Path) -> None:
+    assert persistence(target_error=0.004, replicas=8).returncode == 0
+    result = load(tmp_path / "out.h5")
+    assert result.converged
+    assert result.provenance["achieved_error"] <= 0.004
+    assert result["mu"].count % 8 == 0
+    assert result["mu"].count > 8
+    relative = float(result["mu"].standard_error / result["mu"].mean)
+    assert result.provenance["achieved_error"] == pytest.approx(relative, rel=1e-12)
+
+
+def test_target_that_is_not_reached_is_said(persistence: Program, tmp_path: Path) -> None:
+    result = persistence(target_error=1e-9, replicas=4, max_replicas=12, progress="log")
+    assert result.returncode == 4
+    assert "not converged" in result.stderr
+    stored = load(tmp_path / "out.h5")
+    assert not stored.converged
+    assert stored["mu"].count == 12
+
+
+def test_time_limit_ends_with_a_marked_result(persistence: Program, tmp_path: Path) -> None:
+    result = persistence(time_limit=0.3, replicas=100_000, observation_time=200, threads=1)
+    assert result.returncode == 4
+    stored = load(tmp_path / "out.h5")
+    assert not stored.converged
+    assert 2 <= stored["mu"].count < 100_000
+
+
+def test_progress_lines(persistence: Program) -> None:
+    assert persistence(progress="none").stderr == ""
+    assert persistence(progress="log").stderr.startswith("persistence: 4 replicas: mu = ")
+    bar = persistence(progress="bar", observation_time=20_000).stderr
+    assert "left" in bar
+    assert "\x1b[K" in bar  # redraws its line
+
+
+def test_version_and_help(persistence: Program) -> None:
+    identity = json.loads((ROOT / "build/id/persistence.json").read_text())
+    assert identity["build_id"] in persistence(version=True).stdout
+    assert "--sigma" in persistence(help=True).stdout

@@ -1,0 +1,122 @@
+"""The two front doors, from outside: no environment in front, nothing done twice, clear refusals."""
+
+import os
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.workflow.conftest import ROOT, Clone, clone_into
+from workflow.config.plan import load_plan
+
+HOSTILE = {
+    "LC_ALL": "de_DE.UTF-8",
+    "TZ": "Asia/Kathmandu",
+    "OMP_NUM_THREADS": "7",
+    "PYTHONPATH": "/nonexistent",
+    "PYTHONHASHSEED": "12345",
+    "PYTHONHOME": "/nonexistent",
+    "CXXFLAGS": "-Ofast",
+    "CFLAGS": "-Ofast",
+    "CXX": "false",
+    "LDFLAGS": "-nonsense",
+    "CMAKE_GENERATOR": "Unix Makefiles",
+    "MPLBACKEND": "TkAgg",
+    "MATPLOTLIBRC": "/nonexistent",
+    "SOURCE_DATE_EPOCH": "1",
+    "SNAKEMAKE_PROFILE": "/nonexistent",
+    "QUALITY": "deep",
+    "PANEL": "none",
+    "FRESH": "1",
+    "BASH_ENV": "/nonexistent",
+    "SHELL": "/bin/false",
+}
+
+
+def test_hostile_environment_and_path_with_spaces(clean: Clone, tmp_path: Path) -> None:
+    clone = clone_into(tmp_path / "a path with spaces")
+    environment = {"PATH": os.defpath, "HOME": os.environ.get("HOME", "/"), **HOSTILE}
+    umask = os.umask(0o077)
+    try:
+        made = clone.make("figures", "QUALITY=smoke", "JOBS=1", environment=environment)
+    finally:
+        os.umask(umask)
+    assert made.returncode == 0, made.stdout
+    products = clone.products()
+    assert products == clean.products()
+    panels = load_plan("smoke")
+    assert len(products) == sum(len(panel.runs) + 4 for panel in panels.values())
+
+
+def test_second_time_there_is_nothing_to_do(clean: Clone) -> None:
+    before = {path: path.stat().st_mtime_ns for path in (clean.folder / "data").rglob("*.h5")}
+    start = time.monotonic()
+    made = clean.make("figures", "QUALITY=smoke")
+    assert time.monotonic() - start < 5
+    assert made.returncode == 0
+    assert "Nothing to be done" in made.stdout
+    assert before == {path: path.stat().st_mtime_ns for path in before}
+
+
+def test_fresh_panel_is_simulated_anew_with_the_same_bytes(clean: Clone) -> None:
+    products = clean.products()
+    data = clean.folder / "data/smoke/fig05"
+    before = {path: path.stat().st_mtime_ns for path in data.iterdir()}
+    made = clean.make("panel", "PANEL=fig05", "QUALITY=smoke", "FRESH=1")
+    assert made.returncode == 0, made.stdout
+    assert all(path.stat().st_mtime_ns > stamp for path, stamp in before.items())
+    assert clean.products() == products
+
+
+def test_logs_and_costs_carry_the_names_of_the_products(clean: Clone) -> None:
+    names = {path.stem for path in (clean.folder / "data/smoke/fig05").iterdir()}
+    for place in ("logs", "benchmarks", "costs"):
+        assert {path.stem for path in (clean.folder / f"build/{place}/smoke/fig05").iterdir()} == names
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("figures", "QUALITY=best"), ["QUALITY=best", "smoke, standard, paper, deep"]),
+        (("panel", "QUALITY=smoke"), ["PANEL is missing", "make panel PANEL=fig05"]),
+        (("panel", "PANEL=fig99", "QUALITY=smoke"), ["fig99"]),
+    ],
+)
+def test_refusals(clean: Clone, arguments: tuple[str, ...], words: list[str]) -> None:
+    made = clean.make(*arguments)
+    assert made.returncode != 0
+    assert "Traceback" not in made.stdout
+    for word in words:
+        assert word in made.stdout
+
+
+def test_bad_configuration_is_refused_before_anything_runs(clean: Clone) -> None:
+    config = clean.folder / "workflow/config/paper.yaml"
+    text = config.read_text()
+    config.write_text(text.replace("cells: 11", "cells: 0", 1))
+    try:
+        made = clean.make("figures", "QUALITY=smoke")
+    finally:
+        config.write_text(text)
+    assert made.returncode != 0
+    assert "paper.yaml: panels.fig05.common.cells = 0" in made.stdout
+    assert "minimum 1" in made.stdout
+
+
+def test_missing_system_packages_are_named_for_those_without_rights(tmp_path: Path) -> None:
+    # A PATH with no more than the script's own tools: compiler, cmake and ninja are missing.
+    for tool in ("bash", "cat", "mktemp"):
+        (tmp_path / tool).symlink_to(f"/bin/{tool}")
+    (tmp_path / "id").write_text("#!/bin/bash\necho 1000\n")
+    (tmp_path / "id").chmod(0o755)
+    pid = os.posix_spawn(
+        "/bin/bash",
+        ["bash", "-c", f"bash '{ROOT}/workflow/environment/system_packages.sh' 2> '{tmp_path}/said'"],
+        {"PATH": str(tmp_path)},
+    )
+    assert os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) == 1
+    said = (tmp_path / "said").read_text()
+    for command in ("sudo apt-get install", "sudo dnf install", "brew install"):
+        line = next(line for line in said.splitlines() if command in line)
+        assert "cmake" in line
+        assert "hdf5" in line
