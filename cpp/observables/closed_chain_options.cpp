@@ -1,5 +1,6 @@
 #include "observables/closed_chain_options.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -37,7 +38,7 @@ ClosedDynamics ClosedChainOptions::start(std::uint64_t seed, std::uint64_t repli
 
 Drift drift(const Invariants& before, const Invariants& after) {
   return {std::abs(after.energy - before.energy) / before.energy,
-          std::abs(after.momentum - before.momentum) / before.momentum_scale};
+          std::abs(after.momentum - before.momentum) / std::max(before.momentum_scale, after.momentum_scale)};
 }
 
 }  // namespace lorentz

@@ -31,7 +31,8 @@ class ClosedChainOptions {
 };
 
 /// Relative change of the invariants between two times, without sign: numerical error only, as the
-/// dynamics conserves both for every sigma. Momentum relative to sum |p| + sum |P|; NaN at sigma = 1.
+/// dynamics conserves both for every sigma. Momentum relative to the larger sum |p| + sum |P|: scatterers
+/// start at rest, and heavy ones gather large momenta of both signs. NaN at sigma = 1.
 struct Drift {
   double energy;
   double momentum;
