@@ -13,6 +13,8 @@ enum class Purpose : std::uint64_t {
   initial_position = 0,
   initial_particle_momentum = 1,
   initial_scatterer_momentum = 2,
+  passes = 3,     // scatterers passed without scattering
+  direction = 4,  // after a collision, where it is drawn
 };
 
 /// Counter-based stream: Philox4x64-10 keyed by (seed, purpose), counted by (block, entity,
@@ -27,7 +29,11 @@ class RandomStream {
       : key_{{seed, static_cast<std::uint64_t>(purpose)}}, counter_{{0, entity, replica, 0}} {}
 
   /// Uniform in the open interval (0, 1), a multiple of 2^-53 plus 2^-54.
-  double uniform() { return (static_cast<double>(next() >> 11) + 0.5) * 0x1p-53; }
+  double uniform() { return unit_interval(next()); }
+
+  static double unit_interval(std::uint64_t word) {
+    return (static_cast<double>(word >> 11) + 0.5) * 0x1p-53;
+  }
 
   /// Standard normal, by the Box-Muller transform; two words per number.
   double gaussian() {
@@ -50,5 +56,13 @@ class RandomStream {
   r123::Philox4x64::ctr_type block_{};
   unsigned used_ = 4;
 };
+
+/// One number by its place, the first of block `draw` of the stream of (seed, purpose, replica, entity):
+/// for entities that draw one number now and then.
+inline double uniform(std::uint64_t seed, Purpose purpose, std::uint64_t replica, std::uint64_t entity,
+                      std::uint64_t draw) {
+  const r123::Philox4x64::key_type key{{seed, static_cast<std::uint64_t>(purpose)}};
+  return RandomStream::unit_interval(r123::Philox4x64()({{draw, entity, replica, 0}}, key)[0]);
+}
 
 }  // namespace lorentz

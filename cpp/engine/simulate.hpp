@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <vector>
 
 #include "engine/event_queue.hpp"
+#include "engine/launch.hpp"
 #include "model/closed_chain.hpp"
 #include "model/collision.hpp"
 
@@ -20,18 +22,40 @@ struct Collision {
   double scatterer_before, scatterer_after;  // U
 };
 
+/// The start of a flight.
+struct Departure {
+  double time;
+  std::uint32_t particle;
+  double velocity;     // u
+  std::int64_t cells;  // to the next scattering, with the sign of the velocity
+  double duration;
+};
+
 /// A closed chain in motion.
 class ClosedDynamics {
  public:
-  /// Arrivals at or after end_time (> 0) are frozen; simulate() can go no further.
-  ClosedDynamics(const ClosedChain& chain, const PhasePoint& start, double end_time);
+  /// Arrivals at or after end_time (> 0) are frozen; simulate() can go no further. seed and replica are
+  /// those of the draws that gamma < N and a random direction need.
+  ClosedDynamics(const ClosedChain& chain, const PhasePoint& start, double end_time, std::uint64_t seed = 0,
+                 std::uint64_t replica = 0);
 
   Invariants invariants() const;
   std::uint64_t events() const { return events_; }
 
+  std::uint32_t particles() const { return chain_.particles(); }
+
+  /// Position of a particle relative to the scatterer at the end of its flight: negative while it flies
+  /// to the right.
+  double position_from_target(std::uint32_t particle, double time) const;
+
+  /// U of every scatterer.
+  std::vector<double> scatterers() const;
+
  private:
   template <class Observer, std::invocable<double> Heartbeat>
   friend void simulate(ClosedDynamics&, double, Observer&, Heartbeat&&);
+  template <bool launching, class Observer, std::invocable<double> Heartbeat>
+  void advance(double until, Observer& observer, Heartbeat&& heartbeat);
 
   std::uint32_t neighbour(std::uint32_t cell, double velocity) const {
     const std::uint32_t right = cell + 1 == chain_.cells ? 0 : cell + 1;
@@ -39,43 +63,71 @@ class ClosedDynamics {
     return velocity > 0 ? right : left;
   }
 
+  std::uint32_t cells_ahead(std::uint32_t cell, std::int64_t cells) const {
+    const auto around = static_cast<std::int64_t>(chain_.cells);
+    const std::int64_t target = (cell + cells) % around;
+    return static_cast<std::uint32_t>(target < 0 ? target + around : target);
+  }
+
   ClosedChain chain_;
   CollisionRule collide_;
   std::vector<double> scatterers_;  // w, see CollisionRule
+  Launch launch_;
   EventQueue queue_;
   std::uint64_t events_ = 0;
 };
 
 /// Advances the chain through every collision before `until`, in the order of time (ties: lower
-/// particle first). The observer may define on_collision(const Collision&); what it does not define
-/// costs nothing. heartbeat(time) is called every 65536 events and may throw to stop.
+/// particle first). The observer may define on_collision(const Collision&) and on_flight(const
+/// Departure&); what it does not define costs nothing. heartbeat(time) is called every 65536 events and
+/// may throw to stop.
 ///
-/// A particle with u = 0, or so slow that cell_length/|u| overflows, never arrives: it is frozen.
+/// A particle with u = 0, or so slow that the flight's duration overflows, never arrives: it is frozen.
 template <class Observer, std::invocable<double> Heartbeat>
 void simulate(ClosedDynamics& chain, double until, Observer& observer, Heartbeat&& heartbeat) {
-  constexpr std::uint64_t events_per_heartbeat = 65536;
-  const double cell_length = chain.chain_.cell_length;
-  const double scale = chain.collide_.scatterer_scale();
-  const CollisionRule collide = chain.collide_;
-  EventQueue& queue = chain.queue_;
+  if (chain.launch_.deterministic())
+    chain.advance<false>(until, observer, heartbeat);
+  else
+    chain.advance<true>(until, observer, heartbeat);
+}
 
-  for (std::uint32_t slot; (slot = queue.take_before(until)) != EventQueue::none;) {
-    Flight& flight = queue[slot];
+/// launching: whether Launch has a say; otherwise a particle scatters at the neighbouring scatterer.
+template <bool launching, class Observer, std::invocable<double> Heartbeat>
+void ClosedDynamics::advance(double until, Observer& observer, Heartbeat&& heartbeat) {
+  constexpr std::uint64_t events_per_heartbeat = 65536;
+  const double scale = collide_.scatterer_scale();
+  const CollisionRule collide = collide_;
+
+  for (std::uint32_t slot; (slot = queue_.take_before(until)) != EventQueue::none;) {
+    Flight& flight = queue_[slot];
     const double velocity = flight.velocity;
-    const double scatterer = chain.scatterers_[flight.target];
+    const double scatterer = scatterers_[flight.target];
     double u = velocity;
     double w = scatterer;
     collide(u, w);
-    chain.scatterers_[flight.target] = w;
+    scatterers_[flight.target] = w;
+
+    double distance = chain_.cell_length;
+    std::int64_t cells = 1;
+    if constexpr (launching) {
+      cells = launch_(slot, u);
+      distance *= static_cast<double>(cells);
+    }
     if constexpr (requires(const Collision& collision) { observer.on_collision(collision); }) {
       observer.on_collision(
           Collision{flight.time, slot, flight.target, velocity, u, scale * scatterer, scale * w});
     }
+    const double duration = distance / std::abs(u);
+    if constexpr (requires(const Departure& departure) { observer.on_flight(departure); })
+      observer.on_flight(Departure{flight.time, slot, u, u > 0 ? cells : -cells, duration});
     flight.velocity = u;
-    flight.target = chain.neighbour(flight.target, u);
-    flight.time += cell_length / std::abs(u);
-    queue.schedule(slot);
-    if (++chain.events_ % events_per_heartbeat == 0) heartbeat(flight.time);
+    if constexpr (launching)
+      flight.target = cells_ahead(flight.target, u > 0 ? cells : -cells);
+    else
+      flight.target = neighbour(flight.target, u);
+    flight.time += duration;
+    queue_.schedule(slot);
+    if (++events_ % events_per_heartbeat == 0) heartbeat(flight.time);
   }
 }
 

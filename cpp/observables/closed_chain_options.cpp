@@ -8,11 +8,14 @@
 
 namespace lorentz {
 
-ClosedChainOptions::ClosedChainOptions(Options& options) {
+ClosedChainOptions::ClosedChainOptions(Options& options, double relaxation_time)
+    : relaxation_time_(relaxation_time) {
   options.integer("--cells", chain_.cells, {1, 100'000'000}, "Number of cells N");
   options.integer("--particles-per-cell", chain_.particles_per_cell, {1, 100'000'000},
                   "Number of particles per cell n");
   options.real("--sigma", chain_.sigma, {-1, 1}, "Mass ratio (M-m)/(M+m)");
+  options.real_or_word("--gamma", chain_.gamma, positive, "N", std::numeric_limits<double>::infinity(),
+                       "Mean number of scatterings in N cells; N: every scatterer scatters");
   options.real("--cell-length", chain_.cell_length, positive, "Distance between scatterers");
   options.real("--temperature", temperatures_.particles, positive,
                "Temperature of the particles at the start");
@@ -22,6 +25,11 @@ ClosedChainOptions::ClosedChainOptions(Options& options) {
                "Shift the particles' momenta at the start so that the total momentum is 0");
   options.real("--relaxation-time", relaxation_time_, non_negative, "Time before the measurement");
   options.real("--observation-time", observation_time_, positive, "Time of the measurement");
+}
+
+void ClosedChainOptions::add_random_direction(Options& options) {
+  options.flag("--random-direction", chain_.random_direction,
+               "Draw the direction of a particle after every collision");
 }
 
 void ClosedChainOptions::validate() const {
@@ -36,9 +44,36 @@ ClosedDynamics ClosedChainOptions::start(std::uint64_t seed, std::uint64_t repli
   return {chain_, closed_chain_start(chain_, temperatures_, zero_total_momentum_, seed, replica), end_time()};
 }
 
-Drift drift(const Invariants& before, const Invariants& after) {
-  return {std::abs(after.energy - before.energy) / before.energy,
-          std::abs(after.momentum - before.momentum) / std::max(before.momentum_scale, after.momentum_scale)};
+ReplicaRecord ClosedReplica::record(std::vector<double> sums) const {
+  const Invariants end = chain_.invariants();
+  sums.push_back(std::abs(end.energy - start_.energy) / start_.energy);
+  sums.push_back(std::abs(end.momentum - start_.momentum) /
+                 std::max(start_.momentum_scale, end.momentum_scale));
+  return {std::move(sums), chain_.events()};
+}
+
+namespace {
+
+Results drift_results(const Records& records) {
+  const Estimate estimate = jackknife(records, [](std::span<const double> sums) {
+    const auto drifts = sums.last(2);
+    return std::vector<double>(drifts.begin(), drifts.end());
+  });
+  return {
+      number("energy_drift", "1", "Mean over replicas of |change of total energy| / total energy", estimate,
+             0, records.size()),
+      number("momentum_drift", "1", "Mean over replicas of |change of total momentum| / sum of all |momenta|",
+             estimate, 1, records.size())};
+}
+
+}  // namespace
+
+std::function<Results(const Records&)> with_drift(std::function<Results(const Records&)> summarise) {
+  return [summarise = std::move(summarise)](const Records& records) {
+    Results results = summarise(records);
+    for (Quantity& quantity : drift_results(records)) results.push_back(std::move(quantity));
+    return results;
+  };
 }
 
 }  // namespace lorentz

@@ -1,19 +1,29 @@
 #pragma once
 
+#include <functional>
+
 #include "engine/initial_state.hpp"
 #include "engine/simulate.hpp"
 #include "program/options.hpp"
 #include "program/replicas.hpp"
+#include "program/results.hpp"
+#include "statistics/records.hpp"
 
 namespace lorentz {
 
 /// The options that describe a closed chain, its start and the stretches of time of a measurement.
 class ClosedChainOptions {
  public:
-  explicit ClosedChainOptions(Options& options);
+  /// The relaxation time is the default of that option.
+  explicit ClosedChainOptions(Options& options, double relaxation_time = 250);
+
+  /// For the programs that offer this control.
+  void add_random_direction(Options& options);
 
   const ClosedChain& chain() const { return chain_; }
+  double temperature() const { return temperatures_.particles; }
   double relaxation_time() const { return relaxation_time_; }
+  double observation_time() const { return observation_time_; }
   double end_time() const { return relaxation_time_ + observation_time_; }
 
   /// Throws UsageError where options are possible one by one but not together.
@@ -26,18 +36,46 @@ class ClosedChainOptions {
   ClosedChain chain_;
   StartTemperatures temperatures_;
   bool zero_total_momentum_ = false;
-  double relaxation_time_ = 250;
+  double relaxation_time_;
   double observation_time_ = 250;
 };
 
-/// Relative change of the invariants between two times, without sign: numerical error only, as the
-/// dynamics conserves both for every sigma. Momentum relative to the larger sum |p| + sum |P|: scatterers
-/// start at rest, and heavy ones gather large momenta of both signs. NaN at sigma = 1.
-struct Drift {
-  double energy;
-  double momentum;
+/// One replica of a closed chain on its way: relaxation, stretches of observation, and the record of what
+/// was seen, to which it adds the drift of the invariants.
+class ClosedReplica {
+ public:
+  ClosedReplica(const ClosedChainOptions& options, std::uint64_t seed, const Replica& replica)
+      : options_(options),
+        replica_(replica),
+        chain_(options.start(seed, replica.index)),
+        start_(chain_.invariants()) {}
+
+  void relax() {
+    NoObserver nobody;
+    observe_until(options_.relaxation_time(), nobody);
+  }
+
+  template <class Observer>
+  void observe_until(double time, Observer& observer) {
+    simulate(chain_, time, observer, [this](double now) { replica_.heartbeat(now / options_.end_time()); });
+  }
+
+  const ClosedDynamics& chain() const { return chain_; }
+
+  /// The sums, then the two drifts.
+  ReplicaRecord record(std::vector<double> sums) const;
+
+ private:
+  const ClosedChainOptions& options_;
+  const Replica& replica_;
+  ClosedDynamics chain_;
+  Invariants start_;
 };
 
-Drift drift(const Invariants& before, const Invariants& after);
+/// Adds the quantities energy_drift and momentum_drift, from the last two columns of the records, to what
+/// `summarise` makes of them: relative change of the invariants over a replica, without sign. It is numerical
+/// error only, as the dynamics conserves both for every sigma. Momentum is measured against the larger sum
+/// |p| + sum |P|: scatterers start at rest, and heavy ones gather large momenta of both signs.
+std::function<Results(const Records&)> with_drift(std::function<Results(const Records&)> summarise);
 
 }  // namespace lorentz

@@ -36,34 +36,17 @@ struct Encounters {
   }
 };
 
-ReplicaRecord measure(const ClosedChainOptions& options, std::uint64_t seed, const Replica& replica) {
-  ClosedDynamics chain = options.start(seed, replica.index);
-  const Invariants start = chain.invariants();
-  const auto heartbeat = [&](double time) { replica.heartbeat(time / options.end_time()); };
-  NoObserver nobody;
-  simulate(chain, options.relaxation_time(), nobody, heartbeat);
-  Encounters sums;
-  simulate(chain, options.end_time(), sums, heartbeat);
-  const Drift drifted = drift(start, chain.invariants());
-  return {{sums.scatterings, sums.persistent, sums.particle_energy, sums.scatterer_energy, drifted.energy,
-           drifted.momentum},
-          chain.events()};
-}
-
 Results summarise(const Records& records) {
   const Estimate ratios = jackknife(records, [](std::span<const double> sums) {
-    return std::vector{sums[1] / sums[0], sums[2] / sums[0], sums[3] / sums[0], sums[4], sums[5]};
+    return std::vector{sums[1] / sums[0], sums[2] / sums[0], sums[3] / sums[0]};
   });
-  const auto quantity = [&](std::size_t index, const char* name, const char* units, const char* description) {
-    return scalar(name, units, description, ratios.mean[index], ratios.standard_error[index], records.size());
-  };
+  const std::uint64_t count = records.size();
   return {
-      quantity(0, "mu", "1", "Fraction of scatterings with p' p > 0"),
-      quantity(1, "particle_energy", "k_B T", "Mean kinetic energy of a particle as it meets a scatterer"),
-      quantity(2, "scatterer_energy", "k_B T", "Mean kinetic energy of a scatterer as a particle meets it"),
-      quantity(3, "energy_drift", "1", "Mean over replicas of |change of total energy| / total energy"),
-      quantity(4, "momentum_drift", "1",
-               "Mean over replicas of |change of total momentum| / sum of all |momenta|"),
+      number("mu", "1", "Fraction of scatterings with p' p > 0", ratios, 0, count),
+      number("particle_energy", "k_B T", "Mean kinetic energy of a particle as it meets a scatterer", ratios,
+             1, count),
+      number("scatterer_energy", "k_B T", "Mean kinetic energy of a scatterer as a particle meets it", ratios,
+             2, count),
   };
 }
 
@@ -76,11 +59,13 @@ int main(int argc, char** argv) {
   const ReplicaOptions replicas(program);
   return program.run(argc, argv, [&](Progress& progress) {
     chain.validate();
-    const ReplicaStudy study{
-        .measure = [&](const Replica& replica) { return measure(chain, replicas.seed(), replica); },
-        .summarise = summarise,
-        .target_quantity = "mu",
-        .streams = RandomStream::description};
-    return replicas.run(study, progress);
+    const auto measure = [&](const Replica& replica) {
+      ClosedReplica run(chain, replicas.seed(), replica);
+      run.relax();
+      Encounters sums;
+      run.observe_until(chain.end_time(), sums);
+      return run.record({sums.scatterings, sums.persistent, sums.particle_energy, sums.scatterer_energy});
+    };
+    return replicas.run({measure, with_drift(summarise), "mu", RandomStream::description}, progress);
   });
 }

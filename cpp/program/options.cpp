@@ -81,6 +81,24 @@ void Options::integer(const std::string& name, std::uint64_t& value, Range<std::
   number(name, value, range, help, role);
 }
 
+void Options::real_or_word(const std::string& name, double& value, Range<double> range,
+                           const std::string& word, double meaning, const std::string& help, Role role) {
+  value = meaning;
+  record(name, role,
+         [&value, word, meaning] { return value == meaning ? AttributeValue(word) : AttributeValue(value); });
+  const auto read = [&value, word, meaning](const std::string& text) {
+    value = text == word ? meaning : std::stod(text);
+  };
+  app_.add_option_function<std::string>(
+          name, read, fmt::format("{} ({}, or {}; default {})", help, interval(range), word, word))
+      ->check([range, word](const std::string& text) {
+        const std::string why = text == word ? std::string{} : objection(text, range);
+        return why.empty() ? why : fmt::format("{}, or {}", why, word);
+      })
+      ->type_name("")
+      ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+}
+
 void Options::flag(const std::string& name, bool& value, const std::string& help, Role role) {
   app_.add_flag(name, value, help);
   record(name, role, [&value] { return AttributeValue(value); });

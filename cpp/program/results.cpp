@@ -13,9 +13,26 @@ void describe(Hdf5Writer& file, const std::string& path, const std::string& unit
 
 }  // namespace
 
-Quantity scalar(std::string name, std::string units, std::string description, double mean,
-                double standard_error, std::uint64_t count) {
-  return {std::move(name), std::move(units), std::move(description), {mean}, {standard_error}, {count}, {}};
+Quantity number(std::string name, std::string units, std::string description, const Estimate& estimate,
+                std::size_t index, std::uint64_t count) {
+  return array(std::move(name), std::move(units), std::move(description), estimate, index, count, {});
+}
+
+Quantity array(std::string name, std::string units, std::string description, const Estimate& estimate,
+               std::size_t first, std::uint64_t count, std::vector<Axis> axes) {
+  std::size_t size = 1;
+  for (const Axis& axis : axes) size *= axis.values.size();
+  const auto part = [&](const std::vector<double>& values) {
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
+    return std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(size));
+  };
+  return {std::move(name),
+          std::move(units),
+          std::move(description),
+          part(estimate.mean),
+          part(estimate.standard_error),
+          std::vector<std::uint64_t>(size, count),
+          std::move(axes)};
 }
 
 void write_results(Hdf5Writer& file, const Results& results) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "program/hdf5_file.hpp"
+#include "statistics/jackknife.hpp"
 
 namespace lorentz {
 
@@ -27,9 +28,13 @@ struct Quantity {
   std::vector<Axis> axes;              // none for a number
 };
 
-/// A number with its error.
-Quantity scalar(std::string name, std::string units, std::string description, double mean,
-                double standard_error, std::uint64_t count);
+/// The number at `index` of an estimate.
+Quantity number(std::string name, std::string units, std::string description, const Estimate& estimate,
+                std::size_t index, std::uint64_t count);
+
+/// The numbers from `first` on, as many as the axes span.
+Quantity array(std::string name, std::string units, std::string description, const Estimate& estimate,
+               std::size_t first, std::uint64_t count, std::vector<Axis> axes);
 
 using Results = std::vector<Quantity>;
 

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "engine/random.hpp"
+#include "model/closed_chain.hpp"
+
+namespace lorentz {
+
+/// The chance in what follows a collision: how many cells a particle flies to its next scattering, and
+/// in which direction where that is drawn.
+///
+/// Scattering has the probability gamma/N at every scatterer, so the number of cells is geometric,
+/// P(k) = (1 - gamma/N)^(k-1) gamma/N, k = 1, 2, ...; it is drawn once, by inversion, and the scatterers
+/// in between are never visited. The draws of a particle are counted by the particle, not by time, so two
+/// chains that start alike draw alike as long as their particles scatter equally often.
+class Launch {
+ public:
+  Launch(const ClosedChain& chain, std::uint64_t seed, std::uint64_t replica)
+      : passing_(!chain.deterministic()),
+        random_direction_(chain.random_direction),
+        log_pass_probability_(std::log1p(-chain.gamma / chain.cells)),
+        seed_(seed),
+        replica_(replica),
+        draws_(deterministic() ? 0 : chain.particles(), 0) {}
+
+  /// No chance at all: one cell, direction kept.
+  bool deterministic() const { return !passing_ && !random_direction_; }
+
+  /// Draws the direction of u where it is random, and the number of cells of the flight.
+  std::int64_t operator()(std::uint32_t particle, double& u) {
+    const std::uint32_t draw = draws_[particle]++;
+    if (random_direction_)
+      u = std::copysign(u, uniform(seed_, Purpose::direction, replica_, particle, draw) - 0.5);
+    if (!passing_) return 1;
+    const double passed =
+        std::log(uniform(seed_, Purpose::passes, replica_, particle, draw)) / log_pass_probability_;
+    constexpr double most = 0x1p53;  // beyond it cells cannot be counted; no run gets there
+    return 1 + static_cast<std::int64_t>(passed < most ? passed : most);
+  }
+
+ private:
+  bool passing_, random_direction_;
+  double log_pass_probability_;
+  std::uint64_t seed_, replica_;
+  std::vector<std::uint32_t> draws_;  // taken so far, by particle
+};
+
+}  // namespace lorentz

@@ -1,0 +1,128 @@
+/// Spreading of a tagged particle: raw moments of the unwrapped displacement x(t) from the end of the
+/// relaxation, <|x|^q> for q = 1, 2, 4, averaged over all particles, on a logarithmic grid of times.
+///
+/// The closed chain conserves the total momentum, and the paper's random start gives it a value of order
+/// sqrt(nN T): the centre of mass of the particles drifts. Its part of <x^2> is stored beside it, as the
+/// square of the mean displacement of a replica's particles; --zero-total-momentum removes the drift at
+/// the root. alpha is the slope of ln <x^2> against ln t over the last --fit-decades decades; slopes
+/// between neighbouring times of the grid tell a power from t/ln t.
+#include <cmath>
+
+#include "observables/closed_chain_options.hpp"
+#include "program/replica_study.hpp"
+#include "statistics/fit.hpp"
+#include "statistics/jackknife.hpp"
+#include "statistics/log_grid.hpp"
+
+namespace {
+
+using namespace lorentz;
+
+constexpr std::size_t points_per_decade = 8;
+
+/// Net number of cells that every particle's targets have moved since the beginning.
+struct Walk {
+  std::vector<std::int64_t> cells;
+  void on_flight(const Departure& departure) { cells[departure.particle] += departure.cells; }
+};
+
+std::vector<double> positions_from_target(const ClosedDynamics& chain, double time) {
+  std::vector<double> positions;
+  for (std::uint32_t particle = 0; particle < chain.particles(); ++particle)
+    positions.push_back(chain.position_from_target(particle, time));
+  return positions;
+}
+
+/// Moments at one time, averaged over the particles.
+struct Moments {
+  double square = 0, absolute = 0, fourth = 0, mean = 0;
+};
+
+Moments moments(const std::vector<std::int64_t>& cells, const std::vector<double>& start,
+                const std::vector<double>& now, double cell_length) {
+  Moments sums;
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    const double x = static_cast<double>(cells[i]) * cell_length + now[i] - start[i];
+    sums.square += x * x;
+    sums.absolute += std::abs(x);
+    sums.fourth += x * x * x * x;
+    sums.mean += x;
+  }
+  const auto particles = static_cast<double>(start.size());
+  return {sums.square / particles, sums.absolute / particles, sums.fourth / particles, sums.mean / particles};
+}
+
+/// Square, absolute, fourth moment and squared mean, each at all times.
+ReplicaRecord measure(const ClosedChainOptions& options, const std::vector<double>& times, std::uint64_t seed,
+                      const Replica& replica) {
+  ClosedReplica run(options, seed, replica);
+  run.relax();
+  const double begin = options.relaxation_time();
+  const std::vector<double> start = positions_from_target(run.chain(), begin);
+  Walk walk{std::vector<std::int64_t>(start.size(), 0)};
+  std::vector<double> sums(4 * times.size());
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    run.observe_until(begin + times[k], walk);
+    const Moments now = moments(walk.cells, start, positions_from_target(run.chain(), begin + times[k]),
+                                options.chain().cell_length);
+    sums[k] = now.square;
+    sums[times.size() + k] = now.absolute;
+    sums[2 * times.size() + k] = now.fourth;
+    sums[3 * times.size() + k] = now.mean * now.mean;
+  }
+  return run.record(std::move(sums));
+}
+
+Results summarise(const Records& records, const std::vector<double>& times, const LogGrid& grid,
+                  double fit_decades) {
+  const std::size_t size = times.size();
+  const double from = times.back() * std::pow(10, -fit_decades) * (1 - 1e-9);
+  const Estimate estimate = jackknife(records, [&](std::span<const double> sums) {
+    std::vector<double> values(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(4 * size));
+    for (std::size_t k = 0; k + 1 < size; ++k)
+      values.push_back(std::log(sums[k + 1] / sums[k]) / std::log(times[k + 1] / times[k]));
+    values.push_back(fit_power(times, sums.first(size), from, times.back()));
+    std::vector<double> inner;
+    for (std::size_t k = 0; k < size; ++k) inner.push_back(sums[k] - sums[3 * size + k]);
+    values.push_back(fit_power(times, inner, from, times.back()));
+    return values;
+  });
+  const Axis time{"time", "time", "Time since the end of the relaxation", times};
+  const Axis middle{"time", "time", "Geometric middle of two neighbouring times", grid.middles()};
+  const std::uint64_t count = records.size();
+  return {
+      array("variance", "length^2", "<x^2>, no mean subtracted", estimate, 0, count, {time}),
+      array("absolute_moment", "length", "<|x|>", estimate, size, count, {time}),
+      array("fourth_moment", "length^4", "<x^4>", estimate, 2 * size, count, {time}),
+      array("centre_of_mass", "length^2", "Mean square of the particles' mean displacement", estimate,
+            3 * size, count, {time}),
+      array("local_slope", "1", "d ln <x^2> / d ln t", estimate, 4 * size, count, {middle}),
+      number("alpha", "1", "Slope of ln <x^2> against ln t over the last --fit-decades decades", estimate,
+             5 * size - 1, count),
+      number("alpha_relative", "1", "The same without the part of the centre of mass", estimate, 5 * size,
+             count),
+  };
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Program program("displacement", "Spreading of a tagged particle in a closed chain");
+  ClosedChainOptions chain(program.options());
+  chain.add_random_direction(program.options());
+  double decades = 6, fit_decades = 1;
+  program.options().real("--decades", decades, {1, 15},
+                         "Decades of time that the grid spans, up to the observation time");
+  program.options().real("--fit-decades", fit_decades, {0.25, 15},
+                         "Decades of time, the last ones, that alpha is fitted to");
+  const ReplicaOptions replicas(program);
+  return program.run(argc, argv, [&](Progress& progress) {
+    chain.validate();
+    const LogGrid grid(chain.observation_time() * std::pow(10, -decades), decades, points_per_decade);
+    std::vector<double> times = grid.points();
+    times.back() = chain.observation_time();
+    const auto one = [&](const Replica& replica) { return measure(chain, times, replicas.seed(), replica); };
+    const auto results = [&](const Records& records) { return summarise(records, times, grid, fit_decades); };
+    return replicas.run({one, with_drift(results), "alpha", RandomStream::description}, progress);
+  });
+}

@@ -1,0 +1,131 @@
+/// Waiting times: the density Psi(tau) of the time between two successive scatterings of a particle.
+///
+/// tau = (cells flown) lambda/|u| is known when the flight begins and is recorded then, so nothing is
+/// censored by the end of the run. Momenta after a scattering have a density that is smooth at u = 0, so
+/// Psi ~ tau^-2; only at sigma = 0, where momenta are merely exchanged, does the flux weight |u| of the
+/// initial Gaussian stay, and Psi ~ tau^-3.
+///
+/// The exponent is the maximum-likelihood one of the tail above a cut, -(1 + n / sum ln(tau/cut)) (Hill
+/// 1975). Corrections to the power law are of relative size (lambda/tau)^2/T, so the cut stands at twenty
+/// thermal flights, and the exponents at cuts from a third to three times that give the systematic spread.
+#include <algorithm>
+#include <cmath>
+
+#include "observables/closed_chain_options.hpp"
+#include "program/replica_study.hpp"
+#include "statistics/jackknife.hpp"
+#include "statistics/log_grid.hpp"
+
+namespace {
+
+using namespace lorentz;
+
+constexpr double decades = 12;
+constexpr std::size_t bins_per_decade = 10;
+
+class WaitingTimes {
+ public:
+  explicit WaitingTimes(const LogGrid& bins) : bins_(bins), sums_(2 * bins.intervals(), 0) {}
+
+  void on_flight(const Departure& departure) {
+    if (!std::isfinite(departure.duration)) return;  // frozen
+    const double log_duration = std::log(departure.duration);
+    const std::size_t bin = bins_.interval(log_duration);
+    sums_[bin] += 1;
+    sums_[bins_.intervals() + bin] += log_duration;
+  }
+
+  /// Counts per bin, then sums of ln tau per bin.
+  const std::vector<double>& sums() const { return sums_; }
+
+ private:
+  LogGrid bins_;
+  std::vector<double> sums_;
+};
+
+/// Probability per unit time in every bin.
+std::vector<double> density(std::span<const double> sums, const LogGrid& bins) {
+  const std::vector<double> edges = bins.points();
+  double total = 0;
+  for (const double count : sums.first(bins.intervals())) total += count;
+  std::vector<double> result;
+  for (std::size_t bin = 0; bin < bins.intervals(); ++bin)
+    result.push_back(sums[bin] / total / (edges[bin + 1] - edges[bin]));
+  return result;
+}
+
+/// Exponents of the tails above the lower edge of every bin; NaN above all counts.
+std::vector<double> exponents(std::span<const double> sums, const LogGrid& bins) {
+  const std::vector<double> edges = bins.points();
+  std::vector<double> result(bins.intervals());
+  double count = 0, log_sum = 0;
+  for (std::size_t bin = bins.intervals(); bin-- > 0;) {
+    count += sums[bin];
+    log_sum += sums[bins.intervals() + bin];
+    result[bin] = -(1 + count / (log_sum - count * std::log(edges[bin])));
+  }
+  return result;
+}
+
+struct Tail {
+  std::size_t lowest, chosen, highest;  // bins whose lower edges are the cuts
+};
+
+Results summarise(const Records& records, const LogGrid& bins, const Tail& tail) {
+  const std::size_t size = bins.intervals();
+  const Estimate estimate = jackknife(records, [&](std::span<const double> sums) {
+    std::vector<double> values = density(sums, bins);
+    const std::vector<double> slopes = exponents(sums, bins);
+    values.insert(values.end(), slopes.begin(), slopes.end());
+    const auto [low, high] =
+        std::minmax_element(slopes.begin() + static_cast<std::ptrdiff_t>(tail.lowest),
+                            slopes.begin() + static_cast<std::ptrdiff_t>(tail.highest) + 1);
+    values.push_back(*high - *low);
+    return values;
+  });
+  const Axis tau{"tau", "time", "Geometric middle of the bin", bins.middles()};
+  std::vector<double> cuts = bins.points();
+  cuts.pop_back();
+  const Axis cut{"cut", "time", "Shortest waiting time of the tail", cuts};
+  const std::uint64_t count = records.size();
+  return {
+      array("density", "1/time", "Probability density of the time between two scatterings of a particle",
+            estimate, 0, count, {tau}),
+      array("exponent_by_cut", "1", "Maximum-likelihood exponent of the tail above the cut", estimate, size,
+            count, {cut}),
+      number("exponent", "1", "Exponent of the tail above --tail-from thermal flights", estimate,
+             size + tail.chosen, count),
+      number("exponent_spread", "1", "Largest difference of exponents for cuts within a factor of three",
+             estimate, 2 * size, count),
+  };
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Program program("waiting_time",
+                  "Distribution of the time between two scatterings of a particle, in a closed chain");
+  ClosedChainOptions chain(program.options());
+  double tail_from = 20;
+  program.options().real("--tail-from", tail_from, {1, 1e6},
+                         "Lower cut of the tail, in flights of one cell at thermal speed");
+  const ReplicaOptions replicas(program);
+  return program.run(argc, argv, [&](Progress& progress) {
+    chain.validate();
+    const double thermal_flight = chain.chain().cell_length / std::sqrt(chain.temperature());
+    const LogGrid bins(1e-3 * thermal_flight, decades, bins_per_decade);
+    const auto bin_of_cut = [&](double factor) {
+      return bins.interval(std::log(factor * tail_from * thermal_flight));
+    };
+    const Tail tail{bin_of_cut(1.0 / 3), bin_of_cut(1), bin_of_cut(3)};
+    const auto measure = [&](const Replica& replica) {
+      WaitingTimes waits(bins);
+      ClosedReplica run(chain, replicas.seed(), replica);
+      run.relax();
+      run.observe_until(chain.end_time(), waits);
+      return run.record(waits.sums());
+    };
+    const auto results = [&](const Records& records) { return summarise(records, bins, tail); };
+    return replicas.run({measure, with_drift(results), "exponent", RandomStream::description}, progress);
+  });
+}
