@@ -87,6 +87,20 @@ std::vector<double> ClosedDynamics::scatterers() const {
   return result;
 }
 
+PhasePoint ClosedDynamics::phase_point(double time) const {
+  const double length = chain_.cells * chain_.cell_length;
+  PhasePoint point{{}, scatterers()};
+  point.particles.reserve(particles());
+  for (std::uint32_t particle = 0; particle < particles(); ++particle) {
+    const Flight& flight = queue_.flights()[particle];
+    const double unwrapped =
+        (flight.target + 0.5) * chain_.cell_length + position_from_target(particle, time);
+    const double wrapped = unwrapped - length * std::floor(unwrapped / length);
+    point.particles.push_back({wrapped < length ? wrapped : 0, flight.velocity});
+  }
+  return point;
+}
+
 Invariants ClosedDynamics::invariants() const {
   Invariants sum;
   for (const Flight& flight : queue_.flights()) {

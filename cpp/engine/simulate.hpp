@@ -51,6 +51,9 @@ class ClosedDynamics {
   /// U of every scatterer.
   std::vector<double> scatterers() const;
 
+  /// Everything at a time between the last event and the next: where simulate() stopped.
+  PhasePoint phase_point(double time) const;
+
  private:
   template <class Observer, std::invocable<double> Heartbeat>
   friend void simulate(ClosedDynamics&, double, Observer&, Heartbeat&&);

@@ -8,15 +8,25 @@
 
 namespace lorentz {
 
+void add_chain_options(Options& options, ClosedChain& chain) {
+  options.integer("--cells", chain.cells, {1, 100'000'000}, "Number of cells N");
+  options.integer("--particles-per-cell", chain.particles_per_cell, {1, 100'000'000},
+                  "Number of particles per cell n");
+  options.real("--sigma", chain.sigma, {-1, 1}, "Mass ratio (M-m)/(M+m)");
+  options.real_or_word("--gamma", chain.gamma, positive, "N", std::numeric_limits<double>::infinity(),
+                       "Mean number of scatterings in N cells; N: every scatterer scatters");
+  options.real("--cell-length", chain.cell_length, positive, "Distance between scatterers");
+}
+
+void require_possible(const ClosedChain& chain) {
+  const std::uint64_t particles = std::uint64_t{chain.cells} * chain.particles_per_cell;
+  if (particles > 1'000'000'000)
+    throw UsageError("--cells times --particles-per-cell exceeds 1e9 particles. Choose a smaller chain.");
+}
+
 ClosedChainOptions::ClosedChainOptions(Options& options, double relaxation_time)
     : relaxation_time_(relaxation_time) {
-  options.integer("--cells", chain_.cells, {1, 100'000'000}, "Number of cells N");
-  options.integer("--particles-per-cell", chain_.particles_per_cell, {1, 100'000'000},
-                  "Number of particles per cell n");
-  options.real("--sigma", chain_.sigma, {-1, 1}, "Mass ratio (M-m)/(M+m)");
-  options.real_or_word("--gamma", chain_.gamma, positive, "N", std::numeric_limits<double>::infinity(),
-                       "Mean number of scatterings in N cells; N: every scatterer scatters");
-  options.real("--cell-length", chain_.cell_length, positive, "Distance between scatterers");
+  add_chain_options(options, chain_);
   options.real("--temperature", temperatures_.particles, positive,
                "Temperature of the particles at the start");
   options.real("--scatterer-temperature", temperatures_.scatterers, non_negative,
@@ -33,9 +43,7 @@ void ClosedChainOptions::add_random_direction(Options& options) {
 }
 
 void ClosedChainOptions::validate() const {
-  const std::uint64_t particles = std::uint64_t{chain_.cells} * chain_.particles_per_cell;
-  if (particles > 1'000'000'000)
-    throw UsageError("--cells times --particles-per-cell exceeds 1e9 particles. Choose a smaller chain.");
+  require_possible(chain_);
   if (!std::isfinite(end_time()))
     throw UsageError("--relaxation-time plus --observation-time overflows. Choose shorter times.");
 }

@@ -11,6 +11,12 @@
 
 namespace lorentz {
 
+/// --cells, --particles-per-cell, --sigma, --gamma and --cell-length.
+void add_chain_options(Options& options, ClosedChain& chain);
+
+/// Throws UsageError if the chain has more particles than can be numbered.
+void require_possible(const ClosedChain& chain);
+
 /// The options that describe a closed chain, its start and the stretches of time of a measurement.
 class ClosedChainOptions {
  public:

@@ -99,6 +99,30 @@ void Options::real_or_word(const std::string& name, double& value, Range<double>
       ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
 }
 
+void Options::ascending_list(const std::string& name, std::vector<double>& values, Range<double> range,
+                             const std::string& help, Role role) {
+  record(name, role, [&values] { return AttributeValue(fmt::format("{}", fmt::join(values, ","))); });
+  const auto read = [&values](const std::string& text) {
+    values.clear();
+    for (const std::string& item : CLI::detail::split(text, ',')) values.push_back(std::stod(item));
+  };
+  app_.add_option_function<std::string>(
+          name, read,
+          fmt::format("{} (each {}, ascending; default {})", help, interval(range), fmt::join(values, ",")))
+      ->check([range](const std::string& text) {
+        double last = -std::numeric_limits<double>::infinity();
+        for (const std::string& item : CLI::detail::split(text, ',')) {
+          if (std::string why = objection(item, range); !why.empty()) return why;
+          if (!(std::stod(item) > last))
+            return fmt::format("'{}' cannot be used: the numbers must ascend", text);
+          last = std::stod(item);
+        }
+        return std::string{};
+      })
+      ->type_name("")
+      ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+}
+
 void Options::flag(const std::string& name, bool& value, const std::string& help, Role role) {
   app_.add_flag(name, value, help);
   record(name, role, [&value] { return AttributeValue(value); });

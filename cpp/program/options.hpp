@@ -51,6 +51,9 @@ class Options {
   /// A number, or a word that stands for a value: --gamma N. Recorded as given; the default is the word.
   void real_or_word(const std::string& name, double& value, Range<double> range, const std::string& word,
                     double meaning, const std::string& help, Role role = Role::result);
+  /// Increasing numbers, separated by commas.
+  void ascending_list(const std::string& name, std::vector<double>& values, Range<double> range,
+                      const std::string& help, Role role = Role::result);
   void flag(const std::string& name, bool& value, const std::string& help, Role role = Role::result);
   void choice(const std::string& name, std::string& value, const std::vector<std::string>& choices,
               const std::string& help, Role role = Role::result);

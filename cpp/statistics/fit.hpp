@@ -17,4 +17,12 @@ Line fit_line(std::span<const double> x, std::span<const double> y);
 /// Exponent of y ~ x^a: the slope of ln y against ln x over the points with from <= x <= to.
 double fit_power(std::span<const double> x, std::span<const double> y, double from, double to);
 
+struct Vertex {
+  double position;
+  double height;
+};
+
+/// Vertex of the least-squares parabola through the points; at least three.
+Vertex fit_vertex(std::span<const double> x, std::span<const double> y);
+
 }  // namespace lorentz

@@ -1,0 +1,271 @@
+/// Return to equilibrium of an energy pulse: Delta E_i(t) = <E~_i(t) - E_i(t)>, the energy of cell i (its
+/// scatterer and the particles inside) in a chain whose central cells got more energy at t = 0, minus that in
+/// the same chain without. Both trajectories start from one state and share all random numbers.
+///
+/// The pulse scales all momenta in the central --pulse-cells cells by one factor, so that their energy
+/// becomes
+/// --pulse-energy per degree of freedom. The ring is folded about its centre (mirror symmetry) before the
+/// moving peak is looked for. A raw maximum over noisy cells is biased upwards, so position and height are
+/// the vertex of a parabola fitted around it; both heights are stored.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "observables/closed_chain_options.hpp"
+#include "program/errors.hpp"
+#include "program/replica_study.hpp"
+#include "statistics/collapse.hpp"
+#include "statistics/fit.hpp"
+#include "statistics/jackknife.hpp"
+
+namespace {
+
+using namespace lorentz;
+
+struct Pulse {
+  ClosedChain chain{.cells = 101, .particles_per_cell = 50, .cell_length = 1};
+  double energy = 5000;         // per degree of freedom, T = 2 energy
+  double pulse_energy = 50000;  // the same in the pulse
+  std::uint32_t pulse_cells = 1;
+  double scatterer_temperature = -1;  // -1: that of the particles
+  double relaxation_time = 0;
+  std::vector<double> times{0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.08, 0.1, 0.12};  // peaks meet later
+  std::uint32_t members = 16;
+
+  std::uint32_t first_cell() const { return (chain.cells - pulse_cells) / 2; }
+};
+
+std::uint32_t cell_of(const Particle& particle, const ClosedChain& chain) {
+  return std::min(static_cast<std::uint32_t>(particle.position / chain.cell_length), chain.cells - 1);
+}
+
+std::vector<double> cell_energies(const PhasePoint& point, const ClosedChain& chain) {
+  std::vector<double> energies;
+  for (const double U : point.scatterers) energies.push_back(0.5 * U * U);
+  for (const Particle& particle : point.particles)
+    energies[cell_of(particle, chain)] += 0.5 * particle.velocity * particle.velocity;
+  return energies;
+}
+
+/// The start with the pulse on top of it.
+PhasePoint with_pulse(PhasePoint point, const Pulse& pulse) {
+  const std::vector<double> energies = cell_energies(point, pulse.chain);
+  const std::uint32_t begin = pulse.first_cell(), end = begin + pulse.pulse_cells;
+  const auto inside = [&](std::uint32_t cell) { return cell >= begin && cell < end; };
+  std::size_t degrees_of_freedom = pulse.pulse_cells;
+  for (const Particle& particle : point.particles)
+    degrees_of_freedom += inside(cell_of(particle, pulse.chain)) ? 1 : 0;
+  const double before = std::accumulate(energies.begin() + begin, energies.begin() + end, 0.0);
+  const double factor = std::sqrt(static_cast<double>(degrees_of_freedom) * pulse.pulse_energy / before);
+  for (Particle& particle : point.particles)
+    if (inside(cell_of(particle, pulse.chain))) particle.velocity *= factor;
+  for (std::uint32_t cell = begin; cell < end; ++cell) point.scatterers[cell] *= factor;
+  return point;
+}
+
+/// Adds the energy differences of one member of the ensemble to the sums, time after time; then the injected
+/// energy and the drift of it: the largest |sum over cells - injected| / total energy.
+std::uint64_t add_member(const Pulse& pulse, std::uint64_t seed, std::uint64_t member, const Replica& replica,
+                         std::vector<double>& sums) {
+  const ClosedChain& chain = pulse.chain;
+  const double temperature = 2 * pulse.energy;
+  const double of_scatterers = pulse.scatterer_temperature < 0 ? temperature : pulse.scatterer_temperature;
+  PhasePoint start = closed_chain_start(chain, {temperature, of_scatterers}, false, seed, member);
+  NoObserver nobody;
+  const auto heartbeat = [&](double) { replica.heartbeat(0); };
+  std::uint64_t events = 0;
+  if (pulse.relaxation_time > 0) {
+    ClosedDynamics relaxing(chain, start, pulse.relaxation_time, seed, member);
+    simulate(relaxing, pulse.relaxation_time, nobody, heartbeat);
+    events += relaxing.events();
+    start = relaxing.phase_point(pulse.relaxation_time);
+  }
+  ClosedDynamics plain(chain, start, pulse.times.back(), seed, member);
+  ClosedDynamics pulsed(chain, with_pulse(start, pulse), pulse.times.back(), seed, member);
+  const double total = pulsed.invariants().energy;
+  const double injected = total - plain.invariants().energy;
+  double drift = 0;
+  for (std::size_t k = 0; k < pulse.times.size(); ++k) {
+    double sum = 0;
+    simulate(plain, pulse.times[k], nobody, heartbeat);
+    simulate(pulsed, pulse.times[k], nobody, heartbeat);
+    const std::vector<double> without = cell_energies(plain.phase_point(pulse.times[k]), chain);
+    const std::vector<double> with = cell_energies(pulsed.phase_point(pulse.times[k]), chain);
+    for (std::uint32_t cell = 0; cell < chain.cells; ++cell) {
+      sums[k * chain.cells + cell] += with[cell] - without[cell];
+      sum += with[cell] - without[cell];
+    }
+    drift = std::max(drift, std::abs(sum - injected) / total);
+  }
+  sums[sums.size() - 2] += injected;
+  sums.back() += drift;
+  return events + plain.events() + pulsed.events();
+}
+
+/// Difference at distance d = 0, 1, ... from the central cell, mean of both sides.
+std::vector<double> folded(std::span<const double> profile) {
+  const std::size_t centre = profile.size() / 2;
+  std::vector<double> result{profile[centre]};
+  for (std::size_t d = 1; d <= centre; ++d) {
+    const double right = profile[(centre + d) % profile.size()];
+    result.push_back(0.5 * (profile[centre - d] + right));
+  }
+  return result;
+}
+
+struct Peak {
+  double position, height, raw_height;
+};
+
+/// Half the number of cells that count as the top of a peak at distance d: the peak's width grows with d.
+std::ptrdiff_t half_width(double part, std::ptrdiff_t d, std::ptrdiff_t least) {
+  return std::max(least, static_cast<std::ptrdiff_t>(std::lround(part * static_cast<double>(d))));
+}
+
+/// The highest maximum away from the centre: where the running mean is largest, the vertex of a parabola.
+Peak moving_peak(const std::vector<double>& profile) {
+  const auto size = static_cast<std::ptrdiff_t>(profile.size());
+  const auto mean_about = [&](std::ptrdiff_t d) {
+    const std::ptrdiff_t half = half_width(0.06, d, 0);
+    const std::ptrdiff_t first = std::max<std::ptrdiff_t>(d - half, 0), last = std::min(d + half, size - 1);
+    return std::accumulate(profile.begin() + first, profile.begin() + last + 1, 0.0) /
+           static_cast<double>(last - first + 1);
+  };
+  std::ptrdiff_t top = 1;
+  for (std::ptrdiff_t d = 2; d < size; ++d)
+    if (mean_about(d) > mean_about(top)) top = d;
+  const std::ptrdiff_t half = half_width(0.12, top, 1);
+  std::vector<double> x, y;
+  for (std::ptrdiff_t d = std::max<std::ptrdiff_t>(top - half, 0); d <= std::min(top + half, size - 1); ++d) {
+    x.push_back(static_cast<double>(d));
+    y.push_back(profile[static_cast<std::size_t>(d)]);
+  }
+  const Vertex vertex = fit_vertex(x, y);
+  return {vertex.position, vertex.height, *std::max_element(profile.begin() + 1, profile.end())};
+}
+
+/// Everything that is read off the mean profiles, each at all times.
+struct Reading {
+  std::vector<double> position, height, raw_height, centre_share, exponent_from;
+  double peak_collapse = 0, centre_collapse = 0;
+};
+
+Reading read(std::span<const double> sums, const Pulse& pulse) {
+  const std::size_t cells = pulse.chain.cells;
+  const double injected = sums[pulse.times.size() * cells];
+  Reading reading;
+  std::vector<std::vector<double>> profiles;
+  for (std::size_t k = 0; k < pulse.times.size(); ++k) {
+    profiles.push_back(folded(sums.subspan(k * cells, cells)));
+    const Peak peak = moving_peak(profiles.back());
+    reading.position.push_back(peak.position);
+    reading.height.push_back(peak.height);
+    reading.raw_height.push_back(peak.raw_height);
+    reading.centre_share.push_back((profiles.back()[0] + 2 * (profiles.back()[1] + profiles.back()[2])) /
+                                   injected);
+  }
+  for (std::size_t k = 0; k + 1 < pulse.times.size(); ++k)
+    reading.exponent_from.push_back(
+        -fit_power(pulse.times, reading.height, pulse.times[k], pulse.times.back()));
+  std::vector<Profile> moving, resting;
+  for (std::size_t k = 0; k < pulse.times.size(); ++k) {
+    Profile about_peak{pulse.times[k], {}, profiles[k]}, about_centre = about_peak;
+    for (std::size_t d = 0; d < profiles[k].size(); ++d) {
+      about_peak.x.push_back(static_cast<double>(d) - reading.position[k]);
+      about_centre.x.push_back(static_cast<double>(d));
+    }
+    moving.push_back(std::move(about_peak));
+    resting.push_back(std::move(about_centre));
+  }
+  const double reach = 0.25 * reading.position.back();
+  reading.peak_collapse = collapse_exponent(moving, -reach, reach);
+  reading.centre_collapse = collapse_exponent(resting, 0, reach);
+  return reading;
+}
+
+Results summarise(const Records& records, const Pulse& pulse) {
+  const std::size_t times = pulse.times.size(), cells = pulse.chain.cells, size = times * cells;
+  const Estimate estimate = jackknife(records, [&](std::span<const double> sums) {
+    const Reading reading = read(sums, pulse);
+    std::vector<double> values(sums.begin(), sums.end());
+    for (const auto* column : {&reading.position, &reading.height, &reading.raw_height, &reading.centre_share,
+                               &reading.exponent_from})
+      values.insert(values.end(), column->begin(), column->end());
+    values.push_back(reading.peak_collapse);
+    values.push_back(reading.centre_collapse);
+    return values;
+  });
+  std::vector<double> cell_numbers(cells);
+  std::iota(cell_numbers.begin(), cell_numbers.end(), 0.0);
+  const Axis time{"time", "time", "Time after the pulse", pulse.times};
+  const Axis cell{"cell", "1", "Cell number", cell_numbers};
+  const Axis from{"from", "time", "First time of the fit", {pulse.times.begin(), pulse.times.end() - 1}};
+  const std::uint64_t count = records.size();
+  const std::size_t read_off = size + 2;
+  return {
+      array("energy_difference", "k_B T", "Energy per cell with the pulse minus without", estimate, 0, count,
+            {time, cell}),
+      number("injected_energy", "k_B T", "Energy of the pulse", estimate, size, count),
+      number("sum_error", "1", "Largest |sum over cells - injected energy| / total energy, mean over members",
+             estimate, size + 1, count),
+      array("peak_position", "cells", "Distance of the moving peak from the centre", estimate, read_off,
+            count, {time}),
+      array("peak", "k_B T", "Height of the moving peak, by the parabola", estimate, read_off + times, count,
+            {time}),
+      array("peak_raw", "k_B T", "Largest value of the folded profile, biased upwards", estimate,
+            read_off + 2 * times, count, {time}),
+      array("centre_share", "1", "Part of the injected energy in the central five cells", estimate,
+            read_off + 3 * times, count, {time}),
+      array("damping_exponent_from", "1", "Minus the slope of ln peak against ln t from a time on", estimate,
+            read_off + 4 * times, count, {from}),
+      number("damping_exponent", "1", "The same over all times", estimate, read_off + 4 * times, count),
+      number("peak_collapse", "1", "Exponent xi that makes t^xi Delta E a function of (x - peak)/t^xi",
+             estimate, read_off + 5 * times - 1, count),
+      number("centre_collapse", "1",
+             "Exponent xi that makes t^xi Delta E a function of x/t^xi about the centre", estimate,
+             read_off + 5 * times, count),
+  };
+}
+
+void validate(const Pulse& pulse) {
+  require_possible(pulse.chain);
+  if (pulse.pulse_cells > pulse.chain.cells)
+    throw UsageError("--pulse-cells exceeds --cells. Choose a smaller pulse.");
+  if (pulse.chain.cells < 7)
+    throw UsageError("--cells is less than 7: a moving peak needs room. Choose more cells.");
+  if (pulse.times.size() < 2) throw UsageError("--times has one time: the damping needs two. Add another.");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Program program("energy_pulse", "Spreading of an energy pulse in a closed chain");
+  Options& options = program.options();
+  Pulse pulse;
+  add_chain_options(options, pulse.chain);
+  options.real("--energy", pulse.energy, positive,
+               "Energy per degree of freedom at the start; the temperature is twice it");
+  options.real("--pulse-energy", pulse.pulse_energy, positive, "Energy per degree of freedom in the pulse");
+  options.integer("--pulse-cells", pulse.pulse_cells, {1, 100'000'000},
+                  "Number of cells in the pulse, about the central one");
+  options.real_or_word(
+      "--scatterer-temperature", pulse.scatterer_temperature, non_negative, "particles", -1,
+      "Temperature of the scatterers at the start; 0: at rest; particles: that of the particles");
+  options.real("--relaxation-time", pulse.relaxation_time, non_negative, "Time before the pulse");
+  options.ascending_list("--times", pulse.times, positive, "Times after the pulse");
+  options.integer("--members", pulse.members, {1, 1'000'000}, "Pairs of trajectories per replica");
+  const ReplicaOptions replicas(program);
+  return program.run(argc, argv, [&](Progress& progress) {
+    validate(pulse);
+    const auto measure = [&](const Replica& replica) {
+      std::vector<double> sums(pulse.times.size() * pulse.chain.cells + 2, 0);
+      std::uint64_t events = 0;
+      for (std::uint32_t member = 0; member < pulse.members; ++member)
+        events += add_member(pulse, replicas.seed(), replica.index * pulse.members + member, replica, sums);
+      for (double& sum : sums) sum /= pulse.members;
+      return ReplicaRecord{std::move(sums), events};
+    };
+    const auto results = [&](const Records& records) { return summarise(records, pulse); };
+    return replicas.run({measure, results, "damping_exponent", RandomStream::description}, progress);
+  });
+}
