@@ -29,9 +29,10 @@ def edit(path: Path, *keys: str, value: object) -> None:
 @pytest.mark.parametrize("quality", QUALITIES)
 def test_every_quality_describes_every_panel(quality: str) -> None:
     for panel in load_plan(quality).values():
-        assert (ROOT / f"cpp/observables/{panel.program}.cpp").is_file()
         assert (ROOT / f"workflow/scripts/{panel.script}.py").is_file()
-        assert panel.runs
+        assert panel.runs or panel.uses
+        for run in panel.runs:
+            assert (ROOT / f"cpp/observables/{run.program}.cpp").is_file()
         assert all(run.options["replicas"] >= 2 for run in panel.runs)
 
 
@@ -44,7 +45,7 @@ def test_names_and_seeds_are_unique() -> None:
 
 
 def test_quality_changes_effort_only() -> None:
-    effort = {"replicas", "max-replicas", "target-error", "target-absolute", "cells"}
+    effort = {"replicas", "max-replicas", "target-error", "target-absolute", "members", "cells"}
     plans = [load_plan(quality) for quality in QUALITIES]
     for name, panel in plans[0].items():
         for run in panel.runs:
@@ -63,7 +64,7 @@ def test_fig05_covers_the_range_and_its_limits() -> None:
 
 
 def test_arguments() -> None:
-    run = Run("a", {"sigma": -0.5, "zero-total-momentum": True, "random-direction": False, "gamma": "N"})
+    run = Run("a", "p", {"sigma": -0.5, "zero-total-momentum": True, "random-direction": False, "gamma": "N"})
     assert run.arguments() == "--sigma -0.5 --zero-total-momentum --gamma N"
 
 
@@ -71,7 +72,11 @@ def test_arguments() -> None:
     ("keys", "value", "words"),
     [
         (("panels", "fig05", "series", "paper", "sigma"), 2, ["panels.fig05.series.paper.sigma = 2", "1"]),
-        (("panels", "fig05", "series", "paper", "sigma"), [0.5, -3], ["sigma.1 = -3", "minimum -1", "maximum 1"]),
+        (
+            ("panels", "fig05", "series", "paper", "sigma"),
+            [0.5, -3],
+            ["sigma.1 = -3", "minimum -1", "maximum 1"],
+        ),
         (("panels", "fig05", "series", "paper", "sigma"), "half", ["sigma", "half", "type number"]),
         (("panels", "fig05", "common", "cells"), 0, ["panels.fig05.common.cells = 0", "minimum 1"]),
         (("panels", "fig05", "common", "cels"), 11, ["panels.fig05.common", "cels"]),
@@ -80,7 +85,9 @@ def test_arguments() -> None:
         (("panels", "fig05", "series"), {}, ["panels.fig05.series"]),
     ],
 )
-def test_bad_paper_configuration(folder: Path, keys: tuple[str, ...], value: object, words: list[str]) -> None:
+def test_bad_paper_configuration(
+    folder: Path, keys: tuple[str, ...], value: object, words: list[str]
+) -> None:
     edit(folder / "paper.yaml", *keys, value=value)
     with pytest.raises(ConfigurationError) as raised:
         load_plan("smoke", folder)

@@ -44,7 +44,9 @@ def test_layout(persistence: Program, tmp_path: Path) -> None:
 
 def test_every_other_option_is_recorded(persistence: Program, tmp_path: Path) -> None:
     text = persistence(help=True).stdout
-    offered = {word.lstrip("-") for line in text.splitlines() for word in line.split()[:1] if word.startswith("--")}
+    offered = {
+        word.lstrip("-") for line in text.splitlines() for word in line.split()[:1] if word.startswith("--")
+    }
     persistence()
     recorded = set(load(tmp_path / "out.h5").parameters)
     assert recorded == offered - NOT_PARAMETERS - {"version"}
@@ -53,7 +55,13 @@ def test_every_other_option_is_recorded(persistence: Program, tmp_path: Path) ->
 def test_file_names_no_place_and_no_time(persistence: Program, tmp_path: Path) -> None:
     persistence()
     content = (tmp_path / "out.h5").read_bytes()
-    for text in (str(ROOT), str(tmp_path), "/home/", "/tmp/", subprocess.check_output(["hostname"]).strip().decode()):
+    for text in (
+        str(ROOT),
+        str(tmp_path),
+        "/home/",
+        "/tmp/",
+        subprocess.check_output(["hostname"]).strip().decode(),
+    ):
         assert text.encode() not in content
 
 
@@ -79,7 +87,13 @@ def test_configuration_file_and_command_line_agree(persistence: Program, tmp_pat
     assert (tmp_path / "a.h5").read_bytes() == (tmp_path / "b.h5").read_bytes()
 
 
-LONG = {"observation-time": 2000, "replicas": 60, "output": "out.h5", "checkpoint-interval": 0.2, "threads": 2}
+LONG = {
+    "observation-time": 2000,
+    "replicas": 60,
+    "output": "out.h5",
+    "checkpoint-interval": 0.2,
+    "threads": 2,
+}
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
@@ -88,7 +102,9 @@ def test_interrupted_and_resumed_run_gives_the_same_bytes(
 ) -> None:
     long = {name.replace("-", "_"): value for name, value in LONG.items()}
     assert persistence(**{**long, "output": "whole.h5"}).returncode == 0
-    process = subprocess.Popen(command_line("persistence", LONG), cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen(
+        command_line("persistence", LONG), cwd=tmp_path, stderr=subprocess.PIPE, text=True
+    )
     checkpoint = tmp_path / "out.h5.checkpoint"
     deadline = time.monotonic() + 30
     while not checkpoint.exists() and time.monotonic() < deadline:

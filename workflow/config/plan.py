@@ -26,6 +26,7 @@ class Run:
     """One execution of a program; its name is unique within the panel."""
 
     name: str
+    program: str
     options: Options
 
     def arguments(self) -> str:
@@ -39,17 +40,20 @@ class Run:
 
 @dataclass(frozen=True)
 class Panel:
+    """A figure: its own runs, and the names of the panels whose runs it shows as well."""
+
     name: str
-    program: str
     script: str
     runs: tuple[Run, ...]
+    uses: tuple[str, ...] = ()
 
     def run(self, name: str) -> Run:
         return next(run for run in self.runs if run.name == name)
 
     def hash(self) -> str:
         """sha256 of everything that the configuration says of the panel, effort included."""
-        content = [self.name, self.program, self.script, [[run.name, run.options] for run in self.runs]]
+        runs = [[run.name, run.program, run.options] for run in self.runs]
+        content = [self.name, self.script, runs, self.uses]
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
@@ -60,20 +64,34 @@ def load_plan(quality: str, folder: Path = FOLDER) -> dict[str, Panel]:
     options = yaml.safe_load((folder / "schema.yaml").read_text())["$defs"]
     paper = _load(folder / "paper.yaml", _paper_schema(options))
     efforts = _load(folder / "quality" / f"{quality}.yaml", _quality_schema(options, paper))
-    return {name: _panel(name, panel, efforts) for name, panel in paper["panels"].items()}
+    panels = {name: _panel(name, panel, efforts) for name, panel in paper["panels"].items()}
+    for panel in panels.values():
+        for used in panel.uses:
+            if used not in panels or not panels[used].runs:
+                raise ConfigurationError(f"paper.yaml: panels.{panel.name}.uses: {used} has no runs")
+    return panels
+
+
+def data_of(panel: Panel, quality: str) -> list[str]:
+    """Paths of the results that a panel shows: those of the panels that it uses, then its own."""
+    panels = [load_plan(quality)[used] for used in panel.uses] + [panel]
+    return [f"data/{quality}/{one.name}/{run.name}.h5" for one in panels for run in one.runs]
 
 
 def _panel(name: str, panel: dict, efforts: dict) -> Panel:
     runs = []
-    for series, own in panel["series"].items():
+    for series, own in panel.get("series", {}).items():
         effort = {**efforts["default"], **efforts.get("panels", {}).get(name, {}).get(series, {})}
         options = {**panel.get("common", {}), **own, **effort}
+        program = options.pop("program", panel.get("program"))
+        if program is None:
+            raise ConfigurationError(f"paper.yaml: panels.{name}.series.{series}: program is missing")
         listed = [key for key, value in options.items() if isinstance(value, list)]
         for values in itertools.product(*(options[key] for key in listed)):
             chosen = dict(zip(listed, values, strict=True))
             run = "_".join([series, *(f"{key}={value}" for key, value in chosen.items())])
-            runs.append(Run(run, {**options, **chosen, "seed": _seed(name, run)}))
-    return Panel(name, panel["program"], panel.get("script", name), tuple(runs))
+            runs.append(Run(run, program, {**options, **chosen, "seed": _seed(name, run)}))
+    return Panel(name, panel.get("script", name), tuple(runs), tuple(panel.get("uses", ())))
 
 
 def _seed(panel: str, run: str) -> int:
@@ -136,23 +154,25 @@ def _one_or_list(options: dict) -> dict:
 
 
 def _paper_schema(options: dict) -> dict:
-    physics = _object(_one_or_list(options["physics"]))
+    physics = _one_or_list(options["physics"])
+    program = {"type": "string", "pattern": "^[a-z_]+$"}
     panel = _object(
         {
-            "program": {"type": "string", "pattern": "^[a-z_]+$"},
+            "program": program,
             "script": {"type": "string", "pattern": "^[a-z0-9_]+$"},
-            "common": physics,
-            "series": _named(physics),
-        },
-        required=("program", "series"),
+            "uses": {"type": "array", "items": {"type": "string"}, "minItems": 1},
+            "common": _object(physics),
+            "series": _named(_object({"program": program, **physics})),
+        }
     )
+    panel["anyOf"] = [{"required": ["series"]}, {"required": ["uses"]}]
     return {**_object({"panels": _named(panel)}, required=("panels",)), "$defs": options}
 
 
 def _quality_schema(options: dict, paper: dict) -> dict:
     effort = _object(_one_or_list(options["effort"]))
     panels = {
-        name: _object({series: effort for series in panel["series"]})
+        name: _object({series: effort for series in panel.get("series", {})})
         for name, panel in paper["panels"].items()
     }
     schema = _object({"default": effort, "panels": _object(panels)}, required=("default",))

@@ -3,12 +3,7 @@
 
 rule draw:
     input:
-        data=lambda wildcards: expand(
-            "data/{quality}/{panel}/{run}.h5",
-            quality=wildcards.quality,
-            panel=wildcards.panel,
-            run=[run.name for run in PANELS[wildcards.panel].runs],
-        ),
+        data=lambda wildcards: data_of(PANELS[wildcards.panel], wildcards.quality),
         script=lambda wildcards: f"workflow/scripts/{PANELS[wildcards.panel].script}.py",
         shared=expand("workflow/scripts/{module}.py", module=["figure", "load", "save", "style"]),
         lock="requirements.lock",

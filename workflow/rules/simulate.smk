@@ -9,7 +9,7 @@ that stops before its target error exits with 4; its result is marked and is dra
 
 rule simulate:
     input:
-        build_id=lambda wildcards: f"build/id/{PANELS[wildcards.panel].program}.json",
+        build_id=lambda wildcards: f"build/id/{PANELS[wildcards.panel].run(wildcards.run).program}.json",
     output:
         "data/{quality}/{panel}/{run}.h5",
     log:
@@ -20,7 +20,7 @@ rule simulate:
         "../environment/conda.yaml"
     threads: lambda wildcards: max(1, workflow.cores // len(PANELS[wildcards.panel].runs))
     params:
-        program=lambda wildcards: PANELS[wildcards.panel].program,
+        program=lambda wildcards: PANELS[wildcards.panel].run(wildcards.run).program,
         arguments=lambda wildcards: PANELS[wildcards.panel].run(wildcards.run).arguments(),
         work="build/partial/{quality}/{panel}/{run}",
         cost="build/costs/{quality}/{panel}/{run}.json",

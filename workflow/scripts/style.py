@@ -4,6 +4,8 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 
+from workflow.scripts.load import Quantity, Result
+
 # Width of one column of a journal, and the height that goes with it, in inches.
 COLUMN = 3.4
 HEIGHT = 3.0
@@ -15,6 +17,12 @@ ORANGE = "#E69F00"
 GREEN = "#009E73"
 VERMILLION = "#D55E00"
 SKY = "#56B4E9"
+
+# For curves in an order, from early to late: lightness rises, and so do the gaps of the dashes.
+SEQUENCE = [BLACK, BLUE, VERMILLION, ORANGE, SKY]
+DASHES = ["solid", (0, (6, 1)), (0, (4, 1, 1, 1)), (0, (3, 1.5)), (0, (1, 1))]
+
+GUIDE = {"color": "0.55", "linestyle": (0, (4, 2)), "linewidth": 0.8, "zorder": 0}
 
 POINTS = {"linestyle": "none", "capsize": 1.5, "elinewidth": 0.8, "capthick": 0.8, "markeredgewidth": 0.8}
 
@@ -54,3 +62,19 @@ def apply() -> None:
 def cross_out(axes: Axes, x: np.ndarray, y: np.ndarray, where: np.ndarray) -> None:
     """Marks the points whose run stopped before its target error."""
     axes.plot(x[where], y[where], linestyle="none", marker="x", color=BLACK, markersize=6, zorder=5)
+
+
+def with_error(quantity: Quantity) -> str:
+    """A number with its error in units of the last digits, as 1.862(5)."""
+    mean, error = float(quantity.mean), float(quantity.standard_error)
+    if not (np.isfinite(error) and error > 0):
+        return f"{mean:.4g}"
+    digits = max(0, -int(np.floor(np.log10(error))))
+    shown = round(error * 10**digits)
+    return f"{mean:.{digits}f}({shown})"
+
+
+def gamma(result: Result) -> str:
+    """N, or the number of scatterings."""
+    value = result.parameters["gamma"]
+    return value if value == "N" else f"{value:g}"

@@ -1,0 +1,54 @@
+"""Fig. 10: height of the moving peak of an energy pulse against time; a: gamma = N, b: gamma = 1."""
+
+from collections.abc import Sequence
+
+import matplotlib.pyplot as plt
+import pandas as pd
+from matplotlib.figure import Figure
+
+from workflow.scripts import style
+from workflow.scripts.figure import run
+from workflow.scripts.load import Result
+
+STARTS = {
+    "particles": ("o", style.BLUE, style.BLUE, "Gaussian start"),
+    0: ("s", style.VERMILLION, "white", "scatterers from rest"),
+}
+SLOPES = {"N": (-2 / 3, r"$t^{-2/3}$"), 1: (-1, r"$t^{-1}$")}  # the paper's guides
+
+
+def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
+    figure, (above, below) = plt.subplots(
+        2, 1, sharex=True, figsize=(style.COLUMN, 1.25 * style.HEIGHT), height_ratios=[2, 1]
+    )
+    parts = []
+    for result in results:
+        marker, color, face, name = STARTS[result.parameters["scatterer-temperature"]]
+        look = {"marker": marker, "color": color, "markerfacecolor": face, **style.POINTS}
+        peak, exponent = result["peak"], result["damping_exponent_from"]
+        time = peak.axes["time"]
+        label = rf"{name}: $t^{{-{style.with_error(result['damping_exponent'])}}}$"
+        above.errorbar(time, peak.mean / 1e3, peak.standard_error / 1e3, label=label, **look)
+        late = exponent.standard_error < 0.1
+        below.errorbar(
+            exponent.axes["from"][late], exponent.mean[late], exponent.standard_error[late], **look
+        )
+        part = pd.DataFrame({"time": time, "peak": peak.mean, "peak_error": peak.standard_error})
+        part["exponent_from_here"] = pd.Series(exponent.mean)
+        part["exponent_from_here_error"] = pd.Series(exponent.standard_error)
+        part.insert(0, "scatterer_temperature", str(result.parameters["scatterer-temperature"]))
+        parts.append(part)
+    slope, guide = SLOPES[results[0].parameters["gamma"]]
+    peak = results[0]["peak"]
+    time = peak.axes["time"]
+    above.plot(time, 1.3 * peak.mean[0] / 1e3 * (time / time[0]) ** slope, **style.GUIDE, label=guide)
+    below.axhline(-slope, **style.GUIDE)
+    above.set(xscale="log", yscale="log", ylabel=r"peak of $\Delta E\,/\,10^3 k_B T$")
+    below.set(xlabel="time $t$", ylabel="exponent fitted\nfrom $t$ on")
+    above.legend(loc="lower left")
+    figure.align_ylabels()
+    return figure, pd.concat(parts)
+
+
+if __name__ == "__main__":
+    run(draw, "Damping of the moving peak of an energy pulse")
