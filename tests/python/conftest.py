@@ -1,6 +1,7 @@
 import os
 import subprocess
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -25,14 +26,13 @@ def command_line(program: str, options: dict) -> list[str]:
 
 
 @pytest.fixture
-def persistence(tmp_path: Path) -> Program:
-    """Runs the program in an empty folder; options as keywords, underscores for dashes."""
+def program(tmp_path: Path) -> Program:
+    """Runs a program in an empty folder; options as keywords, underscores for dashes."""
 
-    def run(**options: object) -> subprocess.CompletedProcess:
-        named = {name.replace("_", "-"): value for name, value in options.items()}
-        named = {"output": "out.h5", "progress": "none", **named}
+    def run(name: str, **options: object) -> subprocess.CompletedProcess:
+        named = {key.replace("_", "-"): value for key, value in options.items()}
         return subprocess.run(
-            command_line("persistence", named),
+            command_line(name, {"output": "out.h5", "progress": "none", **named}),
             cwd=tmp_path,
             env={"PATH": os.defpath},
             capture_output=True,
@@ -42,3 +42,8 @@ def persistence(tmp_path: Path) -> Program:
         )
 
     return run
+
+
+@pytest.fixture
+def persistence(program: Program) -> Program:
+    return partial(program, "persistence")

@@ -38,9 +38,9 @@ def collapse(axes: Axes, result: Result, moving: bool) -> pd.DataFrame:
         axes.plot(x[near], y[near], color=color, linestyle=dashes, label=f"$t = {times[k]:g}$")
         parts.append(pd.DataFrame({"moving": moving, "time": times[k], "x": x[near], "y": y[near]}))
     axes.axhline(0, **style.GUIDE)
-    place = "x - x_p" if moving else "x"
+    place = "(x - x_p)" if moving else "x"
     axes.set(
-        xlabel=rf"$({place})\,(t_1/t)^\xi / \lambda$",
+        xlabel=rf"${place}\,(t_1/t)^\xi / \lambda$",
         title=rf"$\gamma = {style.gamma(result)}$, $\xi = {style.with_error(xi)}$",
     )
     table = pd.concat(parts)

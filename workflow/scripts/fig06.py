@@ -19,7 +19,7 @@ MARKS = {0.0: ("o", style.BLUE, "dashed"), 0.5: ("s", style.VERMILLION, "dotted"
 
 
 def gaussian_start(tau: np.ndarray, temperature: float, cell_length: float) -> np.ndarray:
-    """Exact at sigma = 0 for many particles: |u| exp(-u^2/2T) at u = lambda/tau."""
+    """Exact at sigma = 0 for n to infinity: |u| exp(-u^2/2T) at u = lambda/tau."""
     square = cell_length**2 / temperature
     return square / tau**3 * np.exp(-square / (2 * tau**2))
 
@@ -60,7 +60,9 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         if sigma == 0:
             exact = gaussian_start(tau, result.parameters["temperature"], result.parameters["cell-length"])
             seen = known & (exact > 1e-9)
-            axes.plot(tau[seen], exact[seen], color=style.SKY, zorder=0, label="exact, Gaussian momenta")
+            axes.plot(
+                tau[seen], exact[seen], color=style.SKY, zorder=0, label=r"$\sigma = 0$, $n \to \infty$"
+            )
     axes.set(xscale="log", yscale="log", xlabel=r"waiting time $\tau$", ylabel=r"density $\Psi(\tau)$")
     axes.legend(loc="lower left")
     return figure, pd.concat(tables)
