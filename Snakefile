@@ -5,7 +5,7 @@ import sys
 from snakemake.exceptions import WorkflowError
 
 sys.path.insert(0, workflow.basedir)
-from workflow.config.plan import QUALITIES, ConfigurationError, load_plan
+from workflow.config.plan import QUALITIES, ConfigurationError, data_of, load_plan
 
 QUALITY = config.get("quality", "standard")
 try:

@@ -122,8 +122,8 @@ std::ptrdiff_t half_width(double part, std::ptrdiff_t d, std::ptrdiff_t least) {
   return std::max(least, static_cast<std::ptrdiff_t>(std::lround(part * static_cast<double>(d))));
 }
 
-/// The highest maximum away from the centre: where the running mean is largest, the vertex of a parabola.
-Peak moving_peak(const std::vector<double>& profile) {
+/// The cell away from the centre where the running mean of the profile is largest.
+std::ptrdiff_t highest_cell(const std::vector<double>& profile) {
   const auto size = static_cast<std::ptrdiff_t>(profile.size());
   const auto mean_about = [&](std::ptrdiff_t d) {
     const std::ptrdiff_t half = half_width(0.06, d, 0);
@@ -131,12 +131,20 @@ Peak moving_peak(const std::vector<double>& profile) {
     return std::accumulate(profile.begin() + first, profile.begin() + last + 1, 0.0) /
            static_cast<double>(last - first + 1);
   };
-  std::ptrdiff_t top = 1;
+  std::ptrdiff_t highest = 1;
   for (std::ptrdiff_t d = 2; d < size; ++d)
-    if (mean_about(d) > mean_about(top)) top = d;
-  const std::ptrdiff_t half = half_width(0.12, top, 1);
+    if (mean_about(d) > mean_about(highest)) highest = d;
+  return highest;
+}
+
+/// The vertex of a parabola about the given cell. The cell is chosen once, from the mean over all replicas:
+/// chosen again for every jackknife sample it would jump, and the errors with it.
+Peak moving_peak(const std::vector<double>& profile, std::ptrdiff_t about) {
+  const auto size = static_cast<std::ptrdiff_t>(profile.size());
+  const std::ptrdiff_t half = half_width(0.12, about, 1);
   std::vector<double> x, y;
-  for (std::ptrdiff_t d = std::max<std::ptrdiff_t>(top - half, 0); d <= std::min(top + half, size - 1); ++d) {
+  for (std::ptrdiff_t d = std::max<std::ptrdiff_t>(about - half, 0); d <= std::min(about + half, size - 1);
+       ++d) {
     x.push_back(static_cast<double>(d));
     y.push_back(profile[static_cast<std::size_t>(d)]);
   }
@@ -150,14 +158,15 @@ struct Reading {
   double peak_collapse = 0, centre_collapse = 0;
 };
 
-Reading read(std::span<const double> sums, const Pulse& pulse) {
+/// highest: cells about which the peaks are sought.
+Reading read(std::span<const double> sums, const Pulse& pulse, const std::vector<std::ptrdiff_t>& highest) {
   const std::size_t cells = pulse.chain.cells;
   const double injected = sums[pulse.times.size() * cells];
   Reading reading;
   std::vector<std::vector<double>> profiles;
   for (std::size_t k = 0; k < pulse.times.size(); ++k) {
     profiles.push_back(folded(sums.subspan(k * cells, cells)));
-    const Peak peak = moving_peak(profiles.back());
+    const Peak peak = moving_peak(profiles.back(), highest[k]);
     reading.position.push_back(peak.position);
     reading.height.push_back(peak.height);
     reading.raw_height.push_back(peak.raw_height);
@@ -185,8 +194,12 @@ Reading read(std::span<const double> sums, const Pulse& pulse) {
 
 Results summarise(const Records& records, const Pulse& pulse) {
   const std::size_t times = pulse.times.size(), cells = pulse.chain.cells, size = times * cells;
+  std::vector<std::ptrdiff_t> highest;
+  const std::vector<double> mean = records.mean();
+  for (std::size_t k = 0; k < times; ++k)
+    highest.push_back(highest_cell(folded(std::span(mean).subspan(k * cells, cells))));
   const Estimate estimate = jackknife(records, [&](std::span<const double> sums) {
-    const Reading reading = read(sums, pulse);
+    const Reading reading = read(sums, pulse, highest);
     std::vector<double> values(sums.begin(), sums.end());
     for (const auto* column : {&reading.position, &reading.height, &reading.raw_height, &reading.centre_share,
                                &reading.exponent_from})
