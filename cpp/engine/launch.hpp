@@ -19,20 +19,23 @@ namespace lorentz {
 /// chains that start alike draw alike as long as their particles scatter equally often.
 class Launch {
  public:
-  Launch(const ClosedChain& chain, std::uint64_t seed, std::uint64_t replica)
+  /// One slot per particle; several copies of the particles, one after the other, draw the same numbers.
+  Launch(const ClosedChain& chain, std::uint64_t seed, std::uint64_t replica, std::uint32_t copies = 1)
       : passing_(!chain.deterministic()),
         random_direction_(chain.random_direction),
         log_pass_probability_(std::log1p(-chain.gamma / chain.cells)),
         seed_(seed),
         replica_(replica),
-        draws_(deterministic() ? 0 : chain.particles(), 0) {}
+        particles_(chain.particles()),
+        draws_(deterministic() ? 0 : std::size_t{copies} * chain.particles(), 0) {}
 
   /// No chance at all: one cell, direction kept.
   bool deterministic() const { return !passing_ && !random_direction_; }
 
   /// Draws the direction of u where it is random, and the number of cells of the flight.
-  std::int64_t operator()(std::uint32_t particle, double& u) {
-    const std::uint32_t draw = draws_[particle]++;
+  std::int64_t operator()(std::uint32_t slot, double& u) {
+    const std::uint32_t draw = draws_[slot]++;
+    const std::uint32_t particle = slot % particles_;
     if (random_direction_)
       u = std::copysign(u, uniform(seed_, Purpose::direction, replica_, particle, draw) - 0.5);
     if (!passing_) return 1;
@@ -42,11 +45,22 @@ class Launch {
     return 1 + static_cast<std::int64_t>(passed < most ? passed : most);
   }
 
+  /// The slot draws its numbers again from the first.
+  void restart(std::uint32_t slot) {
+    if (!deterministic()) draws_[slot] = 0;
+  }
+
+  /// From now on `to` draws what `from` draws.
+  void copy(std::uint32_t from, std::uint32_t to) {
+    if (!deterministic()) draws_[to] = draws_[from];
+  }
+
  private:
   bool passing_, random_direction_;
   double log_pass_probability_;
   std::uint64_t seed_, replica_;
-  std::vector<std::uint32_t> draws_;  // taken so far, by particle
+  std::uint32_t particles_;
+  std::vector<std::uint32_t> draws_;  // taken so far, by slot
 };
 
 }  // namespace lorentz

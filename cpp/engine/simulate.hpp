@@ -1,14 +1,13 @@
 #pragma once
 
-#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <vector>
 
 #include "engine/event_queue.hpp"
 #include "engine/launch.hpp"
+#include "engine/scattering.hpp"
 #include "model/closed_chain.hpp"
-#include "model/collision.hpp"
 
 namespace lorentz {
 
@@ -20,15 +19,6 @@ struct Collision {
   std::uint32_t scatterer;
   double particle_before, particle_after;    // u
   double scatterer_before, scatterer_after;  // U
-};
-
-/// The start of a flight.
-struct Departure {
-  double time;
-  std::uint32_t particle;
-  double velocity;     // u
-  std::int64_t cells;  // to the next scattering, with the sign of the velocity
-  double duration;
 };
 
 /// A closed chain in motion.
@@ -60,20 +50,8 @@ class ClosedDynamics {
   template <bool launching, class Observer, std::invocable<double> Heartbeat>
   void advance(double until, Observer& observer, Heartbeat&& heartbeat);
 
-  std::uint32_t neighbour(std::uint32_t cell, double velocity) const {
-    const std::uint32_t right = cell + 1 == chain_.cells ? 0 : cell + 1;
-    const std::uint32_t left = cell == 0 ? chain_.cells - 1 : cell - 1;
-    return velocity > 0 ? right : left;
-  }
-
-  std::uint32_t cells_ahead(std::uint32_t cell, std::int64_t cells) const {
-    const auto around = static_cast<std::int64_t>(chain_.cells);
-    const std::int64_t target = (cell + cells) % around;
-    return static_cast<std::uint32_t>(target < 0 ? target + around : target);
-  }
-
   ClosedChain chain_;
-  CollisionRule collide_;
+  Scattering scatter_;
   std::vector<double> scatterers_;  // w, see CollisionRule
   Launch launch_;
   EventQueue queue_;
@@ -94,43 +72,28 @@ void simulate(ClosedDynamics& chain, double until, Observer& observer, Heartbeat
     chain.advance<true>(until, observer, heartbeat);
 }
 
-/// launching: whether Launch has a say; otherwise a particle scatters at the neighbouring scatterer.
+/// launching: whether Launch has a say, see Scattering.
 template <bool launching, class Observer, std::invocable<double> Heartbeat>
 void ClosedDynamics::advance(double until, Observer& observer, Heartbeat&& heartbeat) {
   constexpr std::uint64_t events_per_heartbeat = 65536;
-  const double scale = collide_.scatterer_scale();
-  const CollisionRule collide = collide_;
+  const Scattering scatter = scatter_;
+  const double scale = scatter.rule().scatterer_scale();
 
   for (std::uint32_t slot; (slot = queue_.take_before(until)) != EventQueue::none;) {
     Flight& flight = queue_[slot];
-    const double velocity = flight.velocity;
-    const double scatterer = scatterers_[flight.target];
-    double u = velocity;
-    double w = scatterer;
-    collide(u, w);
-    scatterers_[flight.target] = w;
-
-    double distance = chain_.cell_length;
-    std::int64_t cells = 1;
-    if constexpr (launching) {
-      cells = launch_(slot, u);
-      distance *= static_cast<double>(cells);
-    }
+    const std::uint32_t cell = flight.target;
+    const double particle = flight.velocity;
+    const double scatterer = scatterers_[cell];
+    const Departure departure =
+        scatter.template operator()<launching>(flight, scatterers_[cell], launch_, slot);
     if constexpr (requires(const Collision& collision) { observer.on_collision(collision); }) {
-      observer.on_collision(
-          Collision{flight.time, slot, flight.target, velocity, u, scale * scatterer, scale * w});
+      observer.on_collision(Collision{departure.time, slot, cell, particle, departure.velocity,
+                                      scale * scatterer, scale * scatterers_[cell]});
     }
-    const double duration = distance / std::abs(u);
-    if constexpr (requires(const Departure& departure) { observer.on_flight(departure); })
-      observer.on_flight(Departure{flight.time, slot, u, u > 0 ? cells : -cells, duration});
-    flight.velocity = u;
-    if constexpr (launching)
-      flight.target = cells_ahead(flight.target, u > 0 ? cells : -cells);
-    else
-      flight.target = neighbour(flight.target, u);
-    flight.time += duration;
+    if constexpr (requires(const Departure& seen) { observer.on_flight(seen); })
+      observer.on_flight(departure);
     queue_.schedule(slot);
-    if (++events_ % events_per_heartbeat == 0) heartbeat(flight.time);
+    if (++events_ % events_per_heartbeat == 0) heartbeat(departure.time);
   }
 }
 

@@ -9,18 +9,23 @@
 /// the vertex of a parabola fitted around it; both heights are stored.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
+#include "engine/pair.hpp"
 #include "observables/closed_chain_options.hpp"
 #include "program/errors.hpp"
 #include "program/replica_study.hpp"
 #include "statistics/collapse.hpp"
 #include "statistics/fit.hpp"
 #include "statistics/jackknife.hpp"
+#include "statistics/peak.hpp"
 
 namespace {
 
 using namespace lorentz;
+
+using Heartbeat = std::function<void(double)>;
 
 struct Pulse {
   ClosedChain chain{.cells = 101, .particles_per_cell = 50, .cell_length = 1};
@@ -31,6 +36,7 @@ struct Pulse {
   double relaxation_time = 0;
   std::vector<double> times{0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.08, 0.1, 0.12};  // peaks meet later
   std::uint32_t members = 16;
+  bool separate = false;
 
   std::uint32_t first_cell() const { return (chain.cells - pulse_cells) / 2; }
 };
@@ -63,93 +69,52 @@ PhasePoint with_pulse(PhasePoint point, const Pulse& pulse) {
   return point;
 }
 
-/// Adds the energy differences of one member of the ensemble to the sums, time after time; then the injected
-/// energy and the drift of it: the largest |sum over cells - injected| / total energy.
-std::uint64_t add_member(const Pulse& pulse, std::uint64_t seed, std::uint64_t member, const Replica& replica,
-                         std::vector<double>& sums) {
-  const ClosedChain& chain = pulse.chain;
+PhasePoint relaxed_start(const Pulse& pulse, std::uint64_t seed, std::uint64_t member,
+                         const Heartbeat& heartbeat, std::uint64_t& events) {
   const double temperature = 2 * pulse.energy;
   const double of_scatterers = pulse.scatterer_temperature < 0 ? temperature : pulse.scatterer_temperature;
-  PhasePoint start = closed_chain_start(chain, {temperature, of_scatterers}, false, seed, member);
+  PhasePoint start = closed_chain_start(pulse.chain, {temperature, of_scatterers}, false, seed, member);
+  if (pulse.relaxation_time == 0) return start;
+  ClosedDynamics relaxing(pulse.chain, start, pulse.relaxation_time, seed, member);
   NoObserver nobody;
-  const auto heartbeat = [&](double) { replica.heartbeat(0); };
-  std::uint64_t events = 0;
-  if (pulse.relaxation_time > 0) {
-    ClosedDynamics relaxing(chain, start, pulse.relaxation_time, seed, member);
-    simulate(relaxing, pulse.relaxation_time, nobody, heartbeat);
-    events += relaxing.events();
-    start = relaxing.phase_point(pulse.relaxation_time);
-  }
-  ClosedDynamics plain(chain, start, pulse.times.back(), seed, member);
-  ClosedDynamics pulsed(chain, with_pulse(start, pulse), pulse.times.back(), seed, member);
-  const double total = pulsed.invariants().energy;
-  const double injected = total - plain.invariants().energy;
-  double drift = 0;
-  for (std::size_t k = 0; k < pulse.times.size(); ++k) {
-    double sum = 0;
-    simulate(plain, pulse.times[k], nobody, heartbeat);
-    simulate(pulsed, pulse.times[k], nobody, heartbeat);
-    const std::vector<double> without = cell_energies(plain.phase_point(pulse.times[k]), chain);
-    const std::vector<double> with = cell_energies(pulsed.phase_point(pulse.times[k]), chain);
-    for (std::uint32_t cell = 0; cell < chain.cells; ++cell) {
-      sums[k * chain.cells + cell] += with[cell] - without[cell];
-      sum += with[cell] - without[cell];
+  simulate(relaxing, pulse.relaxation_time, nobody, heartbeat);
+  events += relaxing.events();
+  return relaxing.phase_point(pulse.relaxation_time);
+}
+
+/// Means over the members of a replica: energy difference of every cell, time after time; the injected
+/// energy; the largest |sum over cells - injected energy| / total energy.
+ReplicaRecord measure(const Pulse& pulse, std::uint64_t seed, const Replica& replica) {
+  const std::size_t cells = pulse.chain.cells;
+  const Heartbeat heartbeat = [&](double) { replica.heartbeat(0); };
+  ReplicaRecord record{std::vector<double>(pulse.times.size() * cells + 2, 0), 0};
+  for (std::uint32_t member = 0; member < pulse.members; ++member) {
+    const std::uint64_t stream = replica.index * pulse.members + member;
+    const PhasePoint start = relaxed_start(pulse, seed, stream, heartbeat, record.events);
+    const PhasePoint pulsed = with_pulse(start, pulse);
+    PairDynamics pair(pulse.chain, start, pulsed, pulse.times.back(), seed, stream, !pulse.separate);
+    const auto energies = [&](const PhasePoint& point) { return cell_energies(point, pulse.chain); };
+    const auto total = [](const std::vector<double>& parts) {
+      return std::accumulate(parts.begin(), parts.end(), 0.0);
+    };
+    const double total_energy = total(energies(pulsed));
+    const double injected = total_energy - total(energies(start));
+    double error = 0;
+    for (std::size_t k = 0; k < pulse.times.size(); ++k) {
+      pair.run(pulse.times[k], heartbeat);
+      std::vector<double> difference = energies(pair.perturbed(pulse.times[k]));
+      const std::vector<double> without = energies(pair.plain(pulse.times[k]));
+      for (std::size_t cell = 0; cell < cells; ++cell) {
+        difference[cell] -= without[cell];
+        record.values[k * cells + cell] += difference[cell] / pulse.members;
+      }
+      error = std::max(error, std::abs(total(difference) - injected) / total_energy);
     }
-    drift = std::max(drift, std::abs(sum - injected) / total);
+    record.values[pulse.times.size() * cells] += injected / pulse.members;
+    record.values.back() += error / pulse.members;
+    record.events += pair.events();
   }
-  sums[sums.size() - 2] += injected;
-  sums.back() += drift;
-  return events + plain.events() + pulsed.events();
-}
-
-/// Difference at distance d = 0, 1, ... from the central cell, mean of both sides.
-std::vector<double> folded(std::span<const double> profile) {
-  const std::size_t centre = profile.size() / 2;
-  std::vector<double> result{profile[centre]};
-  for (std::size_t d = 1; d <= centre; ++d) {
-    const double right = profile[(centre + d) % profile.size()];
-    result.push_back(0.5 * (profile[centre - d] + right));
-  }
-  return result;
-}
-
-struct Peak {
-  double position, height, raw_height;
-};
-
-/// Half the number of cells that count as the top of a peak at distance d: the peak's width grows with d.
-std::ptrdiff_t half_width(double part, std::ptrdiff_t d, std::ptrdiff_t least) {
-  return std::max(least, static_cast<std::ptrdiff_t>(std::lround(part * static_cast<double>(d))));
-}
-
-/// The cell away from the centre where the running mean of the profile is largest.
-std::ptrdiff_t highest_cell(const std::vector<double>& profile) {
-  const auto size = static_cast<std::ptrdiff_t>(profile.size());
-  const auto mean_about = [&](std::ptrdiff_t d) {
-    const std::ptrdiff_t half = half_width(0.06, d, 0);
-    const std::ptrdiff_t first = std::max<std::ptrdiff_t>(d - half, 0), last = std::min(d + half, size - 1);
-    return std::accumulate(profile.begin() + first, profile.begin() + last + 1, 0.0) /
-           static_cast<double>(last - first + 1);
-  };
-  std::ptrdiff_t highest = 1;
-  for (std::ptrdiff_t d = 2; d < size; ++d)
-    if (mean_about(d) > mean_about(highest)) highest = d;
-  return highest;
-}
-
-/// The vertex of a parabola about the given cell. The cell is chosen once, from the mean over all replicas:
-/// chosen again for every jackknife sample it would jump, and the errors with it.
-Peak moving_peak(const std::vector<double>& profile, std::ptrdiff_t about) {
-  const auto size = static_cast<std::ptrdiff_t>(profile.size());
-  const std::ptrdiff_t half = half_width(0.12, about, 1);
-  std::vector<double> x, y;
-  for (std::ptrdiff_t d = std::max<std::ptrdiff_t>(about - half, 0); d <= std::min(about + half, size - 1);
-       ++d) {
-    x.push_back(static_cast<double>(d));
-    y.push_back(profile[static_cast<std::size_t>(d)]);
-  }
-  const Vertex vertex = fit_vertex(x, y);
-  return {vertex.position, vertex.height, *std::max_element(profile.begin() + 1, profile.end())};
+  return record;
 }
 
 /// Everything that is read off the mean profiles, each at all times.
@@ -159,7 +124,7 @@ struct Reading {
 };
 
 /// highest: cells about which the peaks are sought.
-Reading read(std::span<const double> sums, const Pulse& pulse, const std::vector<std::ptrdiff_t>& highest) {
+Reading read(std::span<const double> sums, const Pulse& pulse, const std::vector<std::size_t>& highest) {
   const std::size_t cells = pulse.chain.cells;
   const double injected = sums[pulse.times.size() * cells];
   Reading reading;
@@ -194,7 +159,7 @@ Reading read(std::span<const double> sums, const Pulse& pulse, const std::vector
 
 Results summarise(const Records& records, const Pulse& pulse) {
   const std::size_t times = pulse.times.size(), cells = pulse.chain.cells, size = times * cells;
-  std::vector<std::ptrdiff_t> highest;
+  std::vector<std::size_t> highest;
   const std::vector<double> mean = records.mean();
   for (std::size_t k = 0; k < times; ++k)
     highest.push_back(highest_cell(folded(std::span(mean).subspan(k * cells, cells))));
@@ -267,18 +232,13 @@ int main(int argc, char** argv) {
   options.real("--relaxation-time", pulse.relaxation_time, non_negative, "Time before the pulse");
   options.ascending_list("--times", pulse.times, positive, "Times after the pulse");
   options.integer("--members", pulse.members, {1, 1'000'000}, "Pairs of trajectories per replica");
+  options.flag("--separate", pulse.separate, "Simulate both trajectories in full; the result is the same",
+               Options::Role::conduct);
   const ReplicaOptions replicas(program);
   return program.run(argc, argv, [&](Progress& progress) {
     validate(pulse);
-    const auto measure = [&](const Replica& replica) {
-      std::vector<double> sums(pulse.times.size() * pulse.chain.cells + 2, 0);
-      std::uint64_t events = 0;
-      for (std::uint32_t member = 0; member < pulse.members; ++member)
-        events += add_member(pulse, replicas.seed(), replica.index * pulse.members + member, replica, sums);
-      for (double& sum : sums) sum /= pulse.members;
-      return ReplicaRecord{std::move(sums), events};
-    };
+    const auto one = [&](const Replica& replica) { return measure(pulse, replicas.seed(), replica); };
     const auto results = [&](const Records& records) { return summarise(records, pulse); };
-    return replicas.run({measure, results, "damping_exponent", RandomStream::description}, progress);
+    return replicas.run({one, results, "damping_exponent", RandomStream::description}, progress);
   });
 }

@@ -1,0 +1,61 @@
+#include "engine/flights.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lorentz {
+namespace {
+
+Flight first_flight(const ClosedChain& chain, const Particle& particle, std::int64_t cells) {
+  const double cells_from_first = particle.position / chain.cell_length - 0.5;
+  const bool rightwards = particle.velocity > 0;
+  const double ahead = rightwards ? std::floor(cells_from_first) + 1 : std::ceil(cells_from_first) - 1;
+  const double target = ahead + static_cast<double>(rightwards ? cells - 1 : 1 - cells);
+  const double distance = std::abs(target - cells_from_first) * chain.cell_length;
+  const auto around = static_cast<std::int64_t>(chain.cells);
+  const std::int64_t index = static_cast<std::int64_t>(target) % around;
+  return {distance / std::abs(particle.velocity), particle.velocity,
+          static_cast<std::uint32_t>(index < 0 ? index + around : index), EventQueue::none};
+}
+
+}  // namespace
+
+std::vector<Flight> first_flights(const ClosedChain& chain, const PhasePoint& start, Launch& launch) {
+  std::vector<Flight> flights;
+  flights.reserve(start.particles.size());
+  for (const Particle& particle : start.particles) {
+    double velocity = particle.velocity;
+    const auto slot = static_cast<std::uint32_t>(flights.size());
+    const std::int64_t cells = launch.deterministic() ? 1 : launch(slot, velocity);
+    flights.push_back(first_flight(chain, {particle.position, velocity}, cells));
+  }
+  return flights;
+}
+
+double expected_rate(const ClosedChain& chain, const PhasePoint& start) {
+  double twice_energy = 0;
+  for (const Particle& particle : start.particles) twice_energy += particle.velocity * particle.velocity;
+  for (const double scatterer : start.scatterers) twice_energy += scatterer * scatterer;
+  const auto particles = static_cast<double>(start.particles.size());
+  const double temperature = twice_energy / (particles + static_cast<double>(start.scatterers.size()));
+  const double scattering_probability = std::min(1.0, chain.gamma / chain.cells);
+  return particles * std::sqrt(2 * temperature / std::numbers::pi) * scattering_probability /
+         chain.cell_length;
+}
+
+double position_from_target(const Flight& flight, double time, double cell_length) {
+  // A particle too slow for its arrival to be a number has not moved since it left the scatterer.
+  if (!std::isfinite(flight.time)) return std::copysign(cell_length, -flight.velocity);
+  return flight.velocity * (time - flight.time);
+}
+
+double position(const Flight& flight, double time, const ClosedChain& chain) {
+  const double length = chain.cells * chain.cell_length;
+  const double unwrapped =
+      (flight.target + 0.5) * chain.cell_length + position_from_target(flight, time, chain.cell_length);
+  const double wrapped = unwrapped - length * std::floor(unwrapped / length);
+  return wrapped < length ? wrapped : 0;
+}
+
+}  // namespace lorentz

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/event_queue.hpp"
+#include "engine/launch.hpp"
+#include "model/closed_chain.hpp"
+
+namespace lorentz {
+
+/// The flight of every particle to the first scatterer ahead of it, and on to where it scatters. Scatterers
+/// stand at (i + 1/2) times the cell length.
+std::vector<Flight> first_flights(const ClosedChain& chain, const PhasePoint& start, Launch& launch);
+
+/// Collisions per unit time once the energy is shared equally: the mean |u| of all particles, over the mean
+/// length of a flight.
+double expected_rate(const ClosedChain& chain, const PhasePoint& start);
+
+/// Position relative to the scatterer at the end of the flight: negative while it goes to the right.
+double position_from_target(const Flight& flight, double time, double cell_length);
+
+/// Position on the ring, in [0, cells * cell_length).
+double position(const Flight& flight, double time, const ClosedChain& chain);
+
+}  // namespace lorentz

@@ -1,0 +1,73 @@
+#include "engine/pair.hpp"
+
+#include <functional>
+#include <limits>
+
+#include "engine/flights.hpp"
+
+namespace lorentz {
+namespace {
+
+/// Flights of both trajectories; a single particle has no second flight yet.
+std::vector<Flight> both(const ClosedChain& chain, const PhasePoint& plain, const PhasePoint& perturbed,
+                         Launch& launch, const std::vector<char>& double_particles) {
+  std::vector<Flight> flights = first_flights(chain, plain, launch);
+  // The perturbed particles draw the numbers that the plain ones have drawn.
+  Launch again = launch;
+  for (std::uint32_t slot = 0; slot < chain.particles(); ++slot) again.restart(slot);
+  std::vector<Flight> second = first_flights(chain, perturbed, again);
+  for (std::uint32_t slot = 0; slot < chain.particles(); ++slot) {
+    if (double_particles[slot])
+      launch.copy(slot, slot + chain.particles());
+    else
+      second[slot].time = std::numeric_limits<double>::infinity();
+  }
+  flights.insert(flights.end(), second.begin(), second.end());
+  return flights;
+}
+
+/// One flag per element: whether a and b differ in it, or all.
+template <class Element, class Differ>
+std::vector<char> different(const std::vector<Element>& a, const std::vector<Element>& b, bool all,
+                            Differ differ) {
+  std::vector<char> flags;
+  for (std::size_t i = 0; i < a.size(); ++i) flags.push_back(all || differ(a[i], b[i]));
+  return flags;
+}
+
+std::vector<double> divided(std::vector<double> values, double scale) {
+  for (double& value : values) value /= scale;
+  return values;
+}
+
+}  // namespace
+
+PairDynamics::PairDynamics(const ClosedChain& chain, const PhasePoint& plain, const PhasePoint& perturbed,
+                           double end_time, std::uint64_t seed, std::uint64_t replica, bool share)
+    : chain_(chain),
+      scatter_(chain),
+      launch_(chain, seed, replica, 2),
+      double_particles_(different(plain.particles, perturbed.particles, !share,
+                                  [](const Particle& a, const Particle& b) {
+                                    return a.velocity != b.velocity || a.position != b.position;
+                                  })),
+      double_scatterers_(different(plain.scatterers, perturbed.scatterers, !share, std::not_equal_to<>())),
+      scatterers_{divided(plain.scatterers, scatter_.rule().scatterer_scale()),
+                  divided(perturbed.scatterers, scatter_.rule().scatterer_scale())},
+      queue_(both(chain, plain, perturbed, launch_, double_particles_), expected_rate(chain, plain),
+             end_time) {}
+
+PhasePoint PairDynamics::phase_point(double time, std::size_t copy) const {
+  PhasePoint point;
+  for (std::uint32_t particle = 0; particle < chain_.particles(); ++particle) {
+    const std::size_t slot = particle + (double_particles_[particle] ? copy * chain_.particles() : 0);
+    const Flight& flight = queue_.flights()[slot];
+    point.particles.push_back({position(flight, time, chain_), flight.velocity});
+  }
+  for (std::uint32_t cell = 0; cell < chain_.cells; ++cell)
+    point.scatterers.push_back(scatter_.rule().scatterer_scale() *
+                               scatterers_[double_scatterers_[cell] ? copy : 0][cell]);
+  return point;
+}
+
+}  // namespace lorentz

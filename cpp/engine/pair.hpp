@@ -1,0 +1,95 @@
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "engine/event_queue.hpp"
+#include "engine/launch.hpp"
+#include "engine/scattering.hpp"
+#include "model/closed_chain.hpp"
+
+namespace lorentz {
+
+/// Two trajectories of one chain, plain and perturbed, that share all random numbers, simulated together:
+/// what is the same in both is done once.
+///
+/// A particle or scatterer is single until the trajectories differ in it. A single particle that meets a
+/// double scatterer becomes double, and so does a single scatterer that is met by one copy of a double
+/// particle. Copies of double particles are events of their own, in slots of their own. The result is that
+/// of two separate simulations, bit for bit (unless a single and a double particle meet one scatterer at
+/// exactly the same time, where the order of the slots decides).
+class PairDynamics {
+ public:
+  /// share: false makes everything double from the start, that is, two simulations in full.
+  PairDynamics(const ClosedChain& chain, const PhasePoint& plain, const PhasePoint& perturbed,
+               double end_time, std::uint64_t seed, std::uint64_t replica, bool share = true);
+
+  /// Every collision before `until`. heartbeat(time) is called every 65536 events and may throw to stop.
+  template <std::invocable<double> Heartbeat>
+  void run(double until, Heartbeat&& heartbeat) {
+    if (launch_.deterministic())
+      advance<false>(until, heartbeat);
+    else
+      advance<true>(until, heartbeat);
+  }
+
+  PhasePoint plain(double time) const { return phase_point(time, 0); }
+  PhasePoint perturbed(double time) const { return phase_point(time, 1); }
+
+  /// Collisions in both trajectories, and how many of them had to be worked out.
+  std::uint64_t events() const { return shared_ * 2 + separate_; }
+  std::uint64_t computed() const { return shared_ + separate_; }
+
+ private:
+  PhasePoint phase_point(double time, std::size_t copy) const;
+
+  template <bool launching, class Heartbeat>
+  void advance(double until, Heartbeat&& heartbeat) {
+    constexpr std::uint64_t events_per_heartbeat = 65536;
+    const Scattering scatter = scatter_;
+    const auto collide = [&](std::uint32_t slot, double& w) {
+      scatter.template operator()<launching>(queue_[slot], w, launch_, slot);
+      queue_.schedule(slot);
+    };
+    const std::uint32_t particles = chain_.particles();
+    for (std::uint32_t slot; (slot = queue_.take_before(until)) != EventQueue::none;) {
+      const std::uint32_t cell = queue_[slot].target;
+      const bool second = slot >= particles;
+      if (!double_particles_[second ? slot - particles : slot]) {
+        if (double_scatterers_[cell]) {
+          const std::uint32_t twin = slot + particles;
+          make_double(slot, twin);
+          collide(slot, scatterers_[0][cell]);
+          collide(twin, scatterers_[1][cell]);
+          separate_ += 2;
+        } else {
+          collide(slot, scatterers_[0][cell]);
+          ++shared_;
+        }
+      } else {
+        if (!std::exchange(double_scatterers_[cell], true)) scatterers_[1][cell] = scatterers_[0][cell];
+        collide(slot, scatterers_[second ? 1 : 0][cell]);
+        ++separate_;
+      }
+      if (computed() % events_per_heartbeat == 0) heartbeat(until);
+    }
+  }
+
+  void make_double(std::uint32_t slot, std::uint32_t twin) {
+    queue_[twin] = queue_[slot];
+    launch_.copy(slot, twin);
+    double_particles_[slot] = true;
+  }
+
+  ClosedChain chain_;
+  Scattering scatter_;
+  Launch launch_;
+  std::vector<char> double_particles_, double_scatterers_;
+  std::vector<double> scatterers_[2];  // w of the plain and of the perturbed trajectory; the second if double
+  EventQueue queue_;                   // slots of the plain trajectory, then those of the perturbed one
+  std::uint64_t shared_ = 0, separate_ = 0;
+};
+
+}  // namespace lorentz

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "engine/event_queue.hpp"
+#include "engine/launch.hpp"
+#include "model/closed_chain.hpp"
+#include "model/collision.hpp"
+
+namespace lorentz {
+
+/// The start of a flight.
+struct Departure {
+  double time;
+  std::uint32_t particle;
+  double velocity;     // u
+  std::int64_t cells;  // to the next scattering, with the sign of the velocity
+  double duration;
+};
+
+/// A collision and the flight that follows it, on a ring of cells.
+class Scattering {
+ public:
+  explicit Scattering(const ClosedChain& chain)
+      : cells_(chain.cells), cell_length_(chain.cell_length), collide_(chain.sigma) {}
+
+  const CollisionRule& rule() const { return collide_; }
+
+  /// The flight ends at the scatterer w; both get their new state. launching: whether `launch` has a say in
+  /// what follows; otherwise the particle scatters again at the neighbouring scatterer.
+  template <bool launching>
+  Departure operator()(Flight& flight, double& w, Launch& launch, std::uint32_t slot) const {
+    collide_(flight.velocity, w);
+    std::int64_t cells = 1;
+    if constexpr (launching) cells = launch(slot, flight.velocity);
+    const double u = flight.velocity;
+    const double duration = static_cast<double>(cells) * cell_length_ / std::abs(u);
+    const Departure departure{flight.time, slot, u, u > 0 ? cells : -cells, duration};
+    flight.target = launching ? cells_ahead(flight.target, departure.cells) : neighbour(flight.target, u);
+    flight.time += duration;
+    return departure;
+  }
+
+ private:
+  std::uint32_t neighbour(std::uint32_t cell, double velocity) const {
+    const std::uint32_t right = cell + 1 == cells_ ? 0 : cell + 1;
+    const std::uint32_t left = cell == 0 ? cells_ - 1 : cell - 1;
+    return velocity > 0 ? right : left;
+  }
+
+  std::uint32_t cells_ahead(std::uint32_t cell, std::int64_t cells) const {
+    const auto around = static_cast<std::int64_t>(cells_);
+    const std::int64_t target = (cell + cells) % around;
+    return static_cast<std::uint32_t>(target < 0 ? target + around : target);
+  }
+
+  std::uint32_t cells_;
+  double cell_length_;
+  CollisionRule collide_;
+};
+
+}  // namespace lorentz
