@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <queue>
+#include <random>
 #include <vector>
 
 namespace reference {
@@ -36,29 +38,41 @@ class HeapSimulator {
     }
   }
 
+  /// From now on a particle scatters with this probability at every scatterer that it crosses.
+  void scatter_with(double probability, std::uint64_t seed) {
+    probability_ = probability;
+    generator_.seed(seed);
+  }
+
   Real scatterer_mass() const { return (1 + sigma_) / (1 - sigma_); }
 
-  /// Processes the next event if it lies before `until`.
+  /// Processes crossings up to the next collision before `until`; false if there is none.
   bool step(Real until, Event& event) {
-    if (pending_.empty() || !(pending_.top().time < until)) return false;
-    Pending next = pending_.top();
-    pending_.pop();
-    const Real p = next.p;
-    Real& P = P_[next.scatterer];
-    event = {next.time,
-             next.particle,
-             next.scatterer,
-             p,
-             -sigma_ * p + (1 - sigma_) * P,
-             P,
-             (1 + sigma_) * p + sigma_ * P};
-    P = event.P_after;
-    next.p = event.p_after;
-    const std::size_t cells = P_.size();
-    next.scatterer = (next.scatterer + (next.p > 0 ? 1 : cells - 1)) % cells;
-    next.time += cell_length_ / std::abs(next.p);
-    pending_.push(next);
-    return true;
+    while (!pending_.empty() && pending_.top().time < until) {
+      Pending next = pending_.top();
+      pending_.pop();
+      const bool scatters =
+          probability_ >= 1 || std::uniform_real_distribution<>()(generator_) < probability_;
+      if (scatters) {
+        const Real p = next.p;
+        Real& P = P_[next.scatterer];
+        event = {next.time,
+                 next.particle,
+                 next.scatterer,
+                 p,
+                 -sigma_ * p + (1 - sigma_) * P,
+                 P,
+                 (1 + sigma_) * p + sigma_ * P};
+        P = event.P_after;
+        next.p = event.p_after;
+      }
+      const std::size_t cells = P_.size();
+      next.scatterer = (next.scatterer + (next.p > 0 ? 1 : cells - 1)) % cells;
+      next.time += cell_length_ / std::abs(next.p);
+      pending_.push(next);
+      if (scatters) return true;
+    }
+    return false;
   }
 
  private:
@@ -76,6 +90,8 @@ class HeapSimulator {
   Real sigma_, cell_length_;
   std::vector<Real> P_;
   std::priority_queue<Pending> pending_;
+  double probability_ = 1;
+  std::mt19937_64 generator_;
 };
 
 /// The simulator at the start that the engine uses: any type with particles[i].{position,velocity}

@@ -1,0 +1,157 @@
+#include "engine/event_queue.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <random>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using lorentz::EventQueue;
+using lorentz::Flight;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+using Generator = std::mt19937_64;
+using Delay = std::function<double(Generator&)>;
+
+/// How long a flight lasts: 1/|g|^power with g normal, so that the mean does not exist for power >= 1,
+/// as for flights at the velocities of a chain.
+Delay heavy_tailed(double power) {
+  return [power](Generator& generator) {
+    return std::pow(std::abs(std::normal_distribution<double>()(generator)), -power);
+  };
+}
+
+/// Few values and often 0: many arrivals at equal times.
+double quantised(Generator& generator) {
+  return 0.25 * static_cast<double>(std::uniform_int_distribution<int>(0, 8)(generator));
+}
+
+struct Schedule {
+  std::uint32_t population;
+  double end_time;
+  Delay delay;
+  double stretch;       // mean time between two stops
+  std::size_t longest;  // number of events after which the comparison ends
+};
+
+std::vector<Flight> first_flights(const Schedule& schedule, Generator& generator) {
+  std::vector<Flight> flights;
+  for (std::uint32_t slot = 0; slot < schedule.population; ++slot)
+    flights.push_back({schedule.delay(generator), 1, 0, EventQueue::none});
+  return flights;
+}
+
+/// Runs the queue and an ordered set of (time, slot) side by side, with stops in between. Stops at the
+/// first difference. Returns the number of events.
+std::size_t compare_with_ordered_set(const Schedule& schedule, double rate) {
+  Generator generator(schedule.population);
+  std::exponential_distribution<double> stretch(1 / schedule.stretch);
+  std::vector<Flight> flights = first_flights(schedule, generator);
+  std::set<std::pair<double, std::uint32_t>> expected;
+  const auto expect = [&](double time, std::uint32_t slot) {
+    if (time < schedule.end_time) expected.emplace(time, slot);
+  };
+  for (std::uint32_t slot = 0; slot < schedule.population; ++slot) expect(flights[slot].time, slot);
+  EventQueue queue(std::move(flights), rate, schedule.end_time);
+
+  std::size_t events = 0;
+  for (double until = 0; until < schedule.end_time && events < schedule.longest;) {
+    until += stretch(generator);  // beyond the end in the last turn of this loop
+    for (std::uint32_t slot; (slot = queue.take_before(until)) != EventQueue::none; ++events) {
+      if (expected.empty() || std::pair(queue[slot].time, slot) != *expected.begin() ||
+          !(queue[slot].time < until)) {
+        ADD_FAILURE() << "event " << events << ": slot " << slot << " at " << queue[slot].time;
+        return events;
+      }
+      expected.erase(expected.begin());
+      queue[slot].time += schedule.delay(generator);
+      expect(queue[slot].time, slot);
+      queue.schedule(slot);
+    }
+    if (!expected.empty() && expected.begin()->first < until) {
+      ADD_FAILURE() << "the queue stopped at " << until << " before " << expected.begin()->first;
+      return events;
+    }
+  }
+  return events;
+}
+
+/// The delays do not depend on the rate, so every guess meets the same schedule.
+void compare_for_every_rate(const Schedule& schedule, double rate) {
+  const std::size_t events = compare_with_ordered_set(schedule, rate);
+  EXPECT_GT(events, schedule.population / 4);
+  for (const double wrong : {1e-6, 1e-2, 1e2, 1e6})
+    EXPECT_EQ(compare_with_ordered_set(schedule, wrong * rate), events) << "rate times " << wrong;
+  for (const double absurd : {0.0, infinity})
+    EXPECT_EQ(compare_with_ordered_set(schedule, absurd), events) << "rate " << absurd;
+}
+
+TEST(EventQueue, KeepsTheOrderOfOneParticle) {
+  compare_for_every_rate({1, 2000, heavy_tailed(1), 3, 100000}, 1);
+  compare_for_every_rate({1, 1e6, heavy_tailed(4), 1e3, 100000}, 1);
+}
+
+TEST(EventQueue, KeepsTheOrderOfFewParticles) {
+  compare_for_every_rate({5, 2000, heavy_tailed(0.5), 1, 100000}, 5);
+  compare_for_every_rate({5, 2000, heavy_tailed(2), 0.01, 100000}, 5);
+}
+
+TEST(EventQueue, KeepsTheOrderOfAChain) {
+  compare_for_every_rate({220, 100, heavy_tailed(1), 0.1, 40000}, 220);
+  compare_for_every_rate({220, 1000, heavy_tailed(3), 10, 40000}, 220);
+}
+
+// The second is short, because in a queue that expects far too few events the lists grow as long as the
+// population.
+TEST(EventQueue, KeepsTheOrderOfALargePopulation) {
+  for (const double rate : {2e4, 2e10})
+    EXPECT_GT(compare_with_ordered_set({20000, 40, heavy_tailed(1), 0.01, 150000}, rate), 150000U);
+  compare_for_every_rate({20000, 1, heavy_tailed(1), 0.01, 150000}, 20000);
+}
+
+TEST(EventQueue, BreaksTiesByTheSlot) {
+  compare_for_every_rate({5, 500, quantised, 0.5, 100000}, 5);
+  compare_for_every_rate({220, 50, quantised, 0.3, 100000}, 220);
+}
+
+// Rates that change by orders of magnitude on the way: the width has to follow both ways.
+TEST(EventQueue, KeepsTheOrderWhileTheRateChanges) {
+  double factor = 1;
+  const auto changing = [&factor](Generator& generator) {
+    factor = std::bernoulli_distribution(1e-3)(generator) ? 1000 / factor : factor;
+    return factor * std::exponential_distribution<double>()(generator);
+  };
+  for (const double rate : {220.0, 0.22, 220000.0}) {
+    factor = 1;
+    EXPECT_GT(compare_with_ordered_set({220, 1e6, changing, 50, 200000}, rate), 100000U);
+  }
+}
+
+TEST(EventQueue, NeverReturnsArrivalsAtOrAfterTheEnd) {
+  const double end = 8;
+  const double last = std::nextafter(end, 0.0);
+  EventQueue queue({{end, 1, 0, 0}, {last, 1, 0, 0}, {infinity, 1, 0, 0}, {9, 1, 0, 0}, {0, 1, 0, 0}}, 1,
+                   end);
+  EXPECT_EQ(queue.take_before(1), 4U);
+  queue[4].time = end;
+  queue.schedule(4);
+  EXPECT_EQ(queue.take_before(last), EventQueue::none);  // strictly before
+  EXPECT_EQ(queue.take_before(end), 1U);
+  queue[1].time = infinity;
+  queue.schedule(1);
+  for (const double until : {end, 9.0, 100.0, infinity})
+    EXPECT_EQ(queue.take_before(until), EventQueue::none);
+  EXPECT_EQ(queue.flights()[0].time, end);  // kept
+}
+
+TEST(EventQueue, IsEmptyWithoutFlights) { EXPECT_EQ(EventQueue({}, 1, 1).take_before(1), EventQueue::none); }
+
+}  // namespace

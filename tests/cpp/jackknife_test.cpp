@@ -1,0 +1,124 @@
+#include "statistics/jackknife.hpp"
+
+#include <gsl/gsl_cdf.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include "support/sample.hpp"
+
+namespace {
+
+using namespace lorentz;
+
+std::vector<double> identity(std::span<const double> mean) { return {mean.begin(), mean.end()}; }
+std::vector<double> ratio(std::span<const double> mean) { return {mean[1] / mean[0]}; }
+
+// For the mean itself the delete-one values are the mean plus (mean - x_r)/(R-1), and the jackknife is the
+// textbook formula.
+TEST(Jackknife, IsTheStandardErrorOfAMean) {
+  std::mt19937_64 generator(1);
+  std::normal_distribution<double> normal(1000, 1);
+  for (const int replicas : {2, 3, 10, 1000}) {
+    Records records(1);
+    for (int i = 0; i < replicas; ++i) records.append(std::vector{normal(generator)});
+    const Estimate estimate = jackknife(records, identity);
+    const support::Sample expected = support::sample(records.values());
+    // The mean carries roundings of 2^-53 of 1000; times that is what they are in an x_r.
+    EXPECT_NEAR(estimate.mean[0], expected.mean, 1e-12);
+    EXPECT_NEAR(estimate.standard_error[0] / expected.standard_error, 1, 1e-12 * replicas);
+  }
+}
+
+TEST(Jackknife, HasNoErrorForOneReplica) {
+  Records records(2);
+  records.append(std::vector{2.0, 3.0});
+  const Estimate estimate = jackknife(records, ratio);
+  EXPECT_EQ(estimate.mean, std::vector{1.5});
+  ASSERT_EQ(estimate.standard_error.size(), 1U);
+  EXPECT_TRUE(std::isnan(estimate.standard_error[0]));
+}
+
+TEST(Jackknife, IsExactlyZeroWithoutSpread) {
+  for (const double value : {0.1, 1e-300, 1e300, -7.3}) {
+    Records records(1);
+    for (int i = 0; i < 7; ++i) records.append(std::vector{value});
+    EXPECT_EQ(jackknife(records, identity).mean, std::vector{value});
+    EXPECT_EQ(jackknife(records, identity).standard_error, std::vector{0.0});
+  }
+}
+
+TEST(Jackknife, KeepsQuantitiesApart) {
+  Records records(2);
+  for (const double x : {1.0, 2.0, 4.0}) records.append(std::vector{x, 10 * x * x});
+  const Estimate both = jackknife(records, identity);
+  Records second(1);
+  for (const double x : {1.0, 2.0, 4.0}) second.append(std::vector{10 * x * x});
+  EXPECT_EQ(both.standard_error.at(1), jackknife(second, identity).standard_error.at(0));
+  EXPECT_THROW(records.append(std::vector{1.0}), std::invalid_argument);
+}
+
+/// Records (x, y) with means 2 and 3: x = 2 + 0.2 g, y = 3 + 0.6 g + 0.4 h with g, h normal. The ratio
+/// of the means has the variance (0.6 - 1.5 0.2)^2 + 0.4^2 over 2^2, per replica (to leading order).
+constexpr int replicas = 200;
+constexpr double true_ratio = 1.5;
+constexpr double true_deviation = 0.25;
+
+Records synthetic_records(std::mt19937_64& generator) {
+  std::normal_distribution<double> normal;
+  Records records(2);
+  for (int i = 0; i < replicas; ++i) {
+    const double g = normal(generator), h = normal(generator);
+    records.append(std::vector{2 + 0.2 * g, 3 + 0.6 * g + 0.4 * h});
+  }
+  return records;
+}
+
+/// Sum of ((estimate - truth) / error)^2 over 400 independent repetitions.
+constexpr int repetitions = 400;
+
+double chi_squared(const std::function<double(const Records&)>& error) {
+  std::mt19937_64 generator(2);
+  double sum = 0;
+  for (int i = 0; i < repetitions; ++i) {
+    const Records records = synthetic_records(generator);
+    sum += std::pow((ratio(records.mean())[0] - true_ratio) / error(records), 2);
+  }
+  return sum;
+}
+
+double jackknife_error(const Records& records) { return jackknife(records, ratio).standard_error[0]; }
+
+bool plausible(double chi_squared) {
+  return std::min(gsl_cdf_chisq_P(chi_squared, repetitions), gsl_cdf_chisq_Q(chi_squared, repetitions)) >
+         5e-5;
+}
+
+// The error of an error over 200 replicas is 5 %, which adds 1 % to the expected chi^2: a tenth of its
+// standard deviation here. The bias of the ratio is of second order in 0.1/sqrt(200) and does not count.
+TEST(Jackknife, GivesTheErrorOfARatio) {
+  EXPECT_TRUE(plausible(chi_squared(jackknife_error)));
+  EXPECT_TRUE(plausible(chi_squared([](const Records&) { return true_deviation / std::sqrt(replicas); })));
+}
+
+TEST(Jackknife, WrongErrorsAreImplausible) {
+  // The plain standard deviation of the delete-one values, without the factor R-1 that makes up for how
+  // much they have in common.
+  const auto without_factor = [](const Records& r) { return jackknife_error(r) / std::sqrt(replicas - 1.0); };
+  // Numerator and denominator taken as independent.
+  const auto uncorrelated = [](const Records& r) {
+    const Estimate means = jackknife(r, identity);
+    return ratio(means.mean)[0] *
+           std::hypot(means.standard_error[0] / means.mean[0], means.standard_error[1] / means.mean[1]);
+  };
+  EXPECT_FALSE(plausible(chi_squared(without_factor)));
+  EXPECT_FALSE(plausible(chi_squared(uncorrelated)));
+}
+
+}  // namespace
