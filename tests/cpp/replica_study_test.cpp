@@ -4,10 +4,12 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "program/hdf5_file.hpp"
@@ -63,10 +65,28 @@ std::uint64_t replicas_in(const std::string& path) {
 TEST(ReplicaStudy, WritesEqualBytesForAnyNumberOfThreads) {
   const TemporaryFolder folder;
   EXPECT_EQ(run({"--output", folder / "a.h5", "--threads", "1"}), 0);
-  EXPECT_EQ(run({"--output", folder / "b.h5", "--threads", "5", "--checkpoint-interval", "0.001"}), 0);
+  EXPECT_EQ(run({"--output", folder / "b.h5", "--threads", "5"}), 0);
   EXPECT_EQ(content_of(folder / "a.h5"), content_of(folder / "b.h5"));
   EXPECT_EQ(folder.names(), (Names{"a.h5", "a.cost.json", "b.h5", "b.cost.json"}));
   EXPECT_EQ(replicas_in(folder / "a.h5"), 16U);
+}
+
+// Without the checkpoint its last replica would wait for ten seconds.
+TEST(ReplicaStudy, WritesCheckpointsOnTheWay) {
+  const TemporaryFolder folder;
+  bool seen = false;
+  const auto wait_for_checkpoint = [&](const Replica& replica) {
+    for (int i = 0; replica.index == 15 && !seen && i < 1000; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      seen = folder.names().contains("a.h5.checkpoint");
+    }
+    return measure(replica);
+  };
+  EXPECT_EQ(run({"--output", folder / "a.h5", "--threads", "1", "--checkpoint-interval", "0.01"},
+                wait_for_checkpoint),
+            0);
+  EXPECT_TRUE(seen);
+  EXPECT_EQ(folder.names(), (Names{"a.h5", "a.cost.json"}));
 }
 
 TEST(ReplicaStudy, ResumesToEqualBytes) {

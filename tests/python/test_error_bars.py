@@ -27,13 +27,30 @@ def accepted(statistic: float) -> bool:
     return bool(low < statistic < stretch * high)
 
 
-@pytest.mark.parametrize("sigma", [-0.8, 0.5])
-def test_standard_error_over_seeds(persistence: Program, tmp_path: Path, sigma: float) -> None:
+PULSE = {"cells": 31, "particles_per_cell": 20, "relaxation_time": 0, "observation_time": None, "members": 8}
+
+
+@pytest.mark.parametrize(
+    ("name", "quantity", "options"),
+    [
+        ("persistence", "mu", {"sigma": -0.8}),
+        ("persistence", "mu", {"sigma": 0.5}),
+        ("waiting_time", "exponent", {"sigma": 0.5, "observation_time": 50}),
+        ("displacement", "alpha", {"sigma": 0.5, "decades": 2, "observation_time": 20}),
+        ("displacement", "alpha", {"sigma": -0.5, "decades": 2, "zero_total_momentum": True}),
+        ("ageing", "log_slope", {"sigma": 0.5, "decades": 2, "relaxation_time": 0}),
+        ("energy_pulse", "damping_exponent", {**PULSE, "times": "0.008,0.01,0.014,0.02"}),
+        ("energy_pulse", "peak_collapse", {**PULSE, "times": "0.008,0.01,0.014,0.02"}),
+    ],
+)
+def test_standard_error_over_seeds(
+    program: Program, tmp_path: Path, name: str, quantity: str, options: dict
+) -> None:
     estimates = []
     for seed in range(SEEDS):
-        persistence(sigma=sigma, seed=seed, replicas=REPLICAS, output=f"{seed}.h5")
-        mu = load(tmp_path / f"{seed}.h5")["mu"]
-        estimates.append((float(mu.mean), float(mu.standard_error)))
+        program(name, seed=seed, replicas=REPLICAS, **options)
+        result = load(tmp_path / "out.h5")[quantity]
+        estimates.append((float(result.mean), float(result.standard_error)))
     values, errors = np.array(estimates).T
     assert accepted(chi_square(values, errors))
     # Mutants: the spread of one replica instead of the mean's error, and a factor two either way.
