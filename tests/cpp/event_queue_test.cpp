@@ -135,6 +135,18 @@ TEST(EventQueue, KeepsTheOrderWhileTheRateChanges) {
   }
 }
 
+// A steady rate, so that the width stays, and flights longer than the 64 coarse buckets reach: they wait
+// in the last list until a round of the coarse buckets is over.
+TEST(EventQueue, KeepsTheOrderOfFlightsBeyondTheCoarseBuckets) {
+  const auto mixed = [](Generator& generator) {
+    if (std::bernoulli_distribution(1e-3)(generator))
+      return std::uniform_real_distribution<double>(0, 4000)(generator);
+    return std::exponential_distribution<double>()(generator);
+  };
+  for (const double rate : {7.0, 0.7, 70.0})
+    EXPECT_GT(compare_with_ordered_set({20, 1e5, mixed, 20, 300000}, rate), 300000U);
+}
+
 TEST(EventQueue, NeverReturnsArrivalsAtOrAfterTheEnd) {
   const double end = 8;
   const double last = std::nextafter(end, 0.0);

@@ -55,7 +55,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         result = gaussian_start([one for one in results if one.parameters["gamma"] == gamma])
         for axes, moving in zip(rows[:, column], (True, False), strict=True):
             tables.append(collapse(axes, result, moving))
-        rows[0, column].legend(loc="upper left", fontsize=7)
+        rows[0, column].legend(loc="lower center", fontsize=7)
     rows[0, 0].set(ylabel=r"moving peak: $(t/t_1)^\xi\,\Delta E\,/\,10^3 k_B T$")
     rows[1, 0].set(ylabel=r"centre: $(t/t_1)^\xi\,\Delta E\,/\,10^3 k_B T$")
     return figure, pd.concat(tables)

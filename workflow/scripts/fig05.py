@@ -69,6 +69,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         expected = 1e3 * (series.law_at_local_energies - series.law)
         below.plot(series.sigma, expected, color=mark["color"], linestyle=dashes, zorder=1)
         style.cross_out(above, series.sigma, series.mu, ~series.converged)
+    below.plot([], [], color="grey", linestyle="dashed", label="law at local energies")
+    below.legend(loc="lower left")
     above.set(ylabel=r"persistence $\mu$", xlim=(-1.04, 1.04), ylim=(-0.03, 1.03))
     above.legend(loc="upper right", title=f"$N = {results[0].parameters['cells']}$")
     below.set(xlabel=r"mass ratio $\sigma = (M-m)/(M+m)$", ylabel=r"$10^3\,(\mu - \mathrm{law})$")

@@ -45,6 +45,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
     below.axhline(-slope, **style.GUIDE)
     above.set(xscale="log", yscale="log", ylabel=r"peak of $\Delta E\,/\,10^3 k_B T$")
     below.set(xlabel="time $t$", ylabel="exponent fitted\nfrom $t$ on")
+    for axis in (above.yaxis, below.xaxis):
+        style.label_within_decades(axis)
     above.legend(loc="lower left")
     figure.align_ylabels()
     return figure, pd.concat(parts)

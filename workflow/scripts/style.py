@@ -3,6 +3,8 @@
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from workflow.scripts.load import Quantity, Result
 
@@ -57,6 +59,13 @@ def apply() -> None:
     """From now on figures are drawn in this style, whatever matplotlibrc says."""
     mpl.rcdefaults()
     mpl.rcParams.update(_SETTINGS)
+
+
+def label_within_decades(axis: Axis) -> None:
+    """Ticks at 1, 2 and 5 in plain digits, for logarithmic axes of a decade or two."""
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def cross_out(axes: Axes, x: np.ndarray, y: np.ndarray, where: np.ndarray) -> None:
