@@ -4,19 +4,18 @@
 /// The invariant density of the particles, exp(-u^2/2T)/|u|, cannot be normalised: ever more of them slow
 /// down, and the energy that they lose heats the scatterers and the rest, logarithmically in time. The slope
 /// against ln t is fitted to the last --fit-decades decades.
+#include <algorithm>
 #include <cmath>
 
 #include "observables/closed_chain_options.hpp"
+#include "observables/log_times_options.hpp"
 #include "program/replica_study.hpp"
 #include "statistics/fit.hpp"
 #include "statistics/jackknife.hpp"
-#include "statistics/log_grid.hpp"
 
 namespace {
 
 using namespace lorentz;
-
-constexpr std::size_t points_per_decade = 8;
 
 double mean_scatterer_energy(const ClosedDynamics& chain) {
   const std::vector<double> scatterers = chain.scatterers();
@@ -25,14 +24,14 @@ double mean_scatterer_energy(const ClosedDynamics& chain) {
   return sum / static_cast<double>(scatterers.size());
 }
 
-Results summarise(const Records& records, const std::vector<double>& times, double fit_decades) {
+Results summarise(const Records& records, const std::vector<double>& times, double fit_from) {
   const std::size_t size = times.size();
-  const auto first = static_cast<std::size_t>(
-      std::max(0.0, static_cast<double>(size) - 1 - std::round(fit_decades * points_per_decade)));
+  const auto first =
+      static_cast<std::size_t>(std::lower_bound(times.begin(), times.end(), fit_from) - times.begin());
+  std::vector<double> log_times;
+  for (const double time : times) log_times.push_back(std::log(time));
   const Estimate estimate = jackknife(records, [&](std::span<const double> sums) {
     std::vector<double> values(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(2 * size));
-    std::vector<double> log_times;
-    for (const double time : times) log_times.push_back(std::log(time));
     values.push_back(fit_line(std::span(log_times).subspan(first), sums.subspan(first, size - first)).slope);
     return values;
   });
@@ -52,17 +51,11 @@ Results summarise(const Records& records, const std::vector<double>& times, doub
 int main(int argc, char** argv) {
   Program program("ageing", "Energy of the scatterers of a closed chain against time");
   ClosedChainOptions chain(program.options(), /*relaxation_time=*/0);
-  double decades = 6, fit_decades = 2;
-  program.options().real("--decades", decades, {1, 15},
-                         "Decades of time that the grid spans, up to the observation time");
-  program.options().real("--fit-decades", fit_decades, {0.25, 15},
-                         "Decades of time, the last ones, that the slope is fitted to");
+  const LogTimesOptions log_times(program.options(), /*fit_decades=*/2);
   const ReplicaOptions replicas(program);
   return program.run(argc, argv, [&](Progress& progress) {
     chain.validate();
-    const LogGrid grid(chain.observation_time() * std::pow(10, -decades), decades, points_per_decade);
-    std::vector<double> times = grid.points();
-    times.back() = chain.observation_time();
+    const std::vector<double> times = log_times.times(chain.observation_time());
     const auto measure = [&](const Replica& replica) {
       ClosedReplica run(chain, replicas.seed(), replica);
       run.relax();
@@ -77,7 +70,9 @@ int main(int argc, char** argv) {
       }
       return run.record(std::move(sums));
     };
-    const auto results = [&](const Records& records) { return summarise(records, times, fit_decades); };
+    const auto results = [&](const Records& records) {
+      return summarise(records, times, log_times.fit_from(times.back()));
+    };
     return replicas.run({measure, with_drift(results), "log_slope", RandomStream::description}, progress);
   });
 }

@@ -9,16 +9,14 @@
 #include <cmath>
 
 #include "observables/closed_chain_options.hpp"
+#include "observables/log_times_options.hpp"
 #include "program/replica_study.hpp"
 #include "statistics/fit.hpp"
 #include "statistics/jackknife.hpp"
-#include "statistics/log_grid.hpp"
 
 namespace {
 
 using namespace lorentz;
-
-constexpr std::size_t points_per_decade = 8;
 
 /// Net number of cells that every particle's targets have moved since the beginning.
 struct Walk {
@@ -73,10 +71,9 @@ ReplicaRecord measure(const ClosedChainOptions& options, const std::vector<doubl
   return run.record(std::move(sums));
 }
 
-Results summarise(const Records& records, const std::vector<double>& times, const LogGrid& grid,
-                  double fit_decades) {
+Results summarise(const Records& records, const std::vector<double>& times,
+                  const std::vector<double>& middles, double from) {
   const std::size_t size = times.size();
-  const double from = times.back() * std::pow(10, -fit_decades) * (1 - 1e-9);
   const Estimate estimate = jackknife(records, [&](std::span<const double> sums) {
     std::vector<double> values(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(4 * size));
     for (std::size_t k = 0; k + 1 < size; ++k)
@@ -88,7 +85,7 @@ Results summarise(const Records& records, const std::vector<double>& times, cons
     return values;
   });
   const Axis time{"time", "time", "Time since the end of the relaxation", times};
-  const Axis middle{"time", "time", "Geometric middle of two neighbouring times", grid.middles()};
+  const Axis middle{"time", "time", "Geometric middle of two neighbouring times", middles};
   const std::uint64_t count = records.size();
   return {
       array("variance", "length^2", "<x^2>, no mean subtracted", estimate, 0, count, {time}),
@@ -110,19 +107,16 @@ int main(int argc, char** argv) {
   Program program("displacement", "Spreading of a tagged particle in a closed chain");
   ClosedChainOptions chain(program.options());
   chain.add_random_direction(program.options());
-  double decades = 6, fit_decades = 1;
-  program.options().real("--decades", decades, {1, 15},
-                         "Decades of time that the grid spans, up to the observation time");
-  program.options().real("--fit-decades", fit_decades, {0.25, 15},
-                         "Decades of time, the last ones, that alpha is fitted to");
+  const LogTimesOptions log_times(program.options(), /*fit_decades=*/1);
   const ReplicaOptions replicas(program);
   return program.run(argc, argv, [&](Progress& progress) {
     chain.validate();
-    const LogGrid grid(chain.observation_time() * std::pow(10, -decades), decades, points_per_decade);
-    std::vector<double> times = grid.points();
-    times.back() = chain.observation_time();
+    const double last = chain.observation_time();
+    const std::vector<double> times = log_times.times(last), middles = log_times.grid(last).middles();
     const auto one = [&](const Replica& replica) { return measure(chain, times, replicas.seed(), replica); };
-    const auto results = [&](const Records& records) { return summarise(records, times, grid, fit_decades); };
+    const auto results = [&](const Records& records) {
+      return summarise(records, times, middles, log_times.fit_from(last));
+    };
     return replicas.run({one, with_drift(results), "alpha", RandomStream::description}, progress);
   });
 }
