@@ -104,11 +104,12 @@ Outcome ReplicaOptions::run(const ReplicaStudy& study, Progress& progress) const
     const Quantity& quantity = quantity_named(outcome.results, study.target_quantity);
     outcome.achieved_error = error_of(quantity, absolute);
     const bool out_of_time = finished.size() < batch.wanted;
-    outcome.converged = !out_of_time && (target == 0 || outcome.achieved_error <= target);
+    outcome.converged = !out_of_time && std::isfinite(quantity.mean.front()) &&
+                        (target == 0 || outcome.achieved_error <= target);
     progress.say(fmt::format("{} replicas: {} = {:.8g} +- {:.2g}{}", finished.size(), quantity.name,
                              quantity.mean.front(), quantity.standard_error.front(),
                              outcome.converged ? "" : ", not converged"));
-    if (outcome.converged || out_of_time || batch.wanted + replicas_ > max_replicas_) break;
+    if (target == 0 || outcome.converged || out_of_time || batch.wanted + replicas_ > max_replicas_) break;
   }
   for (const auto& [index, record] : finished) outcome.events += record.events;
   checkpoint.remove();

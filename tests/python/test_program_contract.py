@@ -154,6 +154,15 @@ def test_target_that_is_not_reached_is_said(persistence: Program, tmp_path: Path
     assert stored["mu"].count == 12
 
 
+def test_a_run_that_saw_nothing_says_so(persistence: Program, tmp_path: Path) -> None:
+    result = persistence(relaxation_time=0, observation_time=1e-12, progress="log")
+    assert result.returncode == 4
+    assert "not converged" in result.stderr
+    stored = load(tmp_path / "out.h5")
+    assert np.isnan(stored["mu"].mean)
+    assert not stored.converged
+
+
 def test_time_limit_ends_with_a_marked_result(persistence: Program, tmp_path: Path) -> None:
     result = persistence(time_limit=0.3, replicas=100_000, observation_time=200, threads=1)
     assert result.returncode == 4
