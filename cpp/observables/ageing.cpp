@@ -50,7 +50,7 @@ Results summarise(const Records& records, const std::vector<double>& times, doub
 
 int main(int argc, char** argv) {
   Program program("ageing", "Energy of the scatterers of a closed chain against time");
-  ClosedChainOptions chain(program.options(), /*relaxation_time=*/0);
+  ClosedChainOptions chain(program.options(), /*relaxation_time=*/0, /*observation_time=*/10'000);
   const LogTimesOptions log_times(program.options(), /*fit_decades=*/2);
   const ReplicaOptions replicas(program);
   return program.run(argc, argv, [&](Progress& progress) {

@@ -24,8 +24,8 @@ void require_possible(const ClosedChain& chain) {
     throw UsageError("--cells times --particles-per-cell exceeds 1e9 particles. Choose a smaller chain.");
 }
 
-ClosedChainOptions::ClosedChainOptions(Options& options, double relaxation_time)
-    : relaxation_time_(relaxation_time) {
+ClosedChainOptions::ClosedChainOptions(Options& options, double relaxation_time, double observation_time)
+    : relaxation_time_(relaxation_time), observation_time_(observation_time) {
   add_chain_options(options, chain_);
   options.real("--temperature", temperatures_.particles, positive,
                "Temperature of the particles at the start");

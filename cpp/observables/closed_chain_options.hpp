@@ -20,8 +20,8 @@ void require_possible(const ClosedChain& chain);
 /// The options that describe a closed chain, its start and the stretches of time of a measurement.
 class ClosedChainOptions {
  public:
-  /// The relaxation time is the default of that option.
-  explicit ClosedChainOptions(Options& options, double relaxation_time = 250);
+  /// The times are the defaults of those options; without them they are those of fig. 5.
+  explicit ClosedChainOptions(Options& options, double relaxation_time = 100, double observation_time = 100);
 
   /// For the programs that offer this control.
   void add_random_direction(Options& options);
@@ -43,7 +43,7 @@ class ClosedChainOptions {
   StartTemperatures temperatures_;
   bool zero_total_momentum_ = false;
   double relaxation_time_;
-  double observation_time_ = 250;
+  double observation_time_;
 };
 
 /// One replica of a closed chain on its way: relaxation, stretches of observation, and the record of what

@@ -105,7 +105,7 @@ Results summarise(const Records& records, const std::vector<double>& times,
 
 int main(int argc, char** argv) {
   Program program("displacement", "Spreading of a tagged particle in a closed chain");
-  ClosedChainOptions chain(program.options());
+  ClosedChainOptions chain(program.options(), /*relaxation_time=*/100, /*observation_time=*/1000);
   chain.add_random_direction(program.options());
   const LogTimesOptions log_times(program.options(), /*fit_decades=*/1);
   const ReplicaOptions replicas(program);

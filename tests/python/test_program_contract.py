@@ -88,23 +88,32 @@ def test_configuration_file_and_command_line_agree(persistence: Program, tmp_pat
 
 
 LONG = {
-    "observation-time": 2000,
-    "replicas": 60,
-    "output": "out.h5",
-    "checkpoint-interval": 0.2,
-    "threads": 2,
-}
+    "persistence": {"observation-time": 2000, "replicas": 60},
+    "displacement": {"observation-time": 2000, "replicas": 60},
+    "energy_pulse": {
+        "observation-time": None, "relaxation-time": 20, "cells": 21, "times": "0.01,0.02", "replicas": 60
+    },
+}  # fmt: skip
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+@pytest.mark.parametrize(
+    ("name", "number"),
+    [
+        ("persistence", signal.SIGINT),
+        ("persistence", signal.SIGTERM),
+        ("persistence", signal.SIGKILL),
+        ("displacement", signal.SIGTERM),
+        ("energy_pulse", signal.SIGINT),
+    ],
+)
 def test_interrupted_and_resumed_run_gives_the_same_bytes(
-    persistence: Program, tmp_path: Path, number: signal.Signals
+    program: Program, tmp_path: Path, name: str, number: signal.Signals
 ) -> None:
-    long = {name.replace("-", "_"): value for name, value in LONG.items()}
-    assert persistence(**{**long, "output": "whole.h5"}).returncode == 0
-    process = subprocess.Popen(
-        command_line("persistence", LONG), cwd=tmp_path, stderr=subprocess.PIPE, text=True
-    )
+    options = {**LONG[name], "checkpoint-interval": 0.1, "threads": 2}
+    keywords = {key.replace("-", "_"): value for key, value in options.items()}
+    assert program(name, **{**keywords, "output": "whole.h5"}).returncode == 0
+    command = command_line(name, {**options, "output": "out.h5"})
+    process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
     checkpoint = tmp_path / "out.h5.checkpoint"
     deadline = time.monotonic() + 30
     while not checkpoint.exists() and time.monotonic() < deadline:
@@ -117,10 +126,10 @@ def test_interrupted_and_resumed_run_gives_the_same_bytes(
     assert checkpoint.exists()
     assert not (tmp_path / "out.h5").exists()
 
-    other = persistence(**{**long, "sigma": 0.1}, resume=True)
+    other = program(name, **{**keywords, "sigma": 0.1}, resume=True)
     assert other.returncode == 2
     assert "other parameters" in other.stderr
-    assert persistence(**long, resume=True).returncode == 0
+    assert program(name, **keywords, resume=True).returncode == 0
     assert (tmp_path / "out.h5").read_bytes() == (tmp_path / "whole.h5").read_bytes()
     assert not checkpoint.exists()
 

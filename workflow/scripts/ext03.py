@@ -38,6 +38,10 @@ def collapse(axes: Axes, result: Result, moving: bool) -> pd.DataFrame:
         axes.plot(x[near], y[near], color=color, linestyle=dashes, label=f"$t = {times[k]:g}$")
         parts.append(pd.DataFrame({"moving": moving, "time": times[k], "x": x[near], "y": y[near]}))
     axes.axhline(0, **style.GUIDE)
+    if not moving:
+        share = style.with_error(result["centre_share"], -1, 100)
+        note = f"central five cells at $t = {times[-1]:g}$:\n{share} % of the energy"
+        axes.text(0.97, 0.95, note, transform=axes.transAxes, ha="right", va="top", fontsize=8)
     place = "(x - x_p)" if moving else "x"
     axes.set(
         xlabel=rf"${place}\,(t_1/t)^\xi / \lambda$",

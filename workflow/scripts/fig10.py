@@ -34,6 +34,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
             exponent.axes["from"][late], exponent.mean[late], exponent.standard_error[late], **look
         )
         part = pd.DataFrame({"time": time, "peak": peak.mean, "peak_error": peak.standard_error})
+        part["peak_raw"], part["peak_position"] = result["peak_raw"].mean, result["peak_position"].mean
+        part["peak_position_error"] = result["peak_position"].standard_error
         part["exponent_from_here"] = pd.Series(exponent.mean)
         part["exponent_from_here_error"] = pd.Series(exponent.standard_error)
         part.insert(0, "scatterer_temperature", str(result.parameters["scatterer-temperature"]))

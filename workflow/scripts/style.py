@@ -73,14 +73,13 @@ def cross_out(axes: Axes, x: np.ndarray, y: np.ndarray, where: np.ndarray) -> No
     axes.plot(x[where], y[where], linestyle="none", marker="x", color=BLACK, markersize=6, zorder=5)
 
 
-def with_error(quantity: Quantity) -> str:
-    """A number with its error in units of the last digits, as 1.862(5)."""
-    mean, error = float(quantity.mean), float(quantity.standard_error)
+def with_error(quantity: Quantity, index: int | tuple = (), unit: float = 1) -> str:
+    """A number, or one of an array, with its error in units of the last digits, as 1.862(5)."""
+    mean, error = unit * float(quantity.mean[index]), unit * float(quantity.standard_error[index])
     if not (np.isfinite(error) and error > 0):
         return f"{mean:.4g}"
     digits = max(0, -int(np.floor(np.log10(error))))
-    shown = round(error * 10**digits)
-    return f"{mean:.{digits}f}({shown})"
+    return f"{mean:.{digits}f}({round(error * 10**digits)})"
 
 
 def gamma(result: Result) -> str:
