@@ -86,9 +86,12 @@ PhasePoint relaxed_start(const Pulse& pulse, std::uint64_t seed, std::uint64_t m
 /// energy; the largest |sum over cells - injected energy| / total energy.
 ReplicaRecord measure(const Pulse& pulse, std::uint64_t seed, const Replica& replica) {
   const std::size_t cells = pulse.chain.cells;
-  const Heartbeat heartbeat = [&](double) { replica.heartbeat(0); };
   ReplicaRecord record{std::vector<double>(pulse.times.size() * cells + 2, 0), 0};
   for (std::uint32_t member = 0; member < pulse.members; ++member) {
+    const Heartbeat heartbeat = [&](double) {
+      replica.heartbeat(static_cast<double>(member) / pulse.members);
+    };
+    heartbeat(0);  // a member may be too short to ask by itself
     const std::uint64_t stream = replica.index * pulse.members + member;
     const PhasePoint start = relaxed_start(pulse, seed, stream, heartbeat, record.events);
     const PhasePoint pulsed = with_pulse(start, pulse);

@@ -70,7 +70,7 @@ void expect_refused(const Checkpoint& checkpoint, const std::string& case_name) 
 TEST(Checkpoint, OfAnotherIdentityIsRefused) {
   const TemporaryFolder folder;
   Checkpoint(folder / "a.h5", identity).save(some_replicas());
-  for (const std::string& other : {std::string("sigma = 0.25\nbuild_id = abc\n"), identity + " ",
+  for (const std::string& other : {std::string("sigma = 0.4\nbuild_id = abc\n"), identity + " ",
                                    identity.substr(0, identity.size() - 1), std::string()})
     expect_refused(Checkpoint(folder / "a.h5", other), other);
 }

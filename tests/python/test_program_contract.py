@@ -91,7 +91,7 @@ LONG = {
     "persistence": {"observation-time": 2000, "replicas": 60},
     "displacement": {"observation-time": 2000, "replicas": 60},
     "energy_pulse": {
-        "observation-time": None, "relaxation-time": 20, "cells": 21, "times": "0.01,0.02", "replicas": 900
+        "observation-time": None, "relaxation-time": 20, "cells": 21, "times": "0.01,0.02", "replicas": 300
     },
 }  # fmt: skip
 
