@@ -11,7 +11,6 @@
 #include "observables/log_times_options.hpp"
 #include "program/replica_study.hpp"
 #include "statistics/fit.hpp"
-#include "statistics/jackknife.hpp"
 
 namespace {
 
@@ -30,20 +29,18 @@ Results summarise(const Records& records, const std::vector<double>& times, doub
       static_cast<std::size_t>(std::lower_bound(times.begin(), times.end(), fit_from) - times.begin());
   std::vector<double> log_times;
   for (const double time : times) log_times.push_back(std::log(time));
-  const Estimate estimate = jackknife(records, [&](std::span<const double> sums) {
-    std::vector<double> values(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(2 * size));
-    values.push_back(fit_line(std::span(log_times).subspan(first), sums.subspan(first, size - first)).slope);
-    return values;
-  });
   const Axis time{"time", "time", "Time since the start", times};
-  const std::uint64_t count = records.size();
-  return {
-      array("scatterer_energy", "k_B T", "Mean kinetic energy of a scatterer", estimate, 0, count, {time}),
-      array("particle_energy", "k_B T", "Mean kinetic energy of a particle", estimate, size, count, {time}),
-      number("log_slope", "k_B T",
-             "Slope of scatterer_energy against ln t over the last --fit-decades decades", estimate, 2 * size,
-             count),
-  };
+  return estimate(
+      records,
+      {{"scatterer_energy", "k_B T", "Mean kinetic energy of a scatterer", {time}},
+       {"particle_energy", "k_B T", "Mean kinetic energy of a particle", {time}},
+       {"log_slope", "k_B T", "Slope of scatterer_energy against ln t over the last --fit-decades decades"}},
+      [&](std::span<const double> sums) {
+        std::vector<double> values(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(2 * size));
+        values.push_back(
+            fit_line(std::span(log_times).subspan(first), sums.subspan(first, size - first)).slope);
+        return values;
+      });
 }
 
 }  // namespace

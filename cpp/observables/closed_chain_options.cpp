@@ -63,15 +63,11 @@ ReplicaRecord ClosedReplica::record(std::vector<double> sums) const {
 namespace {
 
 Results drift_results(const Records& records) {
-  const Estimate estimate = jackknife(records, [](std::span<const double> sums) {
-    const auto drifts = sums.last(2);
-    return std::vector<double>(drifts.begin(), drifts.end());
-  });
-  return {
-      number("energy_drift", "1", "Mean over replicas of |change of total energy| / total energy", estimate,
-             0, records.size()),
-      number("momentum_drift", "1", "Mean over replicas of |change of total momentum| / sum of all |momenta|",
-             estimate, 1, records.size())};
+  return estimate(
+      records,
+      {{"energy_drift", "1", "Mean over replicas of |change of total energy| / total energy"},
+       {"momentum_drift", "1", "Mean over replicas of |change of total momentum| / sum of all |momenta|"}},
+      [](std::span<const double> sums) { return std::vector<double>(sums.end() - 2, sums.end()); });
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 #include "observables/log_times_options.hpp"
 #include "program/replica_study.hpp"
 #include "statistics/fit.hpp"
-#include "statistics/jackknife.hpp"
 
 namespace {
 
@@ -72,33 +71,29 @@ ReplicaRecord measure(const ClosedChainOptions& options, const std::vector<doubl
 }
 
 Results summarise(const Records& records, const std::vector<double>& times,
-                  const std::vector<double>& middles, double from) {
+                  const std::vector<double>& middles, double fit_from) {
   const std::size_t size = times.size();
-  const Estimate estimate = jackknife(records, [&](std::span<const double> sums) {
-    std::vector<double> values(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(4 * size));
-    for (std::size_t k = 0; k + 1 < size; ++k)
-      values.push_back(std::log(sums[k + 1] / sums[k]) / std::log(times[k + 1] / times[k]));
-    values.push_back(fit_power(times, sums.first(size), from, times.back()));
-    std::vector<double> inner;
-    for (std::size_t k = 0; k < size; ++k) inner.push_back(sums[k] - sums[3 * size + k]);
-    values.push_back(fit_power(times, inner, from, times.back()));
-    return values;
-  });
   const Axis time{"time", "time", "Time since the end of the relaxation", times};
   const Axis middle{"time", "time", "Geometric middle of two neighbouring times", middles};
-  const std::uint64_t count = records.size();
-  return {
-      array("variance", "length^2", "<x^2>, no mean subtracted", estimate, 0, count, {time}),
-      array("absolute_moment", "length", "<|x|>", estimate, size, count, {time}),
-      array("fourth_moment", "length^4", "<x^4>", estimate, 2 * size, count, {time}),
-      array("centre_of_mass", "length^2", "Mean square of the particles' mean displacement", estimate,
-            3 * size, count, {time}),
-      array("local_slope", "1", "d ln <x^2> / d ln t", estimate, 4 * size, count, {middle}),
-      number("alpha", "1", "Slope of ln <x^2> against ln t over the last --fit-decades decades", estimate,
-             5 * size - 1, count),
-      number("alpha_relative", "1", "The same without the part of the centre of mass", estimate, 5 * size,
-             count),
-  };
+  return estimate(records,
+                  {{"variance", "length^2", "<x^2>, no mean subtracted", {time}},
+                   {"absolute_moment", "length", "<|x|>", {time}},
+                   {"fourth_moment", "length^4", "<x^4>", {time}},
+                   {"centre_of_mass", "length^2", "Mean square of the particles' mean displacement", {time}},
+                   {"local_slope", "1", "d ln <x^2> / d ln t", {middle}},
+                   {"alpha", "1", "Slope of ln <x^2> against ln t over the last --fit-decades decades"},
+                   {"alpha_relative", "1", "The same without the part of the centre of mass"}},
+                  [&](std::span<const double> sums) {
+                    std::vector<double> values(sums.begin(),
+                                               sums.begin() + static_cast<std::ptrdiff_t>(4 * size));
+                    for (std::size_t k = 0; k + 1 < size; ++k)
+                      values.push_back(std::log(sums[k + 1] / sums[k]) / std::log(times[k + 1] / times[k]));
+                    std::vector<double> relative;
+                    for (std::size_t k = 0; k < size; ++k) relative.push_back(sums[k] - sums[3 * size + k]);
+                    values.push_back(fit_power(times, sums.first(size), fit_from, times.back()));
+                    values.push_back(fit_power(times, relative, fit_from, times.back()));
+                    return values;
+                  });
 }
 
 }  // namespace

@@ -3,10 +3,9 @@
 /// the same chain without. Both trajectories start from one state and share all random numbers.
 ///
 /// The pulse scales all momenta in the central --pulse-cells cells by one factor, so that their energy
-/// becomes
-/// --pulse-energy per degree of freedom. The ring is folded about its centre (mirror symmetry) before the
-/// moving peak is looked for. A raw maximum over noisy cells is biased upwards, so position and height are
-/// the vertex of a parabola fitted around it; both heights are stored.
+/// becomes --pulse-energy per degree of freedom. The ring is folded about its centre (mirror symmetry) before
+/// the moving peak is looked for. A raw maximum over noisy cells is biased upwards, so position and height
+/// are the vertex of a parabola fitted around it; both heights are stored.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -18,7 +17,6 @@
 #include "program/replica_study.hpp"
 #include "statistics/collapse.hpp"
 #include "statistics/fit.hpp"
-#include "statistics/jackknife.hpp"
 #include "statistics/peak.hpp"
 
 namespace {
@@ -62,6 +60,7 @@ PhasePoint with_pulse(PhasePoint point, const Pulse& pulse) {
   for (const Particle& particle : point.particles)
     degrees_of_freedom += inside(cell_of(particle, pulse.chain)) ? 1 : 0;
   const double before = std::accumulate(energies.begin() + begin, energies.begin() + end, 0.0);
+  if (!(before > 0)) throw NumericalError("the cells of the pulse hold no energy that could be scaled");
   const double factor = std::sqrt(static_cast<double>(degrees_of_freedom) * pulse.pulse_energy / before);
   for (Particle& particle : point.particles)
     if (inside(cell_of(particle, pulse.chain))) particle.velocity *= factor;
@@ -161,51 +160,39 @@ Reading read(std::span<const double> sums, const Pulse& pulse, const std::vector
 }
 
 Results summarise(const Records& records, const Pulse& pulse) {
-  const std::size_t times = pulse.times.size(), cells = pulse.chain.cells, size = times * cells;
+  const std::size_t times = pulse.times.size(), cells = pulse.chain.cells;
   std::vector<std::size_t> highest;
   const std::vector<double> mean = records.mean();
   for (std::size_t k = 0; k < times; ++k)
     highest.push_back(highest_cell(folded(std::span(mean).subspan(k * cells, cells))));
-  const Estimate estimate = jackknife(records, [&](std::span<const double> sums) {
-    const Reading reading = read(sums, pulse, highest);
-    std::vector<double> values(sums.begin(), sums.end());
-    for (const auto* column : {&reading.position, &reading.height, &reading.raw_height, &reading.centre_share,
-                               &reading.exponent_from})
-      values.insert(values.end(), column->begin(), column->end());
-    values.push_back(reading.peak_collapse);
-    values.push_back(reading.centre_collapse);
-    return values;
-  });
   std::vector<double> cell_numbers(cells);
   std::iota(cell_numbers.begin(), cell_numbers.end(), 0.0);
   const Axis time{"time", "time", "Time after the pulse", pulse.times};
   const Axis cell{"cell", "1", "Cell number", cell_numbers};
   const Axis from{"from", "time", "First time of the fit", {pulse.times.begin(), pulse.times.end() - 1}};
-  const std::uint64_t count = records.size();
-  const std::size_t read_off = size + 2;
-  return {
-      array("energy_difference", "k_B T", "Energy per cell with the pulse minus without", estimate, 0, count,
-            {time, cell}),
-      number("injected_energy", "k_B T", "Energy of the pulse", estimate, size, count),
-      number("sum_error", "1", "Largest |sum over cells - injected energy| / total energy, mean over members",
-             estimate, size + 1, count),
-      array("peak_position", "cells", "Distance of the moving peak from the centre", estimate, read_off,
-            count, {time}),
-      array("peak", "k_B T", "Height of the moving peak, by the parabola", estimate, read_off + times, count,
-            {time}),
-      array("peak_raw", "k_B T", "Largest value of the folded profile, biased upwards", estimate,
-            read_off + 2 * times, count, {time}),
-      array("centre_share", "1", "Part of the injected energy in the central five cells", estimate,
-            read_off + 3 * times, count, {time}),
-      array("damping_exponent_from", "1", "Minus the slope of ln peak against ln t from a time on", estimate,
-            read_off + 4 * times, count, {from}),
-      number("damping_exponent", "1", "The same over all times", estimate, read_off + 4 * times, count),
-      number("peak_collapse", "1", "Exponent xi that makes t^xi Delta E a function of (x - peak)/t^xi",
-             estimate, read_off + 5 * times - 1, count),
-      number("centre_collapse", "1",
-             "Exponent xi that makes t^xi Delta E a function of x/t^xi about the centre", estimate,
-             read_off + 5 * times, count),
-  };
+  return estimate(
+      records,
+      {{"energy_difference", "k_B T", "Energy per cell with the pulse minus without", {time, cell}},
+       {"injected_energy", "k_B T", "Energy of the pulse"},
+       {"sum_error", "1", "Largest |sum over cells - injected energy| / total energy, mean over members"},
+       {"peak_position", "cells", "Distance of the moving peak from the centre", {time}},
+       {"peak", "k_B T", "Height of the moving peak, by the parabola", {time}},
+       {"peak_raw", "k_B T", "Largest value of the folded profile, biased upwards", {time}},
+       {"centre_share", "1", "Part of the injected energy in the central five cells", {time}},
+       {"damping_exponent_from", "1", "Minus the slope of ln peak against ln t from a time on", {from}},
+       {"damping_exponent", "1", "The same over all times"},
+       {"peak_collapse", "1", "Exponent xi that makes t^xi Delta E a function of (x - peak)/t^xi"},
+       {"centre_collapse", "1", "Exponent xi that makes t^xi Delta E a function of x/t^xi about the centre"}},
+      [&](std::span<const double> sums) {
+        const Reading reading = read(sums, pulse, highest);
+        std::vector<double> values(sums.begin(), sums.end());
+        for (const auto* column : {&reading.position, &reading.height, &reading.raw_height,
+                                   &reading.centre_share, &reading.exponent_from})
+          values.insert(values.end(), column->begin(), column->end());
+        values.insert(values.end(),
+                      {reading.exponent_from.front(), reading.peak_collapse, reading.centre_collapse});
+        return values;
+      });
 }
 
 void validate(const Pulse& pulse) {

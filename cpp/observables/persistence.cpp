@@ -10,7 +10,6 @@
 
 #include "observables/closed_chain_options.hpp"
 #include "program/replica_study.hpp"
-#include "statistics/jackknife.hpp"
 
 namespace {
 
@@ -37,17 +36,14 @@ struct Encounters {
 };
 
 Results summarise(const Records& records) {
-  const Estimate ratios = jackknife(records, [](std::span<const double> sums) {
-    return std::vector{sums[1] / sums[0], sums[2] / sums[0], sums[3] / sums[0]};
-  });
-  const std::uint64_t count = records.size();
-  return {
-      number("mu", "1", "Fraction of scatterings with p' p > 0", ratios, 0, count),
-      number("particle_energy", "k_B T", "Mean kinetic energy of a particle as it meets a scatterer", ratios,
-             1, count),
-      number("scatterer_energy", "k_B T", "Mean kinetic energy of a scatterer as a particle meets it", ratios,
-             2, count),
-  };
+  return estimate(
+      records,
+      {{"mu", "1", "Fraction of scatterings with p' p > 0"},
+       {"particle_energy", "k_B T", "Mean kinetic energy of a particle as it meets a scatterer"},
+       {"scatterer_energy", "k_B T", "Mean kinetic energy of a scatterer as a particle meets it"}},
+      [](std::span<const double> sums) {
+        return std::vector{sums[1] / sums[0], sums[2] / sums[0], sums[3] / sums[0]};
+      });
 }
 
 }  // namespace

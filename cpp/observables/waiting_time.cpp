@@ -13,7 +13,6 @@
 
 #include "observables/closed_chain_options.hpp"
 #include "program/replica_study.hpp"
-#include "statistics/jackknife.hpp"
 #include "statistics/log_grid.hpp"
 
 namespace {
@@ -72,32 +71,26 @@ struct Tail {
 };
 
 Results summarise(const Records& records, const LogGrid& bins, const Tail& tail) {
-  const std::size_t size = bins.intervals();
-  const Estimate estimate = jackknife(records, [&](std::span<const double> sums) {
-    std::vector<double> values = density(sums, bins);
-    const std::vector<double> slopes = exponents(sums, bins);
-    values.insert(values.end(), slopes.begin(), slopes.end());
-    const auto [low, high] =
-        std::minmax_element(slopes.begin() + static_cast<std::ptrdiff_t>(tail.lowest),
-                            slopes.begin() + static_cast<std::ptrdiff_t>(tail.highest) + 1);
-    values.push_back(*high - *low);
-    return values;
-  });
-  const Axis tau{"tau", "time", "Geometric middle of the bin", bins.middles()};
   std::vector<double> cuts = bins.points();
   cuts.pop_back();
+  const Axis tau{"tau", "time", "Geometric middle of the bin", bins.middles()};
   const Axis cut{"cut", "time", "Shortest waiting time of the tail", cuts};
-  const std::uint64_t count = records.size();
-  return {
-      array("density", "1/time", "Probability density of the time between two scatterings of a particle",
-            estimate, 0, count, {tau}),
-      array("exponent_by_cut", "1", "Maximum-likelihood exponent of the tail above the cut", estimate, size,
-            count, {cut}),
-      number("exponent", "1", "Exponent of the tail above --tail-from thermal flights", estimate,
-             size + tail.chosen, count),
-      number("exponent_spread", "1", "Largest difference of exponents for cuts within a factor of three",
-             estimate, 2 * size, count),
-  };
+  return estimate(
+      records,
+      {{"density", "1/time", "Probability density of the time between two scatterings of a particle", {tau}},
+       {"exponent_by_cut", "1", "Maximum-likelihood exponent of the tail above the cut", {cut}},
+       {"exponent", "1", "Exponent of the tail above --tail-from thermal flights"},
+       {"exponent_spread", "1", "Largest difference of exponents for cuts within a factor of three"}},
+      [&](std::span<const double> sums) {
+        std::vector<double> values = density(sums, bins);
+        const std::vector<double> by_cut = exponents(sums, bins);
+        const auto at = [&](std::size_t bin) { return by_cut.begin() + static_cast<std::ptrdiff_t>(bin); };
+        const auto [low, high] = std::minmax_element(at(tail.lowest), at(tail.highest + 1));
+        values.insert(values.end(), by_cut.begin(), by_cut.end());
+        values.push_back(by_cut[tail.chosen]);
+        values.push_back(*high - *low);
+        return values;
+      });
 }
 
 }  // namespace

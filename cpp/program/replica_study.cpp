@@ -29,7 +29,7 @@ Records as_records(const FinishedReplicas& finished) {
 
 const Quantity& quantity_named(const Results& results, const std::string& name) {
   const auto found = std::find_if(results.begin(), results.end(),
-                                  [&](const Quantity& quantity) { return quantity.name == name; });
+                                  [&](const Quantity& quantity) { return quantity.what.name == name; });
   if (found == results.end()) throw std::logic_error("no quantity named " + name);
   return *found;
 }
@@ -106,7 +106,7 @@ Outcome ReplicaOptions::run(const ReplicaStudy& study, Progress& progress) const
     const bool out_of_time = finished.size() < batch.wanted;
     outcome.converged = !out_of_time && std::isfinite(quantity.mean.front()) &&
                         (target == 0 || outcome.achieved_error <= target);
-    progress.say(fmt::format("{} replicas: {} = {:.8g} +- {:.2g}{}", finished.size(), quantity.name,
+    progress.say(fmt::format("{} replicas: {} = {:.8g} +- {:.2g}{}", finished.size(), quantity.what.name,
                              quantity.mean.front(), quantity.standard_error.front(),
                              outcome.converged ? "" : ", not converged"));
     if (target == 0 || outcome.converged || out_of_time || batch.wanted + replicas_ > max_replicas_) break;

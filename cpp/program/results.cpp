@@ -1,6 +1,6 @@
 #include "program/results.hpp"
 
-#include <utility>
+#include <stdexcept>
 
 namespace lorentz {
 namespace {
@@ -13,40 +13,43 @@ void describe(Hdf5Writer& file, const std::string& path, const std::string& unit
 
 }  // namespace
 
-Quantity number(std::string name, std::string units, std::string description, const Estimate& estimate,
-                std::size_t index, std::uint64_t count) {
-  return array(std::move(name), std::move(units), std::move(description), estimate, index, count, {});
+std::size_t Description::size() const {
+  std::size_t product = 1;
+  for (const Axis& axis : axes) product *= axis.values.size();
+  return product;
 }
 
-Quantity array(std::string name, std::string units, std::string description, const Estimate& estimate,
-               std::size_t first, std::uint64_t count, std::vector<Axis> axes) {
-  std::size_t size = 1;
-  for (const Axis& axis : axes) size *= axis.values.size();
-  const auto part = [&](const std::vector<double>& values) {
-    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
-    return std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(size));
-  };
-  return {std::move(name),
-          std::move(units),
-          std::move(description),
-          part(estimate.mean),
-          part(estimate.standard_error),
-          std::vector<std::uint64_t>(size, count),
-          std::move(axes)};
+Results estimate(const Records& records, const std::vector<Description>& descriptions,
+                 const RecordFunction& f) {
+  const Estimate values = jackknife(records, f);
+  Results results;
+  auto mean = values.mean.begin(), error = values.standard_error.begin();
+  for (const Description& what : descriptions) {
+    const auto size = static_cast<std::ptrdiff_t>(what.size());
+    if (values.mean.end() - mean < size) throw std::logic_error("fewer values than described");
+    results.push_back({what,
+                       {mean, mean + size},
+                       {error, error + size},
+                       std::vector<std::uint64_t>(what.size(), records.size())});
+    mean += size;
+    error += size;
+  }
+  if (mean != values.mean.end()) throw std::logic_error("more values than described");
+  return results;
 }
 
 void write_results(Hdf5Writer& file, const Results& results) {
   for (const Quantity& quantity : results) {
-    const std::string group = "/results/" + quantity.name + "/";
+    const std::string group = "/results/" + quantity.what.name + "/";
     Shape shape;
-    for (const Axis& axis : quantity.axes) shape.push_back(axis.values.size());
+    for (const Axis& axis : quantity.what.axes) shape.push_back(axis.values.size());
     file.dataset(group + "mean", shape, quantity.mean);
-    describe(file, group + "mean", quantity.units, quantity.description);
+    describe(file, group + "mean", quantity.what.units, quantity.what.description);
     file.dataset(group + "standard_error", shape, quantity.standard_error);
-    describe(file, group + "standard_error", quantity.units, "Standard error of the mean over replicas");
+    describe(file, group + "standard_error", quantity.what.units, "Standard error of the mean over replicas");
     file.dataset(group + "count", shape, quantity.count);
     describe(file, group + "count", "1", "Number of replicas that contribute");
-    for (const Axis& axis : quantity.axes) {
+    for (const Axis& axis : quantity.what.axes) {
       file.dataset(group + axis.name, {axis.values.size()}, axis.values);
       describe(file, group + axis.name, axis.units, axis.description);
     }

@@ -17,26 +17,30 @@ struct Axis {
   std::vector<double> values;
 };
 
-/// A measured quantity: a number, or an array over its axes (row-major, one dimension per axis).
-struct Quantity {
+/// What a quantity is: a number, or an array over its axes (row-major, one dimension per axis).
+struct Description {
   std::string name;
   std::string units;
   std::string description;
+  std::vector<Axis> axes{};  // none for a number
+
+  std::size_t size() const;
+};
+
+/// A measured quantity.
+struct Quantity {
+  Description what;
   std::vector<double> mean;
   std::vector<double> standard_error;  // NaN where undefined
   std::vector<std::uint64_t> count;    // replicas that contribute
-  std::vector<Axis> axes;              // none for a number
 };
 
-/// The number at `index` of an estimate.
-Quantity number(std::string name, std::string units, std::string description, const Estimate& estimate,
-                std::size_t index, std::uint64_t count);
-
-/// The numbers from `first` on, as many as the axes span.
-Quantity array(std::string name, std::string units, std::string description, const Estimate& estimate,
-               std::size_t first, std::uint64_t count, std::vector<Axis> axes);
-
 using Results = std::vector<Quantity>;
+
+/// The quantities described, in their order, from the values that f makes of the mean record, in the same
+/// order; errors by the jackknife over replicas. Throws std::logic_error if f makes more values or fewer.
+Results estimate(const Records& records, const std::vector<Description>& descriptions,
+                 const RecordFunction& f);
 
 /// Writes /results/<name>/{mean, standard_error, count} and the axes beside them.
 void write_results(Hdf5Writer& file, const Results& results);
