@@ -55,6 +55,7 @@ class PairDynamics {
     };
     const std::uint32_t particles = chain_.particles();
     for (std::uint32_t slot; (slot = queue_.take_before(until)) != EventQueue::none;) {
+      if (++taken_ % events_per_heartbeat == 0) heartbeat(until);
       const std::uint32_t cell = queue_[slot].target;
       const bool second = slot >= particles;
       if (!double_particles_[second ? slot - particles : slot]) {
@@ -73,7 +74,6 @@ class PairDynamics {
         collide(slot, scatterers_[second ? 1 : 0][cell]);
         ++separate_;
       }
-      if (computed() % events_per_heartbeat == 0) heartbeat(until);
     }
   }
 
@@ -89,7 +89,7 @@ class PairDynamics {
   std::vector<char> double_particles_, double_scatterers_;
   std::vector<double> scatterers_[2];  // w of the plain and of the perturbed trajectory; the second if double
   EventQueue queue_;                   // slots of the plain trajectory, then those of the perturbed one
-  std::uint64_t shared_ = 0, separate_ = 0;
+  std::uint64_t taken_ = 0, shared_ = 0, separate_ = 0;
 };
 
 }  // namespace lorentz
