@@ -63,6 +63,17 @@ TEST(Simulate, SimultaneousArrivalsGoInTheOrderOfTheParticles) {
   }
 }
 
+TEST(Simulate, AParticleThatStartsOnAScattererFliesToTheNext) {
+  const ClosedChain chain{3, 1, 1, 0};
+  const PhasePoint start{{{1.5, 1}, {0.5, -0.5}, {0.25, 0}}, {0, 0, 0}};
+  const std::vector<Collision> all = collisions(chain, start, 2.5);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].time, 1);
+  EXPECT_EQ(all[0].scatterer, 2U);
+  EXPECT_EQ(all[1].time, 2);
+  EXPECT_EQ(all[1].scatterer, 2U);  // to the left, around the ring
+}
+
 TEST(Simulate, HeartbeatMayStopTheRunAndLeavesItWhole) {
   const ClosedChain chain{11, 20, 1, 0.5};
   const PhasePoint start = closed_chain_start(chain, {}, false, 5, 0);
