@@ -28,11 +28,11 @@ class RandomStream {
   RandomStream(std::uint64_t seed, Purpose purpose, std::uint64_t replica, std::uint64_t entity = 0)
       : key_{{seed, static_cast<std::uint64_t>(purpose)}}, counter_{{0, entity, replica, 0}} {}
 
-  /// Uniform in the open interval (0, 1), a multiple of 2^-53 plus 2^-54.
+  /// Uniform in the open interval (0, 1), an odd multiple of 2^-53.
   double uniform() { return unit_interval(next()); }
 
   static double unit_interval(std::uint64_t word) {
-    return (static_cast<double>(word >> 11) + 0.5) * 0x1p-53;
+    return (static_cast<double>(word >> 12) + 0.5) * 0x1p-52;
   }
 
   /// Standard normal, by the Box-Muller transform; two words per number.

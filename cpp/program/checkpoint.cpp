@@ -32,8 +32,19 @@ void Checkpoint::save(const FinishedReplicas& finished) const {
 }
 
 FinishedReplicas Checkpoint::load() const {
+  if (!std::filesystem::exists(path_)) return {};
+  try {
+    return read();
+  } catch (const UsageError&) {
+    throw;
+  } catch (const std::exception& error) {  // HDF5 stumbles over damage in many ways
+    throw UsageError(fmt::format("'{}' cannot be resumed: it is damaged ({}). Remove it to start anew.",
+                                 path_, error.what()));
+  }
+}
+
+FinishedReplicas Checkpoint::read() const {
   FinishedReplicas finished;
-  if (!std::filesystem::exists(path_)) return finished;
   const Hdf5Reader file(path_);
   if (file.text_attribute("/replicas", "identity") != identity_)
     throw UsageError(fmt::format(

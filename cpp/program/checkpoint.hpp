@@ -22,6 +22,8 @@ class Checkpoint {
   void remove() const;
 
  private:
+  FinishedReplicas read() const;
+
   std::string path_;
   std::string identity_;
 };

@@ -83,7 +83,7 @@ Hdf5Handle::Hdf5Handle(hid_t id, Close close) : id_(id), close_(close) {
 Hdf5Writer::Hdf5Writer() : file_(memory_file()) {}
 
 void Hdf5Writer::group(const std::string& path) {
-  if (path == "/" || H5Lexists(file_, path.c_str(), H5P_DEFAULT) > 0) return;
+  if (path.empty() || path == "/" || H5Lexists(file_, path.c_str(), H5P_DEFAULT) > 0) return;
   const std::size_t slash = path.rfind('/');
   if (slash != 0) group(path.substr(0, slash));
   const Hdf5Handle group(

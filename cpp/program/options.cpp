@@ -28,15 +28,29 @@ std::string interval(const Range<Number>& range) {
   return "finite";
 }
 
+/// Reads a decimal number, rounded to the nearest that there is; false if the text is not one.
+template <class Number>
+bool read_number(const std::string& text, Number& value) {
+  const char* end = text.data() + text.size();
+  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  return error == std::errc{} && stop == end && std::isfinite(static_cast<double>(value));
+}
+
+/// The number in a text to which there is no objection.
+template <class Number>
+Number number_in(const std::string& text) {
+  Number value{};
+  read_number(text, value);
+  return value;
+}
+
 /// Why the text is not an admissible number; empty if it is.
 template <class Number>
 std::string objection(const std::string& text, const Range<Number>& range) {
   constexpr const char* kind = std::is_integral_v<Number> ? "whole number" : "number";
   Number value{};
-  const char* end = text.data() + text.size();
-  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  const bool inside = error == std::errc{} && stop == end && std::isfinite(static_cast<double>(value)) &&
+  const bool inside = read_number(text, value) &&
                       (range.open_below ? value > range.low : value >= range.low) && value <= range.high;
   if (inside) return {};
   return fmt::format("'{}' cannot be used: it must be a {} {}", text, kind, interval(range));
@@ -60,7 +74,9 @@ template <class Number>
 void Options::number(const std::string& name, Number& value, Range<Number> range, const std::string& help,
                      Role role) {
   record(name, role, [&value] { return AttributeValue(Recorded<Number>{value}); });
-  app_.add_option(name, value, fmt::format("{} ({}; default {})", help, interval(range), value))
+  const auto read = [&value](const std::string& text) { value = number_in<Number>(text); };
+  app_.add_option_function<std::string>(name, read,
+                                        fmt::format("{} ({}; default {})", help, interval(range), value))
       ->check([range](const std::string& text) { return objection(text, range); })
       ->type_name("")
       ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
@@ -87,7 +103,7 @@ void Options::real_or_word(const std::string& name, double& value, Range<double>
   record(name, role,
          [&value, word, meaning] { return value == meaning ? AttributeValue(word) : AttributeValue(value); });
   const auto read = [&value, word, meaning](const std::string& text) {
-    value = text == word ? meaning : std::stod(text);
+    value = text == word ? meaning : number_in<double>(text);
   };
   app_.add_option_function<std::string>(
           name, read, fmt::format("{} ({}, or {}; default {})", help, interval(range), word, word))
@@ -104,7 +120,7 @@ void Options::ascending_list(const std::string& name, std::vector<double>& value
   record(name, role, [&values] { return AttributeValue(fmt::format("{}", fmt::join(values, ","))); });
   const auto read = [&values](const std::string& text) {
     values.clear();
-    for (const std::string& item : CLI::detail::split(text, ',')) values.push_back(std::stod(item));
+    for (const std::string& item : CLI::detail::split(text, ',')) values.push_back(number_in<double>(item));
   };
   app_.add_option_function<std::string>(
           name, read,
@@ -113,9 +129,9 @@ void Options::ascending_list(const std::string& name, std::vector<double>& value
         double last = -std::numeric_limits<double>::infinity();
         for (const std::string& item : CLI::detail::split(text, ',')) {
           if (std::string why = objection(item, range); !why.empty()) return why;
-          if (!(std::stod(item) > last))
+          if (!(number_in<double>(item) > last))
             return fmt::format("'{}' cannot be used: the numbers must ascend", text);
-          last = std::stod(item);
+          last = number_in<double>(item);
         }
         return std::string{};
       })

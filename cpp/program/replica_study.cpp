@@ -18,7 +18,20 @@ using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
 Clock::time_point later(double seconds) {
+  constexpr double for_ever = 1e9;  // longer than any run, and far from the end of the clock
+  if (seconds > for_ever) return Clock::time_point::max();
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(Seconds(seconds));
+}
+
+/// The first replicas, up to the first that is missing and no more than wanted. A resumed run may have
+/// others: of later batches, or finished out of order.
+FinishedReplicas first_of(const FinishedReplicas& finished, std::uint64_t wanted) {
+  FinishedReplicas first;
+  for (const auto& [index, record] : finished) {
+    if (index != first.size() || index == wanted) break;
+    first.emplace(index, record);
+  }
+  return first;
 }
 
 Records as_records(const FinishedReplicas& finished) {
@@ -100,18 +113,20 @@ Outcome ReplicaOptions::run(const ReplicaStudy& study, Progress& progress) const
                                checkpoint.path()));
       throw;
     }
-    outcome.results = study.summarise(as_records(finished));
+    const FinishedReplicas used = first_of(finished, batch.wanted);
+    outcome.events = 0;
+    for (const auto& [index, record] : used) outcome.events += record.events;
+    outcome.results = study.summarise(as_records(used));
     const Quantity& quantity = quantity_named(outcome.results, study.target_quantity);
     outcome.achieved_error = error_of(quantity, absolute);
-    const bool out_of_time = finished.size() < batch.wanted;
+    const bool out_of_time = used.size() < batch.wanted;
     outcome.converged = !out_of_time && std::isfinite(quantity.mean.front()) &&
                         (target == 0 || outcome.achieved_error <= target);
-    progress.say(fmt::format("{} replicas: {} = {:.8g} +- {:.2g}{}", finished.size(), quantity.what.name,
+    progress.say(fmt::format("{} replicas: {} = {:.8g} +- {:.2g}{}", used.size(), quantity.what.name,
                              quantity.mean.front(), quantity.standard_error.front(),
                              outcome.converged ? "" : ", not converged"));
     if (target == 0 || outcome.converged || out_of_time || batch.wanted + replicas_ > max_replicas_) break;
   }
-  for (const auto& [index, record] : finished) outcome.events += record.events;
   checkpoint.remove();
   return outcome;
 }

@@ -46,6 +46,12 @@ class Team {
     return true;
   }
 
+  /// The first failure counts; every replica stops at its next heartbeat. Under the mutex.
+  void fail(std::exception_ptr failure) {
+    if (!failure_) failure_ = std::move(failure);
+    failed_ = true;
+  }
+
   void work(std::atomic<double>& fraction) {
     std::uint64_t index = 0;
     while (begin_next(index)) {
@@ -62,8 +68,7 @@ class Team {
         fraction.store(0, std::memory_order_relaxed);
       } catch (...) {
         const std::lock_guard lock(mutex_);
-        if (!failure_) failure_ = std::current_exception();
-        failed_ = true;
+        fail(std::current_exception());
       }
     }
     const std::lock_guard lock(mutex_);
@@ -77,7 +82,11 @@ class Team {
     while (!changed_.wait_for(lock, interval, [this] { return active_ == 0; })) {
       auto done = static_cast<double>(finished_.size());
       for (const auto& fraction : fractions_) done += fraction.load(std::memory_order_relaxed);
-      run_.report(done, finished_);
+      try {
+        run_.report(done, finished_);
+      } catch (...) {
+        fail(std::current_exception());
+      }
     }
   }
 

@@ -56,6 +56,11 @@ TEST(Hdf5File, ReadsBackWhatWasWritten) {
   EXPECT_EQ(file.text_attribute("/results/number", "units"), "1");
 }
 
+TEST(Hdf5File, NeedsNoGroup) {
+  Hdf5Writer writer;
+  EXPECT_NO_THROW(writer.dataset("/number", {}, std::vector{1.0}));
+}
+
 TEST(Hdf5File, KeepsNaN) {
   const TemporaryFolder folder;
   Hdf5Writer writer;

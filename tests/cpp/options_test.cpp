@@ -116,6 +116,30 @@ TEST(Options, AcceptTheEndsOfTheirRanges) {
   EXPECT_FALSE(example.options.given("--threads"));
 }
 
+// 0.002877 lies so close to the middle of two doubles that rounding it twice, by way of extended precision,
+// picks the wrong one. A leading zero does not make a number octal.
+TEST(Options, ReadNumbersAsTheCompilerDoes) {
+  Example example;
+  EXPECT_TRUE(
+      example.parse({"--sigma", "0.002877", "--temperature", "1e-310", "--cells", "010", "--seed", "09"}));
+  EXPECT_EQ(example.sigma, 0.002877);
+  EXPECT_EQ(example.temperature, 1e-310);
+  EXPECT_EQ(example.cells, 10U);
+  EXPECT_EQ(example.seed, 9U);
+}
+
+TEST(Options, ReadTheSmallestNumbersInWordsAndLists) {
+  Options options("example", "An example");
+  double gamma = 1;
+  std::vector<double> times;
+  options.real_or_word("--gamma", gamma, positive, "N", 0, "Gamma");
+  options.ascending_list("--times", times, non_negative, "Times");
+  const std::vector<const char*> arguments = {"example", "--gamma", "1e-310", "--times", "0,1e-310,2"};
+  EXPECT_TRUE(options.parse(static_cast<int>(arguments.size()), arguments.data(), ""));
+  EXPECT_EQ(gamma, 1e-310);
+  EXPECT_EQ(times, (std::vector<double>{0, 1e-310, 2}));
+}
+
 TEST(Options, RecordWhatDeterminesTheResultSortedByName) {
   Example example;
   example.parse({"--cells", "7", "--output", "file.h5", "--threads", "2"});

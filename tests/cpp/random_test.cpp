@@ -67,6 +67,11 @@ TEST(Random, StreamsDiffer) {
   EXPECT_EQ(numbers.size(), 8 * streams);
 }
 
+TEST(Random, UniformExcludesBothEnds) {
+  EXPECT_GT(RandomStream::unit_interval(0), 0);
+  EXPECT_LT(RandomStream::unit_interval(~std::uint64_t{0}), 1);
+}
+
 /// z-scores of the sample means of x, x^2 and x^4. Exact means and variances of the three are given.
 struct Moments {
   std::array<double, 3> mean;

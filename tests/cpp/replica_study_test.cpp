@@ -105,4 +105,44 @@ TEST(ReplicaStudy, StopsAtTheTargetErrorOnABatchBoundary) {
   EXPECT_EQ(with({"--target-error", "0.1", "--target-absolute", "0.1"}), 2);
 }
 
+// The error may only be looked at where an uninterrupted run looks at it: after 8, 16, 24, ... replicas.
+TEST(ReplicaStudy, ResumesToTheSameBatchBoundary) {
+  const TemporaryFolder folder;
+  const auto with = [&](const std::string& name, const Measurement& measurement, const Arguments& more) {
+    Arguments arguments = {"--threads",      "1",    "--replicas", "8",
+                           "--target-error", "0.05", "--output",   folder / name};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments, measurement);
+  };
+  EXPECT_EQ(with("whole.h5", measure, {}), 0);
+  const std::uint64_t count = replicas_in(folder / "whole.h5");
+  ASSERT_GT(count, 16U);
+  EXPECT_EQ(with("parts.h5", interrupted_at(count - 1), {}), 128 + SIGINT);
+  EXPECT_EQ(with("parts.h5", measure, {"--resume"}), 0);
+  EXPECT_EQ(content_of(folder / "parts.h5"), content_of(folder / "whole.h5"));
+}
+
+// Finished out of order before: the time limit leaves replica 2 missing, and what follows it is not used.
+TEST(ReplicaStudy, UsesTheLowestIndicesAtTheTimeLimitOfAResumedRun) {
+  const TemporaryFolder folder;
+  const auto late_interruption = [](const Replica& replica) {
+    if (replica.index == 2) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+      throw Interrupted(SIGINT);
+    }
+    if (replica.index == 8) std::this_thread::sleep_for(std::chrono::milliseconds(400));
+    return measure(replica);
+  };
+  EXPECT_EQ(run({"--output", folder / "a.h5", "--threads", "2"}, late_interruption), 128 + SIGINT);
+  EXPECT_EQ(run({"--output", folder / "a.h5", "--resume", "--time-limit", "1e-9"}), 4);
+  EXPECT_EQ(replicas_in(folder / "a.h5"), 2U);
+}
+
+TEST(ReplicaStudy, TakesAnyTimeLimitAndInterval) {
+  const TemporaryFolder folder;
+  for (const char* seconds : {"1e10", "1e300"})
+    EXPECT_EQ(run({"--output", folder / "a.h5", "--time-limit", seconds, "--checkpoint-interval", seconds}),
+              0);
+}
+
 }  // namespace

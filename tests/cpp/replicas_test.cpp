@@ -134,6 +134,19 @@ TEST(Replicas, FinishTheLowestIndicesBeforeADeadline) {
   }
 }
 
+// As when the disk is full and a checkpoint cannot be written: not the whole run must pass first.
+TEST(Replicas, AFailingReportStopsTheRun) {
+  ReplicaRun run = run_of(10000, 2);
+  run.report = [](double, const FinishedReplicas&) { throw UsageError("disk full"); };
+  FinishedReplicas finished;
+  const auto slow = [](const Replica& replica) {
+    std::this_thread::sleep_for(1ms);
+    return measure(replica);
+  };
+  EXPECT_THROW(run_replicas(run, slow, finished), UsageError);
+  EXPECT_LT(finished.size(), 5000U);
+}
+
 // The last replica goes on until a report has counted its quarter, for ten seconds at most.
 TEST(Replicas, ReportWhatIsDoneInParts) {
   std::atomic<bool> reported{false};
