@@ -15,7 +15,7 @@ namespace support {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "cpp_tests.XXXXXX").string();
+    std::string name = (std::filesystem::temp_directory_path() / "cpp_tests.").string() + std::string(6, 'X');
     if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
     path_ = name;
   }
