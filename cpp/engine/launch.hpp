@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "engine/random.hpp"
@@ -43,11 +42,6 @@ class Launch {
         std::log(uniform(seed_, Purpose::passes, replica_, particle, draw)) / log_pass_probability_;
     constexpr double most = 0x1p53;  // beyond it cells cannot be counted; no run gets there
     return 1 + static_cast<std::int64_t>(passed < most ? passed : most);
-  }
-
-  /// The slot draws its numbers again from the first.
-  void restart(std::uint32_t slot) {
-    if (!deterministic()) draws_[slot] = 0;
   }
 
   /// From now on `to` draws what `from` draws.

@@ -11,10 +11,8 @@ namespace {
 /// Flights of both trajectories; a single particle has no second flight yet.
 std::vector<Flight> both(const ClosedChain& chain, const PhasePoint& plain, const PhasePoint& perturbed,
                          Launch& launch, const std::vector<char>& double_particles) {
+  Launch again = launch;  // the perturbed particles draw the numbers that the plain ones draw
   std::vector<Flight> flights = first_flights(chain, plain, launch);
-  // The perturbed particles draw the numbers that the plain ones have drawn.
-  Launch again = launch;
-  for (std::uint32_t slot = 0; slot < chain.particles(); ++slot) again.restart(slot);
   std::vector<Flight> second = first_flights(chain, perturbed, again);
   for (std::uint32_t slot = 0; slot < chain.particles(); ++slot) {
     if (double_particles[slot])
@@ -35,11 +33,6 @@ std::vector<char> different(const std::vector<Element>& a, const std::vector<Ele
   return flags;
 }
 
-std::vector<double> divided(std::vector<double> values, double scale) {
-  for (double& value : values) value /= scale;
-  return values;
-}
-
 }  // namespace
 
 PairDynamics::PairDynamics(const ClosedChain& chain, const PhasePoint& plain, const PhasePoint& perturbed,
@@ -52,8 +45,7 @@ PairDynamics::PairDynamics(const ClosedChain& chain, const PhasePoint& plain, co
                                     return a.velocity != b.velocity || a.position != b.position;
                                   })),
       double_scatterers_(different(plain.scatterers, perturbed.scatterers, !share, std::not_equal_to<>())),
-      scatterers_{divided(plain.scatterers, scatter_.rule().scatterer_scale()),
-                  divided(perturbed.scatterers, scatter_.rule().scatterer_scale())},
+      scatterers_{scatter_.scaled(plain.scatterers), scatter_.scaled(perturbed.scatterers)},
       queue_(both(chain, plain, perturbed, launch_, double_particles_), expected_rate(chain, plain),
              end_time) {}
 

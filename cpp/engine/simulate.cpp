@@ -11,13 +11,6 @@
 namespace lorentz {
 namespace {
 
-std::vector<double> scaled(const std::vector<double>& scatterers, double scale) {
-  std::vector<double> result;
-  result.reserve(scatterers.size());
-  for (const double scatterer : scatterers) result.push_back(scatterer / scale);
-  return result;
-}
-
 /// Checked first of all members, so that nothing is built from a phase point that does not fit.
 const ClosedChain& checked(const ClosedChain& chain, const PhasePoint& start) {
   if (start.particles.size() != chain.particles() || start.scatterers.size() != chain.cells)
@@ -32,7 +25,7 @@ ClosedDynamics::ClosedDynamics(const ClosedChain& chain, const PhasePoint& start
                                std::uint64_t seed, std::uint64_t replica)
     : chain_(checked(chain, start)),
       scatter_(chain),
-      scatterers_(scaled(start.scatterers, scatter_.rule().scatterer_scale())),
+      scatterers_(scatter_.scaled(start.scatterers)),
       launch_(chain, seed, replica),
       queue_(first_flights(chain, start, launch_), expected_rate(chain, start), end_time) {}
 

@@ -72,10 +72,10 @@ def load_plan(quality: str, folder: Path = FOLDER) -> dict[str, Panel]:
     return panels
 
 
-def data_of(panel: Panel, quality: str) -> list[str]:
+def data_of(plan: dict[str, Panel], name: str, quality: str) -> list[str]:
     """Paths of the results that a panel shows: those of the panels that it uses, then its own."""
-    panels = [load_plan(quality)[used] for used in panel.uses] + [panel]
-    return [f"data/{quality}/{one.name}/{run.name}.h5" for one in panels for run in one.runs]
+    panels = [plan[one] for one in (*plan[name].uses, name)]
+    return [f"data/{quality}/{panel.name}/{run.name}.h5" for panel in panels for run in panel.runs]
 
 
 def _panel(name: str, panel: dict, efforts: dict) -> Panel:

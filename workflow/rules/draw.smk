@@ -3,7 +3,7 @@
 
 rule draw:
     input:
-        data=lambda wildcards: data_of(PANELS[wildcards.panel], wildcards.quality),
+        data=lambda wildcards: data_of(PANELS, wildcards.panel, wildcards.quality),
         script=lambda wildcards: f"workflow/scripts/{PANELS[wildcards.panel].script}.py",
         shared=expand("workflow/scripts/{module}.py", module=["figure", "load", "save", "style"]),
         lock="requirements.lock",
