@@ -4,8 +4,10 @@
 /// The closed chain conserves the total momentum, and the paper's random start gives it a value of order
 /// sqrt(nN T): the centre of mass of the particles drifts. Its part of <x^2> is stored beside it, as the
 /// square of the mean displacement of a replica's particles; --zero-total-momentum removes the drift at
-/// the root. alpha is the slope of ln <x^2> against ln t over the last --fit-decades decades; slopes
-/// between neighbouring times of the grid tell a power from t/ln t.
+/// the root. Three laws are compared over the last --fit-decades decades: t, t^alpha by the slope alpha of
+/// ln <x^2> against ln t, and t/ln t by the power b in <x^2> ~ t ln(t/tau)^b, where tau is the time of a
+/// thermal flight: alpha = 1 and b = 0 say t, b = -1 says t/ln t (waits ~ tau^-2 and unit steps), alpha > 1
+/// and b > 0 superdiffusion.
 #include <cmath>
 
 #include "observables/closed_chain_options.hpp"
@@ -70,30 +72,45 @@ ReplicaRecord measure(const ClosedChainOptions& options, const std::vector<doubl
   return run.record(std::move(sums));
 }
 
+/// b of y ~ t ln(t/tau)^b, over the times from `from` on; NaN unless they exceed tau.
+double logarithmic_power(const std::vector<double>& times, std::span<const double> y, double from,
+                         double tau) {
+  std::vector<double> log_time, log_ratio;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    if (times[k] < from) continue;
+    log_time.push_back(std::log(times[k] / tau));
+    log_ratio.push_back(y[k] / times[k]);
+  }
+  return fit_power(log_time, log_ratio, log_time.front(), log_time.back());
+}
+
+/// fit_from: first time of the fits. tau: time of a thermal flight over one cell.
 Results summarise(const Records& records, const std::vector<double>& times,
-                  const std::vector<double>& middles, double fit_from) {
+                  const std::vector<double>& middles, double fit_from, double tau) {
   const std::size_t size = times.size();
   const Axis time{"time", "time", "Time since the end of the relaxation", times};
   const Axis middle{"time", "time", "Geometric middle of two neighbouring times", middles};
-  return estimate(records,
-                  {{"variance", "length^2", "<x^2>, no mean subtracted", {time}},
-                   {"absolute_moment", "length", "<|x|>", {time}},
-                   {"fourth_moment", "length^4", "<x^4>", {time}},
-                   {"centre_of_mass", "length^2", "Mean square of the particles' mean displacement", {time}},
-                   {"local_slope", "1", "d ln <x^2> / d ln t", {middle}},
-                   {"alpha", "1", "Slope of ln <x^2> against ln t over the last --fit-decades decades"},
-                   {"alpha_relative", "1", "The same without the part of the centre of mass"}},
-                  [&](std::span<const double> sums) {
-                    std::vector<double> values(sums.begin(),
-                                               sums.begin() + static_cast<std::ptrdiff_t>(4 * size));
-                    for (std::size_t k = 0; k + 1 < size; ++k)
-                      values.push_back(std::log(sums[k + 1] / sums[k]) / std::log(times[k + 1] / times[k]));
-                    std::vector<double> relative;
-                    for (std::size_t k = 0; k < size; ++k) relative.push_back(sums[k] - sums[3 * size + k]);
-                    values.push_back(fit_power(times, sums.first(size), fit_from, times.back()));
-                    values.push_back(fit_power(times, relative, fit_from, times.back()));
-                    return values;
-                  });
+  return estimate(
+      records,
+      {{"variance", "length^2", "<x^2>, no mean subtracted", {time}},
+       {"absolute_moment", "length", "<|x|>", {time}},
+       {"fourth_moment", "length^4", "<x^4>", {time}},
+       {"centre_of_mass", "length^2", "Mean square of the particles' mean displacement", {time}},
+       {"local_slope", "1", "d ln <x^2> / d ln t", {middle}},
+       {"alpha", "1", "Slope of ln <x^2> against ln t over the last --fit-decades decades"},
+       {"alpha_relative", "1", "The same without the part of the centre of mass"},
+       {"logarithmic_power", "1", "b of <x^2> ~ t ln(t/tau)^b over the same times: 0 for t, -1 for t/ln t"}},
+      [&](std::span<const double> sums) {
+        std::vector<double> values(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(4 * size));
+        for (std::size_t k = 0; k + 1 < size; ++k)
+          values.push_back(std::log(sums[k + 1] / sums[k]) / std::log(times[k + 1] / times[k]));
+        std::vector<double> relative;
+        for (std::size_t k = 0; k < size; ++k) relative.push_back(sums[k] - sums[3 * size + k]);
+        values.push_back(fit_power(times, sums.first(size), fit_from, times.back()));
+        values.push_back(fit_power(times, relative, fit_from, times.back()));
+        values.push_back(logarithmic_power(times, sums.first(size), fit_from, tau));
+        return values;
+      });
 }
 
 }  // namespace
@@ -110,7 +127,8 @@ int main(int argc, char** argv) {
     const std::vector<double> times = log_times.times(last), middles = log_times.grid(last).middles();
     const auto one = [&](const Replica& replica) { return measure(chain, times, replicas.seed(), replica); };
     const auto results = [&](const Records& records) {
-      return summarise(records, times, middles, log_times.fit_from(last));
+      const double tau = chain.chain().cell_length / std::sqrt(chain.temperature());
+      return summarise(records, times, middles, log_times.fit_from(last), tau);
     };
     return replicas.run({one, with_drift(results), "alpha", RandomStream::description}, progress);
   });

@@ -46,6 +46,21 @@ class HeapSimulator {
 
   Real scatterer_mass() const { return (1 + sigma_) / (1 - sigma_); }
 
+  /// Energy of every cell, its scatterer's and that of the particles inside, between the last event and
+  /// the next.
+  std::vector<Real> cell_energies(Real time) const {
+    std::vector<Real> energies;
+    for (const Real P : P_) energies.push_back(P * P / (2 * scatterer_mass()));
+    const Real length = cell_length_ * static_cast<Real>(P_.size());
+    for (auto pending = pending_; !pending.empty(); pending.pop()) {
+      const Pending& next = pending.top();
+      Real x = centre(static_cast<long>(next.scatterer)) - next.p * (next.time - time);
+      x -= length * std::floor(x / length);
+      energies[static_cast<std::size_t>(x / cell_length_) % P_.size()] += next.p * next.p / 2;
+    }
+    return energies;
+  }
+
   /// Processes crossings up to the next collision before `until`; false if there is none.
   bool step(Real until, Event& event) {
     while (!pending_.empty() && pending_.top().time < until) {

@@ -1,0 +1,83 @@
+"""The energy pulse as a whole, profiles and exponent, against the reference simulator, which shares nothing
+with the program: neither engine, nor start, nor random numbers, nor the reading of the peak."""
+
+import subprocess
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.stats import chi2
+
+from tests.python.conftest import ROOT, Program
+from workflow.scripts.load import Result, load
+
+CELLS, PARTICLES, SIGMA, ENERGY, PULSE_ENERGY = 41, 20, 0.5, 5000, 50000
+TIMES = {"N": (0.02, 0.03, 0.045, 0.06), 1: (0.01, 0.015, 0.02, 0.03)}
+
+
+@cache
+def reference(gamma: float, times: tuple[float, ...], *, replicas: int, members: int) -> np.ndarray:
+    """Energy differences [replica, time, cell]."""
+    command = [ROOT / "build/bin/reference_pulse", CELLS, PARTICLES, SIGMA, gamma, ENERGY, PULSE_ENERGY]
+    words = [*command, members, replicas, 1, *times]
+    output = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=True).stdout
+    rows = [[float(word) for word in line.split()] for line in output.splitlines()]
+    return np.array(rows).reshape(replicas, len(times), CELLS)
+
+
+def damping_exponent(profiles: np.ndarray, times: tuple[float, ...], about: list[int]) -> float:
+    """Slope of ln peak against ln t, the peak being the vertex of a parabola through the folded profile."""
+    heights = []
+    for profile, cell in zip(profiles, about, strict=True):
+        centre = CELLS // 2
+        folded = (profile[centre:] + profile[centre::-1]) / 2
+        half = max(1, round(0.12 * cell))
+        distance = np.arange(cell - half, cell + half + 1)
+        heights.append(np.polyval(fit := np.polyfit(distance, folded[distance], 2), -fit[1] / (2 * fit[0])))
+    return -np.polyfit(np.log(times), np.log(heights), 1)[0]
+
+
+def scores(result: Result, gamma: float, times: tuple[float, ...]) -> tuple[np.ndarray, float]:
+    """Of every cell that the pulse has reached at every time, and of the exponent."""
+    samples = reference(gamma, times, replicas=40, members=150)
+    mean, error = samples.mean(axis=0), samples.std(axis=0, ddof=1) / np.sqrt(len(samples))
+    difference = result["energy_difference"]
+    reached = np.abs(difference.mean) > 5 * difference.standard_error
+    combined = np.hypot(difference.standard_error, error)
+    z = (difference.mean - mean)[reached] / combined[reached]
+
+    about = [round(position) for position in result["peak_position"].mean]
+    every = np.arange(len(samples))
+    left_out = [damping_exponent(samples[every != i].mean(axis=0), times, about) for i in every]
+    jackknife = np.sqrt((len(samples) - 1) * np.var(left_out))
+    exponent = result["damping_exponent"]
+    distance = exponent.mean - damping_exponent(mean, times, about)
+    return z, float(distance / np.hypot(jackknife, exponent.standard_error))
+
+
+def accepted(z: np.ndarray) -> bool:
+    """Cells of one time are anticorrelated, as they share the injected energy; the bound stays valid."""
+    return bool(np.abs(z).max() < 4 and np.sum(z**2) < chi2.ppf(1 - 1e-4, len(z)))
+
+
+@pytest.mark.parametrize("gamma", ["N", 1])
+def test_profiles_and_exponent(program: Program, tmp_path: Path, gamma: str | int) -> None:
+    times = TIMES[gamma]
+
+    def pulse(**options: object) -> Result:
+        physics = {"cells": CELLS, "particles_per_cell": PARTICLES, "sigma": SIGMA, "gamma": gamma}
+        effort = {"times": ",".join(map(str, times)), "members": 150, "replicas": 40}
+        unused = {"relaxation_time": 0, "observation_time": None}
+        done = program("energy_pulse", **physics | effort | unused | options)
+        assert done.returncode == 0, done.stderr
+        return load(tmp_path / "out.h5")
+
+    visited = CELLS if gamma == "N" else gamma
+    z, exponent_score = scores(pulse(), visited, times)
+    assert len(z) > 60
+    assert accepted(z)
+    assert abs(exponent_score) < 4
+    # Mutants: lighter scatterers, a larger pulse.
+    assert not accepted(scores(pulse(sigma=0.4 if gamma == "N" else 0.3), visited, times)[0])
+    assert not accepted(scores(pulse(pulse_energy=53000), visited, times)[0])
