@@ -2,8 +2,8 @@
 /// process. items_per_second is events per second.
 #include <benchmark/benchmark.h>
 
-#include "engine/initial_state.hpp"
-#include "engine/simulate.hpp"
+#include "engine/closed_dynamics.hpp"
+#include "engine/closed_start.hpp"
 #include "reference/heap_simulator.hpp"
 
 namespace {

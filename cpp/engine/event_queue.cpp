@@ -24,20 +24,19 @@ std::size_t bucket_count(std::size_t particles) {
 
 EventQueue::EventQueue(std::vector<Flight> flights, double rate, double end_time)
     : flights_(std::move(flights)), end_time_(end_time), coarse_(coarse_buckets, none) {
+  rebuild(rate, 0);
+}
+
+/// The wheel anew, for a rate of events and the present population; nothing arrives before `now`.
+void EventQueue::rebuild(double rate, double now) {
   const std::size_t size = bucket_count(flights_.size());
   buckets_.assign(size, none);
   occupied_.assign(size / 64, 0);
   bucket_mask_ = size - 1;
-  set_width(rate);
-}
-
-void EventQueue::set_width(double rate) {
   // More than 2^52 ticks would be finer than the clock itself.
   ticks_per_time_ = std::clamp(rate / occupancy, 1 / end_time_, 0x1p52 / end_time_);
-  double now = end_time_;
-  for (const Flight& flight : flights_) now = std::min(now, flight.time);
-  const std::uint64_t turn = tick_of(now) / buckets_.size();
-  turn_end_ = (turn + 1) * buckets_.size();
+  const std::uint64_t turn = tick_of(now) / size;
+  turn_end_ = (turn + 1) * size;
   coarse_end_ = turn + 1 + coarse_buckets;
   word_ = 0;
   word_bits_ = 0;
@@ -71,14 +70,16 @@ void EventQueue::schedule_beyond_turn(std::uint32_t slot, std::uint64_t tick) {
   ++waiting_;
 }
 
-bool EventQueue::begin_turn() {
-  if (waiting_ == 0) return false;
-  // The wheel is empty now: a good moment to change its width when it no longer fits the rate.
+bool EventQueue::begin_turn(double until) {
+  // Before `until` a new particle may still arrive, so a turn that begins later has to wait.
+  if (waiting_ == 0 || tick_of(until) < turn_end_) return false;
+  // The wheel is empty now: a good moment to rebuild it when it no longer fits the rate or the population.
   const double filling =
       static_cast<double>(taken_in_turn_) / (occupancy * static_cast<double>(buckets_.size()));
-  if (filling > 4 || filling < 0.125) {
-    const double rate = ticks_per_time_ * occupancy;
-    set_width(rate * std::clamp(filling, 0.125, 8.0));
+  if (filling > 4 || filling < 0.125 || bucket_count(flights_.size()) > buckets_.size()) {
+    double now = until;
+    for (const Flight& flight : flights_) now = std::min(now, flight.time);
+    rebuild(ticks_per_time_ * occupancy * std::clamp(filling, 0.125, 8.0), now);
     return true;
   }
 

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -23,7 +24,8 @@ struct Flight {
 /// narrow buckets (a fraction of an event each) holds the flights of the current turn, 64 coarse
 /// buckets of one turn each the later ones, one list the rest. Buckets are linked lists through the
 /// flights themselves, and a bitmap finds the next occupied bucket: O(1) per event, no allocation.
-/// Arrivals at or after end_time are frozen: kept, never queued.
+/// Arrivals at or after end_time are frozen: kept, never queued. Particles may come and go; the slot of one
+/// that is gone serves the next that comes.
 ///
 /// The bucket width follows the measured rate of events. It is a matter of speed only: the order is
 /// exact for every width, because floor(time / width) is monotone in time also when rounded.
@@ -38,14 +40,15 @@ class EventQueue {
   Flight& operator[](std::uint32_t slot) { return flights_[slot]; }
   double end_time() const { return end_time_; }
 
-  /// Takes out the first flight that arrives before `until` (at most end_time). Returns its slot, or
-  /// none. The caller gives the flight its next arrival, not earlier than this one, and schedules it.
+  /// Takes out the first flight that arrives before `until` (at most end_time, never falling). Returns its
+  /// slot, or none. The caller gives the flight its next arrival, not earlier than this one, and schedules
+  /// it; or releases the slot.
   std::uint32_t take_before(double until) {
     for (;;) {
       while (word_bits_ == 0) {
         if (word_ + 1 < occupied_.size())
           word_bits_ = std::exchange(occupied_[++word_], 0);
-        else if (!begin_turn())
+        else if (!begin_turn(until))
           return none;
       }
       const std::size_t bucket = (word_ << 6) + static_cast<std::size_t>(std::countr_zero(word_bits_));
@@ -59,6 +62,26 @@ class EventQueue {
     }
   }
 
+  /// A slot for the flight of a particle that comes, arriving no earlier than the last `until`. The caller
+  /// schedules it.
+  std::uint32_t insert(const Flight& flight) {
+    if (free_ == none) {
+      flights_.push_back(flight);
+      return static_cast<std::uint32_t>(flights_.size() - 1);
+    }
+    const std::uint32_t slot = free_;
+    free_ = flights_[slot].next;
+    flights_[slot] = flight;
+    return slot;
+  }
+
+  /// The particle of a flight that was taken out is gone.
+  void release(std::uint32_t slot) {
+    flights_[slot].time = std::numeric_limits<double>::infinity();  // frozen, should the wheel be rebuilt
+    flights_[slot].next = free_;
+    free_ = slot;
+  }
+
   void schedule(std::uint32_t slot) {
     const double time = flights_[slot].time;
     if (!(time < end_time_)) return;
@@ -67,10 +90,12 @@ class EventQueue {
       const std::uint64_t bucket = tick & bucket_mask_;
       const std::uint64_t bit = std::uint64_t{1} << (tick & 63);
       push(buckets_[bucket], slot);
-      if (bucket >> 6 == word_) [[unlikely]]
-        word_bits_ |= bit;
-      else
+      if (bucket >> 6 > word_) [[likely]] {
         occupied_[bucket >> 6] |= bit;
+      } else {
+        if (bucket >> 6 < word_) return_to(bucket >> 6);
+        word_bits_ |= bit;
+      }
     } else {
       schedule_beyond_turn(slot, tick);
     }
@@ -90,8 +115,15 @@ class EventQueue {
 
   std::uint32_t take_first_of_list(std::size_t bucket, double until);
   void schedule_beyond_turn(std::uint32_t slot, std::uint64_t tick);
-  bool begin_turn();
-  void set_width(double rate);
+  bool begin_turn(double until);
+  void rebuild(double rate, double now);
+
+  /// Back to a word of the current turn that was passed when it was empty: a new particle arrives there.
+  void return_to(std::size_t word) {
+    occupied_[word_] = word_bits_;
+    word_ = word;
+    word_bits_ = std::exchange(occupied_[word], 0);
+  }
 
   std::vector<Flight> flights_;
   double end_time_;
@@ -105,7 +137,8 @@ class EventQueue {
   std::uint64_t coarse_end_ = 0;  // first turn after those of the coarse buckets
   std::vector<std::uint32_t> coarse_;
   std::uint32_t beyond_ = none;
-  std::size_t waiting_ = 0;  // flights in coarse_ and beyond_
+  std::uint32_t free_ = none;  // list of released slots
+  std::size_t waiting_ = 0;    // flights in coarse_ and beyond_
   std::uint64_t taken_in_turn_ = 0;
 };
 

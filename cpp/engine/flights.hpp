@@ -5,6 +5,7 @@
 #include "engine/event_queue.hpp"
 #include "engine/launch.hpp"
 #include "model/closed_chain.hpp"
+#include "model/phase_point.hpp"
 
 namespace lorentz {
 

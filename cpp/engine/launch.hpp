@@ -9,13 +9,21 @@
 
 namespace lorentz {
 
+/// Number of cells to the next scattering, from a uniform number by inversion, where a particle passes a
+/// scatterer with the probability whose logarithm is given: P(k) = pass^(k-1) (1 - pass), k = 1, 2, ...
+inline std::int64_t cells_to_scattering(double uniform_number, double log_pass_probability) {
+  const double passed = std::log(uniform_number) / log_pass_probability;
+  constexpr double most = 0x1p53;  // beyond it cells cannot be counted; no run gets there
+  return 1 + static_cast<std::int64_t>(passed < most ? passed : most);
+}
+
 /// The chance in what follows a collision: how many cells a particle flies to its next scattering, and
 /// in which direction where that is drawn.
 ///
 /// Scattering has the probability gamma/N at every scatterer, so the number of cells is geometric,
-/// P(k) = (1 - gamma/N)^(k-1) gamma/N, k = 1, 2, ...; it is drawn once, by inversion, and the scatterers
-/// in between are never visited. The draws of a particle are counted by the particle, not by time, so two
-/// chains that start alike draw alike as long as their particles scatter equally often.
+/// it is drawn once and the scatterers in between are never visited. The draws of a particle are counted by
+/// the particle, not by time, so two chains that start alike draw alike as long as their particles scatter
+/// equally often.
 class Launch {
  public:
   /// One slot per particle; several copies of the particles, one after the other, draw the same numbers.
@@ -38,10 +46,8 @@ class Launch {
     if (random_direction_)
       u = std::copysign(u, uniform(seed_, Purpose::direction, replica_, particle, draw) - 0.5);
     if (!passing_) return 1;
-    const double passed =
-        std::log(uniform(seed_, Purpose::passes, replica_, particle, draw)) / log_pass_probability_;
-    constexpr double most = 0x1p53;  // beyond it cells cannot be counted; no run gets there
-    return 1 + static_cast<std::int64_t>(passed < most ? passed : most);
+    return cells_to_scattering(uniform(seed_, Purpose::passes, replica_, particle, draw),
+                               log_pass_probability_);
   }
 
   /// From now on `to` draws what `from` draws.

@@ -9,6 +9,7 @@
 #include "engine/launch.hpp"
 #include "engine/scattering.hpp"
 #include "model/closed_chain.hpp"
+#include "model/phase_point.hpp"
 
 namespace lorentz {
 

@@ -15,6 +15,9 @@ enum class Purpose : std::uint64_t {
   initial_scatterer_momentum = 2,
   passes = 3,     // scatterers passed without scattering
   direction = 4,  // after a collision, where it is drawn
+  injection_left = 5,
+  injection_right = 6,
+  initial_chain = 7,  // everything in the warm start of an open chain
 };
 
 /// Counter-based stream: Philox4x64-10 keyed by (seed, purpose), counted by (block, entity,
@@ -34,6 +37,9 @@ class RandomStream {
   static double unit_interval(std::uint64_t word) {
     return (static_cast<double>(word >> 12) + 0.5) * 0x1p-52;
   }
+
+  /// Exponential with mean 1.
+  double exponential() { return -std::log(uniform()); }
 
   /// Standard normal, by the Box-Muller transform; two words per number.
   double gaussian() {

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 namespace lorentz {
 
@@ -18,17 +17,6 @@ struct ClosedChain {
 
   std::uint32_t particles() const { return cells * particles_per_cell; }
   bool deterministic() const { return gamma >= cells; }  // a particle scatters at every scatterer
-};
-
-struct Particle {
-  double position;  // in [0, cells * cell_length)
-  double velocity;  // u = p/sqrt(m)
-};
-
-/// Every degree of freedom of a chain at one time.
-struct PhasePoint {
-  std::vector<Particle> particles;
-  std::vector<double> scatterers;  // U = P/sqrt(M), one per cell
 };
 
 /// The two invariants of the closed chain and the magnitude against which the second is compared.

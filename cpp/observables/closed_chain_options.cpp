@@ -2,19 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "observables/scattering_options.hpp"
 #include "program/errors.hpp"
 
 namespace lorentz {
 
 void add_chain_options(Options& options, ClosedChain& chain) {
-  options.integer("--cells", chain.cells, {1, 100'000'000}, "Number of cells N");
+  add_scattering_options(options, chain.cells, chain.sigma, chain.gamma, positive);
   options.integer("--particles-per-cell", chain.particles_per_cell, {1, 100'000'000},
                   "Number of particles per cell n");
-  options.real("--sigma", chain.sigma, {-1, 1}, "Mass ratio (M-m)/(M+m)");
-  options.real_or_word("--gamma", chain.gamma, positive, "N", std::numeric_limits<double>::infinity(),
-                       "Mean number of scatterings in N cells; N: every scatterer scatters");
   options.real("--cell-length", chain.cell_length, positive, "Distance between scatterers");
 }
 

@@ -2,8 +2,8 @@
 
 #include <functional>
 
-#include "engine/initial_state.hpp"
-#include "engine/simulate.hpp"
+#include "engine/closed_dynamics.hpp"
+#include "engine/closed_start.hpp"
 #include "program/options.hpp"
 #include "program/replicas.hpp"
 #include "program/results.hpp"
@@ -11,7 +11,7 @@
 
 namespace lorentz {
 
-/// --cells, --particles-per-cell, --sigma, --gamma and --cell-length.
+/// --cells, --particles-per-cell, --sigma, --gamma and --cell-length of a closed chain.
 void add_chain_options(Options& options, ClosedChain& chain);
 
 /// Throws UsageError if the chain has more particles than can be numbered.

@@ -99,14 +99,14 @@ void Options::integer(const std::string& name, std::uint64_t& value, Range<std::
 
 void Options::real_or_word(const std::string& name, double& value, Range<double> range,
                            const std::string& word, double meaning, const std::string& help, Role role) {
-  value = meaning;
+  const std::string preset = value == meaning ? word : fmt::format("{}", value);
   record(name, role,
          [&value, word, meaning] { return value == meaning ? AttributeValue(word) : AttributeValue(value); });
   const auto read = [&value, word, meaning](const std::string& text) {
     value = text == word ? meaning : number_in<double>(text);
   };
   app_.add_option_function<std::string>(
-          name, read, fmt::format("{} ({}, or {}; default {})", help, interval(range), word, word))
+          name, read, fmt::format("{} ({}, or {}; default {})", help, interval(range), word, preset))
       ->check([range, word](const std::string& text) {
         const std::string why = text == word ? std::string{} : objection(text, range);
         return why.empty() ? why : fmt::format("{}, or {}", why, word);

@@ -48,7 +48,7 @@ class Options {
                const std::string& help, Role role = Role::result);
   void integer(const std::string& name, std::uint64_t& value, Range<std::uint64_t> range,
                const std::string& help, Role role = Role::result);
-  /// A number, or a word that stands for a value: --gamma N. Recorded as given; the default is the word.
+  /// A number, or a word that stands for a value: --gamma N. Recorded as given.
   void real_or_word(const std::string& name, double& value, Range<double> range, const std::string& word,
                     double meaning, const std::string& help, Role role = Role::result);
   /// Increasing numbers, separated by commas.

@@ -5,8 +5,8 @@
 #include <random>
 #include <vector>
 
-#include "engine/initial_state.hpp"
-#include "engine/simulate.hpp"
+#include "engine/closed_dynamics.hpp"
+#include "engine/closed_start.hpp"
 
 namespace {
 

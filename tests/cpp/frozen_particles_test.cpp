@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/initial_state.hpp"
-#include "engine/simulate.hpp"
+#include "engine/closed_dynamics.hpp"
+#include "engine/closed_start.hpp"
 #include "support/collisions.hpp"
 
 namespace {

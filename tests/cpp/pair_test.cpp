@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/initial_state.hpp"
-#include "engine/simulate.hpp"
+#include "engine/closed_dynamics.hpp"
+#include "engine/closed_start.hpp"
 #include "support/collisions.hpp"
 
 namespace {

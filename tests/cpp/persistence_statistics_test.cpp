@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/initial_state.hpp"
-#include "engine/simulate.hpp"
+#include "engine/closed_dynamics.hpp"
+#include "engine/closed_start.hpp"
 #include "reference/heap_simulator.hpp"
 #include "support/sample.hpp"
 

@@ -7,6 +7,7 @@ probes='
 command:g++            g++                gcc-c++          gcc
 command:cmake          cmake              cmake            cmake
 command:ninja          ninja-build        ninja-build      ninja
+header:Eigen/Dense     libeigen3-dev      eigen3-devel     eigen
 header:gsl/gsl_math.h  libgsl-dev         gsl-devel        gsl
 header:hdf5.h          libhdf5-dev        hdf5-devel       hdf5
 header:CLI/CLI.hpp     libcli11-dev       cli11-devel      cli11
@@ -17,7 +18,7 @@ header:benchmark/benchmark.h libbenchmark-dev google-benchmark-devel google-benc
 venv:                  python3-venv       python3          python
 '
 
-includes=(-I/usr/include/hdf5/serial -I/opt/homebrew/include)
+includes=(-I/usr/include/hdf5/serial -I/usr/include/eigen3 -I/opt/homebrew/include -I/opt/homebrew/include/eigen3)
 
 present() {
   case $1 in

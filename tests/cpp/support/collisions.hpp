@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "engine/simulate.hpp"
+#include "engine/closed_dynamics.hpp"
 
 namespace support {
 

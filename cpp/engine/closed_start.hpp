@@ -2,6 +2,7 @@
 
 #include "engine/random.hpp"
 #include "model/closed_chain.hpp"
+#include "model/phase_point.hpp"
 
 namespace lorentz {
 

@@ -1,4 +1,4 @@
-#include "engine/simulate.hpp"
+#include "engine/closed_dynamics.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "engine/initial_state.hpp"
+#include "engine/closed_start.hpp"
 
 #include <gsl/gsl_cdf.h>
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
-#include "engine/simulate.hpp"
+#include "engine/closed_dynamics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 #include <vector>
 
-#include "engine/initial_state.hpp"
+#include "engine/closed_start.hpp"
 #include "support/collisions.hpp"
 
 namespace {

@@ -6,20 +6,12 @@
 
 #include "engine/event_queue.hpp"
 #include "engine/launch.hpp"
+#include "engine/observation.hpp"
 #include "engine/scattering.hpp"
 #include "model/closed_chain.hpp"
+#include "model/phase_point.hpp"
 
 namespace lorentz {
-
-/// What an observer of collisions sees. Velocities are energy-normalised: u^2/2 and U^2/2 are
-/// energies.
-struct Collision {
-  double time;
-  std::uint32_t particle;
-  std::uint32_t scatterer;
-  double particle_before, particle_after;    // u
-  double scatterer_before, scatterer_after;  // U
-};
 
 /// A closed chain in motion.
 class ClosedDynamics {
@@ -96,8 +88,5 @@ void ClosedDynamics::advance(double until, Observer& observer, Heartbeat&& heart
     if (++events_ % events_per_heartbeat == 0) heartbeat(departure.time);
   }
 }
-
-/// For stretches of time that nobody watches, such as a relaxation.
-struct NoObserver {};
 
 }  // namespace lorentz

@@ -1,0 +1,48 @@
+#include "engine/open_dynamics.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace lorentz {
+namespace {
+
+/// As w, see CollisionRule. Throws std::invalid_argument unless there is one per cell.
+std::vector<double> scaled(std::vector<double> scatterers, const OpenChain& chain) {
+  if (scatterers.size() != chain.cells)
+    throw std::invalid_argument("the start does not have one scatterer per cell");
+  const double scale = CollisionRule(chain.sigma).scatterer_scale();
+  for (double& scatterer : scatterers) scatterer /= scale;
+  return scatterers;
+}
+
+}  // namespace
+
+OpenDynamics::OpenDynamics(const OpenChain& chain, const PhasePoint& start, double end_time,
+                           std::uint64_t seed, std::uint64_t replica)
+    : chain_(chain),
+      collide_(chain.sigma),
+      log_pass_probability_(std::log1p(-std::min(1.0, chain.gamma / chain.cells))),
+      half_cell_(chain.cell_length / 2),
+      passes_(seed, Purpose::passes, replica),
+      injectors_{Injector(chain.left, seed, Purpose::injection_left, replica),
+                 Injector(chain.right, seed, Purpose::injection_right, replica)},
+      scatterers_(scaled(start.scatterers, chain)),
+      newcomers_(start.particles),
+      queue_({}, chain.left.rate + chain.right.rate, end_time) {}
+
+std::vector<double> OpenDynamics::scatterers() const {
+  std::vector<double> result;
+  for (const double w : scatterers_) result.push_back(collide_.scatterer_scale() * w);
+  return result;
+}
+
+double OpenDynamics::energy() const {
+  double twice_energy = 0;
+  for (const double U : scatterers()) twice_energy += U * U;
+  for (const Flight& flight : queue_.flights())
+    if (flight.time < std::numeric_limits<double>::infinity())
+      twice_energy += flight.velocity * flight.velocity;
+  return 0.5 * twice_energy;
+}
+
+}  // namespace lorentz

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace lorentz {
+
+/// A stretch of time.
+struct Window {
+  double begin, end;
+};
+
+/// A straight flight in an open chain, known when it begins. Places are those of OpenChain, in half cells; a
+/// mark is a bond or a scatterer, that is, a whole number.
+struct Path {
+  double departure, arrival;  // times
+  double velocity;            // u
+  double from;                // place of the departure; a scatterer's or an opening's, or in between
+  std::int64_t first, last;   // marks that are reached; a particle that enters reaches the opening at once
+  double time_per_place;
+
+  bool rightwards() const { return velocity > 0; }
+
+  /// How many marks are reached before a time.
+  std::int64_t marks_before(double time) const {
+    const std::int64_t all = std::abs(last - first) + 1;
+    if (time > arrival) return all;
+    const double distance = (time - departure) / time_per_place - std::abs(static_cast<double>(first) - from);
+    return distance > 0 ? std::min(all, static_cast<std::int64_t>(std::ceil(distance))) : 0;
+  }
+
+  /// Place at a time of the flight.
+  double place(double time) const {
+    if (time >= arrival) return static_cast<double>(last);
+    const double moved = (time - departure) / time_per_place;
+    return rightwards() ? from + moved : from - moved;
+  }
+};
+
+/// The marks that a path reaches in a window, as the range [low, high] from left to right; empty if low >
+/// high.
+struct Marks {
+  std::int64_t low, high;
+};
+
+/// A mark belongs to the window in which it is reached, so the marks of adjacent windows are those of both.
+inline Marks marks_in(const Path& path, const Window& window) {
+  if (path.arrival < window.begin || path.departure >= window.end) return {1, 0};
+  std::int64_t from = path.first, to = path.last;
+  const std::int64_t step = path.rightwards() ? 1 : -1;
+  if (path.departure < window.begin) from += step * path.marks_before(window.begin);
+  if (path.arrival >= window.end) to = path.first + step * (path.marks_before(window.end) - 1);
+  return path.rightwards() ? Marks{from, to} : Marks{to, from};
+}
+
+/// The part of the chain that a path covers in a window.
+struct Stretch {
+  double low, high;
+};
+
+inline Stretch stretch_in(const Path& path, const Window& window) {
+  const double begin = std::max(path.departure, window.begin), end = std::min(path.arrival, window.end);
+  if (!(begin < end)) return {0, 0};
+  const double a = path.place(begin), b = path.place(end);
+  return {std::min(a, b), std::max(a, b)};
+}
+
+}  // namespace lorentz

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+namespace lorentz {
+
+struct Particle {
+  double position;  // from the left end, in [0, cells * cell_length)
+  double velocity;  // u = p/sqrt(m)
+};
+
+/// Every degree of freedom of a chain at one time.
+struct PhasePoint {
+  std::vector<Particle> particles;
+  std::vector<double> scatterers;  // U = P/sqrt(M), one per cell
+};
+
+}  // namespace lorentz

@@ -1,0 +1,56 @@
+#include "observables/open_chain_options.hpp"
+
+#include <cmath>
+
+#include "engine/open_start.hpp"
+#include "observables/scattering_options.hpp"
+#include "program/errors.hpp"
+
+namespace lorentz {
+
+OpenChainOptions::OpenChainOptions(Options& options, const OpenChain& chain, Times times,
+                                   const std::string& start)
+    : chain_(chain), times_(times), start_(start) {
+  add_scattering_options(options, chain_.cells, chain_.sigma, chain_.gamma, non_negative);
+  options.real_or_word("--cell-length", chain_.cell_length, positive, "1/N", 0,
+                       "Distance between scatterers");
+  options.real("--nu-left", chain_.left.rate, non_negative, "Particles injected at the left per unit time");
+  options.real("--nu-right", chain_.right.rate, non_negative,
+               "Particles injected at the right per unit time");
+  options.real("--temperature-left", chain_.left.temperature, positive, "Temperature of the left reservoir");
+  options.real("--temperature-right", chain_.right.temperature, positive,
+               "Temperature of the right reservoir");
+  options.choice("--start", start_, {"empty", "warm"},
+                 "empty: no particles, scatterers at rest; warm: near the stationary state");
+  options.real("--relaxation-time", times_.relaxation, non_negative, "Time before the measurement");
+  options.real("--observation-time", times_.observation, positive, "Time of the measurement");
+}
+
+OpenChain OpenChainOptions::chain() const {
+  OpenChain chain = chain_;
+  if (chain.cell_length == 0) chain.cell_length = 1. / chain.cells;
+  return chain;
+}
+
+void OpenChainOptions::validate() const {
+  if (!std::isfinite(window().end))
+    throw UsageError("--relaxation-time plus --observation-time overflows. Choose shorter times.");
+}
+
+PhasePoint OpenChainOptions::start(std::uint64_t seed, std::uint64_t replica) const {
+  const OpenChain chain = this->chain();
+  if (start_ == "empty") return empty_start(chain);
+  return local_equilibrium_start(chain, chain.left, chain.right, window().end, seed, replica);
+}
+
+void InjectionControls::append_to(std::vector<double>& record, const OpenChain& chain,
+                                  double duration) const {
+  std::size_t i = 0;
+  for (const Reservoir& reservoir : {chain.left, chain.right}) {
+    const double injected = reservoir.rate * duration;
+    for (const double each : {1.0, reservoir.mean_momentum(), reservoir.mean_energy()})
+      record.push_back(sums_[i++] - injected * each);
+  }
+}
+
+}  // namespace lorentz

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/open_dynamics.hpp"
+#include "model/open_chain.hpp"
+#include "program/options.hpp"
+#include "program/replicas.hpp"
+
+namespace lorentz {
+
+/// The options that describe an open chain, its reservoirs, its start and the stretches of time of a
+/// measurement.
+class OpenChainOptions {
+ public:
+  struct Times {
+    double relaxation, observation;
+  };
+
+  /// The chain and the times are the defaults of those options; a cell length of 0 stands for 1/N.
+  OpenChainOptions(Options& options, const OpenChain& chain, Times times, const std::string& start);
+
+  /// With the default of the cell length put in.
+  OpenChain chain() const;
+  Window window() const { return {times_.relaxation, times_.relaxation + times_.observation}; }
+  double observation_time() const { return times_.observation; }
+
+  /// Throws UsageError where options are possible one by one but not together.
+  void validate() const;
+
+  /// A replica from its start to the end of the window, all of it watched. At the end the observer's
+  /// finish(scatterers, end_time) is called, with U of every scatterer, if it has one. Returns the number of
+  /// events.
+  template <class Observer>
+  std::uint64_t observe(std::uint64_t seed, const Replica& replica, Observer& observer) const {
+    OpenDynamics dynamics(chain(), start(seed, replica.index), window().end, seed, replica.index);
+    simulate(dynamics, window().end, observer, [&](double now) { replica.heartbeat(now / window().end); });
+    if constexpr (requires { observer.finish(dynamics.scatterers(), window().end); })
+      observer.finish(dynamics.scatterers(), window().end);
+    return dynamics.events();
+  }
+
+ private:
+  PhasePoint start(std::uint64_t seed, std::uint64_t replica) const;
+
+  OpenChain chain_;
+  Times times_;
+  std::string start_;
+};
+
+/// What the reservoirs inject in a window, minus its known mean: the control variates of every stationary
+/// measurement. Numbers, momenta and energies, first of the left reservoir, then of the right one.
+class InjectionControls {
+ public:
+  static constexpr std::size_t count = 6;
+
+  void add(End end, double u) {
+    double* const sums = sums_ + 3 * static_cast<std::size_t>(end);
+    sums[0] += 1;
+    sums[1] += std::abs(u);
+    sums[2] += 0.5 * u * u;
+  }
+
+  /// Appends the deviations after `duration` to a record.
+  void append_to(std::vector<double>& record, const OpenChain& chain, double duration) const;
+
+ private:
+  double sums_[count] = {};
+};
+
+}  // namespace lorentz
