@@ -76,7 +76,7 @@ bool EventQueue::begin_turn(double until) {
   // The wheel is empty now: a good moment to rebuild it when it no longer fits the rate or the population.
   const double filling =
       static_cast<double>(taken_in_turn_) / (occupancy * static_cast<double>(buckets_.size()));
-  if (filling > 4 || filling < 0.125 || bucket_count(flights_.size()) > buckets_.size()) {
+  if (filling > 1.5 || filling < 0.5 || bucket_count(flights_.size()) > buckets_.size()) {
     double now = until;
     for (const Flight& flight : flights_) now = std::min(now, flight.time);
     rebuild(ticks_per_time_ * occupancy * std::clamp(filling, 0.125, 8.0), now);

@@ -136,14 +136,16 @@ void OpenDynamics::fly(std::uint32_t slot, double from, std::int64_t first, std:
   Flight& flight = queue_[slot];
   const double u = flight.velocity, departure = flight.time;
   const std::int64_t passed = cells_passed<passing>();
-  const std::int64_t target = u > 0 ? next_cell + passed : next_cell - passed;
-  const bool leaves = target < 0 || target >= chain_.cells;
-  const std::int64_t last = leaves ? (u > 0 ? chain_.right_opening() : 0) : 2 * target + 1;
+  const std::int64_t target = next_cell + (u > 0 ? passed : -passed);
+  const bool leaves = static_cast<std::uint64_t>(target) >= chain_.cells;  // negative ones too
+  std::int64_t last = 2 * target + 1;
+  if (leaves) [[unlikely]]
+    last = u > 0 ? chain_.right_opening() : 0;
   const double time_per_place = half_cell_ / std::abs(u);
   const double arrival = departure + std::abs(static_cast<double>(last) - from) * time_per_place;
   if constexpr (requires(const Path& path) { observer.on_flight(path); })
     observer.on_flight(Path{departure, arrival, u, from, first, last, time_per_place});
-  if (leaves) {
+  if (leaves) [[unlikely]] {
     if constexpr (requires { observer.on_exit(End::left, arrival, u); })
       observer.on_exit(u > 0 ? End::right : End::left, arrival, u);
     queue_.release(slot);

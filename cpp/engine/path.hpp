@@ -21,6 +21,10 @@ struct Path {
   double time_per_place;
 
   bool rightwards() const { return velocity > 0; }
+  bool reaches(std::int64_t mark) const { return (mark - first) * (mark - last) <= 0; }
+  double time_at(std::int64_t mark) const {
+    return departure + std::abs(static_cast<double>(mark) - from) * time_per_place;
+  }
 
   /// How many marks are reached before a time.
   std::int64_t marks_before(double time) const {
@@ -54,16 +58,17 @@ inline Marks marks_in(const Path& path, const Window& window) {
   return path.rightwards() ? Marks{from, to} : Marks{to, from};
 }
 
-/// The part of the chain that a path covers in a window.
+/// The part of the chain that a path covers in a window, and the time that it takes, 0 if none.
 struct Stretch {
   double low, high;
+  double duration;
 };
 
 inline Stretch stretch_in(const Path& path, const Window& window) {
   const double begin = std::max(path.departure, window.begin), end = std::min(path.arrival, window.end);
-  if (!(begin < end)) return {0, 0};
+  if (!(begin < end)) return {0, 0, 0};
   const double a = path.place(begin), b = path.place(end);
-  return {std::min(a, b), std::max(a, b)};
+  return {std::min(a, b), std::max(a, b), end - begin};
 }
 
 }  // namespace lorentz

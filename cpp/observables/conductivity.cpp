@@ -53,10 +53,7 @@ class EndsAndOpenings {
 
   void on_flight(const Path& path) {
     for (EndCell& end : ends_) {
-      if (end.mark < std::min(path.first, path.last) || end.mark > std::max(path.first, path.last)) continue;
-      const double time =
-          path.departure + std::abs(static_cast<double>(end.mark) - path.from) * path.time_per_place;
-      if (!blocks_.contain(time)) continue;
+      if (!path.reaches(end.mark) || !blocks_.contain(path.time_at(end.mark))) continue;
       end.arrivals += 1;
       end.arriving_energy += path.velocity * path.velocity;
     }
@@ -191,14 +188,14 @@ Results summarise(const Records& records, double cells) {
 
 int main(int argc, char** argv) {
   Program program("conductivity", "Heat conductivity of an open chain");
-  const OpenChainOptions options(program.options(), {.cell_length = 0}, {50, 200}, "warm");
+  const OpenChainOptions options(program.options(), {.cell_length = 0}, "warm", {50, 200});
   const ReplicaOptions replicas(program);
   return program.run(argc, argv, [&](Progress& progress) {
     options.validate();
     const OpenChain chain = options.chain();
     const auto measure = [&](const Replica& replica) {
       EndsAndOpenings observer(chain, options.window());
-      const std::uint64_t events = options.observe(replicas.seed(), replica, observer);
+      const std::uint64_t events = options.observe(replicas.seed(), replica, options.window().end, observer);
       return ReplicaRecord{observer.record(chain), events};
     };
     const auto results = [&](const Records& records) { return summarise(records, chain.cells); };

@@ -8,9 +8,8 @@
 
 namespace lorentz {
 
-OpenChainOptions::OpenChainOptions(Options& options, const OpenChain& chain, Times times,
-                                   const std::string& start)
-    : chain_(chain), times_(times), start_(start) {
+OpenChainOptions::OpenChainOptions(Options& options, const OpenChain& chain, const std::string& start)
+    : chain_(chain), start_(start) {
   add_scattering_options(options, chain_.cells, chain_.sigma, chain_.gamma, non_negative);
   options.real_or_word("--cell-length", chain_.cell_length, positive, "1/N", 0,
                        "Distance between scatterers");
@@ -22,6 +21,12 @@ OpenChainOptions::OpenChainOptions(Options& options, const OpenChain& chain, Tim
                "Temperature of the right reservoir");
   options.choice("--start", start_, {"empty", "warm"},
                  "empty: no particles, scatterers at rest; warm: near the stationary state");
+}
+
+OpenChainOptions::OpenChainOptions(Options& options, const OpenChain& chain, const std::string& start,
+                                   Times times)
+    : OpenChainOptions(options, chain, start) {
+  times_ = times;
   options.real("--relaxation-time", times_.relaxation, non_negative, "Time before the measurement");
   options.real("--observation-time", times_.observation, positive, "Time of the measurement");
 }
@@ -37,10 +42,10 @@ void OpenChainOptions::validate() const {
     throw UsageError("--relaxation-time plus --observation-time overflows. Choose shorter times.");
 }
 
-PhasePoint OpenChainOptions::start(std::uint64_t seed, std::uint64_t replica) const {
+PhasePoint OpenChainOptions::start(double age, std::uint64_t seed, std::uint64_t replica) const {
   const OpenChain chain = this->chain();
   if (start_ == "empty") return empty_start(chain);
-  return local_equilibrium_start(chain, chain.left, chain.right, window().end, seed, replica);
+  return local_equilibrium_start(chain, chain.left, chain.right, age, seed, replica);
 }
 
 void InjectionControls::append_to(std::vector<double>& record, const OpenChain& chain,

@@ -20,35 +20,36 @@ class OpenChainOptions {
     double relaxation, observation;
   };
 
-  /// The chain and the times are the defaults of those options; a cell length of 0 stands for 1/N.
-  OpenChainOptions(Options& options, const OpenChain& chain, Times times, const std::string& start);
+  /// The chain is the default of those options; a cell length of 0 stands for 1/N.
+  OpenChainOptions(Options& options, const OpenChain& chain, const std::string& start);
+
+  /// The same with --relaxation-time and --observation-time, for what is measured in a window.
+  OpenChainOptions(Options& options, const OpenChain& chain, const std::string& start, Times times);
 
   /// With the default of the cell length put in.
   OpenChain chain() const;
   Window window() const { return {times_.relaxation, times_.relaxation + times_.observation}; }
-  double observation_time() const { return times_.observation; }
 
   /// Throws UsageError where options are possible one by one but not together.
   void validate() const;
 
-  /// A replica from its start to the end of the window, all of it watched. At the end the observer's
-  /// finish(scatterers, end_time) is called, with U of every scatterer, if it has one. Returns the number of
-  /// events.
+  /// A replica from its start to a time, all of it watched. At the end the observer's finish(scatterers, end)
+  /// is called, with U of every scatterer, if it has one. Returns the number of events.
   template <class Observer>
-  std::uint64_t observe(std::uint64_t seed, const Replica& replica, Observer& observer) const {
-    OpenDynamics dynamics(chain(), start(seed, replica.index), window().end, seed, replica.index);
-    simulate(dynamics, window().end, observer, [&](double now) { replica.heartbeat(now / window().end); });
-    if constexpr (requires { observer.finish(dynamics.scatterers(), window().end); })
-      observer.finish(dynamics.scatterers(), window().end);
+  std::uint64_t observe(std::uint64_t seed, const Replica& replica, double end, Observer& observer) const {
+    OpenDynamics dynamics(chain(), start(end, seed, replica.index), end, seed, replica.index);
+    simulate(dynamics, end, observer, [&](double now) { replica.heartbeat(now / end); });
+    if constexpr (requires { observer.finish(dynamics.scatterers(), end); })
+      observer.finish(dynamics.scatterers(), end);
     return dynamics.events();
   }
 
  private:
-  PhasePoint start(std::uint64_t seed, std::uint64_t replica) const;
+  PhasePoint start(double age, std::uint64_t seed, std::uint64_t replica) const;
 
   OpenChain chain_;
-  Times times_;
   std::string start_;
+  Times times_{};
 };
 
 /// What the reservoirs inject in a window, minus its known mean: the control variates of every stationary

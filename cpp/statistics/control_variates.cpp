@@ -8,10 +8,14 @@ namespace {
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Every column divided by its standard deviation over the rows; one that does not vary becomes 0.
+/// Every column divided by its standard deviation over the rows. One that does not vary, or that varies in
+/// one row as much as in all others together, becomes 0: without that row it would have no coefficient.
 Matrix standardised(const Matrix& columns) {
-  const Eigen::RowVectorXd deviation = (columns.rowwise() - columns.colwise().mean()).colwise().norm();
-  const Eigen::RowVectorXd weight = (deviation.array() > 0).select(deviation.cwiseInverse(), 0);
+  const Matrix centred = columns.rowwise() - columns.colwise().mean();
+  const Eigen::RowVectorXd squares = centred.colwise().squaredNorm();
+  const Eigen::RowVectorXd largest = centred.cwiseAbs2().colwise().maxCoeff();
+  const Eigen::RowVectorXd weight =
+      (2 * largest.array() < squares.array()).select(squares.cwiseSqrt().cwiseInverse(), 0);
   return columns * weight.asDiagonal();
 }
 

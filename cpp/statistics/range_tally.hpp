@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -19,14 +20,19 @@ class RangeTally {
     steps_[static_cast<std::size_t>(last + 1)] -= value;
   }
 
-  /// The elements being the intervals [k, k + 1): adds to each the value times its overlap with [low, high].
-  void add_overlap(double low, double high, double value) {
-    const auto first = static_cast<std::ptrdiff_t>(low),
-               last = static_cast<std::ptrdiff_t>(std::ceil(high)) - 1;
-    if (!(low < high)) return;
-    add(first, last, value);
-    add(first, first, -value * (low - static_cast<double>(first)));
-    add(last, last, -value * (static_cast<double>(last + 1) - high));
+  /// The elements being the intervals [k, k + 1): spreads a total evenly over [low, high], a point if low ==
+  /// high.
+  void spread(double low, double high, double total) {
+    const auto first = static_cast<std::ptrdiff_t>(low);
+    const auto last = std::max(first, static_cast<std::ptrdiff_t>(std::ceil(high)) - 1);
+    if (first == last) {
+      add(first, first, total);
+      return;
+    }
+    const double density = total / (high - low);
+    add(first, first, density * (static_cast<double>(first + 1) - low));
+    add(first + 1, last - 1, density);
+    add(last, last, density * (high - static_cast<double>(last)));
   }
 
   std::vector<double> sums() const {

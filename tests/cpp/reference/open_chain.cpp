@@ -1,11 +1,12 @@
-/// The open chain by a reference simulator that shares nothing with the engine: a binary heap, every crossing of
-/// a scatterer or of a bond an event, momenta (p, P) and masses as the paper prints them, empty start, plain
-/// counting. Prints one line per replica, of the window after the relaxation: per cell temperature of the
-/// scatterer, <p^2> of the arrivals, density, arrivals to the right and to the left per unit time; per bond
-/// particle current, energy current; per bond and bin the flux per unit momentum; then, of the particles inside
-/// at the end of the window, their number and their number per bin.
+/// The open chain by a reference simulator that shares nothing with the engine: a binary heap, every crossing
+/// of a scatterer or of a bond an event, momenta (p, P) and masses as the paper prints them, empty start,
+/// plain counting. Prints one line per replica, of the window after the relaxation: per cell temperature of
+/// the scatterer, <p^2> of the arrivals, density, arrivals to the right and to the left per unit time; per
+/// bond particle current, energy current; per bond and bin the flux per unit momentum; then, of the particles
+/// inside at the end of the window, their number and their number per bin.
 ///
-///   reference_open_chain cells cell_length sigma gamma nu_left nu_right T_left T_right relaxation observation
+///   reference_open_chain cells cell_length sigma gamma nu_left nu_right T_left T_right relaxation
+///   observation
 ///                        bins momentum_max replicas seed
 #include <cmath>
 #include <cstdio>

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace lorentz {
+
+/// Equal bins over [-max, max], an even number, so that an edge lies at 0 exactly.
+class Bins {
+ public:
+  Bins(std::size_t count, double max) : half_(count / 2), max_(max) {}
+
+  std::size_t count() const { return 2 * half_; }
+  double width() const { return max_ / static_cast<double>(half_); }
+  double edge(std::size_t bin) const {
+    return max_ * (static_cast<double>(bin) - static_cast<double>(half_)) / static_cast<double>(half_);
+  }
+
+  /// The bin of a value; count() or more if it lies outside. 0 belongs to the bin above it.
+  std::size_t operator[](double value) const {
+    const double place = value / max_ * static_cast<double>(half_);
+    if (place >= 0)
+      return place < static_cast<double>(half_) ? half_ + static_cast<std::size_t>(place) : count();
+    return place >= -static_cast<double>(half_) ? half_ - 1 - static_cast<std::size_t>(-place) : count();
+  }
+
+  std::vector<double> middles() const {
+    std::vector<double> result;
+    for (std::size_t bin = 0; bin < count(); ++bin) result.push_back(0.5 * (edge(bin) + edge(bin + 1)));
+    return result;
+  }
+
+ private:
+  std::size_t half_;
+  double max_;
+};
+
+/// Weights by bin; values outside are left out.
+class Histogram {
+ public:
+  explicit Histogram(const Bins& bins) : bins_(bins), weights_(bins.count(), 0) {}
+
+  void add(double value, double weight = 1) {
+    const std::size_t bin = bins_[value];
+    if (bin < weights_.size()) weights_[bin] += weight;
+  }
+
+  const std::vector<double>& weights() const { return weights_; }
+
+ private:
+  Bins bins_;
+  std::vector<double> weights_;
+};
+
+}  // namespace lorentz
