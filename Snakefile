@@ -6,6 +6,7 @@ from snakemake.exceptions import WorkflowError
 
 sys.path.insert(0, workflow.basedir)
 from workflow.config.plan import QUALITIES, ConfigurationError, data_of, load_plan
+from workflow.provenance.sources import sources_of
 
 QUALITY = config.get("quality", "standard")
 try:

@@ -72,7 +72,7 @@ void EventQueue::schedule_beyond_turn(std::uint32_t slot, std::uint64_t tick) {
 
 bool EventQueue::begin_turn(double until) {
   // Before `until` a new particle may still arrive, so a turn that begins later has to wait.
-  if (waiting_ == 0 || tick_of(until) < turn_end_) return false;
+  if (waiting_ == 0 || tick_of(std::min(until, end_time_)) < turn_end_) return false;
   // The wheel is empty now: a good moment to rebuild it when it no longer fits the rate or the population.
   const double filling =
       static_cast<double>(taken_in_turn_) / (occupancy * static_cast<double>(buckets_.size()));

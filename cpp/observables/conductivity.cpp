@@ -188,7 +188,7 @@ Results summarise(const Records& records, double cells) {
 
 int main(int argc, char** argv) {
   Program program("conductivity", "Heat conductivity of an open chain");
-  const OpenChainOptions options(program.options(), {.cell_length = 0}, "warm", {50, 200});
+  const OpenChainOptions options(program.options(), {.cell_length = 0}, "warm", {{0.05, true}, {400}});
   const ReplicaOptions replicas(program);
   return program.run(argc, argv, [&](Progress& progress) {
     options.validate();

@@ -163,7 +163,7 @@ Results summarise(const Records& records, std::size_t bonds, const Bins& bins) {
 
 int main(int argc, char** argv) {
   Program program("momentum_flux", "Momentum distribution of the particles in an open chain");
-  const OpenChainOptions options(program.options(), {.cell_length = 0}, "warm", {100, 1000});
+  const OpenChainOptions options(program.options(), {.cell_length = 0}, "warm", {{100}, {1000}});
   const MomentumBinsOptions bins(program.options(), 100, 60);
   const ReplicaOptions replicas(program);
   return program.run(argc, argv, [&](Progress& progress) {

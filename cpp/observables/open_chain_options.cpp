@@ -27,14 +27,19 @@ OpenChainOptions::OpenChainOptions(Options& options, const OpenChain& chain, con
                                    Times times)
     : OpenChainOptions(options, chain, start) {
   times_ = times;
-  options.real("--relaxation-time", times_.relaxation, non_negative, "Time before the measurement");
-  options.real("--observation-time", times_.observation, positive, "Time of the measurement");
+  options.scaled("--relaxation-time", times_.relaxation, non_negative, "Time before the measurement");
+  options.scaled("--observation-time", times_.observation, positive, "Time of the measurement");
 }
 
 OpenChain OpenChainOptions::chain() const {
   OpenChain chain = chain_;
   if (chain.cell_length == 0) chain.cell_length = 1. / chain.cells;
   return chain;
+}
+
+Window OpenChainOptions::window() const {
+  const double begin = times_.relaxation.at(chain_.cells);
+  return {begin, begin + times_.observation.at(chain_.cells)};
 }
 
 void OpenChainOptions::validate() const {

@@ -17,7 +17,7 @@ namespace lorentz {
 class OpenChainOptions {
  public:
   struct Times {
-    double relaxation, observation;
+    Scaled relaxation, observation;
   };
 
   /// The chain is the default of those options; a cell length of 0 stands for 1/N.
@@ -28,7 +28,7 @@ class OpenChainOptions {
 
   /// With the default of the cell length put in.
   OpenChain chain() const;
-  Window window() const { return {times_.relaxation, times_.relaxation + times_.observation}; }
+  Window window() const;
 
   /// Throws UsageError where options are possible one by one but not together.
   void validate() const;

@@ -160,7 +160,7 @@ Results summarise(const Records& records, std::size_t cells, const Bins& bins) {
 
 int main(int argc, char** argv) {
   Program program("steady_profile", "Profiles of an open chain in its stationary state");
-  const OpenChainOptions options(program.options(), {.cell_length = 0}, "warm", {100, 1000});
+  const OpenChainOptions options(program.options(), {.cell_length = 0}, "warm", {{100}, {1000}});
   const MomentumBinsOptions bins(program.options(), 100, 60);
   const ReplicaOptions replicas(program);
   return program.run(argc, argv, [&](Progress& progress) {

@@ -115,6 +115,31 @@ void Options::real_or_word(const std::string& name, double& value, Range<double>
       ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
 }
 
+void Options::scaled(const std::string& name, Scaled& value, Range<double> range, const std::string& help,
+                     Role role) {
+  const auto as_given = [](const Scaled& scaled) {
+    return fmt::format("{}{}", scaled.factor, scaled.per_cell ? "N" : "");
+  };
+  record(name, role, [&value, as_given] {
+    return value.per_cell ? AttributeValue(as_given(value)) : AttributeValue(value.factor);
+  });
+  const auto factor = [](const std::string& text) {
+    return text.ends_with('N') ? text.substr(0, text.size() - 1) : text;
+  };
+  const auto read = [&value, factor](const std::string& text) {
+    value = {number_in<double>(factor(text)), text.ends_with('N')};
+  };
+  app_.add_option_function<std::string>(
+          name, read,
+          fmt::format("{} ({}, or such a number of N; default {})", help, interval(range), as_given(value)))
+      ->check([range, factor](const std::string& text) {
+        const std::string why = objection(factor(text), range);
+        return why.empty() ? why : fmt::format("{}, or such a number followed by N", why);
+      })
+      ->type_name("")
+      ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+}
+
 void Options::ascending_list(const std::string& name, std::vector<double>& values, Range<double> range,
                              const std::string& help, Role role) {
   record(name, role, [&values] { return AttributeValue(fmt::format("{}", fmt::join(values, ","))); });

@@ -29,6 +29,14 @@ struct Range {
 inline constexpr Range<double> positive{0, std::numeric_limits<double>::max(), true};
 inline constexpr Range<double> non_negative{0};
 
+/// A number, or a multiple of the number of cells.
+struct Scaled {
+  double factor;
+  bool per_cell = false;
+
+  double at(double cells) const { return per_cell ? factor * cells : factor; }
+};
+
 /// The options of one executable. Each is declared once, with its admissible range and units; that
 /// one declaration serves the command line, the configuration file, --help, the check and the
 /// record of parameters in the output file.
@@ -51,6 +59,9 @@ class Options {
   /// A number, or a word that stands for a value: --gamma N. Recorded as given.
   void real_or_word(const std::string& name, double& value, Range<double> range, const std::string& word,
                     double meaning, const std::string& help, Role role = Role::result);
+  /// A number, or one that ends with N for a multiple of the number of cells: 0.05N. Recorded as given.
+  void scaled(const std::string& name, Scaled& value, Range<double> range, const std::string& help,
+              Role role = Role::result);
   /// Increasing numbers, separated by commas.
   void ascending_list(const std::string& name, std::vector<double>& values, Range<double> range,
                       const std::string& help, Role role = Role::result);

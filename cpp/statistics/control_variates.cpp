@@ -8,14 +8,10 @@ namespace {
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Every column divided by its standard deviation over the rows. One that does not vary, or that varies in
-/// one row as much as in all others together, becomes 0: without that row it would have no coefficient.
+/// Every column divided by its standard deviation over the rows; one that does not vary becomes 0.
 Matrix standardised(const Matrix& columns) {
-  const Matrix centred = columns.rowwise() - columns.colwise().mean();
-  const Eigen::RowVectorXd squares = centred.colwise().squaredNorm();
-  const Eigen::RowVectorXd largest = centred.cwiseAbs2().colwise().maxCoeff();
-  const Eigen::RowVectorXd weight =
-      (2 * largest.array() < squares.array()).select(squares.cwiseSqrt().cwiseInverse(), 0);
+  const Eigen::RowVectorXd deviation = (columns.rowwise() - columns.colwise().mean()).colwise().norm();
+  const Eigen::RowVectorXd weight = (deviation.array() > 0).select(deviation.cwiseInverse(), 0);
   return columns * weight.asDiagonal();
 }
 
@@ -39,6 +35,9 @@ Records reduce_variance(const Records& records, std::size_t controls) {
   const Matrix residual = y_centred - x_centred * coefficients;
   const Eigen::VectorXd leverage =
       gain.cwiseProduct(x_centred).rowwise().sum().array() + 1. / static_cast<double>(rows);
+
+  // Some control varies in hardly more than one record; without it there would be no coefficient.
+  if (leverage.maxCoeff() > 0.9) return records;
 
   // b without record i is b - gain_i residual_i / (1 - leverage_i).
   const Eigen::VectorXd own = gain.cwiseProduct(x).rowwise().sum().array() / (1 - leverage.array());

@@ -166,4 +166,50 @@ TEST(EventQueue, NeverReturnsArrivalsAtOrAfterTheEnd) {
 
 TEST(EventQueue, IsEmptyWithoutFlights) { EXPECT_EQ(EventQueue({}, 1, 1).take_before(1), EventQueue::none); }
 
+/// Particles come one by one and go after some flights, as in an open chain. The queue is asked up to the
+/// time of the next arrival, so a newcomer may arrive before everything that the queue has already looked at.
+std::size_t compare_with_comings_and_goings(double births, double deaths, const Delay& delay, double rate,
+                                            double end_time) {
+  Generator generator(11);
+  std::exponential_distribution<double> interval(births);
+  std::bernoulli_distribution dies(deaths);
+  std::set<std::pair<double, std::uint32_t>> expected;
+  EventQueue queue({}, rate, end_time);
+  std::size_t events = 0;
+  for (double birth = interval(generator); birth < end_time; birth += interval(generator)) {
+    for (std::uint32_t slot; (slot = queue.take_before(birth)) != EventQueue::none; ++events) {
+      if (expected.empty() || std::pair(queue[slot].time, slot) != *expected.begin()) {
+        ADD_FAILURE() << "event " << events << ": slot " << slot << " at " << queue[slot].time;
+        return events;
+      }
+      expected.erase(expected.begin());
+      if (dies(generator)) {
+        queue.release(slot);
+        continue;
+      }
+      queue[slot].time += delay(generator);
+      if (queue[slot].time < end_time) expected.emplace(queue[slot].time, slot);
+      queue.schedule(slot);
+    }
+    if (!expected.empty() && expected.begin()->first < birth) {
+      ADD_FAILURE() << "the queue stopped at " << birth << " before " << expected.begin()->first;
+      return events;
+    }
+    const double time = birth + delay(generator);
+    const std::uint32_t slot = queue.insert({time, 1, 0, EventQueue::none});
+    if (time < end_time) expected.emplace(time, slot);
+    queue.schedule(slot);
+  }
+  return events;
+}
+
+TEST(EventQueue, LetsParticlesComeAndGo) {
+  for (const double rate : {1e-6, 1., 1000., 1e9}) {
+    EXPECT_GT(compare_with_comings_and_goings(100, 0.1, heavy_tailed(1), rate, 300), 50000U) << rate;
+    EXPECT_GT(compare_with_comings_and_goings(100, 0.002, heavy_tailed(1), rate, 50), 30000U) << rate;
+    EXPECT_GT(compare_with_comings_and_goings(0.01, 0.5, heavy_tailed(0.5), rate, 1e5), 500U) << rate;
+    EXPECT_GT(compare_with_comings_and_goings(20, 0.1, quantised, rate, 300), 10000U) << rate;
+  }
+}
+
 }  // namespace

@@ -140,6 +140,22 @@ TEST(Options, ReadTheSmallestNumbersInWordsAndLists) {
   EXPECT_EQ(times, (std::vector<double>{0, 1e-310, 2}));
 }
 
+TEST(Options, ScaleWithTheNumberOfCells) {
+  Options options("example", "An example");
+  Scaled relaxation{10}, observation{10};
+  options.scaled("--relaxation-time", relaxation, non_negative, "Relaxation");
+  options.scaled("--observation-time", observation, positive, "Observation");
+  const std::vector<const char*> arguments = {"example", "--relaxation-time", "0.05N"};
+  EXPECT_TRUE(options.parse(static_cast<int>(arguments.size()), arguments.data(), ""));
+  EXPECT_EQ(relaxation.at(40), 2);
+  EXPECT_EQ(observation.at(40), 10);
+  EXPECT_EQ(as_text(options.parameters()), "observation-time = 10\nrelaxation-time = 0.05N\n");
+  for (const char* wrong : {"N", "1M", "-1N", "1NN", "0N"}) {
+    const std::vector<const char*> bad = {"example", "--observation-time", wrong};
+    EXPECT_THROW(options.parse(static_cast<int>(bad.size()), bad.data(), ""), UsageError) << wrong;
+  }
+}
+
 TEST(Options, RecordWhatDeterminesTheResultSortedByName) {
   Example example;
   example.parse({"--cells", "7", "--output", "file.h5", "--threads", "2"});

@@ -4,8 +4,7 @@
 rule draw:
     input:
         data=lambda wildcards: data_of(PANELS, wildcards.panel, wildcards.quality),
-        script=lambda wildcards: f"workflow/scripts/{PANELS[wildcards.panel].script}.py",
-        shared=expand("workflow/scripts/{module}.py", module=["figure", "load", "save", "style"]),
+        sources=lambda wildcards: sources_of(f"workflow/scripts/{PANELS[wildcards.panel].script}.py"),
         lock="requirements.lock",
     output:
         multiext("figures/{quality}/{panel}", ".pdf", ".png", ".svg", ".csv"),
@@ -21,5 +20,5 @@ rule draw:
         stem="figures/{quality}/{panel}",
     shell:
         ".venv/bin/python -m {params.module} --configuration {params.configuration}"
-        " --sources {input.script} {input.shared} --lock {input.lock}"
+        " --sources {input.sources} --lock {input.lock}"
         " --output {params.stem} --data {input.data} 2> {log}"

@@ -1,0 +1,89 @@
+#include "statistics/control_variates.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "support/sample.hpp"
+
+namespace {
+
+using namespace lorentz;
+
+/// y = 5 + 2 c_1 - 3 c_2 + noise, with lopsided controls of mean 0.
+Records noisy(std::size_t size, double noise, std::uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  std::exponential_distribution<double> exponential;
+  std::normal_distribution<double> normal;
+  Records records(3);
+  for (std::size_t i = 0; i < size; ++i) {
+    const double a = exponential(generator) - 1, b = 100 * (exponential(generator) - 1);
+    records.append(std::vector{5 + 2 * a - 0.03 * b + noise * normal(generator), a, b});
+  }
+  return records;
+}
+
+support::Sample first_column(const Records& records) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < records.size(); ++i) values.push_back(records[i][0]);
+  return support::sample(values);
+}
+
+TEST(ControlVariates, UseCoefficientsOfTheOtherRecords) {
+  const Records records = noisy(12, 1, 1);
+  const Records reduced = reduce_variance(records, 2);
+  for (std::size_t left_out = 0; left_out < records.size(); ++left_out) {
+    Eigen::MatrixXd design(11, 3);
+    Eigen::VectorXd y(11);
+    for (std::size_t i = 0, row = 0; i < records.size(); ++i) {
+      if (i == left_out) continue;
+      design.row(static_cast<Eigen::Index>(row)) << 1, records[i][1], records[i][2];
+      y(static_cast<Eigen::Index>(row++)) = records[i][0];
+    }
+    const Eigen::VectorXd fit = design.colPivHouseholderQr().solve(y);
+    const double expected =
+        records[left_out][0] - fit(1) * records[left_out][1] - fit(2) * records[left_out][2];
+    EXPECT_NEAR(reduced[left_out][0], expected, 1e-12);
+    EXPECT_EQ(reduced[left_out][1], records[left_out][1]);
+  }
+}
+
+TEST(ControlVariates, LeaveTheNoiseAndNoBias) {
+  std::vector<double> means, variances;
+  double squares = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    const support::Sample reduced = first_column(reduce_variance(noisy(30, 0.5, seed), 2));
+    means.push_back(reduced.mean);
+    variances.push_back(reduced.standard_error * reduced.standard_error);
+    squares += std::pow(reduced.mean - 5, 2) / 400;
+  }
+  EXPECT_LT(std::abs(support::z_score(support::sample(means), 5.0)), 4);
+  // The errors say how far the means lie from the truth; sum of squares of 400 normal numbers.
+  const double ratio = squares / support::sample(variances).mean;
+  EXPECT_LT(std::abs(ratio - 1), 4 * std::sqrt(2. / 400));
+  // The plain error is five times larger.
+  EXPECT_GT(first_column(noisy(30, 0.5, 1)).standard_error, 3 * std::sqrt(support::sample(variances).mean));
+}
+
+TEST(ControlVariates, ThatDoNotVaryAreLeftOut) {
+  Records records(4);
+  const Records source = noisy(20, 0.1, 3);
+  for (std::size_t i = 0; i < source.size(); ++i)
+    records.append(std::vector{source[i][0], source[i][1], source[i][2], 7.0});
+  const Records with = reduce_variance(records, 3), without = reduce_variance(source, 2);
+  for (std::size_t i = 0; i < source.size(); ++i) EXPECT_NEAR(with[i][0], without[i][0], 1e-12);
+}
+
+TEST(ControlVariates, AreNotUsedWhereTheyCannotBeRegressed) {
+  const Records few = noisy(5, 1, 1);
+  EXPECT_EQ(reduce_variance(few, 2).values(), few.values());
+  Records lonely(2);  // one record decides the coefficient
+  for (int i = 0; i < 20; ++i) lonely.append(std::vector{std::sin(i), i == 3 ? 1. : 0.});
+  EXPECT_EQ(reduce_variance(lonely, 1).values(), lonely.values());
+  EXPECT_EQ(reduce_variance(few, 0).values(), few.values());
+}
+
+}  // namespace

@@ -1,0 +1,177 @@
+#include "engine/open_dynamics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "engine/open_start.hpp"
+#include "support/collisions.hpp"
+#include "support/sample.hpp"
+
+namespace {
+
+using namespace lorentz;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+OpenChain chain_of(std::uint32_t cells, double gamma, double sigma = 0.5) {
+  return {cells, 1. / cells, sigma, gamma, {220, 900. / 11}, {180, 1100. / 9}};
+}
+
+/// What crosses the openings, as the hooks tell it, and every flight.
+struct Everything {
+  double entered = 0, left = 0;  // energy
+  std::uint64_t entries = 0, exits = 0, departures = 0;
+  std::vector<Path> paths;
+  void on_injection(End end, double, double u) {
+    EXPECT_EQ(u > 0, end == End::left);
+    entered += 0.5 * u * u;
+    ++entries;
+  }
+  void on_exit(End end, double, double u) {
+    EXPECT_EQ(u > 0, end == End::right);
+    left += 0.5 * u * u;
+    ++exits;
+  }
+  void on_flight(const Path& path) { paths.push_back(path); }
+};
+
+TEST(OpenDynamics, EnergyIsWhatEnteredAndHasNotLeft) {
+  for (const double gamma : {infinity, 1., 3., 0.}) {
+    for (const double sigma : {-1., -0.9, 0., 0.5, 0.999, 1.}) {
+      const OpenChain chain = chain_of(8, gamma, sigma);
+      OpenDynamics dynamics(chain, empty_start(chain), 20, 3, 0);
+      Everything seen;
+      simulate(dynamics, 20, seen, support::nothing);
+      EXPECT_GT(seen.entries, 7000U);
+      EXPECT_NEAR((dynamics.energy() + seen.left) / seen.entered, 1, 1e-12) << gamma << " " << sigma;
+    }
+  }
+}
+
+TEST(OpenDynamics, WithoutScatteringParticlesFlyThrough) {
+  const OpenChain chain = chain_of(5, 0);
+  OpenDynamics dynamics(chain, empty_start(chain), 10, 1, 0);
+  Everything seen;
+  simulate(dynamics, 10, seen, support::nothing);
+  EXPECT_EQ(seen.entries, seen.exits);
+  for (const Path& path : seen.paths) {
+    EXPECT_EQ(std::abs(path.last - path.first), 10);
+    EXPECT_NEAR((path.arrival - path.departure) * std::abs(path.velocity), 1, 1e-12);
+  }
+}
+
+/// Every flight begins where and when the one before it ended, or at an opening.
+TEST(OpenDynamics, FlightsOfAParticleJoin) {
+  const OpenChain chain = chain_of(6, 2);
+  OpenDynamics dynamics(chain, local_equilibrium_start(chain, chain.left, chain.right, 10, 5, 0), 10, 5, 0);
+  Everything seen;
+  simulate(dynamics, 10, seen, support::nothing);
+  std::multiset<std::pair<double, double>> arrivals;  // time and place, where another flight has to begin
+  std::uint64_t newcomers = 0;
+  for (const Path& path : seen.paths) {
+    const auto before = arrivals.find({path.departure, path.from});
+    if (before != arrivals.end())
+      arrivals.erase(before);
+    else
+      ++newcomers;
+    ASSERT_GT(path.arrival, path.departure);
+    const bool leaves = path.last == 0 || path.last == chain.right_opening();
+    if (!leaves && path.arrival < 10) arrivals.emplace(path.arrival, static_cast<double>(path.last));
+  }
+  EXPECT_TRUE(arrivals.empty());
+  const std::uint64_t at_start = static_cast<std::uint64_t>(std::count_if(
+      seen.paths.begin(), seen.paths.end(), [](const Path& path) { return path.departure == 0; }));
+  EXPECT_EQ(newcomers, seen.entries + at_start);
+}
+
+TEST(OpenDynamics, StopsInBetweenChangeNothing) {
+  for (const double gamma : {infinity, 2.}) {
+    const OpenChain chain = chain_of(6, gamma);
+    const auto scatterers = [&](double step) {
+      OpenDynamics dynamics(chain, empty_start(chain), 30, 1, 4);
+      NoObserver nobody;
+      for (double until = step; until <= 30; until += step)
+        simulate(dynamics, until, nobody, support::nothing);
+      return dynamics.scatterers();
+    };
+    EXPECT_EQ(scatterers(30), scatterers(0.125));
+  }
+}
+
+TEST(OpenDynamics, RefusesAStartOfAnotherSize) {
+  const OpenChain chain = chain_of(6, 1);
+  EXPECT_THROW(OpenDynamics(chain, empty_start(chain_of(5, 1)), 1, 1, 0), std::invalid_argument);
+}
+
+TEST(Injector, IsPoissonWithHalfGaussianMomenta) {
+  const Reservoir reservoir{220, 900. / 11};
+  std::vector<double> counts, momenta, energies, slow;
+  for (std::uint64_t replica = 0; replica < 400; ++replica) {
+    Injector injector(reservoir, 7, Purpose::injection_left, replica);
+    double count = 0, momentum = 0, energy = 0, below = 0;
+    while (injector.time() < 2) {
+      const double u = injector.take();
+      count += 1;
+      momentum += u;
+      energy += 0.5 * u * u;
+      below += u < 3 ? 1 : 0;
+    }
+    counts.push_back(count);
+    momenta.push_back(momentum);
+    energies.push_back(energy);
+    slow.push_back(below);
+  }
+  const double injected = 2 * reservoir.rate;
+  EXPECT_LT(std::abs(support::z_score(support::sample(counts), injected)), 4);
+  EXPECT_LT(std::abs(support::z_score(support::sample(momenta), injected * reservoir.mean_momentum())), 4);
+  EXPECT_LT(std::abs(support::z_score(support::sample(energies), injected * reservoir.mean_energy())), 4);
+  EXPECT_LT(std::abs(support::z_score(support::sample(slow), injected * reservoir.probability(0, 3))), 4);
+  // Poisson: the variance of the count is its mean; its own error is sqrt(2/400) of it.
+  const double variance = 400 * std::pow(support::sample(counts).standard_error, 2);
+  EXPECT_LT(std::abs(variance / injected - 1) / std::sqrt(2. / 400), 4);
+  // Mutants: the injected energy of the paper, nu T; momenta of a Maxwellian flux.
+  EXPECT_GT(std::abs(support::z_score(support::sample(energies), injected * reservoir.temperature)), 4);
+  const double maxwellian = std::sqrt(std::numbers::pi * reservoir.temperature / 2);
+  EXPECT_GT(std::abs(support::z_score(support::sample(momenta), injected * maxwellian)), 4);
+}
+
+/// Chains that start empty, near the stationary state, and too hot and too full agree after the relaxation.
+/// An empty chain is too hot for long, by about 30/t here, as the coldest particles are the last to arrive.
+TEST(OpenStart, IsForgotten) {
+  const OpenChain chain = chain_of(16, infinity);
+  const Reservoir hot_left{440, 200}, hot_right{360, 300};
+  const auto temperature = [&](int kind, double begin) {
+    std::vector<double> values;
+    for (std::uint64_t replica = 0; replica < 60; ++replica) {
+      const PhasePoint start = kind == 0 ? empty_start(chain)
+                               : kind == 1
+                                   ? local_equilibrium_start(chain, chain.left, chain.right, 100, 1, replica)
+                                   : local_equilibrium_start(chain, hot_left, hot_right, 100, 2, replica);
+      OpenDynamics dynamics(chain, start, begin + 1, static_cast<std::uint64_t>(10 + kind), replica);
+      NoObserver nobody;
+      double sum = 0;
+      for (int k = 1; k <= 10; ++k) {
+        simulate(dynamics, begin + 0.1 * k, nobody, support::nothing);
+        for (const double U : dynamics.scatterers()) sum += U * U / 160;
+      }
+      values.push_back(sum);
+    }
+    return support::sample(values);
+  };
+  const support::Sample empty = temperature(0, 100), warm = temperature(1, 100), hot = temperature(2, 100);
+  EXPECT_LT(std::abs(support::z_score(empty, warm)), 4);
+  EXPECT_LT(std::abs(support::z_score(hot, warm)), 4);
+  // Before the relaxation they are seen to differ: the fastest particles are the first to fill a chain, and
+  // the first to leave one that is too full.
+  EXPECT_GT(support::z_score(temperature(0, 0), warm), 4);
+  EXPECT_LT(support::z_score(temperature(2, 0), warm), -4);
+}
+
+}  // namespace

@@ -1,0 +1,49 @@
+"""Ext. 2: local exponent of the conductivity, d ln kappa / d ln N between neighbouring sizes."""
+
+from collections.abc import Sequence
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from workflow.scripts import style
+from workflow.scripts.fig08 import GUIDES, tabulate
+from workflow.scripts.figure import run
+from workflow.scripts.load import Result
+
+
+def local_exponents(table: pd.DataFrame, name: str) -> pd.DataFrame:
+    """Between neighbouring sound points of one gamma, at the geometric mean of their sizes."""
+    sound = table[table.sound]
+    size, kappa = (sound[column].to_numpy(dtype=float) for column in ("cells", name))
+    relative = sound[f"{name}_error"].to_numpy() / kappa
+    step = np.diff(np.log(size))
+    slope, error = np.diff(np.log(kappa)) / step, np.hypot(relative[1:], relative[:-1]) / step
+    middle = np.sqrt(size[1:] * size[:-1])
+    return pd.DataFrame({"quantity": name, "size": middle, "exponent": slope, "exponent_error": error})
+
+
+def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
+    table = tabulate(results)
+    figure, axes = plt.subplots(figsize=(style.COLUMN, style.HEIGHT))
+    tables = []
+    for gamma, (marker, color) in style.BY_GAMMA.items():
+        for name, face, shift, text in (
+            ("kappa", color, 1, "scatterers"),
+            ("kappa_particle", "white", 1.08, "particles"),
+        ):
+            local = local_exponents(table[table.gamma == gamma], name)
+            look = {"marker": marker, "color": color, "markerfacecolor": face, **style.POINTS}
+            label = rf"$\gamma = {gamma}$, $T$ of {text}"
+            axes.errorbar(shift * local["size"], local.exponent, local.exponent_error, **look, label=label)
+            local.insert(0, "gamma", str(gamma))
+            tables.append(local)
+        axes.axhline(GUIDES[gamma][0], **style.GUIDE)
+    axes.set(xscale="log", xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, 1.9))
+    axes.legend(loc="upper right", ncols=2, fontsize=7)
+    return figure, pd.concat(tables)
+
+
+if __name__ == "__main__":
+    run(draw, "Local exponent of the heat conductivity")
