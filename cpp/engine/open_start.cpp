@@ -10,37 +10,40 @@
 namespace lorentz {
 namespace {
 
-/// A half-Gaussian stream of particles through a piece of the chain.
+/// A half-Gaussian stream of particles through a piece of the chain. Those slower than one flight per age have
+/// been let in only for the age.
 class Stream {
  public:
   /// flight: mean length of a flight.
   Stream(const Reservoir& source, double flight, double age)
-      : source_(source), thermal_(std::sqrt(source.temperature)), slow_(slowest(flight, age)) {}
+      : rate_(source.rate), thermal_(std::sqrt(source.temperature)), slow_(flight / age / thermal_) {}
 
-  /// Expected number of particles per unit length. Where F(p) is flat, below the speed slow_ = flight/age,
-  /// the density F(p)/slow_ holds as much as F(0).
-  double density() const { return source_.rate / thermal_ * std::sqrt(2 / std::numbers::pi) * (1 + fast()); }
+  /// Expected number of particles per unit length.
+  double density() const { return rate_ / thermal_ * (slow_part() + fast_part()); }
 
   double draw_speed(RandomStream& stream) const {
-    if (stream.uniform() * (1 + fast()) < 1) return slow_ * stream.uniform();
-    // Density exp(-u^2/2T)/u: rejection from 1/u.
+    const bool slow = stream.uniform() * (slow_part() + fast_part()) < slow_part();
     for (;;) {
-      const double u = slow_ * std::pow(fastest * thermal_ / slow_, stream.uniform());
-      if (stream.uniform() < std::exp(-0.5 * u * u / source_.temperature)) return u;
+      const double v = slow ? slow_candidate(stream) : slow_ * std::pow(fastest / slow_, stream.uniform());
+      const bool gaussian_already = slow && slow_ > 1;
+      if (gaussian_already ? v < slow_ : stream.uniform() < std::exp(-0.5 * v * v)) return thermal_ * v;
     }
   }
 
  private:
-  static constexpr double fastest = 9;  // thermal speeds
+  static constexpr double fastest = 9;  // in units of the thermal speed, as all speeds here
 
-  /// Never so fast that F is not flat below.
-  double slowest(double flight, double age) const { return std::min(flight / age, 0.1 * thermal_); }
+  double slow_candidate(RandomStream& stream) const {
+    return slow_ > 1 ? std::abs(stream.gaussian()) : slow_ * stream.uniform();
+  }
 
-  /// Integral of exp(-u^2/2T)/u from slow_ on.
-  double fast() const { return 0.5 * gsl_sf_expint_E1(0.5 * slow_ * slow_ / source_.temperature); }
+  /// Integrals of sqrt(2/pi) exp(-v^2/2) over max(v, slow_), below slow_ and above.
+  double slow_part() const { return std::erf(slow_ / std::numbers::sqrt2) / slow_; }
+  double fast_part() const {
+    return slow_ < fastest ? gsl_sf_expint_E1(0.5 * slow_ * slow_) / std::sqrt(2 * std::numbers::pi) : 0;
+  }
 
-  Reservoir source_;
-  double thermal_, slow_;
+  double rate_, thermal_, slow_;
 };
 
 std::uint64_t poisson(double mean, RandomStream& stream) {

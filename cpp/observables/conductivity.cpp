@@ -122,6 +122,11 @@ Records joined(const Records& records, double sign) {
   return result;
 }
 
+/// Difference of temperatures; NaN where there is none, as in a single cell.
+double rise(double first, double last) {
+  return first == last ? std::numeric_limits<double>::quiet_NaN() : last - first;
+}
+
 Results conductivity(const Records& joined_records, double cells, const std::string& suffix,
                      const std::string& remark) {
   return estimate(
@@ -134,10 +139,10 @@ Results conductivity(const Records& joined_records, double cells, const std::str
        {"kappa_printed" + suffix, "1/time", "-J_U / (T_N - T_1), the paper's definition" + remark},
        {"kappa_particle" + suffix, "1/time", "-J_U N / difference of <p^2>/m of the arrivals" + remark}},
       [cells](std::span<const double> row) {
-        const double per_degree = -row[0] / (row[3] - row[2]);
-        const double particles = row[6] / row[7] - row[4] / row[5];
+        const double per_degree = -row[0] / rise(row[2], row[3]);
+        const double by_particles = -row[0] / rise(row[4] / row[5], row[6] / row[7]);
         return std::vector{
-            row[0], row[1], row[2], row[3], per_degree * cells, per_degree, -row[0] * cells / particles};
+            row[0], row[1], row[2], row[3], per_degree * cells, per_degree, by_particles * cells};
       });
 }
 
@@ -199,6 +204,7 @@ int main(int argc, char** argv) {
       return ReplicaRecord{observer.record(chain), events};
     };
     const auto results = [&](const Records& records) { return summarise(records, chain.cells); };
-    return replicas.run({measure, results, "kappa", RandomStream::description}, progress);
+    const std::string target = chain.cells > 1 ? "kappa" : "energy_current";
+    return replicas.run({measure, results, target, RandomStream::description}, progress);
   });
 }

@@ -8,6 +8,7 @@
 /// <p^4>/<p^2>^2, is 3 where that half is Gaussian.
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "observables/momentum_bins_options.hpp"
@@ -130,10 +131,13 @@ Results summarise(const Records& records, std::size_t bonds, const Bins& bins) {
         for (const std::size_t side : {0, 1}) values.push_back(value(at, side));
     };
     by_half([&](std::size_t at, std::size_t side) { return moment(at, side, 0); });
-    by_half([&](std::size_t at, std::size_t side) { return moment(at, side, 1) / moment(at, side, 0); });
-    by_half([&](std::size_t at, std::size_t side) {
-      return moment(at, side, 2) * moment(at, side, 0) / std::pow(moment(at, side, 1), 2);
-    });
+    const auto mean = [&](std::size_t at, std::size_t side, std::size_t k) {
+      const double crossings = moment(at, side, 0);
+      return crossings > 0 ? moment(at, side, k) / crossings : std::numeric_limits<double>::quiet_NaN();
+    };
+    by_half([&](std::size_t at, std::size_t side) { return mean(at, side, 1); });
+    by_half(
+        [&](std::size_t at, std::size_t side) { return mean(at, side, 2) / std::pow(mean(at, side, 1), 2); });
     double total = 0;
     for (std::size_t at = 0; at < bonds; ++at) total += moment(at, 0, 0) + moment(at, 1, 0);
     values.push_back(total / static_cast<double>(bonds));

@@ -8,10 +8,13 @@ namespace {
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Every column divided by its standard deviation over the rows; one that does not vary becomes 0.
+/// Every column divided by its standard deviation over the rows; one that does not vary by more than its
+/// rounding becomes 0.
 Matrix standardised(const Matrix& columns) {
   const Eigen::RowVectorXd deviation = (columns.rowwise() - columns.colwise().mean()).colwise().norm();
-  const Eigen::RowVectorXd weight = (deviation.array() > 0).select(deviation.cwiseInverse(), 0);
+  const Eigen::RowVectorXd rounding = 1e-12 * columns.colwise().norm();
+  const Eigen::RowVectorXd weight =
+      (deviation.array() > rounding.array()).select(deviation.cwiseInverse(), 0);
   return columns * weight.asDiagonal();
 }
 

@@ -23,7 +23,8 @@ class RangeTally {
   /// The elements being the intervals [k, k + 1): spreads a total evenly over [low, high], a point if low ==
   /// high.
   void spread(double low, double high, double total) {
-    const auto first = static_cast<std::ptrdiff_t>(low);
+    const auto end = static_cast<std::ptrdiff_t>(steps_.size()) - 1;
+    const auto first = std::min(static_cast<std::ptrdiff_t>(low), end - 1);  // low may be the end itself
     const auto last = std::max(first, static_cast<std::ptrdiff_t>(std::ceil(high)) - 1);
     if (first == last) {
       add(first, first, total);

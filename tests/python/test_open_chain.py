@@ -1,0 +1,280 @@
+"""The observables of the open chain: against the reference simulator, in equilibrium, at the extremes."""
+
+import subprocess
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.stats import chi2, norm
+
+from tests.python.conftest import ROOT, Program
+from workflow.scripts.load import Quantity, Result, load
+
+BATHS = {"nu_left": 220, "nu_right": 180, "temperature_left": 900 / 11, "temperature_right": 1100 / 9}
+EQUAL = {"nu_left": 200, "nu_right": 200, "temperature_left": 100, "temperature_right": 100}
+UNUSED = {"particles_per_cell": None}
+BINS, MAX = 20, 60
+
+QUANTITIES = {
+    "conductivity": {name + suffix: []
+                     for name in ("energy_current", "particle_current", "temperature_first", "temperature_last",
+                                  "kappa", "kappa_printed", "kappa_particle") for suffix in ("", "_plain")}
+                    | {name: [] for name in ("energy_current_drift", "temperature_first_drift",
+                                             "temperature_last_drift", "half_correlation", "stationary")},
+    "steady_profile": {**{name: ["cell"] for name in ("temperature_scatterer", "temperature_particle", "density",
+                                                      "rate_right", "rate_left")},
+                       "particle_current": ["bond"], "energy_current": ["bond"], "particle_current_mean": [],
+                       "energy_current_mean": [], "scatterer_density": ["end", "momentum"]},
+    "momentum_flux": {"flux": ["bond", "momentum"], "flux_plain": ["bond", "momentum"], "jump": ["bond"],
+                      "rate": ["bond", "half"], "square": ["bond", "half"], "kurtosis": ["bond", "half"],
+                      "crossings": []},
+    "particle_count": {"weighted_momentum_density": ["time", "p"], "weighted_speed_density": ["time", "speed"],
+                       "total_number": ["time"], "number_slope": ["time"], "log_slope": [], "log_curvature": [],
+                       "plateau": ["time"], "front": ["time"], "front_exponent": []},
+}  # fmt: skip
+
+
+def run(program: Program, folder: Path, name: str, **options: object) -> Result:
+    if name == "particle_count":
+        options = {"relaxation_time": None, "observation_time": None, "times": "2,5,10", **options}
+    done = program(name, **UNUSED | options)
+    assert done.returncode == 0, done.stderr
+    return load(folder / "out.h5")
+
+
+@cache
+def reference(cells: int, gamma: float, relaxation: float, observation: float) -> dict[str, np.ndarray]:
+    """[replica, value] of everything that the reference simulator measures, with the default baths."""
+    words = [ROOT / "build/bin/reference_open_chain", cells, 1 / cells, 0.5, gamma, *BATHS.values()]
+    words += [relaxation, observation, BINS, MAX, 100, 1]
+    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=True)
+    rows = np.array([[float(word) for word in line.split()] for line in done.stdout.splitlines()])
+    sizes = {
+        **dict.fromkeys(("temperature_scatterer", "temperature_particle", "density"), cells),
+        **dict.fromkeys(("rate_right", "rate_left"), cells),
+        **dict.fromkeys(("particle_current", "energy_current"), cells + 1),
+        "flux": (cells + 1) * BINS,
+        "total_number": 1,
+        "inside": BINS,
+    }
+    return dict(zip(sizes, np.split(rows, np.cumsum(list(sizes.values()))[:-1], axis=1), strict=True))
+
+
+def scores(quantity: Quantity, sample: np.ndarray) -> np.ndarray:
+    """Of the values that occur often enough to have a normal distribution."""
+    mean, error = sample.mean(axis=0), sample.std(axis=0, ddof=1) / np.sqrt(len(sample))
+    often = (np.count_nonzero(sample, axis=0) > len(sample) / 2) & (quantity.standard_error.ravel() > 0)
+    return ((quantity.mean.ravel() - mean) / np.hypot(quantity.standard_error.ravel(), error))[often]
+
+
+def agree(z: np.ndarray) -> bool:
+    """Largest of as many normal numbers; neighbours are correlated, which makes it smaller."""
+    return bool(np.abs(z).max() < norm.isf(1e-4 / 2 / len(z)))
+
+
+@pytest.mark.parametrize("name", QUANTITIES)
+def test_layout_and_threads(program: Program, tmp_path: Path, name: str) -> None:
+    result = run(program, tmp_path, name, threads=1, replicas=20)
+    one = (tmp_path / "out.h5").read_bytes()
+    run(program, tmp_path, name, threads=3, replicas=20)
+    assert (tmp_path / "out.h5").read_bytes() == one
+    assert result.quantities.keys() == QUANTITIES[name].keys()
+    for key, axes in QUANTITIES[name].items():
+        quantity = result[key]
+        assert quantity.axes.keys() == set(axes)
+        assert quantity.mean.shape == tuple(len(quantity.axes[axis]) for axis in axes)
+
+
+@pytest.mark.parametrize(
+    ("cells", "gamma"), [(1, "N"), (2, "N"), (8, "N"), (32, "N"), (2, 1), (16, 1), (32, 4)]
+)
+def test_against_the_reference_simulator(
+    program: Program, tmp_path: Path, cells: int, gamma: str | float
+) -> None:
+    expected = reference(cells, cells if gamma == "N" else gamma, 5, 15)
+    options = {"cells": cells, "gamma": gamma, "start": "empty", "replicas": 150, "seed": 5}
+    options |= {"relaxation_time": 5, "observation_time": 15}
+
+    profile = run(program, tmp_path, "steady_profile", **options, momentum_bins=BINS)
+    for name in ("temperature_scatterer", "temperature_particle", "density", "rate_right", "rate_left",
+                 "particle_current", "energy_current"):  # fmt: skip
+        assert agree(scores(profile[name], expected[name])), name
+    flux = run(program, tmp_path, "momentum_flux", **options, momentum_bins=BINS, momentum_max=MAX)
+    for name in ("flux", "flux_plain"):
+        assert agree(scores(flux[name], expected["flux"])), name
+
+    def conductivity_scores(**changed: object) -> np.ndarray:
+        result = run(program, tmp_path, "conductivity", **options | changed)
+        found = {}
+        for current in ("energy_current", "particle_current"):
+            found[current] = expected[current][:, [0, -1]].mean(axis=1)
+        found["temperature_first"] = expected["temperature_scatterer"][:, 0]
+        found["temperature_last"] = expected["temperature_scatterer"][:, -1]
+        return np.array([scores(result[name + suffix], sample[:, None])[0]
+                         for name, sample in found.items() for suffix in ("", "_plain")])  # fmt: skip
+
+    assert np.abs(conductivity_scores()).max() < 4
+    # Mutants: baths exchanged, one bath a little hotter.
+    assert np.abs(conductivity_scores(temperature_left=1100 / 9, temperature_right=900 / 11)).max() > 4
+    assert np.abs(conductivity_scores(temperature_right=145)).max() > 4
+
+
+def test_number_of_particles_against_the_reference_simulator(program: Program, tmp_path: Path) -> None:
+    expected = reference(16, 16, 0, 10)
+    options = {
+        "cells": 16,
+        "cell_length": 1 / 16,
+        "replicas": 200,
+        "momentum_bins": BINS,
+        "momentum_max": MAX,
+    }
+    result = run(program, tmp_path, "particle_count", **options, **BATHS)
+    number, density = result["total_number"], result["weighted_momentum_density"]
+    sample = expected["total_number"][:, 0]
+    error = np.hypot(number.standard_error[-1], sample.std(ddof=1) / np.sqrt(len(sample)))
+    assert abs(number.mean[-1] - sample.mean()) < 4 * error
+    # Fast particles of a bin, where |p| n(p) is nearly n(p) times the middle of the bin.
+    width, p = 2 * MAX / BINS, density.axes["p"]
+    fast = (np.abs(p) > 20) & (np.abs(p) < 30)
+    inside = expected["inside"][:, fast] * np.abs(p[fast]) / width
+    spread = np.hypot(density.standard_error[-1][fast], inside.std(axis=0, ddof=1) / np.sqrt(len(inside)))
+    assert (
+        np.abs(density.mean[-1][fast] - inside.mean(axis=0)) < 4 * spread + 0.05 * inside.mean(axis=0)
+    ).all()
+
+
+@pytest.mark.parametrize("gamma", ["N", 1])
+def test_equilibrium(program: Program, tmp_path: Path, gamma: str | int) -> None:
+    """No currents; F and g Gaussian at the temperature of the baths, by moments and bins over replicas."""
+    options = {"cells": 8, "gamma": gamma, "replicas": 200, "relaxation_time": 50, "observation_time": 50}
+    options |= {**EQUAL, "momentum_bins": BINS}
+    profile = run(program, tmp_path, "steady_profile", **options)
+    flux = run(program, tmp_path, "momentum_flux", **options)
+    for name in ("particle_current", "energy_current"):
+        assert agree(profile[name].mean / profile[name].standard_error), name
+    current = run(program, tmp_path, "conductivity", **options | {"momentum_bins": None})["energy_current"]
+    assert abs(current.mean) < 4 * current.standard_error
+
+    def gaussian(edges: np.ndarray, temperature: float) -> np.ndarray:
+        return np.diff(norm.cdf(edges / np.sqrt(temperature)))
+
+    density = profile["scatterer_density"]
+    edges = np.linspace(-60, 60, BINS + 1)
+    inner = np.abs(density.axes["momentum"]) < 30
+
+    def largest(quantity: Quantity, expected: np.ndarray) -> float:
+        """Where a reservoir injects, the control variates leave no noise."""
+        noisy = inner & (quantity.standard_error > 1e-9 * quantity.mean)
+        z = (quantity.mean - expected)[noisy] / quantity.standard_error[noisy]
+        return float(np.abs(z).max() / norm.isf(1e-4 / 2 / z.size))
+
+    def of_scatterers(temperature: float) -> float:
+        return largest(density, gaussian(edges, temperature) / np.diff(edges))
+
+    def of_particles(temperature: float) -> float:
+        return largest(flux["flux"], 400 * gaussian(edges, temperature) / np.diff(edges))
+
+    assert of_scatterers(100) < 1
+    assert of_particles(100) < 1
+    assert of_scatterers(110) > 1
+    assert of_particles(105) > 1
+    z = (flux["kurtosis"].mean - 3) / flux["kurtosis"].standard_error
+    assert np.abs(z).max() < norm.isf(1e-4 / 2 / z.size)
+    assert abs(float(np.sum(flux["jump"].mean[[0, -1]]))) < 4 * np.sqrt(
+        np.sum(flux["jump"].standard_error ** 2)
+    )
+
+
+def test_reduced_and_plain_estimates_over_seeds(program: Program, tmp_path: Path) -> None:
+    """Both agree, the reduced error is smaller, and it says how far the results of 50 seeds lie apart."""
+    seeds, replicas = 50, 40
+    options = {"cells": 8, "replicas": replicas, "relaxation_time": 10, "observation_time": 20}
+    found = []
+    for seed in range(seeds):
+        result = run(program, tmp_path, "conductivity", **options, seed=seed)
+        names = ("energy_current", "energy_current_plain", "kappa")
+        found.append([(result[name].mean, result[name].standard_error) for name in names])
+    (reduced, error), (plain, plain_error), (kappa, kappa_error) = np.moveaxis(
+        np.array(found, dtype=float), 0, -1
+    )
+    difference = reduced - plain
+    assert abs(difference.mean()) < 4 * difference.std(ddof=1) / np.sqrt(seeds)
+    assert np.mean(plain_error**2) > 8 * np.mean(error**2)
+
+    def accepted(values: np.ndarray, errors: np.ndarray) -> bool:
+        """Student's variables of R - 1 degrees of freedom have a larger variance than 1."""
+        low, high = chi2.ppf([5e-4, 1 - 5e-4], seeds - 1)
+        statistic = np.sum((values - values.mean()) ** 2 / errors**2)
+        return bool(low < statistic < (replicas - 1) / (replicas - 3) * high)
+
+    for values, errors in ((reduced, error), (plain, plain_error), (kappa, kappa_error)):
+        assert accepted(values, errors)
+        assert not accepted(values, 2 * errors)
+        assert not accepted(values, errors / 2)
+    assert not accepted(plain, error)
+
+
+def scaled(temperature: float) -> dict[str, float]:
+    """Baths as hot as that, everything else as much faster."""
+    speed = np.sqrt(temperature / 100)
+    baths = {"temperature_left": temperature, "temperature_right": temperature}
+    baths |= {"nu_left": 200 * speed, "nu_right": 200 * speed}
+    return baths | {"relaxation_time": 5 / speed, "observation_time": 10 / speed}
+
+
+SLOW, FAST = scaled(1e-300), scaled(1e150)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"sigma": 0.999},
+        {"sigma": -0.999},
+        {"sigma": 1},
+        {"temperature_left": 1, "temperature_right": 1e4},
+        {"nu_right": 0},
+        {"nu_left": 0, "nu_right": 0},
+        {"cells": 1},
+        {"gamma": 0},
+        {"gamma": 1e-300},
+        SLOW,
+        FAST,
+    ],
+)
+@pytest.mark.parametrize("name", QUANTITIES)
+def test_extremes(program: Program, tmp_path: Path, name: str, options: dict) -> None:
+    """Finite numbers, or none where there is nothing to measure; no nonsense."""
+    if name == "particle_count":
+        options = {**options, "times": "2,10" if "relaxation_time" not in options else
+                   f"{options['relaxation_time']},{options['observation_time']}"}  # fmt: skip
+        options = {key: value for key, value in options.items() if not key.endswith("_time")}
+    result = run(program, tmp_path, name, **{"cells": 3, "replicas": 20, **options})
+    for quantity in result.quantities.values():
+        assert not np.isinf(quantity.mean).any()
+    if name == "steady_profile" and options.get("nu_left") != 0 and "gamma" not in options:
+        assert np.isfinite(result["temperature_particle"].mean).all()
+        assert (result["density"].mean >= 0).all()
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "words"),
+    [
+        ("conductivity", {"observation_time": "0N"}, ["--observation-time", "followed by N"]),
+        ("conductivity", {"cell_length": "2/N"}, ["--cell-length", "1/N"]),
+        ("conductivity", {"nu_left": -1}, ["--nu-left", "at least 0"]),
+        ("conductivity", {"temperature_left": 0}, ["--temperature-left", "greater than 0"]),
+        ("conductivity", {"start": "hot"}, ["--start", "empty", "warm"]),
+        ("momentum_flux", {"momentum_bins": 21}, ["--momentum-bins", "odd", "even number"]),
+        ("steady_profile", {"momentum_max": 0}, ["--momentum-max"]),
+        ("particle_count", {"times": "10"}, ["--times", "later times"]),
+    ],
+)
+def test_bad_input(program: Program, tmp_path: Path, name: str, options: dict, words: list[str]) -> None:
+    if name == "particle_count":
+        options = {**options, "relaxation_time": None, "observation_time": None}
+    result = program(name, **UNUSED | options)
+    assert result.returncode == 2
+    for word in words:
+        assert word in result.stderr
+    assert list(tmp_path.iterdir()) == []
