@@ -54,7 +54,8 @@ struct Plan {
         bins(linear),
         // From a tenth of the last front on, which is about one cell in the longest time.
         speed_grid(0.1 * length_of_cell / times.back(),
-                   std::log10(10 * bins.edge(bins.count()) * times.back() / length_of_cell), bins_per_decade),
+                   std::max(1., std::log10(10 * bins.edge(bins.count()) * times.back() / length_of_cell)),
+                   bins_per_decade),
         speeds(speed_grid.points()),
         time_grid(times.back() * std::pow(10, -decades_of_time), decades_of_time, times_per_decade),
         number_times(time_grid.points()),
