@@ -1,4 +1,7 @@
-"""Ext. 2: local exponent of the conductivity, d ln kappa / d ln N between neighbouring sizes."""
+"""Ext. 2: local exponent of the conductivity, d ln kappa / d ln N between neighbouring sizes.
+
+The legend says from which size on every local exponent lies within two standard errors of the paper's.
+"""
 
 from collections.abc import Sequence
 
@@ -24,6 +27,13 @@ def local_exponents(table: pd.DataFrame, name: str) -> pd.DataFrame:
     return pd.DataFrame({"quantity": name, "size": middle, "exponent": slope, "exponent_error": error})
 
 
+def holds_from(local: pd.DataFrame, expected: float) -> str:
+    """The smallest of the sizes from which on the exponent is compatible with the expected one."""
+    compatible = (local.exponent - expected).abs() < 2 * local.exponent_error
+    from_here_on = compatible[::-1].cumprod()[::-1].astype(bool)
+    return f"from {local['size'][from_here_on].min():.0f} on" if from_here_on.any() else "nowhere"
+
+
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
     table = tabulate(results)
     figure, axes = plt.subplots(figsize=(style.COLUMN, style.HEIGHT))
@@ -35,13 +45,14 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         ):
             local = local_exponents(table[table.gamma == gamma], name)
             look = {"marker": marker, "color": color, "markerfacecolor": face, **style.POINTS}
-            label = rf"$\gamma = {gamma}$, $T$ of {text}"
+            expected, law = GUIDES[gamma]
+            label = rf"$\gamma = {gamma}$, $T$ of {text}; {law} {holds_from(local, expected)}"
             axes.errorbar(shift * local["size"], local.exponent, local.exponent_error, **look, label=label)
             local.insert(0, "gamma", str(gamma))
             tables.append(local)
         axes.axhline(GUIDES[gamma][0], **style.GUIDE)
-    axes.set(xscale="log", xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, 1.9))
-    axes.legend(loc="upper right", ncols=2, fontsize=7)
+    axes.set(xscale="log", xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, 2.2))
+    axes.legend(loc="upper right", fontsize=7)
     return figure, pd.concat(tables)
 
 

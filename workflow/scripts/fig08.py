@@ -54,7 +54,9 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         slope, name = GUIDES[gamma]
         size = np.array([part.cells.min(), part.cells.max()])
         axes.plot(size, 0.6 * part.kappa.iloc[0] * (size / size[0]) ** slope, **style.GUIDE)
-        axes.annotate(name, (size[1], 0.6 * part.kappa.iloc[0] * (size[1] / size[0]) ** slope), fontsize=8)
+        axes.text(
+            size[1], 0.42 * part.kappa.iloc[0] * (size[1] / size[0]) ** slope, name, size=8, ha="center"
+        )
         style.cross_out(axes, part.cells.to_numpy(), part.kappa.to_numpy(), ~part.sound.to_numpy())
     axes.set(xscale="log", yscale="log", xlabel="number of cells $N$", ylabel=r"conductivity $\kappa$")
     axes.legend(loc="upper left", title="bars: from the particles' temperature", title_fontsize=7)
