@@ -12,16 +12,18 @@ using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr double negligible_scale = 1e-18;  // what the factors beyond it add to the product
+constexpr double last_scale = 1e-17;  // sigma^j of the last factor of the product
 
 double c_squared(double sigma) { return (1 - sigma) * (1 + sigma); }
 
 /// Number of factors of the product, as a power of two.
 int doublings(double sigma) {
-  const double factors = std::log(negligible_scale * (1 - std::abs(sigma))) / std::log(std::abs(sigma));
+  const double factors = std::log(last_scale) / std::log(std::abs(sigma));
   return std::max(1, static_cast<int>(std::ceil(std::log2(factors))));
 }
 
+/// Takes the values of a function that vanishes at 0 to its values at `scale` times the nodes: what is
+/// interpolated is the function divided by k, so that an error near 0 does not add up over many factors.
 Eigen::SparseMatrix<double, Eigen::RowMajor> scaling(const Panels& panels, double scale) {
   Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(panels.size(), panels.size());
   matrix.reserve(Eigen::VectorXi::Constant(panels.size(), panels.order()));
@@ -29,8 +31,10 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> scaling(const Panels& panels, doubl
     const double point = scale * panels.nodes()[row];
     const std::size_t panel = panels.panel(point);
     const VectorXd weights = panels.lagrange(panel, point);
-    for (Index i = 0; i < weights.size(); ++i)
-      matrix.insert(row, static_cast<Index>(panel) * panels.order() + i) = weights[i];
+    for (Index i = 0; i < weights.size(); ++i) {
+      const Index node = static_cast<Index>(panel) * panels.order() + i;
+      matrix.insert(row, node) = weights[i] * point / panels.nodes()[node];
+    }
   }
   matrix.makeCompressed();
   return matrix;
@@ -43,6 +47,7 @@ CollisionOperator::CollisionOperator(double sigma, const Panels& momenta, const 
   if (sigma == 0) return;  // momenta are exchanged: G = F and J g = F
   reflected_ = momenta.fourier(std::abs(sigma) * wave_numbers.nodes());
   kicked_ = momenta.fourier(c_squared(sigma) * wave_numbers.nodes());
+  kicked_.cosine.rowwise() -= momenta.weights().transpose();
   inverse_ = wave_numbers.fourier(momenta.nodes());
   for (int n = 0; n < doublings(sigma); ++n)
     scalings_.push_back(scaling(wave_numbers, std::pow(std::abs(sigma), std::ldexp(1, n))));
@@ -90,12 +95,14 @@ Flux CollisionOperator::gain(const Flux& flux) {
   if (sigma_ == 0) return flux;
   reflected_flux_ = transform(reflected_, flux);
   if (sigma_ > 0) reflected_flux_ = reflected_flux_.conjugate().eval();
-  product_ = transform(kicked_, flux) * number_.cwiseInverse().asDiagonal();
+  Spectrum deviation = transform(kicked_, flux) * number_.cwiseInverse().asDiagonal();
   doublings_.clear();
   for (std::size_t n = 0; n < scalings_.size(); ++n) {
-    doublings_.push_back({product_, scaled(n, product_)});
-    product_ = product_.cwiseProduct(doublings_.back().shifted);
+    doublings_.push_back({deviation, scaled(n, deviation)});
+    const auto& [here, there] = doublings_.back();
+    deviation = here + there + here.cwiseProduct(there);
   }
+  product_ = deviation.array() + 1;
   return conserving(inverse_transform(inverse_, reflected_flux_.cwiseProduct(product_)), flux);
 }
 
@@ -103,11 +110,14 @@ Flux CollisionOperator::derivative(const Flux& direction) const {
   if (sigma_ == 0) return direction;
   Spectrum reflected = transform(reflected_, direction);
   if (sigma_ > 0) reflected = reflected.conjugate().eval();
-  Spectrum change = (transform(kicked_, direction) -
-                     doublings_.front().product * number(direction).asDiagonal()) *
-                    number_.cwiseInverse().asDiagonal();
-  for (std::size_t n = 0; n < scalings_.size(); ++n)
-    change = change.cwiseProduct(doublings_[n].shifted) + doublings_[n].product.cwiseProduct(scaled(n, change));
+  Spectrum change =
+      (transform(kicked_, direction) - doublings_.front().here * number(direction).asDiagonal()) *
+      number_.cwiseInverse().asDiagonal();
+  for (std::size_t n = 0; n < scalings_.size(); ++n) {
+    const auto& [here, there] = doublings_[n];
+    const Spectrum change_there = scaled(n, change);
+    change += change.cwiseProduct(there) + change_there + change_there.cwiseProduct(here);
+  }
   const Flux gain =
       inverse_transform(inverse_, reflected.cwiseProduct(product_) + reflected_flux_.cwiseProduct(change));
   return conserving(gain, direction);

@@ -24,7 +24,8 @@ using Flux = Eigen::MatrixXd;
 ///
 /// F jumps at 0 and g nearly does for small sigma, so phi and G^ fall off slowly; but for large k they vary
 /// on the scale of k only. Panels that grow with k resolve them, as panels that shrink towards 0 resolve F.
-/// The product is formed by doubling, q_{2n}(k) = q_n(k) q_n(sigma^n k), interpolated on its panels.
+/// The product is formed by doubling, q_{2n}(k) = q_n(k) q_n(sigma^n k), interpolated on its panels; q_n - 1
+/// is what is stored, as thousands of factors close to 1 are multiplied when |sigma| is close to 1.
 class CollisionOperator {
  public:
   /// sigma in (-1, 1). The momenta are those of one half line; k must reach so far that G^ has decayed.
@@ -36,6 +37,9 @@ class CollisionOperator {
 
   /// dG at the flux of the last gain(), in the direction given; one column for each of its columns.
   Flux derivative(const Flux& direction) const;
+
+  /// <p^2> at the flux of the last gain().
+  const Eigen::RowVectorXd& temperature() const { return temperature_; }
 
   /// g at the flux of the last gain(): values of the density of U at points, then at minus the points.
   Flux scatterer_density(const Eigen::VectorXd& points) const;
@@ -52,11 +56,11 @@ class CollisionOperator {
 
   double sigma_;
   Panels momenta_, wave_numbers_;
-  FourierIntegrals reflected_, kicked_, inverse_;  // at sigma k; at c^2 k; back to the momenta
+  FourierIntegrals reflected_, kicked_, inverse_;  // at sigma k; at c^2 k, minus J; back to the momenta
   std::vector<Scaling> scalings_;                  // by |sigma|^(2^n)
 
   struct Factors {
-    Spectrum product, shifted;  // q_n(k), q_n(sigma^n k)
+    Spectrum here, there;  // q_n(k) - 1, q_n(sigma^n k) - 1
   };
   Flux flux_;
   Eigen::RowVectorXd temperature_;

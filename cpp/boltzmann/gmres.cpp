@@ -37,8 +37,7 @@ KrylovResult gmres(const LinearMap& a, const LinearMap& preconditioner, const Ve
     rest.applyOnTheLeft(n, n + 1, rotations.back().adjoint());
     ++n;
   }
-  const VectorXd weights =
-      triangle.topLeftCorner(n, n).triangularView<Eigen::Upper>().solve(rest.head(n));
+  const VectorXd weights = triangle.topLeftCorner(n, n).triangularView<Eigen::Upper>().solve(rest.head(n));
   VectorXd solution = VectorXd::Zero(b.size());
   for (Index i = 0; i < n; ++i) solution += weights[i] * directions[static_cast<std::size_t>(i)];
   return {std::move(solution), static_cast<int>(n)};

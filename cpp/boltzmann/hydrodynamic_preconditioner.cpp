@@ -11,20 +11,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double fast = 0.5;         // modes with smaller eigenvalues are left to the iteration
-constexpr Index largest_system = 2000;  // unknowns: a second of work
+/// The conserved ones and three more. He_n grows as p^n, so moments of many more would be noise of the tails.
+constexpr Index modes_at_site = 6;
 
 double eigenvalue(double sigma, int n) {
   if (n == 0) return 1;
   return std::pow(-sigma, n) + std::pow((1 - sigma) * (1 + sigma), n) / (1 - std::pow(sigma, n));
-}
-
-Index slow_modes(double sigma, Index sites) {
-  const Index most = std::clamp<Index>(largest_system / sites, 3, 40);
-  Index count = 3;
-  for (Index n = count; n < most; ++n)
-    if (eigenvalue(sigma, static_cast<int>(n)) > fast) count = n + 1;
-  return count;
 }
 
 double sign(Index n) { return n % 2 == 0 ? 1 : -1; }
@@ -42,8 +34,8 @@ Flux Streaming::operator()(const Flux& gain) const {
 HydrodynamicPreconditioner::HydrodynamicPreconditioner(double sigma, const Panels& momenta,
                                                        const Streaming& streaming,
                                                        const Eigen::RowVectorXd& temperatures)
-    : streaming_(streaming), count_(slow_modes(sigma, temperatures.size())) {
-  const Index sites = temperatures.size(), size = count_ * sites;
+    : streaming_(streaming) {
+  const Index sites = temperatures.size(), size = modes_at_site * sites;
   tests_.resize(momenta.size(), size);
   shapes_.resize(momenta.size(), size);
   for (Index site = 0; site < sites; ++site) {
@@ -51,8 +43,8 @@ HydrodynamicPreconditioner::HydrodynamicPreconditioner(double sigma, const Panel
     const Eigen::ArrayXd z = momenta.nodes().array() / scale;
     const Eigen::ArrayXd maxwellian = (-0.5 * z.square()).exp() / (scale * std::sqrt(2 * std::numbers::pi));
     Eigen::ArrayXd before = Eigen::ArrayXd::Zero(z.size()), hermite = Eigen::ArrayXd::Ones(z.size());
-    for (Index n = 0; n < count_; ++n) {  // orthonormal: He_n / sqrt(n!)
-      const Index column = site * count_ + n;
+    for (Index n = 0; n < modes_at_site; ++n) {  // orthonormal: He_n / sqrt(n!)
+      const Index column = site * modes_at_site + n;
       tests_.col(column) = hermite * momenta.weights().array();
       shapes_.col(column) = eigenvalue(sigma, static_cast<int>(n)) * hermite * maxwellian;
       const auto order = static_cast<double>(n);
@@ -64,8 +56,10 @@ HydrodynamicPreconditioner::HydrodynamicPreconditioner(double sigma, const Panel
   MatrixXd system = tests_.transpose() * shapes_;  // overlaps on p > 0; those on p < 0 differ by signs
   for (Index column = 0; column < size; ++column)
     for (Index row = 0; row < size; ++row) {
-      const Index to = row / count_, from = column / count_;
-      system(row, column) *= -(streaming_.right(to, from) + sign(row % count_ + column % count_) * streaming_.left(to, from));
+      const Index to = row / modes_at_site, from = column / modes_at_site;
+      system(row, column) *=
+          -(streaming_.right(to, from) +
+            sign(row % modes_at_site + column % modes_at_site) * streaming_.left(to, from));
     }
   system.diagonal().array() += 1;
   factors_.compute(system);
@@ -75,19 +69,19 @@ VectorXd HydrodynamicPreconditioner::moments(const Flux& flux) const {
   const Index half = flux.rows() / 2;
   VectorXd result(tests_.cols());
   for (Index column = 0; column < tests_.cols(); ++column) {
-    const auto at = flux.col(column / count_);
-    result[column] = tests_.col(column).dot(at.head(half) + sign(column % count_) * at.tail(half));
+    const auto at = flux.col(column / modes_at_site);
+    result[column] = tests_.col(column).dot(at.head(half) + sign(column % modes_at_site) * at.tail(half));
   }
   return result;
 }
 
 Flux HydrodynamicPreconditioner::modes(const VectorXd& amplitudes) const {
   const Index half = shapes_.rows();
-  Flux result = Flux::Zero(2 * half, shapes_.cols() / count_);
+  Flux result = Flux::Zero(2 * half, shapes_.cols() / modes_at_site);
   for (Index column = 0; column < shapes_.cols(); ++column) {
-    auto at = result.col(column / count_);
+    auto at = result.col(column / modes_at_site);
     at.head(half) += amplitudes[column] * shapes_.col(column);
-    at.tail(half) += sign(column % count_) * amplitudes[column] * shapes_.col(column);
+    at.tail(half) += sign(column % modes_at_site) * amplitudes[column] * shapes_.col(column);
   }
   return result;
 }

@@ -47,6 +47,20 @@ VectorXd legendre_integrals(int order, double point) {
   return integrals;
 }
 
+/// j_0...j_(size-1) at z >= 0. Upward recurrence is stable for n < z, and GSL's continued fraction slow
+/// there.
+void spherical_bessel(double z, VectorXd& values) {
+  const auto size = static_cast<int>(values.size());
+  if (z < size) {
+    gsl_sf_bessel_jl_steed_array(size - 1, z, values.data());
+    return;
+  }
+  values[0] = std::sin(z) / z;
+  if (size > 1) values[1] = (values[0] - std::cos(z)) / z;
+  for (Index n = 1; n + 1 < size; ++n)
+    values[n + 1] = static_cast<double>(2 * n + 1) / z * values[n] - values[n - 1];
+}
+
 }  // namespace
 
 Panels::Panels(std::vector<double> breaks, int order)
@@ -106,7 +120,7 @@ FourierIntegrals Panels::fourier(const VectorXd& k) const {
   FourierIntegrals result{MatrixXd(rows, size()), MatrixXd(rows, size())};
   for (std::size_t panel = 0; panel < count(); ++panel) {
     for (Index row = 0; row < rows; ++row) {
-      gsl_sf_bessel_jl_steed_array(order_ - 1, k[row] * half_width(panel), bessel.data());
+      spherical_bessel(k[row] * half_width(panel), bessel);
       for (Index n = 0; n < order_; ++n)
         (n % 2 == 0 ? even_terms : odd_terms)(n, row) = (n % 4 < 2 ? 2 : -2) * bessel[n];
     }

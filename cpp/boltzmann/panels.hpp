@@ -11,9 +11,9 @@ struct FourierIntegrals {
   Eigen::MatrixXd sine;
 };
 
-/// Piecewise polynomials on adjacent panels, given by their values at the Gauss-Legendre nodes of every panel.
-/// Everything linear that is done to them is a matrix, exact for such functions: rows are points, columns
-/// nodes.
+/// Piecewise polynomials on adjacent panels, given by their values at the Gauss-Legendre nodes of every
+/// panel. Everything linear that is done to them is a matrix, exact for such functions: rows are points,
+/// columns nodes.
 class Panels {
  public:
   /// Breaks ascend; `order` nodes on every panel.

@@ -12,8 +12,8 @@ namespace lorentz {
 ///
 ///   F(x, p > 0) = F(0, p) + sum_j S_j from_left(x, j),   F(x, p < 0) = F(1, p) + sum_j S_j from_right(x, j).
 ///
-/// from_left + from_right does not depend on x away from the scatterers of a chain, so whatever G - F conserves
-/// has the same current at every x, exactly.
+/// from_left + from_right does not depend on x away from the scatterers of a chain, so whatever G - F
+/// conserves has the same current at every x, exactly.
 struct Transport {
   Eigen::MatrixXd from_left, from_right;  // one row for each x, one column for each site
 };

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <numbers>
+#include <utility>
 
 #include "boltzmann/gmres.hpp"
 #include "boltzmann/hydrodynamic_preconditioner.hpp"
@@ -15,10 +15,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double reach = 12;        // of the momenta, in thermal momenta: exp(-72) is left beyond
-constexpr double finest = 0.25;     // smallest panel of momenta, in units of the smoothing of F near 0
-constexpr double slowest = 1;       // smallest panel of wave numbers, in units of 1 / thermal momentum
-constexpr double undetected = 1e-17;  // G^ is cut off where it has fallen to this part of its maximum
+constexpr double reach = 11;          // of the momenta, in thermal momenta: exp(-60) is left beyond
+constexpr double finest = 0.25;       // smallest panel of momenta, in units of the smoothing of F near 0
+constexpr double slowest = 1;         // smallest panel of wave numbers, in units of 1 / thermal momentum
+constexpr double undetected = 1e-16;  // g^ is cut off where it has fallen to this part of its maximum
+constexpr double exchange =
+    1e-8;  // sigma below which momenta are simply exchanged: 1 - G' is of order sigma^2
 
 struct Widths {
   double narrow, wide;  // thermal momenta
@@ -32,8 +34,11 @@ Widths thermal_momenta(const KineticProblem& problem) {
 }
 
 /// G is F smoothed near p = 0 over this part of the thermal momentum.
-double smoothing(double sigma) {
-  return std::min(std::abs(sigma), std::sqrt((1 - sigma) * (1 + sigma)));
+double smoothing(double sigma) { return std::min(std::abs(sigma), std::sqrt((1 - sigma) * (1 + sigma))); }
+
+KineticProblem with_exchange(KineticProblem problem) {
+  if (std::abs(problem.sigma) < exchange) problem.sigma = 0;
+  return problem;
 }
 
 Panels momentum_panels(const KineticProblem& problem, int order) {
@@ -42,10 +47,11 @@ Panels momentum_panels(const KineticProblem& problem, int order) {
   return {graded_breaks(finest * layer * width.narrow, reach * width.wide, 2), order};
 }
 
-/// Bound of |G^(k)| / J for a flux that jumps at 0: |phi(k)| < 1/(k width).
+/// Bound of |q(k)| for a flux that jumps at 0: |phi(k)| < 1/(k width).
 double decay(double sigma, double k) {
-  double product = std::min(1.0, 1 / (std::abs(sigma) * k));
-  for (double scale = (1 - sigma) * (1 + sigma); scale * k > 1 && product > undetected; scale *= std::abs(sigma))
+  double product = 1;
+  for (double scale = (1 - sigma) * (1 + sigma); scale * k > 1 && product > undetected;
+       scale *= std::abs(sigma))
     product /= scale * k;
   return product;
 }
@@ -54,7 +60,7 @@ Panels wave_number_panels(const KineticProblem& problem, int order) {
   const Widths width = thermal_momenta(problem);
   double cutoff = 8;
   while (problem.sigma != 0 && decay(problem.sigma, cutoff) > undetected) cutoff *= 1.25;
-  return {graded_breaks(slowest / width.wide, cutoff / width.narrow, 2), order};
+  return {graded_breaks(slowest / width.wide, cutoff / width.narrow, 1.4), order};
 }
 
 Sites make_sites(const KineticProblem& problem, const Resolution& resolution) {
@@ -73,20 +79,39 @@ MatrixXd absorbing(double gamma, const MatrixXd& b) {
 
 }  // namespace
 
-KineticSolution::KineticSolution(const KineticProblem& problem, const Resolution& resolution)
-    : problem_(problem),
-      momenta_(momentum_panels(problem, resolution.order)),
-      sites_(make_sites(problem, resolution)),
-      collision_(problem.sigma, momenta_, wave_number_panels(problem, resolution.order)),
+Resolution Resolution::level(int level, double gamma) {
+  const double factor = std::pow(std::numbers::sqrt2, level);
+  const double layers = std::sqrt(gamma);  // Gauss nodes resolve layers of width 1/gamma at the ends
+  return {static_cast<int>(std::lround(14 * factor)), static_cast<int>(std::ceil((5 + 3 * layers) * factor))};
+}
+
+KineticSolution::KineticSolution(const KineticProblem& problem, const Resolution& resolution,
+                                 const KineticSolution* guess)
+    : problem_(with_exchange(problem)),
+      momenta_(momentum_panels(problem_, resolution.order)),
+      sites_(make_sites(problem_, resolution)),
+      collision_(problem_.sigma, momenta_, wave_number_panels(problem_, resolution.order)),
       left_(injected(problem.left, momenta_.nodes())),
       right_(injected(problem.right, momenta_.nodes())) {
-  // Between baths that scatter without changing momenta: exact at sigma = -1.
-  const Eigen::RowVectorXd x = problem.gamma * sites_.positions().transpose();
-  const Eigen::RowVectorXd near = ((1 + problem.gamma) - x.array()) / (1 + problem.gamma);
-  const Index half = momenta_.size();
-  flux_.resize(2 * half, x.size());
-  flux_.topRows(half) = left_ * near + right_ * (1 - near.array()).matrix();
-  flux_.bottomRows(half) = right_ * near.reverse() + left_ * (1 - near.reverse().array()).matrix();
+  iterate(guess != nullptr ? resampled(*guess) : first_guess());
+}
+
+/// What the baths become if scattering only turned particles round, each with probability 1/2.
+Flux KineticSolution::first_guess() const {
+  const Eigen::RowVectorXd x = problem_.gamma * sites_.positions().transpose();
+  const Eigen::RowVectorXd near = ((1 + problem_.gamma) - x.array()) / (1 + problem_.gamma);
+  const Eigen::RowVectorXd far = 1 - near.array(), near_right = near.reverse(), far_right = far.reverse();
+  Flux flux(2 * momenta_.size(), x.size());
+  flux << left_ * near + right_ * far, right_ * near_right + left_ * far_right;
+  return flux;
+}
+
+Flux KineticSolution::resampled(const KineticSolution& other) const {
+  const Flux coarse = other.flux(sites_.positions());
+  const MatrixXd values = other.momenta_.interpolation(momenta_.nodes());
+  Flux flux(2 * momenta_.size(), coarse.cols());
+  flux << values * coarse.topRows(values.cols()), values * coarse.bottomRows(values.cols());
+  return flux;
 }
 
 Flux KineticSolution::arriving(const Transport& transport, const Flux& source) const {
@@ -101,51 +126,54 @@ Flux KineticSolution::flux(const VectorXd& x) const { return arriving(sites_.tra
 
 double KineticSolution::size(const Flux& residual) const {
   const Index half = momenta_.size();
-  const Eigen::RowVectorXd at =
-      momenta_.weights().transpose() *
-      (residual.topRows(half).cwiseAbs() + residual.bottomRows(half).cwiseAbs());
+  const Eigen::RowVectorXd at = momenta_.weights().transpose() *
+                                (residual.topRows(half).cwiseAbs() + residual.bottomRows(half).cwiseAbs());
   return at.maxCoeff() / (problem_.left.rate + problem_.right.rate);
 }
 
-void KineticSolution::start_from(const KineticSolution& other) {
-  const Flux flux = other.flux(sites_.positions());
-  const MatrixXd values = other.momenta_.interpolation(momenta_.nodes());
-  flux_ << values * flux.topRows(values.cols()), values * flux.bottomRows(values.cols());
+Flux KineticSolution::scatterer_density(const VectorXd& x, const VectorXd& points) const {
+  CollisionOperator collision = collision_;
+  collision.gain(flux(x));
+  return collision.scatterer_density(points);
 }
 
-void KineticSolution::solve() {
+void KineticSolution::iterate(Flux flux) {
   constexpr int newton_limit = 30, krylov_limit = 200;
+  constexpr double krylov_tolerance = 1e-6;  // of each linear solution, relative
+  constexpr double krylov_goal = 1e-15;      // absolute
+  constexpr double rounding = 1e-14;         // of the residual, relative
+  constexpr double acceptable = 1e-10;       // where the residual may stop to fall
   const Transport transport = sites_.transport_to(sites_.positions());
   const Streaming streaming{absorbing(problem_.gamma, transport.from_left),
                             absorbing(problem_.gamma, transport.from_right)};
-  const Flux nothing = Flux::Zero(flux_.rows(), flux_.cols());
-  const auto as_vector = [](const Flux& flux) -> VectorXd { return flux.reshaped(); };
   const auto as_flux = [&](const VectorXd& vector) -> Flux {
-    return vector.reshaped(flux_.rows(), flux_.cols());
+    return vector.reshaped(flux.rows(), flux.cols());
   };
-  for (int step = 0; step < newton_limit; ++step) {
-    source_ = problem_.gamma * (collision_.gain(flux_) - flux_);
+  const LinearMap linearised = [&](const VectorXd& vector) -> VectorXd {
     ++evaluations_;
-    const Flux residual = arriving(transport, source_) - flux_;
-    const double now = size(residual);
-    std::cerr << step << " " << now << " " << evaluations_ << "\n";
-    if (now < 3e-14) return;
-    const Index half = momenta_.size();
-    const Eigen::RowVectorXd number = momenta_.weights().transpose() * (flux_.topRows(half) + flux_.bottomRows(half));
-    const Eigen::RowVectorXd temperatures = (momenta_.weights().array() * momenta_.nodes().array().square()).matrix().transpose() *
-                 (flux_.topRows(half) + flux_.bottomRows(half)) * number.cwiseInverse().asDiagonal();
-    const HydrodynamicPreconditioner preconditioner(problem_.sigma, momenta_, streaming, temperatures);
-    const KrylovResult change = gmres(
-        [&](const VectorXd& v) {
-          ++evaluations_;
-          const Flux f = as_flux(v);
-          return as_vector(f - streaming(collision_.derivative(f)));
-        },
-        [&](const VectorXd& v) { return as_vector(preconditioner(as_flux(v))); },
-        as_vector(residual - streaming(residual)), 1e-6, krylov_limit);
-    flux_ += as_flux(change.solution);
+    const Flux direction = as_flux(vector);
+    return (direction - streaming(collision_.derivative(direction))).reshaped();
+  };
+  double relative = 0;
+  for (int step = 0; step < newton_limit; ++step) {
+    source_ = problem_.gamma * (collision_.gain(flux) - flux);
+    ++evaluations_;
+    const Flux missing = arriving(transport, source_) - flux;
+    const Flux residual = missing - streaming(missing);
+    const double before = std::exchange(relative, size(residual));
+    if (!std::isfinite(relative))
+      throw ConvergenceError("Newton's iteration for the Boltzmann equation diverged");
+    if (relative < rounding || (step > 0 && relative < acceptable && relative > 0.5 * before)) return;
+    const HydrodynamicPreconditioner preconditioner(problem_.sigma, momenta_, streaming,
+                                                    collision_.temperature());
+    const LinearMap precondition = [&](const VectorXd& vector) -> VectorXd {
+      return preconditioner(as_flux(vector)).reshaped();
+    };
+    flux += as_flux(gmres(linearised, precondition, residual.reshaped(),
+                          std::clamp(krylov_goal / relative, krylov_tolerance, 0.1), krylov_limit)
+                        .solution);
   }
-  throw ConvergenceError("no convergence");
+  throw ConvergenceError("Newton's iteration for the Boltzmann equation did not converge in 30 steps");
 }
 
 }  // namespace lorentz

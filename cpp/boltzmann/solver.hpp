@@ -22,44 +22,49 @@ struct KineticProblem {
   int cells = 0;
 };
 
+/// How finely a problem is resolved; level 0 is the coarsest. One level up, every panel of p and k and the
+/// line have about sqrt(2) times as many nodes, so the number of unknowns doubles. Errors fall exponentially.
 struct Resolution {
-  int order;  // nodes on every panel of p and of k
-  int sites;  // nodes in x; ignored for a chain
+  int order;  // nodes on every panel of p and k
+  int sites;  // nodes in x; a chain has its scatterers instead
+
+  static Resolution level(int level, double gamma);
 };
 
-/// The iteration did not converge within its fixed limits.
+/// No solution within the fixed limits of the iteration.
 struct ConvergenceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 class KineticSolution {
  public:
-  KineticSolution(const KineticProblem& problem, const Resolution& resolution);
+  /// Newton's method with GMRES. Throws ConvergenceError. The guess, if any, is what another resolution
+  /// found.
+  KineticSolution(const KineticProblem& problem, const Resolution& resolution,
+                  const KineticSolution* guess = nullptr);
 
-  /// Newton's method with GMRES, from the present flux. Throws ConvergenceError.
-  void solve();
-
-  /// Takes over what another resolution found, as a first guess.
-  void start_from(const KineticSolution& other);
-
-  /// F at any x in [0, 1], one column each.
+  /// F at any x in [0, 1], one column each. At a scatterer of a chain: of the particles that arrive there.
   Flux flux(const Eigen::VectorXd& x) const;
 
-  const Panels& momenta() const { return momenta_; }
-  const CollisionOperator& collision() const { return collision_; }
-  int evaluations() const { return evaluations_; }  // of the collision operator or its derivative
+  /// g at any x: values of the density of U at points, then at minus the points.
+  Flux scatterer_density(const Eigen::VectorXd& x, const Eigen::VectorXd& points) const;
+
+  const Panels& momenta() const { return momenta_; }  // of the flux, on either half line
+  int evaluations() const { return evaluations_; }    // of the collision operator or its derivative
 
  private:
+  Flux first_guess() const;
+  Flux resampled(const KineticSolution& other) const;
   Flux arriving(const Transport& transport, const Flux& source) const;
-  Flux defect(const Flux& flux, Flux& gain);
   double size(const Flux& residual) const;
+  void iterate(Flux flux);
 
   KineticProblem problem_;
   Panels momenta_;
   Sites sites_;
   CollisionOperator collision_;
   Eigen::VectorXd left_, right_;  // what the baths inject, at the nodes
-  Flux flux_, source_;            // F and gamma (G - F) at the sites
+  Flux source_;                   // gamma (G - F) at the sites
   int evaluations_ = 0;
 };
 

@@ -16,7 +16,8 @@ struct Transport {
   /// Scatterers everywhere: collocation at Gauss-Legendre nodes, implicit, stable for every gamma.
   static Transport continuum(int sites);
 
-  /// N scatterers, a particle meeting site i with what it is on the bond before: sites j < i, or j > i, count.
+  /// N scatterers, a particle meeting site i with what it is on the bond before: sites j < i, or j > i,
+  /// count.
   static Transport chain(int cells);
 };
 
