@@ -47,7 +47,7 @@ CollisionOperator::CollisionOperator(double sigma, const Panels& momenta, const 
   if (sigma == 0) return;  // momenta are exchanged: G = F and J g = F
   reflected_ = momenta.fourier(std::abs(sigma) * wave_numbers.nodes());
   kicked_ = momenta.fourier(c_squared(sigma) * wave_numbers.nodes());
-  kicked_.cosine.rowwise() -= momenta.weights().transpose();
+  kicked_.cosine = kicked_.cosine_minus_one;
   inverse_ = wave_numbers.fourier(momenta.nodes());
   for (int n = 0; n < doublings(sigma); ++n)
     scalings_.push_back(scaling(wave_numbers, std::pow(std::abs(sigma), std::ldexp(1, n))));

@@ -117,7 +117,7 @@ FourierIntegrals Panels::fourier(const VectorXd& k) const {
   VectorXd bessel(order_), even(order_), odd(order_);
   const Index rows = k.size();
   MatrixXd even_terms = MatrixXd::Zero(order_, rows), odd_terms = even_terms;
-  FourierIntegrals result{MatrixXd(rows, size()), MatrixXd(rows, size())};
+  FourierIntegrals result{MatrixXd(rows, size()), MatrixXd(rows, size()), MatrixXd(rows, size())};
   for (std::size_t panel = 0; panel < count(); ++panel) {
     for (Index row = 0; row < rows; ++row) {
       spherical_bessel(k[row] * half_width(panel), bessel);
@@ -131,6 +131,18 @@ FourierIntegrals Panels::fourier(const VectorXd& k) const {
     result.cosine.middleCols(first(panel), order_) = real.colwise() * cosine - imaginary.colwise() * sine;
     result.sine.middleCols(first(panel), order_) = real.colwise() * sine + imaginary.colwise() * cosine;
   }
+  result.cosine_minus_one = result.cosine.rowwise() - weights_.transpose();
+  // Where exp(i k p) hardly varies on a panel, the Gauss rule is exact and does not cancel.
+  for (std::size_t panel = 0; panel < count(); ++panel)
+    for (Index row = 0; row < rows; ++row) {
+      if (k[row] * half_width(panel) > 0.5) continue;
+      const Eigen::ArrayXd phase = k[row] * nodes_.segment(first(panel), order_).array();
+      const Eigen::ArrayXd weights = weights_.segment(first(panel), order_).array();
+      result.cosine.row(row).segment(first(panel), order_) = weights * phase.cos();
+      result.cosine_minus_one.row(row).segment(first(panel), order_) =
+          -2 * weights * (0.5 * phase).sin().square();
+      result.sine.row(row).segment(first(panel), order_) = weights * phase.sin();
+    }
   return result;
 }
 

@@ -7,7 +7,8 @@ namespace lorentz {
 
 /// Matrices that take the values of a function at the nodes to its Fourier integrals, one row for each k.
 struct FourierIntegrals {
-  Eigen::MatrixXd cosine;  // int f(p) cos(k p) dp
+  Eigen::MatrixXd cosine;            // int f(p) cos(k p) dp
+  Eigen::MatrixXd cosine_minus_one;  // int f(p) (cos(k p) - 1) dp, to full relative precision
   Eigen::MatrixXd sine;
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "boltzmann/moments.hpp"
 
@@ -19,8 +21,9 @@ double difference(const KineticProblem& problem, const KineticSolution& coarse, 
   const auto a = currents(coarse), b = currents(fine), scale = injected(problem.left, problem.right);
   double largest = 0;
   for (std::size_t i = 0; i < scale.size(); ++i)
-    largest = std::max(largest, std::abs(a[i] - b[i]) / scale[i]);
-  return largest * (1 + problem.gamma);
+    largest =
+        std::max(largest, std::abs(a[i] - b[i]) / std::max(std::abs(b[i]), scale[i] / (1 + problem.gamma)));
+  return largest;
 }
 
 }  // namespace
@@ -29,14 +32,14 @@ RefinedSolution refine(const KineticProblem& problem, double target) {
   const auto solve = [&](int level, const KineticSolution* guess) {
     return std::make_unique<KineticSolution>(problem, Resolution::level(level, problem.gamma), guess);
   };
-  RefinedSolution result{nullptr, solve(0, nullptr), 0, 0};
+  RefinedSolution result{nullptr, solve(0, nullptr), std::numeric_limits<double>::infinity(), 0};
   result.evaluations = result.fine->evaluations();
   for (int level = 1; level <= finest_level; ++level) {
     result.coarse = std::move(result.fine);
     result.fine = solve(level, result.coarse.get());
     result.evaluations += result.fine->evaluations();
-    result.error = difference(problem, *result.coarse, *result.fine);
-    if (result.error <= target) break;
+    const double before = std::exchange(result.error, difference(problem, *result.coarse, *result.fine));
+    if (result.error <= target || result.error > before) break;
   }
   return result;
 }

@@ -14,8 +14,9 @@ struct RefinedSolution {
 };
 
 /// Doubles the resolution until the currents of particles, energy and momentum of two successive solutions
-/// differ by less than the target, relative to what the baths inject, divided by 1 + gamma: the order of
-/// magnitude of a current that is driven. Stops at the finest resolution there is. Throws ConvergenceError.
+/// differ by less than the target, relative to themselves; or, for currents that nothing drives, to what the
+/// baths inject divided by 1 + gamma. Stops as well where a finer resolution does not help: rounding, or the
+/// finest there is. Throws ConvergenceError.
 RefinedSolution refine(const KineticProblem& problem, double target);
 
 }  // namespace lorentz

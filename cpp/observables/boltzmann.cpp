@@ -222,9 +222,8 @@ int main(int argc, char** argv) {
   const ProblemOptions options(program.options());
   const MomentumBinsOptions bins(program.options(), 100, 60);
   double target = 1e-10;
-  program.options().real(
-      "--target-error", target, non_negative,
-      "Error of the currents at which the resolution suffices, relative to injected/(1+gamma)");
+  program.options().real("--target-error", target, non_negative,
+                         "Relative error of the currents at which the resolution suffices");
   return program.run(argc, argv, [&](Progress& progress) {
     options.validate();
     bins.validate();
