@@ -72,11 +72,6 @@ VectorXd injected(const Reservoir& bath, const VectorXd& p) {
   return height * (-p.array().square() / (2 * bath.temperature)).exp();
 }
 
-/// (1 + gamma B)^-1 gamma B.
-MatrixXd absorbing(double gamma, const MatrixXd& b) {
-  return (MatrixXd::Identity(b.rows(), b.cols()) + gamma * b).partialPivLu().solve(gamma * b);
-}
-
 }  // namespace
 
 Resolution Resolution::level(int level, double gamma) {
@@ -144,8 +139,7 @@ void KineticSolution::iterate(Flux flux) {
   constexpr double rounding = 1e-14;         // of the residual, relative
   constexpr double acceptable = 1e-10;       // where the residual may stop to fall
   const Transport transport = sites_.transport_to(sites_.positions());
-  const Streaming streaming{absorbing(problem_.gamma, transport.from_left),
-                            absorbing(problem_.gamma, transport.from_right)};
+  const Streaming streaming = Streaming::absorbing(problem_.gamma, transport.from_left, transport.from_right);
   const auto as_flux = [&](const VectorXd& vector) -> Flux {
     return vector.reshaped(flux.rows(), flux.cols());
   };
