@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <utility>
 
 #include "boltzmann/gmres.hpp"
 #include "boltzmann/hydrodynamic_preconditioner.hpp"
@@ -133,11 +133,9 @@ Flux KineticSolution::scatterer_density(const VectorXd& x, const VectorXd& point
 }
 
 void KineticSolution::iterate(Flux flux) {
-  constexpr int newton_limit = 30, krylov_limit = 200;
-  constexpr double krylov_tolerance = 1e-6;  // of each linear solution, relative
-  constexpr double krylov_goal = 1e-15;      // absolute
-  constexpr double rounding = 1e-14;         // of the residual, relative
-  constexpr double acceptable = 1e-10;       // where the residual may stop to fall
+  constexpr int newton_limit = 100, krylov_limit = 200;
+  constexpr double rounding = 3e-14;    // of the residual, relative
+  constexpr double acceptable = 1e-10;  // where the residual may cease to fall
   const Transport transport = sites_.transport_to(sites_.positions());
   const Streaming streaming = Streaming::absorbing(problem_.gamma, transport.from_left, transport.from_right);
   const auto as_flux = [&](const VectorXd& vector) -> Flux {
@@ -148,26 +146,34 @@ void KineticSolution::iterate(Flux flux) {
     const Flux direction = as_flux(vector);
     return (direction - streaming(collision_.derivative(direction))).reshaped();
   };
-  double relative = 0;
+  Flux change = Flux::Zero(flux.rows(), flux.cols());
+  double smallest = std::numeric_limits<double>::infinity();
   for (int step = 0; step < newton_limit; ++step) {
     source_ = problem_.gamma * (collision_.gain(flux) - flux);
     ++evaluations_;
     const Flux missing = arriving(transport, source_) - flux;
     const Flux residual = missing - streaming(missing);
-    const double before = std::exchange(relative, size(residual));
-    if (!std::isfinite(relative))
-      throw ConvergenceError("Newton's iteration for the Boltzmann equation diverged");
-    if (relative < rounding || (step > 0 && relative < acceptable && relative > 0.5 * before)) return;
+    const double now = size(residual);
+    if (now < rounding || (smallest < acceptable && now > 0.5 * smallest && now < acceptable)) return;
+    if (!(now < smallest)) {  // too far, or no number at all
+      change *= 0.5;
+      flux -= change;
+      continue;
+    }
+    smallest = now;
     const HydrodynamicPreconditioner preconditioner(problem_.sigma, momenta_, streaming,
                                                     collision_.temperature());
     const LinearMap precondition = [&](const VectorXd& vector) -> VectorXd {
       return preconditioner(as_flux(vector)).reshaped();
     };
-    flux += as_flux(gmres(linearised, precondition, residual.reshaped(),
-                          std::clamp(krylov_goal / relative, krylov_tolerance, 0.1), krylov_limit)
-                        .solution);
+    const double tolerance = std::clamp(now, 0.1 * rounding / now, 1e-2);  // converges quadratically still
+    change = as_flux(gmres(linearised, precondition, residual.reshaped(), tolerance, krylov_limit).solution);
+    flux += change;
   }
-  throw ConvergenceError("Newton's iteration for the Boltzmann equation did not converge in 30 steps");
+  throw ConvergenceError(
+      "Newton's iteration for the Boltzmann equation did not converge; baths that differ less, a smaller "
+      "gamma or "
+      "a sigma farther from -1, 0 and 1 would help");
 }
 
 }  // namespace lorentz
