@@ -146,8 +146,9 @@ TEST(CollisionOperator, NeedsEveryFactor) {
 
 TEST(KineticEquation, EquilibriumStays) {
   for (const double sigma : {-0.99, -0.5, -1e-3, 0.0, 0.02, 0.5, 0.99})
-    for (const double gamma : {0.0, 1.0, 50.0, 1000.0}) {
-      if (gamma == 1000 && sigma != 0.5) continue;  // to be quick
+    for (const double gamma : {0.0, 1.0, 20.0, 1000.0}) {
+      if (gamma == 1000 && sigma != 0.5) continue;                // to be quick
+      const double rounding = 1e-12 * std::max(1.0, gamma / 20);  // grows with the number of scatterings
       KineticProblem p = problem(sigma, gamma);
       p.left = p.right = {200, 100};
       const KineticSolution solution = solve(p);
@@ -156,8 +157,9 @@ TEST(KineticEquation, EquilibriumStays) {
       const VectorXd half = momenta.unaryExpr([](double at) { return maxwellian(at, 100); });
       VectorXd whole(2 * half.size());
       whole << half, half;
-      EXPECT_LT(distance(flux, 200 * whole.replicate(1, places.size())), 1e-12) << sigma << ' ' << gamma;
-      EXPECT_LT(distance(density, 0.5 * whole.replicate(1, places.size())), 1e-12) << sigma << ' ' << gamma;
+      EXPECT_LT(distance(flux, 200 * whole.replicate(1, places.size())), rounding) << sigma << ' ' << gamma;
+      EXPECT_LT(distance(density, 0.5 * whole.replicate(1, places.size())), rounding)
+          << sigma << ' ' << gamma;
       const Currents found = currents(solution);
       EXPECT_LT(found.particles.cwiseAbs().maxCoeff(), 1e-12 * 200);
       EXPECT_LT(found.energy.cwiseAbs().maxCoeff(), 1e-12 * 200 * 50);
@@ -185,9 +187,9 @@ TEST(KineticEquation, ExchangeOfMomentaIsExact) {
 
 TEST(KineticEquation, CurrentsAreConstant) {
   for (const double sigma : {-0.99, -0.3, 0.01, 0.5, 0.95})
-    for (const double gamma : {1.0, 50.0}) {
+    for (const double gamma : {1.0, 20.0}) {
       const KineticProblem p = problem(sigma, gamma);
-      const Currents found = currents(solve(p), VectorXd::LinSpaced(17, 0, 1));
+      const Currents found = currents(solve(p, 0), VectorXd::LinSpaced(17, 0, 1));
       const auto scale = injected(p.left, p.right);
       for (Index i = 0; i < 17; ++i)
         for (std::size_t n = 0; n < scale.size(); ++n)
@@ -258,14 +260,14 @@ TEST(Refinement, EstimateIsHonest) {
 TEST(MeanFieldChain, TendsToTheContinuum) {
   const KineticProblem p = problem(0.5, 1);
   const double limit = currents(solve(p)).energy[0];
-  double last = 0;
+  double last = std::numeric_limits<double>::infinity();
   for (const int cells : {4, 8, 16, 32, 64}) {
     KineticProblem chain = p;
     chain.cells = cells;
     const Currents found = currents(solve(chain), VectorXd::LinSpaced(cells + 1, 0, 1));
     EXPECT_LT((found.energy.array() - found.energy[0]).abs().maxCoeff(), 1e-12 * 20000);
     const double difference = std::abs(found.energy[0] - limit);
-    if (last != 0) EXPECT_LT(difference, 0.55 * last) << cells;
+    EXPECT_LT(difference, 0.55 * last) << cells;
     last = difference;
   }
   EXPECT_LT(last, 1e-2 * std::abs(limit));

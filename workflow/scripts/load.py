@@ -70,5 +70,8 @@ def _quantity(group: h5py.Group) -> Quantity:
     mean = values.pop("mean")
     computed = "discretisation_error" in values
     names = {"discretisation_error"} if computed else {"standard_error", "count"}
-    rest = {name: values.pop(name) if name in names else None for name in ("standard_error", "discretisation_error", "count")}
+    rest = {
+        name: values.pop(name) if name in names else None
+        for name in ("standard_error", "discretisation_error", "count")
+    }
     return Quantity(mean, **rest, axes=values, units=_attributes(group["mean"])["units"])
