@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "boltzmann/moments.hpp"
 #include "boltzmann/refinement.hpp"
@@ -201,16 +202,26 @@ double largest_value(const KineticProblem& problem, const std::string& name,
   return largest;
 }
 
+/// Largest difference over all places and momenta: at some of them the two agree by chance.
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (std::isfinite(a[i])) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+}
+
 Results results(const KineticProblem& problem, const RefinedSolution& solution, const Grid& grid) {
-  const Values fine = evaluate(problem, *solution.fine, grid),
-               coarse = evaluate(problem, *solution.coarse, grid);
+  const Values fine = evaluate(problem, *solution.fine, grid);
+  const Values coarse = evaluate(problem, *solution.coarse, grid);
   Results results;
   for (const Description& what : descriptions(grid)) {
-    const std::size_t at = results.size();
-    const double least = rounding * largest_value(problem, what.name, fine[at]);
-    std::vector<double> error(fine[at].size());
-    for (std::size_t i = 0; i < error.size(); ++i) error[i] = std::abs(fine[at][i] - coarse[at][i]) + least;
-    results.push_back({what, fine[at], error, {}});
+    const std::vector<double>& values = fine[results.size()];
+    const double error = largest_difference(values, coarse[results.size()]) +
+                         rounding * largest_value(problem, what.name, values);
+    std::vector<double> errors(values.size(), error);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (!std::isfinite(values[i])) errors[i] = std::numeric_limits<double>::quiet_NaN();
+    results.push_back({what, values, errors, {}});
   }
   return results;
 }
