@@ -28,9 +28,10 @@ double difference(const KineticProblem& problem, const KineticSolution& coarse, 
 
 }  // namespace
 
-RefinedSolution refine(const KineticProblem& problem, double target) {
+RefinedSolution refine(const KineticProblem& problem, double target, const Heartbeat& heartbeat) {
   const auto solve = [&](int level, const KineticSolution* guess) {
-    return std::make_unique<KineticSolution>(problem, Resolution::level(level, problem.gamma), guess);
+    return std::make_unique<KineticSolution>(problem, Resolution::level(level, problem.gamma), guess,
+                                             heartbeat);
   };
   RefinedSolution result{nullptr, solve(0, nullptr), std::numeric_limits<double>::infinity(), 0};
   result.evaluations = result.fine->evaluations();

@@ -17,6 +17,6 @@ struct RefinedSolution {
 /// differ by less than the target, relative to themselves; or, for currents that nothing drives, to what the
 /// baths inject divided by 1 + gamma. Stops as well where a finer resolution does not help: rounding, or the
 /// finest there is. Throws ConvergenceError.
-RefinedSolution refine(const KineticProblem& problem, double target);
+RefinedSolution refine(const KineticProblem& problem, double target, const Heartbeat& heartbeat = [] {});
 
 }  // namespace lorentz

@@ -19,8 +19,7 @@ constexpr double reach = 11;          // of the momenta, in thermal momenta: exp
 constexpr double finest = 0.25;       // smallest panel of momenta, in units of the smoothing of F near 0
 constexpr double slowest = 1;         // smallest panel of wave numbers, in units of 1 / thermal momentum
 constexpr double undetected = 1e-16;  // g^ is cut off where it has fallen to this part of its maximum
-constexpr double exchange =
-    1e-8;  // sigma below which momenta are simply exchanged: 1 - G' is of order sigma^2
+constexpr double exchange = 1e-8;     // |sigma| below which momenta are exchanged: G - F is of order sigma^2
 
 struct Widths {
   double narrow, wide;  // thermal momenta
@@ -81,14 +80,14 @@ Resolution Resolution::level(int level, double gamma) {
 }
 
 KineticSolution::KineticSolution(const KineticProblem& problem, const Resolution& resolution,
-                                 const KineticSolution* guess)
+                                 const KineticSolution* guess, const Heartbeat& heartbeat)
     : problem_(with_exchange(problem)),
       momenta_(momentum_panels(problem_, resolution.order)),
       sites_(make_sites(problem_, resolution)),
       collision_(problem_.sigma, momenta_, wave_number_panels(problem_, resolution.order)),
       left_(injected(problem.left, momenta_.nodes())),
       right_(injected(problem.right, momenta_.nodes())) {
-  iterate(guess != nullptr ? resampled(*guess) : first_guess());
+  iterate(guess != nullptr ? resampled(*guess) : first_guess(), heartbeat);
 }
 
 /// What the baths become if scattering only turned particles round, each with probability 1/2.
@@ -132,7 +131,7 @@ Flux KineticSolution::scatterer_density(const VectorXd& x, const VectorXd& point
   return collision.scatterer_density(points);
 }
 
-void KineticSolution::iterate(Flux flux) {
+void KineticSolution::iterate(Flux flux, const Heartbeat& heartbeat) {
   constexpr int newton_limit = 100, krylov_limit = 200;
   constexpr double rounding = 3e-14;    // of the residual, relative
   constexpr double acceptable = 1e-10;  // where the residual may cease to fall
@@ -141,20 +140,25 @@ void KineticSolution::iterate(Flux flux) {
   const auto as_flux = [&](const VectorXd& vector) -> Flux {
     return vector.reshaped(flux.rows(), flux.cols());
   };
-  const LinearMap linearised = [&](const VectorXd& vector) -> VectorXd {
+  const auto count = [&] {
+    heartbeat();
     ++evaluations_;
+  };
+  const LinearMap linearised = [&](const VectorXd& vector) -> VectorXd {
+    count();
     const Flux direction = as_flux(vector);
     return (direction - streaming(collision_.derivative(direction))).reshaped();
   };
   Flux change = Flux::Zero(flux.rows(), flux.cols());
   double smallest = std::numeric_limits<double>::infinity();
   for (int step = 0; step < newton_limit; ++step) {
+    count();
     source_ = problem_.gamma * (collision_.gain(flux) - flux);
-    ++evaluations_;
     const Flux missing = arriving(transport, source_) - flux;
     const Flux residual = missing - streaming(missing);
     const double now = size(residual);
-    if (now < rounding || (smallest < acceptable && now > 0.5 * smallest && now < acceptable)) return;
+    const bool stagnates = smallest < acceptable && now > 0.5 * smallest;
+    if (now < rounding || (stagnates && now < acceptable)) return;
     if (!(now < smallest)) {  // too far, or no number at all
       change *= 0.5;
       flux -= change;
@@ -166,14 +170,15 @@ void KineticSolution::iterate(Flux flux) {
     const LinearMap precondition = [&](const VectorXd& vector) -> VectorXd {
       return preconditioner(as_flux(vector)).reshaped();
     };
-    const double tolerance = std::clamp(now, 0.1 * rounding / now, 1e-2);  // converges quadratically still
+    // Newton's steps still converge quadratically, and no step is more exact than rounding.
+    const double tolerance = std::min(0.01, std::max(now, 0.1 * rounding / now));
     change = as_flux(gmres(linearised, precondition, residual.reshaped(), tolerance, krylov_limit).solution);
     flux += change;
   }
   throw ConvergenceError(
-      "Newton's iteration for the Boltzmann equation did not converge; baths that differ less, a smaller "
-      "gamma or "
-      "a sigma farther from -1, 0 and 1 would help");
+      "Newton's iteration for the Boltzmann equation did not converge. Choose baths that differ less, a "
+      "smaller "
+      "gamma, or sigma farther from -1, 0 and 1.");
 }
 
 }  // namespace lorentz

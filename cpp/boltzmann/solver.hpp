@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <stdexcept>
 
 #include "boltzmann/collision_operator.hpp"
@@ -36,12 +37,16 @@ struct ConvergenceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Called at every evaluation of the collision operator; may throw, to stop.
+using Heartbeat = std::function<void()>;
+
 class KineticSolution {
  public:
   /// Newton's method with GMRES. Throws ConvergenceError. The guess, if any, is what another resolution
   /// found.
-  KineticSolution(const KineticProblem& problem, const Resolution& resolution,
-                  const KineticSolution* guess = nullptr);
+  KineticSolution(
+      const KineticProblem& problem, const Resolution& resolution, const KineticSolution* guess = nullptr,
+      const Heartbeat& heartbeat = [] {});
 
   /// F at any x in [0, 1], one column each. At a scatterer of a chain: of the particles that arrive there.
   Flux flux(const Eigen::VectorXd& x) const;
@@ -57,7 +62,7 @@ class KineticSolution {
   Flux resampled(const KineticSolution& other) const;
   Flux arriving(const Transport& transport, const Flux& source) const;
   double size(const Flux& residual) const;
-  void iterate(Flux flux);
+  void iterate(Flux flux, const Heartbeat& heartbeat);
 
   KineticProblem problem_;
   Panels momenta_;

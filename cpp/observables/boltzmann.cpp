@@ -18,6 +18,7 @@
 #include "boltzmann/moments.hpp"
 #include "boltzmann/refinement.hpp"
 #include "observables/momentum_bins_options.hpp"
+#include "program/interruption.hpp"
 #include "program/program.hpp"
 
 namespace {
@@ -239,7 +240,9 @@ int main(int argc, char** argv) {
     options.validate();
     bins.validate();
     const KineticProblem problem = options.problem();
-    const RefinedSolution solution = refine(problem, target);
+    const RefinedSolution solution = refine(problem, target, [] {
+      if (const int signal = received_signal(); signal != 0) throw Interrupted(signal);
+    });
     const bool converged = solution.error <= target;
     if (!converged)
       progress.say(fmt::format("not converged: the currents are known to {:.1e}, not to {:.1e}",

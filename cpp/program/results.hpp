@@ -42,8 +42,8 @@ using Results = std::vector<Quantity>;
 Results estimate(const Records& records, const std::vector<Description>& descriptions,
                  const RecordFunction& f);
 
-/// Writes /results/<name>/{mean, standard_error, count} and the axes beside them; {mean, discretisation_error} if
-/// the quantity is computed.
+/// Writes /results/<name>/{mean, standard_error, count} and the axes beside them; {mean,
+/// discretisation_error} if the quantity is computed.
 void write_results(Hdf5Writer& file, const Results& results);
 
 }  // namespace lorentz
