@@ -45,10 +45,17 @@ void write_results(Hdf5Writer& file, const Results& results) {
     for (const Axis& axis : quantity.what.axes) shape.push_back(axis.values.size());
     file.dataset(group + "mean", shape, quantity.mean);
     describe(file, group + "mean", quantity.what.units, quantity.what.description);
-    file.dataset(group + "standard_error", shape, quantity.standard_error);
-    describe(file, group + "standard_error", quantity.what.units, "Standard error of the mean over replicas");
-    file.dataset(group + "count", shape, quantity.count);
-    describe(file, group + "count", "1", "Number of replicas that contribute");
+    const auto write_error = [&](const std::string& name, const std::string& description) {
+      file.dataset(group + name, shape, quantity.standard_error);
+      describe(file, group + name, quantity.what.units, description);
+    };
+    if (quantity.count.empty()) {
+      write_error("discretisation_error", "Difference from a coarser discretisation, and rounding");
+    } else {
+      write_error("standard_error", "Standard error of the mean over replicas");
+      file.dataset(group + "count", shape, quantity.count);
+      describe(file, group + "count", "1", "Number of replicas that contribute");
+    }
     for (const Axis& axis : quantity.what.axes) {
       file.dataset(group + axis.name, {axis.values.size()}, axis.values);
       describe(file, group + axis.name, axis.units, axis.description);

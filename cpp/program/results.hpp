@@ -27,12 +27,12 @@ struct Description {
   std::size_t size() const;
 };
 
-/// A measured quantity.
+/// A measured or computed quantity.
 struct Quantity {
   Description what;
   std::vector<double> mean;
-  std::vector<double> standard_error;  // NaN where undefined
-  std::vector<std::uint64_t> count;    // replicas that contribute
+  std::vector<double> standard_error;  // NaN where undefined; of the discretisation if there is no count
+  std::vector<std::uint64_t> count;    // replicas that contribute; none for what is computed, not measured
 };
 
 using Results = std::vector<Quantity>;
@@ -42,7 +42,8 @@ using Results = std::vector<Quantity>;
 Results estimate(const Records& records, const std::vector<Description>& descriptions,
                  const RecordFunction& f);
 
-/// Writes /results/<name>/{mean, standard_error, count} and the axes beside them.
+/// Writes /results/<name>/{mean, standard_error, count} and the axes beside them; {mean,
+/// discretisation_error} if the quantity is computed.
 void write_results(Hdf5Writer& file, const Results& results);
 
 }  // namespace lorentz

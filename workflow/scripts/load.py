@@ -17,11 +17,13 @@ class FormatError(ValueError):
 
 @dataclass(frozen=True)
 class Quantity:
-    """mean, standard_error and count have one shape; axes maps names to one-dimensional arrays."""
+    """mean, the errors and count have one shape; axes maps names to one-dimensional arrays. What is computed
+    has a discretisation error, what is measured a standard error and a count; the others are None."""
 
     mean: np.ndarray
-    standard_error: np.ndarray
-    count: np.ndarray
+    standard_error: np.ndarray | None
+    discretisation_error: np.ndarray | None
+    count: np.ndarray | None
     axes: dict[str, np.ndarray]
     units: str
 
@@ -65,5 +67,11 @@ def _attributes(group: h5py.Group) -> dict[str, Any]:
 
 def _quantity(group: h5py.Group) -> Quantity:
     values = {name: dataset[()] for name, dataset in group.items()}
-    mean, standard_error, count = (values.pop(name) for name in ("mean", "standard_error", "count"))
-    return Quantity(mean, standard_error, count, values, _attributes(group["mean"])["units"])
+    mean = values.pop("mean")
+    computed = "discretisation_error" in values
+    names = {"discretisation_error"} if computed else {"standard_error", "count"}
+    rest = {
+        name: values.pop(name) if name in names else None
+        for name in ("standard_error", "discretisation_error", "count")
+    }
+    return Quantity(mean, **rest, axes=values, units=_attributes(group["mean"])["units"])
