@@ -28,14 +28,15 @@ double difference(const KineticProblem& problem, const KineticSolution& coarse, 
 
 }  // namespace
 
-RefinedSolution refine(const KineticProblem& problem, double target, const Heartbeat& heartbeat) {
+RefinedSolution refine(const KineticProblem& problem, double target, int coarsening,
+                       const Heartbeat& heartbeat) {
   const auto solve = [&](int level, const KineticSolution* guess) {
     return std::make_unique<KineticSolution>(problem, Resolution::level(level, problem.gamma), guess,
                                              heartbeat);
   };
-  RefinedSolution result{nullptr, solve(0, nullptr), std::numeric_limits<double>::infinity(), 0};
+  RefinedSolution result{nullptr, solve(-coarsening, nullptr), std::numeric_limits<double>::infinity(), 0};
   result.evaluations = result.fine->evaluations();
-  for (int level = 1; level <= finest_level; ++level) {
+  for (int level = 1 - coarsening; level <= finest_level; ++level) {
     result.coarse = std::move(result.fine);
     result.fine = solve(level, result.coarse.get());
     result.evaluations += result.fine->evaluations();

@@ -18,6 +18,7 @@
 #include "boltzmann/moments.hpp"
 #include "boltzmann/refinement.hpp"
 #include "observables/momentum_bins_options.hpp"
+#include "observables/physics_options.hpp"
 #include "program/interruption.hpp"
 #include "program/program.hpp"
 
@@ -29,23 +30,18 @@ using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
+constexpr double every_scatterer = std::numeric_limits<double>::infinity();  // --gamma N
 constexpr double rounding = 5e-14;  // relative to the largest value of a quantity
 
 class ProblemOptions {
  public:
   explicit ProblemOptions(Options& options) : options_(options) {
     options.real("--sigma", problem_.sigma, {-0.99, 0.99}, "Mass ratio (M-m)/(M+m)");
-    options.real("--gamma", problem_.gamma, {0, 1000}, "Mean number of scatterings on the way through");
+    options.real_or_word("--gamma", problem_.gamma, {0, 1000}, "N", every_scatterer,
+                         "Mean number of scatterings on the way through; N: one at each of --cells");
     options.real_or_word("--cells", cells_, {1, 300}, "continuum", 0,
                          "Number of scatterers of a mean-field chain");
-    options.real("--nu-left", problem_.left.rate, non_negative,
-                 "Particles injected at the left per unit time");
-    options.real("--nu-right", problem_.right.rate, non_negative,
-                 "Particles injected at the right per unit time");
-    options.real("--temperature-left", problem_.left.temperature, positive,
-                 "Temperature of the left reservoir");
-    options.real("--temperature-right", problem_.right.temperature, positive,
-                 "Temperature of the right reservoir");
+    add_reservoir_options(options, problem_.left, problem_.right);
     options.ascending_list("--positions", positions_, {0, 1}, "Where the continuum is asked for its state");
   }
 
@@ -53,7 +49,9 @@ class ProblemOptions {
   void validate() const {
     if (cells_ != std::floor(cells_))
       throw UsageError("--cells is not a whole number. Give the number of scatterers, or continuum.");
-    if (cells_ > 0 && problem_.gamma > cells_)
+    if (cells_ == 0 && problem_.gamma == every_scatterer)
+      throw UsageError("--gamma N needs a chain. Give --cells, or gamma as a number.");
+    if (cells_ > 0 && problem().gamma > cells_)
       throw UsageError(
           "--gamma exceeds --cells: gamma/N is a probability. Choose more cells or a smaller gamma.");
     if (cells_ > 0 && options_.given("--positions"))
@@ -66,6 +64,7 @@ class ProblemOptions {
   KineticProblem problem() const {
     KineticProblem problem = problem_;
     problem.cells = static_cast<int>(cells_);
+    if (problem.gamma == every_scatterer) problem.gamma = cells_;
     return problem;
   }
 
@@ -165,7 +164,8 @@ Values evaluate(const KineticProblem& problem, const KineticSolution& solution, 
           list(right),
           list(left),
           list(jump),
-          list(kurtosis)};
+          list(kurtosis),
+          {static_cast<double>(2 * momenta.size())}};
 }
 
 std::vector<Description> descriptions(const Grid& grid) {
@@ -188,7 +188,8 @@ std::vector<Description> descriptions(const Grid& grid) {
           {"rate_right", "1/time", "Crossings to the right", {x}},
           {"rate_left", "1/time", "Crossings to the left", {x}},
           {"jump", "1/(time momentum)", "F at p = 0+ minus p = 0-", {x}},
-          {"kurtosis", "1", "<p^4>/<p^2>^2 by direction; 3 for a Gaussian half", {x, half}}};
+          {"kurtosis", "1", "<p^4>/<p^2>^2 by direction; 3 for a Gaussian half", {x, half}},
+          {"momentum_points", "1", "Points in momentum, both halves together"}};
 }
 
 /// Currents are as small as they like; what they are rounded to depends on what is injected.
@@ -236,11 +237,14 @@ int main(int argc, char** argv) {
   double target = 1e-10;
   program.options().real("--target-error", target, non_negative,
                          "Relative error of the currents at which the resolution suffices");
+  std::uint32_t coarsening = 0;
+  program.options().integer("--coarsening", coarsening, {0, 4},
+                            "Levels below the usual one at which the refinement begins");
   return program.run(argc, argv, [&](Progress& progress) {
     options.validate();
     bins.validate();
     const KineticProblem problem = options.problem();
-    const RefinedSolution solution = refine(problem, target, [] {
+    const RefinedSolution solution = refine(problem, target, static_cast<int>(coarsening), [] {
       if (const int signal = received_signal(); signal != 0) throw Interrupted(signal);
     });
     const bool converged = solution.error <= target;

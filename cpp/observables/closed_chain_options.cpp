@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "observables/scattering_options.hpp"
+#include "observables/physics_options.hpp"
 #include "program/errors.hpp"
 
 namespace lorentz {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "engine/open_start.hpp"
-#include "observables/scattering_options.hpp"
+#include "observables/physics_options.hpp"
 #include "program/errors.hpp"
 
 namespace lorentz {
@@ -13,12 +13,7 @@ OpenChainOptions::OpenChainOptions(Options& options, const OpenChain& chain, con
   add_scattering_options(options, chain_.cells, chain_.sigma, chain_.gamma, non_negative);
   options.real_or_word("--cell-length", chain_.cell_length, positive, "1/N", 0,
                        "Distance between scatterers");
-  options.real("--nu-left", chain_.left.rate, non_negative, "Particles injected at the left per unit time");
-  options.real("--nu-right", chain_.right.rate, non_negative,
-               "Particles injected at the right per unit time");
-  options.real("--temperature-left", chain_.left.temperature, positive, "Temperature of the left reservoir");
-  options.real("--temperature-right", chain_.right.temperature, positive,
-               "Temperature of the right reservoir");
+  add_reservoir_options(options, chain_.left, chain_.right);
   options.choice("--start", start_, {"empty", "warm"},
                  "empty: no particles, scatterers at rest; warm: near the stationary state");
 }

@@ -26,6 +26,7 @@ QUANTITIES = {
     "rate_left": ["x"],
     "jump": ["x"],
     "kurtosis": ["x", "half"],
+    "momentum_points": [],
 }
 
 
@@ -147,6 +148,8 @@ def test_interrupted_run_writes_nothing(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "words"),
     [
+        ({"gamma": "N"}, ["--gamma N", "Give --cells"]),
+        ({"coarsening": 5}, ["--coarsening", "[0, 4]"]),
         ({"sigma": 1}, ["--sigma", "[-0.99, 0.99]"]),
         ({"gamma": -1}, ["--gamma", "[0, 1000]"]),
         ({"gamma": 1001}, ["--gamma", "[0, 1000]"]),

@@ -33,15 +33,24 @@ def test_every_quality_describes_every_panel(quality: str) -> None:
         assert panel.runs or panel.uses
         for run in panel.runs:
             assert (ROOT / f"cpp/observables/{run.program}.cpp").is_file()
-        assert all(run.options["replicas"] >= 2 for run in panel.runs)
+        for run in panel.runs:
+            assert run.replicated == ("seed" in run.options) == ("replicas" in run.options)
+            assert run.options.get("replicas", 2) >= 2
 
 
 def test_names_and_seeds_are_unique() -> None:
     panels = load_plan("paper").values()
     names = [(panel.name, run.name) for panel in panels for run in panel.runs]
-    seeds = [run.options["seed"] for panel in panels for run in panel.runs]
+    seeds = [run.options["seed"] for panel in panels for run in panel.runs if run.replicated]
     assert len(set(names)) == len(names)
     assert len(set(seeds)) == len(seeds)
+
+
+def test_a_panel_may_only_use_panels_with_runs(folder: Path) -> None:
+    for unknown in ("fig99", "ext02"):
+        edit(folder / "paper.yaml", "panels", "fig10a", "uses", value=[unknown])
+        with pytest.raises(ConfigurationError, match=f"fig10a.uses: {unknown} has no runs"):
+            load_plan("smoke", folder)
 
 
 def test_quality_changes_effort_only() -> None:

@@ -28,6 +28,7 @@ class Run:
     name: str
     program: str
     options: Options
+    replicated: bool = True  # over independent replicas, as opposed to computed once
 
     def arguments(self) -> str:
         """The options as they stand on the command line."""
@@ -81,8 +82,10 @@ def data_of(plan: dict[str, Panel], name: str, quality: str) -> list[str]:
 def _panel(name: str, panel: dict, efforts: dict) -> Panel:
     runs = []
     for series, own in panel.get("series", {}).items():
-        effort = {**efforts["default"], **efforts.get("panels", {}).get(name, {}).get(series, {})}
-        options = {**panel.get("common", {}), **own, **effort}
+        replicated = own.get("replicated", True)
+        effort = efforts.get("panels", {}).get(name, {}).get(series, {})
+        options = {**panel.get("common", {}), **own, **(efforts["default"] if replicated else {}), **effort}
+        options.pop("replicated", None)
         program = options.pop("program", panel.get("program"))
         if program is None:
             raise ConfigurationError(f"paper.yaml: panels.{name}.series.{series}: program is missing")
@@ -90,7 +93,8 @@ def _panel(name: str, panel: dict, efforts: dict) -> Panel:
         for values in itertools.product(*(options[key] for key in listed)):
             chosen = dict(zip(listed, values, strict=True))
             run = "_".join([series, *(f"{key}={value}" for key, value in chosen.items())])
-            runs.append(Run(run, program, {**options, **chosen, "seed": _seed(name, run)}))
+            seed = {"seed": _seed(name, run)} if replicated else {}
+            runs.append(Run(run, program, {**options, **chosen, **seed}, replicated))
     return Panel(name, panel.get("script", name), tuple(runs), tuple(panel.get("uses", ())))
 
 
@@ -162,7 +166,7 @@ def _paper_schema(options: dict) -> dict:
             "script": {"type": "string", "pattern": "^[a-z0-9_]+$"},
             "uses": {"type": "array", "items": {"type": "string"}, "minItems": 1},
             "common": _object(physics),
-            "series": _named(_object({"program": program, **physics})),
+            "series": _named(_object({"program": program, "replicated": {"type": "boolean"}, **physics})),
         }
     )
     panel["anyOf"] = [{"required": ["series"]}, {"required": ["uses"]}]

@@ -22,6 +22,9 @@ rule simulate:
     params:
         program=lambda wildcards: PANELS[wildcards.panel].run(wildcards.run).program,
         arguments=lambda wildcards: PANELS[wildcards.panel].run(wildcards.run).arguments(),
+        conduct=lambda wildcards, threads: (
+            f"--threads {threads} --resume" if PANELS[wildcards.panel].run(wildcards.run).replicated else ""
+        ),
         work="build/partial/{quality}/{panel}/{run}",
         cost="build/costs/{quality}/{panel}/{run}.json",
     shell:
@@ -30,7 +33,7 @@ rule simulate:
         identity=$(echo '{params.arguments}' | cat - {input.build_id} | sha256sum | cut -c 1-16)
         partial={params.work}-$identity
         mkdir -p "$(dirname $partial)" "$(dirname {params.cost})"
-        build/bin/{params.program} {params.arguments} --threads {threads} --resume --progress log \
+        build/bin/{params.program} {params.arguments} {params.conduct} --progress log \
             --output $partial.h5 || [ $? -eq 4 ]
         mv $partial.cost.json {params.cost}
         mv $partial.h5 {output}

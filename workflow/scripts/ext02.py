@@ -11,7 +11,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from workflow.scripts import style
-from workflow.scripts.fig08 import GUIDES, tabulate
+from workflow.scripts.fig08 import GUIDES, mean_field, tabulate
 from workflow.scripts.figure import run
 from workflow.scripts.load import Result
 
@@ -51,6 +51,12 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
             local.insert(0, "gamma", str(gamma))
             tables.append(local)
         axes.axhline(GUIDES[gamma][0], **style.GUIDE)
+    theory = mean_field(results)
+    size, kappa = theory.cells.to_numpy(dtype=float), theory.mean_field_kappa.to_numpy()
+    middle, slope = np.sqrt(size[1:] * size[:-1]), np.diff(np.log(kappa)) / np.diff(np.log(size))
+    axes.plot(middle, slope, color=style.BY_GAMMA["N"][1], label=r"$\gamma = N$, mean field")
+    columns = {"gamma": "N", "quantity": "mean_field_kappa", "size": middle, "exponent": slope}
+    tables.append(pd.DataFrame(columns))
     axes.set(xscale="log", xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, 2.2))
     axes.legend(loc="upper right", fontsize=7)
     return figure, pd.concat(tables)

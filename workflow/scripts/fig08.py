@@ -1,6 +1,7 @@
 """Fig. 8: heat conductivity against the number of cells.
 
-Points whose window is not stationary, or whose run stopped before its target, are crossed out and not fitted.
+Lines: the chain of as many scatterers without correlations (mean field); its distance from the points is what
+correlations do. Points whose window is not stationary, or whose run stopped before its target, are crossed out and not fitted.
 """
 
 from collections.abc import Sequence
@@ -18,10 +19,25 @@ from workflow.scripts.load import Result
 GUIDES = {"N": (1 / 3, r"$N^{1/3}$"), 1: (1, "$N$")}  # the paper's exponents, by gamma
 
 
+def measured(results: Sequence[Result]) -> list[Result]:
+    return [result for result in results if result.provenance["program"] == "conductivity"]
+
+
+def mean_field(results: Sequence[Result]) -> pd.DataFrame:
+    """kappa of the chains without correlations, sorted by N."""
+    rows = []
+    for result in results:
+        if result.provenance["program"] == "boltzmann":
+            cells, temperature = int(result.parameters["cells"]), result["temperature_scatterer"].mean
+            kappa = -float(result["energy_current"].mean) * cells / (temperature[-1] - temperature[0])
+            rows.append({"gamma": "N", "cells": cells, "mean_field_kappa": kappa})
+    return pd.DataFrame(rows).sort_values("cells")
+
+
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     """One row per run, sorted by gamma and N."""
     rows = []
-    for result in results:
+    for result in measured(results):
         row = {"gamma": result.parameters["gamma"], "cells": result.parameters["cells"]}
         for name in ("kappa", "kappa_particle", "kappa_plain", "kappa_printed", "energy_current"):
             row[name], row[f"{name}_error"] = (
@@ -58,10 +74,13 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
             size[1], 0.42 * part.kappa.iloc[0] * (size[1] / size[0]) ** slope, name, size=8, ha="center"
         )
         style.cross_out(axes, part.cells.to_numpy(), part.kappa.to_numpy(), ~part.sound.to_numpy())
+    theory = mean_field(results)
+    color = style.BY_GAMMA["N"][1]
+    axes.plot(theory.cells, theory.mean_field_kappa, color=color, label=r"$\gamma = N$, mean field")
     axes.set(xscale="log", yscale="log", xlabel="number of cells $N$", ylabel=r"conductivity $\kappa$")
     axes.legend(loc="upper left", title="bars: from the particles' temperature", title_fontsize=7)
-    axes.set_ylim(top=30 * table.kappa.max())
-    return figure, table
+    axes.set_ylim(top=60 * table.kappa.max())
+    return figure, table.merge(theory, how="left", on=["gamma", "cells"])
 
 
 if __name__ == "__main__":
