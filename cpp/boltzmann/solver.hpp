@@ -23,8 +23,9 @@ struct KineticProblem {
   int cells = 0;
 };
 
-/// How finely a problem is resolved; level 0 is the coarsest of use. One level up, every panel of p and k and the
-/// line have about sqrt(2) times as many nodes, so the number of unknowns doubles. Errors fall exponentially.
+/// How finely a problem is resolved; level 0 is the coarsest of use. One level up, every panel of p and k and
+/// the line have about sqrt(2) times as many nodes, so the number of unknowns doubles. Errors fall
+/// exponentially.
 struct Resolution {
   int order;  // nodes on every panel of p and k
   int sites;  // nodes in x; a chain has its scatterers instead

@@ -10,8 +10,8 @@
 namespace lorentz {
 namespace {
 
-/// A half-Gaussian stream of particles through a piece of the chain. Those slower than one flight per age have
-/// been let in only for the age.
+/// A half-Gaussian stream of particles through a piece of the chain. Those slower than one flight per age
+/// have been let in only for the age.
 class Stream {
  public:
   /// flight: mean length of a flight.

@@ -164,8 +164,7 @@ Values evaluate(const KineticProblem& problem, const KineticSolution& solution, 
           list(right),
           list(left),
           list(jump),
-          list(kurtosis),
-          {static_cast<double>(2 * momenta.size())}};
+          list(kurtosis)};
 }
 
 std::vector<Description> descriptions(const Grid& grid) {
@@ -188,8 +187,7 @@ std::vector<Description> descriptions(const Grid& grid) {
           {"rate_right", "1/time", "Crossings to the right", {x}},
           {"rate_left", "1/time", "Crossings to the left", {x}},
           {"jump", "1/(time momentum)", "F at p = 0+ minus p = 0-", {x}},
-          {"kurtosis", "1", "<p^4>/<p^2>^2 by direction; 3 for a Gaussian half", {x, half}},
-          {"momentum_points", "1", "Points in momentum, both halves together"}};
+          {"kurtosis", "1", "<p^4>/<p^2>^2 by direction; 3 for a Gaussian half", {x, half}}};
 }
 
 /// Currents are as small as they like; what they are rounded to depends on what is injected.
@@ -225,6 +223,10 @@ Results results(const KineticProblem& problem, const RefinedSolution& solution, 
       if (!std::isfinite(values[i])) errors[i] = std::numeric_limits<double>::quiet_NaN();
     results.push_back({what, values, errors, {}});
   }
+  results.push_back({{"momentum_points", "1", "Points in momentum, both halves together"},
+                     {static_cast<double>(2 * solution.fine->momenta().size())},
+                     {std::numeric_limits<double>::quiet_NaN()},
+                     {}});
   return results;
 }
 

@@ -50,7 +50,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
     axes.text(PAPER_POINTS, 1e-8, "points in the paper ", rotation=90, ha="right", va="center", size=7)
     axes.set(xscale="log", yscale="log", xlabel="points in momentum", ylabel="relative error of the currents")
     axes.set_xlim(right=1.3 * PAPER_POINTS)
-    axes.legend(loc="lower left", fontsize=7)
+    axes.legend(loc="upper center", fontsize=7)
     return figure, table
 
 
