@@ -9,8 +9,8 @@
 /// What the reservoirs inject is the only randomness of the chain with gamma = N, and its mean is known:
 /// numbers, momenta and energies of both serve as control variates (statistics/control_variates.hpp).
 /// Quantities named
-/// *_plain are those without. Stationarity is tested: the halves of the window have to agree, and not to be
-/// correlated over replicas, as then the window would be short against the relaxation.
+/// *_plain are those without. Stationarity is tested: the halves of the window have to agree, and its blocks
+/// to be longer than the correlations (statistics/blocking.hpp).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +18,7 @@
 
 #include "observables/open_chain_options.hpp"
 #include "program/replica_study.hpp"
+#include "statistics/blocking.hpp"
 #include "statistics/control_variates.hpp"
 #include "statistics/time_integral.hpp"
 
@@ -25,7 +26,7 @@ namespace {
 
 using namespace lorentz;
 
-constexpr std::size_t halves = 2;
+constexpr std::size_t block_count = 8;  // of the window
 
 /// A cell at one end of the chain.
 struct EndCell {
@@ -38,11 +39,11 @@ struct EndCell {
       : scatterer(cell), mark(2 * std::int64_t{cell} + 1), scatterer_energy(blocks) {}
 };
 
-/// Everything that a replica has to see, by halves of the window.
+/// Everything that a replica has to see, by blocks of the window.
 class EndsAndOpenings {
  public:
   EndsAndOpenings(const OpenChain& chain, const Window& window)
-      : blocks_(window.begin, window.end, halves),
+      : blocks_(window.begin, window.end, block_count),
         ends_{EndCell(0, blocks_), EndCell(chain.cells - 1, blocks_)} {}
 
   void on_collision(const Collision& collision) {
@@ -73,13 +74,13 @@ class EndsAndOpenings {
     for (EndCell& end : ends_) end.scatterer_energy.hold(std::pow(scatterers[end.scatterer], 2), end_time);
   }
 
-  /// Of each half: J_U, J_n, T_1, T_N; then arrivals and their energy at both ends; then of each half the
+  /// Of each block: J_U, J_n, T_1, T_N; then arrivals and their energy at both ends; then of each block the
   /// controls.
   std::vector<double> record(const OpenChain& chain) const {
     std::vector<double> values;
-    for (std::size_t half = 0; half < halves; ++half) {
-      for (const double sum : {energy_[half], particles_[half], ends_[0].scatterer_energy.sums()[half],
-                               ends_[1].scatterer_energy.sums()[half]})
+    for (std::size_t block = 0; block < block_count; ++block) {
+      for (const double sum : {energy_[block], particles_[block], ends_[0].scatterer_energy.sums()[block],
+                               ends_[1].scatterer_energy.sums()[block]})
         values.push_back(sum / blocks_.length());
     }
     for (const EndCell& end : ends_) values.insert(values.end(), {end.arriving_energy, end.arrivals});
@@ -90,33 +91,38 @@ class EndsAndOpenings {
  private:
   /// The mean current of both openings: each crossing counts half.
   void cross_opening(double time, double u) {
-    const std::size_t half = blocks_[time];
-    energy_[half] += 0.25 * u * std::abs(u);
-    particles_[half] += std::copysign(0.5, u);
+    const std::size_t block = blocks_[time];
+    energy_[block] += 0.25 * u * std::abs(u);
+    particles_[block] += std::copysign(0.5, u);
   }
 
   Blocks blocks_;
   std::array<EndCell, 2> ends_;
-  std::array<double, halves> energy_{}, particles_{};
-  std::array<InjectionControls, halves> controls_;
+  std::array<double, block_count> energy_{}, particles_{};
+  std::array<InjectionControls, block_count> controls_;
 };
 
-/// Rows of both halves as one: means (sign 1) or differences, second minus first (sign -1), of the four
-/// quantities; the arrivals; controls likewise.
-Records joined(const Records& records, double sign) {
-  constexpr std::size_t quantities = 4, arrivals = 4, first_control = halves * quantities + arrivals;
+constexpr std::size_t quantities = 4, arrivals = 4;  // per block, and per replica
+
+/// Rows of all blocks as one: means over the window of the four quantities, or differences between its second
+/// half and its first; the arrivals; the controls likewise.
+Records joined(const Records& records, bool difference) {
   Records result(quantities + arrivals + InjectionControls::count);
   for (std::size_t replica = 0; replica < records.size(); ++replica) {
     const std::span<const double> row = records[replica];
     std::vector<double> values;
     const auto join = [&](std::size_t first, std::size_t size, double scale) {
-      for (std::size_t i = first; i < first + size; ++i)
-        values.push_back(scale * (row[i + size] + sign * row[i]));
+      for (std::size_t i = 0; i < size; ++i) {
+        double sum = 0;
+        for (std::size_t block = 0; block < block_count; ++block)
+          sum += (difference && block < block_count / 2 ? -1 : 1) * row[first + block * size + i];
+        values.push_back(scale * sum);
+      }
     };
-    join(0, quantities, sign > 0 ? 0.5 : 1);
-    const auto middle = row.subspan(halves * quantities, arrivals);
+    join(0, quantities, (difference ? 2. : 1.) / block_count);
+    const auto middle = row.subspan(block_count * quantities, arrivals);
     values.insert(values.end(), middle.begin(), middle.end());
-    join(first_control, InjectionControls::count, 1);
+    join(block_count * quantities + arrivals, InjectionControls::count, 1);
     result.append(values);
   }
   return result;
@@ -146,42 +152,45 @@ Results conductivity(const Records& joined_records, double cells, const std::str
       });
 }
 
-/// Correlation over replicas of J_U in the first half of the window with that in the second.
-Results half_correlation(const Records& records) {
-  const std::vector<double> mean = records.mean();
-  constexpr std::size_t second = 4;  // column of J_U in the second half
-  Records products(3);
+/// J_U of every block.
+Records current_by_blocks(const Records& records) {
+  Records result(block_count);
   for (std::size_t replica = 0; replica < records.size(); ++replica) {
-    const double a = records[replica][0] - mean[0], b = records[replica][second] - mean[second];
-    products.append(std::array{a * a, b * b, a * b});
+    std::vector<double> blocks;
+    for (std::size_t block = 0; block < block_count; ++block)
+      blocks.push_back(records[replica][block * quantities]);
+    result.append(blocks);
   }
-  return estimate(
-      products, {{"half_correlation", "1", "Correlation of J_U in both halves, over replicas"}},
-      [](std::span<const double> row) { return std::vector{row[2] / std::sqrt(row[0] * row[1])}; });
+  return result;
 }
 
-/// Differences between the halves of the window, their correlation, and `stationary`: 1 if each of these is
-/// below four standard errors, as they are in a stationary state that is watched for long.
+/// Differences between the halves of the window, the error of J_U by blocks, and `stationary`: 1 if every
+/// difference is below four standard errors and the blocking has converged.
 Results stationarity(const Records& records) {
   Results results =
-      estimate(reduce_variance(joined(records, -1), InjectionControls::count),
+      estimate(reduce_variance(joined(records, true), InjectionControls::count),
                {{"energy_current_drift", "energy/time", "J_U, second half of the window minus first"},
                 {"temperature_first_drift", "k_B T", "T_1, second half minus first"},
                 {"temperature_last_drift", "k_B T", "T_N, second half minus first"}},
                [](std::span<const double> row) { return std::vector{row[0], row[2], row[3]}; });
-  for (Quantity& quantity : half_correlation(records)) results.push_back(std::move(quantity));
-  const bool stationary = std::none_of(results.begin(), results.end(), [](const Quantity& quantity) {
+  const bool steady = std::none_of(results.begin(), results.end(), [](const Quantity& quantity) {
     return std::abs(quantity.mean.front()) > 4 * quantity.standard_error.front();
   });
-  results.push_back({{"stationary", "1", "1: halves of the window agree and are not correlated"},
-                     {stationary ? 1. : 0.},
+  const Blocking blocks = blocking(current_by_blocks(records));
+  const Axis length{"length", "1", "Part of the window that a block takes", {0.125, 0.25, 0.5, 1}};
+  results.push_back({{"blocking_error", "energy/time", "Error of the plain J_U from blocks", {length}},
+                     blocks.error,
+                     blocks.uncertainty,
+                     std::vector<std::uint64_t>(blocks.error.size(), records.size())});
+  results.push_back({{"stationary", "1", "1: halves agree, and blocking has converged"},
+                     {steady && blocks.converged() ? 1. : 0.},
                      {std::numeric_limits<double>::quiet_NaN()},
                      {records.size()}});
   return results;
 }
 
 Results summarise(const Records& records, double cells) {
-  const Records plain = joined(records, 1);
+  const Records plain = joined(records, false);
   Results results = conductivity(reduce_variance(plain, InjectionControls::count), cells, "", "");
   for (Results more :
        {conductivity(plain, cells, "_plain", ", without control variates"), stationarity(records)})

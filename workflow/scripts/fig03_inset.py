@@ -82,7 +82,7 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
     right.set_ylabel(r"$|F_N - F|$, halves of 1/2 as printed")
     axes.tick_params(axis="y", which="both", right=False)
     style.label_within_decades(axes.xaxis)
-    axes.legend(loc="lower left")
+    axes.legend(loc="upper right")
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:

@@ -1,0 +1,34 @@
+#include "statistics/blocking.hpp"
+
+#include <gsl/gsl_statistics_double.h>
+
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+
+namespace lorentz {
+
+bool Blocking::converged() const {
+  const std::size_t last = error.size() - 1;
+  return last > 0 && std::abs(error[last] - error[last - 1]) <= 3 * uncertainty[last];
+}
+
+Blocking blocking(const Records& blocks) {
+  if (!std::has_single_bit(blocks.width()))
+    throw std::invalid_argument("the number of blocks must be a power of two");
+  // Replicas follow one another, so neighbours in this list are neighbours in time until only one is left
+  // each.
+  std::vector<double> means = blocks.values();
+  Blocking result;
+  for (std::size_t width = blocks.width();; width /= 2) {
+    const auto count = static_cast<double>(means.size());
+    const double error = std::sqrt(gsl_stats_variance(means.data(), 1, means.size()) / count);
+    result.error.push_back(error);
+    result.uncertainty.push_back(error / std::sqrt(2 * (count - 1)));
+    if (width == 1) return result;
+    for (std::size_t i = 0; i < means.size() / 2; ++i) means[i] = 0.5 * (means[2 * i] + means[2 * i + 1]);
+    means.resize(means.size() / 2);
+  }
+}
+
+}  // namespace lorentz
