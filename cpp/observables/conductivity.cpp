@@ -43,7 +43,8 @@ struct EndCell {
 class EndsAndOpenings {
  public:
   EndsAndOpenings(const OpenChain& chain, const Window& window)
-      : blocks_(window.begin, window.end, block_count),
+      : chain_(chain),
+        blocks_(window.begin, window.end, block_count),
         ends_{EndCell(0, blocks_), EndCell(chain.cells - 1, blocks_)} {}
 
   void on_collision(const Collision& collision) {
@@ -76,7 +77,7 @@ class EndsAndOpenings {
 
   /// Of each block: J_U, J_n, T_1, T_N; then arrivals and their energy at both ends; then of each block the
   /// controls.
-  std::vector<double> record(const OpenChain& chain) const {
+  std::vector<double> record() const {
     std::vector<double> values;
     for (std::size_t block = 0; block < block_count; ++block) {
       for (const double sum : {energy_[block], particles_[block], ends_[0].scatterer_energy.sums()[block],
@@ -84,7 +85,7 @@ class EndsAndOpenings {
         values.push_back(sum / blocks_.length());
     }
     for (const EndCell& end : ends_) values.insert(values.end(), {end.arriving_energy, end.arrivals});
-    for (const InjectionControls& controls : controls_) controls.append_to(values, chain, blocks_.length());
+    for (const InjectionControls& controls : controls_) controls.append_to(values, chain_, blocks_.length());
     return values;
   }
 
@@ -96,6 +97,7 @@ class EndsAndOpenings {
     particles_[block] += std::copysign(0.5, u);
   }
 
+  OpenChain chain_;
   Blocks blocks_;
   std::array<EndCell, 2> ends_;
   std::array<double, block_count> energy_{}, particles_{};
@@ -207,10 +209,9 @@ int main(int argc, char** argv) {
   return program.run(argc, argv, [&](Progress& progress) {
     options.validate();
     const OpenChain chain = options.chain();
+    const Window window = options.window();
     const auto measure = [&](const Replica& replica) {
-      EndsAndOpenings observer(chain, options.window());
-      const std::uint64_t events = options.observe(replicas.seed(), replica, options.window().end, observer);
-      return ReplicaRecord{observer.record(chain), events};
+      return options.measure(replicas.seed(), replica, window.end, EndsAndOpenings(chain, window));
     };
     const auto results = [&](const Records& records) { return summarise(records, chain.cells); };
     const std::string target = chain.cells > 1 ? "kappa" : "energy_current";

@@ -174,10 +174,9 @@ int main(int argc, char** argv) {
     options.validate();
     bins.validate();
     const OpenChain chain = options.chain();
+    const Window window = options.window();
     const auto measure = [&](const Replica& replica) {
-      Crossings observer(chain, options.window(), bins.bins());
-      const std::uint64_t events = options.observe(replicas.seed(), replica, options.window().end, observer);
-      return ReplicaRecord{observer.record(), events};
+      return options.measure(replicas.seed(), replica, window.end, Crossings(chain, window, bins.bins()));
     };
     const auto results = [&](const Records& records) {
       return summarise(records, std::size_t{chain.cells} + 1, bins.bins());

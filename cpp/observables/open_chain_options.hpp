@@ -33,15 +33,15 @@ class OpenChainOptions {
   /// Throws UsageError where options are possible one by one but not together.
   void validate() const;
 
-  /// A replica from its start to a time, all of it watched. At the end the observer's finish(scatterers, end)
-  /// is called, with U of every scatterer, if it has one. Returns the number of events.
+  /// A replica from its start to a time, all of it watched by the observer, and its record(). At the end the
+  /// observer's finish(scatterers, end) is called before, with U of every scatterer, if it has one.
   template <class Observer>
-  std::uint64_t observe(std::uint64_t seed, const Replica& replica, double end, Observer& observer) const {
+  ReplicaRecord measure(std::uint64_t seed, const Replica& replica, double end, Observer observer) const {
     OpenDynamics dynamics(chain(), start(end, seed, replica.index), end, seed, replica.index);
     simulate(dynamics, end, observer, [&](double now) { replica.heartbeat(now / end); });
     if constexpr (requires { observer.finish(dynamics.scatterers(), end); })
       observer.finish(dynamics.scatterers(), end);
-    return dynamics.events();
+    return {observer.record(), dynamics.events()};
   }
 
  private:

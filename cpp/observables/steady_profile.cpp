@@ -167,10 +167,9 @@ int main(int argc, char** argv) {
     options.validate();
     bins.validate();
     const OpenChain chain = options.chain();
+    const Window window = options.window();
     const auto measure = [&](const Replica& replica) {
-      Profile observer(chain, options.window(), bins.bins());
-      const std::uint64_t events = options.observe(replicas.seed(), replica, options.window().end, observer);
-      return ReplicaRecord{observer.record(), events};
+      return options.measure(replicas.seed(), replica, window.end, Profile(chain, window, bins.bins()));
     };
     const auto results = [&](const Records& records) { return summarise(records, chain.cells, bins.bins()); };
     return replicas.run({measure, results, "energy_current_mean", RandomStream::description}, progress);

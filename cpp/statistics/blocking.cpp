@@ -2,6 +2,7 @@
 
 #include <gsl/gsl_statistics_double.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <stdexcept>
@@ -19,10 +20,14 @@ Blocking blocking(const Records& blocks) {
   // Replicas follow one another, so neighbours in this list are neighbours in time until only one is left
   // each.
   std::vector<double> means = blocks.values();
+  double scale = 0;  // so that no square overflows
+  for (const double mean : means) scale = std::max(scale, std::abs(mean));
+  if (scale > 0)
+    for (double& mean : means) mean /= scale;
   Blocking result;
   for (std::size_t width = blocks.width();; width /= 2) {
     const auto count = static_cast<double>(means.size());
-    const double error = std::sqrt(gsl_stats_variance(means.data(), 1, means.size()) / count);
+    const double error = scale * std::sqrt(gsl_stats_variance(means.data(), 1, means.size()) / count);
     result.error.push_back(error);
     result.uncertainty.push_back(error / std::sqrt(2 * (count - 1)));
     if (width == 1) return result;
