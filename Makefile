@@ -30,7 +30,7 @@ SNAKEMAKE := $(PYTHON) -m snakemake --profile workflow/profiles/local --cores $(
 SNAKEFMT := .venv/bin/snakefmt --no-format-shell --line-length 110
 FORCE := $(if $(FRESH),--forcerun simulate)
 
-.PHONY: help figures panel build test check format lock bench clean
+.PHONY: help figures panel build test check format lock bench tradeoff clean
 help:  ## This list
 	sed -nE 's/^([a-z]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 16
 	echo 'Options: QUALITY=smoke|standard|paper|deep  PANEL=fig05  FRESH=1  JOBS=2'
@@ -66,6 +66,9 @@ format: .venv/dev  ## Format every source in place
 bench: build  ## Cost of an event, engine and reference simulator side by side
 	ninja -C build --quiet benchmarks
 	build/bin/benchmarks --benchmark_min_time=1
+
+tradeoff: build .venv/runtime  ## Speed against accuracy, measured here: figures/tradeoff
+	$(PYTHON) -m workflow.tradeoff.kinetic --program build/bin/boltzmann --output figures/tradeoff/ext06_kinetic
 
 lock: .venv/dev  ## Renew both locks of Python packages
 	for name in requirements requirements-dev; do \
