@@ -60,7 +60,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
     for gamma, (marker, color) in style.BY_GAMMA.items():
         part = table[table.gamma == gamma]
         law = exponent(part)
-        fitted = rf"$\kappa \sim N^{{{law.text}}}$, $\chi^2/f = {law.chi_square:.3g}/{law.freedom}$"
+        fitted = rf"$\kappa \sim N^{{{law.text}}}$, $\chi^2/f = {law.chi_square:.1f}/{law.freedom}$"
         label = rf"$\gamma = {gamma}$: {fitted}"
         look = {"color": color, **style.POINTS}
         axes.errorbar(part.cells, part.kappa, part.kappa_error, marker=marker, label=label, **look)
