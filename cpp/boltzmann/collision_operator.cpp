@@ -9,6 +9,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
+using Eigen::VectorXcd;
 using Eigen::VectorXd;
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -42,8 +43,14 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> scaling(const Panels& panels, doubl
 
 }  // namespace
 
-CollisionOperator::CollisionOperator(double sigma, const Panels& momenta, const Panels& wave_numbers)
-    : sigma_(sigma), momenta_(momenta), wave_numbers_(wave_numbers) {
+VectorXd injected_flux(const Reservoir& bath, const VectorXd& p) {
+  const double height = bath.rate * std::sqrt(2 / (std::numbers::pi * bath.temperature));
+  return height * (-p.array().square() / (2 * bath.temperature)).exp();
+}
+
+CollisionOperator::CollisionOperator(double sigma, const Reservoir& equilibrium, const Panels& momenta,
+                                     const Panels& wave_numbers)
+    : sigma_(sigma), equilibrium_(equilibrium), momenta_(momenta), wave_numbers_(wave_numbers) {
   if (sigma == 0) return;  // momenta are exchanged: G = F and J g = F
   reflected_ = momenta.fourier(std::abs(sigma) * wave_numbers.nodes());
   kicked_ = momenta.fourier(c_squared(sigma) * wave_numbers.nodes());
@@ -75,6 +82,19 @@ Flux CollisionOperator::inverse_transform(const FourierIntegrals& integrals, con
   return flux;
 }
 
+/// J phi(-sigma k).
+CollisionOperator::Spectrum CollisionOperator::reflected(const Flux& flux) const {
+  const Spectrum spectrum = transform(reflected_, flux);
+  return sigma_ > 0 ? Spectrum(spectrum.conjugate()) : spectrum;
+}
+
+/// What becomes of phi(c^2 k) - 1 when the flux changes to that of the J remembered.
+CollisionOperator::Spectrum CollisionOperator::first_change(const Flux& change,
+                                                            const Spectrum& before) const {
+  return (transform(kicked_, change) - before * number(change).asDiagonal()) *
+         number_.cwiseInverse().asDiagonal();
+}
+
 /// The spectrum at sigma^(2^doubling) k; only the first of these factors can be negative.
 CollisionOperator::Spectrum CollisionOperator::scaled(std::size_t doubling, const Spectrum& spectrum) const {
   Spectrum result(spectrum.rows(), spectrum.cols());
@@ -86,41 +106,56 @@ CollisionOperator::Spectrum CollisionOperator::scaled(std::size_t doubling, cons
   return result;
 }
 
-Flux CollisionOperator::gain(const Flux& flux) {
-  flux_ = flux;
-  number_ = number(flux);
+/// q_n - 1 of the equilibrium at scale times k, n = 2^doubling: the product of exp(-T (c^2 sigma^j k)^2/2)
+/// for j < n.
+VectorXcd CollisionOperator::equilibrium_product(std::size_t doubling, double scale) const {
+  const double last = std::pow(sigma_ * sigma_, std::ldexp(1, static_cast<int>(doubling)));
+  const double variance = equilibrium_.temperature * c_squared(sigma_) * (1 - last);
+  const auto minus_one = [](double exponent) { return std::expm1(exponent); };
+  const Eigen::ArrayXd k = scale * wave_numbers_.nodes().array();
+  return (-0.5 * variance * k.square()).unaryExpr(minus_one).cast<std::complex<double>>();
+}
+
+Flux CollisionOperator::gain(const Flux& deviation) {
+  deviation_ = deviation;
+  number_ = number(deviation).array() + 2 * equilibrium_.rate;
   const Index half = momenta_.size();
-  temperature_ = (momenta_.weights().array() * momenta_.nodes().array().square()).matrix().transpose() *
-                 (flux.topRows(half) + flux.bottomRows(half)) * number_.cwiseInverse().asDiagonal();
-  if (sigma_ == 0) return flux;
-  reflected_flux_ = transform(reflected_, flux);
-  if (sigma_ > 0) reflected_flux_ = reflected_flux_.conjugate().eval();
-  Spectrum deviation = transform(kicked_, flux) * number_.cwiseInverse().asDiagonal();
+  const RowVectorXd squares =
+      (momenta_.weights().array() * momenta_.nodes().array().square()).matrix().transpose() *
+      (deviation.topRows(half) + deviation.bottomRows(half));
+  temperature_ = (squares.array() + 2 * equilibrium_.rate * equilibrium_.temperature) / number_.array();
+  if (sigma_ == 0) return deviation;
+  const VectorXd widths = sigma_ * sigma_ * equilibrium_.temperature * wave_numbers_.nodes().array().square();
+  const VectorXcd reflected_equilibrium =
+      (2 * equilibrium_.rate * (-0.5 * widths.array()).exp()).cast<std::complex<double>>();
+  const Spectrum reflected_deviation = reflected(deviation);
+  reflected_flux_ = reflected_deviation.colwise() + reflected_equilibrium;
+  Spectrum change = first_change(deviation, equilibrium_product(0, 1).replicate(1, deviation.cols()));
   doublings_.clear();
   for (std::size_t n = 0; n < scalings_.size(); ++n) {
-    doublings_.push_back({deviation, scaled(n, deviation)});
-    const auto& [here, there] = doublings_.back();
-    deviation = here + there + here.cwiseProduct(there);
+    const VectorXcd here = equilibrium_product(n, 1),
+                    there = equilibrium_product(
+                        n, std::pow(std::abs(sigma_), std::ldexp(1, static_cast<int>(n))));
+    const Spectrum change_there = scaled(n, change);
+    doublings_.push_back({change.colwise() + here, change_there.colwise() + there});
+    change += change.cwiseProduct(doublings_.back().there) + change_there + here.asDiagonal() * change_there;
   }
-  product_ = deviation.array() + 1;
-  return conserving(inverse_transform(inverse_, reflected_flux_.cwiseProduct(product_)), flux);
+  product_ = (change.colwise() + equilibrium_product(scalings_.size(), 1)).array() + 1;
+  const Spectrum gain =
+      reflected_deviation.cwiseProduct(product_) + reflected_equilibrium.asDiagonal() * change;
+  return conserving(inverse_transform(inverse_, gain), deviation);
 }
 
 Flux CollisionOperator::derivative(const Flux& direction) const {
   if (sigma_ == 0) return direction;
-  Spectrum reflected = transform(reflected_, direction);
-  if (sigma_ > 0) reflected = reflected.conjugate().eval();
-  Spectrum change =
-      (transform(kicked_, direction) - doublings_.front().here * number(direction).asDiagonal()) *
-      number_.cwiseInverse().asDiagonal();
+  Spectrum change = first_change(direction, doublings_.front().here);
   for (std::size_t n = 0; n < scalings_.size(); ++n) {
     const auto& [here, there] = doublings_[n];
     const Spectrum change_there = scaled(n, change);
     change += change.cwiseProduct(there) + change_there + change_there.cwiseProduct(here);
   }
-  const Flux gain =
-      inverse_transform(inverse_, reflected.cwiseProduct(product_) + reflected_flux_.cwiseProduct(change));
-  return conserving(gain, direction);
+  const Spectrum gain = reflected(direction).cwiseProduct(product_) + reflected_flux_.cwiseProduct(change);
+  return conserving(inverse_transform(inverse_, gain), direction);
 }
 
 /// Adds the first three Hermite functions, at the temperature of the flux.
@@ -146,9 +181,11 @@ Flux CollisionOperator::conserving(const Flux& gain, const Flux& source) const {
 Flux CollisionOperator::scatterer_density(const VectorXd& points) const {
   if (sigma_ == 0) {
     const MatrixXd values = momenta_.interpolation(points);
-    Flux density(2 * points.size(), flux_.cols());
-    density << values * flux_.topRows(momenta_.size()), values * flux_.bottomRows(momenta_.size());
-    return density * number_.cwiseInverse().asDiagonal();
+    const Index half = momenta_.size();
+    Flux flux(2 * points.size(), deviation_.cols());
+    flux << values * deviation_.topRows(half), values * deviation_.bottomRows(half);
+    flux.colwise() += injected_flux(equilibrium_, points).replicate(2, 1).col(0);
+    return flux * number_.cwiseInverse().asDiagonal();
   }
   const double c = std::sqrt(c_squared(sigma_));
   return c * inverse_transform(wave_numbers_.fourier(c * points), product_);  // q(k) = g^(c k)

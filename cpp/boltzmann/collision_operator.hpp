@@ -5,12 +5,16 @@
 #include <vector>
 
 #include "boltzmann/panels.hpp"
+#include "model/reservoir.hpp"
 
 namespace lorentz {
 
 /// The flux distribution at several places, one column each: F(p) at the nodes p > 0 of a half line, then
 /// F(-p) at the same nodes.
 using Flux = Eigen::MatrixXd;
+
+/// What a bath injects at p > 0: nu sqrt(2/(pi T)) exp(-p^2/2T).
+Eigen::VectorXd injected_flux(const Reservoir& bath, const Eigen::VectorXd& p);
 
 /// What scattering makes of the flux F of particles when the scatterer is in its stationary state g:
 ///
@@ -26,14 +30,20 @@ using Flux = Eigen::MatrixXd;
 /// on the scale of k only. Panels that grow with k resolve them, as panels that shrink towards 0 resolve F.
 /// The product is formed by doubling, q_{2n}(k) = q_n(k) q_n(sigma^n k), interpolated on its panels; q_n - 1
 /// is what is stored, as thousands of factors close to 1 are multiplied when |sigma| is close to 1.
+///
+/// Fluxes are given as deviations F - E from an equilibrium E, the same on both half lines, whose gain is E
+/// itself and whose factors are known: G - E is computed as a difference, so that an equilibrium stays one to
+/// the last digit, however often particles scatter.
 class CollisionOperator {
  public:
-  /// sigma in (-1, 1). The momenta are those of one half line; k must reach so far that G^ has decayed.
-  CollisionOperator(double sigma, const Panels& momenta, const Panels& wave_numbers);
+  /// sigma in (-1, 1). E is what the equilibrium bath injects, on either side. The momenta are those of one
+  /// half line; k must reach so far that G^ has decayed.
+  CollisionOperator(double sigma, const Reservoir& equilibrium, const Panels& momenta,
+                    const Panels& wave_numbers);
 
-  /// G(F). The operator remembers F for derivative() and scatterer_density(). Number, momentum and energy of
-  /// G are set to those of F, so that rounding and truncation do not add up along the line.
-  Flux gain(const Flux& flux);
+  /// G - E of F - E. The operator remembers F for derivative() and scatterer_density(). Number, momentum and
+  /// energy of G are set to those of F, so that rounding and truncation do not add up along the line.
+  Flux gain(const Flux& deviation);
 
   /// dG at the flux of the last gain(), in the direction given; one column for each of its columns.
   Flux derivative(const Flux& direction) const;
@@ -51,10 +61,14 @@ class CollisionOperator {
   Spectrum transform(const FourierIntegrals& integrals, const Flux& flux) const;
   Flux inverse_transform(const FourierIntegrals& integrals, const Spectrum& spectrum) const;
   Spectrum scaled(std::size_t doubling, const Spectrum& spectrum) const;
+  Spectrum reflected(const Flux& flux) const;
+  Spectrum first_change(const Flux& change, const Spectrum& before) const;
+  Eigen::VectorXcd equilibrium_product(std::size_t doubling, double scale) const;
   Eigen::RowVectorXd number(const Flux& flux) const;
   Flux conserving(const Flux& gain, const Flux& source) const;
 
   double sigma_;
+  Reservoir equilibrium_;
   Panels momenta_, wave_numbers_;
   FourierIntegrals reflected_, kicked_, inverse_;  // at sigma k; at c^2 k, minus J; back to the momenta
   std::vector<Scaling> scalings_;                  // by |sigma|^(2^n)
@@ -62,9 +76,8 @@ class CollisionOperator {
   struct Factors {
     Spectrum here, there;  // q_n(k) - 1, q_n(sigma^n k) - 1
   };
-  Flux flux_;
-  Eigen::RowVectorXd temperature_;
-  Eigen::RowVectorXd number_;
+  Flux deviation_;
+  Eigen::RowVectorXd number_, temperature_;  // of F
   Spectrum reflected_flux_, product_;
   std::vector<Factors> doublings_;
 };

@@ -66,9 +66,10 @@ Sites make_sites(const KineticProblem& problem, const Resolution& resolution) {
   return problem.cells > 0 ? Sites::chain(problem.cells) : Sites::continuum(resolution.sites);
 }
 
-VectorXd injected(const Reservoir& bath, const VectorXd& p) {
-  const double height = bath.rate * std::sqrt(2 / (std::numbers::pi * bath.temperature));
-  return height * (-p.array().square() / (2 * bath.temperature)).exp();
+/// Between the baths; theirs, to the last digit, if they are equal.
+Reservoir mean(const Reservoir& left, const Reservoir& right) {
+  const double weight = right.rate / (left.rate + right.rate);
+  return {0.5 * (left.rate + right.rate), left.temperature + weight * (right.temperature - left.temperature)};
 }
 
 }  // namespace
@@ -82,11 +83,12 @@ Resolution Resolution::level(int level, double gamma) {
 KineticSolution::KineticSolution(const KineticProblem& problem, const Resolution& resolution,
                                  const KineticSolution* guess, const Heartbeat& heartbeat)
     : problem_(with_exchange(problem)),
+      equilibrium_(mean(problem.left, problem.right)),
       momenta_(momentum_panels(problem_, resolution.order)),
       sites_(make_sites(problem_, resolution)),
-      collision_(problem_.sigma, momenta_, wave_number_panels(problem_, resolution.order)),
-      left_(injected(problem.left, momenta_.nodes())),
-      right_(injected(problem.right, momenta_.nodes())) {
+      collision_(problem_.sigma, equilibrium_, momenta_, wave_number_panels(problem_, resolution.order)),
+      left_(injected_flux(problem.left, momenta_.nodes()) - injected_flux(equilibrium_, momenta_.nodes())),
+      right_(injected_flux(problem.right, momenta_.nodes()) - injected_flux(equilibrium_, momenta_.nodes())) {
   iterate(guess != nullptr ? resampled(*guess) : first_guess(), heartbeat);
 }
 
@@ -101,7 +103,7 @@ Flux KineticSolution::first_guess() const {
 }
 
 Flux KineticSolution::resampled(const KineticSolution& other) const {
-  const Flux coarse = other.flux(sites_.positions());
+  const Flux coarse = other.deviation(sites_.positions());
   const MatrixXd values = other.momenta_.interpolation(momenta_.nodes());
   Flux flux(2 * momenta_.size(), coarse.cols());
   flux << values * coarse.topRows(values.cols()), values * coarse.bottomRows(values.cols());
@@ -116,7 +118,11 @@ Flux KineticSolution::arriving(const Transport& transport, const Flux& source) c
   return flux;
 }
 
-Flux KineticSolution::flux(const VectorXd& x) const { return arriving(sites_.transport_to(x), source_); }
+Flux KineticSolution::deviation(const VectorXd& x) const { return arriving(sites_.transport_to(x), source_); }
+
+Flux KineticSolution::flux(const VectorXd& x) const {
+  return deviation(x).colwise() + injected_flux(equilibrium_, momenta_.nodes()).replicate(2, 1).col(0);
+}
 
 double KineticSolution::size(const Flux& residual) const {
   const Index half = momenta_.size();
@@ -127,7 +133,7 @@ double KineticSolution::size(const Flux& residual) const {
 
 Flux KineticSolution::scatterer_density(const VectorXd& x, const VectorXd& points) const {
   CollisionOperator collision = collision_;
-  collision.gain(flux(x));
+  collision.gain(deviation(x));
   return collision.scatterer_density(points);
 }
 

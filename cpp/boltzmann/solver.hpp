@@ -59,17 +59,19 @@ class KineticSolution {
   int evaluations() const { return evaluations_; }    // of the collision operator or its derivative
 
  private:
+  Flux deviation(const Eigen::VectorXd& x) const;
   Flux first_guess() const;
   Flux resampled(const KineticSolution& other) const;
   Flux arriving(const Transport& transport, const Flux& source) const;
   double size(const Flux& residual) const;
-  void iterate(Flux flux, const Heartbeat& heartbeat);
+  void iterate(Flux deviation, const Heartbeat& heartbeat);
 
   KineticProblem problem_;
+  Reservoir equilibrium_;  // what F is given as a deviation from
   Panels momenta_;
   Sites sites_;
   CollisionOperator collision_;
-  Eigen::VectorXd left_, right_;  // what the baths inject, at the nodes
+  Eigen::VectorXd left_, right_;  // what the baths inject, less the equilibrium, at the nodes
   Flux source_;                   // gamma (G - F) at the sites
   int evaluations_ = 0;
 };

@@ -15,7 +15,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from workflow.scripts import style
-from workflow.scripts.fig03_convergence import CURRENTS
+from workflow.scripts.fig03_convergence import CURRENTS, distance_from_finest, draw_errors
 from workflow.scripts.load import load
 
 GAMMAS = (1, 50)
@@ -41,26 +41,18 @@ def solve(program: Path, gamma: float, target: float, folder: Path) -> dict[str,
 
 
 def measure(program: Path) -> pd.DataFrame:
-    """One row per gamma and resolution reached; `error` is the distance from the finest."""
+    """One row per gamma and resolution reached."""
     with tempfile.TemporaryDirectory() as folder:
         rows = [solve(program, gamma, target, Path(folder)) for gamma in GAMMAS for target in TARGETS]
     table = pd.DataFrame(rows).drop_duplicates(["gamma", "points"])
-    finest = table.groupby("gamma")[list(CURRENTS)].transform("last")
-    table["error"] = (table[list(CURRENTS)] / finest - 1).abs().max(axis=1)
+    table["distance"] = distance_from_finest(table)
     return table
 
 
 def draw(table: pd.DataFrame) -> Figure:
     figure, axes = plt.subplots(figsize=(style.COLUMN, style.HEIGHT))
-    looks = [("o", style.BLUE), ("s", style.VERMILLION)]
-    for (gamma, part), (marker, color) in zip(table.groupby("gamma"), looks, strict=True):
-        label = rf"$\gamma = {gamma}$"
-        axes.plot(part.cpu_seconds, part.estimate, color=color, label=f"{label}, estimate")
-        seen = part[part.error > 0]
-        axes.plot(
-            seen.cpu_seconds, seen.error, marker, color=color, label=f"{label}, distance from the finest"
-        )
-    axes.set(xscale="log", yscale="log", xlabel="CPU seconds", ylabel="relative error of the currents")
+    draw_errors(axes, table, "cpu_seconds")
+    axes.set_xlabel("CPU seconds")
     style.label_within_decades(axes.xaxis)
     axes.legend(loc="upper right", fontsize=7)
     return figure
@@ -77,7 +69,7 @@ def main() -> None:
     table.to_csv(options.output.with_suffix(".csv"), index=False)
     for kind in ("pdf", "png"):
         draw(table).savefig(options.output.with_suffix(f".{kind}"))
-    print(table[["gamma", "points", "cpu_seconds", "estimate", "error"]].to_string(index=False))
+    print(table[["gamma", "points", "cpu_seconds", "estimate", "distance"]].to_string(index=False))
 
 
 if __name__ == "__main__":
