@@ -28,6 +28,8 @@ SHELL := /usr/bin/env
 PYTHON := .venv/bin/python
 SNAKEMAKE := $(PYTHON) -m snakemake --profile workflow/profiles/local --cores $(JOBS) --config quality=$(QUALITY)
 SNAKEFMT := .venv/bin/snakefmt --no-format-shell --line-length 110
+# What no longer follows from what is there, by content; Snakemake sees to what is missing.
+SET_ASIDE_STALE := $(PYTHON) -m workflow.provenance.stale --quality $(QUALITY)
 FORCE := $(if $(FRESH),--forcerun simulate)
 
 .PHONY: help figures panel build test check format lock bench tradeoff clean
@@ -36,11 +38,13 @@ help:  ## This list
 	echo 'Options: QUALITY=smoke|standard|paper|deep  PANEL=fig05  FRESH=1  JOBS=2'
 
 figures: build .venv/runtime  ## Build, simulate and draw every figure into figures/QUALITY
+	$(SET_ASIDE_STALE)
 	$(SNAKEMAKE) $(FORCE) -- figures
 	echo 'Figures are in figures/$(QUALITY)'
 
 panel: build .venv/runtime  ## The same for one panel, PANEL=fig05; FRESH=1 simulates it anew
 	$(if $(PANEL),,echo 'make panel: PANEL is missing; try make panel PANEL=fig05'; exit 2)
+	$(SET_ASIDE_STALE) --panel $(PANEL)
 	$(SNAKEMAKE) $(FORCE) -- $(foreach kind,pdf png svg csv,figures/$(QUALITY)/$(PANEL).$(kind))
 	echo 'The panel is figures/$(QUALITY)/$(PANEL).pdf, .png, .svg and .csv'
 

@@ -5,7 +5,7 @@ import sys
 from snakemake.exceptions import WorkflowError
 
 sys.path.insert(0, workflow.basedir)
-from workflow.config.plan import QUALITIES, ConfigurationError, data_of, load_plan
+from workflow.config.plan import KINDS, QUALITIES, ConfigurationError, data_of, drawings_of, load_plan
 from workflow.provenance.sources import sources_of
 
 QUALITY = config.get("quality", "standard")
@@ -13,8 +13,6 @@ try:
     PANELS = load_plan(QUALITY)
 except ConfigurationError as error:
     raise WorkflowError(str(error))
-
-KINDS = ("pdf", "png", "svg", "csv")
 
 
 wildcard_constraints:
@@ -24,7 +22,7 @@ wildcard_constraints:
 
 rule figures:
     input:
-        expand("figures/{quality}/{panel}.{kind}", quality=QUALITY, panel=PANELS, kind=KINDS),
+        [drawings_of(QUALITY, panel) for panel in PANELS],
 
 
 include: "workflow/rules/simulate.smk"

@@ -12,6 +12,7 @@ import yaml
 from jsonschema import Draft202012Validator
 
 FOLDER = Path(__file__).parent
+KINDS = ("pdf", "png", "svg", "csv")
 QUALITIES = ("smoke", "standard", "paper", "deep")
 
 Options = dict[str, Any]
@@ -73,10 +74,22 @@ def load_plan(quality: str, folder: Path = FOLDER) -> dict[str, Panel]:
     return panels
 
 
+def with_used(plan: dict[str, Panel], name: str) -> list[Panel]:
+    """The panels whose runs a panel shows: those that it uses, then itself."""
+    return [plan[one] for one in (*plan[name].uses, name)]
+
+
+def data_path(quality: str, panel: str, run: str) -> str:
+    return f"data/{quality}/{panel}/{run}.h5"
+
+
 def data_of(plan: dict[str, Panel], name: str, quality: str) -> list[str]:
-    """Paths of the results that a panel shows: those of the panels that it uses, then its own."""
-    panels = [plan[one] for one in (*plan[name].uses, name)]
-    return [f"data/{quality}/{panel.name}/{run.name}.h5" for panel in panels for run in panel.runs]
+    """Paths of the results that a panel shows."""
+    return [data_path(quality, panel.name, run.name) for panel in with_used(plan, name) for run in panel.runs]
+
+
+def drawings_of(quality: str, panel: str) -> list[str]:
+    return [f"figures/{quality}/{panel}.{kind}" for kind in KINDS]
 
 
 def _panel(name: str, panel: dict, efforts: dict) -> Panel:

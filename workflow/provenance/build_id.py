@@ -12,6 +12,7 @@ import json
 import re
 from pathlib import Path
 
+IDENTITY = ("program", "version", "source_hash", "compiler", "flags", "libraries")
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
 
@@ -34,13 +35,20 @@ def include_closure(root: Path, source: str) -> list[str]:
     return sorted(closure)
 
 
-def source_hash(root: Path, closure: list[str]) -> str:
+def content_hashes(root: Path, closure: list[str]) -> dict[str, str]:
+    return {name: hashlib.sha256((root / name).read_bytes()).hexdigest() for name in closure}
+
+
+def source_hash(contents: dict[str, str]) -> str:
     """sha256 over names and contents of the files."""
-    digest = hashlib.sha256()
-    for name in closure:
-        content = hashlib.sha256((root / name).read_bytes()).hexdigest()
-        digest.update(f"{name} {content}\n".encode())
-    return digest.hexdigest()
+    lines = "".join(f"{name} {contents[name]}\n" for name in sorted(contents))
+    return hashlib.sha256(lines.encode()).hexdigest()
+
+
+def build_id(identity: dict[str, str]) -> str:
+    """sha256 over what the executable was built from; what else the mapping holds does not count."""
+    named = {name: identity[name] for name in IDENTITY}
+    return hashlib.sha256(json.dumps(named, sort_keys=True).encode()).hexdigest()
 
 
 def write_if_changed(path: Path, text: str) -> None:
@@ -49,7 +57,7 @@ def write_if_changed(path: Path, text: str) -> None:
         path.write_text(text, "utf-8")
 
 
-def cpp_source(identity: dict[str, str]) -> str:
+def cpp_source(identity: dict) -> str:
     fields = ",\n".join(
         f"    {json.dumps(identity[name])}"
         for name in ("version", "source_hash", "build_id", "compiler", "flags", "libraries")
@@ -67,16 +75,16 @@ def main() -> None:
     root = Path(options.root)
 
     closure = include_closure(root, options.source)
+    contents = content_hashes(root, closure)
     identity = {
         "program": Path(options.source).stem,
         "version": options.version,
-        "source_hash": source_hash(root, closure),
+        "source_hash": source_hash(contents),
         "compiler": options.compiler,
         "flags": options.flags.replace(";", " "),
         "libraries": options.libraries,
     }
-    identity["build_id"] = hashlib.sha256(json.dumps(identity, sort_keys=True).encode()).hexdigest()
-    identity["sources"] = closure
+    identity |= {"build_id": build_id(identity), "sources": contents}
 
     write_if_changed(Path(f"{options.output}.json"), json.dumps(identity, indent=2) + "\n")
     write_if_changed(Path(f"{options.output}.cpp"), cpp_source(identity))

@@ -3,11 +3,11 @@
 
 rule draw:
     input:
-        data=lambda wildcards: data_of(PANELS, wildcards.panel, wildcards.quality),
-        sources=lambda wildcards: sources_of(f"workflow/scripts/{PANELS[wildcards.panel].script}.py"),
-        lock="requirements.lock",
+        data=ancient(lambda wildcards: data_of(PANELS, wildcards.panel, wildcards.quality)),
+        sources=ancient(lambda wildcards: sources_of(f"workflow/scripts/{PANELS[wildcards.panel].script}.py")),
+        lock=ancient("requirements.lock"),
     output:
-        multiext("figures/{quality}/{panel}", ".pdf", ".png", ".svg", ".csv"),
+        multiext("figures/{quality}/{panel}", *(f".{kind}" for kind in KINDS)),
     log:
         "build/logs/{quality}/{panel}.log",
     benchmark:
@@ -19,6 +19,10 @@ rule draw:
         configuration=lambda wildcards: PANELS[wildcards.panel].hash(),
         stem="figures/{quality}/{panel}",
     shell:
-        ".venv/bin/python -m {params.module} --configuration {params.configuration}"
-        " --sources {input.sources} --lock {input.lock}"
-        " --output {params.stem} --data {input.data} 2> {log}"
+        """
+        exec 2> {log}
+        .venv/bin/python -m {params.module} --configuration {params.configuration} \
+            --sources {input.sources} --lock {input.lock} --output {params.stem} --data {input.data}
+        .venv/bin/python -S -m workflow.provenance.lock --quality {wildcards.quality} \
+            --job {wildcards.panel} --outputs {output}
+        """

@@ -1,7 +1,7 @@
 """One run of a program: data/<quality>/<panel>/<run>.h5.
 
-The program's build id is the input, not the program: an identical rebuild changes its time stamp but
-not its id. Partial results and checkpoints lie in build/partial, under a name that changes with build
+The program's build id is the input, not the program. What has to run again is decided by content before
+Snakemake starts (workflow/provenance/stale.py), so all inputs are `ancient`: their times do not count. Partial results and checkpoints lie in build/partial, under a name that changes with build
 and options, so that an interrupted run goes on and one with other parameters starts anew. A program
 that stops before its target error exits with 4; its result is marked and is drawn as such.
 """
@@ -9,7 +9,9 @@ that stops before its target error exits with 4; its result is marked and is dra
 
 rule simulate:
     input:
-        build_id=lambda wildcards: f"build/id/{PANELS[wildcards.panel].run(wildcards.run).program}.json",
+        build_id=ancient(
+            lambda wildcards: f"build/id/{PANELS[wildcards.panel].run(wildcards.run).program}.json"
+        ),
     output:
         "data/{quality}/{panel}/{run}.h5",
     log:
@@ -37,4 +39,7 @@ rule simulate:
             --output $partial.h5 || [ $? -eq 4 ]
         mv $partial.cost.json {params.cost}
         mv $partial.h5 {output}
+        .venv/bin/python -S -m workflow.provenance.lock --quality {wildcards.quality} \
+            --job {wildcards.panel}/{wildcards.run} --outputs {output} \
+            --build {input.build_id} --arguments='{params.arguments}'
         """

@@ -4,17 +4,32 @@ A script defines draw(results) and ends with `run(draw, title)`.
 """
 
 import argparse
+import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pandas as pd
 from matplotlib.figure import Figure
 
+from workflow.provenance.parents import Parents, file_hash
 from workflow.scripts import style
 from workflow.scripts.load import Result, load
-from workflow.scripts.save import Parents, file_hash, save
+from workflow.scripts.save import save
 
 Draw = Callable[[Sequence[Result]], tuple[Figure, pd.DataFrame]]
+
+
+def described(result: Result) -> dict:
+    return {
+        "sha256": file_hash(result.path),
+        "build_id": result.provenance["build_id"],
+        "seed": int(result.provenance["seed"]),
+    }
+
+
+def build(result: Result) -> dict[str, str]:
+    names = ("program", "source_hash", "compiler", "flags", "libraries")
+    return {name: result.provenance[name] for name in names}
 
 
 def run(draw: Draw, title: str) -> None:
@@ -26,17 +41,20 @@ def run(draw: Draw, title: str) -> None:
     )
     parser.add_argument("--lock", type=Path, required=True, help="locked Python packages")
     parser.add_argument("--configuration", required=True, help="hash of the panel's configuration")
-    parser.add_argument("--output", type=Path, required=True, help="path of the panel without suffix")
+    parser.add_argument("--output", type=Path, required=True, help="figures/QUALITY/PANEL, without suffix")
     options = parser.parse_args()
 
     results = [load(path) for path in options.data]
     style.apply()
     figure, table = draw(results)
     parents = Parents(
-        data={str(path): file_hash(path) for path in options.data},
+        panel=options.output.name,
+        quality=options.output.parent.name,
+        data={str(result.path): described(result) for result in results},
+        builds={result.provenance["build_id"]: build(result) for result in results},
         sources={str(path): file_hash(path) for path in options.sources},
-        lock=file_hash(options.lock),
+        packages=file_hash(options.lock),
+        python=f"{sys.version_info.major}.{sys.version_info.minor}",
         configuration=options.configuration,
-        build_ids=tuple(sorted({result.provenance["build_id"] for result in results})),
     )
     save(figure, table, options.output, title, parents)

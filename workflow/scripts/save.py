@@ -3,34 +3,15 @@
 Equal inputs give equal bytes: no file holds a time, a host, a user or an absolute path.
 """
 
-import hashlib
 import io
-import json
-from dataclasses import dataclass
 from pathlib import Path
 
 import pandas as pd
 from matplotlib.figure import Figure
 
+from workflow.provenance.parents import PARENTS_LINE, Parents
+
 CREATOR = "lorentz-gas"
-
-
-@dataclass(frozen=True)
-class Parents:
-    """What a panel was made from; paths are relative to the project."""
-
-    data: dict[str, str]  # path: sha256
-    sources: dict[str, str]  # script and shared modules
-    lock: str  # sha256 of the locked Python packages
-    configuration: str  # sha256 of the panel's configuration
-    build_ids: tuple[str, ...]
-
-    def as_json(self) -> str:
-        return json.dumps(vars(self), sort_keys=True)
-
-
-def file_hash(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def save(figure: Figure, table: pd.DataFrame, stem: Path, title: str, parents: Parents) -> None:
@@ -64,5 +45,5 @@ def _picture(figure: Figure, kind: str, metadata: dict) -> bytes:
 
 
 def _csv(table: pd.DataFrame, title: str, described: str) -> bytes:
-    header = f"# {title}\n# parents: {described}\n"
+    header = f"# {title}\n{PARENTS_LINE}{described}\n"
     return (header + table.to_csv(index=False, float_format="%.12g", lineterminator="\n")).encode()

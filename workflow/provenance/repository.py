@@ -1,0 +1,34 @@
+"""The repository around the products: its commit, and whether its files have been changed since."""
+
+import platform
+import subprocess
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+
+
+def git(*arguments: str) -> bytes | None:
+    """What git prints, or nothing where it fails: outside a repository, or for an unknown commit."""
+    done = subprocess.run(["git", *arguments], cwd=ROOT, capture_output=True, check=False)
+    return done.stdout if done.returncode == 0 else None
+
+
+def state() -> dict:
+    """Commit and whether tracked files differ from it; the commit is null outside a repository."""
+    commit = git("rev-parse", "HEAD")
+    if commit is None or not (ROOT / ".git").exists():
+        return {"commit": None, "dirty": None}
+    changed = git("status", "--porcelain", "--untracked-files=no")
+    return {"commit": commit.decode().strip(), "dirty": bool(changed)}
+
+
+def machine() -> str:
+    """Kind of machine, within which equal inputs give equal bytes: processor and C library. No host name."""
+    cpu = Path("/proc/cpuinfo")
+    models = (
+        [line for line in cpu.read_text().splitlines() if line.startswith("model name")]
+        if cpu.exists()
+        else []
+    )
+    model = models[0].split(":", 1)[1].strip() if models else platform.processor()
+    return ", ".join(filter(None, [platform.machine(), model, " ".join(platform.libc_ver())]))
