@@ -7,6 +7,8 @@ QUALITY := standard
 JOBS := $(shell nproc 2>/dev/null || sysctl -n hw.ncpu)
 PANEL :=
 FRESH :=
+FILE :=
+SAMPLE := 0.1
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
@@ -32,7 +34,8 @@ SNAKEFMT := .venv/bin/snakefmt --no-format-shell --line-length 110
 SET_ASIDE_STALE := $(PYTHON) -m workflow.provenance.stale --quality $(QUALITY)
 FORCE := $(if $(FRESH),--forcerun simulate)
 
-.PHONY: help figures panel build test check format lock bench tradeoff clean
+.PHONY: help figures panel build test check format lock audit verify provenance status bench \
+  tradeoff clean
 help:  ## This list
 	sed -nE 's/^([a-z]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 16
 	echo 'Options: QUALITY=smoke|standard|paper|deep  PANEL=fig05  FRESH=1  JOBS=2'
@@ -66,6 +69,19 @@ format: .venv/dev  ## Format every source in place
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 .venv/bin/clang-format -i
 	.venv/bin/ruff check --quiet --fix . && .venv/bin/ruff format --quiet .
 	$(SNAKEFMT) Snakefile workflow/rules
+
+audit: .venv/runtime  ## Check every link from the sources to the figures
+	$(PYTHON) -m workflow.provenance.audit --quality $(QUALITY)
+
+verify: build .venv/runtime  ## Make a sample of the products again and compare; SAMPLE=0.1 PANEL=fig05
+	$(PYTHON) -m workflow.provenance.verify --quality $(QUALITY) --sample $(SAMPLE) $(if $(PANEL),--panel $(PANEL))
+
+provenance: .venv/runtime  ## What a product was made from, FILE=figures/standard/fig05.pdf or a copy of it
+	$(if $(FILE),,echo 'make provenance: FILE is missing; try make provenance FILE=figures/standard/fig05.pdf'; exit 2)
+	$(PYTHON) -m workflow.provenance.tree '$(FILE)'
+
+status: build .venv/runtime  ## Which panels are fresh, their errors and what they cost
+	$(PYTHON) -m workflow.provenance.status --quality $(QUALITY)
 
 bench: build  ## Cost of an event, engine and reference simulator side by side
 	ninja -C build --quiet benchmarks

@@ -34,15 +34,17 @@ def runs(persistence: Program, tmp_path: Path) -> list[Path]:
 
 
 def test_panel_is_byte_stable_and_names_its_parents(runs: list[Path], tmp_path: Path) -> None:
-    draw(tmp_path, "a/panel", runs)
+    draw(tmp_path, "1/smoke/panel", runs)
     time.sleep(1.1)  # a time stamp would differ
-    draw(tmp_path, "b/panel", runs)
+    draw(tmp_path, "2/smoke/panel", runs)
     for kind in ("pdf", "png", "svg", "csv"):
-        assert (tmp_path / f"a/panel.{kind}").read_bytes() == (tmp_path / f"b/panel.{kind}").read_bytes()
-    named = [Parents.of(tmp_path / f"a/panel.{kind}") for kind in ("pdf", "png", "svg", "csv")]
+        assert (tmp_path / f"1/smoke/panel.{kind}").read_bytes() == (
+            tmp_path / f"2/smoke/panel.{kind}"
+        ).read_bytes()
+    named = [Parents.of(tmp_path / f"1/smoke/panel.{kind}") for kind in ("pdf", "png", "svg", "csv")]
     assert all(parents == named[0] for parents in named)
     parents = named[0]
-    assert (parents.panel, parents.quality, parents.configuration) == ("panel", "a", "c0ffee")
+    assert (parents.panel, parents.quality, parents.configuration) == ("panel", "smoke", "c0ffee")
     assert {path: data["sha256"] for path, data in parents.data.items()} == {
         str(path): file_hash(path) for path in runs
     }

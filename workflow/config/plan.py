@@ -119,6 +119,8 @@ def _seed(panel: str, run: str) -> int:
 def _load(path: Path, schema: dict) -> dict:
     try:
         content = yaml.safe_load(path.read_text())
+    except FileNotFoundError as error:
+        raise ConfigurationError(f"{path.name} is missing") from error
     except yaml.YAMLError as error:
         raise ConfigurationError(f"{path.name} is not valid YAML: {error}") from error
     errors = sorted(

@@ -31,6 +31,7 @@ class Job:
 
     outputs: dict[str, str]  # path: sha256
     parents: dict  # of a run: program, build_id, arguments; of a drawing: see Parents
+    configuration: dict[str, str]  # path: sha256 of the files that asked for it
     commit: str | None  # of the repository when the job was done
     dirty: bool | None  # whether tracked files differed from it
     machine: str
@@ -80,6 +81,10 @@ def _seal(content: dict) -> str:
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
+def configuration_files(quality: str) -> list[str]:
+    return ["workflow/config/paper.yaml", f"workflow/config/quality/{quality}.yaml"]
+
+
 @contextlib.contextmanager
 def changing(quality: str) -> Iterator[Lock]:
     """The lock, or an empty one if there is none that can be read; written at the end. One at a time."""
@@ -101,7 +106,8 @@ def changing(quality: str) -> Iterator[Lock]:
 def record(quality: str, name: str, outputs: list[str], parents: dict, builds: dict[str, dict]) -> None:
     """Enters a job that has just written its outputs; paths are relative to the project."""
     hashes = {path: file_hash(repository.ROOT / path) for path in outputs}
-    job = Job(hashes, parents, **repository.state(), machine=repository.machine())
+    asked = {path: file_hash(repository.ROOT / path) for path in configuration_files(quality)}
+    job = Job(hashes, parents, asked, **repository.state(), machine=repository.machine())
     with changing(quality) as lock:
         lock.jobs[name] = job
         lock.builds |= builds

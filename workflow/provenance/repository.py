@@ -1,7 +1,9 @@
 """The repository around the products: its commit, and whether its files have been changed since."""
 
+import io
 import platform
 import subprocess
+import tarfile
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
@@ -20,6 +22,20 @@ def state() -> dict:
         return {"commit": None, "dirty": None}
     changed = git("status", "--porcelain", "--untracked-files=no")
     return {"commit": commit.decode().strip(), "dirty": bool(changed)}
+
+
+def files_at(commit: str, *folders: str) -> dict[str, bytes] | None:
+    """Contents by path at a commit; nothing if the repository does not have it."""
+    packed = git("archive", "--format=tar", commit, "--", *folders)
+    if packed is None:
+        return None
+    with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
+        return {member.name: archive.extractfile(member).read() for member in archive if member.isfile()}
+
+
+def commits(*paths: str) -> list[str]:
+    """Those that changed one of the paths, newest first."""
+    return (git("log", "--all", "--format=%H", "--", *paths) or b"").decode().split()
 
 
 def machine() -> str:

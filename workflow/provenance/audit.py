@@ -1,0 +1,78 @@
+"""Checks every link from the sources to the figures: bytes, records, builds, configuration, tables.
+
+One line per broken link, from the sources down; status 1 if there is any.
+"""
+
+import argparse
+import concurrent.futures
+import sys
+import tempfile
+from pathlib import Path
+
+from workflow.config.plan import ConfigurationError, data_of, load_plan
+from workflow.provenance.links import Chain, Link
+from workflow.provenance.lock import Job, Lock, LockError
+from workflow.provenance.redo import RedoError, draw, same_bytes, tables_agree
+from workflow.provenance.repository import ROOT, machine
+
+
+def audit(quality: str) -> tuple[list[Link], str]:
+    """Broken links, each as path and message, and a summary of what was looked at."""
+    try:
+        lock = Lock.read(quality)
+    except LockError as error:
+        return [Link(f"data/{quality}/lock.json", str(error))], ""
+    try:
+        plan = load_plan(quality)
+    except ConfigurationError as error:
+        return [Link("workflow/config", str(error))], ""
+    chain = Chain(quality, plan, lock)
+    broken = chain.broken()
+    suspect = {link.job for link in broken}
+    if not any(link.job is None for link in broken):
+        broken += redrawn_tables(chain, suspect)
+    drawings = [name for name in lock.jobs if "/" not in name]
+    missing = [name for name in plan if name not in lock.jobs]
+    summary = f"{len(lock.jobs) - len(drawings)} runs, {len(drawings)} panels, {len(lock.outputs())} files"
+    if missing:
+        summary += f"; not made yet: {', '.join(missing)}"
+    if any(job.dirty for job in lock.jobs.values()):
+        summary += "; some were made from sources that were not committed"
+    return broken, summary
+
+
+def redrawn_tables(chain: Chain, suspect: set[str | None]) -> list[Link]:
+    """Drawings that do not follow from their data, of those with no broken link above them."""
+    names = [name for name, job in chain.drawings().items() if not suspect & {name, *chain.shown_jobs(job)}]
+    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(2) as threads:
+        found = threads.map(lambda name: redrawn(chain, name, Path(folder) / name), names)
+        return [link for links in found for link in links]
+
+
+def redrawn(chain: Chain, name: str, folder: Path) -> list[Link]:
+    job: Job = chain.lock.jobs[name]
+    try:
+        again = draw(job, chain.plan[name].script, data_of(chain.plan, name, chain.quality), folder)
+    except RedoError as error:
+        return [Link(f"figures/{chain.quality}/{name}.csv", f"cannot be drawn again: {error}", name)]
+    differing = [path for path, new in again.items() if not same_bytes(ROOT / path, new)]
+    if job.machine != machine():  # pictures differ by rounding
+        differing = [path for path in differing if path.endswith(".csv")]
+        differing = [path for path in differing if not tables_agree(ROOT / path, again[path])]
+    return [Link(path, "does not follow from the data that it names", name) for path in differing]
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--quality", required=True)
+    quality = parser.parse_args().quality
+    broken, summary = audit(quality)
+    for link in broken:
+        print(f"{link.path}: {link.message}")
+    if broken:
+        sys.exit(f"make audit: {len(broken)} broken; the first is {broken[0].path}")
+    print(f"Every link holds: {summary}")
+
+
+if __name__ == "__main__":
+    main()
