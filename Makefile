@@ -52,6 +52,8 @@ panel: build .venv/runtime  ## The same for one panel, PANEL=fig05; FRESH=1 simu
 	echo 'The panel is figures/$(QUALITY)/$(PANEL).pdf, .png, .svg and .csv'
 
 build: build/system-packages  ## The executables in build/bin
+	grep -qsx 'CMAKE_HOME_DIRECTORY:INTERNAL=$(CURDIR)/cpp' build/CMakeCache.txt || \
+	  rm -rf build/CMakeCache.txt build/CMakeFiles build/build.ninja
 	test -f build/build.ninja || cmake -S cpp -B build -G Ninja >build/cmake.log || { cat build/cmake.log; exit 1; }
 	ninja -C build --quiet
 
@@ -70,8 +72,8 @@ format: .venv/dev  ## Format every source in place
 	.venv/bin/ruff check --quiet --fix . && .venv/bin/ruff format --quiet .
 	$(SNAKEFMT) Snakefile workflow/rules
 
-audit: .venv/runtime  ## Check every link from the sources to the figures
-	$(PYTHON) -m workflow.provenance.audit --quality $(QUALITY)
+audit: .venv/runtime  ## Check every link from the sources to the figures; PANEL=fig05 draws only that again
+	$(PYTHON) -m workflow.provenance.audit --quality $(QUALITY) $(if $(PANEL),--panel $(PANEL))
 
 verify: build .venv/runtime  ## Make a sample of the products again and compare; SAMPLE=0.1 PANEL=fig05
 	$(PYTHON) -m workflow.provenance.verify --quality $(QUALITY) --sample $(SAMPLE) $(if $(PANEL),--panel $(PANEL))

@@ -1,6 +1,7 @@
 import os
 import shutil
 import subprocess
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -28,10 +29,22 @@ class Clone:
             check=False,
         )
 
+    def git(self, *arguments: str) -> None:
+        author = ["-c", "user.name=test", "-c", "user.email=test@example.org"]
+        subprocess.run(["git", *author, *arguments], cwd=self.folder, check=True)
+
+    def commit(self) -> None:
+        self.git("add", "--all")
+        self.git("commit", "--quiet", "--allow-empty", "--message", "all")
+
     def products(self) -> dict[str, bytes]:
-        """Data and figures by path."""
+        """Data and figures by path, without the lock, which names the commit."""
         files = [path for place in ("data", "figures") for path in (self.folder / place).rglob("*")]
-        return {str(path.relative_to(self.folder)): path.read_bytes() for path in files if path.is_file()}
+        return {
+            str(path.relative_to(self.folder)): path.read_bytes()
+            for path in files
+            if path.is_file() and path.name != "lock.json"
+        }
 
 
 def clone_into(folder: Path) -> Clone:
@@ -51,8 +64,55 @@ def clone_into(folder: Path) -> Clone:
 
 @pytest.fixture(scope="session")
 def clean(tmp_path_factory: pytest.TempPathFactory) -> Clone:
-    """Built and drawn once, at smoke quality, in a quiet environment."""
+    """A repository with one commit, built and drawn once, at smoke quality, in a quiet environment."""
     clone = clone_into(tmp_path_factory.mktemp("clean"))
+    clone.git("init", "--quiet")
+    clone.commit()
     made = clone.make("figures", "QUALITY=smoke")
     assert made.returncode == 0, made.stdout
     return clone
+
+
+@pytest.fixture
+def kept(clean: Clone) -> Iterator[Clone]:
+    """The clean clone, with sources and products as they were when the test is over."""
+    places = ("data", "figures", "workflow", "cpp", "requirements.lock")
+    before = {file: file.read_bytes() for place in places for file in files_below(clean.folder / place)}
+    yield clean
+    for file in {file for place in places for file in files_below(clean.folder / place)} - before.keys():
+        file.unlink()
+    for file, content in before.items():
+        if not file.exists() or file.read_bytes() != content:
+            file.write_bytes(content)
+
+
+def files_below(place: Path) -> list[Path]:
+    return [file for file in (place, *place.rglob("*")) if file.is_file()]
+
+
+Edit = Callable[[Clone], object]  # something done to a clone
+
+
+def append(path: str, text: str) -> Edit:
+    def edit(clone: Clone) -> None:
+        with (clone.folder / path).open("a") as file:
+            file.write(text)
+
+    return edit
+
+
+def replace(path: str, old: str, new: str) -> Edit:
+    def edit(clone: Clone) -> None:
+        text = (clone.folder / path).read_text()
+        assert old in text
+        (clone.folder / path).write_text(text.replace(old, new, 1))
+
+    return edit
+
+
+def copy(source: str, target: str) -> Edit:
+    return lambda clone: shutil.copyfile(clone.folder / source, clone.folder / target)
+
+
+def delete(path: str) -> Edit:
+    return lambda clone: (clone.folder / path).unlink()

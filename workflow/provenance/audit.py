@@ -16,8 +16,9 @@ from workflow.provenance.redo import RedoError, draw, same_bytes, tables_agree
 from workflow.provenance.repository import ROOT, machine
 
 
-def audit(quality: str) -> tuple[list[Link], str]:
-    """Broken links, each as path and message, and a summary of what was looked at."""
+def audit(quality: str, only: str | None = None) -> tuple[list[Link], str]:
+    """Broken links, each as path and message, and a summary of what was looked at. If a panel is given, only
+    that one is drawn again."""
     try:
         lock = Lock.read(quality)
     except LockError as error:
@@ -30,7 +31,8 @@ def audit(quality: str) -> tuple[list[Link], str]:
     broken = chain.broken()
     suspect = {link.job for link in broken}
     if not any(link.job is None for link in broken):
-        broken += redrawn_tables(chain, suspect)
+        names = [name for name in chain.drawings() if name == only or not only]
+        broken += not_following(chain, names, suspect)
     drawings = [name for name in lock.jobs if "/" not in name]
     missing = [name for name in plan if name not in lock.jobs]
     summary = f"{len(lock.jobs) - len(drawings)} runs, {len(drawings)} panels, {len(lock.outputs())} files"
@@ -41,9 +43,9 @@ def audit(quality: str) -> tuple[list[Link], str]:
     return broken, summary
 
 
-def redrawn_tables(chain: Chain, suspect: set[str | None]) -> list[Link]:
+def not_following(chain: Chain, names: list[str], suspect: set[str | None]) -> list[Link]:
     """Drawings that do not follow from their data, of those with no broken link above them."""
-    names = [name for name, job in chain.drawings().items() if not suspect & {name, *chain.shown_jobs(job)}]
+    names = [name for name in names if not suspect & {name, *chain.shown_jobs(chain.lock.jobs[name])}]
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(2) as threads:
         found = threads.map(lambda name: redrawn(chain, name, Path(folder) / name), names)
         return [link for links in found for link in links]
@@ -65,8 +67,9 @@ def redrawn(chain: Chain, name: str, folder: Path) -> list[Link]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--quality", required=True)
-    quality = parser.parse_args().quality
-    broken, summary = audit(quality)
+    parser.add_argument("--panel", help="draw only this one again")
+    options = parser.parse_args()
+    broken, summary = audit(options.quality, options.panel)
     for link in broken:
         print(f"{link.path}: {link.message}")
     if broken:

@@ -139,13 +139,15 @@ class Chain:
                 if self._hash(path) is None:
                     yield Link(path, "is missing", name)
                 elif self._hash(path) != digest:
-                    detail = self._run_fault(name, path) if "/" in name else self._drawing_fault(job, path)
-                    yield Link(path, f"is not what the job wrote{': ' + detail if detail else ''}", name)
+                    yield Link(path, "is not what the job wrote: damaged, edited or replaced", name)
         for place in ("data", "figures"):
             for file in sorted((ROOT / place / self.quality).rglob("*")):
                 path = str(file.relative_to(ROOT))
                 if file.is_file() and path not in recorded and path not in own:
                     yield Link(path, "has no parents: no job in the lock made it", path)
+
+    def _intact(self, path: str, job: Job) -> bool:
+        return self._hash(path) == job.outputs[path]
 
     def _runs(self) -> Iterator[Link]:
         for name, job in self.runs().items():
@@ -154,7 +156,7 @@ class Chain:
                 yield Link(expected, f"the lock names {', '.join(job.outputs)} in its place", name)
             elif job.parents["build_id"] not in self.lock.builds:
                 yield Link(expected, "the lock does not say what its build was made from", name)
-            elif self._hash(expected) and (fault := self._run_fault(name, expected)):
+            elif self._intact(expected, job) and (fault := self._run_fault(name, expected)):
                 yield Link(expected, fault, name)
 
     def _run_fault(self, name: str, path: str) -> str | None:
@@ -178,7 +180,7 @@ class Chain:
             if sorted(job.outputs) != sorted(drawings_of(self.quality, name)):
                 yield Link(f"figures/{self.quality}/{name}", "the lock does not name its four files", name)
             for path in job.outputs:
-                if self._hash(path) and (fault := self._drawing_fault(job, path)):
+                if self._intact(path, job) and (fault := self._drawing_fault(job, path)):
                     yield Link(path, fault, name)
             shown = job.parents["data"]
             for path, data in shown.items():

@@ -34,7 +34,9 @@ class Parents:
         """Raises ArtefactError if the file is missing, damaged, or names no parents."""
         try:
             return Parents(**json.loads(_described(path)))
-        except (OSError, ValueError, TypeError, KeyError, SyntaxError) as error:  # the last one: XML
+        except TypeError as error:
+            raise ArtefactError(f"{path} names no parents as this version does: draw it again") from error
+        except (OSError, ValueError, KeyError, SyntaxError) as error:  # the last one: XML
             raise ArtefactError(f"{path} names no parents: {error}") from error
 
 

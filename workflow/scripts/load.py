@@ -55,7 +55,9 @@ def load(path: Path) -> Result:
                 )
             quantities = {name: _quantity(group) for name, group in file["results"].items()}
             return Result(path, _attributes(file["parameters"]), provenance, quantities)
-    except (OSError, KeyError) as error:
+    except FormatError:
+        raise
+    except (OSError, KeyError, TypeError, ValueError, RuntimeError) as error:
         raise FormatError(f"{path} is not a result file: {error}") from error
 
 

@@ -1,0 +1,127 @@
+"""Every tampering is found, and the first broken link is named; a clean run has none."""
+
+import json
+from collections.abc import Callable
+
+import h5py
+import pytest
+
+from tests.workflow.conftest import Clone, Edit, append, copy, delete, replace
+from workflow.provenance.lock import _seal
+from workflow.provenance.parents import file_hash
+
+DATA = "data/smoke/fig03/paper.h5"
+TABLE = "figures/smoke/fig03.csv"
+LOCK = "data/smoke/lock.json"
+
+
+def flip_bit(clone: Clone) -> None:
+    content = bytearray((clone.folder / DATA).read_bytes())
+    content[-5] ^= 1
+    (clone.folder / DATA).write_bytes(content)
+
+
+def forge_attribute(clone: Clone) -> None:
+    with h5py.File(clone.folder / DATA, "r+") as file:
+        file["provenance"].attrs["source_hash"] = "0" * 64
+
+
+def forge_value(clone: Clone) -> None:
+    with h5py.File(clone.folder / DATA, "r+") as file:
+        file["results/energy_current/mean"][()] *= 1.001
+
+
+def relock(change: Callable[[dict], None] = lambda _: None) -> Edit:
+    """A lock that fits what is there, sealed: only the links between the products can tell."""
+
+    def edit(clone: Clone) -> None:
+        content = json.loads((clone.folder / LOCK).read_text())
+        del content["seal"]
+        for job in content["jobs"].values():
+            job["outputs"] = {path: file_hash(clone.folder / path) for path in job["outputs"]}
+        change(content)
+        content["seal"] = _seal(content)
+        (clone.folder / LOCK).write_text(json.dumps(content))
+
+    return edit
+
+
+def other_commit(content: dict) -> None:
+    content["jobs"]["fig03"]["commit"] = "0" * 40
+
+
+def other_flags(content: dict) -> None:
+    for build in content["builds"].values():
+        build["flags"] = "-Ofast"
+
+
+def other_quality(content: dict) -> None:
+    content["quality"] = "paper"
+
+
+def both(first: Edit, second: Edit) -> Edit:
+    def edit(clone: Clone) -> None:
+        first(clone)
+        second(clone)
+
+    return edit
+
+
+TAMPERINGS = {
+    "bit flipped": (flip_bit, DATA),
+    "table edited": (replace(TABLE, ",", ", "), TABLE),
+    "table edited, lock too": (both(replace(TABLE, "0.", "1."), relock()), TABLE),
+    "picture edited": (append("figures/smoke/fig03.png", "x"), "figures/smoke/fig03.png"),
+    "figure of another panel": (
+        copy("figures/smoke/fig05.pdf", "figures/smoke/fig03.pdf"),
+        "figures/smoke/fig03.pdf",
+    ),
+    "figure of another panel, lock too": (
+        both(copy("figures/smoke/fig05.svg", "figures/smoke/fig03.svg"), relock()),
+        "figures/smoke/fig03.svg",
+    ),
+    "data of another run": (copy("data/smoke/fig03/equal.h5", DATA), DATA),
+    "data of another run, lock too": (both(copy("data/smoke/fig03/equal.h5", DATA), relock()), DATA),
+    "attribute forged": (forge_attribute, DATA),
+    "attribute forged, lock too": (both(forge_attribute, relock()), DATA),
+    "value forged, lock too": (both(forge_value, relock()), "figures/smoke/fig03.pdf"),
+    "parameter": (
+        replace("workflow/config/paper.yaml", "decades: 6", "decades: 5"),
+        "workflow/config/paper.yaml",
+    ),
+    "effort": (
+        replace("workflow/config/quality/smoke.yaml", "{replicas: 4}", "{replicas: 5}"),
+        "workflow/config/quality/smoke.yaml",
+    ),
+    "configuration deleted": (delete("workflow/config/quality/smoke.yaml"), "workflow/config"),
+    "script": (append("workflow/scripts/fig03.py", "# x\n"), "workflow/scripts/fig03.py"),
+    "shared module deleted": (delete("workflow/scripts/fit.py"), "workflow/scripts/fit.py"),
+    "C++ source": (append("cpp/boltzmann/gmres.cpp", "// x\n"), "cpp/boltzmann/gmres.cpp"),
+    "C++ source deleted": (delete("cpp/boltzmann/gmres.cpp"), "cpp/boltzmann/gmres.cpp"),
+    "Python packages": (append("requirements.lock", "# x\n"), "requirements.lock"),
+    "data deleted": (delete(DATA), DATA),
+    "figure deleted": (delete("figures/smoke/fig03.svg"), "figures/smoke/fig03.svg"),
+    "data without parents": (copy(DATA, "data/smoke/fig03/more.h5"), "data/smoke/fig03/more.h5"),
+    "figure without parents": (copy(TABLE, "figures/smoke/fig99.csv"), "figures/smoke/fig99.csv"),
+    "lock edited": (replace(LOCK, "GNU", "gnu"), LOCK),
+    "lock deleted": (delete(LOCK), LOCK),
+    "lock of another quality": (relock(other_quality), LOCK),
+    "commit forged": (relock(other_commit), "commit 000000000000"),
+    "flags forged": (relock(other_flags), "build "),
+}
+
+
+def test_clean_run_has_no_broken_link(clean: Clone) -> None:
+    audited = clean.make("audit", "QUALITY=smoke")
+    assert audited.returncode == 0, audited.stdout
+    assert "Every link holds" in audited.stdout
+
+
+@pytest.mark.parametrize("tampering", TAMPERINGS)
+def test_tampering_is_found_and_named(kept: Clone, tampering: str) -> None:
+    edit, first = TAMPERINGS[tampering]
+    edit(kept)
+    audited = kept.make("audit", "QUALITY=smoke", "PANEL=fig03")
+    assert audited.returncode != 0
+    assert "Traceback" not in audited.stdout
+    assert f"the first is {first}" in audited.stdout
