@@ -1,12 +1,14 @@
 import os
 import shutil
 import subprocess
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).parents[2]
+CHEAP = ("PANEL=fig03", "QUALITY=standard")  # a second, at a quality that is packed
 
 
 @dataclass
@@ -56,3 +58,14 @@ def clean(tmp_path_factory: pytest.TempPathFactory) -> Clone:
     made = clone.make("figures", "QUALITY=smoke")
     assert made.returncode == 0, made.stdout
     return clone
+
+
+@pytest.fixture(scope="module")
+def packed(clean: Clone) -> Iterator[Clone]:
+    """With the cheap panel and its crate; without them afterwards."""
+    for target in ("panel", "crate"):
+        made = clean.make(target, *CHEAP)
+        assert made.returncode == 0, made.stdout
+    yield clean
+    for place in ("data/standard", "figures/standard", "build/crate"):
+        shutil.rmtree(clean.folder / place)
