@@ -34,7 +34,7 @@ SNAKEFMT := .venv/bin/snakefmt --no-format-shell --line-length 110
 SET_ASIDE_STALE := $(PYTHON) -m workflow.provenance.stale --quality $(QUALITY)
 FORCE := $(if $(FRESH),--forcerun simulate)
 
-.PHONY: help figures panel build test check format lock audit verify provenance status bench \
+.PHONY: help figures panel build test check format lock audit verify provenance status crate bench \
   tradeoff clean
 help:  ## This list
 	sed -nE 's/^([a-z]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 16
@@ -50,6 +50,9 @@ panel: build .venv/runtime  ## The same for one panel, PANEL=fig05; FRESH=1 simu
 	$(SET_ASIDE_STALE) --panel $(PANEL)
 	$(SNAKEMAKE) $(FORCE) -- $(foreach kind,pdf png svg csv,figures/$(QUALITY)/$(PANEL).$(kind))
 	echo 'The panel is figures/$(QUALITY)/$(PANEL).pdf, .png, .svg and .csv'
+
+crate: build .venv/runtime  ## Figures, data, code and runs as an RO-Crate in build/crate; PANEL=fig05 packs one panel
+	$(PYTHON) -m workflow.provenance.crate --quality $(QUALITY) $(if $(PANEL),--panel $(PANEL))
 
 build: build/system-packages  ## The executables in build/bin
 	grep -qsx 'CMAKE_HOME_DIRECTORY:INTERNAL=$(CURDIR)/cpp' build/CMakeCache.txt || \

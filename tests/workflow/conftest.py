@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
+CHEAP = ("PANEL=fig03", "QUALITY=standard")  # a second, at a quality that is packed
 
 
 @dataclass
@@ -30,8 +31,9 @@ class Clone:
         )
 
     def git(self, *arguments: str) -> None:
-        author = ["-c", "user.name=test", "-c", "user.email=test@example.org"]
-        subprocess.run(["git", *author, *arguments], cwd=self.folder, check=True)
+        author = ["-c", "user.name=Nobody", "-c", "user.email=nobody@example.org"]
+        day = {"GIT_COMMITTER_DATE": "2011-02-03T23:30:00-0500", "PATH": os.defpath}
+        subprocess.run(["git", *author, *arguments], cwd=self.folder, env=day, check=True)
 
     def commit(self) -> None:
         self.git("add", "--all")
@@ -116,3 +118,14 @@ def copy(source: str, target: str) -> Edit:
 
 def delete(path: str) -> Edit:
     return lambda clone: (clone.folder / path).unlink()
+
+
+@pytest.fixture(scope="module")
+def packed(clean: Clone) -> Iterator[Clone]:
+    """With the cheap panel and its crate; without them afterwards."""
+    for target in ("panel", "crate"):
+        made = clean.make(target, *CHEAP)
+        assert made.returncode == 0, made.stdout
+    yield clean
+    for place in ("data/standard", "figures/standard", "build/crate"):
+        shutil.rmtree(clean.folder / place)

@@ -8,12 +8,13 @@ from pathlib import Path
 
 from workflow.config.plan import Panel, Run, data_of, data_path, drawings_of
 from workflow.provenance.build_id import build_id, include_closure, source_hash
+from workflow.provenance.layout import faults
 from workflow.provenance.lock import Job, Lock, configuration_files
 from workflow.provenance.parents import ArtefactError, Parents, file_hash
 from workflow.provenance.repository import ROOT, files_at, git
 from workflow.provenance.sources import sources_of
 from workflow.provenance.stale import PACKAGES, argument_difference
-from workflow.scripts.load import FormatError, Result, load
+from workflow.scripts.load import Result, load
 
 RECORDS = ("lock.json", "verification.json")  # in data/<quality>, which no job makes
 
@@ -160,12 +161,11 @@ class Chain:
                 yield Link(expected, fault, name)
 
     def _run_fault(self, name: str, path: str) -> str | None:
-        """What the file says of itself, against the lock."""
+        """What the file says of itself, against the documented layout and the lock."""
         job = self.lock.jobs[name]
-        try:
-            result = load(ROOT / path)
-        except FormatError as error:
-            return str(error)
+        if found := faults(ROOT / path):
+            return found[0].removeprefix(f"{ROOT / path}: ")
+        result = load(ROOT / path)
         build = self.lock.builds.get(job.parents["build_id"], {})
         wanted = {key: build.get(key) for key in ("source_hash", "compiler", "flags", "libraries")}
         wanted |= {"program": job.parents["program"], "build_id": job.parents["build_id"]}

@@ -1,0 +1,112 @@
+"""Packs code, configuration, data, figures and the runs that made them into a Workflow Run RO-Crate.
+
+Equal inputs give equal bytes. Run by make: python -m workflow.provenance.crate --quality QUALITY.
+"""
+
+import argparse
+import shutil
+import sys
+from pathlib import Path
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+
+from rocrate.rocrate import ROCrate
+
+from workflow.config.plan import ConfigurationError, Panel, load_plan, with_used
+from workflow.provenance.crate_graph import crate_of
+from workflow.provenance.lock import Job, Lock, LockError
+from workflow.provenance.repository import ROOT, git
+from workflow.provenance.stale import Staleness
+
+PLACE = ROOT / "build/crate"
+DRAFT = "smoke"
+NAMED = 5  # stale jobs that a refusal names
+# What belongs to the project where git cannot tell.
+FOLDERS = ("cpp", "docs", "tests", "workflow")
+FILES = ("Makefile", "Snakefile", "requirements.lock", "requirements-dev.lock", ".clang-format", ".ruff.toml")
+PAPERS = ("README.md", "CHANGELOG.md", "CITATION.cff", "LICENSE", ".gitignore")
+
+
+class CrateError(ValueError):
+    """There is nothing that can be packed; the message says why and what to do."""
+
+
+def chosen_jobs(lock: Lock, plan: dict[str, Panel], panel: str | None, remedy: str) -> dict[str, Job]:
+    """Jobs of the panel, or of all, runs before the drawing that shows them. Raises CrateError if one is stale."""
+    panels = [panel] if panel else list(plan)
+    stale = Staleness(lock.quality, plan).reasons(panels)
+    if stale:
+        named = [f"\n  {job}: {reason}" for job, reason in list(stale.items())[:NAMED]]
+        more = f"\n  and {len(stale) - NAMED} more" if len(stale) > NAMED else ""
+        hint = "" if panel else "; with PANEL=fig05 one panel is packed alone"
+        raise CrateError(
+            f"products are missing or stale:{''.join(named)}{more}\nMake them with {remedy}{hint}"
+        )
+    runs = [f"{one.name}/{run.name}" for name in panels for one in with_used(plan, name) for run in one.runs]
+    return {name: lock.jobs[name] for name in dict.fromkeys([*runs, *panels])}
+
+
+def source_files(lock: Lock, jobs: dict[str, Job]) -> set[str]:
+    """The project's files, and what the jobs were made from, tracked by git or not; relative paths."""
+    scripts = [path for job in jobs.values() for path in job.parents.get("sources", {})]
+    builds = {job.parents["build_id"] for job in jobs.values() if "build_id" in job.parents}
+    built = [f"cpp/{path}" for build_id in builds for path in lock.builds[build_id]["sources"]]
+    return {*project_files(), *scripts, *built}
+
+
+def project_files() -> list[str]:
+    if (ROOT / ".git").exists() and (listed := git("ls-files", "-z")):
+        return [path for path in listed.decode().split("\0") if (ROOT / path).is_file()]
+    below = [path for folder in FOLDERS for path in (ROOT / folder).rglob("*") if path.is_file()]
+    sources = [str(path.relative_to(ROOT)) for path in below if "__pycache__" not in path.parts]
+    return [*FILES, *PAPERS, *sources]
+
+
+def write(crate: ROCrate, folder: Path, archive: Path) -> None:
+    """Writes both beside their places and renames them, so that neither is ever there by half."""
+    unfinished, zipped = (path.with_name(f"{path.name}.tmp") for path in (folder, archive))
+    shutil.rmtree(unfinished, ignore_errors=True)
+    crate.write(unfinished)
+    with ZipFile(zipped, "w") as content:
+        for path in sorted(path for path in unfinished.rglob("*") if path.is_file()):
+            entry = ZipInfo(str(path.relative_to(unfinished)))  # its time is the same for every file
+            entry.external_attr = 0o644 << 16
+            content.writestr(entry, path.read_bytes(), ZIP_DEFLATED)
+    shutil.rmtree(folder, ignore_errors=True)
+    unfinished.replace(folder)
+    zipped.replace(archive)
+
+
+def pack(quality: str, panel: str | None) -> Path:
+    """The archive. Raises CrateError, LockError or ConfigurationError."""
+    plan = load_plan(quality)
+    if quality == DRAFT:
+        raise CrateError(
+            f"QUALITY={DRAFT} makes drafts, which are not packed: choose standard, paper or deep"
+        )
+    if panel and panel not in plan:
+        raise CrateError(f"PANEL={panel} is not known: choose one of {', '.join(plan)}")
+    remedy = f"make {f'panel PANEL={panel}' if panel else 'figures'} QUALITY={quality}"
+    try:
+        lock = Lock.read(quality)
+    except LockError as error:
+        raise CrateError(f"{error}, so nobody knows what made the products: {remedy} writes it") from error
+    jobs = chosen_jobs(lock, plan, panel, remedy)
+    archive = PLACE / f"lorentz-gas-{quality}.zip"
+    write(crate_of(lock, jobs, plan, source_files(lock, jobs), remedy), PLACE / quality, archive)
+    return archive
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Packs products and their history into an RO-Crate")
+    parser.add_argument("--quality", required=True)
+    parser.add_argument("--panel", help="this panel only, with the runs that it uses")
+    options = parser.parse_args()
+    try:
+        archive = pack(options.quality, options.panel)
+    except (CrateError, ConfigurationError) as error:
+        sys.exit(f"make crate: {error}")
+    print(f"The crate is {archive.relative_to(ROOT)}, unpacked in build/crate/{options.quality}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,100 @@
+"""Which job made which product from what: one CreateAction for every job, one for the workflow as a whole.
+
+The lock is the only witness, so nothing names a time of day, a host, a user or a folder of this machine.
+"""
+
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass
+from datetime import UTC, date, datetime
+
+from rocrate.model import Entity
+from rocrate.rocrate import ROCrate
+
+from workflow.config.plan import Panel
+from workflow.provenance.crate_files import WORKFLOW, add, add_files, compact, new_crate
+from workflow.provenance.lock import Job, Lock
+from workflow.provenance.repository import ROOT, git
+from workflow.provenance.stale import PACKAGES
+
+
+@dataclass(frozen=True)
+class Action:
+    """What was done by which tool; inputs and outputs are paths."""
+
+    identifier: str
+    name: str
+    tool: Entity
+    command: str
+    inputs: Iterable[str]
+    outputs: Iterable[str]
+
+
+def crate_of(
+    lock: Lock, jobs: dict[str, Job], plan: dict[str, Panel], sources: set[str], remade_by: str
+) -> ROCrate:
+    """The crate of some jobs of the lock and of all sources; `remade_by` is the command that makes the same
+    products again."""
+    description = (
+        f"Code, configuration, data and figures at quality {lock.quality}, and the runs that made them"
+    )
+    crate = new_crate(description, published(jobs))
+    products = {path for job in jobs.values() for path in job.outputs}
+    scripts = {name: f"workflow/scripts/{plan[name].script}.py" for name in jobs if name in plan}
+    lock_path = str(Lock.path(lock.quality).relative_to(ROOT))
+    files = add_files(crate, {*sources, *products, lock_path}, set(scripts.values()))
+    used = {job.parents["build_id"] for job in jobs.values() if "build_id" in job.parents}
+    programs = {build_id: _add_program(crate, lock.builds[build_id], files) for build_id in sorted(used)}
+
+    settings = ["workflow/config/paper.yaml", f"workflow/config/quality/{lock.quality}.yaml"]
+    inputs = [*settings, PACKAGES]
+    actions = [Action("#workflow", remade_by, files[WORKFLOW], remade_by, inputs, sorted(products))]
+    for name, job in jobs.items():
+        if name in scripts:
+            actions.append(_drawing(name, job, files[scripts[name]]))
+        else:
+            actions.append(_run(name, job, programs[job.parents["build_id"]], settings))
+    crate.root_dataset["mentions"] = [_add_action(crate, action, files) for action in actions]
+    return crate
+
+
+def published(jobs: dict[str, Job]) -> date:
+    """Day of the newest commit that made one of the products; of SOURCE_DATE_EPOCH where no commit is known."""
+    commits = {job.commit for job in jobs.values() if job.commit}
+    shown = [git("show", "--no-patch", "--format=%ct", commit) for commit in commits]
+    stamps = [int(stamp) for stamp in shown if stamp]
+    return datetime.fromtimestamp(max(stamps, default=int(os.environ["SOURCE_DATE_EPOCH"])), UTC).date()
+
+
+def _drawing(name: str, job: Job, script: Entity) -> Action:
+    inputs = [*job.parents["data"], *job.parents["sources"], PACKAGES]
+    return Action(f"#job/{name}", name, script, f"Draws {name}", inputs, job.outputs)
+
+
+def _run(name: str, job: Job, program: Entity, settings: list[str]) -> Action:
+    command = f"{job.parents['program']} {job.parents['arguments']}"
+    return Action(f"#job/{name}", name, program, command, settings, job.outputs)
+
+
+def _add_program(crate: ROCrate, build: dict, files: dict[str, Entity]) -> Entity:
+    """The executable is not packed, what it was built from is."""
+    properties = {
+        "@type": "SoftwareApplication",
+        "name": build["program"],
+        "version": build["build_id"],
+        "description": f"{build['compiler']}; {build['flags']}; {build['libraries']}",
+        "isBasedOn": [files[f"cpp/{path}"] for path in build["sources"]],
+    }
+    return add(crate, f"#program/{build['program']}", properties)
+
+
+def _add_action(crate: ROCrate, action: Action, files: dict[str, Entity]) -> Entity:
+    properties = {
+        "@type": "CreateAction",
+        "name": action.name,
+        "instrument": action.tool,
+        "description": action.command,
+        "object": [files[path] for path in action.inputs],
+        "result": compact([files[path] for path in action.outputs]),
+    }
+    return add(crate, action.identifier, properties)
