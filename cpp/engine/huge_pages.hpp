@@ -7,8 +7,8 @@
 
 namespace lorentz {
 
-/// For large arrays that are read in random order: asks for huge pages where the system has them. Particles in
-/// pages of 4 KiB are further apart than the processor's table of pages reaches from some 10^5 of them on.
+/// For large arrays that are read in random order: asks for huge pages where the system has them. Particles
+/// in pages of 4 KiB are further apart than the processor's table of pages reaches from some 10^5 of them on.
 template <class T>
 struct HugePageAllocator {
   using value_type = T;
