@@ -88,9 +88,11 @@ provenance: .venv/runtime  ## What a product was made from, FILE=figures/standar
 status: build .venv/runtime  ## Which panels are fresh, their errors and what they cost
 	$(PYTHON) -m workflow.provenance.status --quality $(QUALITY)
 
-bench: build  ## Cost of an event, engine and reference simulator side by side
+bench: build .venv/runtime  ## Cost of an event: engine, reference simulator and floor side by side
 	ninja -C build --quiet benchmarks
-	build/bin/benchmarks --benchmark_min_time=1
+	build/bin/benchmarks --benchmark_repetitions=3 --benchmark_enable_random_interleaving=true \
+	  --benchmark_report_aggregates_only=true --benchmark_out=build/bench.json
+	$(PYTHON) -m workflow.tradeoff.bench_table build/bench.json
 
 tradeoff: build .venv/runtime  ## Speed against accuracy, measured here: figures/tradeoff
 	$(PYTHON) -m workflow.tradeoff.kinetic --program build/bin/boltzmann --output figures/tradeoff/ext06_kinetic

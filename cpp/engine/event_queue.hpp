@@ -7,10 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "engine/huge_pages.hpp"
+
 namespace lorentz {
 
-/// One particle on its way to a scatterer: its only pending event.
-struct Flight {
+/// One particle on its way to a scatterer: its only pending event. Aligned so that none lies across two lines
+/// of the cache.
+struct alignas(32) Flight {
   double time;           // of arrival
   double velocity;       // u
   std::uint32_t target;  // scatterer
@@ -21,11 +24,15 @@ struct Flight {
 /// events have a defined order that depends on nothing else.
 ///
 /// Nothing ever invalidates a pending flight, so insert and take-minimum suffice. A timing wheel of
-/// narrow buckets (a fraction of an event each) holds the flights of the current turn, 64 coarse
-/// buckets of one turn each the later ones, one list the rest. Buckets are linked lists through the
-/// flights themselves, and a bitmap finds the next occupied bucket: O(1) per event, no allocation.
+/// narrow buckets (a fraction of an event each) holds the flights of the current turn, coarse buckets of
+/// one turn each the later ones, one more the rest. Buckets are linked lists through the flights
+/// themselves, and a bitmap finds the next occupied bucket: O(1) per event, no allocation.
 /// Arrivals at or after end_time are frozen: kept, never queued. Particles may come and go; the slot of one
 /// that is gone serves the next that comes.
+///
+/// In a large population almost every flight passes through a coarse bucket, and there its memory is fetched
+/// anew. A coarse bucket is therefore several lists, walked side by side, so that the fetches overlap; and a
+/// turn is short enough for its flights to stay in the second-level cache from then on.
 ///
 /// The bucket width follows the measured rate of events. It is a matter of speed only: the order is
 /// exact for every width, because floor(time / width) is monotone in time also when rounded.
@@ -34,9 +41,9 @@ class EventQueue {
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
   /// flights: one slot per particle. rate: expected events per unit time, for the first turn.
-  EventQueue(std::vector<Flight> flights, double rate, double end_time);
+  EventQueue(const std::vector<Flight>& flights, double rate, double end_time);
 
-  const std::vector<Flight>& flights() const { return flights_; }
+  const std::vector<Flight, HugePageAllocator<Flight>>& flights() const { return flights_; }
   Flight& operator[](std::uint32_t slot) { return flights_[slot]; }
   double end_time() const { return end_time_; }
 
@@ -52,10 +59,10 @@ class EventQueue {
           return none;
       }
       const std::size_t bucket = (word_ << 6) + static_cast<std::size_t>(std::countr_zero(word_bits_));
-      const std::uint32_t head = buckets_[bucket];
+      const std::uint32_t head = lists_[bucket];
       if (flights_[head].next != none) return take_first_of_list(bucket, until);
       if (!(flights_[head].time < until)) return none;
-      buckets_[bucket] = none;
+      lists_[bucket] = none;
       word_bits_ &= word_bits_ - 1;
       ++taken_in_turn_;
       return head;
@@ -89,7 +96,7 @@ class EventQueue {
     if (tick < turn_end_) {
       const std::uint64_t bucket = tick & bucket_mask_;
       const std::uint64_t bit = std::uint64_t{1} << (tick & 63);
-      push(buckets_[bucket], slot);
+      push(lists_[bucket], slot);
       if (bucket >> 6 > word_) [[likely]] {
         occupied_[bucket >> 6] |= bit;
       } else {
@@ -102,7 +109,7 @@ class EventQueue {
   }
 
  private:
-  static constexpr std::uint64_t coarse_buckets = 64;
+  static constexpr std::uint64_t lanes = 16;  // lists per coarse bucket
 
   std::uint64_t tick_of(double time) const {
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(time * ticks_per_time_));
@@ -114,7 +121,18 @@ class EventQueue {
   }
 
   std::uint32_t take_first_of_list(std::size_t bucket, double until);
-  void schedule_beyond_turn(std::uint32_t slot, std::uint64_t tick);
+  /// First of the lists of a later turn.
+  std::size_t lists_of(std::uint64_t turn) const {
+    const std::uint64_t coarse = turn < coarse_end_ ? turn & coarse_mask_ : coarse_mask_ + 1;
+    return bucket_mask_ + 1 + coarse * lanes;
+  }
+
+  void schedule_beyond_turn(std::uint32_t slot, std::uint64_t tick) {
+    push(lists_[lists_of(tick >> bucket_bits_) + slot % lanes], slot);
+    ++waiting_;
+  }
+
+  void relink(std::size_t first_list);
   bool begin_turn(double until);
   void rebuild(double rate, double now);
 
@@ -125,20 +143,20 @@ class EventQueue {
     word_bits_ = std::exchange(occupied_[word], 0);
   }
 
-  std::vector<Flight> flights_;
+  std::vector<Flight, HugePageAllocator<Flight>> flights_;
   double end_time_;
   double ticks_per_time_ = 0;
-  std::vector<std::uint32_t> buckets_;   // heads of lists
+  std::vector<std::uint32_t> lists_;     // heads: buckets, then lanes of the coarse ones and of the rest
   std::vector<std::uint64_t> occupied_;  // one bit per bucket
-  std::uint64_t bucket_mask_ = 0;
+  std::uint64_t bucket_mask_ = 0;        // number of buckets, a power of two, less 1
+  std::uint64_t coarse_mask_ = 0;        // the same of coarse buckets
+  int bucket_bits_ = 0;
   std::size_t word_ = 0;          // of occupied_; the words below it are done with
   std::uint64_t word_bits_ = 0;   // stands for occupied_[word_], which is 0
   std::uint64_t turn_end_ = 0;    // first tick after the current turn
   std::uint64_t coarse_end_ = 0;  // first turn after those of the coarse buckets
-  std::vector<std::uint32_t> coarse_;
-  std::uint32_t beyond_ = none;
-  std::uint32_t free_ = none;  // list of released slots
-  std::size_t waiting_ = 0;    // flights in coarse_ and beyond_
+  std::uint32_t free_ = none;     // list of released slots
+  std::size_t waiting_ = 0;       // flights beyond the current turn
   std::uint64_t taken_in_turn_ = 0;
 };
 

@@ -38,10 +38,12 @@ class Scattering {
   /// what follows; otherwise the particle scatters again at the neighbouring scatterer.
   template <bool launching>
   Departure operator()(Flight& flight, double& w, Launch& launch, std::uint32_t slot) const {
-    collide_(flight.velocity, w);
+    double u = flight.velocity, scatterer = w;  // copies: the two references might be one
+    collide_(u, scatterer);
+    w = scatterer;
     std::int64_t cells = 1;
-    if constexpr (launching) cells = launch(slot, flight.velocity);
-    const double u = flight.velocity;
+    if constexpr (launching) cells = launch(slot, u);
+    flight.velocity = u;
     const double duration = static_cast<double>(cells) * cell_length_ / std::abs(u);
     const Departure departure{flight.time, slot, u, u > 0 ? cells : -cells, duration};
     flight.target = launching ? cells_ahead(flight.target, departure.cells) : neighbour(flight.target, u);
@@ -50,10 +52,12 @@ class Scattering {
   }
 
  private:
+  /// Without a branch: the direction cannot be predicted.
   std::uint32_t neighbour(std::uint32_t cell, double velocity) const {
-    const std::uint32_t right = cell + 1 == cells_ ? 0 : cell + 1;
-    const std::uint32_t left = cell == 0 ? cells_ - 1 : cell - 1;
-    return velocity > 0 ? right : left;
+    const bool left = !(velocity > 0);
+    const std::uint32_t next = cell + 1 - 2 * std::uint32_t{left};  // beyond the last one at both ends
+    const std::uint32_t entry = left ? cells_ - 1 : 0;
+    return next < cells_ ? next : entry;
   }
 
   std::uint32_t cells_ahead(std::uint32_t cell, std::int64_t cells) const {

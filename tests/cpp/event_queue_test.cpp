@@ -166,6 +166,13 @@ TEST(EventQueue, NeverReturnsArrivalsAtOrAfterTheEnd) {
 
 TEST(EventQueue, IsEmptyWithoutFlights) { EXPECT_EQ(EventQueue({}, 1, 1).take_before(1), EventQueue::none); }
 
+// Flights in huge pages, and turns of a fraction of an event per particle: every flight passes through a
+// coarse bucket. The rate is about right, or too low, so that the wheel is rebuilt on the way.
+TEST(EventQueue, KeepsTheOrderOfAPopulationInHugePages) {
+  for (const double rate : {8e4, 8e3})
+    EXPECT_GT(compare_with_ordered_set({80000, 40, heavy_tailed(1), 0.01, 300000}, rate), 300000U);
+}
+
 /// Particles come one by one and go after some flights, as in an open chain. The queue is asked up to the
 /// time of the next arrival, so a newcomer may arrive before everything that the queue has already looked at.
 std::size_t compare_with_comings_and_goings(double births, double deaths, const Delay& delay, double rate,

@@ -1,188 +1,34 @@
-/// The open chain by a reference simulator that shares nothing with the engine: a binary heap, every crossing
-/// of a scatterer or of a bond an event, momenta (p, P) and masses as the paper prints them, empty start,
-/// plain counting. Prints one line per replica, of the window after the relaxation: per cell temperature of
-/// the scatterer, <p^2> of the arrivals, density, arrivals to the right and to the left per unit time; per
-/// bond particle current, energy current; per bond and bin the flux per unit momentum; then, of the particles
-/// inside at the end of the window, their number and their number per bin.
+/// The open chain by the reference simulator. Prints one line per replica, of the window after the
+/// relaxation: per cell temperature of the scatterer, <p^2> of the arrivals, density, arrivals to the right
+/// and to the left per unit time; per bond particle current, energy current; per bond and bin the flux per
+/// unit momentum; then, of the particles inside at the end of the window, their number and their number per
+/// bin.
 ///
 ///   reference_open_chain cells cell_length sigma gamma nu_left nu_right T_left T_right relaxation
-///   observation
-///                        bins momentum_max replicas seed
-#include <cmath>
-#include <cstdio>
+///                        observation bins momentum_max replicas seed
 #include <cstdlib>
-#include <queue>
-#include <random>
-#include <vector>
 
-namespace {
-
-struct Parameters {
-  std::size_t cells;
-  double cell_length, sigma, gamma, nu_left, nu_right, T_left, T_right, relaxation, observation;
-  std::size_t bins;
-  double momentum_max;
-};
-
-class Simulator {
- public:
-  Simulator(const Parameters& parameters, std::uint64_t seed)
-      : parameters_(parameters),
-        generator_(seed),
-        P_(parameters.cells, 0),
-        changed_(parameters.cells, parameters.relaxation),
-        occupied_(parameters.cells, 0),
-        scatterer_(parameters.cells, 0),
-        square_(parameters.cells, 0),
-        density_(parameters.cells, 0),
-        right_(parameters.cells, 0),
-        left_(parameters.cells, 0),
-        particles_(parameters.cells + 1, 0),
-        energy_(parameters.cells + 1, 0),
-        flux_((parameters.cells + 1) * parameters.bins, 0) {
-    next_injection(true, 0);
-    next_injection(false, 0);
-  }
-
-  void run() {
-    const double end = parameters_.relaxation + parameters_.observation;
-    while (!events_.empty() && events_.top().time < end) {
-      Event event = events_.top();
-      events_.pop();
-      if (event.injection) next_injection(event.p > 0, event.time);
-      if (event.mark % 2 == 0) {
-        if (!cross_bond(event)) continue;
-      } else {
-        meet_scatterer(event);
-      }
-      event.injection = false;
-      event.mark += event.p > 0 ? 1 : -1;
-      event.time += parameters_.cell_length / 2 / std::abs(event.p);
-      events_.push(event);
-    }
-    for (std::size_t cell = 0; cell < parameters_.cells; ++cell) hold(cell, end);
-  }
-
-  void print() {
-    const double time = parameters_.observation;
-    const double width = 2 * parameters_.momentum_max / static_cast<double>(parameters_.bins);
-    for (const double value : scatterer_) write(value / time);
-    for (std::size_t cell = 0; cell < parameters_.cells; ++cell)
-      write(square_[cell] / (right_[cell] + left_[cell]));
-    for (const double value : density_) write(value / time);
-    for (const double value : right_) write(value / time);
-    for (const double value : left_) write(value / time);
-    for (const double value : particles_) write(value / time);
-    for (const double value : energy_) write(value / time);
-    for (const double value : flux_) write(value / time / width);
-    double number = 0;
-    std::vector<double> inside(parameters_.bins, 0);
-    for (; !events_.empty(); events_.pop()) {
-      if (events_.top().injection) continue;
-      number += 1;
-      const std::size_t bin = bin_of(events_.top().p);
-      if (bin < inside.size()) inside[bin] += 1;
-    }
-    write(number);
-    for (const double value : inside) write(value);
-    std::printf("\n");
-  }
-
- private:
-  struct Event {
-    double time, p;
-    long mark;  // bond j at 2j, scatterer i at 2i + 1
-    bool injection;
-    bool operator<(const Event& other) const { return time > other.time; }  // the heap's top is the largest
-  };
-
-  static void write(double value) { std::printf("%.17g ", value); }
-
-  void next_injection(bool left, double now) {
-    const double rate = left ? parameters_.nu_left : parameters_.nu_right;
-    const double T = left ? parameters_.T_left : parameters_.T_right;
-    if (rate == 0) return;
-    const double p = std::sqrt(T) * std::abs(std::normal_distribution<>()(generator_));
-    const double time = now + std::exponential_distribution<>(rate)(generator_);
-    events_.push({time, left ? p : -p, left ? 0 : 2 * static_cast<long>(parameters_.cells), true});
-  }
-
-  std::size_t bin_of(double p) const {
-    const double place = (p / parameters_.momentum_max + 1) / 2 * static_cast<double>(parameters_.bins);
-    return place >= 0 ? static_cast<std::size_t>(place) : parameters_.bins;
-  }
-
-  /// False if the particle has left.
-  bool cross_bond(const Event& event) {
-    const auto bond = static_cast<std::size_t>(event.mark / 2);
-    if (event.time >= parameters_.relaxation) {
-      particles_[bond] += event.p > 0 ? 1 : -1;
-      energy_[bond] += (event.p > 0 ? 1 : -1) * event.p * event.p / 2;
-      const std::size_t bin = bin_of(event.p);
-      if (bin < parameters_.bins) flux_[bond * parameters_.bins + bin] += 1;
-    }
-    const bool into_left = event.p < 0;
-    if (bond > 0) occupy(bond - 1, into_left ? 1 : -1, event.time);
-    if (bond < parameters_.cells) occupy(bond, into_left ? -1 : 1, event.time);
-    return !(bond == 0 && into_left) && !(bond == parameters_.cells && !into_left);
-  }
-
-  void meet_scatterer(Event& event) {
-    const auto cell = static_cast<std::size_t>(event.mark / 2);
-    if (event.time >= parameters_.relaxation) {
-      square_[cell] += event.p * event.p;
-      (event.p > 0 ? right_ : left_)[cell] += 1;
-    }
-    const double probability = parameters_.gamma / static_cast<double>(parameters_.cells);
-    if (probability < 1 && std::uniform_real_distribution<>()(generator_) >= probability) return;
-    hold(cell, event.time);
-    const double sigma = parameters_.sigma, p = event.p;
-    event.p = -sigma * p + (1 - sigma) * P_[cell];
-    P_[cell] = (1 + sigma) * p + sigma * P_[cell];
-  }
-
-  void occupy(std::size_t cell, int change, double time) {
-    hold(cell, time);
-    occupied_[cell] += change;
-  }
-
-  /// Time integrals of a cell up to now.
-  void hold(std::size_t cell, double time) {
-    if (time <= changed_[cell]) return;
-    const double mass = (1 + parameters_.sigma) / (1 - parameters_.sigma);
-    scatterer_[cell] += P_[cell] * P_[cell] / mass * (time - changed_[cell]);
-    density_[cell] += occupied_[cell] * (time - changed_[cell]);
-    changed_[cell] = time;
-  }
-
-  Parameters parameters_;
-  std::mt19937_64 generator_;
-  std::priority_queue<Event> events_;
-  std::vector<double> P_, changed_;
-  std::vector<int> occupied_;
-  std::vector<double> scatterer_, square_, density_, right_, left_, particles_, energy_, flux_;
-};
-
-}  // namespace
+#include "reference/open_heap_simulator.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 15) return 2;
   const auto number = [&](int i) { return std::atof(argv[i]); };
-  const Parameters parameters{static_cast<std::size_t>(number(1)),
-                              number(2),
-                              number(3),
-                              number(4),
-                              number(5),
-                              number(6),
-                              number(7),
-                              number(8),
-                              number(9),
-                              number(10),
-                              static_cast<std::size_t>(number(11)),
-                              number(12)};
+  const reference::OpenHeapParameters parameters{static_cast<std::size_t>(number(1)),
+                                                 number(2),
+                                                 number(3),
+                                                 number(4),
+                                                 number(5),
+                                                 number(6),
+                                                 number(7),
+                                                 number(8),
+                                                 number(9),
+                                                 number(10),
+                                                 static_cast<std::size_t>(number(11)),
+                                                 number(12)};
   for (int replica = 0; replica < std::atoi(argv[13]); ++replica) {
-    Simulator simulator(parameters, static_cast<std::uint64_t>(std::atoll(argv[14]) * 1000003 + replica));
-    simulator.run();
+    reference::OpenHeapSimulator simulator(
+        parameters, static_cast<std::uint64_t>(std::atoll(argv[14]) * 1000003 + replica));
+    simulator.run(parameters.relaxation + parameters.observation);
     simulator.print();
   }
 }

@@ -1,0 +1,119 @@
+/// Cost of an event of closed chains: the engine, the reference simulator (binary heap), and the floor, that
+/// is, the same collisions and flights on the same memory with no queue, particle after particle.
+/// items_per_second is events per second; gamma:0 stands for gamma = N.
+#include <benchmark/benchmark.h>
+
+#include "engine/closed_dynamics.hpp"
+#include "engine/closed_start.hpp"
+#include "engine/flights.hpp"
+#include "reference/heap_simulator.hpp"
+
+namespace {
+
+using namespace lorentz;
+
+/// The least that an observable does, the same for all.
+struct Persistent {
+  std::uint64_t count = 0;
+  void add(double before, double after) { count += (before > 0) == (after > 0) ? 1 : 0; }
+  void on_collision(const Collision& collision) { add(collision.particle_before, collision.particle_after); }
+};
+
+struct Case {
+  explicit Case(benchmark::State& state)
+      : chain{static_cast<std::uint32_t>(state.range(0)), static_cast<std::uint32_t>(state.range(1)), 1,
+              0.5} {
+    if (state.range(2) > 0) chain.gamma = static_cast<double>(state.range(2));
+    start = closed_chain_start(chain, {}, false, 1, 0);
+    rate = expected_rate(chain, start);
+    state.counters["particles"] = chain.particles();
+  }
+
+  ClosedChain chain;
+  PhasePoint start;
+  double rate;  // of events
+};
+
+constexpr double warming = 4;  // events per particle before the clock starts
+
+constexpr double end_time = 1e5;  // beyond all iterations
+
+void closed_engine(benchmark::State& state) {
+  const Case of(state);
+  ClosedDynamics dynamics(of.chain, of.start, end_time);
+  Persistent observer;
+  double until = warming * of.chain.particles() / of.rate;
+  simulate(dynamics, until, observer, [](double) {});
+  const std::uint64_t before = dynamics.events();
+  for ([[maybe_unused]] auto iteration : state)
+    simulate(dynamics, until += 1e5 / of.rate, observer, [](double) {});
+  benchmark::DoNotOptimize(observer.count);
+  state.SetItemsProcessed(static_cast<std::int64_t>(dynamics.events() - before));
+}
+
+void closed_reference(benchmark::State& state) {
+  const Case of(state);
+  auto simulator = reference::heap_simulator<double>(of.chain.sigma, of.chain.cell_length, of.start);
+  if (!of.chain.deterministic()) simulator.scatter_with(of.chain.gamma / of.chain.cells, 1);
+  reference::HeapSimulator<double>::Event event{};
+  Persistent observer;
+  const auto advance = [&](std::uint64_t events) {
+    for (; events > 0 && simulator.step(end_time, event); --events)
+      observer.add(event.p_before, event.p_after);
+  };
+  if (of.chain.deterministic()) advance(static_cast<std::uint64_t>(warming) * of.chain.particles());
+  constexpr std::uint64_t events = 2000;
+  for ([[maybe_unused]] auto iteration : state) advance(events);
+  benchmark::DoNotOptimize(observer.count);
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * events));
+}
+
+void closed_floor(benchmark::State& state) {
+  const Case of(state);
+  const Scattering scatter(of.chain);
+  Launch launch(of.chain, 1, 0);
+  EventQueue memory(first_flights(of.chain, of.start, launch), of.rate, end_time);
+  std::vector<double> scatterers = scatter.scaled(of.start.scatterers);
+  Persistent observer;
+  std::uint32_t slot = 0;
+  const auto advance = [&]<bool launching>(std::uint64_t events) {
+    for (; events > 0; --events) {
+      Flight& flight = memory[slot];
+      const double before = flight.velocity;
+      scatter.operator()<launching>(flight, scatterers[flight.target], launch, slot);
+      observer.add(before, flight.velocity);
+      if (++slot == of.chain.particles()) slot = 0;
+    }
+  };
+  constexpr std::uint64_t events = 100'000;
+  for ([[maybe_unused]] auto iteration : state) {
+    if (of.chain.deterministic())
+      advance.operator()<false>(events);
+    else
+      advance.operator()<true>(events);
+  }
+  benchmark::DoNotOptimize(observer.count);
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * events));
+}
+
+// Iterations are given, as the preparation of a large chain takes longer than they do.
+void all_sizes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgNames({"cells", "particles_per_cell", "gamma"})->Iterations(100);
+  for (const std::int64_t gamma : {0, 1}) {
+    benchmark->Args({11, 20, gamma})->Args({50, 20, gamma})->Args({1000, 50, gamma});
+    benchmark->Args({10'000, 100, gamma})->Args({100'000, 100, gamma});
+  }
+}
+
+// Up to 10^6 particles, and at gamma = 1, where every scatterer is visited, up to 1000 cells.
+void affordable_sizes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgNames({"cells", "particles_per_cell", "gamma"})->Iterations(100);
+  benchmark->Args({11, 20, 0})->Args({50, 20, 0})->Args({1000, 50, 0})->Args({10'000, 100, 0});
+  benchmark->Args({11, 20, 1})->Args({50, 20, 1});
+}
+
+BENCHMARK(closed_engine)->Apply(all_sizes);
+BENCHMARK(closed_reference)->Apply(affordable_sizes);
+BENCHMARK(closed_floor)->Apply(all_sizes);
+
+}  // namespace
