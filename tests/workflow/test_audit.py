@@ -93,7 +93,11 @@ TAMPERINGS = {
         replace("workflow/config/quality/smoke.yaml", "{replicas: 4}", "{replicas: 5}"),
         "workflow/config/quality/smoke.yaml",
     ),
-    "configuration deleted": (delete("workflow/config/quality/smoke.yaml"), "workflow/config"),
+    "configuration deleted": (
+        delete("workflow/config/quality/smoke.yaml"),
+        "workflow/config/quality/smoke.yaml",
+    ),
+    "configuration spoilt": (append("workflow/config/paper.yaml", "}\n"), "workflow/config/paper.yaml"),
     "script": (append("workflow/scripts/fig03.py", "# x\n"), "workflow/scripts/fig03.py"),
     "shared module deleted": (delete("workflow/scripts/fit.py"), "workflow/scripts/fit.py"),
     "C++ source": (append("cpp/boltzmann/gmres.cpp", "// x\n"), "cpp/boltzmann/gmres.cpp"),
@@ -114,6 +118,15 @@ TAMPERINGS = {
 def test_clean_run_has_no_broken_link(clean: Clone) -> None:
     audited = clean.make("audit", "QUALITY=smoke")
     assert audited.returncode == 0, audited.stdout
+    assert "Every link holds" in audited.stdout
+
+
+def test_what_is_not_asked_for_any_more_leaves_no_trace(kept: Clone) -> None:
+    replace("workflow/config/paper.yaml", "sigma: [0, 0.5]", "sigma: [0.5]")(kept)
+    made = kept.make("figures", "QUALITY=smoke")
+    assert "fig06/all_sigma=0 is not asked for any more: moved to build/replaced" in made.stdout
+    assert (kept.folder / "build/replaced/data/smoke/fig06/all_sigma=0.h5").is_file()
+    audited = kept.make("audit", "QUALITY=smoke", "PANEL=fig06")
     assert "Every link holds" in audited.stdout
 
 

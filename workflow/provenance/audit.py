@@ -12,6 +12,7 @@ from pathlib import Path
 from workflow.config.plan import ConfigurationError, data_of, load_plan
 from workflow.provenance.links import Chain, Link
 from workflow.provenance.lock import Job, Lock, LockError
+from workflow.provenance.parents import file_hash
 from workflow.provenance.redo import RedoError, draw, same_bytes, tables_agree
 from workflow.provenance.repository import ROOT, machine
 
@@ -26,7 +27,7 @@ def audit(quality: str, only: str | None = None) -> tuple[list[Link], str]:
     try:
         plan = load_plan(quality)
     except ConfigurationError as error:
-        return [Link("workflow/config", str(error))], ""
+        return [Link(path, str(error)) for path in changed_configuration(lock)], ""
     chain = Chain(quality, plan, lock)
     broken = chain.broken()
     suspect = {link.job for link in broken}
@@ -41,6 +42,13 @@ def audit(quality: str, only: str | None = None) -> tuple[list[Link], str]:
     if any(job.dirty for job in lock.jobs.values()):
         summary += "; some were made from sources that were not committed"
     return broken, summary
+
+
+def changed_configuration(lock: Lock) -> list[str]:
+    """Files that are not what they were when a product was made."""
+    asked = dict(pair for job in lock.jobs.values() for pair in job.configuration.items())
+    present = {path: file_hash(ROOT / path) for path in asked if (ROOT / path).is_file()}
+    return [path for path, digest in asked.items() if present.get(path) != digest] or ["workflow/config"]
 
 
 def not_following(chain: Chain, names: list[str], suspect: set[str | None]) -> list[Link]:

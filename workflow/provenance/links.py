@@ -8,13 +8,12 @@ from pathlib import Path
 
 from workflow.config.plan import Panel, Run, data_of, data_path, drawings_of
 from workflow.provenance.build_id import build_id, include_closure, source_hash
-from workflow.provenance.layout import faults
 from workflow.provenance.lock import Job, Lock, configuration_files
-from workflow.provenance.parents import ArtefactError, Parents, file_hash
+from workflow.provenance.parents import file_hash
 from workflow.provenance.repository import ROOT, files_at, git
 from workflow.provenance.sources import sources_of
 from workflow.provenance.stale import PACKAGES, argument_difference
-from workflow.scripts.load import Result, load
+from workflow.provenance.testimony import drawing_fault, run_fault
 
 RECORDS = ("lock.json", "verification.json")  # in data/<quality>, which no job makes
 
@@ -157,22 +156,8 @@ class Chain:
                 yield Link(expected, f"the lock names {', '.join(job.outputs)} in its place", name)
             elif job.parents["build_id"] not in self.lock.builds:
                 yield Link(expected, "the lock does not say what its build was made from", name)
-            elif self._intact(expected, job) and (fault := self._run_fault(name, expected)):
+            elif self._intact(expected, job) and (fault := run_fault(expected, job, self.lock.builds)):
                 yield Link(expected, fault, name)
-
-    def _run_fault(self, name: str, path: str) -> str | None:
-        """What the file says of itself, against the documented layout and the lock."""
-        job = self.lock.jobs[name]
-        if found := faults(ROOT / path):
-            return found[0].removeprefix(f"{ROOT / path}: ")
-        result = load(ROOT / path)
-        build = self.lock.builds.get(job.parents["build_id"], {})
-        wanted = {key: build.get(key) for key in ("source_hash", "compiler", "flags", "libraries")}
-        wanted |= {"program": job.parents["program"], "build_id": job.parents["build_id"]}
-        for key, value in wanted.items():
-            if result.provenance.get(key) != value:
-                return f"says {key} {result.provenance.get(key)}, not {value}"
-        return parameter_fault(result, job.parents["arguments"])
 
     def _drawings(self) -> Iterator[Link]:
         outputs = self.lock.outputs()
@@ -180,7 +165,7 @@ class Chain:
             if sorted(job.outputs) != sorted(drawings_of(self.quality, name)):
                 yield Link(f"figures/{self.quality}/{name}", "the lock does not name its four files", name)
             for path in job.outputs:
-                if self._intact(path, job) and (fault := self._drawing_fault(job, path)):
+                if self._intact(path, job) and (fault := drawing_fault(path, job)):
                     yield Link(path, fault, name)
             shown = job.parents["data"]
             for path, data in shown.items():
@@ -189,19 +174,9 @@ class Chain:
             if name in self.plan and shown.keys() != set(data_of(self.plan, name, self.quality)):
                 yield Link(f"figures/{self.quality}/{name}.pdf", "does not show the runs of the panel", name)
 
-    def _drawing_fault(self, job: Job, path: str) -> str | None:
-        try:
-            named = vars(Parents.of(ROOT / path))
-        except ArtefactError as error:
-            return str(error)
-        for key, value in named.items():
-            if value != job.parents.get(key):
-                return f"names other parents than the lock: {key}"
-        return None
-
     def _commits(self) -> Iterator[Link]:
         """What is said to be made from a commit must agree with it."""
-        if git("rev-parse", "HEAD") is None:
+        if git("rev-parse", "--is-shallow-repository") != b"false\n":  # or none at all
             return
         for commit in sorted({job.commit for job in self.lock.jobs.values() if job.commit}):
             files = files_at(commit, "cpp", "workflow", PACKAGES)
@@ -223,22 +198,3 @@ class Chain:
             return job.parents["sources"] | {PACKAGES: job.parents["packages"]}
         sources = self.lock.builds.get(job.parents["build_id"], {"sources": {}})["sources"]
         return {f"cpp/{path}": digest for path, digest in sources.items()}
-
-
-def parameter_fault(result: Result, arguments: str) -> str | None:
-    """The first option on the command line that the file gives another value."""
-    for option in arguments.split("--")[1:]:
-        name, _, text = option.strip().partition(" ")
-        value = result.parameters.get(name)
-        try:
-            differs = (
-                value is not None
-                and text != ""
-                and not isinstance(value, str)
-                and float(text) != float(value)
-            )
-        except ValueError:  # a multiple of N, or a list
-            continue
-        if differs or (isinstance(value, str) and value != text.strip("'")):
-            return f"says --{name} {value}, not {text}"
-    return None

@@ -19,7 +19,7 @@ from workflow.config.plan import (
     load_plan,
     with_used,
 )
-from workflow.provenance.lock import Lock, LockError
+from workflow.provenance.lock import Lock, LockError, changing
 from workflow.provenance.parents import file_hash
 from workflow.provenance.repository import ROOT
 from workflow.provenance.sources import sources_of
@@ -127,6 +127,30 @@ def argument_difference(old: str, new: str) -> str:
     return "their order"
 
 
+def set_aside(paths: Iterable[str]) -> bool:
+    """Moves what there is of the paths to build/replaced; false if there is nothing."""
+    present = [path for path in paths if (ROOT / path).exists()]
+    for path in present:
+        (ROOT / REPLACED / path).parent.mkdir(parents=True, exist_ok=True)
+        (ROOT / path).replace(ROOT / REPLACED / path)
+    return bool(present)
+
+
+def retire(quality: str, plan: dict[str, Panel]) -> None:
+    """Products of jobs that the configuration no longer asks for leave the data, the figures and the lock."""
+    asked = {*plan, *(f"{name}/{run.name}" for name, panel in plan.items() for run in panel.runs)}
+    try:
+        unasked = Lock.read(quality).jobs.keys() - asked
+    except LockError:
+        return
+    if not unasked:
+        return
+    with changing(quality) as lock:
+        for name in sorted(unasked):
+            set_aside(lock.jobs.pop(name).outputs)
+            print(f"{name} is not asked for any more: moved to {REPLACED}")
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description="Moves products that have to be made again out of the way")
     parser.add_argument("--quality", required=True)
@@ -140,12 +164,10 @@ def main() -> None:
         return
     staleness = Staleness(options.quality, plan)
     for job, reason in staleness.reasons([options.panel] if options.panel else plan).items():
-        present = [path for path in staleness.outputs(job) if (ROOT / path).exists()]
-        if present:
+        if set_aside(staleness.outputs(job)):
             print(f"{job} is made again: {reason}")
-        for path in present:
-            (ROOT / REPLACED / path).parent.mkdir(parents=True, exist_ok=True)
-            (ROOT / path).replace(ROOT / REPLACED / path)
+    if not options.panel:
+        retire(options.quality, plan)
 
 
 if __name__ == "__main__":
