@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from scipy import stats
+from scipy.special import stdtr  # scipy.stats takes half a second to import
 
 from workflow.provenance.lock import Job
 from workflow.provenance.repository import ROOT
@@ -76,7 +76,7 @@ def disagreement(one: Path, other: Path) -> tuple[float, float]:
     deviations, freedom = (np.concatenate(part) for part in zip(*pairs, strict=True))
     if deviations.size == 0:
         return 0, 1
-    rarest = float(np.min(2 * stats.t.sf(deviations, freedom)))
+    rarest = float(np.min(2 * stdtr(freedom, -deviations)))
     return float(deviations.max()), min(1, deviations.size * rarest)
 
 
