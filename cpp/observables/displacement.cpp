@@ -9,6 +9,7 @@
 /// thermal flight: alpha = 1 and b = 0 say t, b = -1 says t/ln t (waits ~ tau^-2 and unit steps), alpha > 1
 /// and b > 0 superdiffusion.
 #include <cmath>
+#include <limits>
 
 #include "observables/closed_chain_options.hpp"
 #include "observables/log_times_options.hpp"
@@ -105,7 +106,8 @@ Results summarise(const Records& records, const std::vector<double>& times,
       [&](std::span<const double> sums) {
         std::vector<double> values(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(4 * size));
         for (std::size_t k = 0; k + 1 < size; ++k)
-          values.push_back(std::log(sums[k + 1] / sums[k]) / std::log(times[k + 1] / times[k]));
+          values.push_back(sums[k] > 0 ? std::log(sums[k + 1] / sums[k]) / std::log(times[k + 1] / times[k])
+                                       : std::numeric_limits<double>::quiet_NaN());
         std::vector<double> relative;
         for (std::size_t k = 0; k < size; ++k) relative.push_back(sums[k] - sums[3 * size + k]);
         values.push_back(fit_power(times, sums.first(size), fit_from, times.back()));

@@ -48,7 +48,9 @@ def closed(draw: st.DrawFn) -> dict[str, object]:
         "gamma": draw(st.sampled_from(["N", cells, 0.5, 1e-300, 1e300])),
         "cell-length": number(length),
         "temperature": number(temperature),
-        "scatterer-temperature": draw(st.just("0") | st.floats(-20, 4).map(lambda x: number(temperature + x))),
+        "scatterer-temperature": draw(
+            st.just("0") | st.floats(-20, 4).map(lambda x: number(temperature + x))
+        ),
         "relaxation-time": draw(st.just("0") | FLIGHTS.map(lambda x: number(flight + x))),
         "observation-time": number(flight + draw(FLIGHTS)),
     }
@@ -187,13 +189,15 @@ def check_physics(result: Result) -> None:
         if result.converged and name not in MAY_BE_NAN and not name.startswith("kappa"):
             assert not np.isnan(quantity.mean).any(), name
         known = quantity.mean[np.isfinite(quantity.mean)]
-        if name.startswith(("temperature", "rate", "density", "weighted", "variance")) or name.endswith("energy"):
-            if not name.endswith(("_drift", "injected_energy")) and "_plain" not in name:
-                slack = 0 if quantity.standard_error is None else 1e-9 * np.abs(known).max(initial=0)
-                assert (known >= -slack).all(), name
+        positive = name.startswith(("temperature", "rate", "density", "weighted", "variance"))
+        if (positive or name.endswith(("particle_energy", "scatterer_energy"))) and not name.endswith(
+            "_drift"
+        ):
+            assert (known >= -1e-9 * np.abs(known).max(initial=0)).all(), name
     drift = result.quantities.get("energy_drift")
     if drift is not None:
-        assert drift.mean <= 1e-10
+        # At worst every collision errs by its 14 roundings of a velocity, all to one side.
+        assert drift.mean <= 28 * 2.0**-53 * max(1, result.provenance["events"])
     if "sum_error" in result.quantities:
         assert result["sum_error"].mean <= 1e-10
     if "mu" in result.quantities and result.converged:

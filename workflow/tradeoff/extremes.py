@@ -20,7 +20,7 @@ from matplotlib.figure import Figure
 from workflow.scripts import style
 from workflow.scripts.load import Result, load
 
-SIGMAS = {0.5: "0.5", 0.3: "0.3", -0.9: "−0.9", 1 - 1e-12: r"$1-10^{-12}$"}
+SIGMAS = {0.5: "0.5", 0.3: "0.3", -0.9: "$-0.9$", 1 - 1e-12: r"$1-10^{-12}$"}
 LOOKS = dict(zip(SIGMAS, zip("osv^", (style.BLACK, style.BLUE, style.VERMILLION, style.ORANGE), strict=True),
                  strict=True))  # fmt: skip
 LONGEST = {"smoke": 6, "standard": 8, "paper": 10, "deep": 10}  # log10 of the events of one run
@@ -102,7 +102,11 @@ def open_chains(run: Run) -> Iterator[tuple[float, float]]:
         result = run("conductivity", cells=4, replicas=2, temperature_left=repr(4.0**k), start="empty",
                      temperature_right=repr(1e8 * 4.0**k), relaxation_time=0,
                      observation_time=repr(2.0**-k), **rates)  # fmt: skip
-        units = {"energy_current_plain": 8.0**k, "particle_current_plain": 2.0**k, "temperature_first": 4.0**k}
+        units = {
+            "energy_current_plain": 8.0**k,
+            "particle_current_plain": 2.0**k,
+            "temperature_first": 4.0**k,
+        }
         return np.array([float(result[name].mean) / unit for name, unit in units.items()])
 
     expected = measure(0)
@@ -162,7 +166,9 @@ def draw_drift(axes: Axes, table: pd.DataFrame) -> None:
     axes.plot(events, UNIT * np.sqrt(events), **style.GUIDE)
     axes.text(events[0], 4 * UNIT * np.sqrt(events[0]), r"$2^{-53}\sqrt{\mathrm{events}}$", fontsize=8)
     axes.set(xscale="log", yscale="log", xlabel="events", ylabel="relative drift", ylim=(3e-18, 3e-12))
-    axes.legend(fontsize=7, loc="lower right", ncols=2, title="filled: energy, open: momentum", title_fontsize=7)
+    axes.legend(
+        fontsize=7, loc="lower right", ncols=2, title="filled: energy, open: momentum", title_fontsize=7
+    )
 
 
 def draw_extremes(axes: Axes, table: pd.DataFrame) -> None:
@@ -174,12 +180,16 @@ def draw_extremes(axes: Axes, table: pd.DataFrame) -> None:
     axes.set(xscale="log", xlim=(EXACT / 3, 1e-8), xlabel="relative deviation from the exact result")
     axes.set_yticks(range(len(order)), order, fontsize=7)
     axes.set_ylim(len(order) - 0.4, -0.8)
-    axes.set_xticks([EXACT, 1e-16, 1e-14, 1e-12, 1e-10], ["0", *(f"$10^{{{k}}}$" for k in (-16, -14, -12, -10))])
+    axes.set_xticks(
+        [EXACT, 1e-16, 1e-14, 1e-12, 1e-10], ["0", *(f"$10^{{{k}}}$" for k in (-16, -14, -12, -10))]
+    )
     axes.tick_params(which="minor", bottom=False, top=False, left=False, right=False)
 
 
 def draw(table: pd.DataFrame) -> Figure:
-    figure, (upper, lower) = plt.subplots(2, figsize=(1.2 * style.COLUMN, 1.9 * style.HEIGHT), height_ratios=(3, 2.3))
+    figure, (upper, lower) = plt.subplots(
+        2, figsize=(1.2 * style.COLUMN, 1.9 * style.HEIGHT), height_ratios=(3, 2.3)
+    )
     draw_drift(upper, table[table.panel == "drift"])
     draw_extremes(lower, table[table.panel == "extremes"])
     return figure
