@@ -53,6 +53,14 @@ void OpenChainOptions::validate(double end, const std::string& times) const {
                          "--temperature-left, --temperature-right", times});
   require_within(hot * end, 1e-290, 1e300, "--temperature-left, --temperature-right, " + times,
                  "the temperature times the end of the run");
+  if (rate > 0) {
+    require_within(rate * cold, 1e-290, 1e300,
+                   "--nu-left, --nu-right, --temperature-left, --temperature-right",
+                   "the rate times the lowest temperature");
+    require_within(rate * hot, 1e-290, 1e300,
+                   "--nu-left, --nu-right, --temperature-left, --temperature-right",
+                   "the rate times the highest temperature");
+  }
   // Slow particles stay: a few dozen times as many as cross at thermal speed.
   const double stay = std::min(end, 50 * open.cell_length * open.cells / std::sqrt(cold));
   require_within(rate * stay, 0, most_particles, "--nu-left, --nu-right", "the number of particles inside");
