@@ -96,6 +96,7 @@ bench: build .venv/runtime  ## Cost of an event: engine, reference simulator and
 
 tradeoff: build .venv/runtime  ## Speed against accuracy, measured here: figures/tradeoff
 	$(PYTHON) -m workflow.tradeoff.kinetic --program build/bin/boltzmann --output figures/tradeoff/ext06_kinetic
+	$(PYTHON) -m workflow.tradeoff.extremes --programs build/bin --quality $(QUALITY) --output figures/tradeoff/ext08
 
 lock: .venv/dev  ## Renew both locks of Python packages
 	for name in requirements requirements-dev; do \

@@ -21,6 +21,10 @@ class ClosedDynamics {
   ClosedDynamics(const ClosedChain& chain, const PhasePoint& start, double end_time, std::uint64_t seed = 0,
                  std::uint64_t replica = 0);
 
+  /// The clock shows 0 at what was `time`, where simulate() stopped. A clock resolves 2^-53 of what it shows,
+  /// so that it must not show much more than a flight takes.
+  void restart_clock(double time) { queue_.shift(time); }
+
   Invariants invariants() const;
   std::uint64_t events() const { return events_; }
 

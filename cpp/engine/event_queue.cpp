@@ -58,6 +58,12 @@ void EventQueue::rebuild(double rate, double now) {
   for (std::uint32_t slot = 0; slot < flights_.size(); ++slot) schedule(slot);
 }
 
+void EventQueue::shift(double origin) {
+  for (Flight& flight : flights_) flight.time -= origin;
+  end_time_ -= origin;
+  rebuild(ticks_per_time_ * occupancy, 0);
+}
+
 std::uint32_t EventQueue::take_first_of_list(std::size_t bucket, double until) {
   std::uint32_t* link_to_first = &lists_[bucket];
   std::uint32_t first = *link_to_first;

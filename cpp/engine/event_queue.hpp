@@ -89,6 +89,9 @@ class EventQueue {
     free_ = slot;
   }
 
+  /// From now on all times, end_time() too, are counted from `origin`, which no pending arrival precedes.
+  void shift(double origin);
+
   void schedule(std::uint32_t slot) {
     const double time = flights_[slot].time;
     if (!(time < end_time_)) return;

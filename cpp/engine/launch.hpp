@@ -41,7 +41,7 @@ class Launch {
 
   /// Draws the direction of u where it is random, and the number of cells of the flight.
   std::int64_t operator()(std::uint32_t slot, double& u) {
-    const std::uint32_t draw = draws_[slot]++;
+    const std::uint64_t draw = draws_[slot]++;
     const std::uint32_t particle = slot % particles_;
     if (random_direction_)
       u = std::copysign(u, uniform(seed_, Purpose::direction, replica_, particle, draw) - 0.5);
@@ -60,7 +60,7 @@ class Launch {
   double log_pass_probability_;
   std::uint64_t seed_, replica_;
   std::uint32_t particles_;
-  std::vector<std::uint32_t> draws_;  // taken so far, by slot
+  std::vector<std::uint64_t> draws_;  // taken so far, by slot
 };
 
 }  // namespace lorentz

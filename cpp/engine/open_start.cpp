@@ -19,7 +19,7 @@ class Stream {
       : rate_(source.rate), thermal_(std::sqrt(source.temperature)), slow_(flight / age / thermal_) {}
 
   /// Expected number of particles per unit length.
-  double density() const { return rate_ / thermal_ * (slow_part() + fast_part()); }
+  double density() const { return rate_ * (slow_part() + fast_part()) / thermal_; }
 
   double draw_speed(RandomStream& stream) const {
     const bool slow = stream.uniform() * (slow_part() + fast_part()) < slow_part();

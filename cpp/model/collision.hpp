@@ -17,6 +17,10 @@ namespace lorentz {
 ///   |sigma| <  1/2:  u' = w + sigma (w - u)               w' = u + sigma (w - u)
 ///   |sigma| >= 1/2:  u' = u + (1+sigma) (w - u)           w' = w - (1-sigma) (w - u)
 ///
+/// Near +-1, where 1-|sigma| is hardly more than the last digit of 1+|sigma|, the one of the two that is
+/// turned round takes the first form and the other one the second: u' = w + sigma (w - u) at +1, w' = u +
+/// sigma (w - u) at -1. Then sigma is what was asked for to its last digit.
+///
 /// With 1+sigma and 1-sigma stored so that they add up to exactly 2, the map of real numbers conserves
 /// energy and momentum exactly; only the roundings of the operations remain. The first form is an exact
 /// exchange at sigma = 0; the second keeps full relative precision at sigma -> +-1, where the powers of
@@ -40,9 +44,10 @@ class CollisionRule {
 
   /// One collision, in place: u is the particle's, w the scatterer's scaled velocity.
   void operator()(double& u, double& w) const {
-    const double relative = scatterer_weight_ * w - particle_weight_ * u;
-    const double particle_base = exchange_ ? w : u;
-    const double scatterer_base = exchange_ ? u : w;
+    const double from_scatterer = scatterer_weight_ * w, from_particle = particle_weight_ * u;
+    const double relative = from_scatterer - from_particle;
+    const double particle_base = particle_takes_ ? from_scatterer : u;
+    const double scatterer_base = scatterer_takes_ ? from_particle : w;
     u = particle_base + particle_gain_ * relative;
     w = scatterer_base + scatterer_gain_ * relative;
   }
@@ -62,16 +67,21 @@ class CollisionRule {
 
   void use_exchange_form(double sigma) {
     sigma_ = sigma;
-    exchange_ = true;
+    particle_takes_ = scatterer_takes_ = true;
     particle_gain_ = scatterer_gain_ = sigma;
     root_mass_ = scatterer_scale_ = std::sqrt((1 + sigma) / (1 - sigma));
   }
 
   /// one_minus is 1-|sigma|.
   void use_relative_form(double sign, double one_minus) {
-    const double heavy = 2 - one_minus;  // rounded to a multiple of 2^-52, so the next line is exact
-    const double light = 2 - heavy;
+    const bool near_limit = one_minus < 0x1p-10;
+    const double whole = near_limit ? 1 : 2;
+    const double heavy =
+        whole - one_minus;  // rounded to a multiple of 2^-53 or 2^-52, so the next line is exact
+    const double light = whole - heavy;
     sigma_ = sign * (1 - light);
+    particle_takes_ = near_limit && sign > 0;
+    scatterer_takes_ = near_limit && sign < 0;
     particle_gain_ = sign > 0 ? heavy : light;
     scatterer_gain_ = -(sign > 0 ? light : heavy);
     double& partner_weight = sign > 0 ? scatterer_weight_ : particle_weight_;
@@ -81,15 +91,17 @@ class CollisionRule {
       root_mass_ = 0;
       return;
     }
-    const double magnitude = std::ldexp(1.0, std::ilogb(heavy / light) / 2);
+    const double mass_ratio = (2 - light) / light;
+    const double magnitude = std::ldexp(1.0, std::ilogb(mass_ratio) / 2);
     partner_weight = 1 / magnitude;
     light_gain *= magnitude;
-    root_mass_ = std::sqrt(sign > 0 ? heavy / light : light / heavy);
+    root_mass_ = std::sqrt(sign > 0 ? mass_ratio : 1 / mass_ratio);
     scatterer_scale_ = sign > 0 ? root_mass_ / magnitude : root_mass_ * magnitude;
   }
 
   double sigma_ = 0;
-  bool exchange_ = false;
+  bool particle_takes_ = false;  // the first form, from the scatterer
+  bool scatterer_takes_ = false;
   double scatterer_weight_ = 1;
   double particle_weight_ = 1;
   double particle_gain_ = 0;

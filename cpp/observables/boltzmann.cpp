@@ -56,6 +56,8 @@ class ProblemOptions {
           "--gamma exceeds --cells: gamma/N is a probability. Choose more cells or a smaller gamma.");
     if (cells_ > 0 && options_.given("--positions"))
       throw UsageError("--positions belongs to the continuum: a chain has bonds. Leave out one of the two.");
+    require_fourth_powers(problem_.left, problem_.right);
+    require_within(problem_.left.rate + problem_.right.rate, 0, 1e100, "--nu-left, --nu-right", "their sum");
     if (problem_.left.rate + problem_.right.rate == 0)
       throw UsageError(
           "--nu-left and --nu-right are both 0: there are no particles. Choose one greater than 0.");

@@ -15,10 +15,14 @@ void add_chain_options(Options& options, ClosedChain& chain) {
   options.real("--cell-length", chain.cell_length, positive, "Distance between scatterers");
 }
 
-void require_possible(const ClosedChain& chain) {
+void require_possible(const ClosedChain& chain, double hottest, double end_time,
+                      const std::string& temperatures, const std::string& times) {
   const std::uint64_t particles = std::uint64_t{chain.cells} * chain.particles_per_cell;
   if (particles > 1'000'000'000)
     throw UsageError("--cells times --particles-per-cell exceeds 1e9 particles. Choose a smaller chain.");
+  constexpr double flights_of_a_year = 1e15;
+  require_representable({hottest, chain.cell_length, end_time, static_cast<double>(particles + chain.cells),
+                         flights_of_a_year, temperatures, times});
 }
 
 ClosedChainOptions::ClosedChainOptions(Options& options, double relaxation_time, double observation_time)
@@ -40,9 +44,8 @@ void ClosedChainOptions::add_random_direction(Options& options) {
 }
 
 void ClosedChainOptions::validate() const {
-  require_possible(chain_);
-  if (!std::isfinite(end_time()))
-    throw UsageError("--relaxation-time plus --observation-time overflows. Choose shorter times.");
+  require_possible(chain_, hottest(), end_time(), "--temperature, --scatterer-temperature",
+                   "--relaxation-time plus --observation-time");
 }
 
 ClosedDynamics ClosedChainOptions::start(std::uint64_t seed, std::uint64_t replica) const {
@@ -51,9 +54,12 @@ ClosedDynamics ClosedChainOptions::start(std::uint64_t seed, std::uint64_t repli
 
 ReplicaRecord ClosedReplica::record(std::vector<double> sums) const {
   const Invariants end = chain_.invariants();
-  sums.push_back(std::abs(end.energy - start_.energy) / start_.energy);
-  sums.push_back(std::abs(end.momentum - start_.momentum) /
-                 std::max(start_.momentum_scale, end.momentum_scale));
+  const auto relative = [](double change, double scale) {
+    return change == 0 ? 0 : std::abs(change) / scale;
+  };
+  sums.push_back(relative(end.energy - start_.energy, start_.energy));
+  sums.push_back(
+      relative(end.momentum - start_.momentum, std::max(start_.momentum_scale, end.momentum_scale)));
   return {std::move(sums), chain_.events()};
 }
 

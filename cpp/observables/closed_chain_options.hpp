@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
+#include <string>
 
 #include "engine/closed_dynamics.hpp"
 #include "engine/closed_start.hpp"
@@ -14,8 +17,10 @@ namespace lorentz {
 /// --cells, --particles-per-cell, --sigma, --gamma and --cell-length of a closed chain.
 void add_chain_options(Options& options, ClosedChain& chain);
 
-/// Throws UsageError if the chain has more particles than can be numbered.
-void require_possible(const ClosedChain& chain);
+/// Throws UsageError if the chain has more particles than can be numbered, or if the numbers of a run until
+/// end_time cannot be represented. The options are those of the temperatures and of the times.
+void require_possible(const ClosedChain& chain, double hottest, double end_time,
+                      const std::string& temperatures, const std::string& times);
 
 /// The options that describe a closed chain, its start and the stretches of time of a measurement.
 class ClosedChainOptions {
@@ -32,6 +37,9 @@ class ClosedChainOptions {
   double observation_time() const { return observation_time_; }
   double end_time() const { return relaxation_time_ + observation_time_; }
 
+  /// How long a clock resolves a flight at the speed of the hottest to 5e-7 of it.
+  double longest_clock() const { return 0x1p32 * chain_.cell_length / std::sqrt(hottest()); }
+
   /// Throws UsageError where options are possible one by one but not together.
   void validate() const;
 
@@ -39,6 +47,8 @@ class ClosedChainOptions {
   ClosedDynamics start(std::uint64_t seed, std::uint64_t replica) const;
 
  private:
+  double hottest() const { return std::max(temperatures_.particles, temperatures_.scatterers); }
+
   ClosedChain chain_;
   StartTemperatures temperatures_;
   bool zero_total_momentum_ = false;
@@ -54,19 +64,32 @@ class ClosedReplica {
       : options_(options),
         replica_(replica),
         chain_(options.start(seed, replica.index)),
-        start_(chain_.invariants()) {}
+        start_(chain_.invariants()),
+        longest_clock_(options.longest_clock()) {}
 
   void relax() {
     NoObserver nobody;
     observe_until(options_.relaxation_time(), nobody);
   }
 
+  /// The chain's clock starts again from time to time, so that it resolves every flight however long the run.
   template <class Observer>
   void observe_until(double time, Observer& observer) {
-    simulate(chain_, time, observer, [this](double now) { replica_.heartbeat(now / options_.end_time()); });
+    const auto heartbeat = [this](double now) {
+      replica_.heartbeat((clock_start_ + now) / options_.end_time());
+    };
+    while (clock(time) > longest_clock_) {
+      simulate(chain_, longest_clock_, observer, heartbeat);
+      chain_.restart_clock(longest_clock_);
+      clock_start_ += longest_clock_;
+    }
+    simulate(chain_, clock(time), observer, heartbeat);
   }
 
   const ClosedDynamics& chain() const { return chain_; }
+
+  /// A time as the chain's clock shows it.
+  double clock(double time) const { return time - clock_start_; }
 
   /// The sums, then the two drifts.
   ReplicaRecord record(std::vector<double> sums) const;
@@ -76,6 +99,8 @@ class ClosedReplica {
   const Replica& replica_;
   ClosedDynamics chain_;
   Invariants start_;
+  double longest_clock_;  // of the chain, a power of two of thermal flights
+  double clock_start_ = 0;
 };
 
 /// Adds the quantities energy_drift and momentum_drift, from the last two columns of the records, to what

@@ -9,9 +9,11 @@
 /// thermal flight: alpha = 1 and b = 0 say t, b = -1 says t/ln t (waits ~ tau^-2 and unit steps), alpha > 1
 /// and b > 0 superdiffusion.
 #include <cmath>
+#include <limits>
 
 #include "observables/closed_chain_options.hpp"
 #include "observables/log_times_options.hpp"
+#include "observables/physics_options.hpp"
 #include "program/replica_study.hpp"
 #include "statistics/fit.hpp"
 
@@ -57,13 +59,14 @@ ReplicaRecord measure(const ClosedChainOptions& options, const std::vector<doubl
   ClosedReplica run(options, seed, replica);
   run.relax();
   const double begin = options.relaxation_time();
-  const std::vector<double> start = positions_from_target(run.chain(), begin);
+  const std::vector<double> start = positions_from_target(run.chain(), run.clock(begin));
   Walk walk{std::vector<std::int64_t>(start.size(), 0)};
   std::vector<double> sums(4 * times.size());
   for (std::size_t k = 0; k < times.size(); ++k) {
     run.observe_until(begin + times[k], walk);
-    const Moments now = moments(walk.cells, start, positions_from_target(run.chain(), begin + times[k]),
-                                options.chain().cell_length);
+    const Moments now =
+        moments(walk.cells, start, positions_from_target(run.chain(), run.clock(begin + times[k])),
+                options.chain().cell_length);
     sums[k] = now.square;
     sums[times.size() + k] = now.absolute;
     sums[2 * times.size() + k] = now.fourth;
@@ -103,7 +106,8 @@ Results summarise(const Records& records, const std::vector<double>& times,
       [&](std::span<const double> sums) {
         std::vector<double> values(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(4 * size));
         for (std::size_t k = 0; k + 1 < size; ++k)
-          values.push_back(std::log(sums[k + 1] / sums[k]) / std::log(times[k + 1] / times[k]));
+          values.push_back(sums[k] > 0 ? std::log(sums[k + 1] / sums[k]) / std::log(times[k + 1] / times[k])
+                                       : std::numeric_limits<double>::quiet_NaN());
         std::vector<double> relative;
         for (std::size_t k = 0; k < size; ++k) relative.push_back(sums[k] - sums[3 * size + k]);
         values.push_back(fit_power(times, sums.first(size), fit_from, times.back()));
@@ -111,6 +115,19 @@ Results summarise(const Records& records, const std::vector<double>& times,
         values.push_back(logarithmic_power(times, sums.first(size), fit_from, tau));
         return values;
       });
+}
+
+/// Throws UsageError unless the displacements at the first time and at the last have fourth powers, and the
+/// first time is more than what the clock rounds.
+void require_resolved(const ClosedChainOptions& options, double first_time) {
+  const double speed = std::sqrt(options.temperature());
+  const double shortest = first_time * speed, longest = options.observation_time() * speed;
+  const std::string names = "--temperature, --observation-time, --decades";
+  require_within(shortest, 1e-70, 1e70, names, "the displacement at the first time");
+  require_within(longest, 1e-70, 1e70, names, "the displacement at the last time");
+  require_within(options.chain().cell_length, 1e-70, 1e70, "--cell-length", "it");
+  require_within(std::min(options.end_time(), options.longest_clock()) / first_time, 0, 1e12,
+                 "--relaxation-time, --observation-time, --decades", "the clock over the first time");
 }
 
 }  // namespace
@@ -124,6 +141,7 @@ int main(int argc, char** argv) {
   return program.run(argc, argv, [&](Progress& progress) {
     chain.validate();
     const double last = chain.observation_time();
+    require_resolved(chain, log_times.times(last).front());
     const std::vector<double> times = log_times.times(last), middles = log_times.grid(last).middles();
     const auto one = [&](const Replica& replica) { return measure(chain, times, replicas.seed(), replica); };
     const auto results = [&](const Records& records) {

@@ -60,7 +60,10 @@ PhasePoint with_pulse(PhasePoint point, const Pulse& pulse) {
   for (const Particle& particle : point.particles)
     degrees_of_freedom += inside(cell_of(particle, pulse.chain)) ? 1 : 0;
   const double before = std::accumulate(energies.begin() + begin, energies.begin() + end, 0.0);
-  if (!(before > 0)) throw NumericalError("the cells of the pulse hold no energy that could be scaled");
+  if (!(before > 0))
+    throw NumericalError(
+        "the cells of the pulse hold no energy that could be scaled. Choose more --pulse-cells or "
+        "--particles-per-cell.");
   const double factor = std::sqrt(static_cast<double>(degrees_of_freedom) * pulse.pulse_energy / before);
   for (Particle& particle : point.particles)
     if (inside(cell_of(particle, pulse.chain))) particle.velocity *= factor;
@@ -196,7 +199,9 @@ Results summarise(const Records& records, const Pulse& pulse) {
 }
 
 void validate(const Pulse& pulse) {
-  require_possible(pulse.chain);
+  const double hottest = std::max({2 * pulse.energy, 2 * pulse.pulse_energy, pulse.scatterer_temperature});
+  require_possible(pulse.chain, hottest, pulse.relaxation_time + pulse.times.back(),
+                   "--energy, --pulse-energy, --scatterer-temperature", "--relaxation-time plus --times");
   if (pulse.pulse_cells > pulse.chain.cells)
     throw UsageError("--pulse-cells exceeds --cells. Choose a smaller pulse.");
   if (pulse.chain.cells < 7)

@@ -13,6 +13,7 @@
 
 #include "observables/momentum_bins_options.hpp"
 #include "observables/open_chain_options.hpp"
+#include "observables/physics_options.hpp"
 #include "program/replica_study.hpp"
 #include "statistics/control_variates.hpp"
 #include "statistics/range_tally.hpp"
@@ -174,6 +175,7 @@ int main(int argc, char** argv) {
     options.validate();
     bins.validate();
     const OpenChain chain = options.chain();
+    require_fourth_powers(chain.left, chain.right);
     const Window window = options.window();
     const auto measure = [&](const Replica& replica) {
       return options.measure(replicas.seed(), replica, window.end, Crossings(chain, window, bins.bins()));

@@ -7,6 +7,11 @@
 #include "program/errors.hpp"
 
 namespace lorentz {
+namespace {
+
+constexpr double longest_clock = 1e10;  // over a flight, which it then resolves to 1e-6
+
+}  // namespace
 
 OpenChainOptions::OpenChainOptions(Options& options, const OpenChain& chain, const std::string& start)
     : chain_(chain), start_(start) {
@@ -37,9 +42,35 @@ Window OpenChainOptions::window() const {
   return {begin, begin + times_.observation.at(chain_.cells)};
 }
 
+void OpenChainOptions::validate(double end, const std::string& times) const {
+  constexpr double most_particles = 1e9;
+  const OpenChain open = chain();
+  const auto [cold, hot] = std::minmax(open.left.temperature, open.right.temperature);
+  const double rate = open.left.rate + open.right.rate;
+  require_within(cold, 1e-300, 1e300, "--temperature-left, --temperature-right", "the lowest temperature");
+  require_within(rate * end, 0, 1e15, "--nu-left, --nu-right, " + times, "the number of injected particles");
+  require_representable({hot, open.cell_length, end, rate * end, longest_clock,
+                         "--temperature-left, --temperature-right", times});
+  require_within(hot * end, 1e-290, 1e300, "--temperature-left, --temperature-right, " + times,
+                 "the temperature times the end of the run");
+  if (rate > 0) {
+    require_within(rate * cold, 1e-290, 1e300,
+                   "--nu-left, --nu-right, --temperature-left, --temperature-right",
+                   "the rate times the lowest temperature");
+    require_within(rate * hot, 1e-290, 1e300,
+                   "--nu-left, --nu-right, --temperature-left, --temperature-right",
+                   "the rate times the highest temperature");
+  }
+  // Slow particles stay: a few dozen times as many as cross at thermal speed.
+  const double stay = std::min(end, 50 * open.cell_length * open.cells / std::sqrt(cold));
+  require_within(rate * stay, 0, most_particles, "--nu-left, --nu-right", "the number of particles inside");
+}
+
 void OpenChainOptions::validate() const {
-  if (!std::isfinite(window().end))
-    throw UsageError("--relaxation-time plus --observation-time overflows. Choose shorter times.");
+  validate(window().end, "--relaxation-time plus --observation-time");
+  require_within(window().end / (window().end - window().begin), 1, longest_clock,
+                 "--relaxation-time, --observation-time",
+                 "the end of the run over the time of the measurement");
 }
 
 PhasePoint OpenChainOptions::start(double age, std::uint64_t seed, std::uint64_t replica) const {

@@ -30,7 +30,9 @@ class OpenChainOptions {
   OpenChain chain() const;
   Window window() const;
 
-  /// Throws UsageError where options are possible one by one but not together.
+  /// Throws UsageError where options are possible one by one but not together, for a run until `end`, which
+  /// the options `times` give.
+  void validate(double end, const std::string& times) const;
   void validate() const;
 
   /// A replica from its start to a time, all of it watched by the observer, and its record(). At the end the

@@ -199,6 +199,7 @@ int main(int argc, char** argv) {
     if (times.size() < 2 || times.back() < 2 * times.front())
       throw UsageError(
           "--times spans less than a factor of two: no slope in ln t can be had. Add later times.");
+    options.validate(times.back(), "--times");
     const OpenChain chain = options.chain();
     const Plan plan(times, bins.bins(), chain.cell_length);
     const double thermal = std::sqrt(std::min(chain.left.temperature, chain.right.temperature));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "model/reservoir.hpp"
 #include "program/options.hpp"
@@ -13,5 +14,25 @@ void add_scattering_options(Options& options, std::uint32_t& cells, double& sigm
 
 /// --nu-left, --nu-right, --temperature-left and --temperature-right.
 void add_reservoir_options(Options& options, Reservoir& left, Reservoir& right);
+
+/// Throws UsageError, which names the options and what they lead to, unless low <= value <= high.
+void require_within(double value, double low, double high, const std::string& options,
+                    const std::string& what);
+
+/// Throws UsageError unless fourth powers of momenta are numbers with full precision.
+void require_fourth_powers(const Reservoir& left, const Reservoir& right);
+
+/// What sets the size of the numbers in a simulation.
+struct Extent {
+  double hottest;  // temperature
+  double cell_length;
+  double end_time;
+  double particles;                 // that take part
+  double most_flights;              // across a cell at thermal speed that can be simulated
+  std::string temperatures, times;  // the options
+};
+
+/// Throws UsageError unless energies, their sums and all times are numbers with full precision.
+void require_representable(const Extent& extent);
 
 }  // namespace lorentz

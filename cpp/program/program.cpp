@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <new>
+#include <stdexcept>
 
 #include "program/atomic_file.hpp"
 #include "program/build_info.hpp"
@@ -108,7 +109,10 @@ int Program::run(int argc, char** argv, const std::function<Outcome(Progress&)>&
   } catch (const Interrupted& interruption) {
     return static_cast<int>(ExitStatus::interrupted) + interruption.signal;
   } catch (const std::bad_alloc&) {
-    complain("error", "the memory does not suffice. Choose fewer cells, particles or threads.");
+    complain("error", "the memory does not suffice. Choose fewer --cells, particles, bins or --threads.");
+    return static_cast<int>(ExitStatus::usage);
+  } catch (const std::length_error&) {
+    complain("error", "an array would be larger than any. Choose fewer --cells, bins or times.");
     return static_cast<int>(ExitStatus::usage);
   } catch (const std::exception& error) {
     complain("numerical failure", error.what());

@@ -15,8 +15,9 @@ Estimate jackknife(const Records& records, const RecordFunction& f) {
     return estimate;
   }
 
-  // Welford's update over the delete-one values: stable when they differ in the last digits only.
-  std::vector<double> centre(quantities, 0), squares(quantities, 0), without(mean.size());
+  // Welford's update over the delete-one values: stable when they differ in the last digits only. It keeps
+  // the root of the sum of squares, as squares of large or small numbers are none.
+  std::vector<double> centre(quantities, 0), root(quantities, 0), without(mean.size());
   for (std::size_t replica = 0; replica < records.size(); ++replica) {
     for (std::size_t i = 0; i < mean.size(); ++i)
       without[i] = mean[i] + (mean[i] - records[replica][i]) / (replicas - 1);
@@ -24,11 +25,12 @@ Estimate jackknife(const Records& records, const RecordFunction& f) {
     for (std::size_t k = 0; k < quantities; ++k) {
       const double deviation = value[k] - centre[k];
       centre[k] += deviation / static_cast<double>(replica + 1);
-      squares[k] += deviation * (value[k] - centre[k]);
+      root[k] =
+          std::hypot(root[k], std::sqrt(std::abs(deviation)) * std::sqrt(std::abs(value[k] - centre[k])));
     }
   }
-  for (const double square : squares)
-    estimate.standard_error.push_back(std::sqrt((replicas - 1) / replicas * square));
+  for (const double each : root)
+    estimate.standard_error.push_back(std::sqrt((replicas - 1) / replicas) * each);
   return estimate;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "statistics/fit.hpp"
@@ -50,7 +51,8 @@ Peak moving_peak(const std::vector<double>& profile, std::size_t about) {
     x.push_back(static_cast<double>(cell));
     y.push_back(profile[cell]);
   }
-  const Vertex vertex = fit_vertex(x, y);
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const Vertex vertex = x.size() < 3 ? Vertex{none, none} : fit_vertex(x, y);
   return {vertex.position, vertex.height, *std::max_element(profile.begin() + 1, profile.end())};
 }
 

@@ -17,8 +17,8 @@ using lorentz::CollisionRule;
 
 constexpr double unit = 0x1p-53;  // largest relative error of one rounding
 
-const std::vector<double> sigmas = {-1,    -1 + 1e-12, -0.9, -0.5, -0.49999,  -1e-10, 0,
-                                    1e-10, 0.3,        0.5,  0.9,  1 - 1e-12, 1};
+const std::vector<double> sigmas = {-1,  -1 + 1e-12, -0.9, -0.5,      -0.49999,    -1e-10,       0, 1e-10,
+                                    0.3, 0.5,        0.9,  1 - 1e-12, 1 - 0x1p-53, -1 + 0x1p-53, 1};
 
 /// Bound on the error of u' and U' in units of 2^-53 max(|u|, |U|). The worst case is U' at
 /// sigma <= -1/2: w = U / scale carries 2.5 roundings (1.5 of the scale), which reach U' with weight
@@ -79,6 +79,12 @@ TEST(Collision, StandsForTheSigmaAskedFor) {
 }
 
 // Velocities grow by sqrt(2) at most in the first collision: twice the error of one, on sqrt(2) max.
+TEST(Collision, StandsForEveryDigitOfSigmaNearTheLimits) {
+  for (int k = 4; k <= 16; ++k)
+    for (const double sign : {-1, 1})
+      EXPECT_EQ(CollisionRule(sign * (1 - std::pow(10, -k))).sigma(), sign * (1 - std::pow(10, -k))) << k;
+}
+
 TEST(Collision, IsItsOwnInverse) {
   for (const double sigma : sigmas) {
     const CollisionRule rule(sigma);

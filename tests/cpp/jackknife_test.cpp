@@ -36,6 +36,15 @@ TEST(Jackknife, IsTheStandardErrorOfAMean) {
   }
 }
 
+// Squares of these numbers would be 0 or infinite.
+TEST(Jackknife, HasAnErrorAtEveryMagnitude) {
+  for (const double unit : {1e-300, 1e300}) {
+    Records records(1);
+    for (const double x : {1.0, 2.0, 6.0}) records.append(std::vector{unit * x});
+    EXPECT_NEAR(jackknife(records, identity).standard_error[0] / unit, std::sqrt(7. / 3), 1e-14);
+  }
+}
+
 TEST(Jackknife, HasNoErrorForOneReplica) {
   Records records(2);
   records.append(std::vector{2.0, 3.0});

@@ -1,0 +1,218 @@
+"""Rounding at the extremes: drift of the conserved quantities against the number of events, and how far results
+lie from exact ones where parameters are as large or as small as they can be.
+
+It is measured with the programs themselves; no time enters.
+"""
+
+import argparse
+import subprocess
+import tempfile
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from workflow.scripts import style
+from workflow.scripts.load import Result, load
+
+SIGMAS = {0.5: "0.5", 0.3: "0.3", -0.9: "$-0.9$", 1 - 1e-12: r"$1-10^{-12}$"}
+LOOKS = dict(zip(SIGMAS, zip("osv^", (style.BLACK, style.BLUE, style.VERMILLION, style.ORANGE), strict=True),
+                 strict=True))  # fmt: skip
+LONGEST = {"smoke": 6, "standard": 8, "paper": 10, "deep": 10}  # log10 of the events of one run
+UNIT = 2.0**-53
+EXACT = 1e-19  # where a deviation of 0 is drawn
+
+Run = Callable[..., Result]
+
+
+@dataclass(frozen=True)
+class Programs:
+    folder: Path
+    scratch: Path
+
+    def __call__(self, name: str, **options: object) -> Result:
+        """Options as keywords, underscores for dashes."""
+        output = self.scratch / "out.h5"
+        words = [self.folder / name, "--output", output, "--progress", "none"]
+        for key, value in options.items():
+            words += [f"--{key.replace('_', '-')}", value]
+        status = subprocess.run([str(word) for word in words], check=False).returncode
+        if status not in (0, 4):  # 4: a mean that is none, as of few replicas
+            raise RuntimeError(f"{name} failed with status {status}")
+        return load(output)
+
+
+def drifts(run: Run, longest: int) -> Iterator[dict[str, object]]:
+    """Long runs are few: the mean of so many magnitudes has an error of 0.75 over their root."""
+    for sigma in SIGMAS:
+        rate = 4000.0  # events per unit time; it falls as energy goes over to the scatterers
+        for power in np.arange(5, longest + 0.25, 0.5):
+            replicas = int(np.clip(10 ** (8 - power), 2, 16))
+            time = 10**power / rate
+            result = run("persistence", sigma=repr(sigma), relaxation_time=0, replicas=replicas,
+                         observation_time=time)  # fmt: skip
+            events = result.provenance["events"] / replicas
+            rate = events / time
+            for name in ("energy_drift", "momentum_drift"):
+                yield {"panel": "drift", "case": name, "parameter": sigma, "events": events,
+                       "deviation": float(result[name].mean)}  # fmt: skip
+
+
+def scaled_temperatures(run: Run) -> Iterator[tuple[float, float]]:
+    """Temperatures times 4^k and times over 2^k change the units only."""
+
+    def measure(k: int) -> np.ndarray:
+        result = run("persistence", temperature=repr(4.0**k), relaxation_time=0, replicas=2,
+                     observation_time=repr(20 * 2.0**-k))  # fmt: skip
+        energies = [float(result[name].mean) * 4.0**-k for name in ("particle_energy", "scatterer_energy")]
+        return np.array([float(result["mu"].mean), *energies])
+
+    expected = measure(0)
+    for k in (-498, -300, -100, -10, 10, 100, 300, 480):
+        yield 4.0**k, float(np.abs(measure(k) / expected - 1).max())
+
+
+def sigma_near(sign: int) -> Callable[[Run], Iterator[tuple[float, float]]]:
+    """Scatterers that began at rest have gained an energy in proportion to 1 - sigma^2."""
+
+    def cases(run: Run) -> Iterator[tuple[float, float]]:
+        def gain(k: int) -> float:
+            sigma = sign * (1 - 10.0**-k)
+            result = run("persistence", sigma=repr(sigma), relaxation_time=0, observation_time=1, replicas=2)
+            distance = 1 - abs(sigma)
+            return float(result["scatterer_energy"].mean) / (distance * (2 - distance))
+
+        expected = gain(14)
+        for k in (13, 15, 16):
+            yield 10.0**-k, abs(gain(k) / expected - 1)
+
+    return cases
+
+
+def open_chains(run: Run) -> Iterator[tuple[float, float]]:
+    """The same units for a chain between baths whose temperatures differ by 1e8."""
+
+    def measure(k: int) -> np.ndarray:
+        rates = {"nu_left": 20 * 2.0**k, "nu_right": 10 * 2.0**k}
+        result = run("conductivity", cells=4, replicas=2, temperature_left=repr(4.0**k), start="empty",
+                     temperature_right=repr(1e8 * 4.0**k), relaxation_time=0,
+                     observation_time=repr(2.0**-k), **rates)  # fmt: skip
+        units = {
+            "energy_current_plain": 8.0**k,
+            "particle_current_plain": 2.0**k,
+            "temperature_first": 4.0**k,
+        }
+        return np.array([float(result[name].mean) / unit for name, unit in units.items()])
+
+    expected = measure(0)
+    for k in (-300, -100, -10, 10, 100, 300):
+        yield 4.0**k, float(np.abs(measure(k) / expected - 1).max())
+
+
+def kinetic(gammas: tuple[float, ...], **baths: float) -> Callable[[Run], Iterator[tuple[float, float]]]:
+    """The kinetic equation has to carry its currents through all x alike."""
+
+    def cases(run: Run) -> Iterator[tuple[float, float]]:
+        for gamma in gammas:
+            result = run("boltzmann", gamma=gamma, coarsening=2, target_error=1e-6, **baths)
+            yield gamma, float(result["current_spread"].mean)
+
+    return cases
+
+
+def conserved(**chain: float) -> Callable[[Run], Iterator[tuple[float, float]]]:
+    """Drift of energy and momentum."""
+
+    def cases(run: Run) -> Iterator[tuple[float, float]]:
+        result = run("persistence", relaxation_time=0, **chain)
+        for name in ("energy_drift", "momentum_drift"):
+            yield chain["cells"], float(result[name].mean)
+
+    return cases
+
+
+CASES = {
+    r"$T = 10^{-300} \ldots 10^{289}$": scaled_temperatures,
+    r"$T_R/T_L = 10^8$, $T_L = 10^{-181} \ldots 10^{181}$": open_chains,
+    r"$\sigma = 1-10^{-k}$, $k = 13 \ldots 16$": sigma_near(1),
+    r"$\sigma = -1+10^{-k}$, $k = 13 \ldots 16$": sigma_near(-1),
+    "$N = n = 1$": conserved(cells=1, particles_per_cell=1, observation_time=1e5, replicas=2),
+    "$N = 10^6$, $n = 1$": conserved(cells=10**6, particles_per_cell=1, observation_time=0.05, replicas=2),
+    r"$\gamma \to 0$, kinetic": kinetic((0, 1e-300, 1e-10)),
+    r"$\nu_L = 0$, kinetic": kinetic((1,), nu_left=0),
+    "$T_R/T_L = 10^8$, kinetic": kinetic((1,), temperature_left=1, temperature_right=1e8),
+}
+
+
+def deviations(run: Run) -> Iterator[dict[str, object]]:
+    for case, values in CASES.items():
+        for parameter, deviation in values(run):
+            yield {"panel": "extremes", "case": case, "parameter": parameter, "deviation": deviation}
+
+
+def draw_drift(axes: Axes, table: pd.DataFrame) -> None:
+    for (name, sigma), rows in table.groupby(["case", "parameter"]):
+        marker, colour = LOOKS[sigma]
+        energy = name == "energy_drift"
+        label = rf"$\sigma$ = {SIGMAS[sigma]}" if energy else None
+        axes.plot(rows.events, rows.deviation, marker, color=colour, label=label, markersize=3.5,
+                  markerfacecolor=colour if energy else "white", markeredgewidth=0.8)  # fmt: skip
+    events = np.array([table.events.min(), table.events.max()])
+    axes.plot(events, UNIT * np.sqrt(events), **style.GUIDE)
+    axes.text(events[0], 4 * UNIT * np.sqrt(events[0]), r"$2^{-53}\sqrt{\mathrm{events}}$", fontsize=8)
+    axes.set(xscale="log", yscale="log", xlabel="events", ylabel="relative drift", ylim=(3e-18, 3e-12))
+    axes.legend(
+        fontsize=7, loc="lower right", ncols=2, title="filled: energy, open: momentum", title_fontsize=7
+    )
+
+
+def draw_extremes(axes: Axes, table: pd.DataFrame) -> None:
+    order = list(CASES)
+    rows = table.case.map(order.index)
+    axes.plot(table.deviation.clip(lower=EXACT), rows, "o", color=style.BLUE, markerfacecolor="none")
+    axes.axvline(UNIT, **style.GUIDE)
+    axes.text(1.3 * UNIT, -0.45, "$2^{-53}$", fontsize=7, va="center")
+    axes.set(xscale="log", xlim=(EXACT / 3, 1e-8), xlabel="relative deviation from the exact result")
+    axes.set_yticks(range(len(order)), order, fontsize=7)
+    axes.set_ylim(len(order) - 0.4, -0.8)
+    axes.set_xticks(
+        [EXACT, 1e-16, 1e-14, 1e-12, 1e-10], ["0", *(f"$10^{{{k}}}$" for k in (-16, -14, -12, -10))]
+    )
+    axes.tick_params(which="minor", bottom=False, top=False, left=False, right=False)
+
+
+def draw(table: pd.DataFrame) -> Figure:
+    figure, (upper, lower) = plt.subplots(
+        2, figsize=(1.2 * style.COLUMN, 1.9 * style.HEIGHT), height_ratios=(3, 2.3)
+    )
+    draw_drift(upper, table[table.panel == "drift"])
+    draw_extremes(lower, table[table.panel == "extremes"])
+    return figure
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--programs", type=Path, required=True, help="folder of the executables")
+    parser.add_argument("--quality", choices=LONGEST, required=True, help="how long the longest runs are")
+    parser.add_argument("--output", type=Path, required=True, help="path of the figure without suffix")
+    options = parser.parse_args()
+    style.apply()
+    with tempfile.TemporaryDirectory() as scratch:
+        run = Programs(options.programs, Path(scratch))
+        table = pd.DataFrame([*drifts(run, LONGEST[options.quality]), *deviations(run)])
+    options.output.parent.mkdir(parents=True, exist_ok=True)
+    table.to_csv(options.output.with_suffix(".csv"), index=False)
+    for kind in ("pdf", "png"):
+        draw(table).savefig(options.output.with_suffix(f".{kind}"))
+    longest = table[table.panel == "drift"].sort_values("events").groupby(["case", "parameter"]).tail(1)
+    print(longest[["case", "parameter", "events", "deviation"]].to_string(index=False))
+    print(table[table.panel == "extremes"].groupby("case", sort=False).deviation.max().to_string())
+
+
+if __name__ == "__main__":
+    main()
