@@ -94,6 +94,7 @@ bench: build  ## Cost of an event, engine and reference simulator side by side
 
 tradeoff: build .venv/runtime  ## Speed against accuracy, measured here: figures/tradeoff
 	$(PYTHON) -m workflow.tradeoff.kinetic --program build/bin/boltzmann --output figures/tradeoff/ext06_kinetic
+	$(PYTHON) -m workflow.tradeoff.accuracy --programs build/bin --output figures/tradeoff/ext06
 
 lock: .venv/dev  ## Renew both locks of Python packages
 	for name in requirements requirements-dev; do \

@@ -1,0 +1,40 @@
+"""Runs programs at the settings of panels and says what they found and what they cost."""
+
+import json
+import shlex
+import subprocess
+import tempfile
+from dataclasses import replace
+from pathlib import Path
+
+from workflow.config.plan import Run, load_plan
+from workflow.scripts.load import Result, load
+
+QUALITY = "smoke"  # whose members and target errors are the smallest
+
+
+def planned(panel: str, run: str) -> Run:
+    return load_plan(QUALITY)[panel].run(run)
+
+
+def shortened(times: float | str, share: float) -> str:
+    """A part of a time, or of each of a list; what is given in units of N stays so."""
+    parts = str(times).split(",")
+    return ",".join(f"{float(part.rstrip('N')) * share:g}{'N' * part.endswith('N')}" for part in parts)
+
+
+def execute(programs: Path, run: Run, **changes: object) -> tuple[Result, float]:
+    """The result on one thread, and CPU seconds of the process. Underscores of `changes` stand for dashes;
+    None leaves an option out."""
+    options = run.options | {key.replace("_", "-"): value for key, value in changes.items()}
+    options = {key: value for key, value in options.items() if value is not None}
+    threads = {"threads": 1} if run.replicated else {}
+    with tempfile.TemporaryDirectory() as folder:
+        output = Path(folder) / "out.h5"
+        written = replace(run, options={**options, **threads, "output": output, "progress": "none"})
+        status = subprocess.run(
+            [programs / run.program, *shlex.split(written.arguments())], check=False
+        ).returncode
+        if status not in (0, 4):  # 4: the target was not reached
+            raise RuntimeError(f"{run.program} failed with status {status}: {written.arguments()}")
+        return load(output), json.loads(output.with_suffix(".cost.json").read_text())["cpu_seconds"]
