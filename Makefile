@@ -93,8 +93,10 @@ bench: build  ## Cost of an event, engine and reference simulator side by side
 	build/bin/benchmarks --benchmark_min_time=1
 
 tradeoff: build .venv/runtime  ## Speed against accuracy, measured here: figures/tradeoff
+	ninja -C build --quiet reference_pulse reference_open_chain reference_drift
 	$(PYTHON) -m workflow.tradeoff.kinetic --program build/bin/boltzmann --output figures/tradeoff/ext06_kinetic
 	$(PYTHON) -m workflow.tradeoff.accuracy --programs build/bin --output figures/tradeoff/ext06
+	$(PYTHON) -m workflow.tradeoff.efficiency --programs build/bin --output figures/tradeoff/ext06_efficiency
 
 lock: .venv/dev  ## Renew both locks of Python packages
 	for name in requirements requirements-dev; do \

@@ -1,9 +1,11 @@
-"""The arithmetic of speed against accuracy."""
+"""The arithmetic of speed against accuracy: laws, comparisons, differences from the careful setting."""
 
 import numpy as np
 import pytest
+from scipy.stats import chi2
 
 from workflow.tradeoff.accuracy import amplitude, uncertainty
+from workflow.tradeoff.efficiency import Estimate, compared, jackknife
 from workflow.tradeoff.measure import shortened
 
 REPLICAS = np.array([10, 100, 1000])
@@ -29,3 +31,25 @@ def test_uncertainty_over_samples() -> None:
 )
 def test_shortened(times: float | str, share: float, part: str) -> None:
     assert shortened(times, share) == part
+
+
+def test_jackknife_of_a_ratio_over_samples() -> None:
+    generator = np.random.default_rng(1)
+    pulls = []
+    for _ in range(400):
+        rows = generator.normal([3, 2], 0.1, size=(20, 2))
+        value, error = jackknife(lambda row: row[0] / row[1], rows)
+        pulls.append((value - 1.5) / error)
+    low, high = chi2.ppf([5e-4, 1 - 5e-4], 400)
+    assert low < np.sum(np.square(pulls)) < 19 / 17 * high  # Student's variables
+    assert not low < np.sum(np.square(pulls)) / 1.5**2 < 19 / 17 * high  # mutant: errors too large
+
+
+def test_compared() -> None:
+    plain = Estimate(np.array([1.0, 1.0]), np.array([0.3, 0.0]), 2, 101)
+    better = Estimate(np.array([1.5, 9.0]), np.array([0.4, 0.1]), 0.5, 51)
+    row = compared("device", "quantity", plain, better)
+    assert row["factor"] == pytest.approx(0.09 * 2 / (0.16 * 0.5))
+    assert row["factor_error"] == pytest.approx(row["factor"] * np.sqrt(0.02 + 0.04))
+    assert row["z"] == pytest.approx(1)  # a value without an error is not compared
+    assert row["values"] == 1
