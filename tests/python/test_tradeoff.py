@@ -7,6 +7,7 @@ from scipy.stats import chi2
 from workflow.tradeoff.accuracy import amplitude, uncertainty
 from workflow.tradeoff.efficiency import Estimate, compared, jackknife
 from workflow.tradeoff.measure import shortened
+from workflow.tradeoff.prediction import foretold
 
 REPLICAS = np.array([10, 100, 1000])
 
@@ -53,3 +54,8 @@ def test_compared() -> None:
     assert row["factor_error"] == pytest.approx(row["factor"] * np.sqrt(0.02 + 0.04))
     assert row["z"] == pytest.approx(1)  # a value without an error is not compared
     assert row["values"] == 1
+
+
+def test_foretold_is_what_is_said_first() -> None:
+    said = "p: 32 replicas: mu = 1 +- 1, not converged; the target needs about 640\n"
+    assert foretold(said + said.replace("640", "320")) == 640

@@ -12,6 +12,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from workflow.config.plan import Run
 from workflow.scripts import style
 from workflow.tradeoff.measure import execute, planned, shortened
 
@@ -55,14 +56,18 @@ def uncertainty(errors: np.ndarray, replicas: np.ndarray) -> np.ndarray:
     return errors / np.sqrt(2 * (replicas - 1))
 
 
+def window(run: Run, share: float) -> dict[str, object]:
+    """Options that shorten a run: a part of its times, the smallest replicas."""
+    times = ("relaxation-time", "observation-time", "times")
+    changes = {key: shortened(run.options[key], share) for key in times if key in run.options}
+    return changes | ({"members": MEMBERS} if "members" in run.options else {})
+
+
 def sample(programs: Path, program: str) -> pd.DataFrame:
     """One row per number of replicas; errors relative to the most precise mean."""
     panel, name, share = SETTINGS[program]
     run = planned(panel, name)
-    changes = {key: shortened(run.options[key], share)
-               for key in ("relaxation-time", "observation-time", "times") if key in run.options}  # fmt: skip
-    if "members" in run.options:
-        changes["members"] = MEMBERS
+    changes = window(run, share)
     rows = []
     for replicas in REPLICAS:
         result, seconds = execute(programs, run, **changes, replicas=replicas)

@@ -4,7 +4,7 @@ import json
 import shlex
 import subprocess
 import tempfile
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from workflow.config.plan import Run, load_plan
@@ -23,18 +23,28 @@ def shortened(times: float | str, share: float) -> str:
     return ",".join(f"{float(part.rstrip('N')) * share:g}{'N' * part.endswith('N')}" for part in parts)
 
 
-def execute(programs: Path, run: Run, **changes: object) -> tuple[Result, float]:
-    """The result on one thread, and CPU seconds of the process. Underscores of `changes` stand for dashes;
-    None leaves an option out."""
+@dataclass(frozen=True)
+class Done:
+    result: Result
+    seconds: float  # CPU time of the process, on one thread
+    said: str  # on standard error
+
+
+def attempt(programs: Path, run: Run, **changes: object) -> Done:
+    """Underscores of `changes` stand for dashes."""
     options = run.options | {key.replace("_", "-"): value for key, value in changes.items()}
-    options = {key: value for key, value in options.items() if value is not None}
     threads = {"threads": 1} if run.replicated else {}
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder) / "out.h5"
-        written = replace(run, options={**options, **threads, "output": output, "progress": "none"})
-        status = subprocess.run(
-            [programs / run.program, *shlex.split(written.arguments())], check=False
-        ).returncode
-        if status not in (0, 4):  # 4: the target was not reached
-            raise RuntimeError(f"{run.program} failed with status {status}: {written.arguments()}")
-        return load(output), json.loads(output.with_suffix(".cost.json").read_text())["cpu_seconds"]
+        written = replace(run, options={**options, **threads, "output": output, "progress": "log"})
+        command = [programs / run.program, *shlex.split(written.arguments())]
+        done = subprocess.run(command, check=False, capture_output=True, text=True)
+        if done.returncode not in (0, 4):  # 4: the target was not reached
+            raise RuntimeError(done.stderr)
+        seconds = json.loads(output.with_suffix(".cost.json").read_text())["cpu_seconds"]
+        return Done(load(output), seconds, done.stderr)
+
+
+def execute(programs: Path, run: Run, **changes: object) -> tuple[Result, float]:
+    done = attempt(programs, run, **changes)
+    return done.result, done.seconds
