@@ -97,6 +97,7 @@ tradeoff: build .venv/runtime  ## Speed against accuracy, measured here: figures
 	$(PYTHON) -m workflow.tradeoff.kinetic --program build/bin/boltzmann --output figures/tradeoff/ext06_kinetic
 	$(PYTHON) -m workflow.tradeoff.accuracy --programs build/bin --output figures/tradeoff/ext06
 	$(PYTHON) -m workflow.tradeoff.efficiency --programs build/bin --output figures/tradeoff/ext06_efficiency
+	$(PYTHON) -m workflow.tradeoff.bias --programs build/bin --output figures/tradeoff/ext06_bias
 	$(PYTHON) -m workflow.tradeoff.prediction --programs build/bin --output figures/tradeoff/ext06_prediction
 
 lock: .venv/dev  ## Renew both locks of Python packages

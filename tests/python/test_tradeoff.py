@@ -1,10 +1,12 @@
 """The arithmetic of speed against accuracy: laws, comparisons, differences from the careful setting."""
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy.stats import chi2
 
 from workflow.tradeoff.accuracy import amplitude, uncertainty
+from workflow.tradeoff.bias import with_bias
 from workflow.tradeoff.efficiency import Estimate, compared, jackknife
 from workflow.tradeoff.measure import shortened
 from workflow.tradeoff.prediction import foretold
@@ -59,3 +61,11 @@ def test_compared() -> None:
 def test_foretold_is_what_is_said_first() -> None:
     said = "p: 32 replicas: mu = 1 +- 1, not converged; the target needs about 640\n"
     assert foretold(said + said.replace("640", "320")) == 640
+
+
+def test_bias_is_the_difference_from_the_last_row_of_a_knob() -> None:
+    rows = {"knob": ["a", "a", "b"], "quantity": "q", "value": [3.0, 2.0, 7.0], "error": [0.3, 0.4, 0.7]}
+    table = with_bias(pd.DataFrame(rows))
+    assert list(table.bias) == pytest.approx([0.5, 0, 0])
+    assert list(table.bias_error) == pytest.approx([0.25, 0.2, 0.1])
+    assert list(table.careful) == [False, True, True]
