@@ -5,6 +5,8 @@ import pandas as pd
 import pytest
 from scipy.stats import chi2
 
+from workflow.config.plan import Run
+from workflow.provenance.status import effort
 from workflow.tradeoff.accuracy import amplitude, uncertainty
 from workflow.tradeoff.bias import with_bias
 from workflow.tradeoff.efficiency import Estimate, compared, jackknife
@@ -69,3 +71,11 @@ def test_bias_is_the_difference_from_the_last_row_of_a_knob() -> None:
     assert list(table.bias) == pytest.approx([0.5, 0, 0])
     assert list(table.bias_error) == pytest.approx([0.25, 0.2, 0.1])
     assert list(table.careful) == [False, True, True]
+
+
+@pytest.mark.parametrize(
+    ("changes", "factor"), [({"replicas": 8}, 4), ({"members": 48}, 3), ({"times": "1,6"}, 1.75)]
+)
+def test_effort_is_what_cost_is_proportional_to(changes: dict, factor: float) -> None:
+    options = {"replicas": 2, "members": 16, "times": "1,3", "relaxation-time": 1}
+    assert effort(Run("", "", options | changes)) == pytest.approx(factor * effort(Run("", "", options)))

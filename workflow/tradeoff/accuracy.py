@@ -16,7 +16,7 @@ from workflow.config.plan import Run
 from workflow.scripts import style
 from workflow.tradeoff.measure import execute, planned, shortened
 
-REPLICAS = (10, 32, 100, 320, 1000)
+REPLICAS = (10, 32, 110, 360, 1300)
 MEMBERS = 2  # of a replica of the pulse
 TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)  # of what is computed, not sampled
 # A cheap run of every program, and the part of its window that is watched here.
@@ -24,7 +24,7 @@ SETTINGS = {
     "persistence": ("fig05", "paper_sigma=0.5", 0.5),
     "waiting_time": ("fig06", "all_sigma=0.5", 0.5),
     "displacement": ("ext07", "spreading_relaxation-time=1", 0.5),
-    "ageing": ("ext07", "energy", 0.005),
+    "ageing": ("ext07", "energy", 0.01),
     "energy_pulse": ("fig09a", "gaussian", 1),
     "conductivity": ("fig08", "deterministic_cells=4", 0.1),
     "momentum_flux": ("fig04a", "rare", 0.1),
