@@ -95,7 +95,12 @@ bench: build .venv/runtime  ## Cost of an event: engine, reference simulator and
 	$(PYTHON) -m workflow.tradeoff.bench_table build/bench.json
 
 tradeoff: build .venv/runtime  ## Speed against accuracy, measured here: figures/tradeoff
+	ninja -C build --quiet reference_pulse reference_open_chain reference_drift
 	$(PYTHON) -m workflow.tradeoff.kinetic --program build/bin/boltzmann --output figures/tradeoff/ext06_kinetic
+	$(PYTHON) -m workflow.tradeoff.accuracy --programs build/bin --output figures/tradeoff/ext06
+	$(PYTHON) -m workflow.tradeoff.efficiency --programs build/bin --output figures/tradeoff/ext06_efficiency
+	$(PYTHON) -m workflow.tradeoff.bias --programs build/bin --output figures/tradeoff/ext06_bias
+	$(PYTHON) -m workflow.tradeoff.prediction --programs build/bin --output figures/tradeoff/ext06_prediction
 	$(PYTHON) -m workflow.tradeoff.extremes --programs build/bin --quality $(QUALITY) --output figures/tradeoff/ext08
 
 lock: .venv/dev  ## Renew both locks of Python packages

@@ -55,6 +55,13 @@ double error_of(const Quantity& target, bool absolute) {
 
 }  // namespace
 
+std::uint64_t replicas_needed(std::uint64_t used, double excess, std::uint64_t batch, std::uint64_t most) {
+  const double needed = std::isfinite(excess) ? static_cast<double>(used) * excess * excess : 0;
+  const auto least = static_cast<double>(used / batch + 1), last = static_cast<double>(most / batch);
+  return batch * static_cast<std::uint64_t>(std::clamp(std::ceil(needed / static_cast<double>(batch)), least,
+                                                       std::max(least, last)));
+}
+
 ReplicaOptions::ReplicaOptions(Program& program)
     : program_(program), threads_(std::max(1U, std::thread::hardware_concurrency())) {
   Options& options = program.options();
@@ -94,8 +101,9 @@ Outcome ReplicaOptions::run(const ReplicaStudy& study, Progress& progress) const
   Clock::time_point next_checkpoint = later(checkpoint_interval_);
 
   ReplicaRun batch{.wanted = 0, .threads = threads_, .deadline = deadline, .report = {}};
+  std::uint64_t needed = replicas_;  // of all batches, as far as it can be told
   batch.report = [&](double done, const FinishedReplicas& so_far) {
-    progress.show(done, static_cast<double>(batch.wanted), resumed);
+    progress.show(done, static_cast<double>(needed), resumed);
     if (Clock::now() < next_checkpoint) return;
     checkpoint.save(so_far);
     next_checkpoint = later(checkpoint_interval_);
@@ -122,10 +130,15 @@ Outcome ReplicaOptions::run(const ReplicaStudy& study, Progress& progress) const
     const bool out_of_time = used.size() < batch.wanted;
     outcome.converged = !out_of_time && std::isfinite(quantity.mean.front()) &&
                         (target == 0 || outcome.achieved_error <= target);
-    progress.say(fmt::format("{} replicas: {} = {:.8g} +- {:.2g}{}", used.size(), quantity.what.name,
+    const bool last =
+        target == 0 || outcome.converged || out_of_time || batch.wanted + replicas_ > max_replicas_;
+    if (!last)
+      needed = replicas_needed(used.size(), outcome.achieved_error / target, replicas_, max_replicas_);
+    progress.say(fmt::format("{} replicas: {} = {:.8g} +- {:.2g}{}{}", used.size(), quantity.what.name,
                              quantity.mean.front(), quantity.standard_error.front(),
-                             outcome.converged ? "" : ", not converged"));
-    if (target == 0 || outcome.converged || out_of_time || batch.wanted + replicas_ > max_replicas_) break;
+                             outcome.converged ? "" : ", not converged",
+                             last ? "" : fmt::format("; the target needs about {}", needed)));
+    if (last) break;
   }
   checkpoint.remove();
   return outcome;

@@ -18,6 +18,11 @@ struct ReplicaStudy {
   std::string streams;          // of random numbers, for the record
 };
 
+/// Replicas that a target error needs, whole batches of them, if errors fall as one over the square root of
+/// their number; excess is the error of those used over the target. At least one batch more, and no more than
+/// `most`; one batch more if there is no error to go by.
+std::uint64_t replicas_needed(std::uint64_t used, double excess, std::uint64_t batch, std::uint64_t most);
+
 /// Options that every replicated program shares, and the run itself: batches of replicas until the
 /// target error is reached, checkpoints, resumption, time limit.
 ///

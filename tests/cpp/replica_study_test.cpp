@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <chrono>
+#include <limits>
 #include <set>
 #include <string>
 #include <thread>
@@ -103,6 +104,29 @@ TEST(ReplicaStudy, StopsAtTheTargetErrorOnABatchBoundary) {
   EXPECT_EQ(with({"--target-error", "1e-6", "--time-limit", "1e-9"}), 4);
   EXPECT_EQ(replicas_in(folder / "a.h5"), 2U);
   EXPECT_EQ(with({"--target-error", "0.1", "--target-absolute", "0.1"}), 2);
+}
+
+// An error three times too large needs nine times as many.
+TEST(ReplicaStudy, PredictsTheReplicasThatATargetNeeds) {
+  EXPECT_EQ(replicas_needed(8, 3, 8, 1000), 72U);
+  EXPECT_EQ(replicas_needed(16, 1.01, 8, 1000), 24U);  // a whole batch more
+  EXPECT_EQ(replicas_needed(8, 1e9, 8, 1001), 1000U);
+  EXPECT_EQ(replicas_needed(8, std::numeric_limits<double>::quiet_NaN(), 8, 1000), 16U);
+}
+
+// After one batch of 32 the prediction is within a factor of two of what the target takes.
+TEST(ReplicaStudy, SaysHowManyReplicasTheTargetNeeds) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(
+      run({"--replicas", "32", "--target-error", "0.01", "--output", folder / "a.h5", "--progress", "log"}),
+      0);
+  const std::string words = "the target needs about ";
+  const std::size_t found = complaints.find(words);
+  ASSERT_NE(found, std::string::npos) << complaints;
+  const double predicted = std::stod(complaints.substr(found + words.size()));
+  const auto real = static_cast<double>(replicas_in(folder / "a.h5"));
+  EXPECT_LT(predicted, 2 * real);
+  EXPECT_GT(predicted, real / 2);
 }
 
 // The error may only be looked at where an uninterrupted run looks at it: after 8, 16, 24, ... replicas.

@@ -20,7 +20,7 @@ TIMES = {"N": (0.02, 0.03, 0.045, 0.06), 1: (0.01, 0.015, 0.02, 0.03)}
 def reference(gamma: float, times: tuple[float, ...], *, replicas: int, members: int) -> np.ndarray:
     """Energy differences [replica, time, cell]."""
     command = [ROOT / "build/bin/reference_pulse", CELLS, PARTICLES, SIGMA, gamma, ENERGY, PULSE_ENERGY]
-    words = [*command, members, replicas, 1, *times]
+    words = [*command, members, replicas, 1, "shared", *times]
     output = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=True).stdout
     rows = [[float(word) for word in line.split()] for line in output.splitlines()]
     return np.array(rows).reshape(replicas, len(times), CELLS)

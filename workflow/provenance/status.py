@@ -15,7 +15,6 @@ from workflow.provenance.repository import ROOT
 from workflow.provenance.stale import Staleness
 from workflow.scripts.load import FormatError, load
 
-EFFORTS = ("replicas", "observation-time", "times")  # a run's cost grows in proportion to them
 WIDE = 150  # columns, where nobody reads them on a screen
 
 
@@ -26,8 +25,8 @@ def cost_file(quality: str, panel: str, run: str) -> dict | None:
 
 
 def effort(run: Run) -> float:
-    """Replicas times the simulated time: what cost is proportional to."""
-    replicas = float(run.options.get("replicas", 1))
+    """Replicas, with their members, times the simulated time: what cost is proportional to."""
+    replicas = float(run.options.get("replicas", 1)) * float(run.options.get("members", 1))
     last = str(run.options.get("times", "")).rsplit(",", maxsplit=1)[-1] or run.options.get(
         "observation-time", 1
     )

@@ -1,12 +1,15 @@
 /// The energy pulse by the reference simulator: nothing here is shared with the engine or with the program
 /// energy_pulse, random numbers and start included. Prints one line per replica: the mean over its members of
 /// the energy per cell with the pulse minus without, all cells at the first time, all cells at the second...
+/// Both trajectories begin with one start, or, to see what that saves, each with its own.
 ///
-///   reference_pulse cells particles_per_cell sigma gamma energy pulse_energy members replicas seed time...
+///   reference_pulse cells particles_per_cell sigma gamma energy pulse_energy members replicas seed
+///                   shared|independent time...
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <random>
+#include <string_view>
 #include <vector>
 
 #include "reference/heap_simulator.hpp"
@@ -18,33 +21,49 @@ using Simulator = reference::HeapSimulator<double>;
 struct Pulse {
   std::size_t cells, particles_per_cell;
   double sigma, gamma, energy, pulse_energy;
+  bool shared_start;
   std::vector<double> times;
+
+  double root_mass() const { return std::sqrt((1 + sigma) / (1 - sigma)); }
 };
 
-/// Adds what one member finds to the sums. Gaussian start of particles and scatterers, cells of length 1.
-void add_member(const Pulse& pulse, std::mt19937_64& generator, std::vector<double>& sums) {
+struct Start {
+  std::vector<double> x, p, P;
+};
+
+/// Gaussian particles and scatterers, cells of length 1.
+Start draw_start(const Pulse& pulse, std::mt19937_64& generator) {
   std::normal_distribution<> gaussian;
   std::uniform_real_distribution<> uniform;
-  const double root_mass = std::sqrt((1 + pulse.sigma) / (1 - pulse.sigma));
   const double thermal = std::sqrt(2 * pulse.energy);
-  std::vector<double> x, p, P;
+  Start start;
   for (std::size_t i = 0; i < pulse.cells * pulse.particles_per_cell; ++i) {
-    x.push_back(static_cast<double>(i / pulse.particles_per_cell) + uniform(generator));
-    p.push_back(thermal * gaussian(generator));
+    start.x.push_back(static_cast<double>(i / pulse.particles_per_cell) + uniform(generator));
+    start.p.push_back(thermal * gaussian(generator));
   }
-  for (std::size_t i = 0; i < pulse.cells; ++i) P.push_back(root_mass * thermal * gaussian(generator));
+  for (std::size_t i = 0; i < pulse.cells; ++i)
+    start.P.push_back(pulse.root_mass() * thermal * gaussian(generator));
+  return start;
+}
 
+Start with_pulse(const Pulse& pulse, Start start) {
   const std::size_t central = (pulse.cells - 1) / 2;
   const std::size_t begin = central * pulse.particles_per_cell, end = begin + pulse.particles_per_cell;
-  double energy = P[central] * P[central] / (2 * root_mass * root_mass);
-  for (std::size_t i = begin; i < end; ++i) energy += p[i] * p[i] / 2;
+  double energy = std::pow(start.P[central] / pulse.root_mass(), 2) / 2;
+  for (std::size_t i = begin; i < end; ++i) energy += start.p[i] * start.p[i] / 2;
   const double degrees_of_freedom = static_cast<double>(pulse.particles_per_cell + 1);
   const double factor = std::sqrt(degrees_of_freedom * pulse.pulse_energy / energy);
-  std::vector<double> pulsed_p = p, pulsed_P = P;
-  for (std::size_t i = begin; i < end; ++i) pulsed_p[i] *= factor;
-  pulsed_P[central] *= factor;
+  for (std::size_t i = begin; i < end; ++i) start.p[i] *= factor;
+  start.P[central] *= factor;
+  return start;
+}
 
-  Simulator plain(pulse.sigma, 1, x, p, P), perturbed(pulse.sigma, 1, x, pulsed_p, pulsed_P);
+/// Adds what one member finds to the sums.
+void add_member(const Pulse& pulse, std::mt19937_64& generator, std::vector<double>& sums) {
+  const Start start = draw_start(pulse, generator);
+  const Start pulsed = with_pulse(pulse, pulse.shared_start ? start : draw_start(pulse, generator));
+  Simulator plain(pulse.sigma, 1, start.x, start.p, start.P),
+      perturbed(pulse.sigma, 1, pulsed.x, pulsed.p, pulsed.P);
   const double probability = pulse.gamma / static_cast<double>(pulse.cells);
   plain.scatter_with(probability, generator());
   perturbed.scatter_with(probability, generator());
@@ -65,15 +84,16 @@ void add_member(const Pulse& pulse, std::mt19937_64& generator, std::vector<doub
 
 int main(int argc, char** argv) {
   const auto number = [&](int i) { return std::atof(argv[i]); };
-  if (argc < 11) return 2;
+  if (argc < 12) return 2;
   Pulse pulse{static_cast<std::size_t>(number(1)),
               static_cast<std::size_t>(number(2)),
               number(3),
               number(4),
               number(5),
               number(6),
+              std::string_view(argv[10]) == "shared",
               {}};
-  for (int i = 10; i < argc; ++i) pulse.times.push_back(number(i));
+  for (int i = 11; i < argc; ++i) pulse.times.push_back(number(i));
   const double members = number(7);
   std::mt19937_64 generator(static_cast<std::uint64_t>(number(9)));
   for (int replica = 0; replica < static_cast<int>(number(8)); ++replica) {

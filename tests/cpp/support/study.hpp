@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -31,7 +32,8 @@ inline Results summarise(const Records& records) {
 /// Runs a program of one study to its exit status.
 inline int run_program(Arguments arguments, const Measurement& measurement) {
   arguments.insert(arguments.begin(), "example");
-  arguments.insert(arguments.end(), {"--progress", "none"});
+  if (std::ranges::find(arguments, "--progress") == arguments.end())
+    arguments.insert(arguments.end(), {"--progress", "none"});
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   Program program("example", "An example");

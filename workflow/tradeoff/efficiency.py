@@ -1,0 +1,135 @@
+"""What each device saves: error^2 x CPU seconds with it and without, and whether both find the same.
+
+The plain estimator is that of the reference simulator or, where a program stores both, the one without the
+device in the same run. Its products hold measured times, so they do not belong to `make figures`.
+"""
+
+import argparse
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from workflow.scripts.load import Result
+from workflow.tradeoff import reference
+from workflow.tradeoff.measure import execute, planned, shortened
+
+SHARE = 1 / 8  # of the panels' windows: the reference simulator is slow
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A number or an array, its standard error, CPU seconds and replicas."""
+
+    value: np.ndarray
+    error: np.ndarray
+    seconds: float
+    replicas: int
+
+    @classmethod
+    def of(cls, result: Result, name: str, seconds: float) -> "Estimate":
+        quantity = result[name]
+        return cls(quantity.mean, quantity.standard_error, seconds, int(np.max(quantity.count)))
+
+
+def jackknife(statistic: Callable[[np.ndarray], float], rows: np.ndarray) -> tuple[float, float]:
+    """Value and standard error of a function of the mean row."""
+    rest = (rows.sum(axis=0) - rows) / (len(rows) - 1)
+    left_out = np.array([statistic(row) for row in rest])
+    return statistic(rows.mean(axis=0)), float(np.sqrt((len(rows) - 1) * np.var(left_out)))
+
+
+def of_sample(sample: np.ndarray, seconds: float) -> Estimate:
+    """Mean over replicas, the first dimension."""
+    error = sample.std(axis=0, ddof=1) / np.sqrt(len(sample))
+    return Estimate(sample.mean(axis=0), error, seconds, len(sample))
+
+
+def compared(device: str, quantity: str, plain: Estimate, better: Estimate) -> dict[str, object]:
+    """Factor: median, over the values, of the ratio of error^2 x CPU seconds, with its own error from the
+    numbers of replicas. z: largest difference in units of the combined error."""
+    merits = [one.error**2 * one.seconds for one in (plain, better)]
+    seen = (plain.error > 0) & (better.error > 0)
+    factor = float(np.median((merits[0] / merits[1])[seen]))
+    relative = np.sqrt(sum(2 / (one.replicas - 1) for one in (plain, better)))
+    z = np.abs(plain.value - better.value)[seen] / np.hypot(plain.error, better.error)[seen]
+    row = {"device": device, "quantity": quantity, "factor": factor, "factor_error": factor * relative}
+    row |= {"z": float(np.max(z)), "values": int(np.sum(seen))}
+    for name, one in (("plain", plain), ("better", better)):
+        row |= {f"{name}_value": float(one.value) if one.value.ndim == 0 else np.nan}
+        row |= {f"{name}_error": float(np.median(one.error[seen])), f"{name}_seconds": one.seconds}
+    return row
+
+
+def conductivity(programs: Path, series: str, cells: int, replicas: tuple[int, int]) -> Iterator[dict]:
+    """Engine and reference simulator, both from an empty start."""
+    run = planned("fig08", f"{series}_cells=4")
+    times = [shortened(run.options[name], SHARE if name.startswith("obs") else 1)
+             for name in ("relaxation-time", "observation-time")]  # fmt: skip
+    times = [str(float(time.rstrip("N")) * (cells if time.endswith("N") else 1)) for time in times]
+    sample, slow = reference.open_chain(programs, run.options, cells, tuple(times), replicas[0])
+    result, fast = execute(programs, run, cells=cells, start="empty", replicas=replicas[1],
+                           relaxation_time=times[0], observation_time=times[1])  # fmt: skip
+    current = sample["energy_current"][:, [0, -1]].mean(axis=1)
+    rows = np.stack([current, *sample["temperature_scatterer"][:, [0, -1]].T], axis=1)
+    kappa = [np.array(x) for x in jackknife(lambda row: -row[0] * cells / (row[2] - row[1]), rows)]
+    label = f"N = {cells}, gamma = {run.options['gamma']}"
+    plain = {"kappa": Estimate(*kappa, slow, len(rows)), "energy_current": of_sample(current, slow)}
+    for name, estimate in plain.items():
+        yield compared("engine", f"{name}, {label}", estimate, Estimate.of(result, f"{name}_plain", fast))
+        yield compared("control variates", f"{name}, {label}", Estimate.of(result, f"{name}_plain", fast),
+                       Estimate.of(result, name, fast))  # fmt: skip
+        yield compared("both", f"{name}, {label}", estimate, Estimate.of(result, name, fast))
+
+
+def all_particles(programs: Path, panel: str, name: str, label: str) -> dict:
+    """One tagged particle against all: the variance of x^2 is <x^4> - <x^2>^2."""
+    result, seconds = execute(programs, planned(panel, name), replicas=50)
+    every = result["variance"]
+    mean, error, replicas = every.mean[-1], every.standard_error[-1], int(every.count[-1])
+    error_of_one = np.sqrt((result["fourth_moment"].mean[-1] - mean**2) / replicas)
+    return compared("all particles, not one", f"<x^2>, {label}", Estimate(mean, error_of_one, seconds, replicas),
+                    Estimate(mean, error, seconds, replicas))  # fmt: skip
+
+
+def pulse(programs: Path) -> Iterator[dict]:
+    """Energies in the cells that the pulse has reached, at the first time and the last."""
+    run = planned("fig09a", "gaussian")
+    shared, cost = reference.pulse(programs, run.options, 50, "shared")
+    own, cost_of_own = reference.pulse(programs, run.options, 50, "independent")
+    folded = (shared + shared[:, :, ::-1]) / 2
+    result, seconds = execute(programs, run, replicas=60)
+    _, twice = execute(programs, run, replicas=60, separate=True)
+    quantity = result["energy_difference"]
+    for k, label in ((0, "energies, first time"), (-1, "energies, last time")):
+        reached = quantity.mean[k] > 5 * quantity.standard_error[k]
+        plain, one_start, both_sides = (of_sample(sample[:, k, reached], spent) for sample, spent in
+                                        ((own, cost_of_own), (shared, cost), (folded, cost)))  # fmt: skip
+        found = Estimate(quantity.mean[k][reached], quantity.standard_error[k][reached], seconds, 60)
+        yield compared("one start for both", label, plain, one_start)
+        yield compared("both sides", label, one_start, both_sides)
+        yield compared("twice only where it differs", label, replace(found, seconds=twice), found)
+        yield compared("engine", label, one_start, found)
+        yield compared("start, twice and engine", label, plain, found)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--programs", type=Path, required=True, help="folder of the executables")
+    parser.add_argument("--output", type=Path, required=True, help="path of the table without suffix")
+    options = parser.parse_args()
+    rows = [*conductivity(options.programs, "deterministic", 256, (32, 100))]
+    rows += [*conductivity(options.programs, "rare", 64, (32, 100))]
+    rows.append(all_particles(options.programs, "fig07_inset", "all_sigma=0.45", "random total momentum"))
+    rows.append(all_particles(options.programs, "ext07", "spreading_relaxation-time=10", "no total momentum"))
+    rows += pulse(options.programs)
+    table = pd.DataFrame(rows)
+    options.output.parent.mkdir(parents=True, exist_ok=True)
+    table.to_csv(options.output.with_suffix(".csv"), index=False)
+    print(table.to_string(index=False, float_format="%.3g"))
+
+
+if __name__ == "__main__":
+    main()

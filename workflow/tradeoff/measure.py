@@ -1,0 +1,50 @@
+"""Runs programs at the settings of panels and says what they found and what they cost."""
+
+import json
+import shlex
+import subprocess
+import tempfile
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from workflow.config.plan import Run, load_plan
+from workflow.scripts.load import Result, load
+
+QUALITY = "smoke"  # whose members and target errors are the smallest
+
+
+def planned(panel: str, run: str) -> Run:
+    return load_plan(QUALITY)[panel].run(run)
+
+
+def shortened(times: float | str, share: float) -> str:
+    """A part of a time, or of each of a list; what is given in units of N stays so."""
+    parts = str(times).split(",")
+    return ",".join(f"{float(part.rstrip('N')) * share:g}{'N' * part.endswith('N')}" for part in parts)
+
+
+@dataclass(frozen=True)
+class Done:
+    result: Result
+    seconds: float  # CPU time of the process, on one thread
+    said: str  # on standard error
+
+
+def attempt(programs: Path, run: Run, **changes: object) -> Done:
+    """Underscores of `changes` stand for dashes."""
+    options = run.options | {key.replace("_", "-"): value for key, value in changes.items()}
+    threads = {"threads": 1} if run.replicated else {}
+    with tempfile.TemporaryDirectory() as folder:
+        output = Path(folder) / "out.h5"
+        written = replace(run, options={**options, **threads, "output": output, "progress": "log"})
+        command = [programs / run.program, *shlex.split(written.arguments())]
+        done = subprocess.run(command, check=False, capture_output=True, text=True)
+        if done.returncode not in (0, 4):  # 4: the target was not reached
+            raise RuntimeError(done.stderr)
+        seconds = json.loads(output.with_suffix(".cost.json").read_text())["cpu_seconds"]
+        return Done(load(output), seconds, done.stderr)
+
+
+def execute(programs: Path, run: Run, **changes: object) -> tuple[Result, float]:
+    done = attempt(programs, run, **changes)
+    return done.result, done.seconds
