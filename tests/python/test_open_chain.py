@@ -224,7 +224,7 @@ def scaled(temperature: float) -> dict[str, float]:
     return baths | {"relaxation_time": 5 / speed, "observation_time": 10 / speed}
 
 
-SLOW, FAST = scaled(1e-300), scaled(1e150)
+SLOW, FAST = scaled(1e-135), scaled(1e130)
 
 
 @pytest.mark.parametrize(
@@ -269,6 +269,12 @@ def test_extremes(program: Program, tmp_path: Path, name: str, options: dict) ->
         ("momentum_flux", {"momentum_bins": 21}, ["--momentum-bins", "odd", "even number"]),
         ("steady_profile", {"momentum_max": 0}, ["--momentum-max"]),
         ("particle_count", {"times": "10"}, ["--times", "later times"]),
+        (
+            "conductivity",
+            scaled(1e-300),
+            ["--nu-left", "--temperature-left", "rate times the lowest", "units"],
+        ),
+        ("momentum_flux", scaled(1e150), ["--temperature-left", "1e+150", "[1e-140, 1e+140]", "units"]),
     ],
 )
 def test_bad_input(program: Program, tmp_path: Path, name: str, options: dict, words: list[str]) -> None:
