@@ -41,6 +41,14 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> scaling(const Panels& panels, doubl
   return matrix;
 }
 
+/// The equilibrium's product over j < n of exp(-T (c^2 sigma^j k)^2/2), n = 2^doubling, minus 1.
+VectorXcd equilibrium_product(double sigma, double temperature, int doubling, const Eigen::ArrayXd& k) {
+  const double last = std::pow(sigma * sigma, std::ldexp(1, doubling));
+  const double variance = temperature * c_squared(sigma) * (1 - last);
+  const auto minus_one = [](double exponent) { return std::expm1(exponent); };
+  return (-0.5 * variance * k.square()).unaryExpr(minus_one).cast<std::complex<double>>();
+}
+
 }  // namespace
 
 VectorXd injected_flux(const Reservoir& bath, const VectorXd& p) {
@@ -56,8 +64,17 @@ CollisionOperator::CollisionOperator(double sigma, const Reservoir& equilibrium,
   kicked_ = momenta.fourier(c_squared(sigma) * wave_numbers.nodes());
   kicked_.cosine = kicked_.cosine_minus_one;
   inverse_ = wave_numbers.fourier(momenta.nodes());
-  for (int n = 0; n < doublings(sigma); ++n)
-    scalings_.push_back(scaling(wave_numbers, std::pow(std::abs(sigma), std::ldexp(1, n))));
+  const Eigen::ArrayXd k = wave_numbers.nodes().array();
+  const double temperature = equilibrium.temperature;
+  for (int n = 0; n < doublings(sigma); ++n) {
+    const double scale = std::pow(std::abs(sigma), std::ldexp(1, n));
+    scalings_.push_back(scaling(wave_numbers, scale));
+    equilibrium_doublings_.push_back({equilibrium_product(sigma, temperature, n, k),
+                                      equilibrium_product(sigma, temperature, n, scale * k)});
+  }
+  equilibrium_product_ = equilibrium_product(sigma, temperature, doublings(sigma), k);
+  reflected_equilibrium_ = (2 * equilibrium.rate * (-0.5 * sigma * sigma * temperature * k.square()).exp())
+                               .cast<std::complex<double>>();
 }
 
 RowVectorXd CollisionOperator::number(const Flux& flux) const {
@@ -106,16 +123,6 @@ CollisionOperator::Spectrum CollisionOperator::scaled(std::size_t doubling, cons
   return result;
 }
 
-/// q_n - 1 of the equilibrium at scale times k, n = 2^doubling: the product of exp(-T (c^2 sigma^j k)^2/2)
-/// for j < n.
-VectorXcd CollisionOperator::equilibrium_product(std::size_t doubling, double scale) const {
-  const double last = std::pow(sigma_ * sigma_, std::ldexp(1, static_cast<int>(doubling)));
-  const double variance = equilibrium_.temperature * c_squared(sigma_) * (1 - last);
-  const auto minus_one = [](double exponent) { return std::expm1(exponent); };
-  const Eigen::ArrayXd k = scale * wave_numbers_.nodes().array();
-  return (-0.5 * variance * k.square()).unaryExpr(minus_one).cast<std::complex<double>>();
-}
-
 Flux CollisionOperator::gain(const Flux& deviation) {
   deviation_ = deviation;
   number_ = number(deviation).array() + 2 * equilibrium_.rate;
@@ -125,24 +132,20 @@ Flux CollisionOperator::gain(const Flux& deviation) {
       (deviation.topRows(half) + deviation.bottomRows(half));
   temperature_ = (squares.array() + 2 * equilibrium_.rate * equilibrium_.temperature) / number_.array();
   if (sigma_ == 0) return deviation;
-  const VectorXd widths = sigma_ * sigma_ * equilibrium_.temperature * wave_numbers_.nodes().array().square();
-  const VectorXcd reflected_equilibrium =
-      (2 * equilibrium_.rate * (-0.5 * widths.array()).exp()).cast<std::complex<double>>();
   const Spectrum reflected_deviation = reflected(deviation);
-  reflected_flux_ = reflected_deviation.colwise() + reflected_equilibrium;
-  Spectrum change = first_change(deviation, equilibrium_product(0, 1).replicate(1, deviation.cols()));
+  reflected_flux_ = reflected_deviation.colwise() + reflected_equilibrium_;
+  Spectrum change =
+      first_change(deviation, equilibrium_doublings_.front().here.replicate(1, deviation.cols()));
   doublings_.clear();
   for (std::size_t n = 0; n < scalings_.size(); ++n) {
-    const VectorXcd here = equilibrium_product(n, 1),
-                    there = equilibrium_product(
-                        n, std::pow(std::abs(sigma_), std::ldexp(1, static_cast<int>(n))));
+    const auto& [here, there] = equilibrium_doublings_[n];
     const Spectrum change_there = scaled(n, change);
     doublings_.push_back({change.colwise() + here, change_there.colwise() + there});
     change += change.cwiseProduct(doublings_.back().there) + change_there + here.asDiagonal() * change_there;
   }
-  product_ = (change.colwise() + equilibrium_product(scalings_.size(), 1)).array() + 1;
+  product_ = (change.colwise() + equilibrium_product_).array() + 1;
   const Spectrum gain =
-      reflected_deviation.cwiseProduct(product_) + reflected_equilibrium.asDiagonal() * change;
+      reflected_deviation.cwiseProduct(product_) + reflected_equilibrium_.asDiagonal() * change;
   return conserving(inverse_transform(inverse_, gain), deviation);
 }
 

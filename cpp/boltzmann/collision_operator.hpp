@@ -63,7 +63,6 @@ class CollisionOperator {
   Spectrum scaled(std::size_t doubling, const Spectrum& spectrum) const;
   Spectrum reflected(const Flux& flux) const;
   Spectrum first_change(const Flux& change, const Spectrum& before) const;
-  Eigen::VectorXcd equilibrium_product(std::size_t doubling, double scale) const;
   Eigen::RowVectorXd number(const Flux& flux) const;
   Flux conserving(const Flux& gain, const Flux& source) const;
 
@@ -72,6 +71,12 @@ class CollisionOperator {
   Panels momenta_, wave_numbers_;
   FourierIntegrals reflected_, kicked_, inverse_;  // at sigma k; at c^2 k, minus J; back to the momenta
   std::vector<Scaling> scalings_;                  // by |sigma|^(2^n)
+
+  struct EquilibriumFactors {
+    Eigen::VectorXcd here, there;  // q_n(k) - 1, q_n(sigma^n k) - 1 of the equilibrium
+  };
+  std::vector<EquilibriumFactors> equilibrium_doublings_;
+  Eigen::VectorXcd equilibrium_product_, reflected_equilibrium_;  // q(k) - 1, J phi(sigma k)
 
   struct Factors {
     Spectrum here, there;  // q_n(k) - 1, q_n(sigma^n k) - 1
