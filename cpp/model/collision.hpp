@@ -29,7 +29,7 @@ namespace lorentz {
 /// The roundings average out only if the coefficient is not close to a fraction with a small
 /// denominator: the products of 0.3 with the numbers of a binade fall on ten places between two
 /// neighbouring results, all shifted one way, and the energy drifts. So sigma, or 1-|sigma| in the second
-/// form, is raised by one part in 1e13, far below every other error; what is left is a random walk
+/// form, is raised by one part in 1e11, far below every other error; what is left is a random walk
 /// (docs/numerics.md has the measurements). 0 and +-1 stay exact.
 class CollisionRule {
  public:
@@ -63,7 +63,7 @@ class CollisionRule {
   double root_mass() const { return root_mass_; }
 
  private:
-  static constexpr double detuning = 1 + 1e-13;
+  static constexpr double detuning = 1 + 1e-11;
 
   void use_exchange_form(double sigma) {
     sigma_ = sigma;
