@@ -5,7 +5,7 @@
 /// The pulse scales all momenta in the central --pulse-cells cells by one factor, so that their energy
 /// becomes --pulse-energy per degree of freedom. The ring is folded about its centre (mirror symmetry) before
 /// the moving peak is looked for. A raw maximum over noisy cells is biased upwards, so position and height
-/// are the vertex of a parabola fitted around it; both heights are stored.
+/// are the top of a parabola fitted around it; both heights are stored.
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -62,6 +62,11 @@ std::uint64_t replicas_needed(std::uint64_t used, double excess, std::uint64_t b
                                                        std::max(least, last)));
 }
 
+std::uint64_t next_look(std::uint64_t used, std::uint64_t batch, std::uint64_t most) {
+  const std::uint64_t batches = used / batch, more = std::max<std::uint64_t>(1, batches / 8);
+  return batch * std::max(batches + 1, std::min(batches + more, most / batch));
+}
+
 ReplicaOptions::ReplicaOptions(Program& program)
     : program_(program), threads_(std::max(1U, std::thread::hardware_concurrency())) {
   Options& options = program.options();
@@ -112,7 +117,7 @@ Outcome ReplicaOptions::run(const ReplicaStudy& study, Progress& progress) const
   Outcome outcome{.seed = seed_, .streams = study.streams, .target_quantity = study.target_quantity};
   outcome.target_error = target > 0 ? target : std::numeric_limits<double>::quiet_NaN();
   for (;;) {
-    batch.wanted += replicas_;
+    batch.wanted = next_look(batch.wanted, replicas_, max_replicas_);
     try {
       run_replicas(batch, study.measure, finished);
     } catch (const Interrupted& interruption) {

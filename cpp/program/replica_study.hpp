@@ -23,11 +23,15 @@ struct ReplicaStudy {
 /// `most`; one batch more if there is no error to go by.
 std::uint64_t replicas_needed(std::uint64_t used, double excess, std::uint64_t batch, std::uint64_t most);
 
+/// Replicas at which the error is looked at next: a batch more, later an eighth more in whole batches, as the
+/// jackknife takes a time in proportion to what there is; no more than `most`, unless one batch is more.
+std::uint64_t next_look(std::uint64_t used, std::uint64_t batch, std::uint64_t most);
+
 /// Options that every replicated program shares, and the run itself: batches of replicas until the
 /// target error is reached, checkpoints, resumption, time limit.
 ///
 /// Without a target one batch of --replicas is measured. With one, batches are added, and the error
-/// is looked at between batches only, so that the result depends neither on the number of threads
+/// is looked at at given numbers of them only, so that the result depends neither on the number of threads
 /// nor on interruptions.
 class ReplicaOptions {
  public:

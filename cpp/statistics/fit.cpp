@@ -4,6 +4,7 @@
 #include <gsl/gsl_linalg.h>
 #include <gsl/gsl_statistics_double.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -30,7 +31,7 @@ double fit_power(std::span<const double> x, std::span<const double> y, double fr
   return fit_line(log_x, log_y).slope;
 }
 
-Vertex fit_vertex(std::span<const double> x, std::span<const double> y) {
+Maximum fit_maximum(std::span<const double> x, std::span<const double> y) {
   if (x.size() < 3 || x.size() != y.size()) throw std::invalid_argument("a parabola needs three points");
   // Normal equations in powers of x - centre, solved by moments; the grid is short and regular.
   const double centre = gsl_stats_mean(x.data(), 1, x.size());
@@ -48,8 +49,12 @@ Vertex fit_vertex(std::span<const double> x, std::span<const double> y) {
   gsl_matrix_view a = gsl_matrix_view_array(matrix.data(), 3, 3);
   gsl_vector_view c = gsl_vector_view_array(moments.data(), 3);
   gsl_linalg_HH_svx(&a.matrix, &c.vector);  // moments become the coefficients
-  const double shift = -moments[1] / (2 * moments[2]);
-  return {centre + shift, moments[0] + 0.5 * moments[1] * shift};
+  const auto height = [&](double shift) { return moments[0] + shift * (moments[1] + shift * moments[2]); };
+  const double low = x.front() - centre, high = x.back() - centre;
+  const double highest = moments[2] < 0               ? std::clamp(-moments[1] / (2 * moments[2]), low, high)
+                         : height(low) > height(high) ? low
+                                                      : high;
+  return {centre + highest, height(highest)};
 }
 
 }  // namespace lorentz

@@ -52,8 +52,8 @@ Peak moving_peak(const std::vector<double>& profile, std::size_t about) {
     y.push_back(profile[cell]);
   }
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const Vertex vertex = x.size() < 3 ? Vertex{none, none} : fit_vertex(x, y);
-  return {vertex.position, vertex.height, *std::max_element(profile.begin() + 1, profile.end())};
+  const Maximum top = x.size() < 3 ? Maximum{none, none} : fit_maximum(x, y);
+  return {top.position, top.height, *std::max_element(profile.begin() + 1, profile.end())};
 }
 
 }  // namespace lorentz

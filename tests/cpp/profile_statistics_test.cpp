@@ -14,7 +14,7 @@ namespace {
 
 using namespace lorentz;
 
-TEST(Fit, FindsExactLinesPowersAndVertices) {
+TEST(Fit, FindsExactLinesPowersAndMaxima) {
   const std::vector<double> x = {1, 2, 4, 5, 7};
   std::vector<double> line, power, parabola;
   for (const double value : x) {
@@ -26,14 +26,23 @@ TEST(Fit, FindsExactLinesPowersAndVertices) {
   EXPECT_NEAR(fit_line(x, line).intercept, 3, 1e-13);
   EXPECT_NEAR(fit_power(x, power, 1, 7), -2.0 / 3, 1e-13);
   EXPECT_NEAR(fit_power(x, power, 2, 5), -2.0 / 3, 1e-13);
-  EXPECT_NEAR(fit_vertex(x, parabola).position, 3.25, 1e-12);
-  EXPECT_NEAR(fit_vertex(x, parabola).height, 7, 1e-12);
+  EXPECT_NEAR(fit_maximum(x, parabola).position, 3.25, 1e-12);
+  EXPECT_NEAR(fit_maximum(x, parabola).height, 7, 1e-12);
+}
+
+// Noise may turn a short parabola round or push its vertex far away.
+TEST(Fit, KeepsTheMaximumBetweenThePoints) {
+  const std::vector<double> x = {1, 2, 3}, falling = {5, 4, 2}, valley = {5, 1, 6};
+  EXPECT_EQ(fit_maximum(x, falling).position, 1);
+  EXPECT_NEAR(fit_maximum(x, falling).height, 5, 1e-14);
+  EXPECT_EQ(fit_maximum(x, valley).position, 3);
+  EXPECT_NEAR(fit_maximum(x, valley).height, 6, 1e-14);
 }
 
 TEST(Fit, RefusesTooFewPoints) {
   const std::vector<double> one = {1}, two = {1, 2};
   EXPECT_THROW(fit_line(one, one), std::invalid_argument);
-  EXPECT_THROW(fit_vertex(two, two), std::invalid_argument);
+  EXPECT_THROW(fit_maximum(two, two), std::invalid_argument);
   EXPECT_THROW(fit_power(two, two, 5, 6), std::invalid_argument);
 }
 

@@ -78,7 +78,7 @@ TEST(ReplicaStudy, ResumesToEqualBytes) {
   EXPECT_EQ(content_of(folder / "fresh.h5"), content_of(folder / "whole.h5"));
 }
 
-// 0.3 / sqrt(R) / 1.5 falls below 0.02 near R = 100, and the error is looked at after every 8.
+// 0.3 / sqrt(R) / 1.5 falls below 0.02 near R = 100, and up to 128 the error is looked at after every 8.
 TEST(ReplicaStudy, StopsAtTheTargetErrorOnABatchBoundary) {
   const TemporaryFolder folder;
   const Arguments batches = {"--replicas", "8", "--output", folder / "a.h5"};
@@ -112,6 +112,15 @@ TEST(ReplicaStudy, PredictsTheReplicasThatATargetNeeds) {
   EXPECT_EQ(replicas_needed(16, 1.01, 8, 1000), 24U);  // a whole batch more
   EXPECT_EQ(replicas_needed(8, 1e9, 8, 1001), 1000U);
   EXPECT_EQ(replicas_needed(8, std::numeric_limits<double>::quiet_NaN(), 8, 1000), 16U);
+}
+
+// The jackknife over all replicas at every look would otherwise take a time that grows with their square.
+TEST(ReplicaStudy, LooksAtTheErrorEverSeldomer) {
+  std::vector<std::uint64_t> looks;
+  for (std::uint64_t used = 0; used < 300;) looks.push_back(used = next_look(used, 10, 305));
+  EXPECT_EQ(looks, (std::vector<std::uint64_t>{10,  20,  30,  40,  50,  60,  70,  80,  90,  100, 110,
+                                               120, 130, 140, 150, 160, 180, 200, 220, 240, 270, 300}));
+  EXPECT_EQ(next_look(0, 10, 5), 10U);  // the first batch is measured anyway
 }
 
 // After one batch of 32 the prediction is within a factor of two of what the target takes.
