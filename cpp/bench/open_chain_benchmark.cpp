@@ -1,6 +1,7 @@
-/// Cost of an event of open chains: the engine and the reference simulator (binary heap). The reservoirs
-/// inject `filling` times as many particles as the default ones. items_per_second is collisions per second;
-/// gamma:0 stands for gamma = N.
+/// Cost of an event of open chains: the engine, the reference simulator (binary heap), and the floor, that
+/// is, the same collisions, flights and injections on the same memory with no queue, particle after particle.
+/// The reservoirs inject `filling` times as many particles as the default ones. items_per_second is
+/// collisions per second; gamma:0 stands for gamma = N.
 #include <benchmark/benchmark.h>
 
 #include "engine/open_dynamics.hpp"
@@ -66,7 +67,93 @@ void open_reference(benchmark::State& state) {
   state.SetItemsProcessed(collisions);
 }
 
+/// As many particles as the engine begins with; one that leaves enters anew at the same end.
+class Queueless {
+ public:
+  explicit Queueless(const OpenChain& chain)
+      : chain_(chain),
+        log_pass_probability_(std::log1p(-std::min(1.0, chain.gamma / chain.cells))),
+        injectors_{Injector(chain.left, 1, Purpose::injection_left, 0),
+                   Injector(chain.right, 1, Purpose::injection_right, 0)} {
+    const PhasePoint start = local_equilibrium_start(chain, chain.left, chain.right, age, 1, 0);
+    for (const double U : start.scatterers) scatterers_.push_back(U / collide_.scatterer_scale());
+    for (const Particle& particle : start.particles)
+      flights_.push_back({0, particle.velocity,
+                          static_cast<std::uint32_t>(particle.position / chain.cell_length),
+                          EventQueue::none});
+  }
+
+  std::uint32_t particles() const { return static_cast<std::uint32_t>(flights_.size()); }
+
+  /// The next collision of a particle and the flight after it.
+  template <bool passing>
+  void advance(std::uint32_t slot, Collisions& observer) {
+    Flight& flight = flights_[slot];
+    const double particle = flight.velocity, scatterer = scatterers_[flight.target];
+    collide_(flight.velocity, scatterers_[flight.target]);
+    observer.on_collision(
+        {flight.time, slot, flight.target, particle, flight.velocity, scatterer, scatterers_[flight.target]});
+    for (std::int64_t from = flight.target; !fly<passing>(flight, from);) from = enter(flight);
+  }
+
+ private:
+  /// From a scatterer on; false if the particle leaves.
+  template <bool passing>
+  bool fly(Flight& flight, std::int64_t from) {
+    std::int64_t cells = 1;
+    if constexpr (passing) cells = cells_to_scattering(passes_.uniform(), log_pass_probability_);
+    const std::int64_t target = from + (flight.velocity > 0 ? cells : -cells);
+    flight.time += static_cast<double>(cells) * chain_.cell_length / std::abs(flight.velocity);
+    if (static_cast<std::uint64_t>(target) >= chain_.cells) [[unlikely]]
+      return false;
+    flight.target = static_cast<std::uint32_t>(target);
+    return true;
+  }
+
+  /// From where it would have come if there were one more scatterer outside.
+  std::int64_t enter(Flight& flight) {
+    const bool right = flight.velocity > 0;
+    const double speed = injectors_[right ? 1 : 0].take();
+    flight.velocity = right ? -speed : speed;
+    return right ? std::int64_t{chain_.cells} : -1;
+  }
+
+  OpenChain chain_;
+  CollisionRule collide_{chain_.sigma};
+  double log_pass_probability_;
+  RandomStream passes_{1, Purpose::passes, 0};
+  std::array<Injector, 2> injectors_;
+  std::vector<double> scatterers_;
+  std::vector<Flight, HugePageAllocator<Flight>> flights_;
+};
+
+void open_floor(benchmark::State& state) {
+  const OpenChain chain = chain_of(state);
+  Queueless particles(chain);
+  Collisions observer;
+  std::uint32_t slot = 0;
+  const auto advance = [&]<bool passing>(std::uint64_t events) {
+    for (; events > 0; --events) {
+      particles.advance<passing>(slot, observer);
+      if (++slot == particles.particles()) slot = 0;
+    }
+  };
+  constexpr std::uint64_t events = 10'000;
+  for ([[maybe_unused]] auto iteration : state) {
+    if (chain.deterministic())
+      advance.operator()<false>(events);
+    else
+      advance.operator()<true>(events);
+  }
+  benchmark::DoNotOptimize(observer.count);
+  state.SetItemsProcessed(observer.count);
+}
+
 BENCHMARK(open_engine)
+    ->ArgNames({"cells", "filling", "gamma"})
+    ->Iterations(100)
+    ->ArgsProduct({{201}, {1, 10, 100, 10'000}, {0, 1}});
+BENCHMARK(open_floor)
     ->ArgNames({"cells", "filling", "gamma"})
     ->Iterations(100)
     ->ArgsProduct({{201}, {1, 10, 100, 10'000}, {0, 1}});
