@@ -96,6 +96,24 @@ void closed_floor(benchmark::State& state) {
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * events));
 }
 
+/// A whole short run, construction included. Arrivals after its end are frozen, or waited for as if more were
+/// to come.
+void short_run(benchmark::State& state) {
+  const ClosedChain chain{1000, 50, 1, 0.5};
+  const PhasePoint start = closed_chain_start(chain, {}, false, 1, 0);
+  const double end = static_cast<double>(state.range(0)) * chain.particles() / expected_rate(chain, start);
+  const bool freeze = state.range(1) != 0;
+  Persistent observer;
+  std::uint64_t events = 0;
+  for ([[maybe_unused]] auto iteration : state) {
+    ClosedDynamics dynamics(chain, start, freeze ? end : end_time);
+    simulate(dynamics, end, observer, [](double) {});
+    events += dynamics.events();
+  }
+  benchmark::DoNotOptimize(observer.count);
+  state.SetItemsProcessed(static_cast<std::int64_t>(events));
+}
+
 // Iterations are given, as the preparation of a large chain takes longer than they do.
 void all_sizes(benchmark::internal::Benchmark* benchmark) {
   benchmark->ArgNames({"cells", "particles_per_cell", "gamma"})->Iterations(100);
@@ -115,5 +133,9 @@ void affordable_sizes(benchmark::internal::Benchmark* benchmark) {
 BENCHMARK(closed_engine)->Apply(all_sizes);
 BENCHMARK(closed_reference)->Apply(affordable_sizes);
 BENCHMARK(closed_floor)->Apply(all_sizes);
+BENCHMARK(short_run)
+    ->ArgNames({"events_per_particle", "freeze"})
+    ->ArgsProduct({{1, 10, 100}, {0, 1}})
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
