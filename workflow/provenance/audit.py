@@ -12,9 +12,8 @@ from pathlib import Path
 from workflow.config.plan import ConfigurationError, data_of, load_plan
 from workflow.provenance.links import Chain, Link
 from workflow.provenance.lock import Job, Lock, LockError
-from workflow.provenance.parents import file_hash
 from workflow.provenance.redo import RedoError, draw, same_bytes, tables_agree
-from workflow.provenance.repository import ROOT, machine
+from workflow.provenance.repository import ROOT, FileHashes, machine
 
 
 def audit(quality: str, only: str | None = None) -> tuple[list[Link], str]:
@@ -47,8 +46,8 @@ def audit(quality: str, only: str | None = None) -> tuple[list[Link], str]:
 def changed_configuration(lock: Lock) -> list[str]:
     """Files that are not what they were when a product was made."""
     asked = dict(pair for job in lock.jobs.values() for pair in job.configuration.items())
-    present = {path: file_hash(ROOT / path) for path in asked if (ROOT / path).is_file()}
-    return [path for path, digest in asked.items() if present.get(path) != digest] or ["workflow/config"]
+    present = FileHashes()
+    return [path for path, digest in asked.items() if present[path] != digest] or ["workflow/config"]
 
 
 def not_following(chain: Chain, names: list[str], suspect: set[str | None]) -> list[Link]:
