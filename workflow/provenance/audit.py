@@ -31,11 +31,10 @@ def audit(quality: str, only: str | None = None) -> tuple[list[Link], str]:
     broken = chain.broken()
     suspect = {link.job for link in broken}
     if not any(link.job is None for link in broken):
-        names = [name for name in chain.drawings() if name == only or not only]
+        names = [name for name in lock.drawings() if name == only or not only]
         broken += not_following(chain, names, suspect)
-    drawings = [name for name in lock.jobs if "/" not in name]
     missing = [name for name in plan if name not in lock.jobs]
-    summary = f"{len(lock.jobs) - len(drawings)} runs, {len(drawings)} panels, {len(lock.outputs())} files"
+    summary = f"{len(lock.runs())} runs, {len(lock.drawings())} panels, {len(lock.outputs())} files"
     if missing:
         summary += f"; not made yet: {', '.join(missing)}"
     if any(job.dirty for job in lock.jobs.values()):

@@ -48,12 +48,6 @@ class Chain:
                 found.setdefault(link.path, link)
         return list(found.values())
 
-    def drawings(self) -> dict[str, Job]:
-        return {name: job for name, job in self.lock.jobs.items() if "/" not in name}
-
-    def runs(self) -> dict[str, Job]:
-        return {name: job for name, job in self.lock.jobs.items() if "/" in name}
-
     def shown_jobs(self, drawing: Job) -> set[str]:
         return {Path(path).parent.name + "/" + Path(path).stem for path in drawing.parents["data"]}
 
@@ -75,7 +69,7 @@ class Chain:
                     yield Link(path, f"does not ask for what {name} was made with: {reason}")
 
     def _no_longer_asked(self, name: str, job: Job) -> str | None:
-        if "/" not in name:
+        if job.is_drawing:
             if name not in self.plan:
                 return "there is no such panel"
             same = job.parents["configuration"] == self.plan[name].hash()
@@ -95,7 +89,7 @@ class Chain:
             now = include_closure(ROOT / "cpp", root) if self._hashes[f"cpp/{root}"] else []
             for path in sorted({f"cpp/{path}" for path in now} - named.keys()):
                 yield Link(path, f"is included by {build['program']} and was not when it was built")
-        for name, job in self.drawings().items():
+        for name, job in self.lock.drawings().items():
             parents = job.parents
             yield from self._changed(
                 parents["sources"] | {PACKAGES: parents["packages"]}, f"{name} was drawn"
@@ -144,7 +138,7 @@ class Chain:
         return self._hashes[path] == job.outputs[path]
 
     def _runs(self) -> Iterator[Link]:
-        for name, job in self.runs().items():
+        for name, job in self.lock.runs().items():
             expected = data_path(self.quality, *name.split("/"))
             if list(job.outputs) != [expected]:
                 yield Link(expected, f"the lock names {', '.join(job.outputs)} in its place", name)
@@ -155,7 +149,7 @@ class Chain:
 
     def _drawings(self) -> Iterator[Link]:
         outputs = self.lock.outputs()
-        for name, job in self.drawings().items():
+        for name, job in self.lock.drawings().items():
             if sorted(job.outputs) != sorted(drawings_of(self.quality, name)):
                 yield Link(f"figures/{self.quality}/{name}", "the lock does not name its four files", name)
             for path in job.outputs:
@@ -188,7 +182,7 @@ class Chain:
 
     def _made_from(self, job: Job) -> dict[str, str]:
         """Sources of a run's build or of a drawing."""
-        if "data" in job.parents:
+        if job.is_drawing:
             return job.parents["sources"] | {PACKAGES: job.parents["packages"]}
         sources = self.lock.builds.get(job.parents["build_id"], {"sources": {}})["sources"]
         return {f"cpp/{path}": digest for path, digest in sources.items()}

@@ -36,6 +36,10 @@ class Job:
     dirty: bool | None  # whether tracked files differed from it
     machine: str
 
+    @property
+    def is_drawing(self) -> bool:
+        return "data" in self.parents
+
 
 @dataclass
 class Lock:
@@ -72,6 +76,12 @@ class Lock:
         unfinished = path.with_suffix(".tmp")
         unfinished.write_text(json.dumps(content, indent=1, sort_keys=True) + "\n")
         unfinished.replace(path)
+
+    def runs(self) -> dict[str, Job]:
+        return {name: job for name, job in self.jobs.items() if not job.is_drawing}
+
+    def drawings(self) -> dict[str, Job]:
+        return {name: job for name, job in self.jobs.items() if job.is_drawing}
 
     def outputs(self) -> dict[str, str]:
         return {path: digest for job in self.jobs.values() for path, digest in job.outputs.items()}

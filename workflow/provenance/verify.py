@@ -20,7 +20,7 @@ SIGNIFICANCE = 1e-3  # of a deviation of independent random numbers
 
 def verdict(plan: dict[str, Panel], quality: str, name: str, job: Job, folder: Path) -> tuple[bool, str]:
     """Whether the job makes again what it made, and in what sense."""
-    if "data" in job.parents:
+    if job.is_drawing:
         again = draw(job, plan[name].script, data_of(plan, name, quality), folder)
     else:
         again = {next(iter(job.outputs)): simulate(job, folder)}
@@ -29,7 +29,7 @@ def verdict(plan: dict[str, Panel], quality: str, name: str, job: Job, folder: P
         return True, "the same bytes"
     if job.machine == machine():
         return False, f"other bytes in {', '.join(differing)}"
-    if "data" in job.parents:
+    if job.is_drawing:
         table = next(path for path in again if path.endswith(".csv"))
         same = tables_agree(ROOT / table, again[table])
         return same, "the same table but for rounding" if same else f"other numbers in {table}"
