@@ -13,7 +13,7 @@ from rocrate.rocrate import ROCrate
 
 from workflow.config.plan import Panel
 from workflow.provenance.crate_files import WORKFLOW, add, add_files, compact, new_crate
-from workflow.provenance.lock import Job, Lock
+from workflow.provenance.lock import Job, Lock, configuration_files
 from workflow.provenance.repository import ROOT, git
 from workflow.provenance.stale import PACKAGES
 
@@ -48,7 +48,7 @@ def crate_of(
     used = {job.parents["build_id"] for job in jobs.values() if not job.is_drawing}
     programs = {build_id: _add_program(crate, lock.builds[build_id], files) for build_id in sorted(used)}
 
-    settings = ["workflow/config/paper.yaml", f"workflow/config/quality/{lock.quality}.yaml"]
+    settings = configuration_files(lock.quality)
     inputs = [*settings, PACKAGES]
     actions = [Action("#workflow", remade_by, files[WORKFLOW], remade_by, inputs, sorted(products))]
     for name, job in jobs.items():
