@@ -69,8 +69,11 @@ class Lock:
         return lock
 
     def write(self) -> None:
+        """Builds that no run names are left out."""
         path = self.path(self.quality)
-        content = {"format": FORMAT, "version": VERSION, "quality": self.quality, "builds": self.builds}
+        named = {job.parents["build_id"] for job in self.runs().values()}
+        content = {"format": FORMAT, "version": VERSION, "quality": self.quality}
+        content["builds"] = {build_id: build for build_id, build in self.builds.items() if build_id in named}
         content["jobs"] = {name: asdict(job) for name, job in self.jobs.items()}
         content["seal"] = _seal(content)
         unfinished = path.with_suffix(".tmp")
@@ -121,8 +124,6 @@ def record(quality: str, name: str, outputs: list[str], parents: dict, builds: d
     with changing(quality) as lock:
         lock.jobs[name] = job
         lock.builds |= builds
-        named = {job.parents.get("build_id") for job in lock.jobs.values()}
-        lock.builds = {build_id: build for build_id, build in lock.builds.items() if build_id in named}
 
 
 def main() -> None:
