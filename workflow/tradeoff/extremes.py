@@ -4,7 +4,6 @@ lie from exact ones where parameters are as large or as small as they can be.
 It is measured with the programs themselves; no time enters.
 """
 
-import argparse
 import subprocess
 import tempfile
 from collections.abc import Iterator
@@ -19,6 +18,7 @@ from matplotlib.figure import Figure
 
 from workflow.scripts import style
 from workflow.scripts.load import Result, load
+from workflow.tradeoff import frame
 from workflow.tradeoff.deviations import CASES, Run, deviations
 
 SIGMAS = {0.5: "0.5", 0.3: "0.3", -0.9: "$-0.9$", 1 - 1e-12: r"$1-10^{-12}$"}
@@ -102,24 +102,20 @@ def draw(table: pd.DataFrame) -> Figure:
     return figure
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--programs", type=Path, required=True, help="folder of the executables")
-    parser.add_argument("--quality", choices=LONGEST, required=True, help="how long the longest runs are")
-    parser.add_argument("--output", type=Path, required=True, help="path of the figure without suffix")
-    options = parser.parse_args()
-    style.apply()
+def measure(programs: Path, quality: str) -> pd.DataFrame:
     with tempfile.TemporaryDirectory() as scratch:
-        run = Programs(options.programs, Path(scratch))
-        table = pd.DataFrame([*drifts(run, LONGEST[options.quality]), *deviations(run)])
-    options.output.parent.mkdir(parents=True, exist_ok=True)
-    table.to_csv(options.output.with_suffix(".csv"), index=False)
-    for kind in ("pdf", "png"):
-        draw(table).savefig(options.output.with_suffix(f".{kind}"))
+        run = Programs(programs, Path(scratch))
+        return pd.DataFrame([*drifts(run, LONGEST[quality]), *deviations(run)])
+
+
+def summary(table: pd.DataFrame) -> str:
+    """Drifts of the longest runs, and the largest deviation of every case."""
     longest = table[table.panel == "drift"].sort_values("events").groupby(["case", "parameter"]).tail(1)
-    print(longest[["case", "parameter", "events", "deviation"]].to_string(index=False))
-    print(table[table.panel == "extremes"].groupby("case", sort=False).deviation.max().to_string())
+    largest = table[table.panel == "extremes"].groupby("case", sort=False).deviation.max()
+    drifted = longest[["case", "parameter", "events", "deviation"]].to_string(index=False)
+    return f"{drifted}\n{largest.to_string()}"
 
 
 if __name__ == "__main__":
-    main()
+    quality = {"choices": LONGEST, "help": "how long the longest runs are"}
+    frame.run(measure, __doc__, draw, summary, quality=quality)

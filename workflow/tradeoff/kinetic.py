@@ -3,7 +3,6 @@
 Its products hold measured times, so they change from run to run and do not belong to `make figures`.
 """
 
-import argparse
 import json
 import subprocess
 import tempfile
@@ -17,6 +16,7 @@ from matplotlib.figure import Figure
 from workflow.scripts import style
 from workflow.scripts.fig03_convergence import CURRENTS, distance_from_finest, draw_errors
 from workflow.scripts.load import load
+from workflow.tradeoff import frame
 
 GAMMAS = (1, 50)
 TARGETS = (1e-1, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
@@ -40,10 +40,14 @@ def solve(program: Path, gamma: float, target: float, folder: Path) -> dict[str,
     return row | {name: float(result[name].mean) for name in CURRENTS}
 
 
-def measure(program: Path) -> pd.DataFrame:
+def measure(programs: Path) -> pd.DataFrame:
     """One row per gamma and resolution reached."""
     with tempfile.TemporaryDirectory() as folder:
-        rows = [solve(program, gamma, target, Path(folder)) for gamma in GAMMAS for target in TARGETS]
+        rows = [
+            solve(programs / "boltzmann", gamma, target, Path(folder))
+            for gamma in GAMMAS
+            for target in TARGETS
+        ]
     table = pd.DataFrame(rows).drop_duplicates(["gamma", "points"])
     table["distance"] = distance_from_finest(table)
     return table
@@ -58,19 +62,9 @@ def draw(table: pd.DataFrame) -> Figure:
     return figure
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--program", type=Path, required=True, help="the executable boltzmann")
-    parser.add_argument("--output", type=Path, required=True, help="path of the figure without suffix")
-    options = parser.parse_args()
-    style.apply()
-    table = measure(options.program)
-    options.output.parent.mkdir(parents=True, exist_ok=True)
-    table.to_csv(options.output.with_suffix(".csv"), index=False)
-    for kind in ("pdf", "png"):
-        draw(table).savefig(options.output.with_suffix(f".{kind}"))
-    print(table[["gamma", "points", "cpu_seconds", "estimate", "distance"]].to_string(index=False))
+def summary(table: pd.DataFrame) -> str:
+    return table[["gamma", "points", "cpu_seconds", "estimate", "distance"]].to_string(index=False)
 
 
 if __name__ == "__main__":
-    main()
+    frame.run(measure, __doc__, draw, summary)
