@@ -4,10 +4,7 @@ lie from exact ones where parameters are as large or as small as they can be.
 It is measured with the programs themselves; no time enters.
 """
 
-import subprocess
-import tempfile
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -17,9 +14,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.scripts import style
-from workflow.scripts.load import Result, load
+from workflow.scripts.load import Result
 from workflow.tradeoff import frame
 from workflow.tradeoff.deviations import CASES, Run, deviations
+from workflow.tradeoff.measure import call
 
 SIGMAS = {0.5: "0.5", 0.3: "0.3", -0.9: "$-0.9$", 1 - 1e-12: r"$1-10^{-12}$"}
 LOOKS = dict(zip(SIGMAS, zip("osv^", (style.BLACK, style.BLUE, style.VERMILLION, style.ORANGE), strict=True),
@@ -27,23 +25,6 @@ LOOKS = dict(zip(SIGMAS, zip("osv^", (style.BLACK, style.BLUE, style.VERMILLION,
 LONGEST = {"smoke": 6, "standard": 8, "paper": 10, "deep": 10}  # log10 of the events of one run
 UNIT = 2.0**-53
 EXACT = 1e-19  # where a deviation of 0 is drawn
-
-
-@dataclass(frozen=True)
-class Programs:
-    folder: Path
-    scratch: Path
-
-    def __call__(self, name: str, **options: object) -> Result:
-        """Options as keywords, underscores for dashes."""
-        output = self.scratch / "out.h5"
-        words = [self.folder / name, "--output", output, "--progress", "none"]
-        for key, value in options.items():
-            words += [f"--{key.replace('_', '-')}", value]
-        status = subprocess.run([str(word) for word in words], check=False).returncode
-        if status not in (0, 4):  # 4: a mean that is none, as of few replicas
-            raise RuntimeError(f"{name} failed with status {status}")
-        return load(output)
 
 
 def drifts(run: Run, longest: int) -> Iterator[dict[str, object]]:
@@ -103,9 +84,10 @@ def draw(table: pd.DataFrame) -> Figure:
 
 
 def measure(programs: Path, quality: str) -> pd.DataFrame:
-    with tempfile.TemporaryDirectory() as scratch:
-        run = Programs(programs, Path(scratch))
-        return pd.DataFrame([*drifts(run, LONGEST[quality]), *deviations(run)])
+    def run(name: str, **options: object) -> Result:
+        return call(programs / name, **options, progress="none").result
+
+    return pd.DataFrame([*drifts(run, LONGEST[quality]), *deviations(run)])
 
 
 def summary(table: pd.DataFrame) -> str:
