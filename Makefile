@@ -96,7 +96,7 @@ bench: build .venv/runtime  ## Cost of an event: engine, reference simulator and
 
 tradeoff: build .venv/runtime  ## Speed against accuracy, measured here: figures/tradeoff
 	ninja -C build --quiet reference_pulse reference_open_chain reference_drift
-	$(PYTHON) -m workflow.tradeoff.kinetic --program build/bin/boltzmann --output figures/tradeoff/ext06_kinetic
+	$(PYTHON) -m workflow.tradeoff.kinetic --programs build/bin --output figures/tradeoff/ext06_kinetic
 	$(PYTHON) -m workflow.tradeoff.accuracy --programs build/bin --output figures/tradeoff/ext06
 	$(PYTHON) -m workflow.tradeoff.efficiency --programs build/bin --output figures/tradeoff/ext06_efficiency
 	$(PYTHON) -m workflow.tradeoff.bias --programs build/bin --output figures/tradeoff/ext06_bias

@@ -5,7 +5,10 @@ from pathlib import Path
 import pytest
 
 from tests.python.conftest import Program
-from workflow.provenance.redo import disagreement, same_bytes, tables_agree
+from workflow.provenance import redo
+from workflow.provenance.lock import Job
+from workflow.provenance.redo import disagreement, redrawn, same_bytes, tables_agree
+from workflow.provenance.repository import machine
 from workflow.provenance.verify import SIGNIFICANCE
 
 ENOUGH = {"replicas": 16, "observation_time": 50, "relaxation_time": 20}
@@ -48,3 +51,23 @@ def test_tables_agree_but_for_rounding(tmp_path: Path, text: str, agrees: bool) 
     one.write_text("# title\na,b\n1,2.0\n")
     other.write_text(f"# title\n{text}")
     assert tables_agree(one, other) is agrees
+
+
+@pytest.mark.parametrize(
+    ("place", "number", "differing"),
+    [
+        (machine(), "2.0000000001", {"a.csv": False, "a.png": False}),
+        ("elsewhere", "2.0000000001", {"a.csv": True, "a.png": True}),
+        ("elsewhere", "2.00001", {"a.csv": False, "a.png": True}),
+    ],
+)
+def test_rounding_explains_other_bytes_elsewhere_only(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, place: str, number: str, differing: dict[str, bool]
+) -> None:
+    files = {"a.csv": ("a\n2.0\n", f"a\n{number}\n"), "a.png": ("old", "new"), "a.svg": ("same", "same")}
+    for name, (old, new) in files.items():
+        (tmp_path / name).write_text(old)
+        (tmp_path / f"again_{name}").write_text(new)
+    monkeypatch.setattr(redo, "ROOT", tmp_path)
+    monkeypatch.setattr(redo, "draw", lambda *_: {name: tmp_path / f"again_{name}" for name in files})
+    assert redrawn(Job({}, {}, {}, None, None, place), "", [], tmp_path) == differing

@@ -11,10 +11,9 @@ from pathlib import Path
 
 from workflow.config.plan import ConfigurationError, data_of, load_plan
 from workflow.provenance.links import Chain, Link
-from workflow.provenance.lock import Job, Lock, LockError
-from workflow.provenance.parents import file_hash
-from workflow.provenance.redo import RedoError, draw, same_bytes, tables_agree
-from workflow.provenance.repository import ROOT, machine
+from workflow.provenance.lock import Lock, LockError
+from workflow.provenance.redo import RedoError, redrawn
+from workflow.provenance.repository import FileHashes
 
 
 def audit(quality: str, only: str | None = None) -> tuple[list[Link], str]:
@@ -32,11 +31,10 @@ def audit(quality: str, only: str | None = None) -> tuple[list[Link], str]:
     broken = chain.broken()
     suspect = {link.job for link in broken}
     if not any(link.job is None for link in broken):
-        names = [name for name in chain.drawings() if name == only or not only]
+        names = [name for name in lock.drawings() if name == only or not only]
         broken += not_following(chain, names, suspect)
-    drawings = [name for name in lock.jobs if "/" not in name]
     missing = [name for name in plan if name not in lock.jobs]
-    summary = f"{len(lock.jobs) - len(drawings)} runs, {len(drawings)} panels, {len(lock.outputs())} files"
+    summary = f"{len(lock.runs())} runs, {len(lock.drawings())} panels, {len(lock.outputs())} files"
     if missing:
         summary += f"; not made yet: {', '.join(missing)}"
     if any(job.dirty for job in lock.jobs.values()):
@@ -47,29 +45,26 @@ def audit(quality: str, only: str | None = None) -> tuple[list[Link], str]:
 def changed_configuration(lock: Lock) -> list[str]:
     """Files that are not what they were when a product was made."""
     asked = dict(pair for job in lock.jobs.values() for pair in job.configuration.items())
-    present = {path: file_hash(ROOT / path) for path in asked if (ROOT / path).is_file()}
-    return [path for path, digest in asked.items() if present.get(path) != digest] or ["workflow/config"]
+    present = FileHashes()
+    return [path for path, digest in asked.items() if present[path] != digest] or ["workflow/config"]
 
 
 def not_following(chain: Chain, names: list[str], suspect: set[str | None]) -> list[Link]:
     """Drawings that do not follow from their data, of those with no broken link above them."""
     names = [name for name in names if not suspect & {name, *chain.shown_jobs(chain.lock.jobs[name])}]
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(2) as threads:
-        found = threads.map(lambda name: redrawn(chain, name, Path(folder) / name), names)
+        found = threads.map(lambda name: contradictions(chain, name, Path(folder) / name), names)
         return [link for links in found for link in links]
 
 
-def redrawn(chain: Chain, name: str, folder: Path) -> list[Link]:
-    job: Job = chain.lock.jobs[name]
+def contradictions(chain: Chain, name: str, folder: Path) -> list[Link]:
+    data = data_of(chain.plan, name, chain.quality)
     try:
-        again = draw(job, chain.plan[name].script, data_of(chain.plan, name, chain.quality), folder)
+        differing = redrawn(chain.lock.jobs[name], chain.plan[name].script, data, folder)
     except RedoError as error:
         return [Link(f"figures/{chain.quality}/{name}.csv", f"cannot be drawn again: {error}", name)]
-    differing = [path for path, new in again.items() if not same_bytes(ROOT / path, new)]
-    if job.machine != machine():  # pictures differ by rounding
-        differing = [path for path in differing if path.endswith(".csv")]
-        differing = [path for path in differing if not tables_agree(ROOT / path, again[path])]
-    return [Link(path, "does not follow from the data that it names", name) for path in differing]
+    wrong = [path for path, rounded in differing.items() if not rounded]
+    return [Link(path, "does not follow from the data that it names", name) for path in wrong]
 
 
 def main() -> None:

@@ -47,8 +47,8 @@ def chosen_jobs(lock: Lock, plan: dict[str, Panel], panel: str | None, remedy: s
 
 def source_files(lock: Lock, jobs: dict[str, Job]) -> set[str]:
     """The project's files, and what the jobs were made from, tracked by git or not; relative paths."""
-    scripts = [path for job in jobs.values() for path in job.parents.get("sources", {})]
-    builds = {job.parents["build_id"] for job in jobs.values() if "build_id" in job.parents}
+    scripts = [path for job in jobs.values() if job.is_drawing for path in job.parents["sources"]]
+    builds = {job.parents["build_id"] for job in jobs.values() if not job.is_drawing}
     built = [f"cpp/{path}" for build_id in builds for path in lock.builds[build_id]["sources"]]
     return {*project_files(), *scripts, *built}
 

@@ -13,7 +13,7 @@ from rocrate.rocrate import ROCrate
 
 from workflow.config.plan import Panel
 from workflow.provenance.crate_files import WORKFLOW, add, add_files, compact, new_crate
-from workflow.provenance.lock import Job, Lock
+from workflow.provenance.lock import Job, Lock, configuration_files
 from workflow.provenance.repository import ROOT, git
 from workflow.provenance.stale import PACKAGES
 
@@ -40,17 +40,19 @@ def crate_of(
     )
     crate = new_crate(description, published(jobs))
     products = {path for job in jobs.values() for path in job.outputs}
-    scripts = {name: f"workflow/scripts/{plan[name].script}.py" for name in jobs if name in plan}
+    scripts = {
+        name: f"workflow/scripts/{plan[name].script}.py" for name, job in jobs.items() if job.is_drawing
+    }
     lock_path = str(Lock.path(lock.quality).relative_to(ROOT))
     files = add_files(crate, {*sources, *products, lock_path}, set(scripts.values()))
-    used = {job.parents["build_id"] for job in jobs.values() if "build_id" in job.parents}
+    used = {job.parents["build_id"] for job in jobs.values() if not job.is_drawing}
     programs = {build_id: _add_program(crate, lock.builds[build_id], files) for build_id in sorted(used)}
 
-    settings = ["workflow/config/paper.yaml", f"workflow/config/quality/{lock.quality}.yaml"]
+    settings = configuration_files(lock.quality)
     inputs = [*settings, PACKAGES]
     actions = [Action("#workflow", remade_by, files[WORKFLOW], remade_by, inputs, sorted(products))]
     for name, job in jobs.items():
-        if name in scripts:
+        if job.is_drawing:
             actions.append(_drawing(name, job, files[scripts[name]]))
         else:
             actions.append(_run(name, job, programs[job.parents["build_id"]], settings))

@@ -9,8 +9,7 @@ from pathlib import Path
 from workflow.config.plan import Panel, Run, data_of, data_path, drawings_of
 from workflow.provenance.build_id import build_id, include_closure, source_hash
 from workflow.provenance.lock import Job, Lock, configuration_files
-from workflow.provenance.parents import file_hash
-from workflow.provenance.repository import ROOT, files_at, git
+from workflow.provenance.repository import ROOT, FileHashes, files_at, git
 from workflow.provenance.sources import sources_of
 from workflow.provenance.stale import PACKAGES, argument_difference
 from workflow.provenance.testimony import drawing_fault, run_fault
@@ -30,7 +29,7 @@ class Chain:
         self.quality = quality
         self.plan = plan
         self.lock = lock
-        self._hashes: dict[str, str | None] = {}
+        self._hashes = FileHashes()
 
     def broken(self) -> list[Link]:
         """Each path once, with the first thing that is wrong with it; sources first, figures last."""
@@ -49,12 +48,6 @@ class Chain:
                 found.setdefault(link.path, link)
         return list(found.values())
 
-    def drawings(self) -> dict[str, Job]:
-        return {name: job for name, job in self.lock.jobs.items() if "/" not in name}
-
-    def runs(self) -> dict[str, Job]:
-        return {name: job for name, job in self.lock.jobs.items() if "/" in name}
-
     def shown_jobs(self, drawing: Job) -> set[str]:
         return {Path(path).parent.name + "/" + Path(path).stem for path in drawing.parents["data"]}
 
@@ -62,11 +55,6 @@ class Chain:
         panel, _, run = name.partition("/")
         runs = self.plan[panel].runs if panel in self.plan else ()
         return next((one for one in runs if one.name == run), None)
-
-    def _hash(self, path: str) -> str | None:
-        if path not in self._hashes:
-            self._hashes[path] = file_hash(ROOT / path) if (ROOT / path).is_file() else None
-        return self._hashes[path]
 
     def _records(self) -> Iterator[Link]:
         if self.lock.quality != self.quality:
@@ -76,12 +64,12 @@ class Chain:
         """Files of the configuration that no longer ask for what was made."""
         for name, job in self.lock.jobs.items():
             if reason := self._no_longer_asked(name, job):
-                changed = [path for path, digest in job.configuration.items() if self._hash(path) != digest]
+                changed = [path for path, digest in job.configuration.items() if self._hashes[path] != digest]
                 for path in changed or configuration_files(self.quality)[:1]:
                     yield Link(path, f"does not ask for what {name} was made with: {reason}")
 
     def _no_longer_asked(self, name: str, job: Job) -> str | None:
-        if "/" not in name:
+        if job.is_drawing:
             if name not in self.plan:
                 return "there is no such panel"
             same = job.parents["configuration"] == self.plan[name].hash()
@@ -98,24 +86,24 @@ class Chain:
             named = {f"cpp/{path}": digest for path, digest in build["sources"].items()}
             yield from self._changed(named, f"{build['program']} was built")
             root = f"observables/{build['program']}.cpp"
-            now = include_closure(ROOT / "cpp", root) if self._hash(f"cpp/{root}") else []
+            now = include_closure(ROOT / "cpp", root) if self._hashes[f"cpp/{root}"] else []
             for path in sorted({f"cpp/{path}" for path in now} - named.keys()):
                 yield Link(path, f"is included by {build['program']} and was not when it was built")
-        for name, job in self.drawings().items():
+        for name, job in self.lock.drawings().items():
             parents = job.parents
             yield from self._changed(
                 parents["sources"] | {PACKAGES: parents["packages"]}, f"{name} was drawn"
             )
             script = f"workflow/scripts/{self.plan[name].script}.py" if name in self.plan else None
-            if script and all(self._hash(path) for path in parents["sources"]):
+            if script and all(self._hashes[path] for path in parents["sources"]):
                 for path in sorted(set(sources_of(script)) ^ parents["sources"].keys()):
                     yield Link(path, f"is imported by {script} now or was when {name} was drawn, not both")
 
     def _changed(self, named: dict[str, str], when: str) -> Iterator[Link]:
         for path, digest in named.items():
-            if self._hash(path) is None:
+            if self._hashes[path] is None:
                 yield Link(path, f"is missing; {when} from it")
-            elif self._hash(path) != digest:
+            elif self._hashes[path] != digest:
                 yield Link(path, f"has changed since {when} from it")
 
     def _builds(self) -> Iterator[Link]:
@@ -136,9 +124,9 @@ class Chain:
         recorded, own = self.lock.outputs(), {f"data/{self.quality}/{name}" for name in RECORDS}
         for name, job in self.lock.jobs.items():
             for path, digest in job.outputs.items():
-                if self._hash(path) is None:
+                if self._hashes[path] is None:
                     yield Link(path, "is missing", name)
-                elif self._hash(path) != digest:
+                elif self._hashes[path] != digest:
                     yield Link(path, "is not what the job wrote: damaged, edited or replaced", name)
         for place in ("data", "figures"):
             for file in sorted((ROOT / place / self.quality).rglob("*")):
@@ -147,10 +135,10 @@ class Chain:
                     yield Link(path, "has no parents: no job in the lock made it", path)
 
     def _intact(self, path: str, job: Job) -> bool:
-        return self._hash(path) == job.outputs[path]
+        return self._hashes[path] == job.outputs[path]
 
     def _runs(self) -> Iterator[Link]:
-        for name, job in self.runs().items():
+        for name, job in self.lock.runs().items():
             expected = data_path(self.quality, *name.split("/"))
             if list(job.outputs) != [expected]:
                 yield Link(expected, f"the lock names {', '.join(job.outputs)} in its place", name)
@@ -161,7 +149,7 @@ class Chain:
 
     def _drawings(self) -> Iterator[Link]:
         outputs = self.lock.outputs()
-        for name, job in self.drawings().items():
+        for name, job in self.lock.drawings().items():
             if sorted(job.outputs) != sorted(drawings_of(self.quality, name)):
                 yield Link(f"figures/{self.quality}/{name}", "the lock does not name its four files", name)
             for path in job.outputs:
@@ -194,7 +182,7 @@ class Chain:
 
     def _made_from(self, job: Job) -> dict[str, str]:
         """Sources of a run's build or of a drawing."""
-        if "data" in job.parents:
+        if job.is_drawing:
             return job.parents["sources"] | {PACKAGES: job.parents["packages"]}
         sources = self.lock.builds.get(job.parents["build_id"], {"sources": {}})["sources"]
         return {f"cpp/{path}": digest for path, digest in sources.items()}

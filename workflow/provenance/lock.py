@@ -36,6 +36,10 @@ class Job:
     dirty: bool | None  # whether tracked files differed from it
     machine: str
 
+    @property
+    def is_drawing(self) -> bool:
+        return "data" in self.parents
+
 
 @dataclass
 class Lock:
@@ -65,13 +69,22 @@ class Lock:
         return lock
 
     def write(self) -> None:
+        """Builds that no run names are left out."""
         path = self.path(self.quality)
-        content = {"format": FORMAT, "version": VERSION, "quality": self.quality, "builds": self.builds}
+        named = {job.parents["build_id"] for job in self.runs().values()}
+        content = {"format": FORMAT, "version": VERSION, "quality": self.quality}
+        content["builds"] = {build_id: build for build_id, build in self.builds.items() if build_id in named}
         content["jobs"] = {name: asdict(job) for name, job in self.jobs.items()}
         content["seal"] = _seal(content)
         unfinished = path.with_suffix(".tmp")
         unfinished.write_text(json.dumps(content, indent=1, sort_keys=True) + "\n")
         unfinished.replace(path)
+
+    def runs(self) -> dict[str, Job]:
+        return {name: job for name, job in self.jobs.items() if not job.is_drawing}
+
+    def drawings(self) -> dict[str, Job]:
+        return {name: job for name, job in self.jobs.items() if job.is_drawing}
 
     def outputs(self) -> dict[str, str]:
         return {path: digest for job in self.jobs.values() for path, digest in job.outputs.items()}
@@ -111,8 +124,6 @@ def record(quality: str, name: str, outputs: list[str], parents: dict, builds: d
     with changing(quality) as lock:
         lock.jobs[name] = job
         lock.builds |= builds
-        named = {job.parents.get("build_id") for job in lock.jobs.values()}
-        lock.builds = {build_id: build for build_id, build in lock.builds.items() if build_id in named}
 
 
 def main() -> None:

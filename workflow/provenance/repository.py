@@ -1,4 +1,4 @@
-"""The repository around the products: its commit, and whether its files have been changed since."""
+"""The repository around the products: its commit, its files, and whether they have been changed since."""
 
 import io
 import platform
@@ -6,7 +6,17 @@ import subprocess
 import tarfile
 from pathlib import Path
 
+from workflow.provenance.parents import file_hash
+
 ROOT = Path(__file__).parents[2]
+
+
+class FileHashes(dict[str, str | None]):
+    """sha256 of the project's files by relative path, none where there is no file; each is read only once."""
+
+    def __missing__(self, path: str) -> str | None:
+        self[path] = file_hash(ROOT / path) if (ROOT / path).is_file() else None
+        return self[path]
 
 
 def git(*arguments: str) -> bytes | None:

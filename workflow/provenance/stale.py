@@ -20,8 +20,7 @@ from workflow.config.plan import (
     with_used,
 )
 from workflow.provenance.lock import Lock, LockError, changing
-from workflow.provenance.parents import file_hash
-from workflow.provenance.repository import ROOT
+from workflow.provenance.repository import ROOT, FileHashes
 from workflow.provenance.sources import sources_of
 
 PACKAGES = "requirements.lock"
@@ -38,7 +37,7 @@ class Staleness:
             self.lock = Lock.read(quality)
         except LockError:
             self.lock = Lock(quality)
-        self._hashes: dict[str, str | None] = {}
+        self._hashes = FileHashes()
 
     def reasons(self, panels: Iterable[str]) -> dict[str, str]:
         """Stale jobs of the panels, each with its first reason, runs before the drawings that show them."""
@@ -54,19 +53,14 @@ class Staleness:
         panel, _, run = job.partition("/")
         return [data_path(self.quality, panel, run)] if run else drawings_of(self.quality, panel)
 
-    def _hash(self, path: str) -> str | None:
-        if path not in self._hashes:
-            self._hashes[path] = file_hash(ROOT / path) if (ROOT / path).is_file() else None
-        return self._hashes[path]
-
     def _product_reason(self, job: str) -> str | None:
         recorded = self.lock.jobs.get(job)
         for path in self.outputs(job):
-            if self._hash(path) is None:
+            if self._hashes[path] is None:
                 return f"{path} is missing"
             if recorded is None:
                 return f"{path} has no record in the lock"
-            if self._hash(path) != recorded.outputs.get(path):
+            if self._hashes[path] != recorded.outputs.get(path):
                 return f"{path} is not what the job wrote"
         return None
 
@@ -93,13 +87,13 @@ class Staleness:
         parents = self.lock.jobs[name].parents
         sources = sources_of(f"workflow/scripts/{self.plan[name].script}.py")
         for path in sorted({*sources, *parents["sources"]}):
-            if parents["sources"].get(path) != (self._hash(path) if path in sources else None):
+            if parents["sources"].get(path) != (self._hashes[path] if path in sources else None):
                 return f"{path} changed"
-        if parents["packages"] != self._hash(PACKAGES):
+        if parents["packages"] != self._hashes[PACKAGES]:
             return f"{PACKAGES} changed"
         if parents["configuration"] != self.plan[name].hash():
             return "the panel's configuration changed"
-        shown = {path: self._hash(path) for path in data_of(self.plan, name, self.quality)}
+        shown = {path: self._hashes[path] for path in data_of(self.plan, name, self.quality)}
         if {path: data["sha256"] for path, data in parents["data"].items()} != shown:
             return "drawn from other data"
         return None

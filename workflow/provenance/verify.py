@@ -12,28 +12,32 @@ from pathlib import Path
 
 from workflow.config.plan import ConfigurationError, Panel, data_of, load_plan
 from workflow.provenance.lock import Job, Lock, LockError
-from workflow.provenance.redo import RedoError, disagreement, draw, same_bytes, simulate, tables_agree
+from workflow.provenance.redo import RedoError, disagreement, redrawn, same_bytes, simulate
 from workflow.provenance.repository import ROOT, machine
 
 SIGNIFICANCE = 1e-3  # of a deviation of independent random numbers
 
 
 def verdict(plan: dict[str, Panel], quality: str, name: str, job: Job, folder: Path) -> tuple[bool, str]:
-    """Whether the job makes again what it made, and in what sense."""
-    if "data" in job.parents:
-        again = draw(job, plan[name].script, data_of(plan, name, quality), folder)
-    else:
-        again = {next(iter(job.outputs)): simulate(job, folder)}
-    differing = [path for path, new in again.items() if not same_bytes(ROOT / path, new)]
-    if not differing:
+    """Whether the job makes again what it made, and in what sense. Raises RedoError."""
+    if job.is_drawing:
+        return drawing_verdict(job, redrawn(job, plan[name].script, data_of(plan, name, quality), folder))
+    return run_verdict(job, next(iter(job.outputs)), simulate(job, folder))
+
+
+def drawing_verdict(job: Job, differing: dict[str, bool]) -> tuple[bool, str]:
+    wrong = [path for path, rounded in differing.items() if not rounded]
+    if wrong:
+        return False, f"other {'bytes' if job.machine == machine() else 'numbers'} in {', '.join(wrong)}"
+    return True, "the same table but for rounding" if differing else "the same bytes"
+
+
+def run_verdict(job: Job, path: str, again: Path) -> tuple[bool, str]:
+    if same_bytes(ROOT / path, again):
         return True, "the same bytes"
     if job.machine == machine():
-        return False, f"other bytes in {', '.join(differing)}"
-    if "data" in job.parents:
-        table = next(path for path in again if path.endswith(".csv"))
-        same = tables_agree(ROOT / table, again[table])
-        return same, "the same table but for rounding" if same else f"other numbers in {table}"
-    largest, probability = disagreement(ROOT / differing[0], again[differing[0]])
+        return False, f"other bytes in {path}"
+    largest, probability = disagreement(ROOT / path, again)
     within = probability > SIGNIFICANCE
     return (
         within,

@@ -3,7 +3,6 @@
 Its products hold measured times, so they change from run to run and do not belong to `make figures`.
 """
 
-import argparse
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -14,6 +13,7 @@ from matplotlib.figure import Figure
 
 from workflow.config.plan import Run
 from workflow.scripts import style
+from workflow.tradeoff import frame
 from workflow.tradeoff.measure import execute, planned, shortened
 
 REPLICAS = (10, 32, 110, 360, 1300)
@@ -116,20 +116,10 @@ def draw(table: pd.DataFrame) -> Figure:
     return figure
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--programs", type=Path, required=True, help="folder of the executables")
-    parser.add_argument("--output", type=Path, required=True, help="path of the figure without suffix")
-    options = parser.parse_args()
-    style.apply()
-    sampled = [sample(options.programs, program) for program in SETTINGS if program != "boltzmann"]
-    table = pd.concat([*sampled, solve(options.programs)], ignore_index=True)
-    options.output.parent.mkdir(parents=True, exist_ok=True)
-    table.to_csv(options.output.with_suffix(".csv"), index=False)
-    for kind in ("pdf", "png"):
-        draw(table).savefig(options.output.with_suffix(f".{kind}"))
-    print(table.to_string(index=False))
+def measure(programs: Path) -> pd.DataFrame:
+    sampled = [sample(programs, program) for program in SETTINGS if program != "boltzmann"]
+    return pd.concat([*sampled, solve(programs)], ignore_index=True)
 
 
 if __name__ == "__main__":
-    main()
+    frame.run(measure, __doc__, draw)

@@ -3,7 +3,6 @@
 Its products hold no times, but belong to no panel of the paper.
 """
 
-import argparse
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -15,6 +14,7 @@ from matplotlib.figure import Figure
 from workflow.config.plan import Run
 from workflow.scripts import style
 from workflow.scripts.load import Result
+from workflow.tradeoff import frame
 from workflow.tradeoff.measure import execute, planned, shortened
 from workflow.tradeoff.reference import drift
 
@@ -129,20 +129,6 @@ def measure(programs: Path) -> pd.DataFrame:
     return with_bias(pd.DataFrame(rows))
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--programs", type=Path, required=True, help="folder of the executables")
-    parser.add_argument("--output", type=Path, required=True, help="path of the figure without suffix")
-    options = parser.parse_args()
-    style.apply()
-    table = measure(options.programs)
-    options.output.parent.mkdir(parents=True, exist_ok=True)
-    table.to_csv(options.output.with_suffix(".csv"), index=False)
-    for kind in ("pdf", "png"):
-        draw(table).savefig(options.output.with_suffix(f".{kind}"))
-    print(table.to_string(index=False))
-    print(drift(options.programs, planned("fig05", "paper_sigma=0.3").options).to_string(index=False))
-
-
 if __name__ == "__main__":
-    main()
+    folder = frame.run(measure, __doc__, draw)
+    print(drift(folder, planned("fig05", "paper_sigma=0.3").options).to_string(index=False))

@@ -4,16 +4,16 @@ The plain estimator is that of the reference simulator or, where a program store
 device in the same run. Its products hold measured times, so they do not belong to `make figures`.
 """
 
-import argparse
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
 from workflow.scripts.load import Result
-from workflow.tradeoff import reference
+from workflow.tradeoff import frame, reference
 from workflow.tradeoff.measure import execute, planned, shortened
 
 SHARE = 1 / 8  # of the panels' windows: the reference simulator is slow
@@ -115,21 +115,13 @@ def pulse(programs: Path) -> Iterator[dict]:
         yield compared("start, twice and engine", label, plain, found)
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--programs", type=Path, required=True, help="folder of the executables")
-    parser.add_argument("--output", type=Path, required=True, help="path of the table without suffix")
-    options = parser.parse_args()
-    rows = [*conductivity(options.programs, "deterministic", 256, (32, 100))]
-    rows += [*conductivity(options.programs, "rare", 64, (32, 100))]
-    rows.append(all_particles(options.programs, "fig07_inset", "all_sigma=0.45", "random total momentum"))
-    rows.append(all_particles(options.programs, "ext07", "spreading_relaxation-time=10", "no total momentum"))
-    rows += pulse(options.programs)
-    table = pd.DataFrame(rows)
-    options.output.parent.mkdir(parents=True, exist_ok=True)
-    table.to_csv(options.output.with_suffix(".csv"), index=False)
-    print(table.to_string(index=False, float_format="%.3g"))
+def measure(programs: Path) -> pd.DataFrame:
+    rows = [*conductivity(programs, "deterministic", 256, (32, 100))]
+    rows += conductivity(programs, "rare", 64, (32, 100))
+    rows.append(all_particles(programs, "fig07_inset", "all_sigma=0.45", "random total momentum"))
+    rows.append(all_particles(programs, "ext07", "spreading_relaxation-time=10", "no total momentum"))
+    return pd.DataFrame([*rows, *pulse(programs)])
 
 
 if __name__ == "__main__":
-    main()
+    frame.run(measure, __doc__, show=partial(pd.DataFrame.to_string, index=False, float_format="%.3g"))

@@ -4,11 +4,7 @@ lie from exact ones where parameters are as large or as small as they can be.
 It is measured with the programs themselves; no time enters.
 """
 
-import argparse
-import subprocess
-import tempfile
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -18,8 +14,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.scripts import style
-from workflow.scripts.load import Result, load
+from workflow.scripts.load import Result
+from workflow.tradeoff import frame
 from workflow.tradeoff.deviations import CASES, Run, deviations
+from workflow.tradeoff.measure import call
 
 SIGMAS = {0.5: "0.5", 0.3: "0.3", -0.9: "$-0.9$", 1 - 1e-12: r"$1-10^{-12}$"}
 LOOKS = dict(zip(SIGMAS, zip("osv^", (style.BLACK, style.BLUE, style.VERMILLION, style.ORANGE), strict=True),
@@ -27,23 +25,6 @@ LOOKS = dict(zip(SIGMAS, zip("osv^", (style.BLACK, style.BLUE, style.VERMILLION,
 LONGEST = {"smoke": 6, "standard": 8, "paper": 10, "deep": 10}  # log10 of the events of one run
 UNIT = 2.0**-53
 EXACT = 1e-19  # where a deviation of 0 is drawn
-
-
-@dataclass(frozen=True)
-class Programs:
-    folder: Path
-    scratch: Path
-
-    def __call__(self, name: str, **options: object) -> Result:
-        """Options as keywords, underscores for dashes."""
-        output = self.scratch / "out.h5"
-        words = [self.folder / name, "--output", output, "--progress", "none"]
-        for key, value in options.items():
-            words += [f"--{key.replace('_', '-')}", value]
-        status = subprocess.run([str(word) for word in words], check=False).returncode
-        if status not in (0, 4):  # 4: a mean that is none, as of few replicas
-            raise RuntimeError(f"{name} failed with status {status}")
-        return load(output)
 
 
 def drifts(run: Run, longest: int) -> Iterator[dict[str, object]]:
@@ -102,24 +83,21 @@ def draw(table: pd.DataFrame) -> Figure:
     return figure
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--programs", type=Path, required=True, help="folder of the executables")
-    parser.add_argument("--quality", choices=LONGEST, required=True, help="how long the longest runs are")
-    parser.add_argument("--output", type=Path, required=True, help="path of the figure without suffix")
-    options = parser.parse_args()
-    style.apply()
-    with tempfile.TemporaryDirectory() as scratch:
-        run = Programs(options.programs, Path(scratch))
-        table = pd.DataFrame([*drifts(run, LONGEST[options.quality]), *deviations(run)])
-    options.output.parent.mkdir(parents=True, exist_ok=True)
-    table.to_csv(options.output.with_suffix(".csv"), index=False)
-    for kind in ("pdf", "png"):
-        draw(table).savefig(options.output.with_suffix(f".{kind}"))
+def measure(programs: Path, quality: str) -> pd.DataFrame:
+    def run(name: str, **options: object) -> Result:
+        return call(programs / name, **options, progress="none").result
+
+    return pd.DataFrame([*drifts(run, LONGEST[quality]), *deviations(run)])
+
+
+def summary(table: pd.DataFrame) -> str:
+    """Drifts of the longest runs, and the largest deviation of every case."""
     longest = table[table.panel == "drift"].sort_values("events").groupby(["case", "parameter"]).tail(1)
-    print(longest[["case", "parameter", "events", "deviation"]].to_string(index=False))
-    print(table[table.panel == "extremes"].groupby("case", sort=False).deviation.max().to_string())
+    largest = table[table.panel == "extremes"].groupby("case", sort=False).deviation.max()
+    drifted = longest[["case", "parameter", "events", "deviation"]].to_string(index=False)
+    return f"{drifted}\n{largest.to_string()}"
 
 
 if __name__ == "__main__":
-    main()
+    quality = {"choices": LONGEST, "help": "how long the longest runs are"}
+    frame.run(measure, __doc__, draw, summary, quality=quality)

@@ -3,10 +3,6 @@
 Its products hold measured times, so they change from run to run and do not belong to `make figures`.
 """
 
-import argparse
-import json
-import subprocess
-import tempfile
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -16,34 +12,27 @@ from matplotlib.figure import Figure
 
 from workflow.scripts import style
 from workflow.scripts.fig03_convergence import CURRENTS, distance_from_finest, draw_errors
-from workflow.scripts.load import load
+from workflow.tradeoff import frame
+from workflow.tradeoff.measure import call
 
 GAMMAS = (1, 50)
 TARGETS = (1e-1, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
 REPEATS = 5  # of which the median time counts
 
 
-def solve(program: Path, gamma: float, target: float, folder: Path) -> dict[str, float]:
+def solve(programs: Path, gamma: float, target: float) -> dict[str, float]:
     """Currents, the program's own estimate of their error, points in momentum, CPU seconds of the process."""
-    output = folder / "out.h5"
-    command = [program, "--gamma", gamma, "--target-error", target, "--coarsening", 4]
-    command += ["--output", output, "--progress", "none"]
-    seconds = []
-    for _ in range(REPEATS):
-        status = subprocess.run([str(word) for word in command], check=False).returncode
-        if status not in (0, 4):  # 4: the finest resolution does not reach the target
-            raise RuntimeError(f"{program} failed with status {status}")
-        seconds.append(json.loads(output.with_suffix(".cost.json").read_text())["cpu_seconds"])
-    result = load(output)
-    row = {"gamma": gamma, "target": target, "cpu_seconds": float(np.median(seconds))}
+    options = {"gamma": gamma, "target_error": target, "coarsening": 4, "progress": "none"}
+    done = [call(programs / "boltzmann", **options) for _ in range(REPEATS)]
+    result = done[0].result
+    row = {"gamma": gamma, "target": target, "cpu_seconds": float(np.median([one.seconds for one in done]))}
     row |= {"estimate": result.provenance["achieved_error"], "points": int(result["momentum_points"].mean)}
     return row | {name: float(result[name].mean) for name in CURRENTS}
 
 
-def measure(program: Path) -> pd.DataFrame:
+def measure(programs: Path) -> pd.DataFrame:
     """One row per gamma and resolution reached."""
-    with tempfile.TemporaryDirectory() as folder:
-        rows = [solve(program, gamma, target, Path(folder)) for gamma in GAMMAS for target in TARGETS]
+    rows = [solve(programs, gamma, target) for gamma in GAMMAS for target in TARGETS]
     table = pd.DataFrame(rows).drop_duplicates(["gamma", "points"])
     table["distance"] = distance_from_finest(table)
     return table
@@ -58,19 +47,9 @@ def draw(table: pd.DataFrame) -> Figure:
     return figure
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--program", type=Path, required=True, help="the executable boltzmann")
-    parser.add_argument("--output", type=Path, required=True, help="path of the figure without suffix")
-    options = parser.parse_args()
-    style.apply()
-    table = measure(options.program)
-    options.output.parent.mkdir(parents=True, exist_ok=True)
-    table.to_csv(options.output.with_suffix(".csv"), index=False)
-    for kind in ("pdf", "png"):
-        draw(table).savefig(options.output.with_suffix(f".{kind}"))
-    print(table[["gamma", "points", "cpu_seconds", "estimate", "distance"]].to_string(index=False))
+def summary(table: pd.DataFrame) -> str:
+    return table[["gamma", "points", "cpu_seconds", "estimate", "distance"]].to_string(index=False)
 
 
 if __name__ == "__main__":
-    main()
+    frame.run(measure, __doc__, draw, summary)

@@ -4,7 +4,7 @@ import json
 import shlex
 import subprocess
 import tempfile
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from workflow.config.plan import Run, load_plan
@@ -30,19 +30,24 @@ class Done:
     said: str  # on standard error
 
 
-def attempt(programs: Path, run: Run, **changes: object) -> Done:
-    """Underscores of `changes` stand for dashes."""
-    options = run.options | {key.replace("_", "-"): value for key, value in changes.items()}
-    threads = {"threads": 1} if run.replicated else {}
+def call(program: Path, **options: object) -> Done:
+    """Runs a program once. Underscores of the options stand for dashes; of two options that then are one the last
+    counts. Raises RuntimeError with what the program says if it fails."""
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder) / "out.h5"
-        written = replace(run, options={**options, **threads, "output": output, "progress": "log"})
-        command = [programs / run.program, *shlex.split(written.arguments())]
-        done = subprocess.run(command, check=False, capture_output=True, text=True)
+        named = {key.replace("_", "-"): value for key, value in options.items()} | {"output": output}
+        words = shlex.split(Run("", program.name, named).arguments())
+        done = subprocess.run([program, *words], check=False, capture_output=True, text=True)
         if done.returncode not in (0, 4):  # 4: the target was not reached
             raise RuntimeError(done.stderr)
         seconds = json.loads(output.with_suffix(".cost.json").read_text())["cpu_seconds"]
         return Done(load(output), seconds, done.stderr)
+
+
+def attempt(programs: Path, run: Run, **changes: object) -> Done:
+    """At the settings of a run, but for the changes; reports its progress."""
+    threads = {"threads": 1} if run.replicated else {}
+    return call(programs / run.program, **run.options | changes | threads, progress="log")
 
 
 def execute(programs: Path, run: Run, **changes: object) -> tuple[Result, float]:

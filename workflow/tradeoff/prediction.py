@@ -3,12 +3,12 @@
 Its products hold measured times, so they change from run to run and do not belong to `make figures`.
 """
 
-import argparse
 import re
 from pathlib import Path
 
 import pandas as pd
 
+from workflow.tradeoff import frame
 from workflow.tradeoff.accuracy import SETTINGS, window
 from workflow.tradeoff.measure import attempt, planned
 
@@ -44,16 +44,9 @@ def compare(programs: Path, program: str, excess: float) -> dict[str, object]:
     return row | {"ratio": row["seconds_foretold"] / row["seconds"]}
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--programs", type=Path, required=True, help="folder of the executables")
-    parser.add_argument("--output", type=Path, required=True, help="path of the table without suffix")
-    options = parser.parse_args()
-    table = pd.DataFrame([compare(options.programs, *setting) for setting in EXCESSES.items()])
-    options.output.parent.mkdir(parents=True, exist_ok=True)
-    table.to_csv(options.output.with_suffix(".csv"), index=False)
-    print(table.to_string(index=False))
+def measure(programs: Path) -> pd.DataFrame:
+    return pd.DataFrame([compare(programs, *setting) for setting in EXCESSES.items()])
 
 
 if __name__ == "__main__":
-    main()
+    frame.run(measure, __doc__)
