@@ -15,14 +15,13 @@ void add_chain_options(Options& options, ClosedChain& chain) {
   options.real("--cell-length", chain.cell_length, positive, "Distance between scatterers");
 }
 
-void require_possible(const ClosedChain& chain, double hottest, double end_time,
+void require_possible(const ClosedChain& chain, double hottest, double end_time, double most_flights,
                       const std::string& temperatures, const std::string& times) {
   const std::uint64_t particles = std::uint64_t{chain.cells} * chain.particles_per_cell;
   if (particles > 1'000'000'000)
     throw UsageError("--cells times --particles-per-cell exceeds 1e9 particles. Choose a smaller chain.");
-  constexpr double flights_of_a_year = 1e15;
   require_representable({hottest, chain.cell_length, end_time, static_cast<double>(particles + chain.cells),
-                         flights_of_a_year, temperatures, times});
+                         most_flights, temperatures, times});
 }
 
 ClosedChainOptions::ClosedChainOptions(Options& options, double relaxation_time, double observation_time)
@@ -44,7 +43,7 @@ void ClosedChainOptions::add_random_direction(Options& options) {
 }
 
 void ClosedChainOptions::validate() const {
-  require_possible(chain_, hottest(), end_time(), "--temperature, --scatterer-temperature",
+  require_possible(chain_, hottest(), end_time(), flights_of_a_year, "--temperature, --scatterer-temperature",
                    "--relaxation-time plus --observation-time");
 }
 

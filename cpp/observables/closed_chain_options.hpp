@@ -18,8 +18,9 @@ namespace lorentz {
 void add_chain_options(Options& options, ClosedChain& chain);
 
 /// Throws UsageError if the chain has more particles than can be numbered, or if the numbers of a run until
-/// end_time cannot be represented. The options are those of the temperatures and of the times.
-void require_possible(const ClosedChain& chain, double hottest, double end_time,
+/// end_time, of so many flights at most, cannot be represented. The options are those of the temperatures and
+/// of the times.
+void require_possible(const ClosedChain& chain, double hottest, double end_time, double most_flights,
                       const std::string& temperatures, const std::string& times);
 
 /// The options that describe a closed chain, its start and the stretches of time of a measurement.

@@ -13,6 +13,7 @@
 
 #include "engine/pair.hpp"
 #include "observables/closed_chain_options.hpp"
+#include "observables/physics_options.hpp"
 #include "program/errors.hpp"
 #include "program/replica_study.hpp"
 #include "statistics/collapse.hpp"
@@ -200,7 +201,7 @@ Results summarise(const Records& records, const Pulse& pulse) {
 
 void validate(const Pulse& pulse) {
   const double hottest = std::max({2 * pulse.energy, 2 * pulse.pulse_energy, pulse.scatterer_temperature});
-  require_possible(pulse.chain, hottest, pulse.relaxation_time + pulse.times.back(),
+  require_possible(pulse.chain, hottest, pulse.relaxation_time + pulse.times.back(), flights_of_one_clock,
                    "--energy, --pulse-energy, --scatterer-temperature", "--relaxation-time plus --times");
   if (pulse.pulse_cells > pulse.chain.cells)
     throw UsageError("--pulse-cells exceeds --cells. Choose a smaller pulse.");

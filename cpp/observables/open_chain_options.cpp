@@ -7,11 +7,6 @@
 #include "program/errors.hpp"
 
 namespace lorentz {
-namespace {
-
-constexpr double longest_clock = 1e10;  // over a flight, which it then resolves to 1e-6
-
-}  // namespace
 
 OpenChainOptions::OpenChainOptions(Options& options, const OpenChain& chain, const std::string& start)
     : chain_(chain), start_(start) {
@@ -49,7 +44,7 @@ void OpenChainOptions::validate(double end, const std::string& times) const {
   const double rate = open.left.rate + open.right.rate;
   require_within(cold, 1e-300, 1e300, "--temperature-left, --temperature-right", "the lowest temperature");
   require_within(rate * end, 0, 1e15, "--nu-left, --nu-right, " + times, "the number of injected particles");
-  require_representable({hot, open.cell_length, end, rate * end, longest_clock,
+  require_representable({hot, open.cell_length, end, rate * end, flights_of_one_clock,
                          "--temperature-left, --temperature-right", times});
   require_within(hot * end, 1e-290, 1e300, "--temperature-left, --temperature-right, " + times,
                  "the temperature times the end of the run");
@@ -68,7 +63,7 @@ void OpenChainOptions::validate(double end, const std::string& times) const {
 
 void OpenChainOptions::validate() const {
   validate(window().end, "--relaxation-time plus --observation-time");
-  require_within(window().end / (window().end - window().begin), 1, longest_clock,
+  require_within(window().end / (window().end - window().begin), 1, flights_of_one_clock,
                  "--relaxation-time, --observation-time",
                  "the end of the run over the time of the measurement");
 }

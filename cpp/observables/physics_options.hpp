@@ -22,13 +22,17 @@ void require_within(double value, double low, double high, const std::string& op
 /// Throws UsageError unless fourth powers of momenta are numbers with full precision.
 void require_fourth_powers(const Reservoir& left, const Reservoir& right);
 
+/// Flights across a cell at thermal speed, one after the other, that a run may last. A clock that is never
+/// restarted resolves a flight to 1e-6 of it at its end then.
+constexpr double flights_of_one_clock = 1e10, flights_of_a_year = 1e15;
+
 /// What sets the size of the numbers in a simulation.
 struct Extent {
   double hottest;  // temperature
   double cell_length;
   double end_time;
   double particles;                 // that take part
-  double most_flights;              // across a cell at thermal speed that can be simulated
+  double most_flights;              // one of those above
   std::string temperatures, times;  // the options
 };
 

@@ -292,6 +292,7 @@ REFUSED = [
     ("displacement", {"decades": 15, "observation-time": 1e-3, "relaxation-time": 100}, "--decades"),
     ("displacement", {"cell-length": 1e100, "observation-time": 1e100}, "displacement at the first time"),
     ("conductivity", {"relaxation-time": 1e5, "observation-time": 1e-6}, "--observation-time"),
+    ("energy_pulse", {"relaxation-time": 1e9}, "thermal flights"),
     ("conductivity", {"cell-length": 1e-9, "observation-time": 1000}, "thermal flights"),
     ("conductivity", {"nu-left": 1e12}, "particles inside"),
     ("momentum_flux", {"temperature-left": 1e150, "cell-length": 1e73}, "--temperature-left"),
