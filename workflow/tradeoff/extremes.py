@@ -40,7 +40,8 @@ def drifts(run: Run, longest: int) -> Iterator[dict[str, object]]:
             rate = events / time
             for name in ("energy_drift", "momentum_drift"):
                 yield {"panel": "drift", "case": name, "parameter": sigma, "events": events,
-                       "deviation": float(result[name].mean)}  # fmt: skip
+                       "deviation": float(result[name].mean),
+                       "error": float(result[name].standard_error)}  # fmt: skip
 
 
 def draw_drift(axes: Axes, table: pd.DataFrame) -> None:
@@ -48,12 +49,18 @@ def draw_drift(axes: Axes, table: pd.DataFrame) -> None:
         marker, colour = LOOKS[sigma]
         energy = name == "energy_drift"
         label = rf"$\sigma$ = {SIGMAS[sigma]}" if energy else None
-        axes.plot(rows.events, rows.deviation, marker, color=colour, label=label, markersize=3.5,
-                  markerfacecolor=colour if energy else "white", markeredgewidth=0.8)  # fmt: skip
+        axes.errorbar(rows.events, rows.deviation, rows.error, fmt=marker, color=colour, label=label, markersize=3.5,
+                      markerfacecolor=colour if energy else "white", markeredgewidth=0.8, linewidth=0.8)  # fmt: skip
     events = np.array([table.events.min(), table.events.max()])
     axes.plot(events, UNIT * np.sqrt(events), **style.GUIDE)
     axes.text(events[0], 4 * UNIT * np.sqrt(events[0]), r"$2^{-53}\sqrt{\mathrm{events}}$", fontsize=8)
-    axes.set(xscale="log", yscale="log", xlabel="events", ylabel="relative drift", ylim=(3e-18, 3e-12))
+    axes.set(
+        xscale="log",
+        yscale="log",
+        xlabel="events",
+        ylabel="relative drift",
+        ylim=(3e-18, 10 * UNIT * np.sqrt(events[1])),
+    )
     axes.legend(
         fontsize=7, loc="lower right", ncols=2, title="filled: energy, open: momentum", title_fontsize=7
     )
@@ -90,12 +97,20 @@ def measure(programs: Path, quality: str) -> pd.DataFrame:
     return pd.DataFrame([*drifts(run, LONGEST[quality]), *deviations(run)])
 
 
+def growth(rows: pd.DataFrame) -> pd.Series:
+    """The longest run and the power of the number of events with which the drift grows; a random walk's is 1/2."""
+    power = np.polyfit(np.log(rows.events), np.log(rows.deviation), 1)[0]
+    longest = rows.loc[rows.events.idxmax()]
+    return pd.Series({"events": longest.events, "drift": longest.deviation, "power": power})
+
+
 def summary(table: pd.DataFrame) -> str:
-    """Drifts of the longest runs, and the largest deviation of every case."""
-    longest = table[table.panel == "drift"].sort_values("events").groupby(["case", "parameter"]).tail(1)
+    """Growth of the drifts, and the largest deviation of every case."""
+    drift = (
+        table[table.panel == "drift"].groupby(["case", "parameter"])[["events", "deviation"]].apply(growth)
+    )
     largest = table[table.panel == "extremes"].groupby("case", sort=False).deviation.max()
-    drifted = longest[["case", "parameter", "events", "deviation"]].to_string(index=False)
-    return f"{drifted}\n{largest.to_string()}"
+    return f"{drift.to_string()}\n{largest.to_string()}"
 
 
 if __name__ == "__main__":
