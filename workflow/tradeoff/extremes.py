@@ -106,9 +106,8 @@ def growth(rows: pd.DataFrame) -> pd.Series:
 
 def summary(table: pd.DataFrame) -> str:
     """Growth of the drifts, and the largest deviation of every case."""
-    drift = (
-        table[table.panel == "drift"].groupby(["case", "parameter"])[["events", "deviation"]].apply(growth)
-    )
+    drift = table[table.panel == "drift"].assign(sigma=table.parameter.map(repr))
+    drift = drift.groupby(["case", "sigma"])[["events", "deviation"]].apply(growth)
     largest = table[table.panel == "extremes"].groupby("case", sort=False).deviation.max()
     return f"{drift.to_string()}\n{largest.to_string()}"
 
