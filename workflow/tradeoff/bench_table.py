@@ -29,7 +29,12 @@ def table(path: Path) -> pd.DataFrame:
     wide.insert(0, "particles", rows.groupby(["chain", "size"])["particles"].max())
     wide["reference/engine"] = wide["reference"] / wide["engine"]
     wide["engine/floor"] = wide["engine"] / wide["floor"]
-    return wide.reset_index()
+    wide["gamma"] = [size.split("gamma=")[1] for _, size in wide.index]
+    return (
+        wide.sort_values(["chain", "gamma", "particles"], ascending=[True, False, True])
+        .drop(columns="gamma")
+        .reset_index()
+    )
 
 
 def main() -> None:
