@@ -90,6 +90,7 @@ void EventQueue::relink(std::size_t first_list) {
     for (std::uint32_t& slot : heads) {
       if (slot == none) continue;
       const std::uint32_t next = flights_[slot].next;
+      __builtin_prefetch(&flights_[next == none ? slot : next], 1);
       --waiting_;
       schedule(slot);
       slot = next;

@@ -31,8 +31,9 @@ struct alignas(32) Flight {
 /// that is gone serves the next that comes.
 ///
 /// In a large population almost every flight passes through a coarse bucket, and there its memory is fetched
-/// anew. A coarse bucket is therefore several lists, walked side by side, so that the fetches overlap; and a
-/// turn is short enough for its flights to stay in the second-level cache from then on.
+/// anew. A coarse bucket is therefore several lists, walked side by side, and the next flight of each is
+/// asked for while the others are dealt with, so that the fetches overlap; and a turn is short enough for its
+/// flights to stay in the second-level cache from then on.
 ///
 /// The bucket width follows the measured rate of events. It is a matter of speed only: the order is
 /// exact for every width, because floor(time / width) is monotone in time also when rounded.
@@ -112,7 +113,7 @@ class EventQueue {
   }
 
  private:
-  static constexpr std::uint64_t lanes = 16;  // lists per coarse bucket
+  static constexpr std::uint64_t lanes = 32;  // lists per coarse bucket
 
   std::uint64_t tick_of(double time) const {
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(time * ticks_per_time_));
