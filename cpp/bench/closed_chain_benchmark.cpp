@@ -71,7 +71,7 @@ void closed_reference(benchmark::State& state) {
 void closed_floor(benchmark::State& state) {
   const Case of(state);
   const Scattering scatter(of.chain);
-  Launch launch(of.chain, 1, 0);
+  const Launch launch(of.chain, 1, 0);
   EventQueue memory(first_flights(of.chain, of.start, launch), of.rate, end_time);
   std::vector<double> scatterers = scatter.scaled(of.start.scatterers);
   Persistent observer;

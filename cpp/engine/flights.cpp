@@ -21,14 +21,16 @@ Flight first_flight(const ClosedChain& chain, const Particle& particle, std::int
 
 }  // namespace
 
-std::vector<Flight> first_flights(const ClosedChain& chain, const PhasePoint& start, Launch& launch) {
+std::vector<Flight> first_flights(const ClosedChain& chain, const PhasePoint& start, const Launch& launch) {
   std::vector<Flight> flights;
   flights.reserve(start.particles.size());
   for (const Particle& particle : start.particles) {
     double velocity = particle.velocity;
     const auto slot = static_cast<std::uint32_t>(flights.size());
-    const std::int64_t cells = launch.deterministic() ? 1 : launch(slot, velocity);
+    std::uint64_t draws = 0;
+    const std::int64_t cells = launch.deterministic() ? 1 : launch(slot, draws, velocity);
     flights.push_back(first_flight(chain, {particle.position, velocity}, cells));
+    flights.back().draws = draws;
   }
   return flights;
 }

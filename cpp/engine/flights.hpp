@@ -11,7 +11,7 @@ namespace lorentz {
 
 /// The flight of every particle to the first scatterer ahead of it, and on to where it scatters. Scatterers
 /// stand at (i + 1/2) times the cell length.
-std::vector<Flight> first_flights(const ClosedChain& chain, const PhasePoint& start, Launch& launch);
+std::vector<Flight> first_flights(const ClosedChain& chain, const PhasePoint& start, const Launch& launch);
 
 /// Collisions per unit time once the energy is shared equally: the mean |u| of all particles, over the mean
 /// length of a flight.

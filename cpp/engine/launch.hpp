@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <vector>
 
 #include "engine/random.hpp"
 #include "model/closed_chain.hpp"
@@ -27,21 +26,21 @@ inline std::int64_t cells_to_scattering(double uniform_number, double log_pass_p
 class Launch {
  public:
   /// One slot per particle; several copies of the particles, one after the other, draw the same numbers.
-  Launch(const ClosedChain& chain, std::uint64_t seed, std::uint64_t replica, std::uint32_t copies = 1)
+  Launch(const ClosedChain& chain, std::uint64_t seed, std::uint64_t replica)
       : passing_(!chain.deterministic()),
         random_direction_(chain.random_direction),
         log_pass_probability_(std::log1p(-chain.gamma / chain.cells)),
         seed_(seed),
         replica_(replica),
-        particles_(chain.particles()),
-        draws_(deterministic() ? 0 : std::size_t{copies} * chain.particles(), 0) {}
+        particles_(chain.particles()) {}
 
   /// No chance at all: one cell, direction kept.
   bool deterministic() const { return !passing_ && !random_direction_; }
 
-  /// Draws the direction of u where it is random, and the number of cells of the flight.
-  std::int64_t operator()(std::uint32_t slot, double& u) {
-    const std::uint64_t draw = draws_[slot]++;
+  /// Draws the direction of u where it is random, and the number of cells of the flight. draws: those that
+  /// the particle has taken so far.
+  std::int64_t operator()(std::uint32_t slot, std::uint64_t& draws, double& u) const {
+    const std::uint64_t draw = draws++;
     const std::uint32_t particle = slot % particles_;
     if (random_direction_)
       u = std::copysign(u, uniform(seed_, Purpose::direction, replica_, particle, draw) - 0.5);
@@ -50,17 +49,11 @@ class Launch {
                                log_pass_probability_);
   }
 
-  /// From now on `to` draws what `from` draws.
-  void copy(std::uint32_t from, std::uint32_t to) {
-    if (!deterministic()) draws_[to] = draws_[from];
-  }
-
  private:
   bool passing_, random_direction_;
   double log_pass_probability_;
   std::uint64_t seed_, replica_;
   std::uint32_t particles_;
-  std::vector<std::uint64_t> draws_;  // taken so far, by slot
 };
 
 }  // namespace lorentz

@@ -10,16 +10,11 @@ namespace {
 
 /// Flights of both trajectories; a single particle has no second flight yet.
 std::vector<Flight> both(const ClosedChain& chain, const PhasePoint& plain, const PhasePoint& perturbed,
-                         Launch& launch, const std::vector<char>& double_particles) {
-  Launch again = launch;  // the perturbed particles draw the numbers that the plain ones draw
+                         const Launch& launch, const std::vector<char>& double_particles) {
   std::vector<Flight> flights = first_flights(chain, plain, launch);
-  std::vector<Flight> second = first_flights(chain, perturbed, again);
-  for (std::uint32_t slot = 0; slot < chain.particles(); ++slot) {
-    if (double_particles[slot])
-      launch.copy(slot, slot + chain.particles());
-    else
-      second[slot].time = std::numeric_limits<double>::infinity();
-  }
+  std::vector<Flight> second = first_flights(chain, perturbed, launch);
+  for (std::uint32_t slot = 0; slot < chain.particles(); ++slot)
+    if (!double_particles[slot]) second[slot].time = std::numeric_limits<double>::infinity();
   flights.insert(flights.end(), second.begin(), second.end());
   return flights;
 }
@@ -39,7 +34,7 @@ PairDynamics::PairDynamics(const ClosedChain& chain, const PhasePoint& plain, co
                            double end_time, std::uint64_t seed, std::uint64_t replica, bool share)
     : chain_(chain),
       scatter_(chain),
-      launch_(chain, seed, replica, 2),
+      launch_(chain, seed, replica),
       double_particles_(different(plain.particles, perturbed.particles, !share,
                                   [](const Particle& a, const Particle& b) {
                                     return a.velocity != b.velocity || a.position != b.position;

@@ -80,7 +80,6 @@ class PairDynamics {
 
   void make_double(std::uint32_t slot, std::uint32_t twin) {
     queue_[twin] = queue_[slot];
-    launch_.copy(slot, twin);
     double_particles_[slot] = true;
   }
 

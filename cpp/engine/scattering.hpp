@@ -37,12 +37,12 @@ class Scattering {
   /// The flight ends at the scatterer w; both get their new state. launching: whether `launch` has a say in
   /// what follows; otherwise the particle scatters again at the neighbouring scatterer.
   template <bool launching>
-  Departure operator()(Flight& flight, double& w, Launch& launch, std::uint32_t slot) const {
+  Departure operator()(Flight& flight, double& w, const Launch& launch, std::uint32_t slot) const {
     double u = flight.velocity, scatterer = w;  // copies: the two references might be one
     collide_(u, scatterer);
     w = scatterer;
     std::int64_t cells = 1;
-    if constexpr (launching) cells = launch(slot, u);
+    if constexpr (launching) cells = launch(slot, flight.draws, u);
     flight.velocity = u;
     const double duration = static_cast<double>(cells) * cell_length_ / std::abs(u);
     const Departure departure{flight.time, slot, u, u > 0 ? cells : -cells, duration};
