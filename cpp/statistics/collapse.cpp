@@ -1,13 +1,15 @@
 #include "statistics/collapse.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace lorentz {
 namespace {
 
-constexpr int points = 41;  // at which the rescaled profiles are compared
+constexpr std::size_t points = 41;  // at which the rescaled profiles are compared
 constexpr double smallest = 0.1, largest = 1.5;
 
 /// Linear interpolation; 0 outside.
@@ -23,42 +25,60 @@ double value_at(const Profile& profile, double x) {
 /// Mean square spread of the rescaled profiles over the mean square of their mean.
 double spread(std::span<const Profile> profiles, double low, double high, double xi) {
   const double last = profiles.back().time;
-  double differences = 0, size = 0;
-  for (int i = 0; i < points; ++i) {
-    const double s = low + (high - low) * i / (points - 1);
-    double sum = 0, squares = 0;
-    for (const Profile& profile : profiles) {
-      const double stretch = std::pow(profile.time / last, xi);
+  std::array<double, points> sum{}, squares{};
+  for (const Profile& profile : profiles) {
+    const double stretch = std::pow(profile.time / last, xi);
+    for (std::size_t i = 0; i < points; ++i) {
+      const double s = low + (high - low) * static_cast<double>(i) / (points - 1);
       const double y = stretch * value_at(profile, s * stretch);
-      sum += y;
-      squares += y * y;
+      sum[i] += y;
+      squares[i] += y * y;
     }
-    const double mean = sum / static_cast<double>(profiles.size());
-    differences += squares / static_cast<double>(profiles.size()) - mean * mean;
+  }
+  double differences = 0, size = 0;
+  for (std::size_t i = 0; i < points; ++i) {
+    const double mean = sum[i] / static_cast<double>(profiles.size());
+    differences += squares[i] / static_cast<double>(profiles.size()) - mean * mean;
     size += mean * mean;
   }
   return differences / size;
+}
+
+/// The least of a function between a and b, which has one valley there, by the golden section, to 1e-5.
+template <class Function>
+double bottom(const Function& cost, double a, double b) {
+  const double golden = (std::sqrt(5.0) - 1) / 2;
+  double c = b - golden * (b - a), d = a + golden * (b - a), at_c = cost(c), at_d = cost(d);
+  while (b - a > 1e-5) {
+    if (at_c < at_d) {
+      b = std::exchange(d, c);
+      at_d = at_c;
+      at_c = cost(c = b - golden * (b - a));
+    } else {
+      a = std::exchange(c, d);
+      at_c = at_d;
+      at_d = cost(d = a + golden * (b - a));
+    }
+  }
+  return 0.5 * (a + b);
 }
 
 }  // namespace
 
 double collapse_exponent(std::span<const Profile> profiles, double low, double high) {
   if (profiles.size() < 2) throw std::invalid_argument("a collapse needs two profiles");
-  // A scan finds the valley, the golden section its bottom.
+  // A scan finds the valley.
   constexpr int steps = 28;
   const auto cost = [&](double xi) { return spread(profiles, low, high, xi); };
-  double best = smallest;
+  double best = smallest, least = cost(smallest);
   for (int i = 1; i <= steps; ++i) {
-    const double xi = smallest + (largest - smallest) * i / steps;
-    if (cost(xi) < cost(best)) best = xi;
+    const double xi = smallest + (largest - smallest) * i / steps, here = cost(xi);
+    if (!(here < least)) continue;
+    best = xi;
+    least = here;
   }
-  double a = best - (largest - smallest) / steps, b = best + (largest - smallest) / steps;
-  const double golden = (std::sqrt(5.0) - 1) / 2;
-  while (b - a > 1e-5) {
-    const double c = b - golden * (b - a), d = a + golden * (b - a);
-    (cost(c) < cost(d) ? b : a) = cost(c) < cost(d) ? d : c;
-  }
-  return 0.5 * (a + b);
+  const double step = (largest - smallest) / steps;
+  return bottom(cost, best - step, best + step);
 }
 
 }  // namespace lorentz
