@@ -76,7 +76,7 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
         ):
             axes.axhline(height * scale, **style.GUIDE | look)
             axes.text(4.2, height * scale, f"{name} {reading}", va="bottom", size=7, **look)
-    axes.set(xscale="log", yscale="log", ylim=(5e-5, 5e-2))
+    axes.set(xscale="log", yscale="log", ylim=(5e-5, 0.2))
     axes.set(xlabel="number of cells $N$", ylabel=r"largest $|F_N - F|\,/\,\max F$")
     right = axes.secondary_yaxis("right", functions=(lambda y: y * printed, lambda y: y / printed))
     right.set_ylabel(r"$|F_N - F|$, halves of 1/2 as printed")
