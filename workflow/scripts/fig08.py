@@ -70,9 +70,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         slope, name = GUIDES[gamma]
         size = np.array([part.cells.min(), part.cells.max()])
         axes.plot(size, 0.6 * part.kappa.iloc[0] * (size / size[0]) ** slope, **style.GUIDE)
-        axes.text(
-            size[1], 0.42 * part.kappa.iloc[0] * (size[1] / size[0]) ** slope, name, size=8, ha="center"
-        )
+        below = 0.48 * part.kappa.iloc[0] * (size[1] / size[0]) ** slope
+        axes.text(size[1], below, name, size=8, ha="center", va="top")
         style.cross_out(axes, part.cells.to_numpy(), part.kappa.to_numpy(), ~part.sound.to_numpy())
     theory = mean_field(results)
     color = style.BY_GAMMA["N"][1]
