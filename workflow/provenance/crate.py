@@ -13,7 +13,7 @@ from rocrate.rocrate import ROCrate
 
 from workflow.config.plan import ConfigurationError, Panel, load_plan, with_used
 from workflow.provenance.crate_graph import crate_of
-from workflow.provenance.lock import Job, Lock, LockError
+from workflow.provenance.lock import Job, Lock, LockError, builds_of
 from workflow.provenance.repository import ROOT, git
 from workflow.provenance.stale import Staleness
 
@@ -48,7 +48,7 @@ def chosen_jobs(lock: Lock, plan: dict[str, Panel], panel: str | None, remedy: s
 def source_files(lock: Lock, jobs: dict[str, Job]) -> set[str]:
     """The project's files, and what the jobs were made from, tracked by git or not; relative paths."""
     scripts = [path for job in jobs.values() if job.is_drawing for path in job.parents["sources"]]
-    builds = {job.parents["build_id"] for job in jobs.values() if not job.is_drawing}
+    builds = builds_of(jobs.values())
     built = [f"cpp/{path}" for build_id in builds for path in lock.builds[build_id]["sources"]]
     return {*project_files(), *scripts, *built}
 

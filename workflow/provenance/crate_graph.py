@@ -13,7 +13,7 @@ from rocrate.rocrate import ROCrate
 
 from workflow.config.plan import Panel
 from workflow.provenance.crate_files import WORKFLOW, add, add_files, compact, new_crate
-from workflow.provenance.lock import Job, Lock, configuration_files
+from workflow.provenance.lock import Job, Lock, builds_of, configuration_files
 from workflow.provenance.repository import ROOT, git
 from workflow.provenance.stale import PACKAGES
 
@@ -45,8 +45,8 @@ def crate_of(
     }
     lock_path = str(Lock.path(lock.quality).relative_to(ROOT))
     files = add_files(crate, {*sources, *products, lock_path}, set(scripts.values()))
-    used = {job.parents["build_id"] for job in jobs.values() if not job.is_drawing}
-    programs = {build_id: _add_program(crate, lock.builds[build_id], files) for build_id in sorted(used)}
+    used = sorted(builds_of(jobs.values()))
+    programs = {build_id: _add_program(crate, lock.builds[build_id], files) for build_id in used}
 
     settings = configuration_files(lock.quality)
     inputs = [*settings, PACKAGES]

@@ -10,7 +10,7 @@ import fcntl
 import hashlib
 import json
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
@@ -71,7 +71,7 @@ class Lock:
     def write(self) -> None:
         """Builds that no run names are left out."""
         path = self.path(self.quality)
-        named = {job.parents["build_id"] for job in self.runs().values()}
+        named = builds_of(self.jobs.values())
         content = {"format": FORMAT, "version": VERSION, "quality": self.quality}
         content["builds"] = {build_id: build for build_id, build in self.builds.items() if build_id in named}
         content["jobs"] = {name: asdict(job) for name, job in self.jobs.items()}
@@ -88,6 +88,11 @@ class Lock:
 
     def outputs(self) -> dict[str, str]:
         return {path: digest for job in self.jobs.values() for path, digest in job.outputs.items()}
+
+
+def builds_of(jobs: Iterable[Job]) -> set[str]:
+    """Build ids of the programs that made the runs among the jobs."""
+    return {job.parents["build_id"] for job in jobs if not job.is_drawing}
 
 
 def _seal(content: dict) -> str:
