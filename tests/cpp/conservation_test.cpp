@@ -8,6 +8,7 @@
 
 #include "engine/closed_dynamics.hpp"
 #include "engine/closed_start.hpp"
+#include "support/sample.hpp"
 
 namespace {
 
@@ -158,7 +159,7 @@ TEST(Conservation, ScoreFindsTheResonanceOfAFractionOfFive) {
 /// each. A drift too small for the steps of one group to show it grows with their number here.
 template <class Law>
 double mean_drift_score(const Law& law, int groups, std::uint64_t events) {
-  double sum = 0, squares = 0;
+  std::vector<double> drifts;
   for (int group = 0; group < groups; ++group) {
     std::mt19937_64 generator(static_cast<std::uint64_t>(group));
     std::normal_distribution<double> velocity(0, 1);
@@ -178,12 +179,9 @@ double mean_drift_score(const Law& law, int groups, std::uint64_t events) {
       const std::uint64_t draw = generator();
       law(particles[draw % particles.size()], scatterers[(draw >> 32) % scatterers.size()]);
     }
-    const auto drift = static_cast<double>(energy() / before - 1);
-    sum += drift;
-    squares += drift * drift;
+    drifts.push_back(static_cast<double>(energy() / before - 1));
   }
-  const double mean = sum / groups;
-  return mean / std::sqrt((squares / groups - mean * mean) / (groups - 1));
+  return support::z_score(support::sample(drifts), 0);
 }
 
 /// sigma = 1/2 raised by one part in 1e13 only, as the engine once had it: the product with 1 - sigma falls
