@@ -25,7 +25,6 @@ inline std::int64_t cells_to_scattering(double uniform_number, double log_pass_p
 /// equally often.
 class Launch {
  public:
-  /// One slot per particle; several copies of the particles, one after the other, draw the same numbers.
   Launch(const ClosedChain& chain, std::uint64_t seed, std::uint64_t replica)
       : passing_(!chain.deterministic()),
         random_direction_(chain.random_direction),
@@ -37,8 +36,9 @@ class Launch {
   /// No chance at all: one cell, direction kept.
   bool deterministic() const { return !passing_ && !random_direction_; }
 
-  /// Draws the direction of u where it is random, and the number of cells of the flight. draws: those that
-  /// the particle has taken so far.
+  /// Draws the direction of u where it is random, and the number of cells of the flight. Slots are particles;
+  /// several copies of all, one after the other, draw the same numbers. draws: those that the particle has
+  /// taken so far.
   std::int64_t operator()(std::uint32_t slot, std::uint64_t& draws, double& u) const {
     const std::uint64_t draw = draws++;
     const std::uint32_t particle = slot % particles_;

@@ -23,7 +23,8 @@ void require_within(double value, double low, double high, const std::string& op
 void require_fourth_powers(const Reservoir& left, const Reservoir& right);
 
 /// Flights across a cell at thermal speed, one after the other, that a run may last. A clock that is never
-/// restarted resolves a flight to 1e-6 of it at its end then.
+/// restarted then still resolves 1e-6 of a flight; where it is restarted, nobody waits for more than the
+/// second.
 constexpr double flights_of_one_clock = 1e10, flights_of_a_year = 1e15;
 
 /// What sets the size of the numbers in a simulation.
@@ -32,7 +33,7 @@ struct Extent {
   double cell_length;
   double end_time;
   double particles;                 // that take part
-  double most_flights;              // one of those above
+  double most_flights;              // of one clock, or of a year
   std::string temperatures, times;  // the options
 };
 
