@@ -15,26 +15,22 @@ def medians(path: Path) -> pd.DataFrame:
         if not kind.startswith(("closed_", "open_")) or entry.get("aggregate_name", "median") != "median":
             continue
         chain, what = kind.split("_")
-        size = " ".join(
-            word.replace(":", "=") for word in arguments if not word.startswith(("iter", "repeats"))
-        )
-        row = {"chain": chain, "size": size.replace("gamma=0", "gamma=N"), "what": what}
+        parameters = dict(word.split(":") for word in arguments if not word.startswith(("iter", "repeats")))
+        gamma = parameters.pop("gamma").replace("0", "N")
+        size = " ".join(f"{name}={value}" for name, value in parameters.items())
+        row = {"chain": chain, "gamma": gamma, "size": size, "what": what}
         rows.append(row | {"ns": 1e9 / entry["items_per_second"], "particles": entry.get("particles")})
     return pd.DataFrame(rows)
 
 
 def table(path: Path) -> pd.DataFrame:
     rows = medians(path)
-    wide = rows.pivot_table(index=["chain", "size"], columns="what", values="ns", sort=False)
-    wide.insert(0, "particles", rows.groupby(["chain", "size"])["particles"].max())
+    case = ["chain", "gamma", "size"]
+    wide = rows.pivot_table(index=case, columns="what", values="ns", sort=False)
+    wide.insert(0, "particles", rows.groupby(case)["particles"].max())
     wide["reference/engine"] = wide["reference"] / wide["engine"]
     wide["engine/floor"] = wide["engine"] / wide["floor"]
-    wide["gamma"] = [size.split("gamma=")[1] for _, size in wide.index]
-    return (
-        wide.sort_values(["chain", "gamma", "particles"], ascending=[True, False, True])
-        .drop(columns="gamma")
-        .reset_index()
-    )
+    return wide.sort_values(["chain", "gamma", "particles"], ascending=[True, False, True]).reset_index()
 
 
 def main() -> None:
