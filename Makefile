@@ -100,6 +100,7 @@ tradeoff: build .venv/runtime  ## Speed against accuracy, measured here: figures
 	$(PYTHON) -m workflow.tradeoff.accuracy --programs build/bin --output figures/tradeoff/ext06
 	$(PYTHON) -m workflow.tradeoff.efficiency --programs build/bin --output figures/tradeoff/ext06_efficiency
 	$(PYTHON) -m workflow.tradeoff.bias --programs build/bin --output figures/tradeoff/ext06_bias
+	$(PYTHON) -m workflow.tradeoff.precision --programs build/bin --output figures/tradeoff/ext06_precision
 	$(PYTHON) -m workflow.tradeoff.prediction --programs build/bin --output figures/tradeoff/ext06_prediction
 	$(PYTHON) -m workflow.tradeoff.extremes --programs build/bin --quality $(QUALITY) --output figures/tradeoff/ext08
 

@@ -16,7 +16,6 @@ from workflow.scripts import style
 from workflow.scripts.load import Result
 from workflow.tradeoff import frame
 from workflow.tradeoff.measure import execute, planned, shortened
-from workflow.tradeoff.reference import drift
 
 REPLICAS = 60
 SHARE = 1 / 8  # of the panels' windows
@@ -130,5 +129,4 @@ def measure(programs: Path) -> pd.DataFrame:
 
 
 if __name__ == "__main__":
-    folder = frame.run(measure, __doc__, draw)
-    print(drift(folder, planned("fig05", "paper_sigma=0.3").options).to_string(index=False))
+    frame.run(measure, __doc__, draw)

@@ -26,9 +26,9 @@ def run(
     draw: Draw | None = None,
     show: Callable[[pd.DataFrame], str] = whole,
     **further: dict,
-) -> Path:
+) -> None:
     """Further options are given by name, as argparse takes them; measure gets their values. What show makes of
-    the table is printed. Returns the folder of the executables."""
+    the table is printed."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--programs", type=Path, required=True, help="folder of the executables")
     for name, properties in further.items():
@@ -46,4 +46,3 @@ def run(
         for kind in ("pdf", "png"):
             figure.savefig(output.with_suffix(f".{kind}"))
     print(show(table))
-    return options["programs"]

@@ -5,7 +5,6 @@ import subprocess
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 
 from workflow.config.plan import Options
 
@@ -52,12 +51,3 @@ def pulse(programs: Path, options: Options, replicas: int, start: str) -> tuple[
     words += [visited, options["energy"], options["pulse-energy"], options["members"], replicas, 1, start]
     rows, seconds = _rows([*words, *times])
     return rows.reshape(replicas, len(times), options["cells"]), seconds
-
-
-def drift(programs: Path, options: Options) -> pd.DataFrame:
-    """Relative change of the energy of a closed chain for three types of numbers."""
-    keys = ("cells", "particles-per-cell", "sigma", "temperature", "observation-time")
-    words = [programs / "reference_drift", *(options[key] for key in keys), 1]
-    output = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=True).stdout
-    rows = [line.split() for line in output.splitlines()]
-    return pd.DataFrame(rows, columns=["type", "events", "relative change of the energy"])
