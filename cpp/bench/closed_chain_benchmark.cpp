@@ -80,15 +80,15 @@ void closed_floor(benchmark::State& state) {
   // Otherwise neighbours in memory begin at one scatterer and wait for each other, as in the order of time
   // they seldom do.
   std::shuffle(flights.begin(), flights.end(), std::mt19937(1));
-  EventQueue memory(flights, of.rate, end_time);
+  std::vector<Flight, HugePageAllocator<Flight>> memory(flights.begin(), flights.end());
   std::vector<double> scatterers = scatter.scaled(of.start.scatterers);
   Persistent observer;
-  std::uint32_t slot = 0;
+  std::size_t slot = 0;
   const auto advance = [&]<bool launching>(std::uint64_t events) {
     for (; events > 0; --events) {
       Flight& flight = memory[slot];
       const double before = flight.velocity;
-      scatter.operator()<launching>(flight, scatterers[flight.target], launch, slot);
+      scatter.operator()<launching>(flight, scatterers[flight.target], launch);
       observer.add(before, flight.velocity);
       if (++slot == of.chain.particles()) slot = 0;
     }

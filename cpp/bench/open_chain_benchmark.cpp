@@ -83,7 +83,7 @@ class Queueless {
     for (const Particle& particle : start.particles)
       flights_.push_back({0, particle.velocity,
                           static_cast<std::uint32_t>(particle.position / chain.cell_length),
-                          EventQueue::none});
+                          static_cast<std::uint32_t>(flights_.size())});
     std::shuffle(flights_.begin(), flights_.end(), std::mt19937(1));  // as in closed_floor
   }
 

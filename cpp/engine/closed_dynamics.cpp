@@ -29,8 +29,12 @@ ClosedDynamics::ClosedDynamics(const ClosedChain& chain, const PhasePoint& start
       launch_(chain, seed, replica),
       queue_(first_flights(chain, start, launch_), expected_rate(chain, start), end_time) {}
 
-double ClosedDynamics::position_from_target(std::uint32_t particle, double time) const {
-  return lorentz::position_from_target(queue_.flights()[particle], time, chain_.cell_length);
+std::vector<double> ClosedDynamics::positions_from_targets(double time) const {
+  std::vector<double> positions;
+  positions.reserve(particles());
+  for (const Flight& flight : queue_.flights())
+    positions.push_back(position_from_target(flight, time, chain_.cell_length));
+  return positions;
 }
 
 std::vector<double> ClosedDynamics::scatterers() const {

@@ -30,9 +30,9 @@ class ClosedDynamics {
 
   std::uint32_t particles() const { return chain_.particles(); }
 
-  /// Position of a particle relative to the scatterer at the end of its flight: negative while it flies
+  /// Position of every particle relative to the scatterer at the end of its flight: negative while it flies
   /// to the right.
-  double position_from_target(std::uint32_t particle, double time) const;
+  std::vector<double> positions_from_targets(double time) const;
 
   /// U of every scatterer.
   std::vector<double> scatterers() const;
@@ -75,20 +75,18 @@ void ClosedDynamics::advance(double until, Observer& observer, Heartbeat&& heart
   const Scattering scatter = scatter_;
   const double scale = scatter.rule().scatterer_scale();
 
-  for (std::uint32_t slot; (slot = queue_.take_before(until)) != EventQueue::none;) {
-    Flight& flight = queue_[slot];
+  for (Flight flight; queue_.take_before(until, flight);) {
     const std::uint32_t cell = flight.target;
     const double particle = flight.velocity;
     const double scatterer = scatterers_[cell];
-    const Departure departure =
-        scatter.template operator()<launching>(flight, scatterers_[cell], launch_, slot);
+    const Departure departure = scatter.template operator()<launching>(flight, scatterers_[cell], launch_);
     if constexpr (requires(const Collision& collision) { observer.on_collision(collision); }) {
-      observer.on_collision(Collision{departure.time, slot, cell, particle, departure.velocity,
+      observer.on_collision(Collision{departure.time, flight.particle, cell, particle, departure.velocity,
                                       scale * scatterer, scale * scatterers_[cell]});
     }
     if constexpr (requires(const Departure& seen) { observer.on_flight(seen); })
       observer.on_flight(departure);
-    queue_.schedule(slot);
+    queue_.schedule(flight);
     if (++events_ % events_per_heartbeat == 0) heartbeat(departure.time);
   }
 }

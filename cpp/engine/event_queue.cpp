@@ -1,8 +1,7 @@
 #include "engine/event_queue.hpp"
 
 #include <algorithm>
-#include <array>
-#include <utility>
+#include <limits>
 
 namespace lorentz {
 namespace {
@@ -10,12 +9,12 @@ namespace {
 // By measurement (docs/numerics.md). Mean number of events in a bucket: few enough that lists are rarely
 // longer than one, which the processor cannot predict.
 constexpr double occupancy = 0.125;
-// Events of a turn, per particle and at most: long turns send few flights through the coarse buckets, short
-// ones keep their flights in the second-level cache.
+// Events of a turn, per particle and at most: long turns send few flights through the piles, short ones keep
+// their flights in the second-level cache.
 constexpr double turn_per_particle = 8;
 constexpr double longest_turn = 8192;
-// How far the coarse buckets reach, in events per particle.
-constexpr double reach = 64;
+// How far the piles of single turns reach, in events per particle.
+constexpr double reach = 16;
 
 std::size_t power_of_two(double at_least, std::size_t least) {
   return std::bit_ceil(std::max(least, static_cast<std::size_t>(at_least)));
@@ -26,7 +25,7 @@ std::size_t bucket_count(std::size_t particles) {
   return power_of_two(turn / occupancy, 256);
 }
 
-std::size_t coarse_count(std::size_t particles) {
+std::size_t turn_count(std::size_t particles) {
   const double turn = occupancy * static_cast<double>(bucket_count(particles));
   return power_of_two(reach * static_cast<double>(particles) / turn, 64);
 }
@@ -34,69 +33,74 @@ std::size_t coarse_count(std::size_t particles) {
 }  // namespace
 
 EventQueue::EventQueue(const std::vector<Flight>& flights, double rate, double end_time)
-    : flights_(flights.begin(), flights.end()), end_time_(end_time) {
-  rebuild(rate, 0);
+    : end_time_(end_time) {
+  rebuild(flights, rate, 0);
 }
 
-/// The wheel anew, for a rate of events and the present population; nothing arrives before `now`.
-void EventQueue::rebuild(double rate, double now) {
-  const std::size_t size = bucket_count(flights_.size()), coarse = coarse_count(flights_.size());
-  lists_.assign(size + (coarse + 1) * lanes, none);
+/// The wheel anew, for a rate of events and a population; nothing arrives before `now`.
+void EventQueue::rebuild(const std::vector<Flight>& flights, double rate, double now) {
+  const std::size_t size = bucket_count(flights.size()), turns = turn_count(flights.size());
+  lists_.assign(size, Piles::nowhere);
   occupied_.assign(size / 64, 0);
   bucket_mask_ = size - 1;
   bucket_bits_ = std::countr_zero(size);
-  coarse_mask_ = coarse - 1;
+  turn_mask_ = turns - 1;
+  piles_.reset(frozen() + 1, flights.size());
   // More than 2^52 ticks would be finer than the clock itself.
   ticks_per_time_ = std::clamp(rate / occupancy, 1 / end_time_, 0x1p52 / end_time_);
   const std::uint64_t next_turn = (tick_of(now) >> bucket_bits_) + 1;
   turn_end_ = next_turn * size;
-  coarse_end_ = next_turn + coarse;
+  piles_end_ = next_turn + turns;
   word_ = 0;
   word_bits_ = 0;
+  vacant_ = Piles::nowhere;
   taken_in_turn_ = 0;
   waiting_ = 0;
-  for (std::uint32_t slot = 0; slot < flights_.size(); ++slot) schedule(slot);
+  for (const Flight& flight : flights) schedule(flight);
+}
+
+std::vector<Flight> EventQueue::gathered() const {
+  std::vector<Flight> flights;
+  const auto add = [&](std::uint32_t place) { flights.push_back(piles_[place]); };
+  for (std::size_t pile = 0; pile < piles_.size(); ++pile)
+    if (pile != current()) piles_.for_each(pile, add);
+  for (std::uint32_t place : lists_)  // the current pile has vacant places
+    for (; place != Piles::nowhere; place = next_[place]) add(place);
+  return flights;
+}
+
+std::vector<Flight> EventQueue::flights() const {
+  std::vector<Flight> by_number;
+  for (const Flight& flight : gathered()) {
+    while (by_number.size() <= flight.particle)
+      by_number.push_back(
+          {std::numeric_limits<double>::infinity(), 0, 0, static_cast<std::uint32_t>(by_number.size())});
+    by_number[flight.particle] = flight;
+  }
+  return by_number;
 }
 
 void EventQueue::shift(double origin) {
-  for (Flight& flight : flights_) flight.time -= origin;
+  std::vector<Flight> flights = gathered();
+  for (Flight& flight : flights) flight.time -= origin;
   end_time_ -= origin;
-  rebuild(ticks_per_time_ * occupancy, 0);
+  rebuild(flights, ticks_per_time_ * occupancy, 0);
 }
 
+/// Its place, or nowhere if it does not arrive before `until`.
 std::uint32_t EventQueue::take_first_of_list(std::size_t bucket, double until) {
   std::uint32_t* link_to_first = &lists_[bucket];
   std::uint32_t first = *link_to_first;
-  for (std::uint32_t* link = &flights_[first].next; *link != none; link = &flights_[*link].next) {
-    const double time = flights_[*link].time;
-    const double first_time = flights_[first].time;
-    if (time < first_time || (time == first_time && *link < first)) {
+  for (std::uint32_t* link = &next_[first]; *link != Piles::nowhere; link = &next_[*link]) {
+    const Flight &a = piles_[*link], &b = piles_[first];
+    if (a.time < b.time || (a.time == b.time && a.particle < b.particle)) {
       link_to_first = link;
       first = *link;
     }
   }
-  if (!(flights_[first].time < until)) return none;
-  *link_to_first = flights_[first].next;
-  ++taken_in_turn_;
+  if (!(piles_[first].time < until)) return Piles::nowhere;
+  *link_to_first = next_[first];
   return first;
-}
-
-/// Schedules the flights of a coarse bucket again.
-void EventQueue::relink(std::size_t first_list) {
-  std::array<std::uint32_t, lanes> heads{};
-  for (std::size_t lane = 0; lane < lanes; ++lane)
-    heads[lane] = std::exchange(lists_[first_list + lane], none);
-  for (bool more = true; std::exchange(more, false);) {
-    for (std::uint32_t& slot : heads) {
-      if (slot == none) continue;
-      const std::uint32_t next = flights_[slot].next;
-      __builtin_prefetch(&flights_[next == none ? slot : next], 1);
-      --waiting_;
-      schedule(slot);
-      slot = next;
-      more = true;
-    }
-  }
 }
 
 bool EventQueue::begin_turn(double until) {
@@ -105,24 +109,40 @@ bool EventQueue::begin_turn(double until) {
   // The wheel is empty now: a good moment to rebuild it when it no longer fits the rate or the population.
   const double filling =
       static_cast<double>(taken_in_turn_) / (occupancy * static_cast<double>(bucket_mask_ + 1));
-  if (filling > 1.5 || filling < 0.5 || bucket_count(flights_.size()) - 1 > bucket_mask_ ||
-      coarse_count(flights_.size()) - 1 > coarse_mask_) {
+  if (filling > 1.5 || filling < 0.5 || bucket_count(waiting_) - 1 > bucket_mask_ ||
+      turn_count(waiting_) - 1 > turn_mask_) {
+    const std::vector<Flight> flights = gathered();
     double now = until;
-    for (const Flight& flight : flights_) now = std::min(now, flight.time);
-    rebuild(ticks_per_time_ * occupancy * std::clamp(filling, 0.125, 8.0), now);
+    for (const Flight& flight : flights) now = std::min(now, flight.time);
+    rebuild(flights, ticks_per_time_ * occupancy * std::clamp(filling, 0.125, 8.0), now);
     return true;
   }
 
   const std::uint64_t turn = turn_end_ >> bucket_bits_;
   turn_end_ += bucket_mask_ + 1;
   word_ = 0;
+  vacant_ = Piles::nowhere;
   taken_in_turn_ = 0;
-  if (turn == coarse_end_) {
-    coarse_end_ += coarse_mask_ + 1;
-    relink(lists_of(coarse_end_));  // the rest
-  }
-  relink(lists_of(turn));
+  if (turn == piles_end_) spread_rest();
+  piles_.clear(current());
+  piles_.move(turn & turn_mask_, current());
+  next_.resize(std::max(next_.size(), piles_.places()));
+  piles_.for_each(current(), [&](std::uint32_t place) {
+    --waiting_;
+    link(place, tick_of(piles_[place].time));
+  });
   return true;
+}
+
+/// All piles of turns are empty, so they stand for the next ones now.
+void EventQueue::spread_rest() {
+  piles_end_ += turn_mask_ + 1;
+  piles_.clear(current());
+  piles_.move(rest(), current());
+  piles_.for_each(current(), [&](std::uint32_t place) {
+    const Flight flight = piles_[place];
+    piles_.append(pile_of(tick_of(flight.time)), flight);
+  });
 }
 
 }  // namespace lorentz

@@ -7,7 +7,8 @@
 namespace lorentz {
 namespace {
 
-Flight first_flight(const ClosedChain& chain, const Particle& particle, std::int64_t cells) {
+Flight first_flight(const ClosedChain& chain, const Particle& particle, std::int64_t cells,
+                    std::uint32_t number) {
   const double cells_from_first = particle.position / chain.cell_length - 0.5;
   const bool rightwards = particle.velocity > 0;
   const double ahead = rightwards ? std::floor(cells_from_first) + 1 : std::ceil(cells_from_first) - 1;
@@ -16,7 +17,7 @@ Flight first_flight(const ClosedChain& chain, const Particle& particle, std::int
   const auto around = static_cast<std::int64_t>(chain.cells);
   const std::int64_t index = static_cast<std::int64_t>(target) % around;
   return {distance / std::abs(particle.velocity), particle.velocity,
-          static_cast<std::uint32_t>(index < 0 ? index + around : index), EventQueue::none};
+          static_cast<std::uint32_t>(index < 0 ? index + around : index), number};
 }
 
 }  // namespace
@@ -26,10 +27,10 @@ std::vector<Flight> first_flights(const ClosedChain& chain, const PhasePoint& st
   flights.reserve(start.particles.size());
   for (const Particle& particle : start.particles) {
     double velocity = particle.velocity;
-    const auto slot = static_cast<std::uint32_t>(flights.size());
+    const auto number = static_cast<std::uint32_t>(flights.size());
     std::uint64_t draws = 0;
-    const std::int64_t cells = launch.deterministic() ? 1 : launch(slot, draws, velocity);
-    flights.push_back(first_flight(chain, {particle.position, velocity}, cells));
+    const std::int64_t cells = launch.deterministic() ? 1 : launch(number, draws, velocity);
+    flights.push_back(first_flight(chain, {particle.position, velocity}, cells, number));
     flights.back().draws = draws;
   }
   return flights;

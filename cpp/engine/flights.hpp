@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "engine/event_queue.hpp"
+#include "engine/flight.hpp"
 #include "engine/launch.hpp"
 #include "model/closed_chain.hpp"
 #include "model/phase_point.hpp"

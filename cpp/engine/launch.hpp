@@ -36,12 +36,12 @@ class Launch {
   /// No chance at all: one cell, direction kept.
   bool deterministic() const { return !passing_ && !random_direction_; }
 
-  /// Draws the direction of u where it is random, and the number of cells of the flight. Slots are particles;
-  /// several copies of all, one after the other, draw the same numbers. draws: those that the particle has
-  /// taken so far.
-  std::int64_t operator()(std::uint32_t slot, std::uint64_t& draws, double& u) const {
+  /// Draws the direction of u where it is random, and the number of cells of the flight. Several
+  /// copies of all particles, numbered one after the other, draw the same numbers. draws: those that the
+  /// particle has taken so far.
+  std::int64_t operator()(std::uint32_t number, std::uint64_t& draws, double& u) const {
     const std::uint64_t draw = draws++;
-    const std::uint32_t particle = slot % particles_;
+    const std::uint32_t particle = number % particles_;
     if (random_direction_)
       u = std::copysign(u, uniform(seed_, Purpose::direction, replica_, particle, draw) - 0.5);
     if (!passing_) return 1;

@@ -39,9 +39,7 @@ std::vector<double> OpenDynamics::scatterers() const {
 double OpenDynamics::energy() const {
   double twice_energy = 0;
   for (const double U : scatterers()) twice_energy += U * U;
-  for (const Flight& flight : queue_.flights())
-    if (flight.time < std::numeric_limits<double>::infinity())
-      twice_energy += flight.velocity * flight.velocity;
+  for (const Flight& flight : queue_.flights()) twice_energy += flight.velocity * flight.velocity;
   return 0.5 * twice_energy;
 }
 

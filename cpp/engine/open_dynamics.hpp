@@ -21,6 +21,22 @@ namespace lorentz {
 
 enum class End : std::uint8_t { left, right };
 
+/// Numbers of particles; the one that was given back last is taken first.
+class Numbers {
+ public:
+  std::uint32_t take() {
+    if (free_.empty()) return count_++;
+    const std::uint32_t number = free_.back();
+    free_.pop_back();
+    return number;
+  }
+  void give_back(std::uint32_t number) { free_.push_back(number); }
+
+ private:
+  std::uint32_t count_ = 0;
+  std::vector<std::uint32_t> free_;
+};
+
 /// An open chain in motion. Its particles' momenta are energy-normalised, and m = 1, so u = p.
 class OpenDynamics {
  public:
@@ -46,7 +62,8 @@ class OpenDynamics {
   template <bool passing, class Observer>
   void enter(End end, Observer& observer);
   template <bool passing, class Observer>
-  void fly(std::uint32_t slot, double from, std::int64_t first, std::int64_t next_cell, Observer& observer);
+  [[gnu::always_inline]] void fly(Flight flight, double from, std::int64_t first, std::int64_t next_cell,
+                                  Observer& observer);
   template <bool passing, class Observer>
   void announce_start(Observer& observer);
 
@@ -65,6 +82,7 @@ class OpenDynamics {
   std::array<Injector, 2> injectors_;  // by End
   std::vector<double> scatterers_;     // w, see CollisionRule
   std::vector<Particle> newcomers_;    // of the start, until the first call of simulate()
+  Numbers numbers_;
   EventQueue queue_;
   std::uint64_t events_ = 0;
 };
@@ -96,18 +114,17 @@ void OpenDynamics::advance(double until, Observer& observer, Heartbeat&& heartbe
   for (;;) {
     const End next = injectors_[0].time() <= injectors_[1].time() ? End::left : End::right;
     const double entry = injectors_[static_cast<std::size_t>(next)].time();
-    for (std::uint32_t slot; (slot = queue_.take_before(std::min(until, entry))) != EventQueue::none;) {
-      Flight& flight = queue_[slot];
+    for (Flight flight; queue_.take_before(std::min(until, entry), flight);) {
       const std::uint32_t cell = flight.target;
       const double now = flight.time, particle = flight.velocity, scatterer = scatterers_[cell];
       collide_(flight.velocity, scatterers_[cell]);
       if constexpr (requires(const Collision& collision) { observer.on_collision(collision); }) {
-        observer.on_collision(Collision{now, slot, cell, particle, flight.velocity, scale * scatterer,
-                                        scale * scatterers_[cell]});
+        observer.on_collision(Collision{now, flight.particle, cell, particle, flight.velocity,
+                                        scale * scatterer, scale * scatterers_[cell]});
       }
       const std::int64_t step = flight.velocity > 0 ? 1 : -1;
       const std::int64_t place = 2 * std::int64_t{cell} + 1;
-      fly<passing>(slot, static_cast<double>(place), place + step, cell + step, observer);
+      fly<passing>(flight, static_cast<double>(place), place + step, cell + step, observer);
       count(now);
     }
     if (!(entry < until)) return;
@@ -124,16 +141,14 @@ void OpenDynamics::enter(End end, Observer& observer) {
   if constexpr (requires { observer.on_injection(end, time, u); }) observer.on_injection(end, time, u);
   const std::int64_t opening = end == End::left ? 0 : chain_.right_opening();
   const std::int64_t cell = end == End::left ? 0 : std::int64_t{chain_.cells} - 1;
-  fly<passing>(queue_.insert({time, u, 0, EventQueue::none}), static_cast<double>(opening), opening, cell,
-               observer);
+  fly<passing>({time, u, 0, numbers_.take()}, static_cast<double>(opening), opening, cell, observer);
 }
 
-/// The flight that begins at the slot's time, from a place on, of a particle whose next scatterer is that of
-/// next_cell.
+/// The flight that begins at the given one's time, from a place on, of a particle whose next scatterer is
+/// that of next_cell.
 template <bool passing, class Observer>
-void OpenDynamics::fly(std::uint32_t slot, double from, std::int64_t first, std::int64_t next_cell,
-                       Observer& observer) {
-  Flight& flight = queue_[slot];
+inline void OpenDynamics::fly(Flight flight, double from, std::int64_t first, std::int64_t next_cell,
+                              Observer& observer) {
   const double u = flight.velocity, departure = flight.time;
   const std::int64_t passed = cells_passed<passing>();
   const std::int64_t target = next_cell + (u > 0 ? passed : -passed);
@@ -148,12 +163,12 @@ void OpenDynamics::fly(std::uint32_t slot, double from, std::int64_t first, std:
   if (leaves) [[unlikely]] {
     if constexpr (requires { observer.on_exit(End::left, arrival, u); })
       observer.on_exit(u > 0 ? End::right : End::left, arrival, u);
-    queue_.release(slot);
+    numbers_.give_back(flight.particle);
     return;
   }
   flight.target = static_cast<std::uint32_t>(target);
   flight.time = arrival;
-  queue_.schedule(slot);
+  queue_.schedule(flight);
 }
 
 template <bool passing, class Observer>
@@ -164,7 +179,7 @@ void OpenDynamics::announce_start(Observer& observer) {
     const auto first = static_cast<std::int64_t>(rightwards ? std::floor(from) + 1 : std::ceil(from) - 1);
     // Scatterers stand at odd places.
     const std::int64_t cell = rightwards ? first / 2 : (first + 1) / 2 - 1;
-    fly<passing>(queue_.insert({0, particle.velocity, 0, EventQueue::none}), from, first, cell, observer);
+    fly<passing>({0, particle.velocity, 0, numbers_.take()}, from, first, cell, observer);
   }
   newcomers_.clear();
 }

@@ -1,7 +1,6 @@
 #include "engine/pair.hpp"
 
 #include <functional>
-#include <limits>
 
 #include "engine/flights.hpp"
 
@@ -12,10 +11,11 @@ namespace {
 std::vector<Flight> both(const ClosedChain& chain, const PhasePoint& plain, const PhasePoint& perturbed,
                          const Launch& launch, const std::vector<char>& double_particles) {
   std::vector<Flight> flights = first_flights(chain, plain, launch);
-  std::vector<Flight> second = first_flights(chain, perturbed, launch);
-  for (std::uint32_t slot = 0; slot < chain.particles(); ++slot)
-    if (!double_particles[slot]) second[slot].time = std::numeric_limits<double>::infinity();
-  flights.insert(flights.end(), second.begin(), second.end());
+  for (Flight flight : first_flights(chain, perturbed, launch)) {
+    if (!double_particles[flight.particle]) continue;
+    flight.particle += chain.particles();
+    flights.push_back(flight);
+  }
   return flights;
 }
 
@@ -45,10 +45,10 @@ PairDynamics::PairDynamics(const ClosedChain& chain, const PhasePoint& plain, co
              end_time) {}
 
 PhasePoint PairDynamics::phase_point(double time, std::size_t copy) const {
+  const std::vector<Flight> flights = queue_.flights();
   PhasePoint point;
   for (std::uint32_t particle = 0; particle < chain_.particles(); ++particle) {
-    const std::size_t slot = particle + (double_particles_[particle] ? copy * chain_.particles() : 0);
-    const Flight& flight = queue_.flights()[slot];
+    const Flight& flight = flights[particle + (double_particles_[particle] ? copy * chain_.particles() : 0)];
     point.particles.push_back({position(flight, time, chain_), flight.velocity});
   }
   for (std::uint32_t cell = 0; cell < chain_.cells; ++cell)

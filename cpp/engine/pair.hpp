@@ -18,9 +18,9 @@ namespace lorentz {
 ///
 /// A particle or scatterer is single until the trajectories differ in it. A single particle that meets a
 /// double scatterer becomes double, and so does a single scatterer that is met by one copy of a double
-/// particle. Copies of double particles are events of their own, in slots of their own. The result is that
-/// of two separate simulations, bit for bit (unless a single and a double particle meet one scatterer at
-/// exactly the same time, where the order of the slots decides).
+/// particle. Copies of double particles are events of their own, with numbers of their own. The result is
+/// that of two separate simulations, bit for bit (unless a single and a double particle meet one scatterer at
+/// exactly the same time, where the order of the numbers decides).
 class PairDynamics {
  public:
   /// share: false makes everything double from the start, that is, two simulations in full.
@@ -50,37 +50,32 @@ class PairDynamics {
   void advance(double until, Heartbeat&& heartbeat) {
     constexpr std::uint64_t events_per_heartbeat = 65536;
     const Scattering scatter = scatter_;
-    const auto collide = [&](std::uint32_t slot, double& w) {
-      scatter.template operator()<launching>(queue_[slot], w, launch_, slot);
-      queue_.schedule(slot);
+    const auto collide = [&](Flight flight, double& w) {
+      scatter.template operator()<launching>(flight, w, launch_);
+      queue_.schedule(flight);
     };
     const std::uint32_t particles = chain_.particles();
-    for (std::uint32_t slot; (slot = queue_.take_before(until)) != EventQueue::none;) {
+    for (Flight flight; queue_.take_before(until, flight);) {
       if (++taken_ % events_per_heartbeat == 0) heartbeat(until);
-      const std::uint32_t cell = queue_[slot].target;
-      const bool second = slot >= particles;
-      if (!double_particles_[second ? slot - particles : slot]) {
+      const std::uint32_t cell = flight.target;
+      const bool second = flight.particle >= particles;
+      if (!double_particles_[second ? flight.particle - particles : flight.particle]) {
         if (double_scatterers_[cell]) {
-          const std::uint32_t twin = slot + particles;
-          make_double(slot, twin);
-          collide(slot, scatterers_[0][cell]);
-          collide(twin, scatterers_[1][cell]);
+          double_particles_[flight.particle] = true;
+          collide(flight, scatterers_[0][cell]);
+          flight.particle += particles;
+          collide(flight, scatterers_[1][cell]);
           separate_ += 2;
         } else {
-          collide(slot, scatterers_[0][cell]);
+          collide(flight, scatterers_[0][cell]);
           ++shared_;
         }
       } else {
         if (!std::exchange(double_scatterers_[cell], true)) scatterers_[1][cell] = scatterers_[0][cell];
-        collide(slot, scatterers_[second ? 1 : 0][cell]);
+        collide(flight, scatterers_[second ? 1 : 0][cell]);
         ++separate_;
       }
     }
-  }
-
-  void make_double(std::uint32_t slot, std::uint32_t twin) {
-    queue_[twin] = queue_[slot];
-    double_particles_[slot] = true;
   }
 
   ClosedChain chain_;
@@ -88,7 +83,7 @@ class PairDynamics {
   Launch launch_;
   std::vector<char> double_particles_, double_scatterers_;
   std::vector<double> scatterers_[2];  // w of the plain and of the perturbed trajectory; the second if double
-  EventQueue queue_;                   // slots of the plain trajectory, then those of the perturbed one
+  EventQueue queue_;                   // numbers of the plain trajectory, then those of the perturbed one
   std::uint64_t taken_ = 0, shared_ = 0, separate_ = 0;
 };
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/event_queue.hpp"
+#include "engine/flight.hpp"
 #include "engine/launch.hpp"
 #include "model/closed_chain.hpp"
 #include "model/collision.hpp"
@@ -37,15 +37,15 @@ class Scattering {
   /// The flight ends at the scatterer w; both get their new state. launching: whether `launch` has a say in
   /// what follows; otherwise the particle scatters again at the neighbouring scatterer.
   template <bool launching>
-  Departure operator()(Flight& flight, double& w, const Launch& launch, std::uint32_t slot) const {
+  Departure operator()(Flight& flight, double& w, const Launch& launch) const {
     double u = flight.velocity, scatterer = w;  // copies: the two references might be one
     collide_(u, scatterer);
     w = scatterer;
     std::int64_t cells = 1;
-    if constexpr (launching) cells = launch(slot, flight.draws, u);
+    if constexpr (launching) cells = launch(flight.particle, flight.draws, u);
     flight.velocity = u;
     const double duration = static_cast<double>(cells) * cell_length_ / std::abs(u);
-    const Departure departure{flight.time, slot, u, u > 0 ? cells : -cells, duration};
+    const Departure departure{flight.time, flight.particle, u, u > 0 ? cells : -cells, duration};
     flight.target = launching ? cells_ahead(flight.target, departure.cells) : neighbour(flight.target, u);
     flight.time += duration;
     return departure;

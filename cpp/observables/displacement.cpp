@@ -27,13 +27,6 @@ struct Walk {
   void on_flight(const Departure& departure) { cells[departure.particle] += departure.cells; }
 };
 
-std::vector<double> positions_from_target(const ClosedDynamics& chain, double time) {
-  std::vector<double> positions;
-  for (std::uint32_t particle = 0; particle < chain.particles(); ++particle)
-    positions.push_back(chain.position_from_target(particle, time));
-  return positions;
-}
-
 /// Moments at one time, averaged over the particles.
 struct Moments {
   double square = 0, absolute = 0, fourth = 0, mean = 0;
@@ -59,13 +52,13 @@ ReplicaRecord measure(const ClosedChainOptions& options, const std::vector<doubl
   ClosedReplica run(options, seed, replica);
   run.relax();
   const double begin = options.relaxation_time();
-  const std::vector<double> start = positions_from_target(run.chain(), run.clock(begin));
+  const std::vector<double> start = run.chain().positions_from_targets(run.clock(begin));
   Walk walk{std::vector<std::int64_t>(start.size(), 0)};
   std::vector<double> sums(4 * times.size());
   for (std::size_t k = 0; k < times.size(); ++k) {
     run.observe_until(begin + times[k], walk);
     const Moments now =
-        moments(walk.cells, start, positions_from_target(run.chain(), run.clock(begin + times[k])),
+        moments(walk.cells, start, run.chain().positions_from_targets(run.clock(begin + times[k])),
                 options.chain().cell_length);
     sums[k] = now.square;
     sums[times.size() + k] = now.absolute;

@@ -32,15 +32,13 @@ std::vector<double> engine() {
   std::vector<double> values;
   for (std::uint64_t replica = 0; replica < replicas; ++replica) {
     ClosedDynamics dynamics(chain, start(1, replica), end_time);
-    std::vector<double> before;
-    for (std::uint32_t i = 0; i < chain.particles(); ++i)
-      before.push_back(dynamics.position_from_target(i, 0));
+    const std::vector<double> before = dynamics.positions_from_targets(0);
     Walk walk{std::vector<std::int64_t>(before.size(), 0)};
     simulate(dynamics, end_time, walk, support::nothing);
+    const std::vector<double> after = dynamics.positions_from_targets(end_time);
     double sum = 0;
     for (std::uint32_t i = 0; i < chain.particles(); ++i) {
-      const double x =
-          static_cast<double>(walk.cells[i]) + dynamics.position_from_target(i, end_time) - before[i];
+      const double x = static_cast<double>(walk.cells[i]) + after[i] - before[i];
       sum += x * x;
     }
     values.push_back(sum / chain.particles());

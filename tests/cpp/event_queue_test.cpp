@@ -44,37 +44,37 @@ struct Schedule {
 
 std::vector<Flight> first_flights(const Schedule& schedule, Generator& generator) {
   std::vector<Flight> flights;
-  for (std::uint32_t slot = 0; slot < schedule.population; ++slot)
-    flights.push_back({schedule.delay(generator), 1, 0, EventQueue::none});
+  for (std::uint32_t particle = 0; particle < schedule.population; ++particle)
+    flights.push_back({schedule.delay(generator), 1, 0, particle});
   return flights;
 }
 
-/// Runs the queue and an ordered set of (time, slot) side by side, with stops in between. Stops at the
+/// Runs the queue and an ordered set of (time, particle) side by side, with stops in between. Stops at the
 /// first difference. Returns the number of events.
 std::size_t compare_with_ordered_set(const Schedule& schedule, double rate) {
   Generator generator(schedule.population);
   std::exponential_distribution<double> stretch(1 / schedule.stretch);
   std::vector<Flight> flights = first_flights(schedule, generator);
   std::set<std::pair<double, std::uint32_t>> expected;
-  const auto expect = [&](double time, std::uint32_t slot) {
-    if (time < schedule.end_time) expected.emplace(time, slot);
+  const auto expect = [&](const Flight& flight) {
+    if (flight.time < schedule.end_time) expected.emplace(flight.time, flight.particle);
   };
-  for (std::uint32_t slot = 0; slot < schedule.population; ++slot) expect(flights[slot].time, slot);
-  EventQueue queue(std::move(flights), rate, schedule.end_time);
+  for (const Flight& flight : flights) expect(flight);
+  EventQueue queue(flights, rate, schedule.end_time);
 
   std::size_t events = 0;
   for (double until = 0; until < schedule.end_time && events < schedule.longest;) {
     until += stretch(generator);  // beyond the end in the last turn of this loop
-    for (std::uint32_t slot; (slot = queue.take_before(until)) != EventQueue::none; ++events) {
-      if (expected.empty() || std::pair(queue[slot].time, slot) != *expected.begin() ||
-          !(queue[slot].time < until)) {
-        ADD_FAILURE() << "event " << events << ": slot " << slot << " at " << queue[slot].time;
+    for (Flight flight; queue.take_before(until, flight); ++events) {
+      if (expected.empty() || std::pair(flight.time, flight.particle) != *expected.begin() ||
+          !(flight.time < until)) {
+        ADD_FAILURE() << "event " << events << ": particle " << flight.particle << " at " << flight.time;
         return events;
       }
       expected.erase(expected.begin());
-      queue[slot].time += schedule.delay(generator);
-      expect(queue[slot].time, slot);
-      queue.schedule(slot);
+      flight.time += schedule.delay(generator);
+      expect(flight);
+      queue.schedule(flight);
     }
     if (!expected.empty() && expected.begin()->first < until) {
       ADD_FAILURE() << "the queue stopped at " << until << " before " << expected.begin()->first;
@@ -117,7 +117,7 @@ TEST(EventQueue, KeepsTheOrderOfALargePopulation) {
   compare_for_every_rate({20000, 1, heavy_tailed(1), 0.01, 150000}, 20000);
 }
 
-TEST(EventQueue, BreaksTiesByTheSlot) {
+TEST(EventQueue, BreaksTiesByTheNumber) {
   compare_for_every_rate({5, 500, quantised, 0.5, 100000}, 5);
   compare_for_every_rate({220, 50, quantised, 0.3, 100000}, 220);
 }
@@ -135,8 +135,8 @@ TEST(EventQueue, KeepsTheOrderWhileTheRateChanges) {
   }
 }
 
-// A steady rate, so that the width stays, and flights longer than the 64 coarse buckets reach: they wait
-// in the last list until a round of the coarse buckets is over.
+// A steady rate, so that the width stays, and flights longer than the piles of 64 turns reach: they wait
+// in the last pile until a round of the others is over.
 TEST(EventQueue, KeepsTheOrderOfFlightsBeyondTheCoarseBuckets) {
   const auto mixed = [](Generator& generator) {
     if (std::bernoulli_distribution(1e-3)(generator))
@@ -150,21 +150,26 @@ TEST(EventQueue, KeepsTheOrderOfFlightsBeyondTheCoarseBuckets) {
 TEST(EventQueue, NeverReturnsArrivalsAtOrAfterTheEnd) {
   const double end = 8;
   const double last = std::nextafter(end, 0.0);
-  EventQueue queue({{end, 1, 0, 0}, {last, 1, 0, 0}, {infinity, 1, 0, 0}, {9, 1, 0, 0}, {0, 1, 0, 0}}, 1,
+  EventQueue queue({{end, 1, 0, 0}, {last, 1, 0, 1}, {infinity, 1, 0, 2}, {9, 1, 0, 3}, {0, 1, 0, 4}}, 1,
                    end);
-  EXPECT_EQ(queue.take_before(1), 4U);
-  queue[4].time = end;
-  queue.schedule(4);
-  EXPECT_EQ(queue.take_before(last), EventQueue::none);  // strictly before
-  EXPECT_EQ(queue.take_before(end), 1U);
-  queue[1].time = infinity;
-  queue.schedule(1);
-  for (const double until : {end, 9.0, 100.0, infinity})
-    EXPECT_EQ(queue.take_before(until), EventQueue::none);
+  Flight flight;
+  ASSERT_TRUE(queue.take_before(1, flight));
+  EXPECT_EQ(flight.particle, 4U);
+  flight.time = end;
+  queue.schedule(flight);
+  EXPECT_FALSE(queue.take_before(last, flight));  // strictly before
+  ASSERT_TRUE(queue.take_before(end, flight));
+  EXPECT_EQ(flight.particle, 1U);
+  flight.time = infinity;
+  queue.schedule(flight);
+  for (const double until : {end, 9.0, 100.0, infinity}) EXPECT_FALSE(queue.take_before(until, flight));
   EXPECT_EQ(queue.flights()[0].time, end);  // kept
 }
 
-TEST(EventQueue, IsEmptyWithoutFlights) { EXPECT_EQ(EventQueue({}, 1, 1).take_before(1), EventQueue::none); }
+TEST(EventQueue, IsEmptyWithoutFlights) {
+  Flight flight;
+  EXPECT_FALSE(EventQueue({}, 1, 1).take_before(1, flight));
+}
 
 // Flights in huge pages, and turns of a fraction of an event per particle: every flight passes through a
 // coarse bucket. The rate is about right, or too low, so that the wheel is rebuilt on the way.
@@ -183,29 +188,26 @@ std::size_t compare_with_comings_and_goings(double births, double deaths, const 
   std::set<std::pair<double, std::uint32_t>> expected;
   EventQueue queue({}, rate, end_time);
   std::size_t events = 0;
+  std::uint32_t particles = 0;
   for (double birth = interval(generator); birth < end_time; birth += interval(generator)) {
-    for (std::uint32_t slot; (slot = queue.take_before(birth)) != EventQueue::none; ++events) {
-      if (expected.empty() || std::pair(queue[slot].time, slot) != *expected.begin()) {
-        ADD_FAILURE() << "event " << events << ": slot " << slot << " at " << queue[slot].time;
+    for (Flight flight; queue.take_before(birth, flight); ++events) {
+      if (expected.empty() || std::pair(flight.time, flight.particle) != *expected.begin()) {
+        ADD_FAILURE() << "event " << events << ": particle " << flight.particle << " at " << flight.time;
         return events;
       }
       expected.erase(expected.begin());
-      if (dies(generator)) {
-        queue.release(slot);
-        continue;
-      }
-      queue[slot].time += delay(generator);
-      if (queue[slot].time < end_time) expected.emplace(queue[slot].time, slot);
-      queue.schedule(slot);
+      if (dies(generator)) continue;
+      flight.time += delay(generator);
+      if (flight.time < end_time) expected.emplace(flight.time, flight.particle);
+      queue.schedule(flight);
     }
     if (!expected.empty() && expected.begin()->first < birth) {
       ADD_FAILURE() << "the queue stopped at " << birth << " before " << expected.begin()->first;
       return events;
     }
-    const double time = birth + delay(generator);
-    const std::uint32_t slot = queue.insert({time, 1, 0, EventQueue::none});
-    if (time < end_time) expected.emplace(time, slot);
-    queue.schedule(slot);
+    const Flight newcomer{birth + delay(generator), 1, 0, particles++};
+    if (newcomer.time < end_time) expected.emplace(newcomer.time, newcomer.particle);
+    queue.schedule(newcomer);
   }
   return events;
 }
