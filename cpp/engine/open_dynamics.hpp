@@ -61,7 +61,7 @@ class OpenDynamics {
   void advance(double until, Observer& observer, Heartbeat&& heartbeat);
   template <bool passing, class Observer>
   void enter(End end, Observer& observer);
-  template <bool passing, class Observer>
+  template <bool passing, class Observer>  // inlined for the reason of EventQueue::schedule
   [[gnu::always_inline]] void fly(Flight flight, double from, std::int64_t first, std::int64_t next_cell,
                                   Observer& observer);
   template <bool passing, class Observer>

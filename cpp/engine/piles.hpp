@@ -10,9 +10,9 @@
 
 namespace lorentz {
 
-/// Piles of flights without order, in chunks of one memory. A flight is written behind the last one of its pile,
-/// and a pile is read from one end to the other: in a large population, where each flight's memory is fetched
-/// from afar, whole lines of the cache are used, and the next ones are asked for ahead.
+/// Piles of flights without order, in chunks of one memory. A flight is written behind the last one of its
+/// pile, and a pile is read from one end to the other: in a large population, where each flight's memory is
+/// fetched from afar, whole lines of the cache are used, and the next ones are asked for ahead.
 class Piles {
  public:
   static constexpr std::uint32_t nowhere = 0;  // no place of a flight
@@ -67,8 +67,9 @@ class Piles {
   }
 
  private:
-  static constexpr std::uint32_t chunk = 256;  // flights; its first place links to the end of the chunk before
-  static constexpr std::ptrdiff_t line = 2;    // flights in a line of the cache
+  static constexpr std::uint32_t chunk =
+      256;                                   // flights; its first place links to the end of the chunk before
+  static constexpr std::ptrdiff_t line = 2;  // flights in a line of the cache
   static constexpr std::ptrdiff_t ahead = 32;  // flights
 
   static std::uint32_t chunk_of(std::uint32_t end) { return (end - 1) / chunk * chunk; }
