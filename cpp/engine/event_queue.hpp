@@ -33,6 +33,9 @@ class EventQueue {
 
   double end_time() const { return end_time_; }
 
+  /// Places of flights in memory, in use or not.
+  std::size_t places() const { return piles_.places(); }
+
   /// Takes out the first flight that arrives before `until` (at most end_time, never falling); false if there
   /// is none.
   bool take_before(double until, Flight& flight) {

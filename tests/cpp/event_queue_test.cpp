@@ -178,6 +178,23 @@ TEST(EventQueue, KeepsTheOrderOfAPopulationInHugePages) {
     EXPECT_GT(compare_with_ordered_set({80000, 40, heavy_tailed(1), 0.01, 300000}, rate), 300000U);
 }
 
+// Every particle leaves its place when it waits for a later turn; places that are left must serve again.
+TEST(EventQueue, TakesNoMoreMemoryInALongRun) {
+  Generator generator(3);
+  const Delay delay = heavy_tailed(1);
+  const Schedule schedule{2000, 1e4, delay, 1, 0};
+  EventQueue queue(first_flights(schedule, generator), 2000, schedule.end_time);
+  const auto run = [&](int events) {
+    for (Flight flight; events > 0 && queue.take_before(schedule.end_time, flight); --events) {
+      flight.time += delay(generator);
+      queue.schedule(flight);
+    }
+    return queue.places();
+  };
+  const std::size_t places = run(200000);
+  EXPECT_LT(run(1000000), 2 * places);
+}
+
 /// Particles come one by one and go after some flights, as in an open chain. The queue is asked up to the
 /// time of the next arrival, so a newcomer may arrive before everything that the queue has already looked at.
 std::size_t compare_with_comings_and_goings(double births, double deaths, const Delay& delay, double rate,
