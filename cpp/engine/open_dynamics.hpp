@@ -62,8 +62,8 @@ class OpenDynamics {
   template <bool passing, class Observer>
   void enter(End end, Observer& observer);
   template <bool passing, class Observer>  // inlined for the reason of EventQueue::schedule
-  [[gnu::always_inline]] void fly(Flight flight, double from, std::int64_t first, std::int64_t next_cell,
-                                  Observer& observer);
+  [[gnu::always_inline]] void fly(const Flight& flight, double from, std::int64_t first,
+                                  std::int64_t next_cell, Observer& observer);
   template <bool passing, class Observer>
   void announce_start(Observer& observer);
 
@@ -147,7 +147,7 @@ void OpenDynamics::enter(End end, Observer& observer) {
 /// The flight that begins at the given one's time, from a place on, of a particle whose next scatterer is
 /// that of next_cell.
 template <bool passing, class Observer>
-inline void OpenDynamics::fly(Flight flight, double from, std::int64_t first, std::int64_t next_cell,
+inline void OpenDynamics::fly(const Flight& flight, double from, std::int64_t first, std::int64_t next_cell,
                               Observer& observer) {
   const double u = flight.velocity, departure = flight.time;
   const std::int64_t passed = cells_passed<passing>();
@@ -166,9 +166,7 @@ inline void OpenDynamics::fly(Flight flight, double from, std::int64_t first, st
     numbers_.give_back(flight.particle);
     return;
   }
-  flight.target = static_cast<std::uint32_t>(target);
-  flight.time = arrival;
-  queue_.schedule(flight);
+  queue_.schedule({arrival, u, static_cast<std::uint32_t>(target), flight.particle});
 }
 
 template <bool passing, class Observer>

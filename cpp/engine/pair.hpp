@@ -50,7 +50,7 @@ class PairDynamics {
   void advance(double until, Heartbeat&& heartbeat) {
     constexpr std::uint64_t events_per_heartbeat = 65536;
     const Scattering scatter = scatter_;
-    const auto collide = [&](Flight flight, double& w) {
+    const auto collide = [&](Flight& flight, double& w) {
       scatter.template operator()<launching>(flight, w, launch_);
       queue_.schedule(flight);
     };
@@ -62,9 +62,10 @@ class PairDynamics {
       if (!double_particles_[second ? flight.particle - particles : flight.particle]) {
         if (double_scatterers_[cell]) {
           double_particles_[flight.particle] = true;
+          Flight twin = flight;
+          twin.particle += particles;
           collide(flight, scatterers_[0][cell]);
-          flight.particle += particles;
-          collide(flight, scatterers_[1][cell]);
+          collide(twin, scatterers_[1][cell]);
           separate_ += 2;
         } else {
           collide(flight, scatterers_[0][cell]);
