@@ -87,7 +87,7 @@ void closed_floor(benchmark::State& state) {
   const auto advance = [&]<bool launching>(std::uint64_t events) {
     for (; events > 0; --events) {
       Flight& flight = memory[slot];
-      __builtin_prefetch(&flight + 32, 1);
+      __builtin_prefetch(&flight + 32, 1);  // as Piles do
       const double before = flight.velocity;
       scatter.operator()<launching>(flight, scatterers[flight.target], launch);
       observer.add(before, flight.velocity);

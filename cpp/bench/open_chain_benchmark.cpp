@@ -93,7 +93,7 @@ class Queueless {
   template <bool passing>
   void advance(std::uint32_t slot, Collisions& observer) {
     Flight& flight = flights_[slot];
-    __builtin_prefetch(&flight + 32, 1);
+    __builtin_prefetch(&flight + 32, 1);  // as Piles do
     const double particle = flight.velocity, scatterer = scatterers_[flight.target];
     collide_(flight.velocity, scatterers_[flight.target]);
     observer.on_collision(

@@ -31,8 +31,6 @@ class EventQueue {
   /// rate: expected events per unit time, for the first turn.
   EventQueue(const std::vector<Flight>& flights, double rate, double end_time);
 
-  double end_time() const { return end_time_; }
-
   /// Places of flights in memory, in use or not.
   std::size_t places() const { return piles_.places(); }
 
@@ -83,7 +81,8 @@ class EventQueue {
   /// never arrives, at rest.
   std::vector<Flight> flights() const;
 
-  /// From now on all times, end_time() too, are counted from `origin`, which no pending arrival precedes.
+  /// From now on all times, that of the end too, are counted from `origin`, which no pending arrival
+  /// precedes.
   void shift(double origin);
 
  private:

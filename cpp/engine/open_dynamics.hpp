@@ -10,6 +10,7 @@
 #include "engine/event_queue.hpp"
 #include "engine/injector.hpp"
 #include "engine/launch.hpp"
+#include "engine/numbers.hpp"
 #include "engine/observation.hpp"
 #include "engine/path.hpp"
 #include "engine/random.hpp"
@@ -20,22 +21,6 @@
 namespace lorentz {
 
 enum class End : std::uint8_t { left, right };
-
-/// Numbers of particles; the one that was given back last is taken first.
-class Numbers {
- public:
-  std::uint32_t take() {
-    if (free_.empty()) return count_++;
-    const std::uint32_t number = free_.back();
-    free_.pop_back();
-    return number;
-  }
-  void give_back(std::uint32_t number) { free_.push_back(number); }
-
- private:
-  std::uint32_t count_ = 0;
-  std::vector<std::uint32_t> free_;
-};
 
 /// An open chain in motion. Its particles' momenta are energy-normalised, and m = 1, so u = p.
 class OpenDynamics {

@@ -23,8 +23,8 @@ void require_within(double value, double low, double high, const std::string& op
 void require_fourth_powers(const Reservoir& left, const Reservoir& right);
 
 /// Flights across a cell at thermal speed, one after the other, that a run may last. A clock that is never
-/// restarted then still resolves 1e-6 of a flight; where it is restarted, nobody waits for more than the
-/// second.
+/// restarted then still resolves 1e-6 of a flight; where it is restarted, the limit is one that no run
+/// reaches within a year.
 constexpr double flights_of_one_clock = 1e10, flights_of_a_year = 1e15;
 
 /// What sets the size of the numbers in a simulation.

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/numbers.hpp"
+
 namespace {
 
 using lorentz::EventQueue;
@@ -205,7 +207,7 @@ std::size_t compare_with_comings_and_goings(double births, double deaths, const 
   std::set<std::pair<double, std::uint32_t>> expected;
   EventQueue queue({}, rate, end_time);
   std::size_t events = 0;
-  std::uint32_t particles = 0;
+  lorentz::Numbers numbers;
   for (double birth = interval(generator); birth < end_time; birth += interval(generator)) {
     for (Flight flight; queue.take_before(birth, flight); ++events) {
       if (expected.empty() || std::pair(flight.time, flight.particle) != *expected.begin()) {
@@ -213,7 +215,10 @@ std::size_t compare_with_comings_and_goings(double births, double deaths, const 
         return events;
       }
       expected.erase(expected.begin());
-      if (dies(generator)) continue;
+      if (dies(generator)) {
+        numbers.give_back(flight.particle);
+        continue;
+      }
       flight.time += delay(generator);
       if (flight.time < end_time) expected.emplace(flight.time, flight.particle);
       queue.schedule(flight);
@@ -222,7 +227,7 @@ std::size_t compare_with_comings_and_goings(double births, double deaths, const 
       ADD_FAILURE() << "the queue stopped at " << birth << " before " << expected.begin()->first;
       return events;
     }
-    const Flight newcomer{birth + delay(generator), 1, 0, particles++};
+    const Flight newcomer{birth + delay(generator), 1, 0, numbers.take()};
     if (newcomer.time < end_time) expected.emplace(newcomer.time, newcomer.particle);
     queue.schedule(newcomer);
   }
