@@ -10,6 +10,7 @@
 #include "engine/closed_dynamics.hpp"
 #include "engine/closed_start.hpp"
 #include "engine/flights.hpp"
+#include "measuring_time.hpp"
 #include "reference/heap_simulator.hpp"
 
 namespace {
@@ -38,19 +39,17 @@ struct Case {
   double rate;  // of events
 };
 
-constexpr double warming = 4;  // events per particle before the clock starts
-
 constexpr double end_time = 1e5;  // beyond all iterations
 
 void closed_engine(benchmark::State& state) {
   const Case of(state);
   ClosedDynamics dynamics(of.chain, of.start, end_time);
   Persistent observer;
-  double until = warming * of.chain.particles() / of.rate;
+  double until = settling * of.chain.particles() / of.rate;
   simulate(dynamics, until, observer, [](double) {});
   const std::uint64_t before = dynamics.events();
-  for ([[maybe_unused]] auto iteration : state)
-    simulate(dynamics, until += 1e5 / of.rate, observer, [](double) {});
+  const double step = events_per_iteration(state, 1e5, of.chain.particles()) / of.rate;
+  for ([[maybe_unused]] auto iteration : state) simulate(dynamics, until += step, observer, [](double) {});
   benchmark::DoNotOptimize(observer.count);
   state.SetItemsProcessed(static_cast<std::int64_t>(dynamics.events() - before));
 }
@@ -65,7 +64,7 @@ void closed_reference(benchmark::State& state) {
     for (; events > 0 && simulator.step(end_time, event); --events)
       observer.add(event.p_before, event.p_after);
   };
-  if (of.chain.deterministic()) advance(static_cast<std::uint64_t>(warming) * of.chain.particles());
+  if (of.chain.deterministic()) advance(static_cast<std::uint64_t>(settling) * of.chain.particles());
   constexpr std::uint64_t events = 2000;
   for ([[maybe_unused]] auto iteration : state) advance(events);
   benchmark::DoNotOptimize(observer.count);

@@ -9,6 +9,7 @@
 
 #include "engine/open_dynamics.hpp"
 #include "engine/open_start.hpp"
+#include "measuring_time.hpp"
 #include "reference/open_heap_simulator.hpp"
 
 namespace {
@@ -45,13 +46,15 @@ struct Collisions {
 
 void open_engine(benchmark::State& state) {
   const OpenChain chain = chain_of(state);
-  OpenDynamics dynamics(chain, local_equilibrium_start(chain, chain.left, chain.right, age, 1, 0), 1e5, 1, 0);
+  const PhasePoint start = local_equilibrium_start(chain, chain.left, chain.right, age, 1, 0);
+  const auto particles = static_cast<double>(start.particles.size());
+  OpenDynamics dynamics(chain, start, 1e5, 1, 0);
   Collisions observer;
-  double until = time_of(20 * chain.left.rate, chain);  // ten collisions of each particle, or more
+  double until = time_of(settling * particles, chain);
   simulate(dynamics, until, observer, [](double) {});
   observer.count = 0;
-  for ([[maybe_unused]] auto iteration : state)
-    simulate(dynamics, until += time_of(1e4, chain), observer, [](double) {});
+  const double step = time_of(events_per_iteration(state, 1e4, particles), chain);
+  for ([[maybe_unused]] auto iteration : state) simulate(dynamics, until += step, observer, [](double) {});
   state.counters["particles"] = observer.last_slot;
   state.SetItemsProcessed(observer.count);
 }

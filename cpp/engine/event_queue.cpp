@@ -9,10 +9,6 @@ namespace {
 // By measurement (docs/numerics.md). Mean number of events in a bucket: few enough that lists are rarely
 // longer than one, which the processor cannot predict.
 constexpr double occupancy = 0.125;
-// Events of a turn, per particle and at most: long turns send few flights through the piles, short ones keep
-// their flights in the second-level cache.
-constexpr double turn_per_particle = 8;
-constexpr double longest_turn = 8192;
 // How far the piles of single turns reach, in events per particle.
 constexpr double reach = 16;
 
@@ -20,14 +16,18 @@ std::size_t power_of_two(double at_least, std::size_t least) {
   return std::bit_ceil(std::max(least, static_cast<std::size_t>(at_least)));
 }
 
-std::size_t bucket_count(std::size_t particles) {
-  const double turn = std::min(turn_per_particle * static_cast<double>(particles), longest_turn);
-  return power_of_two(turn / occupancy, 256);
+/// Planned number of events in a turn. In a small population hardly any flight outlasts the turn. In a large
+/// one almost every one does: whether it will is foretold, and the turn's flights stay in the first levels of
+/// the cache. What lies in between is slower than either.
+double turn_events(double particles) {
+  return particles < 6000 ? std::min(8 * particles, 16384.0) : std::clamp(particles / 32, 512.0, 8192.0);
 }
 
-std::size_t turn_count(std::size_t particles) {
+std::size_t bucket_count(double particles) { return power_of_two(turn_events(particles) / occupancy, 256); }
+
+std::size_t turn_count(double particles) {
   const double turn = occupancy * static_cast<double>(bucket_count(particles));
-  return power_of_two(reach * static_cast<double>(particles) / turn, 64);
+  return power_of_two(reach * particles / turn, 64);
 }
 
 }  // namespace
@@ -39,22 +39,25 @@ EventQueue::EventQueue(const std::vector<Flight>& flights, double rate, double e
 
 /// The wheel anew, for a rate of events and a population; nothing arrives before `now`.
 void EventQueue::rebuild(const std::vector<Flight>& flights, double rate, double now) {
-  const std::size_t size = bucket_count(flights.size()), turns = turn_count(flights.size());
+  planned_for_ = std::max<std::size_t>(flights.size(), 1);
+  const auto particles = static_cast<double>(planned_for_);
+  const std::size_t size = bucket_count(particles);
   lists_.assign(size, Piles::nowhere);
   occupied_.assign(size / 64, 0);
   bucket_mask_ = size - 1;
   bucket_bits_ = std::countr_zero(size);
-  turn_mask_ = turns - 1;
+  turn_mask_ = turn_count(particles) - 1;
   piles_.reset(frozen() + 1, flights.size());
   // More than 2^52 ticks would be finer than the clock itself.
   ticks_per_time_ = std::clamp(rate / occupancy, 1 / end_time_, 0x1p52 / end_time_);
   const std::uint64_t next_turn = (tick_of(now) >> bucket_bits_) + 1;
   turn_end_ = next_turn * size;
-  piles_end_ = next_turn + turns;
+  piles_end_ = next_turn + turns();
   word_ = 0;
   word_bits_ = 0;
   vacant_ = Piles::nowhere;
-  taken_in_turn_ = 0;
+  counted_from_ = tick_of(now);
+  counted_ = 0;
   waiting_ = 0;
   for (const Flight& flight : flights) schedule(flight);
 }
@@ -103,27 +106,33 @@ std::uint32_t EventQueue::take_first_of_list(std::size_t bucket, double until) {
   return first;
 }
 
+/// Rebuilds the wheel if it no longer fits the rate or the population; whether it did.
+bool EventQueue::replan(double until) {
+  double filling = 1;  // events that came, over those that were planned
+  const std::uint64_t ticks = turn_end_ - counted_from_;
+  if (2 * ticks > bucket_mask_) {  // otherwise, cut short by a rebuild, the turn is counted with the next
+    filling = static_cast<double>(std::exchange(counted_, 0)) / (occupancy * static_cast<double>(ticks));
+    counted_from_ = turn_end_;
+  }
+  if (filling > 0.5 && filling < 1.5 && waiting_ <= 2 * planned_for_) return false;
+
+  const std::vector<Flight> flights = gathered();
+  double now = until;
+  for (const Flight& flight : flights) now = std::min(now, flight.time);
+  rebuild(flights, ticks_per_time_ * occupancy * std::max(filling, 0.125), now);
+  return true;
+}
+
 bool EventQueue::begin_turn(double until) {
   // Before `until` a new particle may still arrive, so a turn that begins later has to wait.
   if (waiting_ == 0 || tick_of(std::min(until, end_time_)) < turn_end_) return false;
-  // The wheel is empty now: a good moment to rebuild it when it no longer fits the rate or the population.
-  const double filling =
-      static_cast<double>(taken_in_turn_) / (occupancy * static_cast<double>(bucket_mask_ + 1));
-  if (filling > 1.5 || filling < 0.5 || bucket_count(waiting_) - 1 > bucket_mask_ ||
-      turn_count(waiting_) - 1 > turn_mask_) {
-    const std::vector<Flight> flights = gathered();
-    double now = until;
-    for (const Flight& flight : flights) now = std::min(now, flight.time);
-    rebuild(flights, ticks_per_time_ * occupancy * std::clamp(filling, 0.125, 8.0), now);
-    return true;
-  }
+  if (replan(until)) return true;  // a good moment, as the wheel is empty now
 
   const std::uint64_t turn = turn_end_ >> bucket_bits_;
   turn_end_ += bucket_mask_ + 1;
   word_ = 0;
   vacant_ = Piles::nowhere;
-  taken_in_turn_ = 0;
-  if (turn == piles_end_) spread_rest();
+  if (turn + turns() / 2 == piles_end_) spread_rest();
   piles_.clear(current());
   piles_.move(turn & turn_mask_, current());
   next_.resize(std::max(next_.size(), piles_.places()));
@@ -134,9 +143,10 @@ bool EventQueue::begin_turn(double until) {
   return true;
 }
 
-/// All piles of turns are empty, so they stand for the next ones now.
+/// The piles of the turns gone by, half of all, stand for the next ones now. Were it all of them, at the end
+/// of a round most flights would be beyond.
 void EventQueue::spread_rest() {
-  piles_end_ += turn_mask_ + 1;
+  piles_end_ += turns() / 2;
   piles_.clear(current());
   piles_.move(rest(), current());
   piles_.for_each(current(), [&](std::uint32_t place) {

@@ -55,7 +55,7 @@ class EventQueue {
         vacant_ = take_first_of_list(bucket, until);
         if (vacant_ == Piles::nowhere) return false;
       }
-      ++taken_in_turn_;
+      ++counted_;
       flight = piles_[vacant_];
       return true;
     }
@@ -91,9 +91,10 @@ class EventQueue {
   }
 
   // Piles: one per later turn, then these.
-  std::size_t rest() const { return turn_mask_ + 1; }
-  std::size_t current() const { return turn_mask_ + 2; }
-  std::size_t frozen() const { return turn_mask_ + 3; }
+  std::size_t turns() const { return turn_mask_ + 1; }
+  std::size_t rest() const { return turns(); }
+  std::size_t current() const { return turns() + 1; }
+  std::size_t frozen() const { return turns() + 2; }
 
   std::size_t pile_of(std::uint64_t tick) const {
     const std::uint64_t turn = tick >> bucket_bits_;
@@ -134,6 +135,7 @@ class EventQueue {
   }
 
   bool begin_turn(double until);
+  bool replan(double until);
   void spread_rest();
   void rebuild(const std::vector<Flight>& flights, double rate, double now);
   std::vector<Flight> gathered() const;
@@ -148,12 +150,14 @@ class EventQueue {
   std::uint64_t turn_mask_ = 0;    // the same of the later turns' piles
   int bucket_bits_ = 0;
   std::uint32_t vacant_ = Piles::nowhere;
-  std::size_t word_ = 0;         // of occupied_; the words below it are done with
-  std::uint64_t word_bits_ = 0;  // stands for occupied_[word_], which is 0
-  std::uint64_t turn_end_ = 0;   // first tick after the current turn
-  std::uint64_t piles_end_ = 0;  // first turn after those of the piles
-  std::size_t waiting_ = 0;      // flights beyond the current turn
-  std::uint64_t taken_in_turn_ = 0;
+  std::size_t word_ = 0;            // of occupied_; the words below it are done with
+  std::uint64_t word_bits_ = 0;     // stands for occupied_[word_], which is 0
+  std::uint64_t turn_end_ = 0;      // first tick after the current turn
+  std::uint64_t piles_end_ = 0;     // first turn after those of the piles
+  std::size_t waiting_ = 0;         // flights beyond the current turn
+  std::uint64_t counted_ = 0;       // events
+  std::uint64_t counted_from_ = 0;  // since this tick
+  std::size_t planned_for_ = 1;     // particles
 };
 
 }  // namespace lorentz

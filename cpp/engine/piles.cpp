@@ -4,7 +4,8 @@ namespace lorentz {
 
 void Piles::reset(std::size_t piles, std::size_t flights) {
   memory_.clear();
-  memory_.reserve(flights + flights / 2 + 16 * chunk);
+  // Every pile's last chunk may be nearly empty; flights that move are in two places for a while.
+  memory_.reserve(flights + flights / 4 + (piles + 16) * chunk);
   ends_.assign(piles, nowhere);
   free_.clear();
 }
