@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/portable.hpp"
+
 namespace lorentz {
 namespace {
 
@@ -19,8 +21,8 @@ double c_squared(double sigma) { return (1 - sigma) * (1 + sigma); }
 
 /// Number of factors of the product, as a power of two.
 int doublings(double sigma) {
-  const double factors = std::log(last_scale) / std::log(std::abs(sigma));
-  return std::max(1, static_cast<int>(std::ceil(std::log2(factors))));
+  const double factors = portable::log(last_scale) / portable::log(std::abs(sigma));
+  return std::max(1, static_cast<int>(std::ceil(portable::log(factors) / std::numbers::ln2)));
 }
 
 /// Takes the values of a function that vanishes at 0 to its values at `scale` times the nodes: what is
@@ -43,17 +45,16 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> scaling(const Panels& panels, doubl
 
 /// The equilibrium's product over j < n of exp(-T (c^2 sigma^j k)^2/2), n = 2^doubling, minus 1.
 VectorXcd equilibrium_product(double sigma, double temperature, int doubling, const Eigen::ArrayXd& k) {
-  const double last = std::pow(sigma * sigma, std::ldexp(1, doubling));
+  const double last = portable::pow(sigma * sigma, std::ldexp(1, doubling));
   const double variance = temperature * c_squared(sigma) * (1 - last);
-  const auto minus_one = [](double exponent) { return std::expm1(exponent); };
-  return (-0.5 * variance * k.square()).unaryExpr(minus_one).cast<std::complex<double>>();
+  return (-0.5 * variance * k.square()).unaryExpr(&portable::expm1).cast<std::complex<double>>();
 }
 
 }  // namespace
 
 VectorXd injected_flux(const Reservoir& bath, const VectorXd& p) {
   const double height = bath.rate * std::sqrt(2 / (std::numbers::pi * bath.temperature));
-  return height * (-p.array().square() / (2 * bath.temperature)).exp();
+  return height * (-p.array().square() / (2 * bath.temperature)).unaryExpr(&portable::exp);
 }
 
 CollisionOperator::CollisionOperator(double sigma, const Reservoir& equilibrium, const Panels& momenta,
@@ -67,14 +68,15 @@ CollisionOperator::CollisionOperator(double sigma, const Reservoir& equilibrium,
   const Eigen::ArrayXd k = wave_numbers.nodes().array();
   const double temperature = equilibrium.temperature;
   for (int n = 0; n < doublings(sigma); ++n) {
-    const double scale = std::pow(std::abs(sigma), std::ldexp(1, n));
+    const double scale = portable::pow(std::abs(sigma), std::ldexp(1, n));
     scalings_.push_back(scaling(wave_numbers, scale));
     equilibrium_doublings_.push_back({equilibrium_product(sigma, temperature, n, k),
                                       equilibrium_product(sigma, temperature, n, scale * k)});
   }
   equilibrium_product_ = equilibrium_product(sigma, temperature, doublings(sigma), k);
-  reflected_equilibrium_ = (2 * equilibrium.rate * (-0.5 * sigma * sigma * temperature * k.square()).exp())
-                               .cast<std::complex<double>>();
+  reflected_equilibrium_ =
+      (2 * equilibrium.rate * (-0.5 * sigma * sigma * temperature * k.square()).unaryExpr(&portable::exp))
+          .cast<std::complex<double>>();
 }
 
 RowVectorXd CollisionOperator::number(const Flux& flux) const {
@@ -168,7 +170,8 @@ Flux CollisionOperator::conserving(const Flux& gain, const Flux& source) const {
   for (Index column = 0; column < gain.cols(); ++column) {
     const double scale = std::sqrt(temperature_[column]);
     const Eigen::ArrayXd z = momenta_.nodes().array() / scale;
-    const Eigen::ArrayXd maxwellian = (-0.5 * z.square()).exp() / (scale * std::sqrt(2 * std::numbers::pi));
+    const Eigen::ArrayXd maxwellian =
+        (-0.5 * z.square()).unaryExpr(&portable::exp) / (scale * std::sqrt(2 * std::numbers::pi));
     const VectorXd defect = source.col(column) - gain.col(column);
     const Eigen::ArrayXd even = (defect.head(half) + defect.tail(half)).array() * momenta_.weights().array();
     const Eigen::ArrayXd odd = (defect.head(half) - defect.tail(half)).array() * momenta_.weights().array();

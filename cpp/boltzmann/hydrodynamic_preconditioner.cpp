@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/portable.hpp"
+
 namespace lorentz {
 namespace {
 
@@ -17,7 +19,8 @@ constexpr Index modes_at_site = 6;  // even
 double eigenvalue(double sigma, Index order) {
   const auto n = static_cast<int>(order);
   if (n == 0) return 1;
-  return std::pow(-sigma, n) + std::pow((1 - sigma) * (1 + sigma), n) / (1 - std::pow(sigma, n));
+  return portable::pow(-sigma, n) +
+         portable::pow((1 - sigma) * (1 + sigma), n) / (1 - portable::pow(sigma, n));
 }
 
 double sign(Index n) { return n % 2 == 0 ? 1 : -1; }
@@ -63,7 +66,8 @@ HydrodynamicPreconditioner::HydrodynamicPreconditioner(double sigma, const Panel
   for (Index site = 0; site < sites; ++site) {
     const double scale = std::sqrt(temperatures[site]);
     const Eigen::ArrayXd z = momenta.nodes().array() / scale;
-    const Eigen::ArrayXd maxwellian = (-0.5 * z.square()).exp() / (scale * std::sqrt(2 * std::numbers::pi));
+    const Eigen::ArrayXd maxwellian =
+        (-0.5 * z.square()).unaryExpr(&portable::exp) / (scale * std::sqrt(2 * std::numbers::pi));
     Eigen::ArrayXd before = Eigen::ArrayXd::Zero(z.size()), hermite = Eigen::ArrayXd::Ones(z.size());
     for (Index n = 0; n < modes_at_site; ++n) {  // orthonormal: He_n / sqrt(n!)
       const Index column = site * modes_at_site + n;

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "boltzmann/collision_operator.hpp"
+#include "model/portable.hpp"
 #include "model/reservoir.hpp"
 
 namespace lorentz {
@@ -23,7 +24,8 @@ class HalfMoments {
 
  private:
   Eigen::RowVectorXd weights(int n) const {
-    return (momenta_.weights().array() * momenta_.nodes().array().pow(n)).matrix().transpose();
+    const auto power = [n](double p) { return portable::pow(p, n); };
+    return momenta_.weights().cwiseProduct(momenta_.nodes().unaryExpr(power)).transpose();
   }
 
   const Panels& momenta_;

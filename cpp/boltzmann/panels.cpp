@@ -1,12 +1,13 @@
 #include "boltzmann/panels.hpp"
 
-#include <gsl/gsl_integration.h>
 #include <gsl/gsl_sf_bessel.h>
 #include <gsl/gsl_sf_legendre.h>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <numbers>
+
+#include "model/portable.hpp"
 
 namespace lorentz {
 namespace {
@@ -19,22 +20,29 @@ struct GaussRule {
   VectorXd nodes, weights;  // on [-1, 1]
 };
 
-GaussRule gauss_rule(int order) {
-  const std::unique_ptr<gsl_integration_glfixed_table, void (*)(gsl_integration_glfixed_table*)> table(
-      gsl_integration_glfixed_table_alloc(static_cast<std::size_t>(order)),
-      gsl_integration_glfixed_table_free);
-  GaussRule rule{VectorXd(order), VectorXd(order)};
-  for (Index i = 0; i < order; ++i)
-    gsl_integration_glfixed_point(-1, 1, static_cast<std::size_t>(i), &rule.nodes[i], &rule.weights[i],
-                                  table.get());
-  return rule;
-}
-
 /// P_0...P_degree at a point of [-1, 1].
 VectorXd legendre_polynomials(int degree, double point) {
   VectorXd values(degree + 1);
   gsl_sf_legendre_Pl_array(degree, std::clamp(point, -1.0, 1.0), values.data());
   return values;
+}
+
+/// By Newton's method. GSL's rules of other than its tabulated orders would begin at the C library's cosine,
+/// see model/portable.hpp.
+GaussRule gauss_rule(int order) {
+  GaussRule rule{VectorXd(order), VectorXd(order)};
+  for (Index i = 0; i < order; ++i) {
+    double x = -portable::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) / (order + 0.5));
+    double slope = 0;                       // of P_order
+    for (int step = 0; step < 5; ++step) {  // the error, at most 0.01 at first, is squared each time
+      const VectorXd values = legendre_polynomials(order, x);
+      slope = order * (values[order - 1] - x * values[order]) / ((1 - x) * (1 + x));
+      x -= values[order] / slope;
+    }
+    rule.nodes[i] = x;
+    rule.weights[i] = 2 / ((1 - x) * (1 + x) * slope * slope);
+  }
+  return rule;
 }
 
 /// Integrals of P_0...P_(order-1) from -1 to a point: (P_(n+1) - P_(n-1)) / (2n+1).
@@ -55,8 +63,8 @@ void spherical_bessel(double z, VectorXd& values) {
     gsl_sf_bessel_jl_steed_array(size - 1, z, values.data());
     return;
   }
-  values[0] = std::sin(z) / z;
-  if (size > 1) values[1] = (values[0] - std::cos(z)) / z;
+  values[0] = portable::sin(z) / z;
+  if (size > 1) values[1] = (values[0] - portable::cos(z)) / z;
   for (Index n = 1; n + 1 < size; ++n)
     values[n + 1] = static_cast<double>(2 * n + 1) / z * values[n] - values[n - 1];
 }
@@ -125,7 +133,8 @@ FourierIntegrals Panels::fourier(const VectorXd& k) const {
         (n % 2 == 0 ? even_terms : odd_terms)(n, row) = (n % 4 < 2 ? 2 : -2) * bessel[n];
     }
     const Eigen::ArrayXd phase = k.array() * middle(panel);
-    const Eigen::ArrayXd cosine = half_width(panel) * phase.cos(), sine = half_width(panel) * phase.sin();
+    const Eigen::ArrayXd cosine = half_width(panel) * phase.unaryExpr(&portable::cos),
+                         sine = half_width(panel) * phase.unaryExpr(&portable::sin);
     const Eigen::ArrayXXd real = (even_terms.transpose() * legendre_).array();
     const Eigen::ArrayXXd imaginary = (odd_terms.transpose() * legendre_).array();
     result.cosine.middleCols(first(panel), order_) = real.colwise() * cosine - imaginary.colwise() * sine;
@@ -138,18 +147,19 @@ FourierIntegrals Panels::fourier(const VectorXd& k) const {
       if (k[row] * half_width(panel) > 0.5) continue;
       const Eigen::ArrayXd phase = k[row] * nodes_.segment(first(panel), order_).array();
       const Eigen::ArrayXd weights = weights_.segment(first(panel), order_).array();
-      result.cosine.row(row).segment(first(panel), order_) = weights * phase.cos();
+      result.cosine.row(row).segment(first(panel), order_) = weights * phase.unaryExpr(&portable::cos);
       result.cosine_minus_one.row(row).segment(first(panel), order_) =
-          -2 * weights * (0.5 * phase).sin().square();
-      result.sine.row(row).segment(first(panel), order_) = weights * phase.sin();
+          -2 * weights * (0.5 * phase).unaryExpr(&portable::sin).square();
+      result.sine.row(row).segment(first(panel), order_) = weights * phase.unaryExpr(&portable::sin);
     }
   return result;
 }
 
 std::vector<double> graded_breaks(double smallest, double largest, double ratio) {
   std::vector<double> breaks{0};
-  const int steps = std::max(1, static_cast<int>(std::ceil(std::log(largest / smallest) / std::log(ratio))));
-  for (int step = steps; step >= 0; --step) breaks.push_back(largest * std::pow(ratio, -step));
+  const int steps =
+      std::max(1, static_cast<int>(std::ceil(portable::log(largest / smallest) / portable::log(ratio))));
+  for (int step = steps; step >= 0; --step) breaks.push_back(largest * portable::pow(ratio, -step));
   return breaks;
 }
 

@@ -7,6 +7,7 @@
 
 #include "boltzmann/gmres.hpp"
 #include "boltzmann/hydrodynamic_preconditioner.hpp"
+#include "model/portable.hpp"
 
 namespace lorentz {
 namespace {
@@ -75,7 +76,7 @@ Reservoir mean(const Reservoir& left, const Reservoir& right) {
 }  // namespace
 
 Resolution Resolution::level(int level, double gamma) {
-  const double factor = std::pow(std::numbers::sqrt2, level);
+  const double factor = portable::pow(std::numbers::sqrt2, level);
   const double layers = std::sqrt(gamma);  // Gauss nodes resolve layers of width 1/gamma at the ends
   return {static_cast<int>(std::lround(14 * factor)), static_cast<int>(std::ceil((5 + 3 * layers) * factor))};
 }

@@ -5,13 +5,14 @@
 
 #include "engine/random.hpp"
 #include "model/closed_chain.hpp"
+#include "model/portable.hpp"
 
 namespace lorentz {
 
 /// Number of cells to the next scattering, from a uniform number by inversion, where a particle passes a
 /// scatterer with the probability whose logarithm is given: P(k) = pass^(k-1) (1 - pass), k = 1, 2, ...
 inline std::int64_t cells_to_scattering(double uniform_number, double log_pass_probability) {
-  const double passed = std::log(uniform_number) / log_pass_probability;
+  const double passed = portable::log(uniform_number) / log_pass_probability;
   constexpr double most = 0x1p53;  // beyond it cells cannot be counted; no run gets there
   return 1 + static_cast<std::int64_t>(passed < most ? passed : most);
 }
@@ -28,7 +29,7 @@ class Launch {
   Launch(const ClosedChain& chain, std::uint64_t seed, std::uint64_t replica)
       : passing_(!chain.deterministic()),
         random_direction_(chain.random_direction),
-        log_pass_probability_(std::log1p(-chain.gamma / chain.cells)),
+        log_pass_probability_(portable::log1p(-chain.gamma / chain.cells)),
         seed_(seed),
         replica_(replica),
         particles_(chain.particles()) {}

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "model/portable.hpp"
+
 namespace lorentz {
 namespace {
 
@@ -21,7 +23,7 @@ OpenDynamics::OpenDynamics(const OpenChain& chain, const PhasePoint& start, doub
                            std::uint64_t seed, std::uint64_t replica)
     : chain_(chain),
       collide_(chain.sigma),
-      log_pass_probability_(std::log1p(-std::min(1.0, chain.gamma / chain.cells))),
+      log_pass_probability_(portable::log1p(-std::min(1.0, chain.gamma / chain.cells))),
       half_cell_(chain.cell_length / 2),
       passes_(seed, Purpose::passes, replica),
       injectors_{Injector(chain.left, seed, Purpose::injection_left, replica),

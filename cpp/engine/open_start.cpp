@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/random.hpp"
+#include "model/portable.hpp"
 
 namespace lorentz {
 namespace {
@@ -24,9 +25,10 @@ class Stream {
   double draw_speed(RandomStream& stream) const {
     const bool slow = stream.uniform() * (slow_part() + fast_part()) < slow_part();
     for (;;) {
-      const double v = slow ? slow_candidate(stream) : slow_ * std::pow(fastest / slow_, stream.uniform());
+      const double v =
+          slow ? slow_candidate(stream) : slow_ * portable::pow(fastest / slow_, stream.uniform());
       const bool gaussian_already = slow && slow_ > 1;
-      if (gaussian_already ? v < slow_ : stream.uniform() < std::exp(-0.5 * v * v)) return thermal_ * v;
+      if (gaussian_already ? v < slow_ : stream.uniform() < portable::exp(-0.5 * v * v)) return thermal_ * v;
     }
   }
 
@@ -38,7 +40,7 @@ class Stream {
   }
 
   /// Integrals of sqrt(2/pi) exp(-v^2/2) over max(v, slow_), below slow_ and above.
-  double slow_part() const { return std::erf(slow_ / std::numbers::sqrt2) / slow_; }
+  double slow_part() const { return portable::erf(slow_ / std::numbers::sqrt2) / slow_; }
   double fast_part() const {
     return slow_ < fastest ? gsl_sf_expint_E1(0.5 * slow_ * slow_) / std::sqrt(2 * std::numbers::pi) : 0;
   }

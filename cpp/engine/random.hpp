@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <numbers>
 
+#include "model/portable.hpp"
+
 namespace lorentz {
 
 /// What a stream of random numbers is for. Append only: a value in use never changes its meaning.
@@ -39,12 +41,12 @@ class RandomStream {
   }
 
   /// Exponential with mean 1.
-  double exponential() { return -std::log(uniform()); }
+  double exponential() { return -portable::log(uniform()); }
 
   /// Standard normal, by the Box-Muller transform; two words per number.
   double gaussian() {
-    const double radius = std::sqrt(-2 * std::log(uniform()));
-    return radius * std::cos(2 * std::numbers::pi * uniform());
+    const double radius = std::sqrt(-2 * portable::log(uniform()));
+    return radius * portable::cos(2 * std::numbers::pi * uniform());
   }
 
  private:

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/portable.hpp"
+
 namespace lorentz {
 
 /// A bath that injects particles at one end of an open chain: a Poisson process in time, momenta
@@ -18,7 +20,7 @@ struct Reservoir {
   /// Probability of |p| in [low, high].
   double probability(double low, double high) const {
     const double scale = 1 / std::sqrt(2 * temperature);
-    return std::erfc(low * scale) - std::erfc(high * scale);
+    return portable::erfc(low * scale) - portable::erfc(high * scale);
   }
 };
 

@@ -5,8 +5,8 @@
 /// down, and the energy that they lose heats the scatterers and the rest, logarithmically in time. The slope
 /// against ln t is fitted to the last --fit-decades decades.
 #include <algorithm>
-#include <cmath>
 
+#include "model/portable.hpp"
 #include "observables/closed_chain_options.hpp"
 #include "observables/log_times_options.hpp"
 #include "program/replica_study.hpp"
@@ -28,7 +28,7 @@ Results summarise(const Records& records, const std::vector<double>& times, doub
   const auto first =
       static_cast<std::size_t>(std::lower_bound(times.begin(), times.end(), fit_from) - times.begin());
   std::vector<double> log_times;
-  for (const double time : times) log_times.push_back(std::log(time));
+  for (const double time : times) log_times.push_back(portable::log(time));
   const Axis time{"time", "time", "Time since the start", times};
   return estimate(
       records,

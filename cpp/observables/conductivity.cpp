@@ -72,7 +72,8 @@ class EndsAndOpenings {
   }
 
   void finish(const std::vector<double>& scatterers, double end_time) {
-    for (EndCell& end : ends_) end.scatterer_energy.hold(std::pow(scatterers[end.scatterer], 2), end_time);
+    for (EndCell& end : ends_)
+      end.scatterer_energy.hold(scatterers[end.scatterer] * scatterers[end.scatterer], end_time);
   }
 
   /// Of each block: J_U, J_n, T_1, T_N; then arrivals and their energy at both ends; then of each block the

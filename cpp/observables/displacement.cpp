@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/portable.hpp"
 #include "observables/closed_chain_options.hpp"
 #include "observables/log_times_options.hpp"
 #include "observables/physics_options.hpp"
@@ -74,7 +75,7 @@ double logarithmic_power(const std::vector<double>& times, std::span<const doubl
   std::vector<double> log_time, log_ratio;
   for (std::size_t k = 0; k < times.size(); ++k) {
     if (times[k] < from) continue;
-    log_time.push_back(std::log(times[k] / tau));
+    log_time.push_back(portable::log(times[k] / tau));
     log_ratio.push_back(y[k] / times[k]);
   }
   return fit_power(log_time, log_ratio, log_time.front(), log_time.back());
@@ -99,8 +100,9 @@ Results summarise(const Records& records, const std::vector<double>& times,
       [&](std::span<const double> sums) {
         std::vector<double> values(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(4 * size));
         for (std::size_t k = 0; k + 1 < size; ++k)
-          values.push_back(sums[k] > 0 ? std::log(sums[k + 1] / sums[k]) / std::log(times[k + 1] / times[k])
-                                       : std::numeric_limits<double>::quiet_NaN());
+          values.push_back(sums[k] > 0
+                               ? portable::log(sums[k + 1] / sums[k]) / portable::log(times[k + 1] / times[k])
+                               : std::numeric_limits<double>::quiet_NaN());
         std::vector<double> relative;
         for (std::size_t k = 0; k < size; ++k) relative.push_back(sums[k] - sums[3 * size + k]);
         values.push_back(fit_power(times, sums.first(size), fit_from, times.back()));

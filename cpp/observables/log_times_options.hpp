@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cmath>
 #include <vector>
 
+#include "model/portable.hpp"
 #include "program/options.hpp"
 #include "statistics/log_grid.hpp"
 
@@ -21,7 +21,9 @@ class LogTimesOptions {
                  "Decades of time, the last ones, that are fitted");
   }
 
-  LogGrid grid(double last) const { return {last * std::pow(10, -decades_), decades_, points_per_decade}; }
+  LogGrid grid(double last) const {
+    return {last * portable::pow(10, -decades_), decades_, points_per_decade};
+  }
 
   std::vector<double> times(double last) const {
     std::vector<double> points = grid(last).points();
@@ -30,7 +32,7 @@ class LogTimesOptions {
   }
 
   /// First time of the fit, a little less than a point of the grid.
-  double fit_from(double last) const { return last * std::pow(10, -fit_decades_) * (1 - 1e-9); }
+  double fit_from(double last) const { return last * portable::pow(10, -fit_decades_) * (1 - 1e-9); }
 
  private:
   double decades_ = 6;

@@ -137,8 +137,10 @@ Results summarise(const Records& records, std::size_t bonds, const Bins& bins) {
       return crossings > 0 ? moment(at, side, k) / crossings : std::numeric_limits<double>::quiet_NaN();
     };
     by_half([&](std::size_t at, std::size_t side) { return mean(at, side, 1); });
-    by_half(
-        [&](std::size_t at, std::size_t side) { return mean(at, side, 2) / std::pow(mean(at, side, 1), 2); });
+    by_half([&](std::size_t at, std::size_t side) {
+      const double first = mean(at, side, 1);
+      return mean(at, side, 2) / (first * first);
+    });
     double total = 0;
     for (std::size_t at = 0; at < bonds; ++at) total += moment(at, 0, 0) + moment(at, 1, 0);
     values.push_back(total / static_cast<double>(bonds));

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/portable.hpp"
 #include "observables/momentum_bins_options.hpp"
 #include "observables/open_chain_options.hpp"
 #include "program/errors.hpp"
@@ -53,11 +54,12 @@ struct Plan {
       : times(snapshot_times),
         bins(linear),
         // From a tenth of the last front on, which is about one cell in the longest time.
-        speed_grid(0.1 * length_of_cell / times.back(),
-                   std::max(1., std::log10(10 * bins.edge(bins.count()) * times.back() / length_of_cell)),
-                   bins_per_decade),
+        speed_grid(
+            0.1 * length_of_cell / times.back(),
+            std::max(1., portable::log10(10 * bins.edge(bins.count()) * times.back() / length_of_cell)),
+            bins_per_decade),
         speeds(speed_grid.points()),
-        time_grid(times.back() * std::pow(10, -decades_of_time), decades_of_time, times_per_decade),
+        time_grid(times.back() * portable::pow(10, -decades_of_time), decades_of_time, times_per_decade),
         number_times(time_grid.points()),
         cell_length(length_of_cell) {
     number_times.back() = times.back();
@@ -81,7 +83,7 @@ class Census {
       const double p = std::abs(path.velocity);
       linear_[k].add(path.velocity, p);
       if (p >= plan_.speeds.front() && p < plan_.speeds.back())
-        logarithmic_[k][plan_.speed_grid.interval(std::log(p))] += 1;
+        logarithmic_[k][plan_.speed_grid.interval(portable::log(p))] += 1;
     });
     at_number_times_.show(path, [&](std::size_t k) { number_[k] += 1; });
   }
@@ -122,7 +124,7 @@ double front(std::span<const double> density, const Plan& plan, double plateau) 
   for (std::size_t i = 0; i + 1 < middles.size(); ++i) {
     if (density[i] > 0.5 * plateau || density[i + 1] <= 0.5 * plateau) continue;
     const double part = (0.5 * plateau - density[i]) / (density[i + 1] - density[i]);
-    return middles[i] * std::pow(middles[i + 1] / middles[i], part);
+    return middles[i] * portable::pow(middles[i + 1] / middles[i], part);
   }
   return std::numeric_limits<double>::quiet_NaN();
 }
@@ -135,7 +137,7 @@ Results summarise(const Records& records, const Plan& plan, double thermal) {
   const Axis between{"time", "time", "Geometric middle of two neighbouring times", plan.time_grid.middles()};
   const std::size_t times = plan.times.size();
   const std::size_t linear = times * plan.bins.count(), speeds = plan.speed_grid.intervals();
-  const double log_width = std::log(plan.speeds[1] / plan.speeds[0]);
+  const double log_width = portable::log(plan.speeds[1] / plan.speeds[0]);
   return estimate(
       records,
       {{"weighted_momentum_density",
@@ -161,12 +163,12 @@ Results summarise(const Records& records, const Plan& plan, double thermal) {
         std::vector<double> log_time, late_number, slope_time, late_slope;
         for (std::size_t k = 0; k < number.size(); ++k) {
           const bool late = plan.number_times[k] >= plan.times.front();
-          if (late) log_time.push_back(std::log(plan.number_times[k]));
+          if (late) log_time.push_back(portable::log(plan.number_times[k]));
           if (late) late_number.push_back(number[k]);
           if (k + 1 == number.size()) break;
           values.push_back((number[k + 1] - number[k]) /
-                           std::log(plan.number_times[k + 1] / plan.number_times[k]));
-          if (late) slope_time.push_back(std::log(between.values[k]));
+                           portable::log(plan.number_times[k + 1] / plan.number_times[k]));
+          if (late) slope_time.push_back(portable::log(between.values[k]));
           if (late) late_slope.push_back(values.back());
         }
         values.push_back(fit_line(log_time, late_number).slope);

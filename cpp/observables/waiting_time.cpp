@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/portable.hpp"
 #include "observables/closed_chain_options.hpp"
 #include "program/replica_study.hpp"
 #include "statistics/log_grid.hpp"
@@ -28,7 +29,7 @@ class WaitingTimes {
 
   void on_flight(const Departure& departure) {
     if (!std::isfinite(departure.duration)) return;  // frozen
-    const double log_duration = std::log(departure.duration);
+    const double log_duration = portable::log(departure.duration);
     const std::size_t bin = bins_.interval(log_duration);
     sums_[bin] += 1;
     sums_[bins_.intervals() + bin] += log_duration;
@@ -61,7 +62,7 @@ std::vector<double> exponents(std::span<const double> sums, const LogGrid& bins)
   for (std::size_t bin = bins.intervals(); bin-- > 0;) {
     count += sums[bin];
     log_sum += sums[bins.intervals() + bin];
-    result[bin] = -(1 + count / (log_sum - count * std::log(edges[bin])));
+    result[bin] = -(1 + count / (log_sum - count * portable::log(edges[bin])));
   }
   return result;
 }
@@ -108,7 +109,7 @@ int main(int argc, char** argv) {
     const double thermal_flight = chain.chain().cell_length / std::sqrt(chain.temperature());
     const LogGrid bins(1e-3 * thermal_flight, decades, bins_per_decade);
     const auto bin_of_cut = [&](double factor) {
-      return bins.interval(std::log(factor * tail_from * thermal_flight));
+      return bins.interval(portable::log(factor * tail_from * thermal_flight));
     };
     const Tail tail{bin_of_cut(1.0 / 3), bin_of_cut(1), bin_of_cut(3)};
     const auto measure = [&](const Replica& replica) {

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/portable.hpp"
+
 namespace lorentz {
 namespace {
 
@@ -27,7 +29,7 @@ double spread(std::span<const Profile> profiles, double low, double high, double
   const double last = profiles.back().time;
   std::array<double, points> sum{}, squares{};
   for (const Profile& profile : profiles) {
-    const double stretch = std::pow(profile.time / last, xi);
+    const double stretch = portable::pow(profile.time / last, xi);
     for (std::size_t i = 0; i < points; ++i) {
       const double s = low + (high - low) * static_cast<double>(i) / (points - 1);
       const double y = stretch * value_at(profile, s * stretch);

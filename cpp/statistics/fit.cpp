@@ -6,9 +6,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <stdexcept>
 #include <vector>
+
+#include "model/portable.hpp"
 
 namespace lorentz {
 
@@ -25,8 +26,8 @@ double fit_power(std::span<const double> x, std::span<const double> y, double fr
   std::vector<double> log_x, log_y;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (x[i] < from || x[i] > to) continue;
-    log_x.push_back(std::log(x[i]));
-    log_y.push_back(std::log(y[i]));
+    log_x.push_back(portable::log(x[i]));
+    log_y.push_back(portable::log(y[i]));
   }
   return fit_line(log_x, log_y).slope;
 }

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
+
+#include "model/portable.hpp"
 
 namespace lorentz {
 
@@ -11,8 +12,8 @@ namespace lorentz {
 class LogGrid {
  public:
   LogGrid(double first, double decades, std::size_t points_per_decade)
-      : log_first_(std::log(first)),
-        steps_per_unit_(static_cast<double>(points_per_decade) / std::log(10.0)),
+      : log_first_(portable::log(first)),
+        steps_per_unit_(static_cast<double>(points_per_decade) / portable::log(10.0)),
         steps_(static_cast<std::size_t>(std::llround(decades * static_cast<double>(points_per_decade)))) {}
 
   /// All points, ends included.
@@ -38,7 +39,7 @@ class LogGrid {
   std::size_t intervals() const { return steps_; }
 
  private:
-  double point(double step) const { return std::exp(log_first_ + step / steps_per_unit_); }
+  double point(double step) const { return portable::exp(log_first_ + step / steps_per_unit_); }
 
   double log_first_, steps_per_unit_;
   std::size_t steps_;

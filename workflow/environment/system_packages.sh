@@ -12,6 +12,7 @@ header:gsl/gsl_math.h  libgsl-dev         gsl-devel        gsl
 header:hdf5.h          libhdf5-dev        hdf5-devel       hdf5
 header:CLI/CLI.hpp     libcli11-dev       cli11-devel      cli11
 header:Random123/philox.h librandom123-dev Random123-devel random123
+header:sleef.h         libsleef-dev       sleef-devel      sleef
 header:fmt/format.h    libfmt-dev         fmt-devel        fmt
 header:gtest/gtest.h   libgtest-dev       gtest-devel      googletest
 header:benchmark/benchmark.h libbenchmark-dev google-benchmark-devel google-benchmark
