@@ -138,8 +138,8 @@ TEST(EventQueue, KeepsTheOrderWhileTheRateChanges) {
 }
 
 // A steady rate, so that the width stays, and flights longer than the piles of 64 turns reach: they wait
-// in the last pile until a round of the others is over.
-TEST(EventQueue, KeepsTheOrderOfFlightsBeyondTheCoarseBuckets) {
+// in the last pile until half of the others have been used up.
+TEST(EventQueue, KeepsTheOrderOfFlightsBeyondThePiles) {
   const auto mixed = [](Generator& generator) {
     if (std::bernoulli_distribution(1e-3)(generator))
       return std::uniform_real_distribution<double>(0, 4000)(generator);
@@ -174,7 +174,7 @@ TEST(EventQueue, IsEmptyWithoutFlights) {
 }
 
 // Flights in huge pages, and turns of a fraction of an event per particle: every flight passes through a
-// coarse bucket. The rate is about right, or too low, so that the wheel is rebuilt on the way.
+// pile. The rate is about right, or too low, so that the wheel is rebuilt on the way.
 TEST(EventQueue, KeepsTheOrderOfAPopulationInHugePages) {
   for (const double rate : {8e4, 8e3})
     EXPECT_GT(compare_with_ordered_set({80000, 40, heavy_tailed(1), 0.01, 300000}, rate), 300000U);
@@ -241,6 +241,12 @@ TEST(EventQueue, LetsParticlesComeAndGo) {
     EXPECT_GT(compare_with_comings_and_goings(0.01, 0.5, heavy_tailed(0.5), rate, 1e5), 500U) << rate;
     EXPECT_GT(compare_with_comings_and_goings(20, 0.1, quantised, rate, 300), 10000U) << rate;
   }
+}
+
+// From few to 30000 particles: turns of many events per particle become turns of few.
+TEST(EventQueue, LetsThePopulationGrow) {
+  for (const double rate : {1., 5000.})
+    EXPECT_GT(compare_with_comings_and_goings(5000, 0, heavy_tailed(1), rate, 6), 30000U) << rate;
 }
 
 }  // namespace
