@@ -64,16 +64,21 @@ void EventQueue::rebuild(const std::vector<Flight>& flights, double rate, double
 
 std::vector<Flight> EventQueue::gathered() const {
   std::vector<Flight> flights;
+  flights.reserve(planned_for_);
   const auto add = [&](std::uint32_t place) { flights.push_back(piles_[place]); };
   for (std::size_t pile = 0; pile < piles_.size(); ++pile)
     if (pile != current()) piles_.for_each(pile, add);
-  for (std::uint32_t place : lists_)  // the current pile has vacant places
-    for (; place != Piles::nowhere; place = next_[place]) add(place);
+  // The current pile has vacant places, so its flights are found by the buckets.
+  for (std::size_t word = word_; word < occupied_.size(); ++word)
+    for (std::uint64_t bits = word == word_ ? word_bits_ : occupied_[word]; bits != 0; bits &= bits - 1)
+      for (std::uint32_t place = lists_[bucket_of(word, bits)]; place != Piles::nowhere; place = next_[place])
+        add(place);
   return flights;
 }
 
 std::vector<Flight> EventQueue::flights() const {
   std::vector<Flight> by_number;
+  by_number.reserve(planned_for_);
   for (const Flight& flight : gathered()) {
     while (by_number.size() <= flight.particle)
       by_number.push_back(

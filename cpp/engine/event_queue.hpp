@@ -44,7 +44,7 @@ class EventQueue {
         else if (!begin_turn(until))
           return false;
       }
-      const std::size_t bucket = (word_ << 6) + static_cast<std::size_t>(std::countr_zero(word_bits_));
+      const std::size_t bucket = bucket_of(word_, word_bits_);
       const std::uint32_t head = lists_[bucket];
       if (next_[head] == Piles::nowhere) {
         if (!(piles_[head].time < until)) return false;
@@ -88,6 +88,11 @@ class EventQueue {
  private:
   std::uint64_t tick_of(double time) const {
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(time * ticks_per_time_));
+  }
+
+  /// The first bucket among the bits of a word of occupied_.
+  static std::size_t bucket_of(std::size_t word, std::uint64_t bits) {
+    return (word << 6) + static_cast<std::size_t>(std::countr_zero(bits));
   }
 
   // Piles: one per later turn, then these.

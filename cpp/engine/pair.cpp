@@ -44,17 +44,24 @@ PairDynamics::PairDynamics(const ClosedChain& chain, const PhasePoint& plain, co
       queue_(both(chain, plain, perturbed, launch_, double_particles_), expected_rate(chain, plain),
              end_time) {}
 
-PhasePoint PairDynamics::phase_point(double time, std::size_t copy) const {
+std::array<PhasePoint, 2> PairDynamics::phase_points(double time) const {
+  const std::uint32_t particles = chain_.particles();
+  PhasePoint plain;
   const std::vector<Flight> flights = queue_.flights();
-  PhasePoint point;
-  for (std::uint32_t particle = 0; particle < chain_.particles(); ++particle) {
-    const Flight& flight = flights[particle + (double_particles_[particle] ? copy * chain_.particles() : 0)];
-    point.particles.push_back({position(flight, time, chain_), flight.velocity});
-  }
+  const auto seen = [&](const Flight& flight) {
+    return Particle{position(flight, time, chain_), flight.velocity};
+  };
+  for (std::uint32_t particle = 0; particle < particles; ++particle)
+    plain.particles.push_back(seen(flights[particle]));
+  for (const double w : scatterers_[0]) plain.scatterers.push_back(scatter_.rule().scatterer_scale() * w);
+
+  PhasePoint perturbed = plain;
+  for (std::uint32_t particle = 0; particle < particles; ++particle)
+    if (double_particles_[particle]) perturbed.particles[particle] = seen(flights[particle + particles]);
   for (std::uint32_t cell = 0; cell < chain_.cells; ++cell)
-    point.scatterers.push_back(scatter_.rule().scatterer_scale() *
-                               scatterers_[double_scatterers_[cell] ? copy : 0][cell]);
-  return point;
+    if (double_scatterers_[cell])
+      perturbed.scatterers[cell] = scatter_.rule().scatterer_scale() * scatterers_[1][cell];
+  return {std::move(plain), std::move(perturbed)};
 }
 
 }  // namespace lorentz

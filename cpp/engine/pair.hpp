@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <cstdint>
 #include <utility>
@@ -36,16 +37,14 @@ class PairDynamics {
       advance<true>(until, heartbeat);
   }
 
-  PhasePoint plain(double time) const { return phase_point(time, 0); }
-  PhasePoint perturbed(double time) const { return phase_point(time, 1); }
+  /// The plain one and the perturbed one, at a time between the last event and the next.
+  std::array<PhasePoint, 2> phase_points(double time) const;
 
   /// Collisions in both trajectories, and how many of them had to be worked out.
   std::uint64_t events() const { return shared_ * 2 + separate_; }
   std::uint64_t computed() const { return shared_ + separate_; }
 
  private:
-  PhasePoint phase_point(double time, std::size_t copy) const;
-
   template <bool launching, class Heartbeat>
   void advance(double until, Heartbeat&& heartbeat) {
     constexpr std::uint64_t events_per_heartbeat = 65536;

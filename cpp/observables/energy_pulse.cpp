@@ -108,8 +108,9 @@ ReplicaRecord measure(const Pulse& pulse, std::uint64_t seed, const Replica& rep
     double error = 0;
     for (std::size_t k = 0; k < pulse.times.size(); ++k) {
       pair.run(pulse.times[k], heartbeat);
-      std::vector<double> difference = energies(pair.perturbed(pulse.times[k]));
-      const std::vector<double> without = energies(pair.plain(pulse.times[k]));
+      const auto [plain, perturbed] = pair.phase_points(pulse.times[k]);
+      std::vector<double> difference = energies(perturbed);
+      const std::vector<double> without = energies(plain);
       for (std::size_t cell = 0; cell < cells; ++cell) {
         difference[cell] -= without[cell];
         record.values[k * cells + cell] += difference[cell] / pulse.members;
