@@ -43,7 +43,7 @@ def draw(table: pd.DataFrame) -> Figure:
     draw_errors(axes, table, "cpu_seconds")
     axes.set_xlabel("CPU seconds")
     style.label_within_decades(axes.xaxis)
-    axes.legend(loc="upper right", fontsize=7)
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1), ncols=2, fontsize=6.5)
     return figure
 
 
