@@ -66,7 +66,8 @@ def scores(quantity: Quantity, sample: np.ndarray) -> np.ndarray:
     """Of the values that occur often enough to have a normal distribution."""
     mean, error = sample.mean(axis=0), sample.std(axis=0, ddof=1) / np.sqrt(len(sample))
     often = (np.count_nonzero(sample, axis=0) > len(sample) / 2) & (quantity.standard_error.ravel() > 0)
-    return ((quantity.mean.ravel() - mean) / np.hypot(quantity.standard_error.ravel(), error))[often]
+    difference = quantity.mean.ravel() - mean
+    return difference[often] / np.hypot(quantity.standard_error.ravel(), error)[often]
 
 
 def agree(z: np.ndarray) -> bool:
