@@ -80,13 +80,13 @@ void closed_floor(benchmark::State& state) {
   // they seldom do.
   std::shuffle(flights.begin(), flights.end(), std::mt19937(1));
   std::vector<Flight, HugePageAllocator<Flight>> memory(flights.begin(), flights.end());
-  std::vector<double> scatterers = scatter.scaled(of.start.scatterers);
+  std::vector<double> scatterers = scatter.rule().scaled(of.start.scatterers);
   Persistent observer;
   std::size_t slot = 0;
   const auto advance = [&]<bool launching>(std::uint64_t events) {
     for (; events > 0; --events) {
       Flight& flight = memory[slot];
-      __builtin_prefetch(&flight + 32, 1);  // as Piles do
+      __builtin_prefetch(&flight + Piles::ahead, 1);
       const double before = flight.velocity;
       scatter.operator()<launching>(flight, scatterers[flight.target], launch);
       observer.add(before, flight.velocity);

@@ -5,6 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "engine/open_dynamics.hpp"
@@ -82,7 +83,7 @@ class Queueless {
         injectors_{Injector(chain.left, 1, Purpose::injection_left, 0),
                    Injector(chain.right, 1, Purpose::injection_right, 0)} {
     const PhasePoint start = local_equilibrium_start(chain, chain.left, chain.right, age, 1, 0);
-    for (const double U : start.scatterers) scatterers_.push_back(U / collide_.scatterer_scale());
+    scatterers_ = collide_.scaled(start.scatterers);
     for (const Particle& particle : start.particles)
       flights_.push_back({0, particle.velocity,
                           static_cast<std::uint32_t>(particle.position / chain.cell_length),
@@ -96,7 +97,7 @@ class Queueless {
   template <bool passing>
   void advance(std::uint32_t slot, Collisions& observer) {
     Flight& flight = flights_[slot];
-    __builtin_prefetch(&flight + 32, 1);  // as Piles do
+    __builtin_prefetch(&flight + Piles::ahead, 1);
     const double particle = flight.velocity, scatterer = scatterers_[flight.target];
     collide_(flight.velocity, scatterers_[flight.target]);
     observer.on_collision(

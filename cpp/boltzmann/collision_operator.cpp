@@ -52,6 +52,10 @@ VectorXcd equilibrium_product(double sigma, double temperature, int doubling, co
 
 }  // namespace
 
+Eigen::ArrayXd normal_density(const Eigen::ArrayXd& z, double scale) {
+  return (-0.5 * z.square()).unaryExpr(&portable::exp) / (scale * std::sqrt(2 * std::numbers::pi));
+}
+
 VectorXd injected_flux(const Reservoir& bath, const VectorXd& p) {
   const double height = bath.rate * std::sqrt(2 / (std::numbers::pi * bath.temperature));
   return height * (-p.array().square() / (2 * bath.temperature)).unaryExpr(&portable::exp);
@@ -170,8 +174,7 @@ Flux CollisionOperator::conserving(const Flux& gain, const Flux& source) const {
   for (Index column = 0; column < gain.cols(); ++column) {
     const double scale = std::sqrt(temperature_[column]);
     const Eigen::ArrayXd z = momenta_.nodes().array() / scale;
-    const Eigen::ArrayXd maxwellian =
-        (-0.5 * z.square()).unaryExpr(&portable::exp) / (scale * std::sqrt(2 * std::numbers::pi));
+    const Eigen::ArrayXd maxwellian = normal_density(z, scale);
     const VectorXd defect = source.col(column) - gain.col(column);
     const Eigen::ArrayXd even = (defect.head(half) + defect.tail(half)).array() * momenta_.weights().array();
     const Eigen::ArrayXd odd = (defect.head(half) - defect.tail(half)).array() * momenta_.weights().array();

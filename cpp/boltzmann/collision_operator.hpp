@@ -13,6 +13,9 @@ namespace lorentz {
 /// F(-p) at the same nodes.
 using Flux = Eigen::MatrixXd;
 
+/// Normal density with the standard deviation `scale` at z times that.
+Eigen::ArrayXd normal_density(const Eigen::ArrayXd& z, double scale);
+
 /// What a bath injects at p > 0: nu sqrt(2/(pi T)) exp(-p^2/2T).
 Eigen::VectorXd injected_flux(const Reservoir& bath, const Eigen::VectorXd& p);
 

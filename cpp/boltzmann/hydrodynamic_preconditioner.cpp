@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "model/portable.hpp"
 
@@ -66,8 +65,7 @@ HydrodynamicPreconditioner::HydrodynamicPreconditioner(double sigma, const Panel
   for (Index site = 0; site < sites; ++site) {
     const double scale = std::sqrt(temperatures[site]);
     const Eigen::ArrayXd z = momenta.nodes().array() / scale;
-    const Eigen::ArrayXd maxwellian =
-        (-0.5 * z.square()).unaryExpr(&portable::exp) / (scale * std::sqrt(2 * std::numbers::pi));
+    const Eigen::ArrayXd maxwellian = normal_density(z, scale);
     Eigen::ArrayXd before = Eigen::ArrayXd::Zero(z.size()), hermite = Eigen::ArrayXd::Ones(z.size());
     for (Index n = 0; n < modes_at_site; ++n) {  // orthonormal: He_n / sqrt(n!)
       const Index column = site * modes_at_site + n;

@@ -25,7 +25,7 @@ ClosedDynamics::ClosedDynamics(const ClosedChain& chain, const PhasePoint& start
                                std::uint64_t seed, std::uint64_t replica)
     : chain_(checked(chain, start)),
       scatter_(chain),
-      scatterers_(scatter_.scaled(start.scatterers)),
+      scatterers_(scatter_.rule().scaled(start.scatterers)),
       launch_(chain, seed, replica),
       queue_(first_flights(chain, start, launch_), expected_rate(chain, start), end_time) {}
 
@@ -37,12 +37,7 @@ std::vector<double> ClosedDynamics::positions_from_targets(double time) const {
   return positions;
 }
 
-std::vector<double> ClosedDynamics::scatterers() const {
-  std::vector<double> result;
-  result.reserve(scatterers_.size());
-  for (const double w : scatterers_) result.push_back(scatter_.rule().scatterer_scale() * w);
-  return result;
-}
+std::vector<double> ClosedDynamics::scatterers() const { return scatter_.rule().unscaled(scatterers_); }
 
 PhasePoint ClosedDynamics::phase_point(double time) const {
   PhasePoint point{{}, scatterers()};

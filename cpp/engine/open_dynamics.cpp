@@ -8,13 +8,11 @@
 namespace lorentz {
 namespace {
 
-/// As w, see CollisionRule. Throws std::invalid_argument unless there is one per cell.
-std::vector<double> scaled(std::vector<double> scatterers, const OpenChain& chain) {
-  if (scatterers.size() != chain.cells)
+/// Throws std::invalid_argument unless there is one scatterer per cell.
+const PhasePoint& checked(const PhasePoint& start, const OpenChain& chain) {
+  if (start.scatterers.size() != chain.cells)
     throw std::invalid_argument("the start does not have one scatterer per cell");
-  const double scale = CollisionRule(chain.sigma).scatterer_scale();
-  for (double& scatterer : scatterers) scatterer /= scale;
-  return scatterers;
+  return start;
 }
 
 }  // namespace
@@ -28,15 +26,11 @@ OpenDynamics::OpenDynamics(const OpenChain& chain, const PhasePoint& start, doub
       passes_(seed, Purpose::passes, replica),
       injectors_{Injector(chain.left, seed, Purpose::injection_left, replica),
                  Injector(chain.right, seed, Purpose::injection_right, replica)},
-      scatterers_(scaled(start.scatterers, chain)),
+      scatterers_(collide_.scaled(checked(start, chain).scatterers)),
       newcomers_(start.particles),
       queue_({}, chain.left.rate + chain.right.rate, end_time) {}
 
-std::vector<double> OpenDynamics::scatterers() const {
-  std::vector<double> result;
-  for (const double w : scatterers_) result.push_back(collide_.scatterer_scale() * w);
-  return result;
-}
+std::vector<double> OpenDynamics::scatterers() const { return collide_.unscaled(scatterers_); }
 
 double OpenDynamics::energy() const {
   double twice_energy = 0;

@@ -40,20 +40,19 @@ PairDynamics::PairDynamics(const ClosedChain& chain, const PhasePoint& plain, co
                                     return a.velocity != b.velocity || a.position != b.position;
                                   })),
       double_scatterers_(different(plain.scatterers, perturbed.scatterers, !share, std::not_equal_to<>())),
-      scatterers_{scatter_.scaled(plain.scatterers), scatter_.scaled(perturbed.scatterers)},
+      scatterers_{scatter_.rule().scaled(plain.scatterers), scatter_.rule().scaled(perturbed.scatterers)},
       queue_(both(chain, plain, perturbed, launch_, double_particles_), expected_rate(chain, plain),
              end_time) {}
 
 std::array<PhasePoint, 2> PairDynamics::phase_points(double time) const {
   const std::uint32_t particles = chain_.particles();
-  PhasePoint plain;
+  PhasePoint plain{{}, scatter_.rule().unscaled(scatterers_[0])};
   const std::vector<Flight> flights = queue_.flights();
   const auto seen = [&](const Flight& flight) {
     return Particle{position(flight, time, chain_), flight.velocity};
   };
   for (std::uint32_t particle = 0; particle < particles; ++particle)
     plain.particles.push_back(seen(flights[particle]));
-  for (const double w : scatterers_[0]) plain.scatterers.push_back(scatter_.rule().scatterer_scale() * w);
 
   PhasePoint perturbed = plain;
   for (std::uint32_t particle = 0; particle < particles; ++particle)

@@ -16,6 +16,8 @@ namespace lorentz {
 class Piles {
  public:
   static constexpr std::uint32_t nowhere = 0;  // no place of a flight
+  /// Flights between the one that is read and the one that is asked for.
+  static constexpr std::ptrdiff_t ahead = 32;
 
   /// So many empty piles, with memory for so many flights; what there was is gone.
   void reset(std::size_t piles, std::size_t flights);
@@ -70,7 +72,6 @@ class Piles {
   static constexpr std::uint32_t chunk =
       256;                                   // flights; its first place links to the end of the chunk before
   static constexpr std::ptrdiff_t line = 2;  // flights in a line of the cache
-  static constexpr std::ptrdiff_t ahead = 32;  // flights
 
   static std::uint32_t chunk_of(std::uint32_t end) { return (end - 1) / chunk * chunk; }
   std::uint32_t begin_chunk(std::uint32_t previous_end);

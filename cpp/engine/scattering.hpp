@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <vector>
 
 #include "engine/flight.hpp"
 #include "engine/launch.hpp"
@@ -27,12 +26,6 @@ class Scattering {
       : cells_(chain.cells), cell_length_(chain.cell_length), collide_(chain.sigma) {}
 
   const CollisionRule& rule() const { return collide_; }
-
-  /// The scatterers' U as the w of the rule.
-  std::vector<double> scaled(std::vector<double> scatterers) const {
-    for (double& scatterer : scatterers) scatterer /= collide_.scatterer_scale();
-    return scatterers;
-  }
 
   /// The flight ends at the scatterer w; both get their new state. launching: whether `launch` has a say in
   /// what follows; otherwise the particle scatters again at the neighbouring scatterer.

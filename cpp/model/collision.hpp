@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 namespace lorentz {
 
@@ -57,6 +58,18 @@ class CollisionRule {
 
   /// U / w, in [1/2, 2].
   double scatterer_scale() const { return scatterer_scale_; }
+
+  /// The scatterers' U as w.
+  std::vector<double> scaled(std::vector<double> scatterers) const {
+    for (double& scatterer : scatterers) scatterer /= scatterer_scale_;
+    return scatterers;
+  }
+
+  /// Their w as U.
+  std::vector<double> unscaled(std::vector<double> scatterers) const {
+    for (double& scatterer : scatterers) scatterer *= scatterer_scale_;
+    return scatterers;
+  }
 
   /// P / U = sqrt(M). 0 at sigma = 1 as well: an infinitely heavy scatterer is a wall, and its momentum is
   /// left out of every sum.
