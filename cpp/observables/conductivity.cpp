@@ -7,16 +7,18 @@
 /// cell, hence the factor N. Both are stored. Currents are means of those through the two openings.
 ///
 /// What the reservoirs inject is the only randomness of the chain with gamma = N, and its mean is known:
-/// numbers, momenta and energies of both serve as control variates (statistics/control_variates.hpp).
-/// Quantities named
-/// *_plain are those without. Stationarity is tested: the halves of the window have to agree, and its blocks
-/// to be longer than the correlations (statistics/blocking.hpp).
+/// numbers, momenta and energies of both serve as control variates (statistics/control_variates.hpp). With
+/// gamma < N the two scatterers are hit by chance and seldom; what that adds to their energies is controlled
+/// as well (observables/scattering_control.hpp). Quantities named *_plain are those without. Stationarity is
+/// tested: the halves of the window have to agree, and its blocks to be longer than the correlations
+/// (statistics/blocking.hpp).
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include "observables/open_chain_options.hpp"
+#include "observables/scattering_control.hpp"
 #include "program/replica_study.hpp"
 #include "statistics/blocking.hpp"
 #include "statistics/control_variates.hpp"
@@ -32,11 +34,18 @@ constexpr std::size_t block_count = 8;  // of the window
 struct EndCell {
   std::uint32_t scatterer;
   std::int64_t mark;
-  TimeIntegral scatterer_energy;             // of U^2
+  TimeIntegral scatterer_energy;  // of U^2
+  ScatteringControl chance;
   double arrivals = 0, arriving_energy = 0;  // of the particles that come to the scatterer; sum of u^2
 
-  EndCell(std::uint32_t cell, const Blocks& blocks)
-      : scatterer(cell), mark(2 * std::int64_t{cell} + 1), scatterer_energy(blocks) {}
+  EndCell(std::uint32_t cell, const OpenChain& chain, const Blocks& blocks)
+      : scatterer(cell), mark(2 * std::int64_t{cell} + 1), scatterer_energy(blocks), chance(chain, blocks) {}
+
+  /// The scatterer has had this U up to a time.
+  void hold(double momentum, double until) {
+    scatterer_energy.hold(momentum * momentum, until);
+    chance.hold(momentum, until);
+  }
 };
 
 /// Everything that a replica has to see, by blocks of the window.
@@ -45,17 +54,19 @@ class EndsAndOpenings {
   EndsAndOpenings(const OpenChain& chain, const Window& window)
       : chain_(chain),
         blocks_(window.begin, window.end, block_count),
-        ends_{EndCell(0, blocks_), EndCell(chain.cells - 1, blocks_)} {}
+        ends_{EndCell(0, chain, blocks_), EndCell(chain.cells - 1, chain, blocks_)} {}
 
   void on_collision(const Collision& collision) {
     for (EndCell& end : ends_)
-      if (collision.scatterer == end.scatterer)
-        end.scatterer_energy.hold(collision.scatterer_before * collision.scatterer_before, collision.time);
+      if (collision.scatterer == end.scatterer) end.hold(collision.scatterer_before, collision.time);
   }
 
   void on_flight(const Path& path) {
     for (EndCell& end : ends_) {
-      if (!path.reaches(end.mark) || !blocks_.contain(path.time_at(end.mark))) continue;
+      if (!path.reaches(end.mark)) continue;
+      const double time = path.time_at(end.mark);
+      end.chance.expect(time, path.velocity, path.last == end.mark);
+      if (!blocks_.contain(time)) continue;
       end.arrivals += 1;
       end.arriving_energy += path.velocity * path.velocity;
     }
@@ -72,8 +83,7 @@ class EndsAndOpenings {
   }
 
   void finish(const std::vector<double>& scatterers, double end_time) {
-    for (EndCell& end : ends_)
-      end.scatterer_energy.hold(scatterers[end.scatterer] * scatterers[end.scatterer], end_time);
+    for (EndCell& end : ends_) end.hold(scatterers[end.scatterer], end_time);
   }
 
   /// Of each block: J_U, J_n, T_1, T_N; then arrivals and their energy at both ends; then of each block the
@@ -86,7 +96,10 @@ class EndsAndOpenings {
         values.push_back(sum / blocks_.length());
     }
     for (const EndCell& end : ends_) values.insert(values.end(), {end.arriving_energy, end.arrivals});
-    for (const InjectionControls& controls : controls_) controls.append_to(values, chain_, blocks_.length());
+    for (std::size_t block = 0; block < block_count; ++block) {
+      controls_[block].append_to(values, chain_, blocks_.length());
+      for (const EndCell& end : ends_) values.push_back(end.chance.sums()[block]);
+    }
     return values;
   }
 
@@ -105,12 +118,13 @@ class EndsAndOpenings {
   std::array<InjectionControls, block_count> controls_;
 };
 
-constexpr std::size_t quantities = 4, arrivals = 4;  // per block, and per replica
+constexpr std::size_t quantities = 4, arrivals = 4;             // per block, and per replica
+constexpr std::size_t controls = InjectionControls::count + 2;  // per block
 
 /// Rows of all blocks as one: means over the window of the four quantities, or differences between its second
 /// half and its first; the arrivals; the controls likewise.
 Records joined(const Records& records, bool difference) {
-  Records result(quantities + arrivals + InjectionControls::count);
+  Records result(quantities + arrivals + controls);
   for (std::size_t replica = 0; replica < records.size(); ++replica) {
     const std::span<const double> row = records[replica];
     std::vector<double> values;
@@ -125,7 +139,7 @@ Records joined(const Records& records, bool difference) {
     join(0, quantities, (difference ? 2. : 1.) / block_count);
     const auto middle = row.subspan(block_count * quantities, arrivals);
     values.insert(values.end(), middle.begin(), middle.end());
-    join(block_count * quantities + arrivals, InjectionControls::count, 1);
+    join(block_count * quantities + arrivals, controls, 1);
     result.append(values);
   }
   return result;
@@ -171,7 +185,7 @@ Records current_by_blocks(const Records& records) {
 /// difference is below four standard errors and the blocking has converged.
 Results stationarity(const Records& records) {
   Results results =
-      estimate(reduce_variance(joined(records, true), InjectionControls::count),
+      estimate(reduce_variance(joined(records, true), controls),
                {{"energy_current_drift", "energy/time", "J_U, second half of the window minus first"},
                 {"temperature_first_drift", "k_B T", "T_1, second half minus first"},
                 {"temperature_last_drift", "k_B T", "T_N, second half minus first"}},
@@ -194,7 +208,7 @@ Results stationarity(const Records& records) {
 
 Results summarise(const Records& records, double cells) {
   const Records plain = joined(records, false);
-  Results results = conductivity(reduce_variance(plain, InjectionControls::count), cells, "", "");
+  Results results = conductivity(reduce_variance(plain, controls), cells, "", "");
   for (Results more :
        {conductivity(plain, cells, "_plain", ", without control variates"), stationarity(records)})
     results.insert(results.end(), more.begin(), more.end());

@@ -21,12 +21,13 @@ Matrix standardised(const Matrix& columns) {
 }  // namespace
 
 Records reduce_variance(const Records& records, std::size_t controls) {
-  if (records.size() < 3 * controls || controls == 0) return records;
+  if (records.size() < 3 || controls == 0) return records;
   const auto rows = static_cast<Eigen::Index>(records.size());
   const auto c = static_cast<Eigen::Index>(controls);
   const Eigen::Map<const Matrix> all(records.values().data(), rows,
                                      static_cast<Eigen::Index>(records.width()));
   const Matrix x = standardised(all.rightCols(c));
+  if (rows < 3 * (x.colwise().squaredNorm().array() > 0).count()) return records;
   const Matrix x_centred = x.rowwise() - x.colwise().mean();
   const Matrix y = all.leftCols(all.cols() - c);
   const Matrix y_centred = y.rowwise() - y.colwise().mean();

@@ -155,8 +155,11 @@ def test_equilibrium(program: Program, tmp_path: Path, gamma: str | int) -> None
     flux = run(program, tmp_path, "momentum_flux", **options)
     for name in ("particle_current", "energy_current"):
         assert agree(profile[name].mean / profile[name].standard_error), name
-    current = run(program, tmp_path, "conductivity", **options | {"momentum_bins": None})["energy_current"]
-    assert abs(current.mean) < 4 * current.standard_error
+    ends = run(program, tmp_path, "conductivity", **options | {"momentum_bins": None})
+    assert abs(ends["energy_current"].mean) < 4 * ends["energy_current"].standard_error
+    for name in ("temperature_first", "temperature_last"):
+        assert abs(ends[name].mean - 100) < 4 * ends[name].standard_error
+        assert abs(ends[name].mean - 103) > 4 * ends[name].standard_error  # mutant: three hundredths too hot
 
     def gaussian(edges: np.ndarray, temperature: float) -> np.ndarray:
         return np.diff(norm.cdf(edges / np.sqrt(temperature)))
@@ -188,14 +191,20 @@ def test_equilibrium(program: Program, tmp_path: Path, gamma: str | int) -> None
     )
 
 
-def test_reduced_and_plain_estimates_over_seeds(program: Program, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("gamma", "cells", "target"), [("N", 8, "energy_current"), (1, 32, "temperature_first")]
+)
+def test_reduced_and_plain_estimates_over_seeds(
+    program: Program, tmp_path: Path, gamma: str | int, cells: int, target: str
+) -> None:
     """Both agree, the reduced error is smaller, and it says how far the results of 50 seeds lie apart."""
     seeds, replicas = 50, 40
-    options = {"cells": 8, "replicas": replicas, "relaxation_time": 10, "observation_time": 20}
+    options = {"gamma": gamma, "cells": cells, "replicas": replicas}
+    options |= {"relaxation_time": 10, "observation_time": 20}
     found = []
     for seed in range(seeds):
         result = run(program, tmp_path, "conductivity", **options, seed=seed)
-        names = ("energy_current", "energy_current_plain", "kappa")
+        names = (target, f"{target}_plain", "kappa")
         found.append([(result[name].mean, result[name].standard_error) for name in names])
     (reduced, error), (plain, plain_error), (kappa, kappa_error) = np.moveaxis(
         np.array(found, dtype=float), 0, -1

@@ -57,7 +57,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
     axes.plot(middle, slope, color=style.BY_GAMMA["N"][1], label=r"$\gamma = N$, mean field")
     columns = {"gamma": "N", "quantity": "mean_field_kappa", "size": middle, "exponent": slope}
     tables.append(pd.DataFrame(columns))
-    axes.set(xscale="log", xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$", ylim=(-0.3, 2.2))
+    axes.set(xscale="log", xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$", ylim=(-0.3, 1.9))
     axes.legend(loc="upper right", fontsize=7)
     return figure, pd.concat(tables)
 

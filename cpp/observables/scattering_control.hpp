@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "model/open_chain.hpp"
+#include "statistics/time_integral.hpp"
+
+namespace lorentz {
+
+/// A control variate for the mean energy of one scatterer that particles hit by chance, gamma < N.
+///
+/// A collision changes U^2 by g = (c u + sigma U)^2 - U^2, with c^2 = 1 - sigma^2. Whether a particle that
+/// arrives is scattered is drawn anew with probability q = gamma/N, whatever happened before, so the sum over all
+/// arrivals of (1 if scattered, else 0, minus q) g has mean 0: a martingale. The sum of g over the collisions is
+/// what U^2 gains in the window, so this is, but for that, -q times the sum over all arrivals: in the mean,
+/// proportional to that of U^2 less that of u^2, which is known from N/gamma times as many arrivals as there are
+/// collisions. What chance adds to the mean of U^2 is thus taken away.
+class ScatteringControl {
+ public:
+  ScatteringControl(const OpenChain& chain, const Blocks& blocks)
+      : sigma_(chain.sigma),
+        c_(std::sqrt((1 - chain.sigma) * (1 + chain.sigma))),
+        probability_(chain.deterministic() ? 1 : chain.gamma / chain.cells),
+        blocks_(blocks),
+        sums_(blocks.count(), 0) {}
+
+  /// A particle with velocity u will be there at a time, and will be scattered or not. Times outside of the
+  /// blocks are left out, and so is everything where nothing is left to chance.
+  void expect(double time, double u, bool scattered) {
+    if (probability_ < 1 && blocks_.contain(time))
+      pending_.push_back({time, u, (scattered ? 1 : 0) - probability_});
+  }
+
+  /// The scatterer has had the momentum U since the last call up to a time; a collision then still meets it.
+  void hold(double scatterer, double until) {
+    std::erase_if(pending_, [&](const Arrival& arrival) {
+      if (arrival.time > until) return false;
+      const double after = c_ * arrival.velocity + sigma_ * scatterer;
+      sums_[blocks_[arrival.time]] += arrival.surprise * (after * after - scatterer * scatterer);
+      return true;
+    });
+  }
+
+  /// The sum over each block, with mean 0.
+  const std::vector<double>& sums() const { return sums_; }
+
+ private:
+  struct Arrival {
+    double time;
+    double velocity;  // u
+    double surprise;  // 1 or 0, minus its mean
+  };
+
+  double sigma_, c_, probability_;
+  Blocks blocks_;
+  std::vector<Arrival> pending_;
+  std::vector<double> sums_;
+};
+
+}  // namespace lorentz

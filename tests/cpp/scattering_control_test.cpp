@@ -1,0 +1,101 @@
+#include "observables/scattering_control.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace {
+
+using namespace lorentz;
+
+struct Sample {
+  double control[2];  // of both halves of the window
+  double energy;      // mean U^2
+};
+
+struct Arrival {
+  double time, u;
+  bool scattered;
+};
+
+/// Particles arrive at random, u normal, and one in eight is scattered. Each is announced when the one before it
+/// arrives. assumed_sigma: what the control is told. late: it is shown the momentum after a collision instead of
+/// that before.
+Sample watch(double sigma, double assumed_sigma, bool late, std::mt19937_64& generator) {
+  const double c = std::sqrt(1 - sigma * sigma);
+  const Blocks blocks(10, 60, 2);
+  ScatteringControl control({.cells = 8, .sigma = assumed_sigma, .gamma = 1}, blocks);
+  TimeIntegral energy(Blocks(10, 60, 1));
+  std::exponential_distribution<double> interval(10);
+  std::normal_distribution<double> normal;
+  std::bernoulli_distribution scatters(1. / 8);
+  const auto after = [&](double time) {
+    const Arrival next{time + interval(generator), normal(generator), scatters(generator)};
+    control.expect(next.time, next.u, next.scattered);
+    return next;
+  };
+  double momentum = 3;  // far from equilibrium
+  for (Arrival arrival = after(0); arrival.time < 70;) {
+    const Arrival now = arrival;
+    arrival = after(now.time);
+    if (!now.scattered) continue;
+    const double before = momentum;
+    momentum = c * now.u + sigma * before;
+    energy.hold(before * before, now.time);
+    control.hold(late ? momentum : before, now.time);
+  }
+  return {{control.sums()[0], control.sums()[1]}, energy.sums()[0] / 50};
+}
+
+struct Found {
+  double score[2];   // of the controls' means
+  double explained;  // part of the variance of the mean energy
+};
+
+Found found(double sigma, double assumed_sigma, bool late) {
+  constexpr int samples = 4000;
+  std::mt19937_64 generator(1);
+  double sum[2] = {}, square[2] = {}, energy = 0, energy_square = 0, product = 0;
+  for (int i = 0; i < samples; ++i) {
+    const Sample sample = watch(sigma, assumed_sigma, late, generator);
+    for (int half : {0, 1}) {
+      sum[half] += sample.control[half];
+      square[half] += sample.control[half] * sample.control[half];
+    }
+    energy += sample.energy;
+    energy_square += sample.energy * sample.energy;
+    product += sample.energy * (sample.control[0] + sample.control[1]);
+  }
+  const double mean = energy / samples, control = sum[0] + sum[1];
+  const double covariance = product - mean * control;
+  const double variance = energy_square - samples * mean * mean;
+  return {{sum[0] / std::sqrt(square[0]), sum[1] / std::sqrt(square[1])},
+          covariance * covariance / (variance * (square[0] + square[1]))};  // the halves are uncorrelated
+}
+
+// Mutants: the momentum after the collision, which knows who is scattered; the sign of sigma, which spoils nothing but
+// what is gained.
+TEST(ScatteringControl, HasMeanZeroAndKnowsTheNoise) {
+  for (const double sigma : {0.5, -0.3, 0.9}) {
+    const Found right = found(sigma, sigma, false), late = found(sigma, sigma, true),
+                reversed = found(sigma, -sigma, false);
+    for (int half : {0, 1}) {
+      EXPECT_LT(std::abs(right.score[half]), 4) << sigma;
+      EXPECT_LT(std::abs(reversed.score[half]), 4) << sigma;
+      EXPECT_GT(std::abs(late.score[half]), 10) << sigma;
+    }
+    EXPECT_GT(right.explained, 0.75) << sigma;
+    EXPECT_LT(reversed.explained, 0.75) << sigma;
+  }
+}
+
+TEST(ScatteringControl, IsZeroWhereNothingIsLeftToChance) {
+  const Blocks blocks(0, 1, 1);
+  ScatteringControl control({.cells = 8, .gamma = 8}, blocks);
+  control.expect(0.5, 2, true);
+  control.hold(1, 1);
+  EXPECT_EQ(control.sums()[0], 0);
+}
+
+}  // namespace
