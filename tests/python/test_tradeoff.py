@@ -1,16 +1,21 @@
 """The arithmetic of speed against accuracy: laws, comparisons, differences from the careful setting."""
 
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
 import numpy as np
 import pandas as pd
 import pytest
 from scipy.stats import chi2
 
-from workflow.config.plan import Run
+from workflow import tradeoff
+from workflow.config.plan import Run, load_plan
 from workflow.provenance.status import effort
 from workflow.tradeoff.accuracy import amplitude, uncertainty
 from workflow.tradeoff.bias import with_bias
 from workflow.tradeoff.efficiency import Estimate, compared, jackknife
-from workflow.tradeoff.measure import shortened
+from workflow.tradeoff.measure import QUALITY, shortened
 from workflow.tradeoff.prediction import foretold
 
 REPLICAS = np.array([10, 100, 1000])
@@ -79,3 +84,22 @@ def test_bias_is_the_difference_from_the_last_row_of_a_knob() -> None:
 def test_effort_is_what_cost_is_proportional_to(changes: dict, factor: float) -> None:
     options = {"replicas": 2, "members": 16, "times": "1,3", "relaxation-time": 1}
     assert effort(Run("", "", options | changes)) == pytest.approx(factor * effort(Run("", "", options)))
+
+
+def named_runs() -> Iterator[tuple[str, str]]:
+    """Whatever stands side by side in these modules as the name of a panel and another one."""
+    panels = load_plan(QUALITY)
+    for module in Path(tradeoff.__path__[0]).glob("*.py"):
+        for node in ast.walk(ast.parse(module.read_text())):
+            values = node.args if isinstance(node, ast.Call) else getattr(node, "elts", [])
+            constants = [value.value if isinstance(value, ast.Constant) else None for value in values]
+            for panel, name in zip(constants, constants[1:], strict=False):
+                if panel in panels and isinstance(name, str):
+                    yield panel, name
+
+
+def test_every_run_that_is_named_is_planned() -> None:
+    names = set(named_runs())
+    assert len(names) > 10
+    for panel, name in names:
+        assert load_plan(QUALITY)[panel].run(name).name == name

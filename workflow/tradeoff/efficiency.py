@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from workflow.config.plan import Run
 from workflow.scripts.load import Result
 from workflow.tradeoff import frame, reference
 from workflow.tradeoff.measure import execute, planned, shortened
@@ -63,9 +64,8 @@ def compared(device: str, quantity: str, plain: Estimate, better: Estimate) -> d
     return row
 
 
-def conductivity(programs: Path, series: str, cells: int, replicas: tuple[int, int]) -> Iterator[dict]:
-    """Engine and reference simulator, both from an empty start."""
-    run = planned("fig08", f"{series}_cells=4")
+def conductivity(programs: Path, run: Run, cells: int, replicas: tuple[int, int]) -> Iterator[dict]:
+    """Engine and reference simulator, both from an empty start, with so many cells."""
     times = [shortened(run.options[name], SHARE if name.startswith("obs") else 1)
              for name in ("relaxation-time", "observation-time")]  # fmt: skip
     times = [str(float(time.rstrip("N")) * (cells if time.endswith("N") else 1)) for time in times]
@@ -116,8 +116,8 @@ def pulse(programs: Path) -> Iterator[dict]:
 
 
 def measure(programs: Path) -> pd.DataFrame:
-    rows = [*conductivity(programs, "deterministic", 256, (32, 100))]
-    rows += conductivity(programs, "rare", 64, (32, 100))
+    rows = [*conductivity(programs, planned("fig08", "deterministic_cells=4"), 256, (32, 100))]
+    rows += conductivity(programs, planned("fig08", "rare_cells=32"), 64, (32, 100))
     rows.append(all_particles(programs, "fig07_inset", "all_sigma=0.45", "random total momentum"))
     rows.append(all_particles(programs, "ext07", "spreading_relaxation-time=10", "no total momentum"))
     return pd.DataFrame([*rows, *pulse(programs)])
