@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/collision.hpp"
 #include "observables/physics_options.hpp"
 #include "program/errors.hpp"
 
@@ -49,6 +50,18 @@ void ClosedChainOptions::validate() const {
 
 ClosedDynamics ClosedChainOptions::start(std::uint64_t seed, std::uint64_t replica) const {
   return {chain_, closed_chain_start(chain_, temperatures_, zero_total_momentum_, seed, replica), end_time()};
+}
+
+double ClosedChainOptions::mean_square_momentum() const {
+  if (zero_total_momentum_) return 0;
+  const double root_mass = CollisionRule(chain_.sigma).root_mass();
+  return chain_.particles() * temperatures_.particles +
+         chain_.cells * temperatures_.scatterers * root_mass * root_mass;
+}
+
+double ClosedReplica::momentum_control() const {
+  const double mean = options_.mean_square_momentum(), momentum = start_.momentum;
+  return mean > 0 && std::isfinite(momentum) ? momentum * momentum / mean - 1 : 0;
 }
 
 ReplicaRecord ClosedReplica::record(std::vector<double> sums) const {

@@ -38,6 +38,9 @@ class ClosedChainOptions {
   double observation_time() const { return observation_time_; }
   double end_time() const { return relaxation_time_ + observation_time_; }
 
+  /// Mean square of the total momentum over replicas.
+  double mean_square_momentum() const;
+
   /// How long a clock resolves a flight at the speed of the hottest to 5e-7 of it.
   double longest_clock() const { return 0x1p32 * chain_.cell_length / std::sqrt(hottest()); }
 
@@ -91,6 +94,10 @@ class ClosedReplica {
 
   /// A time as the chain's clock shows it.
   double clock(double time) const { return time - clock_start_; }
+
+  /// Square of the conserved total momentum over its mean over replicas, minus 1: a control variate of mean 0
+  /// (statistics/control_variates.hpp). 0 where there is no such momentum.
+  double momentum_control() const;
 
   /// The sums, then the two drifts.
   ReplicaRecord record(std::vector<double> sums) const;

@@ -4,7 +4,9 @@
 /// The closed chain conserves the total momentum, and the paper's random start gives it a value of order
 /// sqrt(nN T): the centre of mass of the particles drifts. Its part of <x^2> is stored beside it, as the
 /// square of the mean displacement of a replica's particles; --zero-total-momentum removes the drift at
-/// the root. Three laws are compared over the last --fit-decades decades: t, t^alpha by the slope alpha of
+/// the root. The drift is the same for all particles of a replica and most of the noise. It follows the total
+/// momentum, whose mean square is known and serves as a control variate; quantities named *_plain are those
+/// without it. Three laws are compared over the last --fit-decades decades: t, t^alpha by the slope alpha of
 /// ln <x^2> against ln t, and t/ln t by the power b in <x^2> ~ t ln(t/tau)^b, where tau is the time of a
 /// thermal flight: alpha = 1 and b = 0 say t, b = -1 says t/ln t (waits ~ tau^-2 and unit steps), alpha > 1
 /// and b > 0 superdiffusion.
@@ -16,6 +18,7 @@
 #include "observables/log_times_options.hpp"
 #include "observables/physics_options.hpp"
 #include "program/replica_study.hpp"
+#include "statistics/control_variates.hpp"
 #include "statistics/fit.hpp"
 
 namespace {
@@ -47,7 +50,7 @@ Moments moments(const std::vector<std::int64_t>& cells, const std::vector<double
   return {sums.square / particles, sums.absolute / particles, sums.fourth / particles, sums.mean / particles};
 }
 
-/// Square, absolute, fourth moment and squared mean, each at all times.
+/// Square, absolute, fourth moment and squared mean, each at all times; then the control.
 ReplicaRecord measure(const ClosedChainOptions& options, const std::vector<double>& times, std::uint64_t seed,
                       const Replica& replica) {
   ClosedReplica run(options, seed, replica);
@@ -66,6 +69,7 @@ ReplicaRecord measure(const ClosedChainOptions& options, const std::vector<doubl
     sums[2 * times.size() + k] = now.fourth;
     sums[3 * times.size() + k] = now.mean * now.mean;
   }
+  sums.push_back(run.momentum_control());
   return run.record(std::move(sums));
 }
 
@@ -81,14 +85,41 @@ double logarithmic_power(const std::vector<double>& times, std::span<const doubl
   return fit_power(log_time, log_ratio, log_time.front(), log_time.back());
 }
 
-/// fit_from: first time of the fits. tau: time of a thermal flight over one cell.
-Results summarise(const Records& records, const std::vector<double>& times,
-                  const std::vector<double>& middles, double fit_from, double tau) {
-  const std::size_t size = times.size();
-  const Axis time{"time", "time", "Time since the end of the relaxation", times};
-  const Axis middle{"time", "time", "Geometric middle of two neighbouring times", middles};
+/// The first columns of the records.
+Records first_columns(const Records& records, std::size_t count) {
+  Records result(count);
+  for (std::size_t i = 0; i < records.size(); ++i) result.append(records[i].first(count));
+  return result;
+}
+
+/// The grid of times and what belongs to it.
+struct Grid {
+  std::vector<double> times, middles;
+  double fit_from;  // first time of the fits
+  double tau;       // of a thermal flight over one cell
+};
+
+Results without_control(const Records& records, const Grid& grid) {
+  const std::size_t size = grid.times.size();
+  const Axis time{"time", "time", "Time since the end of the relaxation", grid.times};
   return estimate(
       records,
+      {{"variance_plain", "length^2", "<x^2>, without the control variate", {time}},
+       {"alpha_plain", "1", "alpha, without the control variate"}},
+      [&](std::span<const double> sums) {
+        std::vector<double> values(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(size));
+        values.push_back(fit_power(grid.times, sums.first(size), grid.fit_from, grid.times.back()));
+        return values;
+      });
+}
+
+Results with_control(const Records& records, const Grid& grid) {
+  const std::vector<double>& times = grid.times;
+  const std::size_t size = times.size();
+  const Axis time{"time", "time", "Time since the end of the relaxation", times};
+  const Axis middle{"time", "time", "Geometric middle of two neighbouring times", grid.middles};
+  return estimate(
+      reduce_variance(records, 1),
       {{"variance", "length^2", "<x^2>, no mean subtracted", {time}},
        {"absolute_moment", "length", "<|x|>", {time}},
        {"fourth_moment", "length^4", "<x^4>", {time}},
@@ -105,11 +136,18 @@ Results summarise(const Records& records, const std::vector<double>& times,
                                : std::numeric_limits<double>::quiet_NaN());
         std::vector<double> relative;
         for (std::size_t k = 0; k < size; ++k) relative.push_back(sums[k] - sums[3 * size + k]);
-        values.push_back(fit_power(times, sums.first(size), fit_from, times.back()));
-        values.push_back(fit_power(times, relative, fit_from, times.back()));
-        values.push_back(logarithmic_power(times, sums.first(size), fit_from, tau));
+        values.push_back(fit_power(times, sums.first(size), grid.fit_from, times.back()));
+        values.push_back(fit_power(times, relative, grid.fit_from, times.back()));
+        values.push_back(logarithmic_power(times, sums.first(size), grid.fit_from, grid.tau));
         return values;
       });
+}
+
+Results summarise(const Records& records, const Grid& grid) {
+  const Records controlled = first_columns(records, 4 * grid.times.size() + 1);
+  Results results = with_control(controlled, grid);
+  for (Quantity& quantity : without_control(controlled, grid)) results.push_back(std::move(quantity));
+  return results;
 }
 
 /// Throws UsageError unless the displacements at the first time and at the last have fourth powers, and the
@@ -137,12 +175,12 @@ int main(int argc, char** argv) {
     chain.validate();
     const double last = chain.observation_time();
     require_resolved(chain, log_times.times(last).front());
-    const std::vector<double> times = log_times.times(last), middles = log_times.grid(last).middles();
-    const auto one = [&](const Replica& replica) { return measure(chain, times, replicas.seed(), replica); };
-    const auto results = [&](const Records& records) {
-      const double tau = chain.chain().cell_length / std::sqrt(chain.temperature());
-      return summarise(records, times, middles, log_times.fit_from(last), tau);
+    const Grid grid{log_times.times(last), log_times.grid(last).middles(), log_times.fit_from(last),
+                    chain.chain().cell_length / std::sqrt(chain.temperature())};
+    const auto one = [&](const Replica& replica) {
+      return measure(chain, grid.times, replicas.seed(), replica);
     };
+    const auto results = [&](const Records& records) { return summarise(records, grid); };
     return replicas.run({one, with_drift(results), "alpha", RandomStream::description}, progress);
   });
 }

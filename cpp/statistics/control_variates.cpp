@@ -41,7 +41,7 @@ Records reduce_variance(const Records& records, std::size_t controls) {
       gain.cwiseProduct(x_centred).rowwise().sum().array() + 1. / static_cast<double>(rows);
 
   // Some control varies in hardly more than one record; without it there would be no coefficient.
-  if (leverage.maxCoeff() > 0.9) return records;
+  if (leverage.maxCoeff() > 0.99) return records;
 
   // b without record i is b - gain_i residual_i / (1 - leverage_i).
   const Eigen::VectorXd own = gain.cwiseProduct(x).rowwise().sum().array() / (1 - leverage.array());

@@ -19,9 +19,9 @@ struct Arrival {
   bool scattered;
 };
 
-/// Particles arrive at random, u normal, and one in eight is scattered. Each is announced when the one before it
-/// arrives. assumed_sigma: what the control is told. late: it is shown the momentum after a collision instead of
-/// that before.
+/// Particles arrive at random, u normal, and one in eight is scattered. Each is announced when the one before
+/// it arrives. assumed_sigma: what the control is told. late: it is shown the momentum after a collision
+/// instead of that before.
 Sample watch(double sigma, double assumed_sigma, bool late, std::mt19937_64& generator) {
   const double c = std::sqrt(1 - sigma * sigma);
   const Blocks blocks(10, 60, 2);
@@ -74,8 +74,8 @@ Found found(double sigma, double assumed_sigma, bool late) {
           covariance * covariance / (variance * (square[0] + square[1]))};  // the halves are uncorrelated
 }
 
-// Mutants: the momentum after the collision, which knows who is scattered; the sign of sigma, which spoils nothing but
-// what is gained.
+// Mutants: the momentum after the collision, which knows who is scattered; the sign of sigma, which spoils
+// nothing but what is gained.
 TEST(ScatteringControl, HasMeanZeroAndKnowsTheNoise) {
   for (const double sigma : {0.5, -0.3, 0.9}) {
     const Found right = found(sigma, sigma, false), late = found(sigma, sigma, true),

@@ -26,7 +26,8 @@ SHORT = {  # programs with options that they do not share
 QUANTITIES = {
     "waiting_time": {"density": ["tau"], "exponent": [], "exponent_by_cut": ["cut"], "exponent_spread": []},
     "displacement": {"variance": ["time"], "absolute_moment": ["time"], "fourth_moment": ["time"], "alpha": [],
-                     "centre_of_mass": ["time"], "local_slope": ["time"], "alpha_relative": [], "logarithmic_power": []},
+                     "centre_of_mass": ["time"], "local_slope": ["time"], "alpha_relative": [], "logarithmic_power": [],
+                     "variance_plain": ["time"], "alpha_plain": []},
     "ageing": {"scatterer_energy": ["time"], "particle_energy": ["time"], "log_slope": []},
     "energy_pulse": {"energy_difference": ["time", "cell"], "injected_energy": [], "sum_error": [], "peak": ["time"],
                      "peak_position": ["time"], "peak_raw": ["time"], "centre_share": ["time"],
@@ -111,6 +112,38 @@ def test_displacement_begins_ballistically(program: Program, tmp_path: Path) -> 
     assert np.abs(result["local_slope"].mean - 2).max() < 0.01  # a few particles have collided by then
     fourth = result["fourth_moment"]
     assert abs((fourth.mean[0] / time[0] ** 4 - 3 * 500**2) / (fourth.standard_error[0] / time[0] ** 4)) < 4
+
+
+FEW = {"cells": 4, "particles_per_cell": 5, "observation_time": 20, "decades": 1, "relaxation_time": 1}
+
+
+def test_displacement_with_known_momentum(program: Program, tmp_path: Path) -> None:
+    """Over seeds both estimates agree, scatterers with momenta of their own included, and one errs less."""
+    found = []
+    for seed in range(50):
+        result = run(program, tmp_path, "displacement", **FEW, sigma=0.8, scatterer_temperature=500,
+                     replicas=40, seed=seed)  # fmt: skip
+        pair = (result["variance"], result["variance_plain"])
+        found.append([(each.mean[-1], each.standard_error[-1]) for each in pair])
+    (reduced, error), (plain, plain_error) = np.moveaxis(np.array(found), 0, -1)
+
+    def difference(factor: float) -> float:
+        sample = factor * reduced - plain
+        return abs(float(sample.mean() / sample.std(ddof=1))) * np.sqrt(len(sample))
+
+    assert difference(1) < 4
+    # Mutant: the mean square of the particles' momentum only, 20 of 20 + 4 x 9 parts.
+    assert difference(20 / 56) > 10
+    assert np.mean(plain_error**2) > 10 * np.mean(error**2)
+
+
+@pytest.mark.parametrize("option", ["zero_total_momentum", "random_direction"])
+def test_displacement_without_a_random_momentum_that_lasts(
+    program: Program, tmp_path: Path, option: str
+) -> None:
+    result = run(program, tmp_path, "displacement", **FEW, **{option: True}, replicas=20)
+    for name in ("variance", "alpha"):
+        assert np.array_equal(result[name].mean, result[f"{name}_plain"].mean)
 
 
 def test_walls_confine(program: Program, tmp_path: Path) -> None:
