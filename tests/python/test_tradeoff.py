@@ -2,6 +2,7 @@
 
 import ast
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -93,7 +94,7 @@ def named_runs() -> Iterator[tuple[str, str]]:
         for node in ast.walk(ast.parse(module.read_text())):
             values = node.args if isinstance(node, ast.Call) else getattr(node, "elts", [])
             constants = [value.value if isinstance(value, ast.Constant) else None for value in values]
-            for panel, name in zip(constants, constants[1:], strict=False):
+            for panel, name in pairwise(constants):
                 if panel in panels and isinstance(name, str):
                     yield panel, name
 

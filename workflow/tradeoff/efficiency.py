@@ -87,14 +87,14 @@ def conductivity(programs: Path, run: Run, cells: int, replicas: tuple[int, int]
 def spreading(programs: Path, panel: str, name: str, label: str) -> Iterator[dict]:
     """<x^2> from one tagged particle, from all, and with the total momentum as a control variate."""
     result, seconds = execute(programs, planned(panel, name), replicas=50)
-    every, fourth = result["variance_plain"], result["fourth_moment"]
-    mean, error, replicas = every.mean[-1], every.standard_error[-1], int(every.count[-1])
-    error_of_one = np.sqrt((fourth.mean[-1] - mean**2) / replicas)
-    one, plain = (Estimate(mean, each, seconds, replicas) for each in (error_of_one, error))
-    yield compared("all particles, not one", f"<x^2>, {label}", one, plain)
-    better = result["variance"]
-    yield compared("known total momentum", f"<x^2>, {label}", plain,
-                   Estimate(better.mean[-1], better.standard_error[-1], seconds, replicas))  # fmt: skip
+    every, better = (
+        Estimate(quantity.mean[-1], quantity.standard_error[-1], seconds, int(quantity.count[-1]))
+        for quantity in (result["variance_plain"], result["variance"])
+    )
+    spread = np.sqrt(result["fourth_moment"].mean[-1] - better.value**2)
+    one = replace(every, error=spread / np.sqrt(every.replicas))
+    yield compared("all particles, not one", f"<x^2>, {label}", one, every)
+    yield compared("known total momentum", f"<x^2>, {label}", every, better)
 
 
 def pulse(programs: Path) -> Iterator[dict]:
