@@ -1,6 +1,8 @@
 #include "statistics/control_variates.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
 #include <span>
 
 namespace lorentz {
@@ -8,14 +10,21 @@ namespace {
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// A power of two that brings a number close to 1, so that squares neither overflow nor vanish.
+double towards_one(double number) {
+  return number > 0 ? std::ldexp(1.0, std::min(1000, -std::ilogb(number))) : 1;
+}
+
 /// Every column divided by its standard deviation over the rows; one that does not vary by more than its
 /// rounding becomes 0.
 Matrix standardised(const Matrix& columns) {
-  const Eigen::RowVectorXd deviation = (columns.rowwise() - columns.colwise().mean()).colwise().norm();
-  const Eigen::RowVectorXd rounding = 1e-12 * columns.colwise().norm();
+  const Eigen::RowVectorXd largest = columns.cwiseAbs().colwise().maxCoeff();
+  const Matrix scaled = columns * largest.unaryExpr(&towards_one).asDiagonal();
+  const Eigen::RowVectorXd deviation = (scaled.rowwise() - scaled.colwise().mean()).colwise().norm();
+  const Eigen::RowVectorXd rounding = 1e-12 * scaled.colwise().norm();
   const Eigen::RowVectorXd weight =
       (deviation.array() > rounding.array()).select(deviation.cwiseInverse(), 0);
-  return columns * weight.asDiagonal();
+  return scaled * weight.asDiagonal();
 }
 
 }  // namespace

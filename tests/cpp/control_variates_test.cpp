@@ -77,6 +77,18 @@ TEST(ControlVariates, ThatDoNotVaryAreLeftOut) {
   for (std::size_t i = 0; i < source.size(); ++i) EXPECT_NEAR(with[i][0], without[i][0], 1e-12);
 }
 
+TEST(ControlVariates, MayBeOfAnySize) {
+  const Records usual = noisy(30, 0.5, 1), expected = reduce_variance(usual, 2);
+  for (const int exponent : {-1000, -600, 600, 1000}) {
+    Records extreme(3);
+    for (std::size_t i = 0; i < usual.size(); ++i)
+      extreme.append(
+          std::vector{usual[i][0], std::ldexp(usual[i][1], exponent), std::ldexp(usual[i][2], exponent)});
+    const Records reduced = reduce_variance(extreme, 2);
+    for (std::size_t i = 0; i < usual.size(); ++i) EXPECT_EQ(reduced[i][0], expected[i][0]) << exponent;
+  }
+}
+
 TEST(ControlVariates, AreNotUsedWhereTheyCannotBeRegressed) {
   const Records few = noisy(5, 1, 1);
   EXPECT_EQ(reduce_variance(few, 2).values(), few.values());
