@@ -36,7 +36,8 @@ Records reduce_variance(const Records& records, std::size_t controls) {
   const Eigen::Map<const Matrix> all(records.values().data(), rows,
                                      static_cast<Eigen::Index>(records.width()));
   const Matrix x = standardised(all.rightCols(c));
-  if (rows < 3 * (x.colwise().squaredNorm().array() > 0).count()) return records;
+  const Eigen::Index varying = (x.colwise().squaredNorm().array() > 0).count();
+  if (rows < std::max(3 * varying, varying + 8)) return records;
   const Matrix x_centred = x.rowwise() - x.colwise().mean();
   const Matrix y = all.leftCols(all.cols() - c);
   const Matrix y_centred = y.rowwise() - y.colwise().mean();

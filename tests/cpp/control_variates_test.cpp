@@ -70,7 +70,7 @@ TEST(ControlVariates, LeaveTheNoiseAndNoBias) {
 
 TEST(ControlVariates, ThatDoNotVaryAreLeftOut) {
   Records records(4);
-  const Records source = noisy(8, 0.1, 3);  // enough for two controls, not for three
+  const Records source = noisy(10, 0.1, 3);  // enough for two controls, not for three
   for (std::size_t i = 0; i < source.size(); ++i)
     records.append(std::vector{source[i][0], source[i][1], source[i][2], 1. / 3});
   const Records with = reduce_variance(records, 3), without = reduce_variance(source, 2);
