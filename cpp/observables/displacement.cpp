@@ -10,6 +10,7 @@
 /// ln <x^2> against ln t, and t/ln t by the power b in <x^2> ~ t ln(t/tau)^b, where tau is the time of a
 /// thermal flight: alpha = 1 and b = 0 say t, b = -1 says t/ln t (waits ~ tau^-2 and unit steps), alpha > 1
 /// and b > 0 superdiffusion.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -99,7 +100,7 @@ struct Grid {
   double tau;       // of a thermal flight over one cell
 };
 
-Results without_control(const Records& records, const Grid& grid) {
+Results plain_spreading(const Records& records, const Grid& grid) {
   const std::size_t size = grid.times.size();
   const Axis time{"time", "time", "Time since the end of the relaxation", grid.times};
   return estimate(
@@ -113,13 +114,13 @@ Results without_control(const Records& records, const Grid& grid) {
       });
 }
 
-Results with_control(const Records& records, const Grid& grid) {
+Results spreading(const Records& records, const Grid& grid) {
   const std::vector<double>& times = grid.times;
   const std::size_t size = times.size();
   const Axis time{"time", "time", "Time since the end of the relaxation", times};
   const Axis middle{"time", "time", "Geometric middle of two neighbouring times", grid.middles};
   return estimate(
-      reduce_variance(records, 1),
+      records,
       {{"variance", "length^2", "<x^2>, no mean subtracted", {time}},
        {"absolute_moment", "length", "<|x|>", {time}},
        {"fourth_moment", "length^4", "<x^4>", {time}},
@@ -143,10 +144,19 @@ Results with_control(const Records& records, const Grid& grid) {
       });
 }
 
+/// From few replicas of a few particles a mean square may come out negative, which is worse than its noise.
+Records controlled(const Records& plain) {
+  Records reduced = reduce_variance(plain, 1);
+  const std::vector<double> means = reduced.mean();
+  const auto control = means.end() - 1;
+  const bool possible = std::all_of(means.begin(), control, [](double moment) { return moment >= 0; });
+  return possible ? reduced : plain;
+}
+
 Results summarise(const Records& records, const Grid& grid) {
-  const Records controlled = first_columns(records, 4 * grid.times.size() + 1);
-  Results results = with_control(controlled, grid);
-  for (Quantity& quantity : without_control(controlled, grid)) results.push_back(std::move(quantity));
+  const Records plain = first_columns(records, 4 * grid.times.size() + 1);
+  Results results = spreading(controlled(plain), grid);
+  for (Quantity& quantity : plain_spreading(plain, grid)) results.push_back(std::move(quantity));
   return results;
 }
 
