@@ -12,11 +12,13 @@ namespace lorentz {
 /// A control variate for the mean energy of one scatterer that particles hit by chance, gamma < N.
 ///
 /// A collision changes U^2 by g = (c u + sigma U)^2 - U^2, with c^2 = 1 - sigma^2. Whether a particle that
-/// arrives is scattered is drawn anew with probability q = gamma/N, whatever happened before, so the sum over
-/// all arrivals of (1 if scattered, else 0, minus q) g has mean 0: a martingale. The sum of g over the
-/// collisions is what U^2 gains in the window, so this is, but for that, -q times the sum over all arrivals:
-/// in the mean, proportional to that of U^2 less that of u^2, which is known from N/gamma times as many
-/// arrivals as there are collisions. What chance adds to the mean of U^2 is thus taken away.
+/// arrives is scattered is drawn anew with probability q = gamma/N, whatever happened before. So the sum over
+/// all arrivals of (1 if scattered, else 0, minus q) g has mean 0: it is a martingale.
+///
+/// What it knows: over the collisions g adds up to the change of U^2 in the window, next to nothing. There
+/// remains -q times the sum over all arrivals, where g is c^2 (u^2 - U^2) and a cross term of mean near 0. It
+/// thus tells by how much the scatterer's energy exceeded that of all who arrived, N/gamma times as many as
+/// were scattered, and takes away what the choice among them added.
 class ScatteringControl {
  public:
   ScatteringControl(const OpenChain& chain, const Blocks& blocks)
