@@ -10,23 +10,20 @@ namespace {
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// A power of two for each column that brings its largest entry close to 1, so that squares neither overflow
-/// nor vanish.
-Eigen::RowVectorXd towards_one(const Matrix& columns) {
-  return columns.cwiseAbs().colwise().maxCoeff().unaryExpr(
-      [](double largest) { return largest > 0 ? std::ldexp(1.0, std::min(1000, -std::ilogb(largest))) : 1; });
-}
-
-Eigen::RowVectorXd deviation(const Matrix& columns) {
-  return (columns.rowwise() - columns.colwise().mean()).colwise().norm();
+/// A power of two that brings a number close to 1, so that squares neither overflow nor vanish.
+double towards_one(double number) {
+  return number > 0 ? std::ldexp(1.0, std::min(1000, -std::ilogb(number))) : 1;
 }
 
 /// Every column divided by its standard deviation over the rows; one that does not vary by more than its
 /// rounding becomes 0.
 Matrix standardised(const Matrix& columns) {
-  const Matrix scaled = columns * towards_one(columns).asDiagonal();
-  const Eigen::RowVectorXd spread = deviation(scaled), rounding = 1e-12 * scaled.colwise().norm();
-  const Eigen::RowVectorXd weight = (spread.array() > rounding.array()).select(spread.cwiseInverse(), 0);
+  const Eigen::RowVectorXd largest = columns.cwiseAbs().colwise().maxCoeff();
+  const Matrix scaled = columns * largest.unaryExpr(&towards_one).asDiagonal();
+  const Eigen::RowVectorXd deviation = (scaled.rowwise() - scaled.colwise().mean()).colwise().norm();
+  const Eigen::RowVectorXd rounding = 1e-12 * scaled.colwise().norm();
+  const Eigen::RowVectorXd weight =
+      (deviation.array() > rounding.array()).select(deviation.cwiseInverse(), 0);
   return scaled * weight.asDiagonal();
 }
 
@@ -58,13 +55,8 @@ Records reduce_variance(const Records& records, std::size_t controls) {
 
   // b without record i is b - gain_i residual_i / (1 - leverage_i).
   const Eigen::VectorXd own = gain.cwiseProduct(x).rowwise().sum().array() / (1 - leverage.array());
-  const Matrix corrected = y - x * coefficients + own.asDiagonal() * residual;
-  const Eigen::RowVectorXd scale = towards_one(y);
-  const Eigen::Array<bool, 1, Eigen::Dynamic> helps =
-      deviation(corrected * scale.asDiagonal()).array() < deviation(y * scale.asDiagonal()).array();
   Matrix reduced = all;
-  for (Eigen::Index column = 0; column < y.cols(); ++column)
-    if (helps(column)) reduced.col(column) = corrected.col(column);
+  reduced.leftCols(y.cols()) = y - x * coefficients + own.asDiagonal() * residual;
 
   Records result(records.width());
   for (Eigen::Index i = 0; i < rows; ++i) result.append(std::span(reduced.row(i).data(), records.width()));

@@ -13,9 +13,8 @@ namespace lorentz {
 /// record's correction then has mean 0, and no bias comes in (Glasserman, Monte Carlo Methods in Financial
 /// Engineering, section 4.1). Controls that do not vary are left out. With fewer than three records for each
 /// of the others, or not eight records more than those, or if one varies in hardly more than one record, the
-/// records come back as they are. So does a column that would scatter more than before, as it shares too
-/// little with the controls. The error of the mean follows from the scatter of the corrected records, as they
-/// share nothing but the small noise of the coefficients.
+/// records come back as they are. The error of the mean follows from the scatter of the corrected records, as
+/// they share nothing but the small noise of the coefficients.
 Records reduce_variance(const Records& records, std::size_t controls);
 
 }  // namespace lorentz
