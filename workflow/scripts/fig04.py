@@ -58,7 +58,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         axes.axvline(0, **style.GUIDE)
         axes.set(xlabel="momentum $p$", ylabel="$F_N(p, x)$")
     above.legend(loc="upper right", title=rf"$\gamma = {style.gamma(results[0])}$")
-    below.legend(loc="upper center", fontsize=6.5)
+    below.legend(loc="upper center", fontsize=6.5, **style.OPAQUE)
     return figure, pd.concat(tables)
 
 

@@ -27,6 +27,9 @@ DASHES = ["solid", (0, (6, 1)), (0, (4, 1, 1, 1)), (0, (3, 1.5)), (0, (1, 1))]
 # Marker and colour by gamma, where a figure shows both.
 BY_GAMMA = {"N": ("o", BLUE), 1: ("s", VERMILLION)}
 
+# A legend that hides the lines behind it.
+OPAQUE = {"frameon": True, "framealpha": 1, "edgecolor": "none"}
+
 GUIDE = {"color": "0.55", "linestyle": (0, (4, 2)), "linewidth": 0.8, "zorder": 0}
 
 POINTS = {"linestyle": "none", "capsize": 1.5, "elinewidth": 0.8, "capthick": 0.8, "markeredgewidth": 0.8}
