@@ -77,6 +77,13 @@ ReplicaRecord ClosedReplica::record(std::vector<double> sums) const {
 
 namespace {
 
+Records without_drifts(const Records& records) {
+  const std::size_t width = records.width() - 2;
+  Records result(width);
+  for (std::size_t i = 0; i < records.size(); ++i) result.append(records[i].first(width));
+  return result;
+}
+
 Results drift_results(const Records& records) {
   return estimate(
       records,
@@ -89,7 +96,7 @@ Results drift_results(const Records& records) {
 
 std::function<Results(const Records&)> with_drift(std::function<Results(const Records&)> summarise) {
   return [summarise = std::move(summarise)](const Records& records) {
-    Results results = summarise(records);
+    Results results = summarise(without_drifts(records));
     for (Quantity& quantity : drift_results(records)) results.push_back(std::move(quantity));
     return results;
   };

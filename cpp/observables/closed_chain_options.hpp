@@ -112,9 +112,9 @@ class ClosedReplica {
 };
 
 /// Adds the quantities energy_drift and momentum_drift, from the last two columns of the records, to what
-/// `summarise` makes of them: relative change of the invariants over a replica, without sign. It is numerical
-/// error only, as the dynamics conserves both for every sigma. Momentum is measured against the larger sum
-/// |p| + sum |P|: scatterers start at rest, and heavy ones gather large momenta of both signs.
+/// `summarise` makes of the others: relative change of the invariants over a replica, without sign. It is
+/// numerical error only, as the dynamics conserves both for every sigma. Momentum is measured against the
+/// larger sum |p| + sum |P|: scatterers start at rest, and heavy ones gather large momenta of both signs.
 std::function<Results(const Records&)> with_drift(std::function<Results(const Records&)> summarise);
 
 }  // namespace lorentz

@@ -65,8 +65,8 @@ class EndsAndOpenings {
     for (EndCell& end : ends_) {
       if (!path.reaches(end.mark)) continue;
       const double time = path.time_at(end.mark);
-      end.chance.expect(time, path.velocity, path.last == end.mark);
       if (!blocks_.contain(time)) continue;
+      end.chance.expect(time, path.velocity, path.last == end.mark);
       end.arrivals += 1;
       end.arriving_energy += path.velocity * path.velocity;
     }

@@ -86,13 +86,6 @@ double logarithmic_power(const std::vector<double>& times, std::span<const doubl
   return fit_power(log_time, log_ratio, log_time.front(), log_time.back());
 }
 
-/// The first columns of the records.
-Records first_columns(const Records& records, std::size_t count) {
-  Records result(count);
-  for (std::size_t i = 0; i < records.size(); ++i) result.append(records[i].first(count));
-  return result;
-}
-
 /// The grid of times and what belongs to it.
 struct Grid {
   std::vector<double> times, middles;
@@ -153,8 +146,7 @@ Records controlled(const Records& plain) {
   return possible ? reduced : plain;
 }
 
-Results summarise(const Records& records, const Grid& grid) {
-  const Records plain = first_columns(records, 4 * grid.times.size() + 1);
+Results summarise(const Records& plain, const Grid& grid) {
   Results results = spreading(controlled(plain), grid);
   for (Quantity& quantity : plain_spreading(plain, grid)) results.push_back(std::move(quantity));
   return results;

@@ -28,11 +28,10 @@ class ScatteringControl {
         blocks_(blocks),
         sums_(blocks.count(), 0) {}
 
-  /// A particle with velocity u will be there at a time, and will be scattered or not. Times outside of the
-  /// blocks are left out, and so is everything where nothing is left to chance.
+  /// A particle with velocity u will be there at a time, which the blocks contain, and will be scattered or
+  /// not. Left out where nothing is left to chance.
   void expect(double time, double u, bool scattered) {
-    if (probability_ < 1 && blocks_.contain(time))
-      pending_.push_back({time, u, (scattered ? 1 : 0) - probability_});
+    if (probability_ < 1) pending_.push_back({time, u, (scattered ? 1 : 0) - probability_});
   }
 
   /// The scatterer has had the momentum U since the last call up to a time; a collision then still meets it.

@@ -30,7 +30,7 @@ Matrix standardised(const Matrix& columns) {
 }  // namespace
 
 Records reduce_variance(const Records& records, std::size_t controls) {
-  if (records.size() < 3 || controls == 0) return records;
+  if (records.size() == 0 || controls == 0) return records;
   const auto rows = static_cast<Eigen::Index>(records.size());
   const auto c = static_cast<Eigen::Index>(controls);
   const Eigen::Map<const Matrix> all(records.values().data(), rows,

@@ -4,12 +4,15 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
+
+#include "support/sample.hpp"
 
 namespace {
 
 using namespace lorentz;
 
-struct Sample {
+struct Watched {
   double control[2];  // of both halves of the window
   double energy;      // mean U^2
 };
@@ -22,7 +25,7 @@ struct Arrival {
 /// Particles arrive at random, u normal, and one in eight is scattered. Each is announced when the one before
 /// it arrives. assumed_sigma: what the control is told. late: it is shown the momentum after a collision
 /// instead of that before.
-Sample watch(double sigma, double assumed_sigma, bool late, std::mt19937_64& generator) {
+Watched watch(double sigma, double assumed_sigma, bool late, std::mt19937_64& generator) {
   const double c = std::sqrt(1 - sigma * sigma);
   const Blocks blocks(10, 60, 2);
   ScatteringControl control({.cells = 8, .sigma = assumed_sigma, .gamma = 1}, blocks);
@@ -32,7 +35,7 @@ Sample watch(double sigma, double assumed_sigma, bool late, std::mt19937_64& gen
   std::bernoulli_distribution scatters(1. / 8);
   const auto after = [&](double time) {
     const Arrival next{time + interval(generator), normal(generator), scatters(generator)};
-    control.expect(next.time, next.u, next.scattered);
+    if (blocks.contain(next.time)) control.expect(next.time, next.u, next.scattered);
     return next;
   };
   double momentum = 3;  // far from equilibrium
@@ -56,22 +59,21 @@ struct Found {
 Found found(double sigma, double assumed_sigma, bool late) {
   constexpr int samples = 4000;
   std::mt19937_64 generator(1);
-  double sum[2] = {}, square[2] = {}, energy = 0, energy_square = 0, product = 0;
+  std::vector<double> halves[2], controls, energies;
   for (int i = 0; i < samples; ++i) {
-    const Sample sample = watch(sigma, assumed_sigma, late, generator);
-    for (int half : {0, 1}) {
-      sum[half] += sample.control[half];
-      square[half] += sample.control[half] * sample.control[half];
-    }
-    energy += sample.energy;
-    energy_square += sample.energy * sample.energy;
-    product += sample.energy * (sample.control[0] + sample.control[1]);
+    const Watched watched = watch(sigma, assumed_sigma, late, generator);
+    for (int half : {0, 1}) halves[half].push_back(watched.control[half]);
+    controls.push_back(watched.control[0] + watched.control[1]);
+    energies.push_back(watched.energy);
   }
-  const double mean = energy / samples, control = sum[0] + sum[1];
-  const double covariance = product - mean * control;
-  const double variance = energy_square - samples * mean * mean;
-  return {{sum[0] / std::sqrt(square[0]), sum[1] / std::sqrt(square[1])},
-          covariance * covariance / (variance * (square[0] + square[1]))};  // the halves are uncorrelated
+  const support::Sample control = support::sample(controls), energy = support::sample(energies);
+  double covariance = 0;  // of the two means
+  for (std::size_t i = 0; i < controls.size(); ++i)
+    covariance += (controls[i] - control.mean) * (energies[i] - energy.mean) / (samples * (samples - 1.));
+  const double correlation = covariance / (control.standard_error * energy.standard_error);
+  return {
+      {support::z_score(support::sample(halves[0]), 0.0), support::z_score(support::sample(halves[1]), 0.0)},
+      correlation * correlation};
 }
 
 // Mutants: the momentum after the collision, which knows who is scattered; the sign of sigma, which spoils

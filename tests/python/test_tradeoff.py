@@ -1,7 +1,7 @@
 """The arithmetic of speed against accuracy: laws, comparisons, differences from the careful setting."""
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from itertools import pairwise
 from pathlib import Path
 
@@ -87,9 +87,8 @@ def test_effort_is_what_cost_is_proportional_to(changes: dict, factor: float) ->
     assert effort(Run("", "", options | changes)) == pytest.approx(factor * effort(Run("", "", options)))
 
 
-def named_runs() -> Iterator[tuple[str, str]]:
+def named_runs(panels: Collection[str]) -> Iterator[tuple[str, str]]:
     """Whatever stands side by side in these modules as the name of a panel and another one."""
-    panels = load_plan(QUALITY)
     for module in Path(tradeoff.__path__[0]).glob("*.py"):
         for node in ast.walk(ast.parse(module.read_text())):
             values = node.args if isinstance(node, ast.Call) else getattr(node, "elts", [])
@@ -100,7 +99,8 @@ def named_runs() -> Iterator[tuple[str, str]]:
 
 
 def test_every_run_that_is_named_is_planned() -> None:
-    names = set(named_runs())
+    panels = load_plan(QUALITY)
+    names = set(named_runs(panels))
     assert len(names) > 10
     for panel, name in names:
-        assert load_plan(QUALITY)[panel].run(name).name == name
+        assert panels[panel].run(name).name == name
