@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
     chain.validate();
     const std::vector<double> times = log_times.times(chain.observation_time());
     const auto measure = [&](const Replica& replica) {
-      ClosedReplica run(chain, replicas.seed(), replica);
+      ClosedReplica run(chain, replica);
       run.relax();
       std::vector<double> sums(2 * times.size());
       NoObserver nobody;

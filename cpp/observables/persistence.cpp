@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   return program.run(argc, argv, [&](Progress& progress) {
     chain.validate();
     const auto measure = [&](const Replica& replica) {
-      ClosedReplica run(chain, replicas.seed(), replica);
+      ClosedReplica run(chain, replica);
       run.relax();
       Encounters sums;
       run.observe_until(chain.end_time(), sums);

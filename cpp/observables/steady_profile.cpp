@@ -169,7 +169,7 @@ int main(int argc, char** argv) {
     const OpenChain chain = options.chain();
     const Window window = options.window();
     const auto measure = [&](const Replica& replica) {
-      return options.measure(replicas.seed(), replica, window.end, Profile(chain, window, bins.bins()));
+      return options.measure(replica, window.end, Profile(chain, window, bins.bins()));
     };
     const auto results = [&](const Records& records) { return summarise(records, chain.cells, bins.bins()); };
     return replicas.run({measure, results, "energy_current_mean", RandomStream::description}, progress);
