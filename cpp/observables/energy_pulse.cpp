@@ -177,12 +177,12 @@ Results summarise(const Records& records, const Pulse& pulse) {
   const Axis from{"from", "time", "First time of the fit", {pulse.times.begin(), pulse.times.end() - 1}};
   return estimate(
       records,
-      {{"energy_difference", "k_B T", "Energy per cell with the pulse minus without", {time, cell}},
-       {"injected_energy", "k_B T", "Energy of the pulse"},
+      {{"energy_difference", "energy", "Energy per cell with the pulse minus without", {time, cell}},
+       {"injected_energy", "energy", "Energy of the pulse"},
        {"sum_error", "1", "Largest |sum over cells - injected energy| / total energy, mean over members"},
-       {"peak_position", "cells", "Distance of the moving peak from the centre", {time}},
-       {"peak", "k_B T", "Height of the moving peak, by the parabola", {time}},
-       {"peak_raw", "k_B T", "Largest value of the folded profile, biased upwards", {time}},
+       {"peak_position", "1", "Distance of the moving peak from the centre, in cells", {time}},
+       {"peak", "energy", "Height of the moving peak, by the parabola", {time}},
+       {"peak_raw", "energy", "Largest value of the folded profile, biased upwards", {time}},
        {"centre_share", "1", "Part of the injected energy in the central five cells", {time}},
        {"damping_exponent_from", "1", "Minus the slope of ln peak against ln t from a time on", {from}},
        {"damping_exponent", "1", "The same over all times"},
