@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "model/collision.hpp"
 #include "observables/physics_options.hpp"
@@ -57,6 +58,16 @@ double ClosedChainOptions::mean_square_momentum() const {
   const double root_mass = CollisionRule(chain_.sigma).root_mass();
   return chain_.particles() * temperatures_.particles +
          chain_.cells * temperatures_.scatterers * root_mass * root_mass;
+}
+
+double ClosedChainOptions::mean_energy() const {
+  if (zero_total_momentum_) return std::numeric_limits<double>::quiet_NaN();
+  return 0.5 * (chain_.particles() * temperatures_.particles + chain_.cells * temperatures_.scatterers);
+}
+
+double ClosedReplica::energy_control() const {
+  const double mean = options_.mean_energy();
+  return std::isnan(mean) ? 0 : start_.energy / mean - 1;
 }
 
 double ClosedReplica::momentum_control() const {

@@ -41,6 +41,9 @@ class ClosedChainOptions {
   /// Mean square of the total momentum over replicas.
   double mean_square_momentum() const;
 
+  /// Mean of the total energy over replicas; NaN with zero total momentum.
+  double mean_energy() const;
+
   /// How long a clock resolves a flight at the speed of the hottest to 5e-7 of it.
   double longest_clock() const { return 0x1p32 * chain_.cell_length / std::sqrt(hottest()); }
 
@@ -98,6 +101,10 @@ class ClosedReplica {
   /// Square of the conserved total momentum over its mean over replicas, minus 1: a control variate of mean 0
   /// (statistics/control_variates.hpp). 0 where there is no such momentum.
   double momentum_control() const;
+
+  /// Total energy over its mean over replicas, minus 1: a control variate of mean 0. 0 where the mean is not
+  /// known, as the start was shifted to zero total momentum.
+  double energy_control() const;
 
   /// The sums, then the two drifts.
   ReplicaRecord record(std::vector<double> sums) const;
