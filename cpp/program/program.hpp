@@ -30,6 +30,7 @@ class Program {
   Program(const std::string& name, const std::string& description);
 
   Options& options() { return options_; }
+  const Options& options() const { return options_; }
   const std::string& output() const { return output_; }
 
   /// Parses the command line, computes, writes. Returns the exit status; never throws. Errors go to

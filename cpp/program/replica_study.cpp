@@ -67,9 +67,10 @@ std::uint64_t next_look(std::uint64_t used, std::uint64_t batch, std::uint64_t m
   return batch * std::max(batches + 1, std::min(batches + more, most / batch));
 }
 
-ReplicaOptions::ReplicaOptions(Program& program)
-    : program_(program), threads_(std::max(1U, std::thread::hardware_concurrency())) {
-  Options& options = program.options();
+ReplicaOptions::ReplicaOptions(const Program& program)
+    : program_(program), threads_(std::max(1U, std::thread::hardware_concurrency())) {}
+
+void ReplicaOptions::declare(Options& options) {
   constexpr auto conduct = Options::Role::conduct;
   options.integer("--replicas", replicas_, {1, 100'000'000},
                   "Independent replicas; with a target error, replicas per batch");

@@ -35,13 +35,15 @@ std::uint64_t next_look(std::uint64_t used, std::uint64_t batch, std::uint64_t m
 /// nor on interruptions.
 class ReplicaOptions {
  public:
-  explicit ReplicaOptions(Program& program);
+  explicit ReplicaOptions(const Program& program);
+
+  void declare(Options& options);
 
   /// Throws UsageError, NumericalError or Interrupted.
   Outcome run(const ReplicaStudy& study, Progress& progress) const;
 
  private:
-  Program& program_;
+  const Program& program_;
   std::uint64_t replicas_ = 16;
   std::uint64_t max_replicas_ = 1'000'000;
   std::uint64_t seed_ = 1;
