@@ -257,9 +257,10 @@ int main(int argc, char** argv) {
     const RefinedSolution solution = refine(problem, target, static_cast<int>(coarsening), [] {
       if (const int signal = received_signal(); signal != 0) throw Interrupted(signal);
     });
-    const bool converged = solution.error <= target;
-    if (!converged)
-      progress.say(fmt::format("not converged: the currents are known to {:.1e}, not to {:.1e}",
+    const Convergence convergence =
+        solution.error <= target ? Convergence::reached : Convergence::not_reached;
+    if (convergence == Convergence::not_reached)
+      progress.say(fmt::format("target not reached: the currents are known to {:.1e}, not to {:.1e}",
                                solution.error, target));
     const Grid grid{options.crossings(), options.scatterers(), bins.bins(),
                     std::sqrt((1 + problem.sigma) / (1 - problem.sigma))};
@@ -269,6 +270,6 @@ int main(int argc, char** argv) {
                    .target_quantity = "currents",
                    .target_error = target,
                    .achieved_error = solution.error,
-                   .converged = converged};
+                   .convergence = convergence};
   });
 }
