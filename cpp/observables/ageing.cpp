@@ -109,9 +109,12 @@ Results summarise(const Records& records, const Grid& grid) {
 
 int main(int argc, char** argv) {
   Program program("ageing", "Energy of the scatterers of a closed chain against time");
-  ClosedChainOptions chain(program.options(), /*relaxation_time=*/0, /*observation_time=*/10'000);
-  const LogTimesOptions log_times(program.options(), /*fit_decades=*/2);
-  const ReplicaOptions replicas(program);
+  ClosedChainOptions chain(/*relaxation_time=*/0, /*observation_time=*/10'000);
+  chain.declare(program.options());
+  LogTimesOptions log_times(/*fit_decades=*/2);
+  log_times.declare(program.options());
+  ReplicaOptions replicas(program);
+  replicas.declare(program.options());
   return program.run(argc, argv, [&](Progress& progress) {
     chain.validate();
     const double last = chain.observation_time();

@@ -26,8 +26,7 @@ void require_possible(const ClosedChain& chain, double hottest, double end_time,
                          most_flights, temperatures, times});
 }
 
-ClosedChainOptions::ClosedChainOptions(Options& options, double relaxation_time, double observation_time)
-    : relaxation_time_(relaxation_time), observation_time_(observation_time) {
+void ClosedChainOptions::declare(Options& options) {
   add_chain_options(options, chain_);
   options.real("--temperature", temperatures_.particles, positive,
                "Temperature of the particles at the start");
@@ -39,7 +38,7 @@ ClosedChainOptions::ClosedChainOptions(Options& options, double relaxation_time,
   options.real("--observation-time", observation_time_, positive, "Time of the measurement");
 }
 
-void ClosedChainOptions::add_random_direction(Options& options) {
+void ClosedChainOptions::declare_random_direction(Options& options) {
   options.flag("--random-direction", chain_.random_direction,
                "Draw the direction of a particle after every collision");
 }

@@ -27,10 +27,13 @@ void require_possible(const ClosedChain& chain, double hottest, double end_time,
 class ClosedChainOptions {
  public:
   /// The times are the defaults of those options; without them they are those of fig. 5.
-  explicit ClosedChainOptions(Options& options, double relaxation_time = 100, double observation_time = 100);
+  explicit ClosedChainOptions(double relaxation_time = 100, double observation_time = 100)
+      : relaxation_time_(relaxation_time), observation_time_(observation_time) {}
 
-  /// For the programs that offer this control.
-  void add_random_direction(Options& options);
+  void declare(Options& options);
+
+  /// --random-direction, for the programs that offer this control.
+  void declare_random_direction(Options& options);
 
   const ClosedChain& chain() const { return chain_; }
   double temperature() const { return temperatures_.particles; }

@@ -176,10 +176,13 @@ void require_resolved(const ClosedChainOptions& options, double first_time) {
 
 int main(int argc, char** argv) {
   Program program("displacement", "Spreading of a tagged particle in a closed chain");
-  ClosedChainOptions chain(program.options(), /*relaxation_time=*/100, /*observation_time=*/1000);
-  chain.add_random_direction(program.options());
-  const LogTimesOptions log_times(program.options(), /*fit_decades=*/1);
-  const ReplicaOptions replicas(program);
+  ClosedChainOptions chain(/*relaxation_time=*/100, /*observation_time=*/1000);
+  chain.declare(program.options());
+  chain.declare_random_direction(program.options());
+  LogTimesOptions log_times(/*fit_decades=*/1);
+  log_times.declare(program.options());
+  ReplicaOptions replicas(program);
+  replicas.declare(program.options());
   return program.run(argc, argv, [&](Progress& progress) {
     chain.validate();
     const double last = chain.observation_time();

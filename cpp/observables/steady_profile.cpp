@@ -269,9 +269,12 @@ Results summarise(const Records& records, std::size_t cells, const Bins& bins) {
 
 int main(int argc, char** argv) {
   Program program("steady_profile", "Profiles of an open chain in its stationary state");
-  const OpenChainOptions options(program.options(), {.cell_length = 0}, "warm", {{100}, {1000}});
-  const MomentumBinsOptions bins(program.options(), 100, 60);
-  const ReplicaOptions replicas(program);
+  OpenChainOptions options({.cell_length = 0}, "warm", {{{100}, {1000}}});
+  options.declare(program.options());
+  MomentumBinsOptions bins(100, 60);
+  bins.declare(program.options());
+  ReplicaOptions replicas(program);
+  replicas.declare(program.options());
   return program.run(argc, argv, [&](Progress& progress) {
     options.validate();
     bins.validate();

@@ -8,7 +8,8 @@ import h5py
 import numpy as np
 
 FORMAT = "lorentz-gas"
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2
+NOT_REACHED = "not reached"
 
 
 class FormatError(ValueError):
@@ -41,8 +42,9 @@ class Result:
         return self.quantities[name]
 
     @property
-    def converged(self) -> bool:
-        return bool(self.provenance["converged"])
+    def converged(self) -> str:
+        """Of the target error: reached, not reached, or no target."""
+        return self.provenance["converged"]
 
 
 def load(path: Path) -> Result:
