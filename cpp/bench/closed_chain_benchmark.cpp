@@ -29,7 +29,7 @@ struct Case {
       : chain{static_cast<std::uint32_t>(state.range(0)), static_cast<std::uint32_t>(state.range(1)), 1,
               0.5} {
     if (state.range(2) > 0) chain.gamma = static_cast<double>(state.range(2));
-    start = closed_chain_start(chain, {}, false, 1, 0);
+    start = closed_chain_start(chain, {}, false, {1, 0});
     rate = expected_rate(chain, start);
     state.counters["particles"] = chain.particles();
   }
@@ -43,7 +43,7 @@ constexpr double end_time = 1e5;  // beyond all iterations
 
 void closed_engine(benchmark::State& state) {
   const Case of(state);
-  ClosedDynamics dynamics(of.chain, of.start, end_time);
+  ClosedDynamics dynamics(of.chain, of.start, end_time, {1, 0});
   Persistent observer;
   double until = settling * of.chain.particles() / of.rate;
   simulate(dynamics, until, observer, [](double) {});
@@ -74,7 +74,7 @@ void closed_reference(benchmark::State& state) {
 void closed_floor(benchmark::State& state) {
   const Case of(state);
   const Scattering scatter(of.chain);
-  const Launch launch(of.chain, 1, 0);
+  const Launch launch(of.chain, {1, 0});
   std::vector<Flight> flights = first_flights(of.chain, of.start, launch);
   // Otherwise neighbours in memory begin at one scatterer and wait for each other, as in the order of time
   // they seldom do.
@@ -108,13 +108,13 @@ void closed_floor(benchmark::State& state) {
 /// to come.
 void short_run(benchmark::State& state) {
   const ClosedChain chain{1000, 50, 1, 0.5};
-  const PhasePoint start = closed_chain_start(chain, {}, false, 1, 0);
+  const PhasePoint start = closed_chain_start(chain, {}, false, {1, 0});
   const double end = static_cast<double>(state.range(0)) * chain.particles() / expected_rate(chain, start);
   const bool freeze = state.range(1) != 0;
   Persistent observer;
   std::uint64_t events = 0;
   for ([[maybe_unused]] auto iteration : state) {
-    ClosedDynamics dynamics(chain, start, freeze ? end : end_time);
+    ClosedDynamics dynamics(chain, start, freeze ? end : end_time, {1, 0});
     simulate(dynamics, end, observer, [](double) {});
     events += dynamics.events();
   }

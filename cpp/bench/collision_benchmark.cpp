@@ -47,7 +47,7 @@ __attribute__((target("fma"))) void collisions(benchmark::State& state) {
   const double sigma = static_cast<double>(state.range(0)) / 100;
   const Rule collide(sigma);
   std::array<double, population> particles{}, scatterers{};
-  RandomStream random(1, Purpose::initial_particle_momentum, 0);
+  RandomStream random({1, 0}, Purpose::initial_particle_momentum, 0);
   for (std::size_t i = 0; i < population; ++i) {
     particles[i] = random.gaussian();
     scatterers[i] = random.gaussian();

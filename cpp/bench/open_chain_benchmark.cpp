@@ -47,9 +47,9 @@ struct Collisions {
 
 void open_engine(benchmark::State& state) {
   const OpenChain chain = chain_of(state);
-  const PhasePoint start = local_equilibrium_start(chain, chain.left, chain.right, age, 1, 0);
+  const PhasePoint start = local_equilibrium_start(chain, chain.left, chain.right, age, {1, 0});
   const auto particles = static_cast<double>(start.particles.size());
-  OpenDynamics dynamics(chain, start, 1e5, 1, 0);
+  OpenDynamics dynamics(chain, start, 1e5, {1, 0});
   Collisions observer;
   double until = time_of(settling * particles, chain);
   simulate(dynamics, until, observer, [](double) {});
@@ -80,9 +80,9 @@ class Queueless {
   explicit Queueless(const OpenChain& chain)
       : chain_(chain),
         log_pass_probability_(std::log1p(-std::min(1.0, chain.gamma / chain.cells))),
-        injectors_{Injector(chain.left, 1, Purpose::injection_left, 0),
-                   Injector(chain.right, 1, Purpose::injection_right, 0)} {
-    const PhasePoint start = local_equilibrium_start(chain, chain.left, chain.right, age, 1, 0);
+        injectors_{Injector(chain.left, {1, 0}, Purpose::injection_left),
+                   Injector(chain.right, {1, 0}, Purpose::injection_right)} {
+    const PhasePoint start = local_equilibrium_start(chain, chain.left, chain.right, age, {1, 0});
     scatterers_ = collide_.scaled(start.scatterers);
     for (const Particle& particle : start.particles)
       flights_.push_back({0, particle.velocity,
@@ -130,7 +130,7 @@ class Queueless {
   OpenChain chain_;
   CollisionRule collide_{chain_.sigma};
   double log_pass_probability_;
-  RandomStream passes_{1, Purpose::passes, 0};
+  RandomStream passes_{{1, 0}, Purpose::passes, 0};
   std::array<Injector, 2> injectors_;
   std::vector<double> scatterers_;
   std::vector<Flight, HugePageAllocator<Flight>> flights_;

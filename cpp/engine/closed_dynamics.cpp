@@ -22,11 +22,11 @@ const ClosedChain& checked(const ClosedChain& chain, const PhasePoint& start) {
 }  // namespace
 
 ClosedDynamics::ClosedDynamics(const ClosedChain& chain, const PhasePoint& start, double end_time,
-                               std::uint64_t seed, std::uint64_t replica)
+                               const StreamKey& key)
     : chain_(checked(chain, start)),
       scatter_(chain),
       scatterers_(scatter_.rule().scaled(start.scatterers)),
-      launch_(chain, seed, replica),
+      launch_(chain, key),
       queue_(first_flights(chain, start, launch_), expected_rate(chain, start), end_time) {}
 
 std::vector<double> ClosedDynamics::positions_from_targets(double time) const {
@@ -42,7 +42,7 @@ std::vector<double> ClosedDynamics::scatterers() const { return scatter_.rule().
 PhasePoint ClosedDynamics::phase_point(double time) const {
   PhasePoint point{{}, scatterers()};
   for (const Flight& flight : queue_.flights())
-    point.particles.push_back({position(flight, time, chain_), flight.velocity});
+    point.particles.push_back({position(flight, time, chain_), flight.velocity, flight.draws});
   return point;
 }
 

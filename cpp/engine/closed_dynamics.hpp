@@ -16,10 +16,9 @@ namespace lorentz {
 /// A closed chain in motion.
 class ClosedDynamics {
  public:
-  /// Arrivals at or after end_time (> 0) are frozen; simulate() can go no further. seed and replica are
-  /// those of the draws that gamma < N and a random direction need.
-  ClosedDynamics(const ClosedChain& chain, const PhasePoint& start, double end_time, std::uint64_t seed = 0,
-                 std::uint64_t replica = 0);
+  /// Arrivals at or after end_time (> 0) are frozen; simulate() can go no further. key: of the draws
+  /// that gamma < N and a random direction need.
+  ClosedDynamics(const ClosedChain& chain, const PhasePoint& start, double end_time, const StreamKey& key);
 
   /// The clock shows 0 at what was `time`, where simulate() stopped. A clock resolves 2^-53 of what it shows,
   /// so that it must not show much more than a flight takes.

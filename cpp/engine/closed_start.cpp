@@ -18,10 +18,10 @@ void remove_total_momentum(PhasePoint& start, double sigma) {
 }  // namespace
 
 PhasePoint closed_chain_start(const ClosedChain& chain, const StartTemperatures& temperatures,
-                              bool zero_total_momentum, std::uint64_t seed, std::uint64_t replica) {
-  RandomStream position(seed, Purpose::initial_position, replica);
-  RandomStream particle_momentum(seed, Purpose::initial_particle_momentum, replica);
-  RandomStream scatterer_momentum(seed, Purpose::initial_scatterer_momentum, replica);
+                              bool zero_total_momentum, const StreamKey& key) {
+  RandomStream position(key, Purpose::initial_position, 0);
+  RandomStream particle_momentum(key, Purpose::initial_particle_momentum, 0);
+  RandomStream scatterer_momentum(key, Purpose::initial_scatterer_momentum, 0);
   const double particle_speed = std::sqrt(temperatures.particles);
   const double scatterer_speed = std::sqrt(temperatures.scatterers);
 

@@ -15,6 +15,6 @@ struct StartTemperatures {
 /// all momenta Gaussian. With zero_total_momentum one shift of all particle momenta makes
 /// sum p + sum P = 0.
 PhasePoint closed_chain_start(const ClosedChain& chain, const StartTemperatures& temperatures,
-                              bool zero_total_momentum, std::uint64_t seed, std::uint64_t replica);
+                              bool zero_total_momentum, const StreamKey& key);
 
 }  // namespace lorentz

@@ -28,7 +28,7 @@ std::vector<Flight> first_flights(const ClosedChain& chain, const PhasePoint& st
   for (const Particle& particle : start.particles) {
     double velocity = particle.velocity;
     const auto number = static_cast<std::uint32_t>(flights.size());
-    std::uint64_t draws = 0;
+    std::uint64_t draws = particle.draws;
     const std::int64_t cells = launch.deterministic() ? 1 : launch(number, draws, velocity);
     flights.push_back(first_flight(chain, {particle.position, velocity}, cells, number));
     flights.back().draws = draws;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
 
 #include "engine/random.hpp"
 #include "model/reservoir.hpp"
@@ -11,10 +10,10 @@ namespace lorentz {
 /// The particles that a reservoir injects, one after the other.
 class Injector {
  public:
-  Injector(const Reservoir& reservoir, std::uint64_t seed, Purpose purpose, std::uint64_t replica)
+  Injector(const Reservoir& reservoir, const StreamKey& key, Purpose purpose)
       : mean_interval_(1 / reservoir.rate),
         thermal_(std::sqrt(reservoir.temperature)),
-        stream_(seed, purpose, replica) {
+        stream_(key, purpose, 0) {
     advance();
   }
 

@@ -26,12 +26,11 @@ inline std::int64_t cells_to_scattering(double uniform_number, double log_pass_p
 /// equally often.
 class Launch {
  public:
-  Launch(const ClosedChain& chain, std::uint64_t seed, std::uint64_t replica)
+  Launch(const ClosedChain& chain, const StreamKey& key)
       : passing_(!chain.deterministic()),
         random_direction_(chain.random_direction),
         log_pass_probability_(portable::log1p(-chain.gamma / chain.cells)),
-        seed_(seed),
-        replica_(replica),
+        key_(key),
         particles_(chain.particles()) {}
 
   /// No chance at all: one cell, direction kept.
@@ -43,17 +42,15 @@ class Launch {
   std::int64_t operator()(std::uint32_t number, std::uint64_t& draws, double& u) const {
     const std::uint64_t draw = draws++;
     const std::uint32_t particle = number % particles_;
-    if (random_direction_)
-      u = std::copysign(u, uniform(seed_, Purpose::direction, replica_, particle, draw) - 0.5);
+    if (random_direction_) u = std::copysign(u, uniform(key_, Purpose::direction, particle, draw) - 0.5);
     if (!passing_) return 1;
-    return cells_to_scattering(uniform(seed_, Purpose::passes, replica_, particle, draw),
-                               log_pass_probability_);
+    return cells_to_scattering(uniform(key_, Purpose::passes, particle, draw), log_pass_probability_);
   }
 
  private:
   bool passing_, random_direction_;
   double log_pass_probability_;
-  std::uint64_t seed_, replica_;
+  StreamKey key_;
   std::uint32_t particles_;
 };
 

@@ -18,14 +18,14 @@ const PhasePoint& checked(const PhasePoint& start, const OpenChain& chain) {
 }  // namespace
 
 OpenDynamics::OpenDynamics(const OpenChain& chain, const PhasePoint& start, double end_time,
-                           std::uint64_t seed, std::uint64_t replica)
+                           const StreamKey& key)
     : chain_(chain),
       collide_(chain.sigma),
       log_pass_probability_(portable::log1p(-std::min(1.0, chain.gamma / chain.cells))),
       half_cell_(chain.cell_length / 2),
-      passes_(seed, Purpose::passes, replica),
-      injectors_{Injector(chain.left, seed, Purpose::injection_left, replica),
-                 Injector(chain.right, seed, Purpose::injection_right, replica)},
+      passes_(key, Purpose::passes, 0),
+      injectors_{Injector(chain.left, key, Purpose::injection_left),
+                 Injector(chain.right, key, Purpose::injection_right)},
       scatterers_(collide_.scaled(checked(start, chain).scatterers)),
       newcomers_(start.particles),
       queue_({}, chain.left.rate + chain.right.rate, end_time) {}

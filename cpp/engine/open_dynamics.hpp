@@ -27,8 +27,7 @@ class OpenDynamics {
  public:
   /// Arrivals at or after end_time (> 0) are frozen; simulate() can go no further. Throws
   /// std::invalid_argument if the start does not have one scatterer per cell.
-  OpenDynamics(const OpenChain& chain, const PhasePoint& start, double end_time, std::uint64_t seed,
-               std::uint64_t replica);
+  OpenDynamics(const OpenChain& chain, const PhasePoint& start, double end_time, const StreamKey& key);
 
   std::uint64_t events() const { return events_; }  // collisions and injections
 

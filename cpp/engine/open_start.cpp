@@ -59,10 +59,10 @@ std::uint64_t poisson(double mean, RandomStream& stream) {
 PhasePoint empty_start(const OpenChain& chain) { return {{}, std::vector<double>(chain.cells, 0)}; }
 
 PhasePoint local_equilibrium_start(const OpenChain& chain, const Reservoir& left, const Reservoir& right,
-                                   double age, std::uint64_t seed, std::uint64_t replica) {
+                                   double age, const StreamKey& key) {
   const double flight =
       chain.cell_length * (chain.deterministic() ? 1 : chain.cells / std::max(chain.gamma, 1.0));
-  RandomStream stream(seed, Purpose::initial_chain, replica);
+  RandomStream stream(key, Purpose::initial_chain, 0);
   PhasePoint start;
   for (std::uint32_t cell = 0; cell < chain.cells; ++cell) {
     const double x = (cell + 0.5) / chain.cells;

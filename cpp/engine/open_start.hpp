@@ -1,9 +1,8 @@
 #pragma once
 
-#include <cstdint>
-
 #include "model/open_chain.hpp"
 #include "model/phase_point.hpp"
+#include "numerics/stream_key.hpp"
 
 namespace lorentz {
 
@@ -19,6 +18,6 @@ PhasePoint empty_start(const OpenChain& chain);
 /// are as many as entered. With the chain's own reservoirs the start is a guess that is close for gamma = N;
 /// the relaxation has to make it forgotten.
 PhasePoint local_equilibrium_start(const OpenChain& chain, const Reservoir& left, const Reservoir& right,
-                                   double age, std::uint64_t seed, std::uint64_t replica);
+                                   double age, const StreamKey& key);
 
 }  // namespace lorentz

@@ -31,10 +31,10 @@ std::vector<char> different(const std::vector<Element>& a, const std::vector<Ele
 }  // namespace
 
 PairDynamics::PairDynamics(const ClosedChain& chain, const PhasePoint& plain, const PhasePoint& perturbed,
-                           double end_time, std::uint64_t seed, std::uint64_t replica, bool share)
+                           double end_time, const StreamKey& key, bool share)
     : chain_(chain),
       scatter_(chain),
-      launch_(chain, seed, replica),
+      launch_(chain, key),
       double_particles_(different(plain.particles, perturbed.particles, !share,
                                   [](const Particle& a, const Particle& b) {
                                     return a.velocity != b.velocity || a.position != b.position;
@@ -49,7 +49,7 @@ std::array<PhasePoint, 2> PairDynamics::phase_points(double time) const {
   PhasePoint plain{{}, scatter_.rule().unscaled(scatterers_[0])};
   const std::vector<Flight> flights = queue_.flights();
   const auto seen = [&](const Flight& flight) {
-    return Particle{position(flight, time, chain_), flight.velocity};
+    return Particle{position(flight, time, chain_), flight.velocity, flight.draws};
   };
   for (std::uint32_t particle = 0; particle < particles; ++particle)
     plain.particles.push_back(seen(flights[particle]));

@@ -26,7 +26,7 @@ class PairDynamics {
  public:
   /// share: false makes everything double from the start, that is, two simulations in full.
   PairDynamics(const ClosedChain& chain, const PhasePoint& plain, const PhasePoint& perturbed,
-               double end_time, std::uint64_t seed, std::uint64_t replica, bool share = true);
+               double end_time, const StreamKey& key, bool share = true);
 
   /// Every collision before `until`. heartbeat(time) is called every 65536 events and may throw to stop.
   template <std::invocable<double> Heartbeat>

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "model/portable.hpp"
+#include "numerics/stream_key.hpp"
 
 namespace lorentz {
 
@@ -30,8 +31,8 @@ class RandomStream {
   static constexpr const char* description =
       "Philox4x64-10; key (seed, purpose); counter (block, entity, replica, 0)";
 
-  RandomStream(std::uint64_t seed, Purpose purpose, std::uint64_t replica, std::uint64_t entity = 0)
-      : key_{{seed, static_cast<std::uint64_t>(purpose)}}, counter_{{0, entity, replica, 0}} {}
+  RandomStream(const StreamKey& key, Purpose purpose, std::uint64_t entity)
+      : key_{{key.seed, static_cast<std::uint64_t>(purpose)}}, counter_{{0, entity, key.replica, 0}} {}
 
   /// Uniform in the open interval (0, 1), an odd multiple of 2^-53.
   double uniform() { return unit_interval(next()); }
@@ -65,12 +66,11 @@ class RandomStream {
   unsigned used_ = 4;
 };
 
-/// One number by its place, the first of block `draw` of the stream of (seed, purpose, replica, entity):
+/// One number by its place, the first of block `draw` of the stream of (key, purpose, entity):
 /// for entities that draw one number now and then.
-inline double uniform(std::uint64_t seed, Purpose purpose, std::uint64_t replica, std::uint64_t entity,
-                      std::uint64_t draw) {
-  const r123::Philox4x64::key_type key{{seed, static_cast<std::uint64_t>(purpose)}};
-  return RandomStream::unit_interval(r123::Philox4x64()({{draw, entity, replica, 0}}, key)[0]);
+inline double uniform(const StreamKey& key, Purpose purpose, std::uint64_t entity, std::uint64_t draw) {
+  const r123::Philox4x64::key_type philox_key{{key.seed, static_cast<std::uint64_t>(purpose)}};
+  return RandomStream::unit_interval(r123::Philox4x64()({{draw, entity, key.replica, 0}}, philox_key)[0]);
 }
 
 }  // namespace lorentz

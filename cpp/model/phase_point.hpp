@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 namespace lorentz {
@@ -7,6 +8,8 @@ namespace lorentz {
 struct Particle {
   double position;  // from the left end, in [0, cells * cell_length)
   double velocity;  // u = p/sqrt(m)
+  std::uint64_t draws =
+      0;  // random numbers that it has taken, so that a simulation that goes on repeats none
 };
 
 /// Every degree of freedom of a chain at one time.

@@ -32,9 +32,9 @@ Results summarise(const Records& records, const std::vector<double>& times, doub
   const Axis time{"time", "time", "Time since the start", times};
   return estimate(
       records,
-      {{"scatterer_energy", "k_B T", "Mean kinetic energy of a scatterer", {time}},
-       {"particle_energy", "k_B T", "Mean kinetic energy of a particle", {time}},
-       {"log_slope", "k_B T", "Slope of scatterer_energy against ln t over the last --fit-decades decades"}},
+      {{"scatterer_energy", "energy", "Mean kinetic energy of a scatterer", {time}},
+       {"particle_energy", "energy", "Mean kinetic energy of a particle", {time}},
+       {"log_slope", "energy", "Slope of scatterer_energy against ln t over the last --fit-decades decades"}},
       [&](std::span<const double> sums) {
         std::vector<double> values(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(2 * size));
         values.push_back(
@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
     chain.validate();
     const std::vector<double> times = log_times.times(chain.observation_time());
     const auto measure = [&](const Replica& replica) {
-      ClosedReplica run(chain, replicas.seed(), replica);
+      ClosedReplica run(chain, replica);
       run.relax();
       std::vector<double> sums(2 * times.size());
       NoObserver nobody;

@@ -171,8 +171,10 @@ Values evaluate(const KineticProblem& problem, const KineticSolution& solution, 
 
 std::vector<Description> descriptions(const Grid& grid) {
   const auto values = [](const VectorXd& x) { return std::vector<double>(x.begin(), x.end()); };
-  const Axis x{"x", "length of the line", "Position; bonds of a chain", values(grid.crossings)};
-  const Axis site{"x", "length of the line", "Position; scatterers of a chain", values(grid.scatterers)};
+  const Axis x{"x", "1", "Position over the length of the chain; bonds of a chain of cells",
+               values(grid.crossings)};
+  const Axis site{"x", "1", "Position over the length of the chain; scatterers of a chain of cells",
+                  values(grid.scatterers)};
   const Axis momentum{"momentum", "momentum", "Middle of the bin", grid.bins.middles()};
   Axis scatterer_momentum{"momentum", "momentum", "P, the particle's times sqrt(M)", momentum.values};
   for (double& value : scatterer_momentum.values) value *= grid.root_mass;
@@ -184,8 +186,8 @@ std::vector<Description> descriptions(const Grid& grid) {
           {"energy_current", "energy/time", "Energy to the right minus to the left"},
           {"momentum_flux", "momentum/time", "Integral of |p| F: pressure"},
           {"current_spread", "1", "Largest deviation of a current over x, relative to what the baths inject"},
-          {"temperature_scatterer", "k_B T", "<P^2>/M", {site}},
-          {"temperature_particle", "k_B T", "<p^2> over the arrivals at a scatterer", {site}},
+          {"temperature_scatterer", "temperature", "<P^2>/M", {site}},
+          {"temperature_particle", "temperature", "<p^2> over the arrivals at a scatterer", {site}},
           {"rate_right", "1/time", "Crossings to the right", {x}},
           {"rate_left", "1/time", "Crossings to the left", {x}},
           {"jump", "1/(time momentum)", "F at p = 0+ minus p = 0-", {x}},

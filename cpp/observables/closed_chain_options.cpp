@@ -48,8 +48,8 @@ void ClosedChainOptions::validate() const {
                    "--relaxation-time plus --observation-time");
 }
 
-ClosedDynamics ClosedChainOptions::start(std::uint64_t seed, std::uint64_t replica) const {
-  return {chain_, closed_chain_start(chain_, temperatures_, zero_total_momentum_, seed, replica), end_time()};
+ClosedDynamics ClosedChainOptions::start(const StreamKey& key) const {
+  return {chain_, closed_chain_start(chain_, temperatures_, zero_total_momentum_, key), end_time(), key};
 }
 
 double ClosedChainOptions::mean_square_momentum() const {

@@ -48,7 +48,7 @@ class ClosedChainOptions {
   void validate() const;
 
   /// A replica's chain at time 0.
-  ClosedDynamics start(std::uint64_t seed, std::uint64_t replica) const;
+  ClosedDynamics start(const StreamKey& key) const;
 
  private:
   double hottest() const { return std::max(temperatures_.particles, temperatures_.scatterers); }
@@ -64,10 +64,10 @@ class ClosedChainOptions {
 /// was seen, to which it adds the drift of the invariants.
 class ClosedReplica {
  public:
-  ClosedReplica(const ClosedChainOptions& options, std::uint64_t seed, const Replica& replica)
+  ClosedReplica(const ClosedChainOptions& options, const Replica& replica)
       : options_(options),
         replica_(replica),
-        chain_(options.start(seed, replica.index)),
+        chain_(options.start(replica.key)),
         start_(chain_.invariants()),
         longest_clock_(options.longest_clock()) {}
 

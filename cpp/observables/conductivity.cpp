@@ -152,21 +152,22 @@ double rise(double first, double last) {
 
 Results conductivity(const Records& joined_records, double cells, const std::string& suffix,
                      const std::string& remark) {
-  return estimate(
-      joined_records,
-      {{"energy_current" + suffix, "energy/time", "J_U, positive to the right" + remark},
-       {"particle_current" + suffix, "1/time", "J_n, positive to the right" + remark},
-       {"temperature_first" + suffix, "k_B T", "<P^2>/M of the first scatterer" + remark},
-       {"temperature_last" + suffix, "k_B T", "<P^2>/M of the last scatterer" + remark},
-       {"kappa" + suffix, "1/time", "-J_U N / (T_N - T_1)" + remark},
-       {"kappa_printed" + suffix, "1/time", "-J_U / (T_N - T_1), the paper's definition" + remark},
-       {"kappa_particle" + suffix, "1/time", "-J_U N / difference of <p^2>/m of the arrivals" + remark}},
-      [cells](std::span<const double> row) {
-        const double per_degree = -row[0] / rise(row[2], row[3]);
-        const double by_particles = -row[0] / rise(row[4] / row[5], row[6] / row[7]);
-        return std::vector{
-            row[0], row[1], row[2], row[3], per_degree * cells, per_degree, by_particles * cells};
-      });
+  return estimate(joined_records,
+                  {{"energy_current" + suffix, "energy/time", "J_U, positive to the right" + remark},
+                   {"particle_current" + suffix, "1/time", "J_n, positive to the right" + remark},
+                   {"temperature_first" + suffix, "temperature", "<P^2>/M of the first scatterer" + remark},
+                   {"temperature_last" + suffix, "temperature", "<P^2>/M of the last scatterer" + remark},
+                   {"kappa" + suffix, "energy/(time temperature)", "-J_U N / (T_N - T_1)" + remark},
+                   {"kappa_printed" + suffix, "energy/(time temperature)",
+                    "-J_U / (T_N - T_1), the paper's definition" + remark},
+                   {"kappa_particle" + suffix, "energy/(time temperature)",
+                    "-J_U N / difference of <p^2>/m of the arrivals" + remark}},
+                  [cells](std::span<const double> row) {
+                    const double per_degree = -row[0] / rise(row[2], row[3]);
+                    const double by_particles = -row[0] / rise(row[4] / row[5], row[6] / row[7]);
+                    return std::vector{
+                        row[0], row[1], row[2], row[3], per_degree * cells, per_degree, by_particles * cells};
+                  });
 }
 
 /// J_U of every block.
@@ -187,8 +188,8 @@ Results stationarity(const Records& records) {
   Results results =
       estimate(reduce_variance(joined(records, true), controls),
                {{"energy_current_drift", "energy/time", "J_U, second half of the window minus first"},
-                {"temperature_first_drift", "k_B T", "T_1, second half minus first"},
-                {"temperature_last_drift", "k_B T", "T_N, second half minus first"}},
+                {"temperature_first_drift", "temperature", "T_1, second half minus first"},
+                {"temperature_last_drift", "temperature", "T_N, second half minus first"}},
                [](std::span<const double> row) { return std::vector{row[0], row[2], row[3]}; });
   const bool steady = std::none_of(results.begin(), results.end(), [](const Quantity& quantity) {
     return std::abs(quantity.mean.front()) > 4 * quantity.standard_error.front();
@@ -226,7 +227,7 @@ int main(int argc, char** argv) {
     const OpenChain chain = options.chain();
     const Window window = options.window();
     const auto measure = [&](const Replica& replica) {
-      return options.measure(replicas.seed(), replica, window.end, EndsAndOpenings(chain, window));
+      return options.measure(replica, window.end, EndsAndOpenings(chain, window));
     };
     const auto results = [&](const Records& records) { return summarise(records, chain.cells); };
     const std::string target = chain.cells > 1 ? "kappa" : "energy_current";

@@ -72,13 +72,13 @@ PhasePoint with_pulse(PhasePoint point, const Pulse& pulse) {
   return point;
 }
 
-PhasePoint relaxed_start(const Pulse& pulse, std::uint64_t seed, std::uint64_t member,
-                         const Heartbeat& heartbeat, std::uint64_t& events) {
+PhasePoint relaxed_start(const Pulse& pulse, const StreamKey& key, const Heartbeat& heartbeat,
+                         std::uint64_t& events) {
   const double temperature = 2 * pulse.energy;
   const double of_scatterers = pulse.scatterer_temperature < 0 ? temperature : pulse.scatterer_temperature;
-  PhasePoint start = closed_chain_start(pulse.chain, {temperature, of_scatterers}, false, seed, member);
+  PhasePoint start = closed_chain_start(pulse.chain, {temperature, of_scatterers}, false, key);
   if (pulse.relaxation_time == 0) return start;
-  ClosedDynamics relaxing(pulse.chain, start, pulse.relaxation_time, seed, member);
+  ClosedDynamics relaxing(pulse.chain, start, pulse.relaxation_time, key);
   NoObserver nobody;
   simulate(relaxing, pulse.relaxation_time, nobody, heartbeat);
   events += relaxing.events();
@@ -87,7 +87,7 @@ PhasePoint relaxed_start(const Pulse& pulse, std::uint64_t seed, std::uint64_t m
 
 /// Means over the members of a replica: energy difference of every cell, time after time; the injected
 /// energy; the largest |sum over cells - injected energy| / total energy.
-ReplicaRecord measure(const Pulse& pulse, std::uint64_t seed, const Replica& replica) {
+ReplicaRecord measure(const Pulse& pulse, const Replica& replica) {
   const std::size_t cells = pulse.chain.cells;
   ReplicaRecord record{std::vector<double>(pulse.times.size() * cells + 2, 0), 0};
   for (std::uint32_t member = 0; member < pulse.members; ++member) {
@@ -95,10 +95,10 @@ ReplicaRecord measure(const Pulse& pulse, std::uint64_t seed, const Replica& rep
       replica.heartbeat(static_cast<double>(member) / pulse.members);
     };
     heartbeat(0);  // a member may be too short to ask by itself
-    const std::uint64_t stream = replica.index * pulse.members + member;
-    const PhasePoint start = relaxed_start(pulse, seed, stream, heartbeat, record.events);
+    const StreamKey key(replica.key.seed, replica.key.replica * pulse.members + member);
+    const PhasePoint start = relaxed_start(pulse, key, heartbeat, record.events);
     const PhasePoint pulsed = with_pulse(start, pulse);
-    PairDynamics pair(pulse.chain, start, pulsed, pulse.times.back(), seed, stream, !pulse.separate);
+    PairDynamics pair(pulse.chain, start, pulsed, pulse.times.back(), key, !pulse.separate);
     const auto energies = [&](const PhasePoint& point) { return cell_energies(point, pulse.chain); };
     const auto total = [](const std::vector<double>& parts) {
       return std::accumulate(parts.begin(), parts.end(), 0.0);
@@ -177,12 +177,12 @@ Results summarise(const Records& records, const Pulse& pulse) {
   const Axis from{"from", "time", "First time of the fit", {pulse.times.begin(), pulse.times.end() - 1}};
   return estimate(
       records,
-      {{"energy_difference", "k_B T", "Energy per cell with the pulse minus without", {time, cell}},
-       {"injected_energy", "k_B T", "Energy of the pulse"},
+      {{"energy_difference", "energy", "Energy per cell with the pulse minus without", {time, cell}},
+       {"injected_energy", "energy", "Energy of the pulse"},
        {"sum_error", "1", "Largest |sum over cells - injected energy| / total energy, mean over members"},
-       {"peak_position", "cells", "Distance of the moving peak from the centre", {time}},
-       {"peak", "k_B T", "Height of the moving peak, by the parabola", {time}},
-       {"peak_raw", "k_B T", "Largest value of the folded profile, biased upwards", {time}},
+       {"peak_position", "1", "Distance of the moving peak from the centre, in cells", {time}},
+       {"peak", "energy", "Height of the moving peak, by the parabola", {time}},
+       {"peak_raw", "energy", "Largest value of the folded profile, biased upwards", {time}},
        {"centre_share", "1", "Part of the injected energy in the central five cells", {time}},
        {"damping_exponent_from", "1", "Minus the slope of ln peak against ln t from a time on", {from}},
        {"damping_exponent", "1", "The same over all times"},
@@ -234,7 +234,7 @@ int main(int argc, char** argv) {
   const ReplicaOptions replicas(program);
   return program.run(argc, argv, [&](Progress& progress) {
     validate(pulse);
-    const auto one = [&](const Replica& replica) { return measure(pulse, replicas.seed(), replica); };
+    const auto one = [&](const Replica& replica) { return measure(pulse, replica); };
     const auto results = [&](const Records& records) { return summarise(records, pulse); };
     return replicas.run({one, results, "damping_exponent", RandomStream::description}, progress);
   });

@@ -180,7 +180,7 @@ int main(int argc, char** argv) {
     require_fourth_powers(chain.left, chain.right);
     const Window window = options.window();
     const auto measure = [&](const Replica& replica) {
-      return options.measure(replicas.seed(), replica, window.end, Crossings(chain, window, bins.bins()));
+      return options.measure(replica, window.end, Crossings(chain, window, bins.bins()));
     };
     const auto results = [&](const Records& records) {
       return summarise(records, std::size_t{chain.cells} + 1, bins.bins());

@@ -68,10 +68,10 @@ void OpenChainOptions::validate() const {
                  "the end of the run over the time of the measurement");
 }
 
-PhasePoint OpenChainOptions::start(double age, std::uint64_t seed, std::uint64_t replica) const {
+PhasePoint OpenChainOptions::start(double age, const StreamKey& key) const {
   const OpenChain chain = this->chain();
   if (start_ == "empty") return empty_start(chain);
-  return local_equilibrium_start(chain, chain.left, chain.right, age, seed, replica);
+  return local_equilibrium_start(chain, chain.left, chain.right, age, key);
 }
 
 void InjectionControls::append_to(std::vector<double>& record, const OpenChain& chain,

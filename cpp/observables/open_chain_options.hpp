@@ -38,8 +38,8 @@ class OpenChainOptions {
   /// A replica from its start to a time, all of it watched by the observer, and its record(). At the end the
   /// observer's finish(scatterers, end) is called before, with U of every scatterer, if it has one.
   template <class Observer>
-  ReplicaRecord measure(std::uint64_t seed, const Replica& replica, double end, Observer observer) const {
-    OpenDynamics dynamics(chain(), start(end, seed, replica.index), end, seed, replica.index);
+  ReplicaRecord measure(const Replica& replica, double end, Observer observer) const {
+    OpenDynamics dynamics(chain(), start(end, replica.key), end, replica.key);
     simulate(dynamics, end, observer, [&](double now) { replica.heartbeat(now / end); });
     if constexpr (requires { observer.finish(dynamics.scatterers(), end); })
       observer.finish(dynamics.scatterers(), end);
@@ -47,7 +47,7 @@ class OpenChainOptions {
   }
 
  private:
-  PhasePoint start(double age, std::uint64_t seed, std::uint64_t replica) const;
+  PhasePoint start(double age, const StreamKey& key) const;
 
   OpenChain chain_;
   std::string start_;

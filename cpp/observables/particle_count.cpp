@@ -206,7 +206,7 @@ int main(int argc, char** argv) {
     const Plan plan(times, bins.bins(), chain.cell_length);
     const double thermal = std::sqrt(std::min(chain.left.temperature, chain.right.temperature));
     const auto measure = [&](const Replica& replica) {
-      return options.measure(replicas.seed(), replica, times.back(), Census(plan));
+      return options.measure(replica, times.back(), Census(plan));
     };
     const auto results = [&](const Records& records) { return summarise(records, plan, thermal); };
     return replicas.run({measure, results, "log_slope", RandomStream::description}, progress);

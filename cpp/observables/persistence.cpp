@@ -39,8 +39,8 @@ Results summarise(const Records& records) {
   return estimate(
       records,
       {{"mu", "1", "Fraction of scatterings with p' p > 0"},
-       {"particle_energy", "k_B T", "Mean kinetic energy of a particle as it meets a scatterer"},
-       {"scatterer_energy", "k_B T", "Mean kinetic energy of a scatterer as a particle meets it"}},
+       {"particle_energy", "energy", "Mean kinetic energy of a particle as it meets a scatterer"},
+       {"scatterer_energy", "energy", "Mean kinetic energy of a scatterer as a particle meets it"}},
       [](std::span<const double> sums) {
         return std::vector{sums[1] / sums[0], sums[2] / sums[0], sums[3] / sums[0]};
       });
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   return program.run(argc, argv, [&](Progress& progress) {
     chain.validate();
     const auto measure = [&](const Replica& replica) {
-      ClosedReplica run(chain, replicas.seed(), replica);
+      ClosedReplica run(chain, replica);
       run.relax();
       Encounters sums;
       run.observe_until(chain.end_time(), sums);

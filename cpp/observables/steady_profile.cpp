@@ -117,9 +117,9 @@ Results summarise(const Records& records, std::size_t cells, const Bins& bins) {
   const std::size_t marks = 2 * cells + 1;
   return estimate(
       reduce_variance(records, InjectionControls::count),
-      {{"temperature_scatterer", "k_B T", "Time average of P^2/M", {cell}},
+      {{"temperature_scatterer", "temperature", "Time average of P^2/M", {cell}},
        {"density", "1", "Mean number of particles in the cell, frozen ones included", {cell}},
-       {"temperature_particle", "k_B T", "<p^2>/m over the arrivals at the scatterer", {cell}},
+       {"temperature_particle", "temperature", "<p^2>/m over the arrivals at the scatterer", {cell}},
        {"rate_right", "1/time", "Arrivals at the scatterer to the right", {cell}},
        {"rate_left", "1/time", "Arrivals at the scatterer to the left", {cell}},
        {"particle_current", "1/time", "J_n, positive to the right", {bond}},
@@ -169,7 +169,7 @@ int main(int argc, char** argv) {
     const OpenChain chain = options.chain();
     const Window window = options.window();
     const auto measure = [&](const Replica& replica) {
-      return options.measure(replicas.seed(), replica, window.end, Profile(chain, window, bins.bins()));
+      return options.measure(replica, window.end, Profile(chain, window, bins.bins()));
     };
     const auto results = [&](const Records& records) { return summarise(records, chain.cells, bins.bins()); };
     return replicas.run({measure, results, "energy_current_mean", RandomStream::description}, progress);

@@ -114,7 +114,7 @@ int main(int argc, char** argv) {
     const Tail tail{bin_of_cut(1.0 / 3), bin_of_cut(1), bin_of_cut(3)};
     const auto measure = [&](const Replica& replica) {
       WaitingTimes waits(bins);
-      ClosedReplica run(chain, replicas.seed(), replica);
+      ClosedReplica run(chain, replica);
       run.relax();
       run.observe_until(chain.end_time(), waits);
       return run.record(waits.sums());

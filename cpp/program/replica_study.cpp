@@ -105,7 +105,7 @@ Outcome ReplicaOptions::run(const ReplicaStudy& study, Progress& progress) const
   const auto resumed = static_cast<double>(finished.size());
   Clock::time_point next_checkpoint = later(checkpoint_interval_);
 
-  ReplicaRun batch{.wanted = 0, .threads = threads_, .deadline = deadline, .report = {}};
+  ReplicaRun batch{.seed = seed_, .wanted = 0, .threads = threads_, .deadline = deadline, .report = {}};
   std::uint64_t needed = replicas_;  // of all batches, as far as it can be told
   batch.report = [&](double done, const FinishedReplicas& so_far) {
     progress.show(done, static_cast<double>(needed), resumed);

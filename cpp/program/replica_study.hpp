@@ -37,8 +37,6 @@ class ReplicaOptions {
  public:
   explicit ReplicaOptions(Program& program);
 
-  std::uint64_t seed() const { return seed_; }
-
   /// Throws UsageError, NumericalError or Interrupted.
   Outcome run(const ReplicaStudy& study, Progress& progress) const;
 

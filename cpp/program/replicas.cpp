@@ -62,7 +62,7 @@ class Team {
       };
       try {
         heartbeat(0);  // a replica may be too short to ask by itself
-        ReplicaRecord record = measure_({index, heartbeat});
+        ReplicaRecord record = measure_({StreamKey(run_.seed, index), heartbeat});
         const std::lock_guard lock(mutex_);
         finished_.emplace(index, std::move(record));
         fraction.store(0, std::memory_order_relaxed);

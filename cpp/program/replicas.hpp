@@ -6,11 +6,13 @@
 #include <map>
 #include <vector>
 
+#include "numerics/stream_key.hpp"
+
 namespace lorentz {
 
 /// One replica, as the observable sees it.
 struct Replica {
-  std::uint64_t index;
+  StreamKey key;  // of all that it draws
   /// To be called often with the part done, in [0, 1]. Throws Interrupted when the run must end.
   std::function<void(double)> heartbeat;
 };
@@ -27,6 +29,7 @@ using Measurement = std::function<ReplicaRecord(const Replica&)>;
 using FinishedReplicas = std::map<std::uint64_t, ReplicaRecord>;
 
 struct ReplicaRun {
+  std::uint64_t seed;
   std::uint64_t wanted;  // replicas 0 ... wanted - 1
   unsigned threads;
   std::chrono::steady_clock::time_point deadline;  // no replica is begun later, but the first two are

@@ -21,12 +21,12 @@ using Arrivals = std::vector<std::vector<std::size_t>>;
 
 ClosedChain chain(double sigma) { return {11, 20, cell_length, sigma}; }
 
-PhasePoint start(double sigma) { return closed_chain_start(chain(sigma), {temperature, 100}, false, 1, 0); }
+PhasePoint start(double sigma) { return closed_chain_start(chain(sigma), {temperature, 100}, false, {1, 0}); }
 
 /// The clock shows `flights` thermal flights at the beginning, and starts again so many times.
 Arrivals arrivals(double sigma, double flights, int restarts = 0) {
   const double shown = flights * cell_length / std::sqrt(temperature);
-  ClosedDynamics dynamics(chain(sigma), start(sigma), 1e6);
+  ClosedDynamics dynamics(chain(sigma), start(sigma), 1e6, {1, 0});
   support::Recorder engine;
   dynamics.restart_clock(-shown);
   double until = shown;

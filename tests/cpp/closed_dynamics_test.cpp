@@ -15,17 +15,17 @@ using namespace support;
 
 TEST(Simulate, DoesNotDependOnStopsInBetween) {
   const ClosedChain chain{11, 20, 1, 0.5};
-  const PhasePoint start = closed_chain_start(chain, {}, false, 1, 0);
+  const PhasePoint start = closed_chain_start(chain, {}, false, {1, 0});
   const std::vector<Collision> whole = collisions(chain, start, 20);
   ASSERT_GT(whole.size(), 10000U);
   for (const double piece : {7.0, 0.5, 0.001}) {
-    ClosedDynamics dynamics(chain, start, 20);
+    ClosedDynamics dynamics(chain, start, 20, {1, 0});
     Recorder recorder;
     for (double until = 0; until < 20;) simulate(dynamics, until += piece, recorder, nothing);
     expect_same(recorder.collisions, whole);
     EXPECT_EQ(dynamics.events(), whole.size());
   }
-  ClosedDynamics longer(chain, start, 1e5);  // an end further away only freezes fewer particles
+  ClosedDynamics longer(chain, start, 1e5, {1, 0});  // an end further away only freezes fewer particles
   Recorder recorder;
   simulate(longer, 20, recorder, nothing);
   expect_same(recorder.collisions, whole);
@@ -33,7 +33,7 @@ TEST(Simulate, DoesNotDependOnStopsInBetween) {
 
 TEST(Simulate, TimesNeverDecreaseAndStayBeforeTheEnd) {
   const ClosedChain chain{7, 10, 0.1, -0.3};
-  const std::vector<Collision> all = collisions(chain, closed_chain_start(chain, {}, false, 2, 0), 5);
+  const std::vector<Collision> all = collisions(chain, closed_chain_start(chain, {}, false, {2, 0}), 5);
   ASSERT_GT(all.size(), 1000U);
   for (std::size_t k = 1; k < all.size(); ++k) ASSERT_GE(all[k].time, all[k - 1].time);
   EXPECT_GT(all.front().time, 0);
@@ -76,11 +76,11 @@ TEST(Simulate, AParticleThatStartsOnAScattererFliesToTheNext) {
 
 TEST(Simulate, HeartbeatMayStopTheRunAndLeavesItWhole) {
   const ClosedChain chain{11, 20, 1, 0.5};
-  const PhasePoint start = closed_chain_start(chain, {}, false, 5, 0);
+  const PhasePoint start = closed_chain_start(chain, {}, false, {5, 0});
   const std::vector<Collision> whole = collisions(chain, start, 100);
   ASSERT_GT(whole.size(), 2 * 65536U);
 
-  ClosedDynamics dynamics(chain, start, 100);
+  ClosedDynamics dynamics(chain, start, 100, {1, 0});
   Recorder recorder;
   double beat = -1;
   const auto stop = [&beat](double time) {
@@ -96,16 +96,16 @@ TEST(Simulate, HeartbeatMayStopTheRunAndLeavesItWhole) {
 
 TEST(Simulate, RefusesAPhasePointOfAnotherChain) {
   const ClosedChain chain{3, 2, 1, 0.5};
-  const PhasePoint good = closed_chain_start(chain, {}, false, 1, 0);
-  EXPECT_NO_THROW(ClosedDynamics(chain, good, 1));
+  const PhasePoint good = closed_chain_start(chain, {}, false, {1, 0});
+  EXPECT_NO_THROW(ClosedDynamics(chain, good, 1, {1, 0}));
   PhasePoint bad = good;
   bad.particles.pop_back();
-  EXPECT_THROW(ClosedDynamics(chain, bad, 1), std::invalid_argument);
+  EXPECT_THROW(ClosedDynamics(chain, bad, 1, {1, 0}), std::invalid_argument);
   bad = good;
   bad.scatterers.push_back(0);
-  EXPECT_THROW(ClosedDynamics(chain, bad, 1), std::invalid_argument);
-  EXPECT_THROW(ClosedDynamics(chain, PhasePoint{}, 1), std::invalid_argument);
-  EXPECT_THROW(ClosedDynamics({3, 2, 1, 1.5}, good, 1), std::invalid_argument);
+  EXPECT_THROW(ClosedDynamics(chain, bad, 1, {1, 0}), std::invalid_argument);
+  EXPECT_THROW(ClosedDynamics(chain, PhasePoint{}, 1, {1, 0}), std::invalid_argument);
+  EXPECT_THROW(ClosedDynamics({3, 2, 1, 1.5}, good, 1, {1, 0}), std::invalid_argument);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ const ClosedChain chain{1000, 50, 0.5, 0.3};
 constexpr StartTemperatures temperatures{500, 80};
 
 PhasePoint start(std::uint64_t seed = 1, std::uint64_t replica = 0, bool zero_total_momentum = false) {
-  return closed_chain_start(chain, temperatures, zero_total_momentum, seed, replica);
+  return closed_chain_start(chain, temperatures, zero_total_momentum, {seed, replica});
 }
 
 /// Where a particle is in its cell, in [0, 1).
@@ -78,13 +78,13 @@ TEST(InitialState, DrawsVelocitiesAtTheTemperatures) {
 }
 
 TEST(InitialState, ScatterersAreAtRestAtTemperatureZero) {
-  for (const double scatterer : closed_chain_start(chain, {500, 0}, false, 1, 0).scatterers)
+  for (const double scatterer : closed_chain_start(chain, {500, 0}, false, {1, 0}).scatterers)
     EXPECT_EQ(scatterer, 0);
 }
 
 TEST(InitialState, DependsOnSeedAndReplicaOnly) {
   const PhasePoint point = start(), again = start(), seed = start(2), replica = start(1, 1);
-  const PhasePoint colder = closed_chain_start(chain, {500, 0}, false, 1, 0);
+  const PhasePoint colder = closed_chain_start(chain, {500, 0}, false, {1, 0});
   for (std::size_t i = 0; i < point.particles.size(); ++i) {
     ASSERT_EQ(point.particles[i].position, again.particles[i].position);
     ASSERT_EQ(point.particles[i].velocity, again.particles[i].velocity);
@@ -99,8 +99,8 @@ TEST(InitialState, ShiftsTheTotalMomentumToZero) {
   for (const double sigma : {-1.0, -0.9, 0.0, 0.3, 1 - 1e-12, 1.0}) {
     ClosedChain other = chain;
     other.sigma = sigma;
-    const PhasePoint free = closed_chain_start(other, temperatures, false, 1, 0);
-    const PhasePoint shifted = closed_chain_start(other, temperatures, true, 1, 0);
+    const PhasePoint free = closed_chain_start(other, temperatures, false, {1, 0});
+    const PhasePoint shifted = closed_chain_start(other, temperatures, true, {1, 0});
     EXPECT_EQ(free.scatterers, shifted.scatterers);
     const double root_mass = CollisionRule(sigma).root_mass();
     long double total = 0;

@@ -70,7 +70,7 @@ struct Outcome {
 
 Outcome run(double sigma, std::uint64_t events, std::uint64_t seed) {
   const ClosedChain chain{11, 20, 1, sigma};
-  ClosedDynamics dynamics(chain, closed_chain_start(chain, {}, false, seed, 0), 1e9);
+  ClosedDynamics dynamics(chain, closed_chain_start(chain, {}, false, {seed, 0}), 1e9, {1, 0});
   const Invariants before = dynamics.invariants();
   Invariances steps(sigma, chain.particles());
   for (double until = 0; dynamics.events() < events;) simulate(dynamics, until += 1, steps, [](double) {});

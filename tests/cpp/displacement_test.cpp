@@ -19,7 +19,7 @@ constexpr std::uint64_t replicas = 100;
 const ClosedChain chain{11, 20, 1, 0.5};
 
 PhasePoint start(std::uint64_t seed, std::uint64_t replica) {
-  return closed_chain_start(chain, {500, 500}, false, seed, replica);
+  return closed_chain_start(chain, {500, 500}, false, {seed, replica});
 }
 
 struct Walk {
@@ -31,7 +31,7 @@ struct Walk {
 std::vector<double> engine() {
   std::vector<double> values;
   for (std::uint64_t replica = 0; replica < replicas; ++replica) {
-    ClosedDynamics dynamics(chain, start(1, replica), end_time);
+    ClosedDynamics dynamics(chain, start(1, replica), end_time, {1, replica});
     const std::vector<double> before = dynamics.positions_from_targets(0);
     Walk walk{std::vector<std::int64_t>(before.size(), 0)};
     simulate(dynamics, end_time, walk, support::nothing);

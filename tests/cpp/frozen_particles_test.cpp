@@ -17,14 +17,14 @@ using namespace support;
 TEST(FrozenParticles, TouchNothing) {
   const ClosedChain few{4, 2, 1, 0.5};
   const ClosedChain more{4, 3, 1, 0.5};
-  const PhasePoint start = closed_chain_start(few, {}, false, 3, 0);
+  const PhasePoint start = closed_chain_start(few, {}, false, {3, 0});
   const std::vector<Collision> expected = collisions(few, start, 50);
   ASSERT_GT(expected.size(), 1000U);
   for (const double velocity : {0.0, -0.0, 5e-324, -5e-324, 1e-310, -1e-308}) {
     PhasePoint crowded = start;
     for (const double position : {0.5, 0.0, 3.999, 2.5}) crowded.particles.push_back({position, velocity});
     expect_same(collisions(more, crowded, 50), expected);
-    ClosedDynamics dynamics(more, crowded, 50);
+    ClosedDynamics dynamics(more, crowded, 50, {1, 0});
     NoObserver nobody;
     simulate(dynamics, 50, nobody, nothing);
     const Invariants invariants = dynamics.invariants();
@@ -37,7 +37,7 @@ TEST(FrozenParticles, TouchNothing) {
 // rest stops there for ever, exactly one per scatterer.
 TEST(FrozenParticles, AreThoseThatStop) {
   const ClosedChain chain{11, 20, 1, 0};
-  const PhasePoint start = closed_chain_start(chain, {}, false, 4, 0);
+  const PhasePoint start = closed_chain_start(chain, {}, false, {4, 0});
   const std::vector<Collision> all = collisions(chain, start, 20);
   std::vector<bool> stopped(chain.particles(), false);
   for (const Collision& collision : all) {

@@ -42,14 +42,14 @@ double chi_squared_of_cells(const Launch& launch, double p) {
 }
 
 TEST(Launch, CellsAreGeometric) {
-  const Launch launch(chain_with(1), 3, 0);
+  const Launch launch(chain_with(1), {3, 0});
   EXPECT_GT(gsl_cdf_chisq_Q(chi_squared_of_cells(launch, 0.2), 19), 1e-4);
   // Mutant: a part more of the scatterers scatter.
   EXPECT_LT(gsl_cdf_chisq_Q(chi_squared_of_cells(launch, 0.21), 19), 1e-4);
 }
 
 TEST(Launch, DirectionsAreEvenlyDrawn) {
-  const Launch launch(chain_with(5, true), 3, 0);
+  const Launch launch(chain_with(5, true), {3, 0});
   std::vector<double> signs;
   for (std::uint64_t draws = 0; draws < 100000;) {
     double u = 2.5;
@@ -62,7 +62,7 @@ TEST(Launch, DirectionsAreEvenlyDrawn) {
 }
 
 TEST(Launch, DrawsDependOnTheParticleAndItsOwnCountOnly) {
-  const Launch launch(chain_with(1), 3, 0);
+  const Launch launch(chain_with(1), {3, 0});
   double u = 1;
   std::vector<std::int64_t> first, second, other;
   std::uint64_t of_first = 0, of_second = 0, of_other = 0;
@@ -84,13 +84,13 @@ constexpr double end_time = 20;
 constexpr std::uint64_t replicas = 60;
 
 PhasePoint start(std::uint64_t seed, std::uint64_t replica) {
-  return closed_chain_start(chain_with(1), {500, 500}, false, seed, replica);
+  return closed_chain_start(chain_with(1), {500, 500}, false, {seed, replica});
 }
 
 Rates engine() {
   Rates rates;
   for (std::uint64_t replica = 0; replica < replicas; ++replica) {
-    ClosedDynamics dynamics(chain_with(1), start(1, replica), end_time, 1, replica);
+    ClosedDynamics dynamics(chain_with(1), start(1, replica), end_time, {1, replica});
     support::Recorder recorder;
     simulate(dynamics, end_time, recorder, support::nothing);
     double persistent = 0;

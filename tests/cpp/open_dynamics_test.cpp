@@ -46,7 +46,7 @@ TEST(OpenDynamics, EnergyIsWhatEnteredAndHasNotLeft) {
   for (const double gamma : {infinity, 1., 3., 0.}) {
     for (const double sigma : {-1., -0.9, 0., 0.5, 0.999, 1.}) {
       const OpenChain chain = chain_of(8, gamma, sigma);
-      OpenDynamics dynamics(chain, empty_start(chain), 20, 3, 0);
+      OpenDynamics dynamics(chain, empty_start(chain), 20, {3, 0});
       Everything seen;
       simulate(dynamics, 20, seen, support::nothing);
       EXPECT_GT(seen.entries, 7000U);
@@ -57,7 +57,7 @@ TEST(OpenDynamics, EnergyIsWhatEnteredAndHasNotLeft) {
 
 TEST(OpenDynamics, WithoutScatteringParticlesFlyThrough) {
   const OpenChain chain = chain_of(5, 0);
-  OpenDynamics dynamics(chain, empty_start(chain), 10, 1, 0);
+  OpenDynamics dynamics(chain, empty_start(chain), 10, {1, 0});
   Everything seen;
   simulate(dynamics, 10, seen, support::nothing);
   EXPECT_EQ(seen.entries, seen.exits);
@@ -70,7 +70,8 @@ TEST(OpenDynamics, WithoutScatteringParticlesFlyThrough) {
 /// Every flight begins where and when the one before it ended, or at an opening.
 TEST(OpenDynamics, FlightsOfAParticleJoin) {
   const OpenChain chain = chain_of(6, 2);
-  OpenDynamics dynamics(chain, local_equilibrium_start(chain, chain.left, chain.right, 10, 5, 0), 10, 5, 0);
+  OpenDynamics dynamics(chain, local_equilibrium_start(chain, chain.left, chain.right, 10, {5, 0}), 10,
+                        {5, 0});
   Everything seen;
   simulate(dynamics, 10, seen, support::nothing);
   std::multiset<std::pair<double, double>> arrivals;  // time and place, where another flight has to begin
@@ -95,7 +96,7 @@ TEST(OpenDynamics, StopsInBetweenChangeNothing) {
   for (const double gamma : {infinity, 2.}) {
     const OpenChain chain = chain_of(6, gamma);
     const auto scatterers = [&](double step) {
-      OpenDynamics dynamics(chain, empty_start(chain), 30, 1, 4);
+      OpenDynamics dynamics(chain, empty_start(chain), 30, {1, 4});
       NoObserver nobody;
       for (double until = step; until <= 30; until += step)
         simulate(dynamics, until, nobody, support::nothing);
@@ -107,14 +108,14 @@ TEST(OpenDynamics, StopsInBetweenChangeNothing) {
 
 TEST(OpenDynamics, RefusesAStartOfAnotherSize) {
   const OpenChain chain = chain_of(6, 1);
-  EXPECT_THROW(OpenDynamics(chain, empty_start(chain_of(5, 1)), 1, 1, 0), std::invalid_argument);
+  EXPECT_THROW(OpenDynamics(chain, empty_start(chain_of(5, 1)), 1, {1, 0}), std::invalid_argument);
 }
 
 TEST(Injector, IsPoissonWithHalfGaussianMomenta) {
   const Reservoir reservoir{220, 900. / 11};
   std::vector<double> counts, momenta, energies, slow;
   for (std::uint64_t replica = 0; replica < 400; ++replica) {
-    Injector injector(reservoir, 7, Purpose::injection_left, replica);
+    Injector injector(reservoir, {7, replica}, Purpose::injection_left);
     double count = 0, momentum = 0, energy = 0, below = 0;
     while (injector.time() < 2) {
       const double u = injector.take();
@@ -150,11 +151,11 @@ TEST(OpenStart, IsForgotten) {
   const auto temperature = [&](int kind, double begin) {
     std::vector<double> values;
     for (std::uint64_t replica = 0; replica < 60; ++replica) {
-      const PhasePoint start = kind == 0 ? empty_start(chain)
-                               : kind == 1
-                                   ? local_equilibrium_start(chain, chain.left, chain.right, 100, 1, replica)
-                                   : local_equilibrium_start(chain, hot_left, hot_right, 100, 2, replica);
-      OpenDynamics dynamics(chain, start, begin + 1, static_cast<std::uint64_t>(10 + kind), replica);
+      const PhasePoint start =
+          kind == 0   ? empty_start(chain)
+          : kind == 1 ? local_equilibrium_start(chain, chain.left, chain.right, 100, {1, replica})
+                      : local_equilibrium_start(chain, hot_left, hot_right, 100, {2, replica});
+      OpenDynamics dynamics(chain, start, begin + 1, {static_cast<std::uint64_t>(10 + kind), replica});
       NoObserver nobody;
       double sum = 0;
       for (int k = 1; k <= 10; ++k) {

@@ -29,10 +29,10 @@ class Pair : public testing::TestWithParam<ClosedChain> {};
 
 TEST_P(Pair, IsTwoSimulationsBitForBit) {
   const ClosedChain chain = GetParam();
-  const PhasePoint start = closed_chain_start(chain, {500, 500}, false, 1, 0);
+  const PhasePoint start = closed_chain_start(chain, {500, 500}, false, {1, 0});
   constexpr double end = 1;
-  ClosedDynamics plain(chain, start, end, 5, 7), perturbed(chain, kicked(start), end, 5, 7);
-  PairDynamics pair(chain, start, kicked(start), end, 5, 7);
+  ClosedDynamics plain(chain, start, end, {5, 7}), perturbed(chain, kicked(start), end, {5, 7});
+  PairDynamics pair(chain, start, kicked(start), end, {5, 7});
   NoObserver nobody;
   for (const double time : {0.01, 0.1, 0.3, 1.0}) {
     simulate(plain, time, nobody, support::nothing);
@@ -47,14 +47,14 @@ TEST_P(Pair, IsTwoSimulationsBitForBit) {
 
 TEST_P(Pair, SharesWhatIsTheSame) {
   const ClosedChain chain = GetParam();
-  const PhasePoint start = closed_chain_start(chain, {500, 500}, false, 1, 0);
-  PairDynamics pair(chain, start, kicked(start), 0.2, 5, 7);
+  const PhasePoint start = closed_chain_start(chain, {500, 500}, false, {1, 0});
+  PairDynamics pair(chain, start, kicked(start), 0.2, {5, 7});
   pair.run(0.2, support::nothing);
   EXPECT_LT(pair.computed(), pair.events());
-  PairDynamics equal(chain, start, start, 0.2, 5, 7);
+  PairDynamics equal(chain, start, start, 0.2, {5, 7});
   equal.run(0.2, support::nothing);
   EXPECT_EQ(2 * equal.computed(), equal.events());
-  PairDynamics separate(chain, start, kicked(start), 0.2, 5, 7, false);
+  PairDynamics separate(chain, start, kicked(start), 0.2, {5, 7}, false);
   separate.run(0.2, support::nothing);
   EXPECT_EQ(separate.computed(), separate.events());
   expect_same(separate.phase_points(0.2)[1], pair.phase_points(0.2)[1]);

@@ -66,13 +66,13 @@ Samples over_replicas(const Measure& encounters) {
 ClosedChain chain_of(double sigma) { return {11, 20, 1, sigma}; }
 
 PhasePoint start(double sigma, std::uint64_t seed, std::uint64_t replica) {
-  return closed_chain_start(chain_of(sigma), {500, 0}, false, seed, replica);
+  return closed_chain_start(chain_of(sigma), {500, 0}, false, {seed, replica});
 }
 
 Samples engine(double sigma, std::uint64_t seed) {
   return over_replicas([=](std::uint64_t replica) {
     const PhasePoint begin = start(sigma, seed, replica);
-    ClosedDynamics dynamics(chain_of(sigma), begin, end_time);
+    ClosedDynamics dynamics(chain_of(sigma), begin, end_time, {seed, replica});
     NoObserver nobody;
     simulate(dynamics, relaxation_time, nobody, [](double) {});
     Encounters sums(begin);

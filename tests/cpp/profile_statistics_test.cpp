@@ -62,7 +62,7 @@ TEST(LogGrid, HasEqualFactorsAndFindsIntervals) {
 
 /// Profiles y = t^-xi f(x/t^xi) of a lopsided f, with Gaussian noise.
 std::vector<Profile> scaling_profiles(double xi, double noise, std::uint64_t seed) {
-  RandomStream random(seed, Purpose::initial_position, 0);
+  RandomStream random({seed, 0}, Purpose::initial_position, 0);
   std::vector<Profile> profiles;
   for (const double time : {1.0, 2.0, 4.0, 8.0}) {
     Profile profile{time, {}, {}};
@@ -96,7 +96,7 @@ TEST(Peak, FoldsARing) {
 
 /// A bump at distance 20 on 40 cells, with noise.
 std::vector<double> noisy_bump(double noise, std::uint64_t seed) {
-  RandomStream random(seed, Purpose::initial_position, 1);
+  RandomStream random({seed, 1}, Purpose::initial_position, 0);
   std::vector<double> profile;
   for (int d = 0; d < 40; ++d)
     profile.push_back(1 - 0.02 * std::pow(d - 20.3, 2) + noise * random.gaussian());

@@ -43,7 +43,7 @@ TEST(ProgramDeathTest, SignalsEndTheRunWithACheckpoint) {
   for (const int number : {SIGINT, SIGTERM}) {
     const TemporaryFolder folder;
     const auto killed = [number](const Replica& replica) {
-      if (replica.index == 3) ::raise(number);
+      if (replica.key.replica == 3) ::raise(number);
       replica.heartbeat(0.5);
       return measure(replica);
     };
@@ -58,7 +58,7 @@ TEST(ProgramDeathTest, SignalsEndTheRunWithACheckpoint) {
 TEST(ProgramDeathTest, SignalsAreNoticedBetweenReplicasTooShortToAsk) {
   const TemporaryFolder folder;
   const auto killed = [](const Replica& replica) {
-    if (replica.index == 3) ::raise(SIGTERM);
+    if (replica.key.replica == 3) ::raise(SIGTERM);
     return measure(replica);
   };
   EXPECT_EXIT(std::_Exit(run_program({"--output", folder / "a.h5", "--threads", "1"}, killed)),

@@ -34,7 +34,7 @@ TEST(Random, PhiloxGivesThePublishedAnswers) {
 double fraction(std::uint64_t word) { return static_cast<double>(word) * 0x1p-64; }
 
 TEST(Random, UniformReadsTheWordsOfTheStreamInOrder) {
-  RandomStream stream(7, Purpose::initial_particle_momentum, 5, 11);
+  RandomStream stream({7, 5}, Purpose::initial_particle_momentum, 11);
   for (std::uint64_t block = 0; block < 3; ++block) {
     const Counter words = r123::Philox4x64()(
         Counter{{block, 11, 5, 0}}, Key{{7, static_cast<std::uint64_t>(Purpose::initial_particle_momentum)}});
@@ -44,7 +44,8 @@ TEST(Random, UniformReadsTheWordsOfTheStreamInOrder) {
 
 // Box and Muller's formula, written again; the second block shows that each number took two words.
 TEST(Random, GaussianTakesTwoWords) {
-  RandomStream gaussians(3, Purpose::initial_position, 2), uniforms(3, Purpose::initial_position, 2);
+  RandomStream gaussians({3, 2}, Purpose::initial_position, 0),
+      uniforms({3, 2}, Purpose::initial_position, 0);
   for (int i = 0; i < 4; ++i) {
     const double first = uniforms.uniform();
     const double second = uniforms.uniform();
@@ -61,7 +62,7 @@ TEST(Random, StreamsDiffer) {
     for (std::uint64_t purpose = 0; purpose < 3; ++purpose)
       for (std::uint64_t replica = 0; replica < 4; ++replica)
         for (std::uint64_t entity = 0; entity < 4; ++entity, ++streams) {
-          RandomStream stream(seed, static_cast<Purpose>(purpose), replica, entity);
+          RandomStream stream({seed, replica}, static_cast<Purpose>(purpose), entity);
           for (int i = 0; i < 8; ++i) numbers.insert(stream.uniform());
         }
   EXPECT_EQ(numbers.size(), 8 * streams);
@@ -94,12 +95,12 @@ std::array<double, 3> z_scores(const Moments& exact, const std::function<double(
 }
 
 TEST(Random, GaussianHasTheMomentsOfTheNormalDistribution) {
-  RandomStream stream(1, Purpose::initial_position, 0);
+  RandomStream stream({1, 0}, Purpose::initial_position, 0);
   for (const double z : z_scores(normal, [&] { return stream.gaussian(); })) EXPECT_LT(std::abs(z), 4);
 }
 
 TEST(Random, UniformHasTheMomentsOfTheUniformDistributionAndStaysInside) {
-  RandomStream stream(2, Purpose::initial_position, 0);
+  RandomStream stream({2, 0}, Purpose::initial_position, 0);
   bool inside = true;
   const auto draw = [&] {
     const double x = stream.uniform();
@@ -112,7 +113,7 @@ TEST(Random, UniformHasTheMomentsOfTheUniformDistributionAndStaysInside) {
 
 // The same scores tell the two usual slips in Box and Muller's radius, and a cosine of half a turn.
 TEST(Random, MomentsRejectWrongGaussians) {
-  RandomStream stream(1, Purpose::initial_position, 0);
+  RandomStream stream({1, 0}, Purpose::initial_position, 0);
   const auto direction = [&] { return std::cos(2 * std::numbers::pi * stream.uniform()); };
   const auto no_root = [&] { return -2 * std::log(stream.uniform()) * direction(); };
   const auto no_factor = [&] { return std::sqrt(-std::log(stream.uniform())) * direction(); };

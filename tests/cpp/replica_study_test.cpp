@@ -32,7 +32,7 @@ TEST(ReplicaStudy, WritesCheckpointsOnTheWay) {
   const TemporaryFolder folder;
   bool seen = false;
   const auto wait_for_checkpoint = [&](const Replica& replica) {
-    for (int i = 0; replica.index == 15 && !seen && i < 1000; ++i) {
+    for (int i = 0; replica.key.replica == 15 && !seen && i < 1000; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
       seen = folder.names().contains("a.h5.checkpoint");
     }
@@ -67,7 +67,7 @@ TEST(ReplicaStudy, ResumesToEqualBytes) {
   std::set<std::uint64_t> measured;
   EXPECT_EQ(run(with("parts.h5", {"--resume"}),
                 [&](const Replica& replica) {
-                  measured.insert(replica.index);
+                  measured.insert(replica.key.replica);
                   return measure(replica);
                 }),
             0);
@@ -95,7 +95,7 @@ TEST(ReplicaStudy, StopsAtTheTargetErrorOnABatchBoundary) {
       file.doubles("/results/value/standard_error")[0] / file.doubles("/results/value/mean")[0];
   EXPECT_LE(relative, 0.02);
   Records fewer(1);
-  for (std::uint64_t index = 0; index < count - 8; ++index) fewer.append(measure({index, {}}).values);
+  for (std::uint64_t index = 0; index < count - 8; ++index) fewer.append(measure({{1, index}, {}}).values);
   const Quantity before = summarise(fewer)[0];
   EXPECT_GT(before.standard_error[0] / before.mean[0], 0.02);  // one batch less would not have done
 
@@ -159,11 +159,11 @@ TEST(ReplicaStudy, ResumesToTheSameBatchBoundary) {
 TEST(ReplicaStudy, UsesTheLowestIndicesAtTheTimeLimitOfAResumedRun) {
   const TemporaryFolder folder;
   const auto late_interruption = [](const Replica& replica) {
-    if (replica.index == 2) {
+    if (replica.key.replica == 2) {
       std::this_thread::sleep_for(std::chrono::milliseconds(200));
       throw Interrupted(SIGINT);
     }
-    if (replica.index == 8) std::this_thread::sleep_for(std::chrono::milliseconds(400));
+    if (replica.key.replica == 8) std::this_thread::sleep_for(std::chrono::milliseconds(400));
     return measure(replica);
   };
   EXPECT_EQ(run({"--output", folder / "a.h5", "--threads", "2"}, late_interruption), 128 + SIGINT);

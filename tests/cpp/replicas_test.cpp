@@ -19,14 +19,14 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 ReplicaRun run_of(std::uint64_t wanted, unsigned threads) {
-  return {wanted, threads, Clock::time_point::max(), [](double, const FinishedReplicas&) {}};
+  return {1, wanted, threads, Clock::time_point::max(), [](double, const FinishedReplicas&) {}};
 }
 
 ReplicaRecord record_of(std::uint64_t index) {
   return {{static_cast<double>(index), 1.0 / static_cast<double>(index + 1)}, 10 * index};
 }
 
-ReplicaRecord measure(const Replica& replica) { return record_of(replica.index); }
+ReplicaRecord measure(const Replica& replica) { return record_of(replica.key.replica); }
 
 void expect_records(const FinishedReplicas& finished, std::uint64_t count) {
   ASSERT_EQ(finished.size(), count);
@@ -55,7 +55,7 @@ TEST(Replicas, MeasureOnlyWhatIsMissing) {
         run_of(40, threads),
         [&](const Replica& replica) {
           const std::lock_guard lock(mutex);
-          measured.insert(replica.index);
+          measured.insert(replica.key.replica);
           return measure(replica);
         },
         finished);
@@ -76,7 +76,7 @@ TEST(Replicas, PassOnAnExceptionAndKeepWhatIsFinished) {
   for (const unsigned threads : {1U, 2U, 5U}) {
     FinishedReplicas finished;
     const auto failing = [](const Replica& replica) {
-      if (replica.index == 20) throw NumericalError("the twentieth");
+      if (replica.key.replica == 20) throw NumericalError("the twentieth");
       return measure(replica);
     };
     try {
@@ -98,8 +98,8 @@ TEST(Replicas, OneFailureStopsTheOthersAtTheirNextHeartbeat) {
   FinishedReplicas finished;
   std::atomic<bool> other_runs{false};
   const auto fail_or_go_on = [&other_runs](const Replica& replica) -> ReplicaRecord {
-    while (replica.index == 0 && !other_runs) std::this_thread::yield();
-    if (replica.index == 0) throw NumericalError("the first");
+    while (replica.key.replica == 0 && !other_runs) std::this_thread::yield();
+    if (replica.key.replica == 0) throw NumericalError("the first");
     for (other_runs = true;; std::this_thread::sleep_for(1ms)) replica.heartbeat(0.5);
   };
   EXPECT_THROW(run_replicas(run_of(2, 2), fail_or_go_on, finished), NumericalError);
@@ -124,7 +124,7 @@ TEST(Replicas, FinishTheLowestIndicesBeforeADeadline) {
     run.deadline = Clock::now() + 30ms;
     FinishedReplicas finished;
     const auto slow = [](const Replica& replica) {
-      std::this_thread::sleep_for(replica.index % 2 == 0 ? 3ms : 1ms);
+      std::this_thread::sleep_for(replica.key.replica % 2 == 0 ? 3ms : 1ms);
       return measure(replica);
     };
     run_replicas(run, slow, finished);
@@ -156,7 +156,7 @@ TEST(Replicas, ReportWhatIsDoneInParts) {
   };
   FinishedReplicas finished;
   const auto wait_for_report = [&reported](const Replica& replica) {
-    if (replica.index == 2) {
+    if (replica.key.replica == 2) {
       replica.heartbeat(0.25);
       for (int i = 0; i < 10000 && !reported; ++i) std::this_thread::sleep_for(1ms);
     }

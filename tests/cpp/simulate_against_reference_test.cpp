@@ -56,12 +56,12 @@ template <class Real>
 void compare(const ClosedChain& chain, std::size_t events, std::uint64_t seed) {
   SCOPED_TRACE(testing::Message() << "sigma " << chain.sigma << ", " << chain.cells << " cells, "
                                   << chain.particles_per_cell << " particles per cell");
-  const PhasePoint start = closed_chain_start(chain, {500, 100}, false, seed, 0);
+  const PhasePoint start = closed_chain_start(chain, {500, 100}, false, {seed, 0});
   // The engine detunes sigma by a part in 1e11, which this comparison would notice.
   const double sigma = CollisionRule(chain.sigma).sigma();
   auto simulator = reference::heap_simulator<Real>(sigma, chain.cell_length, start);
   const Real root_mass = std::sqrt(simulator.scatterer_mass());
-  ClosedDynamics dynamics(chain, start, 1e6);
+  ClosedDynamics dynamics(chain, start, 1e6, {1, 0});
   support::Recorder engine;
   for (double until = 0; engine.collisions.size() < events && until < 1e6;)
     simulate(dynamics, until += 1, engine, support::nothing);

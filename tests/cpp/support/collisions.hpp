@@ -18,7 +18,7 @@ inline void nothing(double) {}
 /// All collisions of a chain until `until`.
 inline std::vector<lorentz::Collision> collisions(const lorentz::ClosedChain& chain,
                                                   const lorentz::PhasePoint& start, double until) {
-  lorentz::ClosedDynamics dynamics(chain, start, until);
+  lorentz::ClosedDynamics dynamics(chain, start, until, {1, 0});
   Recorder recorder;
   lorentz::simulate(dynamics, until, recorder, nothing);
   return recorder.collisions;

@@ -21,7 +21,7 @@ using Arguments = std::vector<std::string>;
 
 /// A number that differs between replicas, with a standard deviation of about 0.3.
 inline ReplicaRecord measure(const Replica& replica) {
-  return {{1 + static_cast<double>((replica.index * 7919 + 13) % 101) / 101}, 10};
+  return {{1 + static_cast<double>((replica.key.replica * 7919 + 13) % 101) / 101}, 10};
 }
 
 inline Results summarise(const Records& records) {
@@ -58,7 +58,7 @@ inline int run(const Arguments& arguments, const Measurement& measurement = meas
 /// The measurement, stopped like by a signal at one replica.
 inline Measurement interrupted_at(std::uint64_t index) {
   return [index](const Replica& replica) {
-    if (replica.index == index) throw Interrupted(SIGINT);
+    if (replica.key.replica == index) throw Interrupted(SIGINT);
     return measure(replica);
   };
 }
