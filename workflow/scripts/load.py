@@ -18,7 +18,8 @@ class FormatError(ValueError):
 @dataclass(frozen=True)
 class Quantity:
     """mean, the errors and count have one shape; axes maps names to one-dimensional arrays. What is computed
-    has a discretisation error, what is measured a standard error and a count; the others are None."""
+    has a discretisation error, what is measured a standard error and a count; the others are None.
+    control_variates: whether they were used, None where there are none."""
 
     mean: np.ndarray
     standard_error: np.ndarray | None
@@ -26,6 +27,7 @@ class Quantity:
     count: np.ndarray | None
     axes: dict[str, np.ndarray]
     units: str
+    control_variates: bool | None
 
 
 @dataclass(frozen=True)
@@ -76,4 +78,12 @@ def _quantity(group: h5py.Group) -> Quantity:
         name: values.pop(name) if name in names else None
         for name in ("standard_error", "discretisation_error", "count")
     }
-    return Quantity(mean, **rest, axes=values, units=_attributes(group["mean"])["units"])
+    attributes = _attributes(group["mean"])
+    used = attributes.get("control_variates")
+    return Quantity(
+        mean,
+        **rest,
+        axes=values,
+        units=attributes["units"],
+        control_variates=None if used is None else bool(used),
+    )
