@@ -64,7 +64,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
     for axes, gamma in zip(row, ("N", 1), strict=True):
         result = gaussian_start([one for one in results if one.parameters["gamma"] == gamma])
         tables.append(collapse(axes, result))
-        axes.legend(loc="lower center", fontsize=7)
+        axes.legend(loc="lower center", fontsize=7, **style.OPAQUE)
     row[0].set(ylabel=r"moving peak: $(t/t_1)^\xi\,\Delta E\,/\,10^3 k_B T$")
     return figure, pd.concat(tables)
 
