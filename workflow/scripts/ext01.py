@@ -113,4 +113,4 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
 
 
 if __name__ == "__main__":
-    run(draw, "Local exponent of the spreading of a tagged particle")
+    run(draw, "Local exponent of the spreading of a tagged particle", slope="1", slope_error="1")

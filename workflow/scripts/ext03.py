@@ -33,9 +33,9 @@ def collapse(axes: Axes, result: Result, moving: bool) -> pd.DataFrame:
         profile = fold(difference.mean[k])
         place = result["peak_position"].mean[k] if moving else 0
         x = (np.arange(len(profile)) - place) / stretch[k]
-        y = profile * stretch[k] / 1e3
+        y = profile * stretch[k]
         near = np.abs(x) <= (2 if moving else 1) * reach
-        axes.plot(x[near], y[near], color=color, linestyle=dashes, label=f"$t = {times[k]:g}$")
+        axes.plot(x[near], y[near] / 1e3, color=color, linestyle=dashes, label=f"$t = {times[k]:g}$")
         parts.append(pd.DataFrame({"moving": moving, "time": times[k], "x": x[near], "y": y[near]}))
     axes.axhline(0, **style.GUIDE)
     if not moving:
@@ -60,10 +60,10 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         for axes, moving in zip(rows[:, column], (True, False), strict=True):
             tables.append(collapse(axes, result, moving))
         rows[0, column].legend(loc="lower center", fontsize=7)
-    rows[0, 0].set(ylabel=r"moving peak: $(t/t_1)^\xi\,\Delta E\,/\,10^3 k_B T$")
-    rows[1, 0].set(ylabel=r"centre: $(t/t_1)^\xi\,\Delta E\,/\,10^3 k_B T$")
+    rows[0, 0].set(ylabel=r"moving peak: $(t/t_1)^\xi\,\Delta E\,/\,10^3$ ($m = k_B = 1$)")
+    rows[1, 0].set(ylabel=r"centre: $(t/t_1)^\xi\,\Delta E\,/\,10^3$")
     return figure, pd.concat(tables)
 
 
 if __name__ == "__main__":
-    run(draw, "Collapse of the energy pulse")
+    run(draw, "Collapse of the energy pulse", x="1", y="energy", xi="1", xi_error="1")

@@ -51,4 +51,5 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
 
 
 if __name__ == "__main__":
-    run(draw, "Momentum distribution of the particles inside, times momentum")
+    density = {"weighted_density": "1", "error": "1"}
+    run(draw, "Momentum distribution of the particles inside, times momentum", momentum="momentum", **density)

@@ -45,4 +45,4 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
 
 
 if __name__ == "__main__":
-    run(draw, "Number of particles in an open chain")
+    run(draw, "Number of particles in an open chain", number="1", number_error="1")

@@ -40,4 +40,5 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
 
 
 if __name__ == "__main__":
-    run(draw, "Temperature profiles")
+    names = ("scatterer", "scatterer_error", "particle", "particle_error")
+    run(draw, "Temperature profiles", x="1", **dict.fromkeys(names, "temperature"))

@@ -48,7 +48,9 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
             table = pd.DataFrame({"x": place, "momentum": momentum, "flux": flux.mean[bond]})
             table["flux_error"] = flux.standard_error[bond]
             table["jump"], table["jump_error"] = jump.mean[bond], jump.standard_error[bond]
-            table.insert(0, "rates", rates)
+            table["nu_left"], table["nu_right"] = (
+                result.parameters[f"nu-{end}"] for end in ("left", "right")
+            )
             tables.append(table)
     main = results[0]["flux"].mean[[1, -1]]
     near = np.abs(results[0]["flux"].axes["momentum"]) < NEAR

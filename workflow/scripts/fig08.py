@@ -83,4 +83,5 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
 
 
 if __name__ == "__main__":
-    run(draw, "Heat conductivity against the size of the chain")
+    kappa = "energy/(time temperature)"
+    run(draw, "Heat conductivity against the size of the chain", mean_field_kappa=kappa)

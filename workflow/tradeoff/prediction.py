@@ -22,6 +22,8 @@ EXCESSES = {
     "steady_profile": 5,
     "energy_pulse": 4,
 }
+UNITS = {"seconds_foretold": "second", "seconds": "second"}
+UNITS |= dict.fromkeys(("target", "replicas_foretold", "replicas", "ratio"), "1")
 FORETOLD = re.compile(r"the target needs about (\d+)")
 
 
@@ -49,4 +51,4 @@ def measure(programs: Path) -> pd.DataFrame:
 
 
 if __name__ == "__main__":
-    frame.run(measure, __doc__)
+    frame.run(measure, __doc__, UNITS)
