@@ -5,7 +5,7 @@ numbers in other units. For powers of two the random numbers and the events are 
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -14,12 +14,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.python.conftest import ROOT
+from tests.python.scale import ROUNDING, SCALES, Scale, agree
 from workflow.scripts.columns import OPTIONS
 from workflow.scripts.load import Result
 from workflow.scripts.units import WORDS, Units, UnitsError, parse
 from workflow.tradeoff.measure import call
-
-ROUNDING = 1e-9  # relative to the largest value of a dataset
 
 factors = st.lists(st.tuples(st.sampled_from(sorted(WORDS)), st.integers(1, 12)), min_size=1, max_size=4)
 
@@ -73,34 +72,17 @@ def test_other_texts_are_refused(text: str, words: str) -> None:
     assert words in str(error.value)
 
 
-@dataclass(frozen=True)
-class Scale:
-    """Other units: of momenta and of lengths."""
-
-    momenta: float = 1
-    lengths: float = 1
-
-    def __call__(self, units: str) -> float:
-        length, time, _ = parse(units)
-        return self.momenta**-time * self.lengths ** (length + time)
-
-    def option(self, name: str, value: object) -> object:
-        """What stands on the command line; times may be a list, and a temperature a word."""
-        if name not in OPTIONS or value == "particles":
-            return value
-        return ",".join(repr(self(OPTIONS[name]) * float(part)) for part in str(value).split(","))
-
-
 def test_scale() -> None:
     momenta, lengths = Scale(momenta=8), Scale(lengths=4)
     units = ("momentum", "temperature", "energy", "time", "1/time", "length", "1/(time momentum)")
     assert [momenta(each) for each in units] == [8, 64, 64, 1 / 8, 8, 1, 1]
     assert [lengths(each) for each in units] == [1, 1, 1, 4, 1 / 4, 4, 1 / 4]
     assert momenta.option("times", "1.0,3.0") == "0.125,0.375"
+    assert lengths.option("relaxation-time", "0.25N") == "1.0N"
+    assert lengths.option("cell-length", "1/N") == "1/N"
     assert lengths.option("sigma", 0.5) == 0.5
 
 
-SCALES = (Scale(momenta=8), Scale(lengths=4))
 CLOSED = {"cells": 5, "particles_per_cell": 4, "relaxation_time": 5, "observation_time": 10, "replicas": 4}
 PULSE = {"cells": 41, "particles_per_cell": 20, "times": "0.01,0.02,0.03,0.04", "replicas": 8}
 OPEN = {"cells": 4, "cell_length": 0.25, "relaxation_time": 0.5, "observation_time": 4, "replicas": 16}
@@ -158,12 +140,6 @@ def datasets(result: Result) -> Iterator[tuple[str, np.ndarray, str]]:
                 yield f"{name}/{kind}", getattr(quantity, kind), quantity.units
         for axis, values in quantity.axes.items():
             yield f"{name}/{axis}", values, quantity.axis_units[axis]
-
-
-def agree(plain: np.ndarray, scaled: np.ndarray, factor: float, rounding: float) -> bool:
-    """NaN only where the other is NaN."""
-    largest = np.max(np.abs(plain[np.isfinite(plain)]), initial=0)
-    return np.allclose(scaled / factor, plain, rtol=0, atol=rounding * largest, equal_nan=True)
 
 
 def faults(plain: Result, scaled: Result, scale: Scale) -> list[str]:

@@ -60,7 +60,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         for axes, moving in zip(rows[:, column], (True, False), strict=True):
             tables.append(collapse(axes, result, moving))
         rows[0, column].legend(loc="lower center", fontsize=7)
-    rows[0, 0].set(ylabel=r"moving peak: $(t/t_1)^\xi\,\Delta E\,/\,10^3$ ($m = k_B = 1$)")
+    rows[0, 0].set(ylabel=rf"moving peak: $(t/t_1)^\xi\,\Delta E\,/\,10^3$ ({style.UNITS})")
     rows[1, 0].set(ylabel=r"centre: $(t/t_1)^\xi\,\Delta E\,/\,10^3$")
     return figure, pd.concat(tables)
 

@@ -52,7 +52,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         tables += plot_deviations(rates, result, sides, look)
         tables += plot_deviations(currents, result, kinds, look)
     for result, color, dashes in zip(sizes, style.SEQUENCE, style.DASHES, strict=False):
-        cells, rho = result.parameters["cells"], result["density"]
+        cells, rho = int(result.parameters["cells"]), result["density"]
         x = (rho.axes["cell"] + 0.5) / cells
         middle = rho.mean[cells // 4 : -(cells // 4)].mean()
         ratio, error = rho.mean / middle, rho.standard_error / middle

@@ -30,7 +30,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         rows[0, 0].errorbar(time, energy.mean, energy.standard_error, **look)
         columns = {"quantity": f"{name}_energy", "time": time, "value": energy.mean}
         tables.append(pd.DataFrame({**columns, "error": energy.standard_error, "units": energy.units}))
-    rows[0, 0].set(xscale="log", xlabel="time from the start", ylabel="mean energy ($m = k_B = 1$)")
+    rows[0, 0].set(xscale="log", xlabel="time from the start", ylabel=f"mean energy ({style.UNITS})")
     rows[0, 0].legend(loc="upper left")
     for axes, (program, name, label, expected) in zip(rows.flat[1:], AGED, strict=True):
         runs = [result for result in results if result.provenance["program"] == program]

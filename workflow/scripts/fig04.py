@@ -59,6 +59,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
     for axes in (above, below):
         axes.axvline(0, **style.GUIDE)
         axes.set(xlabel="momentum $p$", ylabel="$F_N(p, x)$")
+    below.set_xlabel(f"momentum $p$ ({style.UNITS})")
     above.legend(loc="upper right", title=rf"$\gamma = {style.gamma(results[0])}$")
     below.legend(loc="upper center", fontsize=6.5, **style.OPAQUE)
     return figure, pd.concat(tables)

@@ -33,7 +33,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         parts.append(pd.DataFrame({**columns, "energy_difference_error": difference.standard_error[k]}))
     axes.set(
         xlabel=r"distance from the central cell, $x/\lambda$",
-        ylabel=r"$\Delta E(x,t)\,/\,10^3$ ($m = k_B = 1$)",
+        ylabel=rf"$\Delta E(x,t)\,/\,10^3$ ({style.UNITS})",
     )
     axes.legend(
         loc="upper right",

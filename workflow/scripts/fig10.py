@@ -45,7 +45,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
     time = peak.axes["time"]
     above.plot(time, 1.3 * peak.mean[0] / 1e3 * (time / time[0]) ** slope, **style.GUIDE, label=guide)
     below.axhline(-slope, **style.GUIDE)
-    above.set(xscale="log", yscale="log", ylabel=r"peak of $\Delta E\,/\,10^3$ ($m = k_B = 1$)")
+    above.set(xscale="log", yscale="log", ylabel=rf"peak of $\Delta E\,/\,10^3$ ({style.UNITS})")
     below.set(xlabel="time $t$", ylabel="exponent fitted\nfrom $t$ on")
     for axis in (above.yaxis, below.xaxis):
         style.label_within_decades(axis)
