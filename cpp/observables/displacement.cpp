@@ -108,7 +108,7 @@ Results plain_spreading(const Records& records, const Grid& grid) {
       });
 }
 
-Results spreading(const Records& records, const Grid& grid) {
+Results spreading(const ReducedRecords& records, const Grid& grid) {
   const std::vector<double>& times = grid.times;
   const std::size_t size = times.size();
   const Axis time{"time", "time", "Time since the end of the relaxation", times};
@@ -140,13 +140,13 @@ Results spreading(const Records& records, const Grid& grid) {
 }
 
 /// From few replicas of a few particles a mean square may come out negative, which is worse than its noise.
-Records controlled(const Records& plain) {
-  Records reduced = reduce_variance(plain, 1);
-  const std::vector<double> means = reduced.mean();
+ReducedRecords controlled(const Records& plain) {
+  ReducedRecords reduced = reduce_variance(plain, 1);
+  const std::vector<double> means = reduced.records.mean();
   const auto control = means.end() - 1;
   const auto signed_mean = control - static_cast<std::ptrdiff_t>((means.size() - 1) / 5);
   const bool possible = std::all_of(means.begin(), signed_mean, [](double moment) { return moment >= 0; });
-  return possible ? reduced : plain;
+  return possible ? reduced : ReducedRecords{plain, false};
 }
 
 Results summarise(const Records& plain, const Grid& grid) {

@@ -38,6 +38,13 @@ Results estimate(const Records& records, const std::vector<Description>& descrip
   return results;
 }
 
+Results estimate(const ReducedRecords& records, const std::vector<Description>& descriptions,
+                 const RecordFunction& f) {
+  Results results = estimate(records.records, descriptions, f);
+  for (Quantity& quantity : results) quantity.what.control_variates = records.control_variates;
+  return results;
+}
+
 void write_results(Hdf5Writer& file, const Results& results) {
   for (const Quantity& quantity : results) {
     const std::string group = "/results/" + quantity.what.name + "/";
@@ -45,6 +52,8 @@ void write_results(Hdf5Writer& file, const Results& results) {
     for (const Axis& axis : quantity.what.axes) shape.push_back(axis.values.size());
     file.dataset(group + "mean", shape, quantity.mean);
     describe(file, group + "mean", quantity.what.units, quantity.what.description);
+    if (quantity.what.control_variates)
+      file.attribute(group + "mean", "control_variates", *quantity.what.control_variates);
     const auto write_error = [&](const std::string& name, const std::string& description) {
       file.dataset(group + name, shape, quantity.standard_error);
       describe(file, group + name, quantity.what.units, description);

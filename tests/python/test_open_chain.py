@@ -21,7 +21,8 @@ QUANTITIES = {
                      for name in ("energy_current", "particle_current", "temperature_first", "temperature_last",
                                   "kappa", "kappa_printed", "kappa_particle") for suffix in ("", "_plain")}
                     | {name: [] for name in ("energy_current_drift", "temperature_first_drift",
-                                             "temperature_last_drift", "stationary")}
+                                             "temperature_last_drift", "particle_current_drift", "drift_p_value",
+                                             "stationary")}
                     | {"blocking_error": ["length"]},
     "steady_profile": {**{name: ["cell"] for name in ("temperature_scatterer", "temperature_particle", "density",
                                                       "rate_right", "rate_left")},

@@ -20,7 +20,8 @@ class FormatError(ValueError):
 @dataclass(frozen=True)
 class Quantity:
     """mean, the errors and count have one shape; axes maps names to one-dimensional arrays. What is computed
-    has a discretisation error, what is measured a standard error and a count; the others are None."""
+    has a discretisation error, what is measured a standard error and a count; the others are None.
+    control_variates: whether they were used, None where there are none."""
 
     mean: np.ndarray
     standard_error: np.ndarray | None
@@ -29,6 +30,7 @@ class Quantity:
     axes: dict[str, np.ndarray]
     units: str
     axis_units: dict[str, str]
+    control_variates: bool | None
 
 
 @dataclass(frozen=True)
@@ -82,5 +84,12 @@ def _quantity(group: h5py.Group) -> Quantity:
         name: values.pop(name) if name in names else None
         for name in ("standard_error", "discretisation_error", "count")
     }
-    axis_units = {name: units[name] for name in values}
-    return Quantity(mean, **rest, axes=values, units=units["mean"], axis_units=axis_units)
+    used = _attributes(group["mean"]).get("control_variates")
+    return Quantity(
+        mean,
+        **rest,
+        axes=values,
+        units=units["mean"],
+        axis_units={name: units[name] for name in values},
+        control_variates=None if used is None else bool(used),
+    )
