@@ -35,7 +35,9 @@ constexpr double rounding = 5e-14;  // relative to the largest value of a quanti
 
 class ProblemOptions {
  public:
-  explicit ProblemOptions(Options& options) : options_(options) {
+  explicit ProblemOptions(const Options& options) : options_(options) {}
+
+  void declare(Options& options) {
     options.real("--sigma", problem_.sigma, {-0.99, 0.99}, "Mass ratio (M-m)/(M+m)");
     options.real_or_word("--gamma", problem_.gamma, {0, 1000}, "N", every_scatterer,
                          "Mean number of scatterings on the way through; N: one at each of --cells");
@@ -238,8 +240,10 @@ Results results(const KineticProblem& problem, const RefinedSolution& solution, 
 
 int main(int argc, char** argv) {
   Program program("boltzmann", "Kinetic equation of the open chain, solved to a given accuracy");
-  const ProblemOptions options(program.options());
-  const MomentumBinsOptions bins(program.options(), 100, 60);
+  ProblemOptions options(program.options());
+  options.declare(program.options());
+  MomentumBinsOptions bins(100, 60);
+  bins.declare(program.options());
   double target = 1e-10;
   program.options().real("--target-error", target, non_negative,
                          "Relative error of the currents at which the resolution suffices");
@@ -253,9 +257,10 @@ int main(int argc, char** argv) {
     const RefinedSolution solution = refine(problem, target, static_cast<int>(coarsening), [] {
       if (const int signal = received_signal(); signal != 0) throw Interrupted(signal);
     });
-    const bool converged = solution.error <= target;
-    if (!converged)
-      progress.say(fmt::format("not converged: the currents are known to {:.1e}, not to {:.1e}",
+    const Convergence convergence =
+        solution.error <= target ? Convergence::reached : Convergence::not_reached;
+    if (convergence == Convergence::not_reached)
+      progress.say(fmt::format("target not reached: the currents are known to {:.1e}, not to {:.1e}",
                                solution.error, target));
     const Grid grid{options.crossings(), options.scatterers(), bins.bins(),
                     std::sqrt((1 + problem.sigma) / (1 - problem.sigma))};
@@ -265,6 +270,6 @@ int main(int argc, char** argv) {
                    .target_quantity = "currents",
                    .target_error = target,
                    .achieved_error = solution.error,
-                   .converged = converged};
+                   .convergence = convergence};
   });
 }

@@ -229,8 +229,10 @@ Results summarise(const Records& records, double cells) {
 
 int main(int argc, char** argv) {
   Program program("conductivity", "Heat conductivity of an open chain");
-  const OpenChainOptions options(program.options(), {.cell_length = 0}, "warm", {{0.05, true}, {400}});
-  const ReplicaOptions replicas(program);
+  OpenChainOptions options({.cell_length = 0}, "warm", {{{0.05, true}, {400}}});
+  options.declare(program.options());
+  ReplicaOptions replicas(program);
+  replicas.declare(program.options());
   return program.run(argc, argv, [&](Progress& progress) {
     options.validate();
     const OpenChain chain = options.chain();

@@ -231,7 +231,8 @@ int main(int argc, char** argv) {
   options.integer("--members", pulse.members, {1, 1'000'000}, "Pairs of trajectories per replica");
   options.flag("--separate", pulse.separate, "Simulate both trajectories in full; the result is the same",
                Options::Role::conduct);
-  const ReplicaOptions replicas(program);
+  ReplicaOptions replicas(program);
+  replicas.declare(options);
   return program.run(argc, argv, [&](Progress& progress) {
     validate(pulse);
     const auto one = [&](const Replica& replica) { return measure(pulse, replica); };

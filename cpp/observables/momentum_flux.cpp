@@ -7,7 +7,6 @@
 /// and energies that are injected in all. Either is used if it makes its quantities scatter less on average
 /// (statistics/control_variates.hpp). The jump at p = 0 is read off lines through the two bins on either
 /// side; the kurtosis of a half of F, <p^4>/<p^2>^2, is 3 where that half is Gaussian.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -101,6 +100,8 @@ class Correction {
       rows_.emplace_back(records[replica].begin(), records[replica].end());
   }
 
+  /// A column that the controls determine, such as what enters at an opening, stays as it is: it would come
+  /// out as its known mean, which is no measurement, with an error of 0.
   void regress(std::size_t first, std::size_t columns, std::size_t first_control, std::size_t controls) {
     const auto from = [](std::vector<double>& row, std::size_t column) {
       return row.begin() + static_cast<std::ptrdiff_t>(column);
@@ -113,14 +114,17 @@ class Correction {
     }
     const std::optional<Records> corrected = regress_out(part, controls);
     if (!corrected) return;
-    for (std::size_t replica = 0; replica < rows_.size(); ++replica)
-      std::ranges::copy((*corrected)[replica].first(columns), from(rows_[replica], first));
+    for (std::size_t column = 0; column < columns; ++column) {
+      if (variance_ratio(*corrected, part, column, 1) < 1e-12) continue;
+      for (std::size_t replica = 0; replica < rows_.size(); ++replica)
+        rows_[replica][first + column] = (*corrected)[replica][column];
+    }
   }
 
   ReducedRecords best() const {
     Records corrected(plain_.width());
     for (const std::vector<double>& row : rows_) corrected.append(row);
-    const bool helps = variance_ratio(corrected, plain_, plain_.width()) < 1;
+    const bool helps = variance_ratio(corrected, plain_, 0, plain_.width()) < 1;
     return {helps ? corrected : plain_, helps};
   }
 
@@ -250,9 +254,12 @@ Results summarise(const Records& records, std::size_t bonds, const Bins& bins) {
 
 int main(int argc, char** argv) {
   Program program("momentum_flux", "Momentum distribution of the particles in an open chain");
-  const OpenChainOptions options(program.options(), {.cell_length = 0}, "warm", {{100}, {1000}});
-  const MomentumBinsOptions bins(program.options(), 100, 60);
-  const ReplicaOptions replicas(program);
+  OpenChainOptions options({.cell_length = 0}, "warm", {{{100}, {1000}}});
+  options.declare(program.options());
+  MomentumBinsOptions bins(100, 60);
+  bins.declare(program.options());
+  ReplicaOptions replicas(program);
+  replicas.declare(program.options());
   return program.run(argc, argv, [&](Progress& progress) {
     options.validate();
     bins.validate();

@@ -51,8 +51,10 @@ Results summarise(const Records& records) {
 int main(int argc, char** argv) {
   Program program("persistence",
                   "Probability that a particle keeps its direction when it scatters, in a closed chain");
-  const ClosedChainOptions chain(program.options());
-  const ReplicaOptions replicas(program);
+  ClosedChainOptions chain;
+  chain.declare(program.options());
+  ReplicaOptions replicas(program);
+  replicas.declare(program.options());
   return program.run(argc, argv, [&](Progress& progress) {
     chain.validate();
     const auto measure = [&](const Replica& replica) {

@@ -1,5 +1,6 @@
 #include "program/results.hpp"
 
+#include <limits>
 #include <stdexcept>
 
 namespace lorentz {
@@ -9,6 +10,13 @@ void describe(Hdf5Writer& file, const std::string& path, const std::string& unit
               const std::string& description) {
   file.attribute(path, "units", units);
   file.attribute(path, "description", description);
+}
+
+/// An element that is 0 in every replica, such as a bin that nothing fell into, has no error to be known.
+void forget_errors_of_nothing(Quantity& quantity) {
+  for (std::size_t i = 0; i < quantity.mean.size(); ++i)
+    if (quantity.mean[i] == 0 && quantity.standard_error[i] == 0)
+      quantity.standard_error[i] = std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
@@ -31,6 +39,7 @@ Results estimate(const Records& records, const std::vector<Description>& descrip
                        {mean, mean + size},
                        {error, error + size},
                        std::vector<std::uint64_t>(what.size(), records.size())});
+    if (!what.axes.empty()) forget_errors_of_nothing(results.back());
     mean += size;
     error += size;
   }

@@ -41,7 +41,8 @@ struct Quantity {
 using Results = std::vector<Quantity>;
 
 /// The quantities described, in their order, from the values that f makes of the mean record, in the same
-/// order; errors by the jackknife over replicas. Throws std::logic_error if f makes more values or fewer.
+/// order; errors by the jackknife over replicas, NaN for elements of arrays that are 0 in all of them. Throws
+/// std::logic_error if f makes more values or fewer.
 Results estimate(const Records& records, const std::vector<Description>& descriptions,
                  const RecordFunction& f);
 

@@ -37,24 +37,19 @@ std::optional<Records> regress_out(const Records& records, std::size_t controls)
   // b without record i is b - gain_i residual_i / (1 - leverage_i).
   const Eigen::VectorXd own = gain.cwiseProduct(x).rowwise().sum().array() / (1 - leverage.array());
   Matrix reduced = all;
-  for (Eigen::Index column = 0; column < y.cols(); ++column) {
-    const bool determined = residual.col(column).norm() <= 1e-6 * y_centred.col(column).norm();
-    if (!determined)
-      reduced.col(column) =
-          y.col(column) - x * coefficients.col(column) + own.cwiseProduct(residual.col(column));
-  }
+  reduced.leftCols(y.cols()) = y - x * coefficients + own.asDiagonal() * residual;
 
   Records result(records.width());
   for (Eigen::Index i = 0; i < rows; ++i) result.append(std::span(reduced.row(i).data(), records.width()));
   return result;
 }
 
-double variance_ratio(const Records& a, const Records& b, std::size_t columns) {
+double variance_ratio(const Records& a, const Records& b, std::size_t first, std::size_t columns) {
   double sum = 0, varying = 0;
   const auto deviation = [](const Records& records, std::size_t column) {
     return gsl_stats_sd(records.values().data() + column, records.width(), records.size());
   };
-  for (std::size_t column = 0; column < columns; ++column) {
+  for (std::size_t column = first; column < first + columns; ++column) {
     const double plain = deviation(b, column);
     if (!(plain > 0)) continue;
     const double ratio = deviation(a, column) / plain;
@@ -66,7 +61,8 @@ double variance_ratio(const Records& a, const Records& b, std::size_t columns) {
 
 ReducedRecords reduce_variance(const Records& records, std::size_t controls) {
   std::optional<Records> reduced = regress_out(records, controls);
-  if (!reduced || variance_ratio(*reduced, records, records.width() - controls) >= 1) return {records, false};
+  if (!reduced || variance_ratio(*reduced, records, 0, records.width() - controls) >= 1)
+    return {records, false};
   return {*std::move(reduced), true};
 }
 

@@ -12,17 +12,15 @@ namespace lorentz {
 /// The last `controls` columns of a record are control variates c, whose exact mean is 0. Every other column
 /// y becomes y - b c, with the coefficients b of the linear regression of y on c over the other records: a
 /// record's correction then has mean 0, and no bias comes in (Glasserman, Monte Carlo Methods in Financial
-/// Engineering, section 4.1). Controls that do not vary are left out. A column
-/// that the controls determine to rounding stays as it is: it would come out as its known mean, which is no
-/// measurement, with an error of 0. Nothing comes back without controls,
+/// Engineering, section 4.1). Controls that do not vary are left out. Nothing comes back without controls,
 /// with fewer than three records for each of those that vary or not eight more than those, or if one varies
 /// in hardly more than one record. The error of the mean follows from the scatter of the corrected records,
 /// as they share nothing but the small noise of the coefficients.
 std::optional<Records> regress_out(const Records& records, std::size_t controls);
 
-/// Mean over the first `columns` columns of the variance over records of a, divided by that of b. Columns
+/// Mean over columns from `first` on of the variance over records of a, divided by that of b. Columns
 /// that do not vary in b are left out; 1 if none does.
-double variance_ratio(const Records& a, const Records& b, std::size_t columns);
+double variance_ratio(const Records& a, const Records& b, std::size_t first, std::size_t columns);
 
 /// Records that control variates may have been regressed out of.
 struct ReducedRecords {

@@ -10,7 +10,8 @@ import numpy as np
 from workflow.scripts.units import parse
 
 FORMAT = "lorentz-gas"
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2
+NOT_REACHED = "not reached"
 
 
 class FormatError(ValueError):
@@ -44,8 +45,9 @@ class Result:
         return self.quantities[name]
 
     @property
-    def converged(self) -> bool:
-        return bool(self.provenance["converged"])
+    def converged(self) -> str:
+        """Of the target error: reached, not reached, or no target."""
+        return self.provenance["converged"]
 
 
 def load(path: Path) -> Result:
