@@ -44,9 +44,9 @@ def collapse(axes: Axes, result: Result) -> pd.DataFrame:
     for k, color, dashes in zip(shown, style.SEQUENCE, style.DASHES, strict=False):
         profile = fold(difference.mean[k])
         x = (np.arange(len(profile)) - positions[k]) / stretch[k]
-        y = profile * stretch[k] / 1e3
+        y = profile * stretch[k]
         near = np.abs(x) <= reach
-        axes.plot(x[near], y[near], color=color, linestyle=dashes, label=f"$t = {times[k]:g}$")
+        axes.plot(x[near], y[near] / 1e3, color=color, linestyle=dashes, label=f"$t = {times[k]:g}$")
         parts.append(pd.DataFrame({"time": times[k], "x": x[near], "y": y[near]}))
     axes.axhline(0, **style.GUIDE)
     axes.set(
@@ -65,9 +65,9 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         result = gaussian_start([one for one in results if one.parameters["gamma"] == gamma])
         tables.append(collapse(axes, result))
         axes.legend(loc="lower center", fontsize=7, **style.OPAQUE)
-    row[0].set(ylabel=r"moving peak: $(t/t_1)^\xi\,\Delta E\,/\,10^3 k_B T$")
+    row[0].set(ylabel=rf"moving peak: $(t/t_1)^\xi\,\Delta E\,/\,10^3$ ({style.UNITS})")
     return figure, pd.concat(tables)
 
 
 if __name__ == "__main__":
-    run(draw, "Collapse of the moving peak of an energy pulse")
+    run(draw, "Collapse of the moving peak of an energy pulse", x="1", y="energy", xi="1", xi_error="1")

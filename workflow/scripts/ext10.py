@@ -43,7 +43,12 @@ def end_scatterers(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray, 
     density = result["scatterer_density"]
     momentum = density.axes["momentum"]
     error = np.hypot(*density.standard_error) / 2
-    return momentum, density.mean.mean(axis=0), error, gaussian(momentum, result.parameters["temperature-left"])
+    return (
+        momentum,
+        density.mean.mean(axis=0),
+        error,
+        gaussian(momentum, result.parameters["temperature-left"]),
+    )
 
 
 def largest_distance(found: np.ndarray, error: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
@@ -66,9 +71,7 @@ def plot(axes: Axes, result: Result, curve: tuple, shift: float) -> pd.DataFrame
         rf"$\gamma = {style.gamma(result)}$: $\chi^2 = {chi_square:.0f}$ of {len(found)}, "
         rf"$D = {1e4 * distance:.1f}({1e4 * distance_error:.1f})\cdot 10^{{-4}}$"
     )
-    axes.errorbar(
-        momentum + shift, 100 * (found / exact - 1), 100 * error / exact, label=label, **look
-    )
+    axes.errorbar(momentum + shift, 100 * (found / exact - 1), 100 * error / exact, label=label, **look)
     table = pd.DataFrame({"momentum": momentum, "found": found, "found_error": error, "exact": exact})
     table.insert(0, "gamma", style.gamma(result))
     return table.assign(chi_square=chi_square, distance=distance, distance_error=distance_error)

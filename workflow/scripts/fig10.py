@@ -57,7 +57,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         law = 1.3 * peak.mean[first] / 1e3 * (time / time[first]) ** slope
         above.plot(time[known], law[known], **style.GUIDE, label=guide)
     below.axhline(-slope, **style.GUIDE)
-    above.set(xscale="log", yscale="log", ylabel=r"peak of $\Delta E\,/\,10^3 k_B T$")
+    above.set(xscale="log", yscale="log", ylabel=rf"peak of $\Delta E\,/\,10^3$ ({style.UNITS})")
     below.set(xlabel="time $t$", ylabel="exponent fitted\nfrom $t$ on")
     for axis in (above.yaxis, below.xaxis):
         style.label_within_decades(axis)
@@ -67,4 +67,5 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
 
 
 if __name__ == "__main__":
-    run(draw, "Damping of the moving peak of an energy pulse")
+    exponents = {"exponent_from_here": "1", "exponent_from_here_error": "1"}
+    run(draw, "Damping of the moving peak of an energy pulse", **exponents)
