@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -11,6 +12,10 @@ struct Window {
   double begin, end;
 };
 
+/// 1 to the right, -1 to the left. By the bit of the sign, as compilers make a branch of a comparison, and
+/// the direction after a collision cannot be predicted.
+inline std::int64_t direction(double u) { return 1 | (std::bit_cast<std::int64_t>(u) >> 63); }
+
 /// A straight flight in an open chain, known when it begins. Places are those of OpenChain, in half cells; a
 /// mark is a bond or a scatterer, that is, a whole number.
 struct Path {
@@ -20,7 +25,7 @@ struct Path {
   std::int64_t first, last;   // marks that are reached; a particle that enters reaches the opening at once
   double time_per_place;
 
-  bool rightwards() const { return velocity > 0; }
+  bool rightwards() const { return !std::signbit(velocity); }
   bool reaches(std::int64_t mark) const { return (mark - first) * (mark - last) <= 0; }
   double time_at(std::int64_t mark) const {
     return departure + std::abs(static_cast<double>(mark) - from) * time_per_place;
