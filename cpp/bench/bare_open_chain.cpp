@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
   return program.run(argc, argv, [&](Progress& progress) {
     options.validate();
     const auto measure = [&](const Replica& replica) {
-      return options.measure(replica, options.window().end, Nothing());
+      return options.measure(replica, {0, options.window().end}, Nothing());
     };
     const auto summarise = [](const Records& records) {
       return estimate(records, {{"replicas", "1", "1 of every replica"}},

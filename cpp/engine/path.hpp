@@ -1,9 +1,10 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
+
+#include "engine/flight.hpp"
 
 namespace lorentz {
 
@@ -11,10 +12,6 @@ namespace lorentz {
 struct Window {
   double begin, end;
 };
-
-/// 1 to the right, -1 to the left. By the bit of the sign, as compilers make a branch of a comparison, and
-/// the direction after a collision cannot be predicted.
-inline std::int64_t direction(double u) { return 1 | (std::bit_cast<std::int64_t>(u) >> 63); }
 
 /// A straight flight in an open chain, known when it begins. Places are those of OpenChain, in half cells; a
 /// mark is a bond or a scatterer, that is, a whole number.
@@ -25,7 +22,7 @@ struct Path {
   std::int64_t first, last;   // marks that are reached; a particle that enters reaches the opening at once
   double time_per_place;
 
-  bool rightwards() const { return !std::signbit(velocity); }
+  bool rightwards() const { return direction(velocity) > 0; }
   bool reaches(std::int64_t mark) const { return (mark - first) * (mark - last) <= 0; }
   double time_at(std::int64_t mark) const {
     return departure + std::abs(static_cast<double>(mark) - from) * time_per_place;
@@ -55,6 +52,8 @@ struct Marks {
 
 /// A mark belongs to the window in which it is reached, so the marks of adjacent windows are those of both.
 inline Marks marks_in(const Path& path, const Window& window) {
+  if (path.departure >= window.begin && path.arrival < window.end) [[likely]]
+    return {std::min(path.first, path.last), std::max(path.first, path.last)};
   if (path.arrival < window.begin || path.departure >= window.end) return {1, 0};
   std::int64_t from = path.first, to = path.last;
   const std::int64_t step = path.rightwards() ? 1 : -1;
