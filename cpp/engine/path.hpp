@@ -50,16 +50,21 @@ struct Marks {
   std::int64_t low, high;
 };
 
-/// A mark belongs to the window in which it is reached, so the marks of adjacent windows are those of both.
-inline Marks marks_in(const Path& path, const Window& window) {
-  if (path.departure >= window.begin && path.arrival < window.end) [[likely]]
-    return {std::min(path.first, path.last), std::max(path.first, path.last)};
+/// Of a path that the window may not contain as a whole.
+[[gnu::cold]] inline Marks clipped_marks(const Path& path, const Window& window) {
   if (path.arrival < window.begin || path.departure >= window.end) return {1, 0};
   std::int64_t from = path.first, to = path.last;
   const std::int64_t step = path.rightwards() ? 1 : -1;
   if (path.departure < window.begin) from += step * path.marks_before(window.begin);
   if (path.arrival >= window.end) to = path.first + step * (path.marks_before(window.end) - 1);
   return path.rightwards() ? Marks{from, to} : Marks{to, from};
+}
+
+/// A mark belongs to the window in which it is reached, so the marks of adjacent windows are those of both.
+inline Marks marks_in(const Path& path, const Window& window) {
+  if (path.departure >= window.begin && path.arrival < window.end)
+    return {std::min(path.first, path.last), std::max(path.first, path.last)};
+  return clipped_marks(path, window);
 }
 
 /// The part of the chain that a path covers in a window, and the time that it takes, 0 if none.

@@ -36,14 +36,16 @@ class Stream {
         residence_(cells_) {}
 
   void add(const Path& path) {
-    const double square = path.velocity * path.velocity;
-    const Marks marks = marks_in(path, window_);
     // One that departs at the beginning may come from anywhere.
-    if (path.departure > window_.begin && path.arrival < window_.end) [[likely]] {
-      bonds_.add((marks.low + 1) / 2, marks.high / 2, {1, square, path.time_per_place});
-      return;
-    }
-    marks_.add(marks.low, marks.high, {1, square});
+    if (!(path.departure > window_.begin && path.arrival < window_.end)) return add_clipped(path);
+    const Marks marks = marks_in(path, window_);
+    bonds_.add((marks.low + 1) / 2, marks.high / 2,
+               {1, path.velocity * path.velocity, path.time_per_place});
+  }
+
+  [[gnu::cold]] void add_clipped(const Path& path) {
+    const Marks marks = marks_in(path, window_);
+    marks_.add(marks.low, marks.high, {1, path.velocity * path.velocity});
     const Stretch stretch = stretch_in(path, window_);
     if (stretch.duration > 0) residence_.spread(0.5 * stretch.low, 0.5 * stretch.high, {stretch.duration});
   }

@@ -31,21 +31,21 @@ class WaitingTimes {
   void on_flight(const Departure& departure) {
     if (!std::isfinite(departure.duration)) return;  // frozen
     Bin& bin = bins_[grid_.interval(departure.duration)];
-    bin.count += 1;
+    ++bin.count;
     bin.logarithms.add(departure.duration);
   }
 
   /// Counts per bin, then sums of ln tau per bin.
   std::vector<double> sums() const {
     std::vector<double> result;
-    for (const Bin& bin : bins_) result.push_back(bin.count);
+    for (const Bin& bin : bins_) result.push_back(static_cast<double>(bin.count));
     for (const Bin& bin : bins_) result.push_back(bin.logarithms.sum());
     return result;
   }
 
  private:
   struct Bin {
-    double count = 0;
+    std::uint64_t count = 0;
     LogSum logarithms;
   };
 
