@@ -39,8 +39,7 @@ class Stream {
     // One that departs at the beginning may come from anywhere.
     if (!(path.departure > window_.begin && path.arrival < window_.end)) return add_clipped(path);
     const Marks marks = marks_in(path, window_);
-    bonds_.add((marks.low + 1) / 2, marks.high / 2,
-               {1, path.velocity * path.velocity, path.time_per_place});
+    bonds_.add((marks.low + 1) / 2, marks.high / 2, {1, path.velocity * path.velocity, path.time_per_place});
   }
 
   [[gnu::cold]] void add_clipped(const Path& path) {

@@ -11,7 +11,8 @@ namespace lorentz {
 /// value / width, a multiplication, rounds to a whole number.
 class Bins {
  public:
-  Bins(std::size_t count, double max) : half_(count / 2), max_(max), per_unit_(static_cast<double>(half_) / max) {}
+  Bins(std::size_t count, double max)
+      : half_(count / 2), max_(max), per_unit_(static_cast<double>(half_) / max) {}
 
   std::size_t count() const { return 2 * half_; }
   double width() const { return max_ / static_cast<double>(half_); }
@@ -24,7 +25,7 @@ class Bins {
   std::size_t operator[](double value) const {
     const double place = value * per_unit_;
     if (!(std::abs(place) < static_cast<double>(half_))) return count();
-    const auto below = static_cast<std::int64_t>(place < 0);
+    const auto below = static_cast<std::int64_t>(value < 0);
     return half_ + static_cast<std::size_t>(static_cast<std::int64_t>(place) - below);
   }
 

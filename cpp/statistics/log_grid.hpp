@@ -48,7 +48,7 @@ class LogGrid {
  private:
   /// Numbers that agree in sign, exponent and the leading bits of the fraction.
   struct Cell {
-    double next_point;     // after the lower end of the cell
+    double next_point;     // after the lower end of the cell; NaN, which no value reaches, in the last one
     std::size_t interval;  // of that end
   };
 
@@ -66,7 +66,7 @@ class LogGrid {
       const auto low = std::bit_cast<double>(cell << ignored_bits_);
       while (interval + 1 < steps_ && edges[interval + 1] <= low) ++interval;
       const bool last = interval + 1 == steps_;
-      table_.push_back({last ? std::numeric_limits<double>::infinity() : edges[interval + 1], interval});
+      table_.push_back({last ? std::numeric_limits<double>::quiet_NaN() : edges[interval + 1], interval});
     }
   }
 
