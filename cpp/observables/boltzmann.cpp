@@ -35,7 +35,9 @@ constexpr double rounding = 5e-14;  // relative to the largest value of a quanti
 
 class ProblemOptions {
  public:
-  explicit ProblemOptions(Options& options) : options_(options) {
+  explicit ProblemOptions(const Options& options) : options_(options) {}
+
+  void declare(Options& options) {
     options.real("--sigma", problem_.sigma, {-0.99, 0.99}, "Mass ratio (M-m)/(M+m)");
     options.real_or_word("--gamma", problem_.gamma, {0, 1000}, "N", every_scatterer,
                          "Mean number of scatterings on the way through; N: one at each of --cells");
@@ -171,8 +173,10 @@ Values evaluate(const KineticProblem& problem, const KineticSolution& solution, 
 
 std::vector<Description> descriptions(const Grid& grid) {
   const auto values = [](const VectorXd& x) { return std::vector<double>(x.begin(), x.end()); };
-  const Axis x{"x", "length of the line", "Position; bonds of a chain", values(grid.crossings)};
-  const Axis site{"x", "length of the line", "Position; scatterers of a chain", values(grid.scatterers)};
+  const Axis x{"x", "1", "Position over the length of the chain; bonds of a chain of cells",
+               values(grid.crossings)};
+  const Axis site{"x", "1", "Position over the length of the chain; scatterers of a chain of cells",
+                  values(grid.scatterers)};
   const Axis momentum{"momentum", "momentum", "Middle of the bin", grid.bins.middles()};
   Axis scatterer_momentum{"momentum", "momentum", "P, the particle's times sqrt(M)", momentum.values};
   for (double& value : scatterer_momentum.values) value *= grid.root_mass;
@@ -184,8 +188,8 @@ std::vector<Description> descriptions(const Grid& grid) {
           {"energy_current", "energy/time", "Energy to the right minus to the left"},
           {"momentum_flux", "momentum/time", "Integral of |p| F: pressure"},
           {"current_spread", "1", "Largest deviation of a current over x, relative to what the baths inject"},
-          {"temperature_scatterer", "k_B T", "<P^2>/M", {site}},
-          {"temperature_particle", "k_B T", "<p^2> over the arrivals at a scatterer", {site}},
+          {"temperature_scatterer", "temperature", "<P^2>/M", {site}},
+          {"temperature_particle", "temperature", "<p^2> over the arrivals at a scatterer", {site}},
           {"rate_right", "1/time", "Crossings to the right", {x}},
           {"rate_left", "1/time", "Crossings to the left", {x}},
           {"jump", "1/(time momentum)", "F at p = 0+ minus p = 0-", {x}},
@@ -236,8 +240,10 @@ Results results(const KineticProblem& problem, const RefinedSolution& solution, 
 
 int main(int argc, char** argv) {
   Program program("boltzmann", "Kinetic equation of the open chain, solved to a given accuracy");
-  const ProblemOptions options(program.options());
-  const MomentumBinsOptions bins(program.options(), 100, 60);
+  ProblemOptions options(program.options());
+  options.declare(program.options());
+  MomentumBinsOptions bins(100, 60);
+  bins.declare(program.options());
   double target = 1e-10;
   program.options().real("--target-error", target, non_negative,
                          "Relative error of the currents at which the resolution suffices");
@@ -251,9 +257,10 @@ int main(int argc, char** argv) {
     const RefinedSolution solution = refine(problem, target, static_cast<int>(coarsening), [] {
       if (const int signal = received_signal(); signal != 0) throw Interrupted(signal);
     });
-    const bool converged = solution.error <= target;
-    if (!converged)
-      progress.say(fmt::format("not converged: the currents are known to {:.1e}, not to {:.1e}",
+    const Convergence convergence =
+        solution.error <= target ? Convergence::reached : Convergence::not_reached;
+    if (convergence == Convergence::not_reached)
+      progress.say(fmt::format("target not reached: the currents are known to {:.1e}, not to {:.1e}",
                                solution.error, target));
     const Grid grid{options.crossings(), options.scatterers(), bins.bins(),
                     std::sqrt((1 + problem.sigma) / (1 - problem.sigma))};
@@ -263,6 +270,6 @@ int main(int argc, char** argv) {
                    .target_quantity = "currents",
                    .target_error = target,
                    .achieved_error = solution.error,
-                   .converged = converged};
+                   .convergence = convergence};
   });
 }

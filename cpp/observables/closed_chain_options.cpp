@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "model/collision.hpp"
 #include "observables/physics_options.hpp"
@@ -25,8 +26,7 @@ void require_possible(const ClosedChain& chain, double hottest, double end_time,
                          most_flights, temperatures, times});
 }
 
-ClosedChainOptions::ClosedChainOptions(Options& options, double relaxation_time, double observation_time)
-    : relaxation_time_(relaxation_time), observation_time_(observation_time) {
+void ClosedChainOptions::declare(Options& options) {
   add_chain_options(options, chain_);
   options.real("--temperature", temperatures_.particles, positive,
                "Temperature of the particles at the start");
@@ -38,7 +38,7 @@ ClosedChainOptions::ClosedChainOptions(Options& options, double relaxation_time,
   options.real("--observation-time", observation_time_, positive, "Time of the measurement");
 }
 
-void ClosedChainOptions::add_random_direction(Options& options) {
+void ClosedChainOptions::declare_random_direction(Options& options) {
   options.flag("--random-direction", chain_.random_direction,
                "Draw the direction of a particle after every collision");
 }
@@ -57,6 +57,16 @@ double ClosedChainOptions::mean_square_momentum() const {
   const double root_mass = CollisionRule(chain_.sigma).root_mass();
   return chain_.particles() * temperatures_.particles +
          chain_.cells * temperatures_.scatterers * root_mass * root_mass;
+}
+
+double ClosedChainOptions::mean_energy() const {
+  if (zero_total_momentum_) return std::numeric_limits<double>::quiet_NaN();
+  return 0.5 * (chain_.particles() * temperatures_.particles + chain_.cells * temperatures_.scatterers);
+}
+
+double ClosedReplica::energy_control() const {
+  const double mean = options_.mean_energy();
+  return std::isnan(mean) ? 0 : start_.energy / mean - 1;
 }
 
 double ClosedReplica::momentum_control() const {

@@ -27,10 +27,13 @@ void require_possible(const ClosedChain& chain, double hottest, double end_time,
 class ClosedChainOptions {
  public:
   /// The times are the defaults of those options; without them they are those of fig. 5.
-  explicit ClosedChainOptions(Options& options, double relaxation_time = 100, double observation_time = 100);
+  explicit ClosedChainOptions(double relaxation_time = 100, double observation_time = 100)
+      : relaxation_time_(relaxation_time), observation_time_(observation_time) {}
 
-  /// For the programs that offer this control.
-  void add_random_direction(Options& options);
+  void declare(Options& options);
+
+  /// --random-direction, for the programs that offer this control.
+  void declare_random_direction(Options& options);
 
   const ClosedChain& chain() const { return chain_; }
   double temperature() const { return temperatures_.particles; }
@@ -40,6 +43,9 @@ class ClosedChainOptions {
 
   /// Mean square of the total momentum over replicas.
   double mean_square_momentum() const;
+
+  /// Mean of the total energy over replicas; NaN with zero total momentum.
+  double mean_energy() const;
 
   /// How long a clock resolves a flight at the speed of the hottest to 5e-7 of it.
   double longest_clock() const { return 0x1p32 * chain_.cell_length / std::sqrt(hottest()); }
@@ -98,6 +104,10 @@ class ClosedReplica {
   /// Square of the conserved total momentum over its mean over replicas, minus 1: a control variate of mean 0
   /// (statistics/control_variates.hpp). 0 where there is no such momentum.
   double momentum_control() const;
+
+  /// Total energy over its mean over replicas, minus 1: a control variate of mean 0. 0 where the mean is not
+  /// known, as the start was shifted to zero total momentum.
+  double energy_control() const;
 
   /// The sums, then the two drifts.
   ReplicaRecord record(std::vector<double> sums) const;

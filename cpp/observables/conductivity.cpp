@@ -10,8 +10,8 @@
 /// numbers, momenta and energies of both serve as control variates (statistics/control_variates.hpp). With
 /// gamma < N the two scatterers are hit by chance and seldom; what that adds to their energies is controlled
 /// as well (observables/scattering_control.hpp). Quantities named *_plain are those without. Stationarity is
-/// tested: the halves of the window have to agree, and its blocks to be longer than the correlations
-/// (statistics/blocking.hpp).
+/// tested: the halves of the window have to agree (statistics/hotelling.hpp), and its blocks to be longer
+/// than the correlations (statistics/blocking.hpp).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,6 +22,7 @@
 #include "program/replica_study.hpp"
 #include "statistics/blocking.hpp"
 #include "statistics/control_variates.hpp"
+#include "statistics/hotelling.hpp"
 #include "statistics/time_integral.hpp"
 
 namespace {
@@ -150,23 +151,25 @@ double rise(double first, double last) {
   return first == last ? std::numeric_limits<double>::quiet_NaN() : last - first;
 }
 
-Results conductivity(const Records& joined_records, double cells, const std::string& suffix,
+template <class RecordsOrReduced>
+Results conductivity(const RecordsOrReduced& joined_records, double cells, const std::string& suffix,
                      const std::string& remark) {
-  return estimate(
-      joined_records,
-      {{"energy_current" + suffix, "energy/time", "J_U, positive to the right" + remark},
-       {"particle_current" + suffix, "1/time", "J_n, positive to the right" + remark},
-       {"temperature_first" + suffix, "k_B T", "<P^2>/M of the first scatterer" + remark},
-       {"temperature_last" + suffix, "k_B T", "<P^2>/M of the last scatterer" + remark},
-       {"kappa" + suffix, "1/time", "-J_U N / (T_N - T_1)" + remark},
-       {"kappa_printed" + suffix, "1/time", "-J_U / (T_N - T_1), the paper's definition" + remark},
-       {"kappa_particle" + suffix, "1/time", "-J_U N / difference of <p^2>/m of the arrivals" + remark}},
-      [cells](std::span<const double> row) {
-        const double per_degree = -row[0] / rise(row[2], row[3]);
-        const double by_particles = -row[0] / rise(row[4] / row[5], row[6] / row[7]);
-        return std::vector{
-            row[0], row[1], row[2], row[3], per_degree * cells, per_degree, by_particles * cells};
-      });
+  return estimate(joined_records,
+                  {{"energy_current" + suffix, "energy/time", "J_U, positive to the right" + remark},
+                   {"particle_current" + suffix, "1/time", "J_n, positive to the right" + remark},
+                   {"temperature_first" + suffix, "temperature", "<P^2>/M of the first scatterer" + remark},
+                   {"temperature_last" + suffix, "temperature", "<P^2>/M of the last scatterer" + remark},
+                   {"kappa" + suffix, "energy/(time temperature)", "-J_U N / (T_N - T_1)" + remark},
+                   {"kappa_printed" + suffix, "energy/(time temperature)",
+                    "-J_U / (T_N - T_1), the paper's definition" + remark},
+                   {"kappa_particle" + suffix, "energy/(time temperature)",
+                    "-J_U N / difference of <p^2>/m of the arrivals" + remark}},
+                  [cells](std::span<const double> row) {
+                    const double per_degree = -row[0] / rise(row[2], row[3]);
+                    const double by_particles = -row[0] / rise(row[4] / row[5], row[6] / row[7]);
+                    return std::vector{
+                        row[0], row[1], row[2], row[3], per_degree * cells, per_degree, by_particles * cells};
+                  });
 }
 
 /// J_U of every block.
@@ -181,28 +184,35 @@ Records current_by_blocks(const Records& records) {
   return result;
 }
 
-/// Differences between the halves of the window, the error of J_U by blocks, and `stationary`: 1 if every
-/// difference is below four standard errors and the blocking has converged.
+/// A stationary chain is called drifting once in a hundred runs.
+constexpr double level_of_drift = 0.01;
+
+/// Differences between the halves of the window and the p-value of all of them being 0, the error of J_U by
+/// blocks, and `stationary`: 1 if the p-value exceeds level_of_drift and the blocking has converged.
 Results stationarity(const Records& records) {
-  Results results =
-      estimate(reduce_variance(joined(records, true), controls),
-               {{"energy_current_drift", "energy/time", "J_U, second half of the window minus first"},
-                {"temperature_first_drift", "k_B T", "T_1, second half minus first"},
-                {"temperature_last_drift", "k_B T", "T_N, second half minus first"}},
-               [](std::span<const double> row) { return std::vector{row[0], row[2], row[3]}; });
-  const bool steady = std::none_of(results.begin(), results.end(), [](const Quantity& quantity) {
-    return std::abs(quantity.mean.front()) > 4 * quantity.standard_error.front();
-  });
+  const ReducedRecords differences = reduce_variance(joined(records, true), controls);
+  Results results = estimate(
+      differences,
+      {{"energy_current_drift", "energy/time", "J_U, second half of the window minus first"},
+       {"particle_current_drift", "1/time", "J_n, second half minus first"},
+       {"temperature_first_drift", "temperature", "T_1, second half minus first"},
+       {"temperature_last_drift", "temperature", "T_N, second half minus first"}},
+      [](std::span<const double> row) { return std::vector(row.begin(), row.begin() + quantities); });
+  const double p_value =
+      zero_mean_p_value(differences.records, quantities, differences.control_variates ? controls : 0);
   const Blocking blocks = blocking(current_by_blocks(records));
   const Axis length{"length", "1", "Part of the window that a block takes", {0.125, 0.25, 0.5, 1}};
   results.push_back({{"blocking_error", "energy/time", "Error of the plain J_U from blocks", {length}},
                      blocks.error,
                      blocks.uncertainty,
                      std::vector<std::uint64_t>(blocks.error.size(), records.size())});
-  results.push_back({{"stationary", "1", "1: halves agree, and blocking has converged"},
-                     {steady && blocks.converged() ? 1. : 0.},
-                     {std::numeric_limits<double>::quiet_NaN()},
-                     {records.size()}});
+  const auto test_result = [&](const std::string& name, const std::string& description, double value) {
+    results.push_back(
+        {{name, "1", description}, {value}, {std::numeric_limits<double>::quiet_NaN()}, {records.size()}});
+  };
+  test_result("drift_p_value", "p-value of the four drifts being 0, by Hotelling's T^2 test", p_value);
+  test_result("stationary", "1: drift_p_value above 0.01, and blocking has converged",
+              p_value > level_of_drift && blocks.converged() ? 1 : 0);
   return results;
 }
 
@@ -219,8 +229,10 @@ Results summarise(const Records& records, double cells) {
 
 int main(int argc, char** argv) {
   Program program("conductivity", "Heat conductivity of an open chain");
-  const OpenChainOptions options(program.options(), {.cell_length = 0}, "warm", {{0.05, true}, {400}});
-  const ReplicaOptions replicas(program);
+  OpenChainOptions options({.cell_length = 0}, "warm", {{{0.05, true}, {400}}});
+  options.declare(program.options());
+  ReplicaOptions replicas(program);
+  replicas.declare(program.options());
   return program.run(argc, argv, [&](Progress& progress) {
     options.validate();
     const OpenChain chain = options.chain();

@@ -9,7 +9,7 @@
 /// without it. Three laws are compared over the last --fit-decades decades: t, t^alpha by the slope alpha of
 /// ln <x^2> against ln t, and t/ln t by the power b in <x^2> ~ t ln(t/tau)^b, where tau is the time of a
 /// thermal flight: alpha = 1 and b = 0 say t, b = -1 says t/ln t (waits ~ tau^-2 and unit steps), alpha > 1
-/// and b > 0 superdiffusion.
+/// and b > 0 superdiffusion. b is stored only where no common drift, which is neither, hides the laws.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -92,6 +92,7 @@ struct Grid {
   std::vector<double> times, middles;
   double fit_from;  // first time of the fits
   double tau;       // of a thermal flight over one cell
+  bool drifts;      // the centre of mass, by a conserved total momentum
 };
 
 Results plain_spreading(const Records& records, const Grid& grid) {
@@ -108,45 +109,48 @@ Results plain_spreading(const Records& records, const Grid& grid) {
       });
 }
 
-Results spreading(const Records& records, const Grid& grid) {
+Results spreading(const ReducedRecords& records, const Grid& grid) {
   const std::vector<double>& times = grid.times;
   const std::size_t size = times.size();
   const Axis time{"time", "time", "Time since the end of the relaxation", times};
   const Axis middle{"time", "time", "Geometric middle of two neighbouring times", grid.middles};
-  return estimate(
-      records,
-      {{"variance", "length^2", "<x^2>, no mean subtracted", {time}},
-       {"absolute_moment", "length", "<|x|>", {time}},
-       {"fourth_moment", "length^4", "<x^4>", {time}},
-       {"centre_of_mass", "length^2", "Mean square of the particles' mean displacement", {time}},
-       {"mean_displacement", "length", "<x>; 0 by symmetry", {time}},
-       {"local_slope", "1", "d ln <x^2> / d ln t", {middle}},
-       {"alpha", "1", "Slope of ln <x^2> against ln t over the last --fit-decades decades"},
-       {"alpha_relative", "1", "The same without the part of the centre of mass"},
-       {"logarithmic_power", "1", "b of <x^2> ~ t ln(t/tau)^b over the same times: 0 for t, -1 for t/ln t"}},
-      [&](std::span<const double> sums) {
-        std::vector<double> values(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(5 * size));
-        for (std::size_t k = 0; k + 1 < size; ++k)
-          values.push_back(sums[k] > 0
-                               ? portable::log(sums[k + 1] / sums[k]) / portable::log(times[k + 1] / times[k])
-                               : std::numeric_limits<double>::quiet_NaN());
-        std::vector<double> relative;
-        for (std::size_t k = 0; k < size; ++k) relative.push_back(sums[k] - sums[3 * size + k]);
-        values.push_back(fit_power(times, sums.first(size), grid.fit_from, times.back()));
-        values.push_back(fit_power(times, relative, grid.fit_from, times.back()));
-        values.push_back(logarithmic_power(times, sums.first(size), grid.fit_from, grid.tau));
-        return values;
-      });
+  std::vector<Description> descriptions{
+      {"variance", "length^2", "<x^2>, no mean subtracted", {time}},
+      {"absolute_moment", "length", "<|x|>", {time}},
+      {"fourth_moment", "length^4", "<x^4>", {time}},
+      {"centre_of_mass", "length^2", "Mean square of the particles' mean displacement", {time}},
+      {"mean_displacement", "length", "<x>; 0 by symmetry", {time}},
+      {"local_slope", "1", "d ln <x^2> / d ln t", {middle}},
+      {"alpha", "1", "Slope of ln <x^2> against ln t over the last --fit-decades decades"},
+      {"alpha_relative", "1", "The same without the part of the centre of mass"},
+      {"alpha_difference", "1", "alpha minus alpha_relative"}};
+  if (!grid.drifts)
+    descriptions.push_back(
+        {"logarithmic_power", "1", "b of <x^2> ~ t ln(t/tau)^b over the same times: 0 for t, -1 for t/ln t"});
+  return estimate(records, descriptions, [&](std::span<const double> sums) {
+    std::vector<double> values(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(5 * size));
+    for (std::size_t k = 0; k + 1 < size; ++k)
+      values.push_back(sums[k] > 0
+                           ? portable::log(sums[k + 1] / sums[k]) / portable::log(times[k + 1] / times[k])
+                           : std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> relative;
+    for (std::size_t k = 0; k < size; ++k) relative.push_back(sums[k] - sums[3 * size + k]);
+    const double alpha = fit_power(times, sums.first(size), grid.fit_from, times.back());
+    const double alpha_relative = fit_power(times, relative, grid.fit_from, times.back());
+    values.insert(values.end(), {alpha, alpha_relative, alpha - alpha_relative});
+    if (!grid.drifts) values.push_back(logarithmic_power(times, sums.first(size), grid.fit_from, grid.tau));
+    return values;
+  });
 }
 
 /// From few replicas of a few particles a mean square may come out negative, which is worse than its noise.
-Records controlled(const Records& plain) {
-  Records reduced = reduce_variance(plain, 1);
-  const std::vector<double> means = reduced.mean();
+ReducedRecords controlled(const Records& plain) {
+  ReducedRecords reduced = reduce_variance(plain, 1);
+  const std::vector<double> means = reduced.records.mean();
   const auto control = means.end() - 1;
   const auto signed_mean = control - static_cast<std::ptrdiff_t>((means.size() - 1) / 5);
   const bool possible = std::all_of(means.begin(), signed_mean, [](double moment) { return moment >= 0; });
-  return possible ? reduced : plain;
+  return possible ? reduced : ReducedRecords{plain, false};
 }
 
 Results summarise(const Records& plain, const Grid& grid) {
@@ -172,16 +176,20 @@ void require_resolved(const ClosedChainOptions& options, double first_time) {
 
 int main(int argc, char** argv) {
   Program program("displacement", "Spreading of a tagged particle in a closed chain");
-  ClosedChainOptions chain(program.options(), /*relaxation_time=*/100, /*observation_time=*/1000);
-  chain.add_random_direction(program.options());
-  const LogTimesOptions log_times(program.options(), /*fit_decades=*/1);
-  const ReplicaOptions replicas(program);
+  ClosedChainOptions chain(/*relaxation_time=*/100, /*observation_time=*/1000);
+  chain.declare(program.options());
+  chain.declare_random_direction(program.options());
+  LogTimesOptions log_times(/*fit_decades=*/1);
+  log_times.declare(program.options());
+  ReplicaOptions replicas(program);
+  replicas.declare(program.options());
   return program.run(argc, argv, [&](Progress& progress) {
     chain.validate();
     const double last = chain.observation_time();
     require_resolved(chain, log_times.times(last).front());
     const Grid grid{log_times.times(last), log_times.grid(last).middles(), log_times.fit_from(last),
-                    chain.chain().cell_length / std::sqrt(chain.temperature())};
+                    chain.chain().cell_length / std::sqrt(chain.temperature()),
+                    chain.mean_square_momentum() > 0 && !chain.chain().random_direction};
     const auto one = [&](const Replica& replica) { return measure(chain, grid.times, replica); };
     const auto results = [&](const Records& records) { return summarise(records, grid); };
     return replicas.run({one, with_drift(results), "alpha", RandomStream::description}, progress);

@@ -177,12 +177,12 @@ Results summarise(const Records& records, const Pulse& pulse) {
   const Axis from{"from", "time", "First time of the fit", {pulse.times.begin(), pulse.times.end() - 1}};
   return estimate(
       records,
-      {{"energy_difference", "k_B T", "Energy per cell with the pulse minus without", {time, cell}},
-       {"injected_energy", "k_B T", "Energy of the pulse"},
+      {{"energy_difference", "energy", "Energy per cell with the pulse minus without", {time, cell}},
+       {"injected_energy", "energy", "Energy of the pulse"},
        {"sum_error", "1", "Largest |sum over cells - injected energy| / total energy, mean over members"},
-       {"peak_position", "cells", "Distance of the moving peak from the centre", {time}},
-       {"peak", "k_B T", "Height of the moving peak, by the parabola", {time}},
-       {"peak_raw", "k_B T", "Largest value of the folded profile, biased upwards", {time}},
+       {"peak_position", "1", "Distance of the moving peak from the centre, in cells", {time}},
+       {"peak", "energy", "Height of the moving peak, by the parabola", {time}},
+       {"peak_raw", "energy", "Largest value of the folded profile, biased upwards", {time}},
        {"centre_share", "1", "Part of the injected energy in the central five cells", {time}},
        {"damping_exponent_from", "1", "Minus the slope of ln peak against ln t from a time on", {from}},
        {"damping_exponent", "1", "The same over all times"},
@@ -231,7 +231,8 @@ int main(int argc, char** argv) {
   options.integer("--members", pulse.members, {1, 1'000'000}, "Pairs of trajectories per replica");
   options.flag("--separate", pulse.separate, "Simulate both trajectories in full; the result is the same",
                Options::Role::conduct);
-  const ReplicaOptions replicas(program);
+  ReplicaOptions replicas(program);
+  replicas.declare(options);
   return program.run(argc, argv, [&](Progress& progress) {
     validate(pulse);
     const auto one = [&](const Replica& replica) { return measure(pulse, replica); };

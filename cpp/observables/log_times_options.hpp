@@ -14,7 +14,9 @@ class LogTimesOptions {
   static constexpr std::size_t points_per_decade = 8;
 
   /// fit_decades is the default of that option.
-  LogTimesOptions(Options& options, double fit_decades) : fit_decades_(fit_decades) {
+  explicit LogTimesOptions(double fit_decades) : fit_decades_(fit_decades) {}
+
+  void declare(Options& options) {
     options.real("--decades", decades_, {1, 15},
                  "Decades of time that the grid spans, up to the observation time");
     options.real("--fit-decades", fit_decades_, {0.25, 15},

@@ -10,7 +10,9 @@ namespace lorentz {
 class MomentumBinsOptions {
  public:
   /// The values are the defaults of those options.
-  MomentumBinsOptions(Options& options, std::uint32_t count, double max) : count_(count), max_(max) {
+  MomentumBinsOptions(std::uint32_t count, double max) : count_(count), max_(max) {}
+
+  void declare(Options& options) {
     options.integer("--momentum-bins", count_, {2, 100'000}, "Number of bins of momentum, even");
     options.real("--momentum-max", max_, positive, "The bins span from minus this momentum to plus it");
   }

@@ -3,13 +3,15 @@
 /// crossings. (The paper's plots are normalised to 1/2 instead.)
 ///
 /// What a reservoir happened to inject in a bin, minus its known mean, is a control variate of the flux in
-/// that bin, beside the numbers, momenta and energies of all bins (statistics/control_variates.hpp). The jump
-/// at p = 0 is read off lines through the two bins on either side; the kurtosis of a half of F,
-/// <p^4>/<p^2>^2, is 3 where that half is Gaussian.
+/// that bin, as some particles cross bonds before they scatter; rates and moments have the numbers, momenta
+/// and energies that are injected in all. Either is used if it makes its quantities scatter less on average
+/// (statistics/control_variates.hpp). The jump at p = 0 is read off lines through the two bins on either
+/// side; the kurtosis of a half of F, <p^4>/<p^2>^2, is 3 where that half is Gaussian.
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "observables/momentum_bins_options.hpp"
 #include "observables/open_chain_options.hpp"
@@ -84,88 +86,170 @@ class Crossings {
   InjectionControls controls_;
 };
 
-/// The records without the injections by bin, everything corrected: every bin by what was injected in it too.
-Records reduced(const Records& records, std::size_t bonds, std::size_t bins) {
-  constexpr std::size_t shared = InjectionControls::count;
-  const std::size_t moments = 2 * powers.size() * bonds;
-  std::vector<std::vector<double>> rows(records.size());
-  const auto append = [&](std::size_t first, std::size_t size, std::vector<std::size_t> own) {
-    Records part(size + own.size() + shared);
-    for (std::size_t replica = 0; replica < records.size(); ++replica) {
-      const std::span<const double> row = records[replica];
-      std::vector<double> values(row.begin() + static_cast<std::ptrdiff_t>(first),
-                                 row.begin() + static_cast<std::ptrdiff_t>(first + size));
-      for (const std::size_t control : own) values.push_back(row[control]);
-      values.insert(values.end(), row.end() - shared, row.end());
+/// Columns of the records: the bonds of every bin, those of every moment, then the controls.
+struct Layout {
+  std::size_t bonds, bins;
+
+  std::size_t moments() const { return 2 * powers.size(); }
+  std::size_t own_control(std::size_t bin) const { return (bins + moments()) * bonds + bin; }
+  std::size_t shared_controls() const { return own_control(bins); }
+};
+
+/// Records of which some columns are corrected by some controls, where that makes them scatter less.
+class Correction {
+ public:
+  explicit Correction(const Records& records) : plain_(records) {
+    for (std::size_t replica = 0; replica < records.size(); ++replica)
+      rows_.emplace_back(records[replica].begin(), records[replica].end());
+  }
+
+  /// A column that the controls determine, such as what enters at an opening, stays as it is: it would come
+  /// out as its known mean, which is no measurement, with an error of 0.
+  void regress(std::size_t first, std::size_t columns, std::size_t first_control, std::size_t controls) {
+    const auto from = [](std::vector<double>& row, std::size_t column) {
+      return row.begin() + static_cast<std::ptrdiff_t>(column);
+    };
+    Records part(columns + controls);
+    for (std::vector<double>& row : rows_) {
+      std::vector<double> values(from(row, first), from(row, first + columns));
+      values.insert(values.end(), from(row, first_control), from(row, first_control + controls));
       part.append(values);
     }
-    const Records corrected = reduce_variance(part, own.size() + shared);
-    for (std::size_t replica = 0; replica < records.size(); ++replica)
-      rows[replica].insert(rows[replica].end(), corrected[replica].begin(),
-                           corrected[replica].begin() + static_cast<std::ptrdiff_t>(size));
-  };
-  for (std::size_t bin = 0; bin < bins; ++bin) append(bin * bonds, bonds, {bins * bonds + moments + bin});
-  append(bins * bonds, moments, {});
+    const std::optional<Records> corrected = regress_out(part, controls);
+    if (!corrected) return;
+    for (std::size_t column = 0; column < columns; ++column) {
+      if (variance_ratio(*corrected, part, column, 1) < 1e-12) continue;
+      for (std::size_t replica = 0; replica < rows_.size(); ++replica)
+        rows_[replica][first + column] = (*corrected)[replica][column];
+    }
+  }
 
-  Records result(rows.front().size());
-  for (const std::vector<double>& row : rows) result.append(row);
-  return result;
+  ReducedRecords best() const {
+    Records corrected(plain_.width());
+    for (const std::vector<double>& row : rows_) corrected.append(row);
+    const bool helps = variance_ratio(corrected, plain_, 0, plain_.width()) < 1;
+    return {helps ? corrected : plain_, helps};
+  }
+
+ private:
+  const Records& plain_;
+  std::vector<std::vector<double>> rows_;
+};
+
+ReducedRecords with_corrected_bins(const Records& records, const Layout& layout) {
+  Correction correction(records);
+  for (std::size_t bin = 0; bin < layout.bins; ++bin)
+    correction.regress(bin * layout.bonds, layout.bonds, layout.own_control(bin), 1);
+  return correction.best();
+}
+
+ReducedRecords with_corrected_moments(const Records& records, const Layout& layout) {
+  Correction correction(records);
+  correction.regress(layout.bins * layout.bonds, layout.moments() * layout.bonds, layout.shared_controls(),
+                     InjectionControls::count);
+  return correction.best();
+}
+
+/// Reads the flux and its shape off a mean record.
+class Shape {
+ public:
+  Shape(std::span<const double> row, const Layout& layout, const Bins& bins)
+      : row_(row), layout_(layout), bins_(bins) {}
+
+  std::vector<double> flux() const {
+    return by_bond(bins_.count(), [&](std::size_t bond, std::size_t bin) { return flux(bond, bin); });
+  }
+
+  /// At p = 0, from lines through the two bins on either side.
+  std::vector<double> jump() const {
+    const std::size_t zero = bins_.count() / 2;
+    return by_bond(1, [&](std::size_t bond, std::size_t) {
+      return 1.5 * (flux(bond, zero) - flux(bond, zero - 1)) -
+             0.5 * (flux(bond, zero + 1) - flux(bond, zero - 2));
+    });
+  }
+
+  std::vector<double> rate() const {
+    return by_bond(2, [&](std::size_t bond, std::size_t side) { return sum(bond, side, 0); });
+  }
+
+  std::vector<double> square() const {
+    return by_bond(2, [&](std::size_t bond, std::size_t side) { return mean(bond, side, 1); });
+  }
+
+  std::vector<double> kurtosis() const {
+    return by_bond(2, [&](std::size_t bond, std::size_t side) {
+      const double square = mean(bond, side, 1);
+      return mean(bond, side, 2) / (square * square);
+    });
+  }
+
+  /// Mean over the bonds.
+  double crossings() const {
+    const std::vector<double> rates = rate();
+    return std::accumulate(rates.begin(), rates.end(), 0.0) / static_cast<double>(layout_.bonds);
+  }
+
+ private:
+  double flux(std::size_t bond, std::size_t bin) const {
+    return row_[bin * layout_.bonds + bond] / bins_.width();
+  }
+  double sum(std::size_t bond, std::size_t side, std::size_t k) const {
+    return row_[(bins_.count() + side * powers.size() + k) * layout_.bonds + bond];
+  }
+  double mean(std::size_t bond, std::size_t side, std::size_t k) const {
+    const double crossings = sum(bond, side, 0);
+    return crossings > 0 ? sum(bond, side, k) / crossings : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  template <class Value>
+  std::vector<double> by_bond(std::size_t inner, Value&& value) const {
+    std::vector<double> values;
+    for (std::size_t bond = 0; bond < layout_.bonds; ++bond)
+      for (std::size_t i = 0; i < inner; ++i) values.push_back(value(bond, i));
+    return values;
+  }
+
+  std::span<const double> row_;
+  Layout layout_;
+  Bins bins_;
+};
+
+std::vector<double> joined(std::initializer_list<std::vector<double>> parts) {
+  std::vector<double> values;
+  for (const std::vector<double>& part : parts) values.insert(values.end(), part.begin(), part.end());
+  return values;
 }
 
 Results summarise(const Records& records, std::size_t bonds, const Bins& bins) {
+  const Layout layout{bonds, bins.count()};
   std::vector<double> numbers(bonds);
   std::iota(numbers.begin(), numbers.end(), 0.0);
   const Axis bond{"bond", "1", "Bond number; 0 and N are the openings", numbers};
   const Axis momentum{"momentum", "momentum", "Middle of the bin", bins.middles()};
   const Axis half{"half", "1", "Sign of p", {-1, 1}};
-  const auto shapes = [&](std::span<const double> row) {
-    const auto flux = [&](std::size_t at, std::size_t bin) { return row[bin * bonds + at] / bins.width(); };
-    const auto moment = [&](std::size_t at, std::size_t side, std::size_t k) {
-      return row[(bins.count() + side * powers.size() + k) * bonds + at];
-    };
-    std::vector<double> values;
-    for (std::size_t at = 0; at < bonds; ++at)
-      for (std::size_t bin = 0; bin < bins.count(); ++bin) values.push_back(flux(at, bin));
-    const std::size_t zero = bins.count() / 2;
-    for (std::size_t at = 0; at < bonds; ++at)
-      values.push_back(1.5 * (flux(at, zero) - flux(at, zero - 1)) -
-                       0.5 * (flux(at, zero + 1) - flux(at, zero - 2)));
-    const auto by_half = [&](auto&& value) {
-      for (std::size_t at = 0; at < bonds; ++at)
-        for (const std::size_t side : {0, 1}) values.push_back(value(at, side));
-    };
-    by_half([&](std::size_t at, std::size_t side) { return moment(at, side, 0); });
-    const auto mean = [&](std::size_t at, std::size_t side, std::size_t k) {
-      const double crossings = moment(at, side, 0);
-      return crossings > 0 ? moment(at, side, k) / crossings : std::numeric_limits<double>::quiet_NaN();
-    };
-    by_half([&](std::size_t at, std::size_t side) { return mean(at, side, 1); });
-    by_half([&](std::size_t at, std::size_t side) {
-      const double first = mean(at, side, 1);
-      return mean(at, side, 2) / (first * first);
-    });
-    double total = 0;
-    for (std::size_t at = 0; at < bonds; ++at) total += moment(at, 0, 0) + moment(at, 1, 0);
-    values.push_back(total / static_cast<double>(bonds));
-    return values;
-  };
+  const std::string flux_units = "1/(time momentum)";
+  const auto shape = [&](std::span<const double> row) { return Shape(row, layout, bins); };
+
   Results results =
-      estimate(reduced(records, bonds, bins.count()),
-               {{"flux", "1/(time momentum)", "F_N, crossings per unit time and momentum", {bond, momentum}},
-                {"jump", "1/(time momentum)", "F_N at p = 0+ minus p = 0-", {bond}},
-                {"rate", "1/time", "Crossings by direction", {bond, half}},
-                {"square", "momentum^2", "<p^2> by direction", {bond, half}},
-                {"kurtosis", "1", "<p^4>/<p^2>^2 by direction; 3 for a Gaussian half", {bond, half}},
-                {"crossings", "1/time", "Crossings of a bond, mean over bonds"}},
-               shapes);
-  const Results plain = estimate(
-      records, {{"flux_plain", "1/(time momentum)", "F_N without control variates", {bond, momentum}}},
-      [&](std::span<const double> row) {
-        std::vector<double> values = shapes(row);
-        values.resize(bonds * bins.count());
-        return values;
-      });
-  results.push_back(plain.front());
+      estimate(with_corrected_bins(records, layout),
+               {{"flux", flux_units, "F_N, crossings per unit time and momentum", {bond, momentum}},
+                {"jump", flux_units, "F_N at p = 0+ minus p = 0-", {bond}}},
+               [&](std::span<const double> row) { return joined({shape(row).flux(), shape(row).jump()}); });
+  const auto append = [&](Results&& more) {
+    for (Quantity& quantity : more) results.push_back(std::move(quantity));
+  };
+  append(estimate(with_corrected_moments(records, layout),
+                  {{"rate", "1/time", "Crossings by direction", {bond, half}},
+                   {"square", "momentum^2", "<p^2> by direction", {bond, half}},
+                   {"kurtosis", "1", "<p^4>/<p^2>^2 by direction; 3 for a Gaussian half", {bond, half}},
+                   {"crossings", "1/time", "Crossings of a bond, mean over bonds"}},
+                  [&](std::span<const double> row) {
+                    const Shape of = shape(row);
+                    return joined({of.rate(), of.square(), of.kurtosis(), {of.crossings()}});
+                  }));
+  append(estimate(records, {{"flux_plain", flux_units, "F_N without control variates", {bond, momentum}}},
+                  [&](std::span<const double> row) { return shape(row).flux(); }));
   return results;
 }
 
@@ -173,9 +257,12 @@ Results summarise(const Records& records, std::size_t bonds, const Bins& bins) {
 
 int main(int argc, char** argv) {
   Program program("momentum_flux", "Momentum distribution of the particles in an open chain");
-  const OpenChainOptions options(program.options(), {.cell_length = 0}, "warm", {{100}, {1000}});
-  const MomentumBinsOptions bins(program.options(), 100, 60);
-  const ReplicaOptions replicas(program);
+  OpenChainOptions options({.cell_length = 0}, "warm", {{{100}, {1000}}});
+  options.declare(program.options());
+  MomentumBinsOptions bins(100, 60);
+  bins.declare(program.options());
+  ReplicaOptions replicas(program);
+  replicas.declare(program.options());
   return program.run(argc, argv, [&](Progress& progress) {
     options.validate();
     bins.validate();

@@ -8,22 +8,16 @@
 
 namespace lorentz {
 
-OpenChainOptions::OpenChainOptions(Options& options, const OpenChain& chain, const std::string& start)
-    : chain_(chain), start_(start) {
+void OpenChainOptions::declare(Options& options) {
   add_scattering_options(options, chain_.cells, chain_.sigma, chain_.gamma, non_negative);
   options.real_or_word("--cell-length", chain_.cell_length, positive, "1/N", 0,
                        "Distance between scatterers");
   add_reservoir_options(options, chain_.left, chain_.right);
   options.choice("--start", start_, {"empty", "warm"},
                  "empty: no particles, scatterers at rest; warm: near the stationary state");
-}
-
-OpenChainOptions::OpenChainOptions(Options& options, const OpenChain& chain, const std::string& start,
-                                   Times times)
-    : OpenChainOptions(options, chain, start) {
-  times_ = times;
-  options.scaled("--relaxation-time", times_.relaxation, non_negative, "Time before the measurement");
-  options.scaled("--observation-time", times_.observation, positive, "Time of the measurement");
+  if (!times_) return;
+  options.scaled("--relaxation-time", times_->relaxation, non_negative, "Time before the measurement");
+  options.scaled("--observation-time", times_->observation, positive, "Time of the measurement");
 }
 
 OpenChain OpenChainOptions::chain() const {
@@ -33,8 +27,8 @@ OpenChain OpenChainOptions::chain() const {
 }
 
 Window OpenChainOptions::window() const {
-  const double begin = times_.relaxation.at(chain_.cells);
-  return {begin, begin + times_.observation.at(chain_.cells)};
+  const double begin = times_.value().relaxation.at(chain_.cells);
+  return {begin, begin + times_.value().observation.at(chain_.cells)};
 }
 
 void OpenChainOptions::validate(double end, const std::string& times) const {

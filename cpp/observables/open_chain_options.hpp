@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,11 +22,12 @@ class OpenChainOptions {
     Scaled relaxation, observation;
   };
 
-  /// The chain is the default of those options; a cell length of 0 stands for 1/N.
-  OpenChainOptions(Options& options, const OpenChain& chain, const std::string& start);
+  /// The defaults of those options; a cell length of 0 stands for 1/N. With times there are --relaxation-time
+  /// and --observation-time, for what is measured in a window.
+  OpenChainOptions(const OpenChain& chain, const std::string& start, std::optional<Times> times = {})
+      : chain_(chain), start_(start), times_(times) {}
 
-  /// The same with --relaxation-time and --observation-time, for what is measured in a window.
-  OpenChainOptions(Options& options, const OpenChain& chain, const std::string& start, Times times);
+  void declare(Options& options);
 
   /// With the default of the cell length put in.
   OpenChain chain() const;
@@ -54,7 +56,7 @@ class OpenChainOptions {
 
   OpenChain chain_;
   std::string start_;
-  Times times_{};
+  std::optional<Times> times_;
 };
 
 /// What the reservoirs inject in a window, minus its known mean: the control variates of every stationary

@@ -194,12 +194,15 @@ Results summarise(const Records& records, const Plan& plan, double thermal) {
 
 int main(int argc, char** argv) {
   Program program("particle_count", "Number and momenta of the particles in an open chain");
-  const OpenChainOptions options(
-      program.options(), {.cells = 201, .cell_length = 1, .left = {100, 100}, .right = {100, 100}}, "empty");
+  OpenChainOptions options({.cells = 201, .cell_length = 1, .left = {100, 100}, .right = {100, 100}},
+                           "empty");
+  options.declare(program.options());
   std::vector<double> times{200, 600, 1000, 1400, 1800};
   program.options().ascending_list("--times", times, positive, "Times of the momentum distributions");
-  const MomentumBinsOptions bins(program.options(), 100, 50);
-  const ReplicaOptions replicas(program);
+  MomentumBinsOptions bins(100, 50);
+  bins.declare(program.options());
+  ReplicaOptions replicas(program);
+  replicas.declare(program.options());
   return program.run(argc, argv, [&](Progress& progress) {
     bins.validate();
     if (times.size() < 2 || times.back() < 2 * times.front())

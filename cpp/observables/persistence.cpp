@@ -41,8 +41,8 @@ Results summarise(const Records& records) {
   return estimate(
       records,
       {{"mu", "1", "Fraction of scatterings with p' p > 0"},
-       {"particle_energy", "k_B T", "Mean kinetic energy of a particle as it meets a scatterer"},
-       {"scatterer_energy", "k_B T", "Mean kinetic energy of a scatterer as a particle meets it"}},
+       {"particle_energy", "energy", "Mean kinetic energy of a particle as it meets a scatterer"},
+       {"scatterer_energy", "energy", "Mean kinetic energy of a scatterer as a particle meets it"}},
       [](std::span<const double> sums) {
         return std::vector{sums[1] / sums[0], sums[2] / sums[0], sums[3] / sums[0]};
       });
@@ -53,8 +53,10 @@ Results summarise(const Records& records) {
 int main(int argc, char** argv) {
   Program program("persistence",
                   "Probability that a particle keeps its direction when it scatters, in a closed chain");
-  const ClosedChainOptions chain(program.options());
-  const ReplicaOptions replicas(program);
+  ClosedChainOptions chain;
+  chain.declare(program.options());
+  ReplicaOptions replicas(program);
+  replicas.declare(program.options());
   return program.run(argc, argv, [&](Progress& progress) {
     chain.validate();
     const auto measure = [&](const Replica& replica) {

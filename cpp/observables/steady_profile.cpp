@@ -5,14 +5,18 @@
 /// The particles' temperature is <p^2>/m over the arrivals at a scatterer, so that of the flux, not of the
 /// density: the density holds slow particles, whose number grows with the logarithm of time, so it goes with
 /// its window. All means are corrected by what the reservoirs happened to inject
-/// (statistics/control_variates.hpp).
+/// (statistics/control_variates.hpp). Differences, deviations and slopes are quantities of their own, because
+/// neighbouring cells and bonds share their noise. The bulk of the density is a line through the middle half
+/// of the chain.
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "observables/momentum_bins_options.hpp"
 #include "observables/open_chain_options.hpp"
 #include "program/replica_study.hpp"
 #include "statistics/control_variates.hpp"
+#include "statistics/fit.hpp"
 #include "statistics/histogram.hpp"
 #include "statistics/range_tally.hpp"
 #include "statistics/time_integral.hpp"
@@ -142,53 +146,158 @@ class Profile {
   InjectionControls controls_;
 };
 
-Results summarise(const Records& records, std::size_t cells, const Bins& bins) {
-  const auto numbers = [](std::size_t size) {
-    std::vector<double> values(size);
-    std::iota(values.begin(), values.end(), 0.0);
+std::vector<double> numbers(std::size_t size) {
+  std::vector<double> values(size);
+  std::iota(values.begin(), values.end(), 0.0);
+  return values;
+}
+
+double mean(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Straight line through the values of a range of cells; NaN with fewer than two.
+Line line_through(std::span<const double> values, std::size_t first, std::size_t count) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (count < 2) return {none, none};
+  const std::vector<double> x = numbers(values.size());
+  return fit_line(std::span(x).subspan(first, count), values.subspan(first, count));
+}
+
+/// A mean record, read cell by cell or bond by bond.
+class Reading {
+ public:
+  Reading(std::span<const double> row, std::size_t cells) : row_(row), cells_(cells), marks_(2 * cells + 1) {}
+
+  std::vector<double> scatterer() const { return part(0); }
+  std::vector<double> density() const { return part(1); }
+  std::vector<double> particle() const {
+    return at(1, [&](std::size_t i) {
+      return (squares(0, i) + squares(1, i)) / (arrivals(0, i) + arrivals(1, i));
+    });
+  }
+  std::vector<double> difference() const {
+    std::vector<double> values = scatterer();
+    const std::vector<double> others = particle();
+    for (std::size_t cell = 0; cell < cells_; ++cell) values[cell] -= others[cell];
     return values;
-  };
+  }
+
+  /// At the scatterers, to the right (0) or to the left (1).
+  std::vector<double> rate(std::size_t side) const {
+    return at(1, [&](std::size_t i) { return arrivals(side, i); });
+  }
+  std::vector<double> rate_deviation(std::size_t side) const {
+    std::vector<double> values = rate(side);
+    const Line line = line_through(values, 0, cells_);
+    for (std::size_t cell = 0; cell < cells_; ++cell)
+      values[cell] -= line.intercept + line.slope * static_cast<double>(cell);
+    return values;
+  }
+
+  /// At the bonds.
+  std::vector<double> particle_current() const {
+    return at(0, [&](std::size_t i) { return arrivals(0, i) - arrivals(1, i); });
+  }
+  std::vector<double> energy_current() const {
+    return at(0, [&](std::size_t i) { return 0.5 * (squares(0, i) - squares(1, i)); });
+  }
+
+  /// Over the length of the chain, relative to the mean of the middle half.
+  double density_slope() const {
+    const std::vector<double> values = density();
+    const Line line = bulk(values);
+    return line.slope * static_cast<double>(cells_) / (line.intercept + line.slope * middle());
+  }
+  std::vector<double> density_excess() const {
+    const std::vector<double> values = density();
+    const Line line = bulk(values);
+    return {values.front() / line.intercept - 1,
+            values.back() / (line.intercept + line.slope * 2 * middle()) - 1};
+  }
+
+  std::span<const double> momenta() const { return row_.subspan(2 * cells_ + 4 * marks_); }
+
+ private:
+  std::vector<double> part(std::size_t k) const {
+    const auto values = row_.subspan(k * cells_, cells_);
+    return {values.begin(), values.end()};
+  }
+  double arrivals(std::size_t side, std::size_t mark) const {
+    return row_[2 * cells_ + side * marks_ + mark];
+  }
+  double squares(std::size_t side, std::size_t mark) const {
+    return row_[2 * cells_ + (2 + side) * marks_ + mark];
+  }
+  double middle() const { return 0.5 * static_cast<double>(cells_ - 1); }
+  Line bulk(const std::vector<double>& values) const {
+    return line_through(values, cells_ / 4, cells_ - 2 * (cells_ / 4));
+  }
+
+  /// first: 0 for bonds, 1 for scatterers.
+  template <class Value>
+  std::vector<double> at(std::size_t first, const Value& value) const {
+    std::vector<double> values;
+    for (std::size_t i = first; i < marks_; i += 2) values.push_back(value(i));
+    return values;
+  }
+
+  std::span<const double> row_;
+  std::size_t cells_, marks_;
+};
+
+std::vector<double> minus(std::vector<double> values, double subtrahend) {
+  for (double& value : values) value -= subtrahend;
+  return values;
+}
+
+Results summarise(const Records& records, std::size_t cells, const Bins& bins) {
   const Axis cell{"cell", "1", "Cell number, from 0", numbers(cells)};
   const Axis bond{"bond", "1", "Bond number; 0 and N are the openings", numbers(cells + 1)};
-  const Axis end{"end", "1", "0: first scatterer, 1: last", {0, 1}};
+  const Axis end{"end", "1", "0: first cell, 1: last", {0, 1}};
   const Axis momentum{"momentum", "momentum", "P/sqrt(M), middle of the bin", bins.middles()};
-  const std::size_t marks = 2 * cells + 1;
   return estimate(
       reduce_variance(records, InjectionControls::count),
-      {{"temperature_scatterer", "k_B T", "Time average of P^2/M", {cell}},
+      {{"temperature_scatterer", "temperature", "Time average of P^2/M", {cell}},
+       {"temperature_particle", "temperature", "<p^2>/m over the arrivals at the scatterer", {cell}},
+       {"temperature_difference", "temperature", "That of the scatterer minus that of the particles", {cell}},
        {"density", "1", "Mean number of particles in the cell, frozen ones included", {cell}},
-       {"temperature_particle", "k_B T", "<p^2>/m over the arrivals at the scatterer", {cell}},
+       {"density_slope", "1", "Of the line through the middle half, over the chain and relative to its mean"},
+       {"density_excess", "1", "Density of an end cell over that line, minus 1", {end}},
        {"rate_right", "1/time", "Arrivals at the scatterer to the right", {cell}},
        {"rate_left", "1/time", "Arrivals at the scatterer to the left", {cell}},
+       {"rate_right_deviation", "1/time", "rate_right minus a straight line through it", {cell}},
+       {"rate_left_deviation", "1/time", "rate_left minus a straight line through it", {cell}},
        {"particle_current", "1/time", "J_n, positive to the right", {bond}},
        {"energy_current", "energy/time", "J_U, positive to the right", {bond}},
        {"particle_current_mean", "1/time", "Mean of J_n over the bonds"},
        {"energy_current_mean", "energy/time", "Mean of J_U over the bonds"},
+       {"particle_current_deviation", "1/time", "J_n minus its mean over the bonds", {bond}},
+       {"energy_current_deviation", "energy/time", "J_U minus its mean over the bonds", {bond}},
        {"scatterer_density", "1/momentum", "Probability density of P/sqrt(M)", {end, momentum}}},
       [&](std::span<const double> row) {
-        const std::span<const double> right = row.subspan(2 * cells, marks),
-                                      left = row.subspan(2 * cells + marks, marks),
-                                      right_squares = row.subspan(2 * cells + 2 * marks, marks),
-                                      left_squares = row.subspan(2 * cells + 3 * marks, marks);
-        std::vector<double> values(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(2 * cells));
-        const auto at_scatterers = [&](auto&& value) {
-          for (std::size_t i = 1; i < marks; i += 2) values.push_back(value(i));
+        const Reading reading(row, cells);
+        const std::vector<double> particles = reading.particle_current(), energy = reading.energy_current();
+        std::vector<double> values;
+        const auto append = [&](std::span<const double> more) {
+          values.insert(values.end(), more.begin(), more.end());
         };
-        at_scatterers(
-            [&](std::size_t i) { return (right_squares[i] + left_squares[i]) / (right[i] + left[i]); });
-        at_scatterers([&](std::size_t i) { return right[i]; });
-        at_scatterers([&](std::size_t i) { return left[i]; });
-        std::vector<double> particles, energy;
-        for (std::size_t i = 0; i < marks; i += 2) {
-          particles.push_back(right[i] - left[i]);
-          energy.push_back(0.5 * (right_squares[i] - left_squares[i]));
-        }
-        for (const auto* current : {&particles, &energy})
-          values.insert(values.end(), current->begin(), current->end());
-        for (const auto* current : {&particles, &energy})
-          values.push_back(std::accumulate(current->begin(), current->end(), 0.0) /
-                           static_cast<double>(cells + 1));
-        for (const double weight : row.subspan(2 * cells + 4 * marks, 2 * bins.count()))
+        append(reading.scatterer());
+        append(reading.particle());
+        append(reading.difference());
+        append(reading.density());
+        values.push_back(reading.density_slope());
+        append(reading.density_excess());
+        append(reading.rate(0));
+        append(reading.rate(1));
+        append(reading.rate_deviation(0));
+        append(reading.rate_deviation(1));
+        append(particles);
+        append(energy);
+        values.insert(values.end(), {mean(particles), mean(energy)});
+        append(minus(particles, mean(particles)));
+        append(minus(energy, mean(energy)));
+        for (const double weight : reading.momenta().first(2 * bins.count()))
           values.push_back(weight / bins.width());
         return values;
       });
@@ -198,9 +307,12 @@ Results summarise(const Records& records, std::size_t cells, const Bins& bins) {
 
 int main(int argc, char** argv) {
   Program program("steady_profile", "Profiles of an open chain in its stationary state");
-  const OpenChainOptions options(program.options(), {.cell_length = 0}, "warm", {{100}, {1000}});
-  const MomentumBinsOptions bins(program.options(), 100, 60);
-  const ReplicaOptions replicas(program);
+  OpenChainOptions options({.cell_length = 0}, "warm", {{{100}, {1000}}});
+  options.declare(program.options());
+  MomentumBinsOptions bins(100, 60);
+  bins.declare(program.options());
+  ReplicaOptions replicas(program);
+  replicas.declare(program.options());
   return program.run(argc, argv, [&](Progress& progress) {
     options.validate();
     bins.validate();

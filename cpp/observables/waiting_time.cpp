@@ -109,11 +109,13 @@ Results summarise(const Records& records, const LogGrid& bins, const Tail& tail)
 int main(int argc, char** argv) {
   Program program("waiting_time",
                   "Distribution of the time between two scatterings of a particle, in a closed chain");
-  ClosedChainOptions chain(program.options(), /*relaxation_time=*/100, /*observation_time=*/200);
+  ClosedChainOptions chain(/*relaxation_time=*/100, /*observation_time=*/200);
+  chain.declare(program.options());
   double tail_from = 20;
   program.options().real("--tail-from", tail_from, {1, 1e6},
                          "Lower cut of the tail, in flights of one cell at thermal speed");
-  const ReplicaOptions replicas(program);
+  ReplicaOptions replicas(program);
+  replicas.declare(program.options());
   return program.run(argc, argv, [&](Progress& progress) {
     chain.validate();
     const double thermal_flight = chain.chain().cell_length / std::sqrt(chain.temperature());

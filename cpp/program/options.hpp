@@ -40,6 +40,9 @@ struct Scaled {
 /// The options of one executable. Each is declared once, with its admissible range and units; that
 /// one declaration serves the command line, the configuration file, --help, the check and the
 /// record of parameters in the output file.
+///
+/// parse() writes to the values that were declared: they must not be const, nor move. So a class with options
+/// declares them in a function that is not const, and is written to by nothing else.
 class Options {
  public:
   enum class Role {

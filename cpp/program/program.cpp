@@ -39,6 +39,18 @@ std::string cost(Clock::time_point start, std::uint64_t events) {
       seconds(usage.ru_utime) + seconds(usage.ru_stime), usage.ru_maxrss * bytes_per_unit, events);
 }
 
+std::string name_of(Convergence convergence) {
+  switch (convergence) {
+    case Convergence::reached:
+      return "reached";
+    case Convergence::not_reached:
+      return "not reached";
+    case Convergence::no_target:
+      return "no target";
+  }
+  throw std::logic_error("unknown state of convergence");
+}
+
 std::string version_text(const std::string& program) {
   return fmt::format("{} {} (build {})", program, build_info.version, build_info.build_id);
 }
@@ -61,7 +73,7 @@ void Program::write_output(const Outcome& outcome) const {
   file.group("/provenance");
   const std::vector<Parameter> provenance = {
       {"format", std::string("lorentz-gas")},
-      {"format_version", std::int64_t{1}},
+      {"format_version", std::int64_t{2}},
       {"program", options_.program()},
       {"source_hash", std::string(build_info.source_hash)},
       {"build_id", std::string(build_info.build_id)},
@@ -74,7 +86,7 @@ void Program::write_output(const Outcome& outcome) const {
       {"target_quantity", outcome.target_quantity},
       {"target_error", outcome.target_error},
       {"achieved_error", outcome.achieved_error},
-      {"converged", outcome.converged},
+      {"converged", name_of(outcome.convergence)},
   };
   for (const Parameter& entry : provenance) file.attribute("/provenance", entry.name, entry.value);
 
@@ -94,7 +106,7 @@ ExitStatus Program::run_or_throw(int argc, char** argv, const std::function<Outc
   const Outcome outcome = compute(progress);
   write_output(outcome);
   write_atomically(cost_path(output_), cost(start, outcome.events));
-  return outcome.converged ? ExitStatus::done : ExitStatus::not_converged;
+  return outcome.convergence == Convergence::not_reached ? ExitStatus::not_converged : ExitStatus::done;
 }
 
 int Program::run(int argc, char** argv, const std::function<Outcome(Progress&)>& compute) {

@@ -11,6 +11,8 @@
 
 namespace lorentz {
 
+enum class Convergence { reached, not_reached, no_target };
+
 /// What a run found, and what the output file says of how it was found.
 struct Outcome {
   Results results{};
@@ -20,7 +22,7 @@ struct Outcome {
   std::string target_quantity{};
   double target_error = 0;    // NaN if none was asked for
   double achieved_error = 0;  // relative, or absolute if the target was
-  bool converged = false;
+  Convergence convergence = Convergence::not_reached;
 };
 
 /// The frame of every executable: options, one computation, one HDF5 file written whole, the cost
@@ -30,6 +32,7 @@ class Program {
   Program(const std::string& name, const std::string& description);
 
   Options& options() { return options_; }
+  const Options& options() const { return options_; }
   const std::string& output() const { return output_; }
 
   /// Parses the command line, computes, writes. Returns the exit status; never throws. Errors go to

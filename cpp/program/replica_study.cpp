@@ -10,6 +10,7 @@
 #include "program/build_info.hpp"
 #include "program/checkpoint.hpp"
 #include "program/errors.hpp"
+#include "program/stopping_rule.hpp"
 
 namespace lorentz {
 namespace {
@@ -53,23 +54,26 @@ double error_of(const Quantity& target, bool absolute) {
   return absolute || error == 0 ? error : error / std::abs(target.mean.front());
 }
 
+Convergence convergence_of(bool complete, bool has_target, bool reached) {
+  if (!complete) return Convergence::not_reached;
+  if (!has_target) return Convergence::no_target;
+  return reached ? Convergence::reached : Convergence::not_reached;
+}
+
+/// Of normal records; more where they are skewed.
+void warn_of_few(std::size_t replicas, Progress& progress) {
+  constexpr std::size_t enough = 32;
+  if (replicas > 1 && replicas < enough)
+    progress.say(fmt::format("standard errors from {} replicas are uncertain by about {:.0f} %", replicas,
+                             100 / std::sqrt(2.0 * static_cast<double>(replicas - 1))));
+}
+
 }  // namespace
 
-std::uint64_t replicas_needed(std::uint64_t used, double excess, std::uint64_t batch, std::uint64_t most) {
-  const double needed = std::isfinite(excess) ? static_cast<double>(used) * excess * excess : 0;
-  const auto least = static_cast<double>(used / batch + 1), last = static_cast<double>(most / batch);
-  return batch * static_cast<std::uint64_t>(std::clamp(std::ceil(needed / static_cast<double>(batch)), least,
-                                                       std::max(least, last)));
-}
+ReplicaOptions::ReplicaOptions(const Program& program)
+    : program_(program), threads_(std::max(1U, std::thread::hardware_concurrency())) {}
 
-std::uint64_t next_look(std::uint64_t used, std::uint64_t batch, std::uint64_t most) {
-  const std::uint64_t batches = used / batch, more = std::max<std::uint64_t>(1, batches / 8);
-  return batch * std::max(batches + 1, std::min(batches + more, most / batch));
-}
-
-ReplicaOptions::ReplicaOptions(Program& program)
-    : program_(program), threads_(std::max(1U, std::thread::hardware_concurrency())) {
-  Options& options = program.options();
+void ReplicaOptions::declare(Options& options) {
   constexpr auto conduct = Options::Role::conduct;
   options.integer("--replicas", replicas_, {1, 100'000'000},
                   "Independent replicas; with a target error, replicas per batch");
@@ -77,7 +81,8 @@ ReplicaOptions::ReplicaOptions(Program& program)
                   "With a target error, give up after so many");
   options.integer("--seed", seed_, {}, "Key of all random streams");
   options.real("--target-error", target_error_, non_negative,
-               "Add replicas until the target quantity has this relative standard error; 0: no target");
+               "Add replicas, 64 at least, until the relative standard error of the target quantity is below "
+               "this with 95 % confidence; 0: no target");
   options.real("--target-absolute", target_absolute_, non_negative,
                "The same for the standard error itself; 0: no target");
   options.integer("--threads", threads_, {1, 4096}, "Threads; no result depends on them", conduct);
@@ -105,8 +110,13 @@ Outcome ReplicaOptions::run(const ReplicaStudy& study, Progress& progress) const
   const auto resumed = static_cast<double>(finished.size());
   Clock::time_point next_checkpoint = later(checkpoint_interval_);
 
-  ReplicaRun batch{.seed = seed_, .wanted = 0, .threads = threads_, .deadline = deadline, .report = {}};
-  std::uint64_t needed = replicas_;  // of all batches, as far as it can be told
+  const StoppingRule rule{.batch = replicas_, .most = max_replicas_};
+  ReplicaRun batch{.seed = seed_,
+                   .wanted = target > 0 ? rule.next_look(0) : replicas_,
+                   .threads = threads_,
+                   .deadline = deadline,
+                   .report = {}};
+  std::uint64_t needed = batch.wanted;  // in all, as far as it can be told
   batch.report = [&](double done, const FinishedReplicas& so_far) {
     progress.show(done, static_cast<double>(needed), resumed);
     if (Clock::now() < next_checkpoint) return;
@@ -116,8 +126,7 @@ Outcome ReplicaOptions::run(const ReplicaStudy& study, Progress& progress) const
 
   Outcome outcome{.seed = seed_, .streams = study.streams, .target_quantity = study.target_quantity};
   outcome.target_error = target > 0 ? target : std::numeric_limits<double>::quiet_NaN();
-  for (;;) {
-    batch.wanted = next_look(batch.wanted, replicas_, max_replicas_);
+  for (;; batch.wanted = rule.next_look(batch.wanted)) {
     try {
       run_replicas(batch, study.measure, finished);
     } catch (const Interrupted& interruption) {
@@ -133,17 +142,23 @@ Outcome ReplicaOptions::run(const ReplicaStudy& study, Progress& progress) const
     const Quantity& quantity = quantity_named(outcome.results, study.target_quantity);
     outcome.achieved_error = error_of(quantity, absolute);
     const bool out_of_time = used.size() < batch.wanted;
-    outcome.converged = !out_of_time && std::isfinite(quantity.mean.front()) &&
-                        (target == 0 || outcome.achieved_error <= target);
-    const bool last =
-        target == 0 || outcome.converged || out_of_time || batch.wanted + replicas_ > max_replicas_;
-    if (!last)
-      needed = replicas_needed(used.size(), outcome.achieved_error / target, replicas_, max_replicas_);
+    const double excess = outcome.achieved_error / target;
+    outcome.convergence = convergence_of(!out_of_time && std::isfinite(quantity.mean.front()), target > 0,
+                                         StoppingRule::reached(used.size(), excess));
+    const bool not_reached = outcome.convergence == Convergence::not_reached;
+    const bool last = !not_reached || out_of_time || target == 0 || batch.wanted + replicas_ > max_replicas_;
+    std::string forecast;
+    if (!last && std::isfinite(excess)) {
+      const StoppingRule::Forecast end = rule.forecast(used.size(), excess);
+      needed = end.likely;
+      forecast = fmt::format("; the run ends after {} to {}", end.low, end.high);
+    }
     progress.say(fmt::format("{} replicas: {} = {:.8g} +- {:.2g}{}{}", used.size(), quantity.what.name,
                              quantity.mean.front(), quantity.standard_error.front(),
-                             outcome.converged ? "" : ", not converged",
-                             last ? "" : fmt::format("; the target needs about {}", needed)));
-    if (last) break;
+                             not_reached ? ", not reached" : "", forecast));
+    if (!last) continue;
+    warn_of_few(used.size(), progress);
+    break;
   }
   checkpoint.remove();
   return outcome;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "program/hdf5_file.hpp"
+#include "statistics/control_variates.hpp"
 #include "statistics/jackknife.hpp"
 
 namespace lorentz {
@@ -22,7 +24,8 @@ struct Description {
   std::string name;
   std::string units;
   std::string description;
-  std::vector<Axis> axes{};  // none for a number
+  std::vector<Axis> axes{};                // none for a number
+  std::optional<bool> control_variates{};  // whether they were used, where there are any
 
   std::size_t size() const;
 };
@@ -38,8 +41,13 @@ struct Quantity {
 using Results = std::vector<Quantity>;
 
 /// The quantities described, in their order, from the values that f makes of the mean record, in the same
-/// order; errors by the jackknife over replicas. Throws std::logic_error if f makes more values or fewer.
+/// order; errors by the jackknife over replicas, NaN for elements of arrays that are 0 in all of them. Throws
+/// std::logic_error if f makes more values or fewer.
 Results estimate(const Records& records, const std::vector<Description>& descriptions,
+                 const RecordFunction& f);
+
+/// The same from records with control variates; the quantities say whether these were used.
+Results estimate(const ReducedRecords& records, const std::vector<Description>& descriptions,
                  const RecordFunction& f);
 
 /// Writes /results/<name>/{mean, standard_error, count} and the axes beside them; {mean,

@@ -1,43 +1,24 @@
 #include "statistics/control_variates.hpp"
 
-#include <Eigen/Dense>
+#include <gsl/gsl_statistics_double.h>
+
 #include <algorithm>
-#include <cmath>
 #include <span>
+#include <utility>
+
+#include "statistics/standardised.hpp"
 
 namespace lorentz {
-namespace {
 
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-/// A power of two that brings a number close to 1, so that squares neither overflow nor vanish.
-double towards_one(double number) {
-  return number > 0 ? std::ldexp(1.0, std::min(1000, -std::ilogb(number))) : 1;
-}
-
-/// Every column divided by its standard deviation over the rows; one that does not vary by more than its
-/// rounding becomes 0.
-Matrix standardised(const Matrix& columns) {
-  const Eigen::RowVectorXd largest = columns.cwiseAbs().colwise().maxCoeff();
-  const Matrix scaled = columns * largest.unaryExpr(&towards_one).asDiagonal();
-  const Eigen::RowVectorXd deviation = (scaled.rowwise() - scaled.colwise().mean()).colwise().norm();
-  const Eigen::RowVectorXd rounding = 1e-12 * scaled.colwise().norm();
-  const Eigen::RowVectorXd weight =
-      (deviation.array() > rounding.array()).select(deviation.cwiseInverse(), 0);
-  return scaled * weight.asDiagonal();
-}
-
-}  // namespace
-
-Records reduce_variance(const Records& records, std::size_t controls) {
-  if (records.size() == 0 || controls == 0) return records;
+std::optional<Records> regress_out(const Records& records, std::size_t controls) {
+  if (records.size() == 0 || controls == 0) return {};
   const auto rows = static_cast<Eigen::Index>(records.size());
   const auto c = static_cast<Eigen::Index>(controls);
   const Eigen::Map<const Matrix> all(records.values().data(), rows,
                                      static_cast<Eigen::Index>(records.width()));
   const Matrix x = standardised(all.rightCols(c));
   const Eigen::Index varying = (x.colwise().squaredNorm().array() > 0).count();
-  if (rows < std::max(3 * varying, varying + 8)) return records;
+  if (varying == 0 || rows < std::max<Eigen::Index>(3 * varying, varying + 8)) return {};
   const Matrix x_centred = x.rowwise() - x.colwise().mean();
   const Matrix y = all.leftCols(all.cols() - c);
   const Matrix y_centred = y.rowwise() - y.colwise().mean();
@@ -51,7 +32,7 @@ Records reduce_variance(const Records& records, std::size_t controls) {
       gain.cwiseProduct(x_centred).rowwise().sum().array() + 1. / static_cast<double>(rows);
 
   // Some control varies in hardly more than one record; without it there would be no coefficient.
-  if (leverage.maxCoeff() > 0.99) return records;
+  if (leverage.maxCoeff() > 0.99) return {};
 
   // b without record i is b - gain_i residual_i / (1 - leverage_i).
   const Eigen::VectorXd own = gain.cwiseProduct(x).rowwise().sum().array() / (1 - leverage.array());
@@ -61,6 +42,28 @@ Records reduce_variance(const Records& records, std::size_t controls) {
   Records result(records.width());
   for (Eigen::Index i = 0; i < rows; ++i) result.append(std::span(reduced.row(i).data(), records.width()));
   return result;
+}
+
+double variance_ratio(const Records& a, const Records& b, std::size_t first, std::size_t columns) {
+  double sum = 0, varying = 0;
+  const auto deviation = [](const Records& records, std::size_t column) {
+    return gsl_stats_sd(records.values().data() + column, records.width(), records.size());
+  };
+  for (std::size_t column = first; column < first + columns; ++column) {
+    const double plain = deviation(b, column);
+    if (!(plain > 0)) continue;
+    const double ratio = deviation(a, column) / plain;
+    sum += ratio * ratio;
+    varying += 1;
+  }
+  return varying > 0 ? sum / varying : 1;
+}
+
+ReducedRecords reduce_variance(const Records& records, std::size_t controls) {
+  std::optional<Records> reduced = regress_out(records, controls);
+  if (!reduced || variance_ratio(*reduced, records, 0, records.width() - controls) >= 1)
+    return {records, false};
+  return {*std::move(reduced), true};
 }
 
 }  // namespace lorentz

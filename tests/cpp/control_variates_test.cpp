@@ -34,7 +34,7 @@ support::Sample first_column(const Records& records) {
 
 TEST(ControlVariates, UseCoefficientsOfTheOtherRecords) {
   const Records records = noisy(12, 1, 1);
-  const Records reduced = reduce_variance(records, 2);
+  const Records reduced = *regress_out(records, 2);
   for (std::size_t left_out = 0; left_out < records.size(); ++left_out) {
     Eigen::MatrixXd design(11, 3);
     Eigen::VectorXd y(11);
@@ -55,7 +55,7 @@ TEST(ControlVariates, LeaveTheNoiseAndNoBias) {
   std::vector<double> means, variances;
   double squares = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
-    const support::Sample reduced = first_column(reduce_variance(noisy(30, 0.5, seed), 2));
+    const support::Sample reduced = first_column(*regress_out(noisy(30, 0.5, seed), 2));
     means.push_back(reduced.mean);
     variances.push_back(reduced.standard_error * reduced.standard_error);
     squares += std::pow(reduced.mean - 5, 2) / 400;
@@ -73,29 +73,54 @@ TEST(ControlVariates, ThatDoNotVaryAreLeftOut) {
   const Records source = noisy(10, 0.1, 3);  // enough for two controls, not for three
   for (std::size_t i = 0; i < source.size(); ++i)
     records.append(std::vector{source[i][0], source[i][1], source[i][2], 1. / 3});
-  const Records with = reduce_variance(records, 3), without = reduce_variance(source, 2);
+  const Records with = *regress_out(records, 3), without = *regress_out(source, 2);
   for (std::size_t i = 0; i < source.size(); ++i) EXPECT_NEAR(with[i][0], without[i][0], 1e-12);
 }
 
 TEST(ControlVariates, MayBeOfAnySize) {
-  const Records usual = noisy(30, 0.5, 1), expected = reduce_variance(usual, 2);
+  const Records usual = noisy(30, 0.5, 1), expected = *regress_out(usual, 2);
   for (const int exponent : {-1000, -600, 600, 1000}) {
     Records extreme(3);
     for (std::size_t i = 0; i < usual.size(); ++i)
       extreme.append(
           std::vector{usual[i][0], std::ldexp(usual[i][1], exponent), std::ldexp(usual[i][2], exponent)});
-    const Records reduced = reduce_variance(extreme, 2);
+    const Records reduced = *regress_out(extreme, 2);
     for (std::size_t i = 0; i < usual.size(); ++i) EXPECT_EQ(reduced[i][0], expected[i][0]) << exponent;
   }
 }
 
 TEST(ControlVariates, AreNotUsedWhereTheyCannotBeRegressed) {
   const Records few = noisy(5, 1, 1);
-  EXPECT_EQ(reduce_variance(few, 2).values(), few.values());
+  EXPECT_FALSE(regress_out(few, 2));
+  EXPECT_FALSE(regress_out(few, 0));
   Records lonely(2);  // one record decides the coefficient
   for (int i = 0; i < 20; ++i) lonely.append(std::vector{std::sin(i), i == 3 ? 1. : 0.});
-  EXPECT_EQ(reduce_variance(lonely, 1).values(), lonely.values());
-  EXPECT_EQ(reduce_variance(few, 0).values(), few.values());
+  EXPECT_FALSE(regress_out(lonely, 1));
+  const ReducedRecords unchanged = reduce_variance(few, 2);
+  EXPECT_FALSE(unchanged.control_variates);
+  EXPECT_EQ(unchanged.records.values(), few.values());
+}
+
+/// Controls that have nothing to do with the columns make them scatter more, by about the number of controls
+/// over that of the records.
+TEST(ControlVariates, AreUsedOnlyIfTheyHelp) {
+  int used = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    std::mt19937_64 generator(seed);
+    std::normal_distribution<double> normal;
+    Records unrelated(23);
+    for (int i = 0; i < 32; ++i) {
+      std::vector<double> row;
+      for (int column = 0; column < 23; ++column) row.push_back(normal(generator));
+      unrelated.append(row);
+    }
+    EXPECT_GT(variance_ratio(*regress_out(unrelated, 3), unrelated, 0, 20), 0.9);
+    const ReducedRecords chosen = reduce_variance(unrelated, 3);
+    used += chosen.control_variates ? 1 : 0;
+    EXPECT_LE(variance_ratio(chosen.records, unrelated, 0, 20), 1);
+  }
+  EXPECT_LT(used, 20);
+  EXPECT_TRUE(reduce_variance(noisy(30, 0.5, 1), 2).control_variates);
 }
 
 }  // namespace

@@ -4,11 +4,12 @@
 #include <signal.h>
 
 #include <chrono>
-#include <limits>
 #include <set>
+#include <sstream>
 #include <string>
 #include <thread>
 
+#include "program/stopping_rule.hpp"
 #include "support/study.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -25,6 +26,16 @@ TEST(ReplicaStudy, WritesEqualBytesForAnyNumberOfThreads) {
   EXPECT_EQ(content_of(folder / "a.h5"), content_of(folder / "b.h5"));
   EXPECT_EQ(folder.names(), (Names{"a.h5", "a.cost.json", "b.h5", "b.cost.json"}));
   EXPECT_EQ(replicas_in(folder / "a.h5"), 16U);
+}
+
+TEST(ReplicaStudy, EndsAtTheSameReplicaForAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  for (const char* threads : {"1", "7"})
+    EXPECT_EQ(run({"--output", folder / threads, "--target-error", "0.02", "--replicas", "3", "--threads",
+                   threads}),
+              0);
+  EXPECT_EQ(content_of(folder / "1"), content_of(folder / "7"));
+  EXPECT_GT(replicas_in(folder / "1"), 66U);
 }
 
 // Without the checkpoint its last replica would wait for ten seconds.
@@ -78,7 +89,8 @@ TEST(ReplicaStudy, ResumesToEqualBytes) {
   EXPECT_EQ(content_of(folder / "fresh.h5"), content_of(folder / "whole.h5"));
 }
 
-// 0.3 / sqrt(R) / 1.5 falls below 0.02 near R = 100, and up to 128 the error is looked at after every 8.
+// 0.3 / sqrt(R) / 1.5 falls far enough below 0.02 near R = 128, and up to there the error is looked at after
+// every 8.
 TEST(ReplicaStudy, StopsAtTheTargetErrorOnABatchBoundary) {
   const TemporaryFolder folder;
   const Arguments batches = {"--replicas", "8", "--output", folder / "a.h5"};
@@ -87,69 +99,71 @@ TEST(ReplicaStudy, StopsAtTheTargetErrorOnABatchBoundary) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(arguments);
   };
+  const auto reached = [](std::uint64_t count, double mean, double error) {
+    return StoppingRule::reached(count, error / mean / 0.02);
+  };
   EXPECT_EQ(with({"--target-error", "0.02"}), 0);
   const std::uint64_t count = replicas_in(folder / "a.h5");
   EXPECT_EQ(count % 8, 0U);
   const Hdf5Reader file(folder / "a.h5");
-  const double relative =
-      file.doubles("/results/value/standard_error")[0] / file.doubles("/results/value/mean")[0];
-  EXPECT_LE(relative, 0.02);
+  EXPECT_TRUE(reached(count, file.doubles("/results/value/mean")[0],
+                      file.doubles("/results/value/standard_error")[0]));
   Records fewer(1);
   for (std::uint64_t index = 0; index < count - 8; ++index) fewer.append(measure({{1, index}, {}}).values);
   const Quantity before = summarise(fewer)[0];
-  EXPECT_GT(before.standard_error[0] / before.mean[0], 0.02);  // one batch less would not have done
+  EXPECT_FALSE(reached(count - 8, before.mean[0], before.standard_error[0]));
 
-  EXPECT_EQ(with({"--target-error", "1e-6", "--max-replicas", "20"}), 4);
+  EXPECT_EQ(with({"--target-error", "10"}), 0);  // never with fewer than 64
+  EXPECT_EQ(replicas_in(folder / "a.h5"), 64U);
+  EXPECT_EQ(with({"--target-error", "10", "--max-replicas", "20"}), 4);
   EXPECT_EQ(replicas_in(folder / "a.h5"), 16U);
+  EXPECT_EQ(with({"--target-error", "1e-6", "--max-replicas", "100"}), 4);
+  EXPECT_EQ(replicas_in(folder / "a.h5"), 96U);
   EXPECT_EQ(with({"--target-error", "1e-6", "--time-limit", "1e-9"}), 4);
   EXPECT_EQ(replicas_in(folder / "a.h5"), 2U);
   EXPECT_EQ(with({"--target-error", "0.1", "--target-absolute", "0.1"}), 2);
 }
 
-// An error three times too large needs nine times as many.
-TEST(ReplicaStudy, PredictsTheReplicasThatATargetNeeds) {
-  EXPECT_EQ(replicas_needed(8, 3, 8, 1000), 72U);
-  EXPECT_EQ(replicas_needed(16, 1.01, 8, 1000), 24U);  // a whole batch more
-  EXPECT_EQ(replicas_needed(8, 1e9, 8, 1001), 1000U);
-  EXPECT_EQ(replicas_needed(8, std::numeric_limits<double>::quiet_NaN(), 8, 1000), 16U);
-}
-
-// The jackknife over all replicas at every look would otherwise take a time that grows with their square.
-TEST(ReplicaStudy, LooksAtTheErrorEverSeldomer) {
-  std::vector<std::uint64_t> looks;
-  for (std::uint64_t used = 0; used < 300;) looks.push_back(used = next_look(used, 10, 305));
-  EXPECT_EQ(looks, (std::vector<std::uint64_t>{10,  20,  30,  40,  50,  60,  70,  80,  90,  100, 110,
-                                               120, 130, 140, 150, 160, 180, 200, 220, 240, 270, 300}));
-  EXPECT_EQ(next_look(0, 10, 5), 10U);  // the first batch is measured anyway
-}
-
-// After one batch of 32 the prediction is within a factor of two of what the target takes.
-TEST(ReplicaStudy, SaysHowManyReplicasTheTargetNeeds) {
+TEST(ReplicaStudy, SaysWhereTheRunEnds) {
   const TemporaryFolder folder;
-  EXPECT_EQ(
-      run({"--replicas", "32", "--target-error", "0.01", "--output", folder / "a.h5", "--progress", "log"}),
-      0);
-  const std::string words = "the target needs about ";
+  EXPECT_EQ(run({"--target-error", "0.01", "--output", folder / "a.h5", "--progress", "log"}), 0);
+  const std::string words = "the run ends after ";
   const std::size_t found = complaints.find(words);
   ASSERT_NE(found, std::string::npos) << complaints;
-  const double predicted = std::stod(complaints.substr(found + words.size()));
-  const auto real = static_cast<double>(replicas_in(folder / "a.h5"));
-  EXPECT_LT(predicted, 2 * real);
-  EXPECT_GT(predicted, real / 2);
+  std::istringstream rest(complaints.substr(found + words.size()));
+  std::uint64_t low = 0, high = 0;
+  std::string to;
+  rest >> low >> to >> high;
+  const std::uint64_t spent = replicas_in(folder / "a.h5");
+  EXPECT_LE(low, spent) << complaints;
+  EXPECT_GE(high, spent) << complaints;
 }
 
-// The error may only be looked at where an uninterrupted run looks at it: after 8, 16, 24, ... replicas.
+TEST(ReplicaStudy, SaysHowUncertainErrorsFromFewReplicasAre) {
+  const TemporaryFolder folder;
+  const auto said = [&](const char* replicas, const char* progress) {
+    EXPECT_EQ(run({"--replicas", replicas, "--output", folder / "a.h5", "--progress", progress}), 0);
+    return complaints;
+  };
+  const std::string warning = "example: standard errors from 9 replicas are uncertain by about 25 %\n";
+  EXPECT_TRUE(said("9", "log").ends_with(warning)) << complaints;
+  EXPECT_EQ(said("9", "none"), "");
+  for (const char* replicas : {"1", "32"})
+    EXPECT_EQ(said(replicas, "log").find("uncertain"), std::string::npos) << complaints;
+}
+
+// The error may only be looked at where an uninterrupted run looks at it: after 64, 72, 80, ... replicas.
 TEST(ReplicaStudy, ResumesToTheSameBatchBoundary) {
   const TemporaryFolder folder;
   const auto with = [&](const std::string& name, const Measurement& measurement, const Arguments& more) {
     Arguments arguments = {"--threads",      "1",    "--replicas", "8",
-                           "--target-error", "0.05", "--output",   folder / name};
+                           "--target-error", "0.02", "--output",   folder / name};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(arguments, measurement);
   };
   EXPECT_EQ(with("whole.h5", measure, {}), 0);
   const std::uint64_t count = replicas_in(folder / "whole.h5");
-  ASSERT_GT(count, 16U);
+  ASSERT_GT(count, 72U);
   EXPECT_EQ(with("parts.h5", interrupted_at(count - 1), {}), 128 + SIGINT);
   EXPECT_EQ(with("parts.h5", measure, {"--resume"}), 0);
   EXPECT_EQ(content_of(folder / "parts.h5"), content_of(folder / "whole.h5"));

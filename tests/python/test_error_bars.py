@@ -11,6 +11,7 @@ from workflow.scripts.load import load
 
 SEEDS = 50
 REPLICAS = 24
+LEAST = 64  # replicas of a run with a target error
 
 
 def chi_square(values: np.ndarray, errors: np.ndarray) -> float:
@@ -19,14 +20,15 @@ def chi_square(values: np.ndarray, errors: np.ndarray) -> float:
     return float(np.sum(weights * (values - np.average(values, weights=weights)) ** 2))
 
 
-def accepted(statistic: float) -> bool:
+def accepted(statistic: float, replicas: int = REPLICAS) -> bool:
     """Errors estimated from R replicas make the sum of squared Student variables: each has mean
     (R-1)/(R-3), not 1, which the bounds allow for."""
-    stretch = (REPLICAS - 1) / (REPLICAS - 3)
+    stretch = (replicas - 1) / (replicas - 3)
     low, high = chi2.ppf([5e-4, 1 - 5e-4], SEEDS - 1)
     return bool(low < statistic < stretch * high)
 
 
+OPEN = {"particles_per_cell": None, "relaxation_time": "0.05N"}
 PULSE = {"cells": 31, "particles_per_cell": 20, "relaxation_time": 0, "observation_time": None, "members": 8}
 
 
@@ -56,3 +58,29 @@ def test_standard_error_over_seeds(
     # Mutants: the spread of one replica instead of the mean's error, and a factor two either way.
     for factor in (np.sqrt(REPLICAS), 2, 0.5):
         assert not accepted(chi_square(values, factor * errors))
+
+
+@pytest.mark.parametrize(
+    ("name", "quantity", "options"),
+    [
+        ("persistence", "mu", {"sigma": 0.5, "target_error": 0.004}),
+        ("conductivity", "kappa", {**OPEN, "cells": 8, "observation_time": 5, "target_error": 0.04}),
+    ],
+)
+def test_standard_error_over_seeds_where_a_target_ends_the_run(
+    program: Program, tmp_path: Path, name: str, quantity: str, options: dict
+) -> None:
+    """With the smallest batches that have an error. What the rule does to means and errors is measured in
+    tests/cpp/stopping_rule_test.cpp; this is its use, with control variates where there are some."""
+    found = []
+    for seed in range(SEEDS):
+        assert program(name, seed=seed, replicas=2, **options).returncode == 0
+        result = load(tmp_path / "out.h5")[quantity]
+        found.append((float(result.mean), float(result.standard_error), int(result.count)))
+    values, errors, counts = np.array(found).T
+    assert (errors <= options["target_error"] * abs(values)).all()
+    assert counts.min() >= LEAST
+    assert counts.max() > counts.min()  # where it ends is decided by the data
+    assert accepted(chi_square(values, errors), LEAST)
+    for factor in (2, 0.5):
+        assert not accepted(chi_square(values, factor * errors), LEAST)

@@ -26,9 +26,10 @@ SHORT = {  # programs with options that they do not share
 QUANTITIES = {
     "waiting_time": {"density": ["tau"], "exponent": [], "exponent_by_cut": ["cut"], "exponent_spread": []},
     "displacement": {"variance": ["time"], "absolute_moment": ["time"], "fourth_moment": ["time"], "alpha": [],
-                     "centre_of_mass": ["time"], "mean_displacement": ["time"], "local_slope": ["time"], "alpha_relative": [], "logarithmic_power": [],
+                     "centre_of_mass": ["time"], "mean_displacement": ["time"], "local_slope": ["time"], "alpha_relative": [], "alpha_difference": [],
                      "variance_plain": ["time"], "alpha_plain": []},
-    "ageing": {"scatterer_energy": ["time"], "particle_energy": ["time"], "log_slope": []},
+    "ageing": {"scatterer_energy": ["time"], "particle_energy": ["time"], "log_slope": [],
+               "scatterer_energy_mean": ["window"], "decade_slope": ["decade"]},
     "energy_pulse": {"energy_difference": ["time", "cell"], "injected_energy": [], "sum_error": [], "peak": ["time"],
                      "peak_position": ["time"], "peak_raw": ["time"], "centre_share": ["time"],
                      "damping_exponent": [], "damping_exponent_from": ["from"], "peak_collapse": [],

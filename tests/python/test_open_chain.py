@@ -21,10 +21,14 @@ QUANTITIES = {
                      for name in ("energy_current", "particle_current", "temperature_first", "temperature_last",
                                   "kappa", "kappa_printed", "kappa_particle") for suffix in ("", "_plain")}
                     | {name: [] for name in ("energy_current_drift", "temperature_first_drift",
-                                             "temperature_last_drift", "stationary")}
+                                             "temperature_last_drift", "particle_current_drift", "drift_p_value",
+                                             "stationary")}
                     | {"blocking_error": ["length"]},
     "steady_profile": {**{name: ["cell"] for name in ("temperature_scatterer", "temperature_particle", "density",
-                                                      "rate_right", "rate_left")},
+                                                      "rate_right", "rate_left", "temperature_difference",
+                                                      "rate_right_deviation", "rate_left_deviation")},
+                       "density_slope": [], "density_excess": ["end"],
+                       **{f"{name}_current_deviation": ["bond"] for name in ("particle", "energy")},
                        "particle_current": ["bond"], "energy_current": ["bond"], "particle_current_mean": [],
                        "energy_current_mean": [], "scatterer_density": ["end", "momentum"]},
     "momentum_flux": {"flux": ["bond", "momentum"], "flux_plain": ["bond", "momentum"], "jump": ["bond"],

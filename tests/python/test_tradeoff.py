@@ -12,7 +12,8 @@ from scipy.stats import chi2
 
 from workflow import tradeoff
 from workflow.config.plan import Run, load_plan
-from workflow.provenance.status import effort
+from workflow.provenance import status
+from workflow.provenance.status import effort, expected_cost, scaled
 from workflow.tradeoff.accuracy import amplitude, uncertainty
 from workflow.tradeoff.bias import with_bias
 from workflow.tradeoff.efficiency import Estimate, compared, jackknife
@@ -67,8 +68,8 @@ def test_compared() -> None:
 
 
 def test_foretold_is_what_is_said_first() -> None:
-    said = "p: 32 replicas: mu = 1 +- 1, not converged; the target needs about 640\n"
-    assert foretold(said + said.replace("640", "320")) == 640
+    said = "p: 64 replicas: mu = 1 +- 1, not reached; the run ends after 640 to 900\n"
+    assert foretold(said + said.replace("640", "700")) == (640, 900)
 
 
 def test_bias_is_the_difference_from_the_last_row_of_a_knob() -> None:
@@ -83,8 +84,37 @@ def test_bias_is_the_difference_from_the_last_row_of_a_knob() -> None:
     ("changes", "factor"), [({"replicas": 8}, 4), ({"members": 48}, 3), ({"times": "1,6"}, 1.75)]
 )
 def test_effort_is_what_cost_is_proportional_to(changes: dict, factor: float) -> None:
-    options = {"replicas": 2, "members": 16, "times": "1,3", "relaxation-time": 1}
-    assert effort(Run("", "", options | changes)) == pytest.approx(factor * effort(Run("", "", options)))
+    options = {"replicas": 2, "members": 16, "times": "1,3", "relaxation-time": "0.25N", "cells": 4}
+    assert effort(options | changes) == pytest.approx(factor * effort(options))
+
+
+def cost(effort: float) -> float:
+    return 0.05 + 0.01 * effort
+
+
+@pytest.mark.parametrize("share", [0.1, 1, 16])
+def test_cost_is_foretold_as_a_range(share: float) -> None:
+    """The program's start takes as long as the cheapest execution, or less."""
+    for start in (0.05, 0.07):
+        least, most = scaled(cost(8), share, start)
+        assert least <= cost(8 * share) * (1 + 1e-12)
+        assert most >= cost(8 * share) * (1 - 1e-12)
+    assert share == 1 or scaled(cost(8), share, 0) != pytest.approx(
+        (cost(8 * share),) * 2
+    )  # mutant: no start
+
+
+def test_cost_is_foretold_by_the_nearest_execution(monkeypatch: pytest.MonkeyPatch) -> None:
+    """And by the options that it had, not by those that the plan has now."""
+    known = [
+        ({"replicas": 2, "observation-time": 5.0}, 1.0),
+        ({"replicas": 16, "observation-time": 5.0}, 6.0),
+    ]
+    monkeypatch.setattr(status, "executions", lambda _panel, _run: iter(known))
+    assert expected_cost("", Run("", "", {"replicas": 32}), 0) == (12, 12)
+    assert expected_cost("", Run("", "", {"replicas": 1}), 0.2) == pytest.approx((0.5, 0.6))
+    monkeypatch.setattr(status, "executions", lambda _panel, _run: iter([]))
+    assert np.isnan(expected_cost("", Run("", "", {"replicas": 1}), 0)).all()
 
 
 def named_runs(panels: Collection[str]) -> Iterator[tuple[str, str]]:

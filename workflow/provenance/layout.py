@@ -14,6 +14,7 @@ import numpy as np
 from jsonschema import Draft202012Validator
 
 from workflow.provenance.repository import ROOT
+from workflow.scripts.load import NOT_REACHED
 
 SCHEMA = ROOT / "docs/format.schema.json"
 MEASURED = {"standard_error", "count"}
@@ -101,15 +102,18 @@ def _of_quantity(parts: dict[str, dict]) -> list[str]:
 
 
 def _of_convergence(provenance: dict[str, Any], quantities: dict[str, dict]) -> list[str]:
-    """A file may have stopped for want of time with its target reached, so only `converged` promises anything."""
-    if not provenance["converged"]:
+    """A run may have stopped for want of time with its target within reach: then `converged` promises nothing."""
+    state = provenance["converged"]
+    if state == NOT_REACHED:
         return []
     found = []
     target, achieved = float(provenance["target_error"]), float(provenance["achieved_error"])
-    if not math.isnan(target) and not achieved <= target:
-        found.append(f"converged, though achieved_error = {achieved} is not within target_error = {target}")
+    if state == "reached" and not achieved <= target:
+        found.append(f"{state}, though achieved_error = {achieved} is not within target_error = {target}")
+    if state == "no target" and not math.isnan(target):
+        found.append(f"{state}, though target_error = {target}")
     name = provenance["target_quantity"]
     mean = quantities.get(name, {}).get("mean", {}).get("value", 0.0)  # the target may be several quantities
     if not math.isfinite(float(mean)):
-        found.append(f"converged, though {name} is {mean}")
+        found.append(f"{state}, though {name} is {mean}")
     return found

@@ -4,13 +4,14 @@ import argparse
 import json
 import math
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from workflow.config.plan import QUALITIES, ConfigurationError, Panel, Run, data_path, load_plan
+from workflow.config.plan import QUALITIES, ConfigurationError, Options, Panel, Run, data_path, load_plan
 from workflow.provenance.repository import ROOT
 from workflow.provenance.stale import Staleness
 from workflow.scripts.load import FormatError, load
@@ -24,25 +25,49 @@ def cost_file(quality: str, panel: str, run: str) -> dict | None:
     return json.loads(path.read_text()) if path.is_file() else None
 
 
-def effort(run: Run) -> float:
-    """Replicas, with their members, times the simulated time: what cost is proportional to."""
-    replicas = float(run.options.get("replicas", 1)) * float(run.options.get("members", 1))
-    last = str(run.options.get("times", "")).rsplit(",", maxsplit=1)[-1] or run.options.get(
-        "observation-time", 1
-    )
-    times = (last, run.options.get("relaxation-time", 0))
-    return replicas * sum(float(str(time).rstrip("N") or 1) for time in times)
+def effort(options: Options) -> float:
+    """Replicas, with their members, times the simulated time: what cost is proportional to, but for the start."""
+
+    def simulated(time: str) -> float:
+        return float(time.rstrip("N")) * (float(options["cells"]) if time.endswith("N") else 1)
+
+    replicas = float(options.get("replicas", 1)) * float(options.get("members", 1))
+    last = str(options.get("times", "")).rsplit(",", maxsplit=1)[-1] or options.get("observation-time", 1)
+    return replicas * sum(simulated(str(time)) for time in (last, options.get("relaxation-time", 0)))
 
 
-def expected_cost(plans: dict[str, dict[str, Panel]], quality: str, panel: str, run: Run) -> float:
-    """CPU seconds: of the last execution, at this quality or another, scaled by the effort; NaN if there is none."""
-    for other in (quality, *QUALITIES):
-        runs = plans[other][panel].runs if panel in plans[other] else ()
-        twin = next((one for one in runs if one.name == run.name), None)
-        cost = cost_file(other, panel, run.name)
-        if twin is not None and cost is not None:
-            return cost["cpu_seconds"] * effort(run) / effort(twin)
-    return math.nan
+def executions(panel: str, run: str) -> Iterator[tuple[Options, float]]:
+    """Options and CPU seconds of the last execution at every quality that has one; the plan may have changed since."""
+    for quality in QUALITIES:
+        cost = cost_file(quality, panel, run)
+        with suppress(FormatError):
+            parameters = load(ROOT / data_path(quality, panel, run)).parameters
+            if cost is not None:
+                yield parameters, cost["cpu_seconds"]
+
+
+def scaled(cost: float, share: float, start: float) -> tuple[float, float]:
+    """The least and the most that a run costs if up to `start` seconds of another's cost do not grow with the effort."""
+    least, most = sorted((cost * share, start + (cost - start) * share))
+    return least, most
+
+
+def expected_cost(panel: str, run: Run, start: float) -> tuple[float, float]:
+    """The least and the most CPU seconds, by the execution whose effort is nearest; NaN if there is none."""
+    known = [
+        (effort(options | run.options) / effort(options), cost)
+        for options, cost in executions(panel, run.name)
+    ]
+    if not known:
+        return math.nan, math.nan
+    share, cost = min(known, key=lambda one: abs(math.log(one[0])))
+    return scaled(cost, share, start)
+
+
+def cheapest() -> float:
+    """CPU seconds of the cheapest execution: no start of a program costs more."""
+    costs = (json.loads(path.read_text())["cpu_seconds"] for path in (ROOT / "build/costs").rglob("*.json"))
+    return min(costs, default=0)
 
 
 def worst_error(quality: str, panel: Panel) -> str:
@@ -66,11 +91,16 @@ def seconds(values: Iterable[float]) -> str:
     return "unknown" if math.isnan(total) else f"{total:.1f}"
 
 
+def seconds_between(ranges: Sequence[tuple[float, float]]) -> str:
+    least, most = (seconds(one[end] for one in ranges) for end in (0, 1))
+    return least if least == most else f"{least} to {most}"
+
+
 def table(quality: str) -> Table:
     """Raises ConfigurationError."""
-    plans = {name: load_plan(name) for name in QUALITIES}
-    plan = plans[quality]
+    plan = load_plan(quality)
     stale = Staleness(quality, plan).reasons(plan)
+    start = cheapest()
     result = Table(
         "panel", "state", "largest error", "CPU s, last", "CPU s, next", title=f"Quality {quality}"
     )
@@ -84,7 +114,7 @@ def table(quality: str) -> Table:
             escape(reason),
             worst_error(quality, panel),
             seconds(cost["cpu_seconds"] for cost in past) if past else "",
-            seconds(expected_cost(plans, quality, name, run) for run in waiting),
+            seconds_between([expected_cost(name, run, start) for run in waiting]),
         )
     return result
 

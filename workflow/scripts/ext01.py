@@ -37,10 +37,11 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
             "random-direction",
         ):
             part[name.replace("-", "_")] = result.parameters[name]
-        for name in ("alpha", "logarithmic_power"):
-            part[name], part[f"{name}_error"] = (
-                float(x) for x in (result[name].mean, result[name].standard_error)
-            )
+        for name in ("alpha", "logarithmic_power", "momentum_drift"):
+            if name not in result.quantities:  # there is no logarithmic power where the chain drifts
+                continue
+            part[name] = float(result[name].mean)
+            part[f"{name}_error"] = float(result[name].standard_error)
         parts.append(part)
     return pd.concat(parts, ignore_index=True)
 

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from workflow.scripts import style
 from workflow.scripts.figure import run
-from workflow.scripts.load import Result
+from workflow.scripts.load import NOT_REACHED, Result
 
 MARKS = [
     {"marker": "o", "color": style.BLUE, "markerfacecolor": style.BLUE},
@@ -68,7 +68,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         below.errorbar(series.sigma, 1e3 * series.deviation, 1e3 * series.mu_error, **mark, **style.POINTS)
         expected = 1e3 * (series.law_at_local_energies - series.law)
         below.plot(series.sigma, expected, color=mark["color"], linestyle=dashes, zorder=1)
-        style.cross_out(above, series.sigma, series.mu, ~series.converged)
+        style.cross_out(above, series.sigma, series.mu, series.converged == NOT_REACHED)
     below.plot([], [], color="grey", linestyle="dashed", label="law at local energies")
     below.legend(loc="lower left")
     above.set(ylabel=r"persistence $\mu$", xlim=(-1.04, 1.04), ylim=(-0.03, 1.03))

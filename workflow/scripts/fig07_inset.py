@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from workflow.scripts import style
 from workflow.scripts.figure import run
-from workflow.scripts.load import Result
+from workflow.scripts.load import NOT_REACHED, Result
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
@@ -36,7 +36,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         **relative,
         **style.POINTS,
     )
-    style.cross_out(axes, table.sigma, table.alpha, ~table.converged)
+    style.cross_out(axes, table.sigma, table.alpha, table.converged == NOT_REACHED)
     for value in (1, 2):
         axes.axhline(value, **style.GUIDE)
     axes.set(xlabel=r"mass ratio $\sigma$", ylabel=r"exponent $\alpha$", xlim=(-1, 1), ylim=(0.8, 2.35))

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from workflow.scripts import style
 from workflow.scripts.figure import run
 from workflow.scripts.fit import PowerLaw, fit_power
-from workflow.scripts.load import Result
+from workflow.scripts.load import NOT_REACHED, Result
 
 GUIDES = {"N": (1 / 3, r"$N^{1/3}$"), 1: (1, "$N$")}  # the paper's exponents, by gamma
 
@@ -43,7 +43,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
             row[name], row[f"{name}_error"] = (
                 float(value) for value in (result[name].mean, result[name].standard_error)
             )
-        row["sound"] = result.converged and result["stationary"].mean == 1
+        row["sound"] = result.converged != NOT_REACHED and result["stationary"].mean == 1
         rows.append(row)
     return pd.DataFrame(rows).sort_values("cells")
 

@@ -8,7 +8,8 @@ import h5py
 import numpy as np
 
 FORMAT = "lorentz-gas"
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2
+NOT_REACHED = "not reached"
 
 
 class FormatError(ValueError):
@@ -18,7 +19,8 @@ class FormatError(ValueError):
 @dataclass(frozen=True)
 class Quantity:
     """mean, the errors and count have one shape; axes maps names to one-dimensional arrays. What is computed
-    has a discretisation error, what is measured a standard error and a count; the others are None."""
+    has a discretisation error, what is measured a standard error and a count; the others are None.
+    control_variates: whether they were used, None where there are none."""
 
     mean: np.ndarray
     standard_error: np.ndarray | None
@@ -26,6 +28,7 @@ class Quantity:
     count: np.ndarray | None
     axes: dict[str, np.ndarray]
     units: str
+    control_variates: bool | None
 
 
 @dataclass(frozen=True)
@@ -39,8 +42,9 @@ class Result:
         return self.quantities[name]
 
     @property
-    def converged(self) -> bool:
-        return bool(self.provenance["converged"])
+    def converged(self) -> str:
+        """Of the target error: reached, not reached, or no target."""
+        return self.provenance["converged"]
 
 
 def load(path: Path) -> Result:
@@ -76,4 +80,12 @@ def _quantity(group: h5py.Group) -> Quantity:
         name: values.pop(name) if name in names else None
         for name in ("standard_error", "discretisation_error", "count")
     }
-    return Quantity(mean, **rest, axes=values, units=_attributes(group["mean"])["units"])
+    attributes = _attributes(group["mean"])
+    used = attributes.get("control_variates")
+    return Quantity(
+        mean,
+        **rest,
+        axes=values,
+        units=attributes["units"],
+        control_variates=None if used is None else bool(used),
+    )

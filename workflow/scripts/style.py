@@ -75,7 +75,7 @@ def label_within_decades(axis: Axis) -> None:
 
 
 def cross_out(axes: Axes, x: np.ndarray, y: np.ndarray, where: np.ndarray) -> None:
-    """Marks the points whose run stopped before its target error."""
+    """Marks the points whose run did not reach its target error."""
     axes.plot(x[where], y[where], linestyle="none", marker="x", color=BLACK, markersize=6, zorder=5)
 
 

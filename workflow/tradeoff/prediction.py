@@ -1,4 +1,4 @@
-"""How well a program foretells what a target error costs: after its first batch, against the CPU seconds spent.
+"""How well a program foretells what a target error costs: at its first look, against the CPU seconds spent.
 
 Its products hold measured times, so they change from run to run and do not belong to `make figures`.
 """
@@ -12,8 +12,8 @@ from workflow.tradeoff import frame
 from workflow.tradeoff.accuracy import SETTINGS, window
 from workflow.tradeoff.measure import attempt, planned
 
-BATCH = 32
-# How many times smaller than the error of the first batch the target is.
+LEAST, BATCH = 64, 16  # replicas at the first look at the error, and those added at least
+# How many times smaller than the error at the first look the target is.
 EXCESSES = {
     "persistence": 4,
     "waiting_time": 4,
@@ -22,26 +22,32 @@ EXCESSES = {
     "steady_profile": 5,
     "energy_pulse": 4,
 }
-FORETOLD = re.compile(r"the target needs about (\d+)")
+FORETOLD = re.compile(r"the run ends after (\d+) to (\d+)")
 
 
-def foretold(said: str) -> int:
-    """Replicas, as the program says after its first batch."""
-    return int(FORETOLD.search(said)[1])
+def foretold(said: str) -> tuple[int, int]:
+    """The least and the most replicas, as the program says at its first look."""
+    least, most = FORETOLD.search(said).groups()
+    return int(least), int(most)
 
 
 def compare(programs: Path, program: str, excess: float) -> dict[str, object]:
     panel, name, share = SETTINGS[program]
     run = planned(panel, name)
-    changes = window(run, share) | {"replicas": BATCH}
-    first = attempt(programs, run, **changes)
+    changes = window(run, share)
+    first = attempt(programs, run, **changes, replicas=LEAST)
     target = first.result.provenance["achieved_error"] / excess
-    whole = attempt(programs, run, **changes, target_error=target)
-    replicas = foretold(whole.said)
+    whole = attempt(programs, run, **changes, replicas=BATCH, target_error=target)
+    least, most = foretold(whole.said)
     needed = int(whole.result[whole.result.provenance["target_quantity"]].count)
-    row = {"program": program, "target": target, "replicas_foretold": replicas, "replicas": needed}
-    row |= {"seconds_foretold": first.seconds * replicas / BATCH, "seconds": whole.seconds}
-    return row | {"ratio": row["seconds_foretold"] / row["seconds"]}
+    row = {"program": program, "target": target, "replicas_least": least, "replicas_most": most}
+    row |= {"replicas": needed, "as_foretold": least <= needed <= most}
+    seconds = {"seconds_least": least, "seconds_most": most}
+    return (
+        row
+        | {key: first.seconds * count / LEAST for key, count in seconds.items()}
+        | {"seconds": whole.seconds}
+    )
 
 
 def measure(programs: Path) -> pd.DataFrame:

@@ -44,6 +44,12 @@ class HeapSimulator {
     generator_.seed(seed);
   }
 
+  /// From now on a fair coin decides the direction of a particle after every collision.
+  void draw_directions(std::uint64_t seed) {
+    directions_drawn_ = true;
+    coin_.seed(seed);
+  }
+
   Real scatterer_mass() const { return (1 + sigma_) / (1 - sigma_); }
 
   /// Energy of every cell, its scatterer's and that of the particles inside, between the last event and
@@ -78,6 +84,7 @@ class HeapSimulator {
                  -sigma_ * p + (1 - sigma_) * P,
                  P,
                  (1 + sigma_) * p + sigma_ * P};
+        if (directions_drawn_ && std::bernoulli_distribution(0.5)(coin_)) event.p_after = -event.p_after;
         P = event.P_after;
         next.p = event.p_after;
       }
@@ -107,6 +114,8 @@ class HeapSimulator {
   std::priority_queue<Pending> pending_;
   double probability_ = 1;
   std::mt19937_64 generator_;
+  bool directions_drawn_ = false;
+  std::mt19937_64 coin_;
 };
 
 /// The simulator at the start that the engine uses: any type with particles[i].{position,velocity}

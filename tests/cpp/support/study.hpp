@@ -37,7 +37,8 @@ inline int run_program(Arguments arguments, const Measurement& measurement) {
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   Program program("example", "An example");
-  const ReplicaOptions replicas(program);
+  ReplicaOptions replicas(program);
+  replicas.declare(program.options());
   const int status = program.run(static_cast<int>(pointers.size()), pointers.data(), [&](Progress& progress) {
     return replicas.run({measurement, summarise, "value", "none"}, progress);
   });

@@ -1,0 +1,43 @@
+#include "program/stopping_rule.hpp"
+
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lorentz {
+namespace {
+
+/// Bound below which the true standard error of `used` normal records lies with a probability, over its
+/// estimate.
+double bound(std::uint64_t used, double probability) {
+  const auto freedom = static_cast<double>(used - 1);
+  return std::sqrt(freedom / gsl_cdf_chisq_Qinv(probability, freedom));
+}
+
+}  // namespace
+
+std::uint64_t StoppingRule::next_look(std::uint64_t used) const {
+  const std::uint64_t batches = used / batch;
+  const std::uint64_t wanted =
+      used == 0 ? (least + batch - 1) / batch : batches + std::max<std::uint64_t>(1, batches / 8);
+  return batch * std::max(batches + 1, std::min(wanted, most / batch));
+}
+
+bool StoppingRule::reached(std::uint64_t used, double excess) {
+  return used >= least && excess * bound(used, 0.95) <= 1;
+}
+
+StoppingRule::Forecast StoppingRule::forecast(std::uint64_t used, double excess) const {
+  return {end(used, excess), end(used, excess * bound(used, 0.025)), end(used, excess * bound(used, 0.975))};
+}
+
+std::uint64_t StoppingRule::end(std::uint64_t used, double excess) const {
+  std::uint64_t look = used;
+  do look = next_look(look);
+  while (look + batch <= most &&
+         !reached(look, excess * std::sqrt(static_cast<double>(used) / static_cast<double>(look))));
+  return look;
+}
+
+}  // namespace lorentz

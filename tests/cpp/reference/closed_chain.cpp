@@ -1,0 +1,152 @@
+/// The closed chain by the reference simulator: nothing here is shared with the engine or with the programs,
+/// random numbers and start included. Particles start uniform in position and Gaussian, scatterers at rest;
+/// cells have the length 1. Prints one line per replica: at every time after the relaxation the mean over the
+/// particles of x^2, the square of their mean x, their mean x, and the mean energy of a scatterer; then, of
+/// the observation after the relaxation, the number of scatterings, of those with p' p > 0, and of the
+/// waiting times that begin with them in bins that divide a decade into equal factors. The chain runs on
+/// until every such waiting time has ended or is beyond the last bin.
+///
+///   reference_closed_chain cells particles_per_cell sigma gamma temperature relaxation observation
+///                          kept|drawn replicas seed first_edge bins_per_decade bins time...
+///
+/// kept|drawn: directions after a collision. No time exceeds the observation.
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <random>
+#include <string_view>
+#include <vector>
+
+#include "reference/heap_simulator.hpp"
+
+namespace {
+
+using Simulator = reference::HeapSimulator<double>;
+
+struct Setting {
+  std::size_t cells, particles_per_cell;
+  double sigma, gamma, temperature, relaxation, observation;
+  bool directions_drawn;
+  double first_edge, bins_per_decade;
+  std::size_t bins;
+  std::vector<double> times;
+
+  double last_edge() const { return first_edge * std::pow(10, static_cast<double>(bins) / bins_per_decade); }
+};
+
+/// What collisions tell. A displacement is the integral of the momentum over time.
+class Watch {
+ public:
+  Watch(const Setting& setting, const std::vector<double>& momenta)
+      : setting_(setting), scatterers_(setting.cells, 0), counts_(setting.bins, 0) {
+    for (const double p : momenta) particles_.push_back({p});
+  }
+
+  void see(const Simulator::Event& event) {
+    Tagged& particle = particles_[event.particle];
+    particle.x = particle.x_at(event.time);
+    particle.p = event.p_after;
+    particle.since = event.time;
+    scatterers_[event.scatterer] = event.P_after;
+
+    count_wait(event.time - particle.wait_begin);
+    const bool observed =
+        event.time >= setting_.relaxation && event.time < setting_.relaxation + setting_.observation;
+    particle.wait_begin = observed ? event.time : std::numeric_limits<double>::quiet_NaN();
+    scatterings_ += observed ? 1 : 0;
+    persistent_ += observed && event.p_before * event.p_after > 0 ? 1 : 0;
+  }
+
+  /// Displacements count from this time on.
+  void begin(double time) {
+    for (Tagged& particle : particles_) particle.x -= particle.x_at(time);
+  }
+
+  void print_moments(double time, double scatterer_mass) const {
+    double square = 0, mean = 0, energy = 0;
+    for (const Tagged& particle : particles_) {
+      const double x = particle.x_at(time);
+      square += x * x;
+      mean += x;
+    }
+    for (const double P : scatterers_) energy += P * P / (2 * scatterer_mass);
+    const auto count = static_cast<double>(particles_.size());
+    mean /= count;
+    std::printf("%.17g %.17g %.17g %.17g ", square / count, mean * mean, mean,
+                energy / static_cast<double>(scatterers_.size()));
+  }
+
+  void print_counts() const {
+    std::printf("%ld %ld", scatterings_, persistent_);
+    for (const long count : counts_) std::printf(" %ld", count);
+    std::printf("\n");
+  }
+
+ private:
+  struct Tagged {
+    double p, x = 0, since = 0;
+    double wait_begin = std::numeric_limits<double>::quiet_NaN();  // NaN: it is not observed
+    double x_at(double time) const { return x + p * (time - since); }
+  };
+
+  void count_wait(double wait) {
+    const double bin = std::floor(setting_.bins_per_decade * std::log10(wait / setting_.first_edge));
+    if (bin >= 0 && bin < static_cast<double>(setting_.bins)) ++counts_[static_cast<std::size_t>(bin)];
+  }
+
+  const Setting& setting_;
+  std::vector<Tagged> particles_;
+  std::vector<double> scatterers_;  // P
+  std::vector<long> counts_;
+  long scatterings_ = 0, persistent_ = 0;
+};
+
+void run_replica(const Setting& setting, std::uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  std::normal_distribution<> gaussian(0, std::sqrt(setting.temperature));
+  std::uniform_real_distribution<> uniform;
+  std::vector<double> positions, momenta;
+  for (std::size_t i = 0; i < setting.cells * setting.particles_per_cell; ++i) {
+    positions.push_back(static_cast<double>(i / setting.particles_per_cell) + uniform(generator));
+    momenta.push_back(gaussian(generator));
+  }
+  Simulator chain(setting.sigma, 1, positions, momenta, std::vector<double>(setting.cells, 0));
+  chain.scatter_with(setting.gamma / static_cast<double>(setting.cells), generator());
+  if (setting.directions_drawn) chain.draw_directions(generator());
+
+  Watch watch(setting, momenta);
+  const auto run_until = [&](double time) {
+    for (Simulator::Event event{}; chain.step(time, event);) watch.see(event);
+  };
+  run_until(setting.relaxation);
+  watch.begin(setting.relaxation);
+  for (const double time : setting.times) {
+    run_until(setting.relaxation + time);
+    watch.print_moments(setting.relaxation + time, chain.scatterer_mass());
+  }
+  run_until(setting.relaxation + setting.observation + setting.last_edge());
+  watch.print_counts();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto number = [&](int i) { return std::atof(argv[i]); };
+  if (argc < 14) return 2;
+  Setting setting{static_cast<std::size_t>(number(1)),
+                  static_cast<std::size_t>(number(2)),
+                  number(3),
+                  number(4),
+                  number(5),
+                  number(6),
+                  number(7),
+                  std::string_view(argv[8]) == "drawn",
+                  number(11),
+                  number(12),
+                  static_cast<std::size_t>(number(13)),
+                  {}};
+  for (int i = 14; i < argc; ++i) setting.times.push_back(number(i));
+  for (int replica = 0; replica < std::atoi(argv[9]); ++replica)
+    run_replica(setting, static_cast<std::uint64_t>(std::atoll(argv[10]) * 1000003 + replica));
+}
