@@ -5,8 +5,10 @@
 int main(int argc, char** argv) {
   using namespace lorentz;
   Program program("bare_closed_chain", "A closed chain without an observer");
-  const ClosedChainOptions chain(program.options());
-  const ReplicaOptions replicas(program);
+  ClosedChainOptions chain;
+  chain.declare(program.options());
+  ReplicaOptions replicas(program);
+  replicas.declare(program.options());
   return program.run(argc, argv, [&](Progress& progress) {
     chain.validate();
     const auto measure = [&](const Replica& replica) {

@@ -14,8 +14,10 @@ struct Nothing : NoObserver {
 
 int main(int argc, char** argv) {
   Program program("bare_open_chain", "An open chain without an observer");
-  const OpenChainOptions options(program.options(), {.cell_length = 0}, "warm", {{100}, {1000}});
-  const ReplicaOptions replicas(program);
+  OpenChainOptions options({.cell_length = 0}, "warm", {{{100}, {1000}}});
+  options.declare(program.options());
+  ReplicaOptions replicas(program);
+  replicas.declare(program.options());
   return program.run(argc, argv, [&](Progress& progress) {
     options.validate();
     const auto measure = [&](const Replica& replica) {
