@@ -59,7 +59,7 @@ def largest_distance(found: np.ndarray, error: np.ndarray, exact: np.ndarray) ->
     return float(np.abs(distance[at])), float(np.sqrt(np.nansum(error[: at + 1] ** 2)) / total)
 
 
-def plot(axes: Axes, result: Result, curve: tuple, shift: float) -> pd.DataFrame:
+def plot(axes: Axes, result: Result, curve: tuple, units: str, shift: float) -> pd.DataFrame:
     momentum, found, error, exact = curve
     seen = exact * (momentum[1] - momentum[0]) > SEEN * exact.sum() * (momentum[1] - momentum[0])
     momentum, found, error, exact = (array[seen] for array in (momentum, found, error, exact))
@@ -74,18 +74,21 @@ def plot(axes: Axes, result: Result, curve: tuple, shift: float) -> pd.DataFrame
     axes.errorbar(momentum + shift, 100 * (found / exact - 1), 100 * error / exact, label=label, **look)
     table = pd.DataFrame({"momentum": momentum, "found": found, "found_error": error, "exact": exact})
     table.insert(0, "gamma", style.gamma(result))
-    return table.assign(chi_square=chi_square, distance=distance, distance_error=distance_error)
+    return table.assign(units=units, chi_square=chi_square, distance=distance, distance_error=distance_error)
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
     figure, columns = plt.subplots(1, 2, figsize=(2 * style.COLUMN, 1.1 * style.HEIGHT), sharey=True)
-    kinds = {"momentum_flux": (columns[0], outgoing_flux), "steady_profile": (columns[1], end_scatterers)}
+    kinds = {
+        "momentum_flux": (columns[0], outgoing_flux, "flux"),
+        "steady_profile": (columns[1], end_scatterers, "scatterer_density"),
+    }
     tables = []
     for result in results:
-        axes, curve = kinds[result.provenance["program"]]
+        axes, curve, name = kinds[result.provenance["program"]]
         shift = 0.2 if style.gamma(result) == "1" else -0.2
-        table = plot(axes, result, curve(result), shift)
-        table.insert(0, "quantity", curve.__name__)
+        table = plot(axes, result, curve(result), result[name].units, shift)
+        table.insert(0, "quantity", name)
         tables.append(table)
     columns[0].set(xlabel="momentum $p$", ylabel="found over exact, minus 1 / %", ylim=(-20, 20))
     columns[1].set(xlabel=r"momentum $P/\sqrt{M}$")
@@ -97,4 +100,5 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
 
 
 if __name__ == "__main__":
-    run(draw, "Equilibrium", found="", exact="")
+    by_row = {"found": "column units", "found_error": "column units", "exact": "column units"}
+    run(draw, "Equilibrium", chi_square="1", distance="1", distance_error="1", **by_row)
