@@ -161,8 +161,9 @@ Results summarise(const Records& records, const Plan& plan, double thermal) {
         const std::span<const double> number = row.subspan(linear + times * speeds);
         values.insert(values.end(), number.begin(), number.end());
         std::vector<double> log_time, late_number, slope_time, late_slope;
+        const double first_late = plan.times.front() * (1 - 1e-9);  // a little less than a point of the grid
         for (std::size_t k = 0; k < number.size(); ++k) {
-          const bool late = plan.number_times[k] >= plan.times.front();
+          const bool late = plan.number_times[k] >= first_late;
           if (late) log_time.push_back(portable::log(plan.number_times[k]));
           if (late) late_number.push_back(number[k]);
           if (k + 1 == number.size()) break;

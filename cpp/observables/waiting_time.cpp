@@ -110,8 +110,8 @@ int main(int argc, char** argv) {
     chain.validate();
     const double thermal_flight = chain.chain().cell_length / std::sqrt(chain.temperature());
     const LogGrid bins(1e-3 * thermal_flight, decades, bins_per_decade);
-    const auto bin_of_cut = [&](double factor) {
-      return bins.interval(portable::log(factor * tail_from * thermal_flight));
+    const auto bin_of_cut = [&](double factor) {  // a cut that lies on an edge begins there
+      return bins.interval(portable::log(factor * tail_from * thermal_flight) + 1e-9);
     };
     const Tail tail{bin_of_cut(1.0 / 3), bin_of_cut(1), bin_of_cut(3)};
     const auto measure = [&](const Replica& replica) {

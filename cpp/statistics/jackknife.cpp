@@ -15,12 +15,18 @@ Estimate jackknife(const Records& records, const RecordFunction& f) {
     return estimate;
   }
 
+  // What is left without the only replica that saw something is then exactly 0, and no ratio is made of its
+  // roundings.
+  std::vector<long double> sums(mean.size(), 0);
+  for (std::size_t replica = 0; replica < records.size(); ++replica)
+    for (std::size_t i = 0; i < mean.size(); ++i) sums[i] += records[replica][i];
+
   // Welford's update over the delete-one values: stable when they differ in the last digits only. It keeps
   // the root of the sum of squares, as squares of large or small numbers are none.
   std::vector<double> centre(quantities, 0), root(quantities, 0), without(mean.size());
   for (std::size_t replica = 0; replica < records.size(); ++replica) {
     for (std::size_t i = 0; i < mean.size(); ++i)
-      without[i] = mean[i] + (mean[i] - records[replica][i]) / (replicas - 1);
+      without[i] = static_cast<double>((sums[i] - records[replica][i]) / (replicas - 1));
     const std::vector<double> value = f(without);
     for (std::size_t k = 0; k < quantities; ++k) {
       const double deviation = value[k] - centre[k];

@@ -36,6 +36,20 @@ TEST(Jackknife, IsTheStandardErrorOfAMean) {
   }
 }
 
+// The rarest events, as those of the longest waiting times, are seen by one replica alone. Its share of a
+// mean is no binary fraction, so that mean + (mean - x)/(R-1) would leave a rounding of both, and a ratio of
+// roundings.
+TEST(Jackknife, KnowsNoRatioWithoutTheOnlyReplicaThatHasOne) {
+  for (const int replicas : {3, 7, 24, 49}) {
+    Records records(2);
+    for (int i = 1; i < replicas; ++i) records.append(std::vector{0.0, 0.0});
+    records.append(std::vector{3.0, 0.7});
+    const Estimate estimate = jackknife(records, ratio);
+    EXPECT_NEAR(estimate.mean[0], 0.7 / 3, 1e-15);
+    EXPECT_TRUE(std::isnan(estimate.standard_error[0])) << replicas;
+  }
+}
+
 // Squares of these numbers would be 0 or infinite.
 TEST(Jackknife, HasAnErrorAtEveryMagnitude) {
   for (const double unit : {1e-300, 1e300}) {

@@ -79,8 +79,14 @@ def test_measured_and_computed_files_have_no_fault(result: Path, program: Progra
             ["/results/density/tau/attributes: 'units' is a required property"],
         ),
         (
-            attribute("results/density/mean", "units", "furlong"),
-            ["/results/density: standard_error is in", "mean is in furlong"],
+            attribute("results/density/mean", "units", "length"),
+            ["/results/density: standard_error is in", "mean is in length"],
+        ),
+        (
+            attribute("results/density/tau", "units", "furlong"),
+            [
+                "/results/density/tau/attributes/units/value: 'furlong' in 'furlong' is not a power of 1, length"
+            ],
         ),
         (
             without_attribute("results/density/mean", "description"),

@@ -58,11 +58,12 @@ def test_jackknife_of_a_ratio_over_samples() -> None:
 
 
 def test_compared() -> None:
-    plain = Estimate(np.array([1.0, 1.0]), np.array([0.3, 0.0]), 2, 101)
-    better = Estimate(np.array([1.5, 9.0]), np.array([0.4, 0.1]), 0.5, 51)
+    plain = Estimate(np.array([1.0, 1.0]), np.array([0.3, 0.0]), 2, 101, "energy")
+    better = Estimate(np.array([1.5, 9.0]), np.array([0.4, 0.1]), 0.5, 51, "energy")
     row = compared("device", "quantity", plain, better)
     assert row["factor"] == pytest.approx(0.09 * 2 / (0.16 * 0.5))
     assert row["factor_error"] == pytest.approx(row["factor"] * np.sqrt(0.02 + 0.04))
+    assert row["units"] == "energy"
     assert row["z"] == pytest.approx(1)  # a value without an error is not compared
     assert row["values"] == 1
 

@@ -11,15 +11,22 @@ from typing import Any
 
 import h5py
 import numpy as np
-from jsonschema import Draft202012Validator
+from jsonschema import Draft202012Validator, FormatChecker
 
 from workflow.provenance.repository import ROOT
 from workflow.scripts.load import NOT_REACHED
+from workflow.scripts.units import UnitsError, parse
 
+FORMATS = FormatChecker(formats=())
 SCHEMA = ROOT / "docs/format.schema.json"
 MEASURED = {"standard_error", "count"}
 COMPUTED = {"discretisation_error"}
 NOT_AXES = {"mean"} | MEASURED | COMPUTED
+
+
+@FORMATS.checks("units", raises=UnitsError)
+def _are_units(text: object) -> bool:
+    return not isinstance(text, str) or parse(text) is not None
 
 
 def faults(path: Path) -> list[str]:
@@ -61,10 +68,10 @@ def _plain(value: Any) -> Any:
 
 
 def _against_schema(described: dict) -> list[str]:
-    validator = Draft202012Validator(json.loads(SCHEMA.read_text()))
+    validator = Draft202012Validator(json.loads(SCHEMA.read_text()), format_checker=FORMATS)
     errors = sorted(validator.iter_errors(described), key=lambda error: [str(part) for part in error.path])
     return [
-        f"{'/'.join(['', *(str(part) for part in error.path if part != 'members')]) or '/'}: {error.message}"
+        f"{'/'.join(['', *(str(part) for part in error.path if part != 'members')]) or '/'}: {error.cause or error.message}"
         for error in errors
     ]
 

@@ -92,6 +92,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         axes.set(xscale="log", xlabel="time $t$", title=rf"$\sigma = {sigma:g}$")
     for sigma, axes in zip(sigmas, verdicts, strict=True):
         verdict(axes, table[table.sigma == sigma], relaxations)
+    rows[0].set_xlabel(f"time $t$ ({style.UNITS})")
     for axes in rows:
         for value in (1, 2):
             axes.axhline(value, **style.GUIDE)
@@ -114,4 +115,4 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
 
 
 if __name__ == "__main__":
-    run(draw, "Local exponent of the spreading of a tagged particle")
+    run(draw, "Local exponent of the spreading of a tagged particle", slope="1", slope_error="1")

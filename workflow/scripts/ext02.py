@@ -63,4 +63,4 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
 
 
 if __name__ == "__main__":
-    run(draw, "Local exponent of the heat conductivity")
+    run(draw, "Local exponent of the heat conductivity", size="1", exponent="1", exponent_error="1")

@@ -33,7 +33,7 @@ def plot_deviations(axes: Axes, result: Result, curves: dict, look: dict) -> lis
         table = pd.DataFrame(
             {"quantity": name, "x": x, "value": quantity.mean, "error": quantity.standard_error}
         )
-        table["deviation_percent"] = percent
+        table["units"], table["deviation_percent"] = quantity.units, percent
         tables.append(table.assign(gamma=style.gamma(result), cells=cells))
     return tables
 
@@ -52,14 +52,14 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         tables += plot_deviations(rates, result, sides, look)
         tables += plot_deviations(currents, result, kinds, look)
     for result, color, dashes in zip(sizes, style.SEQUENCE, style.DASHES, strict=False):
-        cells, rho = result.parameters["cells"], result["density"]
+        cells, rho = int(result.parameters["cells"]), result["density"]
         x = (rho.axes["cell"] + 0.5) / cells
         middle = rho.mean[cells // 4 : -(cells // 4)].mean()
         ratio, error = rho.mean / middle, rho.standard_error / middle
         density.plot(x, ratio, color=color, linestyle=dashes, label=f"$N = {cells}$")
         density.fill_between(x, ratio - error, ratio + error, color=color, alpha=0.3, linewidth=0)
         table = pd.DataFrame({"quantity": "density", "x": x, "value": rho.mean, "error": rho.standard_error})
-        tables.append(table.assign(gamma=style.gamma(result), cells=cells))
+        tables.append(table.assign(units=rho.units, gamma=style.gamma(result), cells=cells))
     rates.set(xlabel="$x$", ylabel="rates minus line / %")
     currents.set(xlabel="$x$", ylabel="currents minus mean / %")
     density.set(xlabel="$x$", ylabel=r"$\rho(x)$ / middle half")
@@ -73,4 +73,5 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
 
 
 if __name__ == "__main__":
-    run(draw, "Rates, currents and density along the chain")
+    by_row = {"value": "column units", "error": "column units"}
+    run(draw, "Rates, currents and density along the chain", x="1", deviation_percent="1", **by_row)

@@ -29,8 +29,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         look = {"marker": marker, "color": color, "label": name, **style.POINTS}
         rows[0, 0].errorbar(time, energy.mean, energy.standard_error, **look)
         columns = {"quantity": f"{name}_energy", "time": time, "value": energy.mean}
-        tables.append(pd.DataFrame({**columns, "error": energy.standard_error}))
-    rows[0, 0].set(xscale="log", xlabel="time from the start", ylabel="mean energy / $k_B T$")
+        tables.append(pd.DataFrame({**columns, "error": energy.standard_error, "units": energy.units}))
+    rows[0, 0].set(xscale="log", xlabel="time from the start", ylabel=f"mean energy ({style.UNITS})")
     rows[0, 0].legend(loc="upper left")
     for axes, (program, name, label, expected) in zip(rows.flat[1:], AGED, strict=True):
         runs = [result for result in results if result.provenance["program"] == program]
@@ -41,9 +41,10 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         axes.errorbar(time, value, error, marker="o", color=style.BLUE, **style.POINTS)
         axes.axhline(expected(runs[0].parameters["sigma"]), **style.GUIDE)
         axes.set(xscale="log", xlabel="relaxation time", ylabel=label)
-        tables.append(pd.DataFrame({"quantity": name, "time": time, "value": value, "error": error}))
+        columns = {"quantity": name, "time": time, "value": value, "error": error}
+        tables.append(pd.DataFrame({**columns, "units": runs[0][name].units}))
     return figure, pd.concat(tables)
 
 
 if __name__ == "__main__":
-    run(draw, "Ageing of the closed chain")
+    run(draw, "Ageing of the closed chain", value="column units", error="column units")

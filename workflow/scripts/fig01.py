@@ -39,7 +39,9 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         below.errorbar(front.mean, plateau.mean / 2, xerr=front.standard_error, **look, label="$p_0(t)$")
         label = rf"$p_0 \sim t^{{{style.with_error(result['front_exponent'])}}}$"
         below.text(0.04, 0.9, label, transform=below.transAxes)
-        above.set(title=rf"$\lambda = {length:g}$", xlabel="momentum $p$", ylabel=r"$|p|\,n_t(p)$")
+        above.set(
+            title=rf"$\lambda = {length:g}$", xlabel=f"momentum $p$ ({style.UNITS})", ylabel=r"$|p|\,n_t(p)$"
+        )
         below.set(xscale="log", xlabel=r"$|p|$", ylabel=r"$|p|\,n_t(|p|)$")
         for axes in (above, below):
             axes.set_ylim(bottom=0)
@@ -51,4 +53,5 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
 
 
 if __name__ == "__main__":
-    run(draw, "Momentum distribution of the particles inside, times momentum")
+    density = {"weighted_density": "1", "error": "1"}
+    run(draw, "Momentum distribution of the particles inside, times momentum", momentum="momentum", **density)

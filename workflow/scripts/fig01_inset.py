@@ -37,7 +37,12 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         axes.legend(
             loc="upper left", title=f"$\\lambda = {length:g}$\n{fitted}\n{curvature}", alignment="left"
         )
-        axes.set(xscale="log", xlabel="time $t$", ylabel="particles inside", ylim=(0, 1.5 * number.mean[-1]))
+        axes.set(
+            xscale="log",
+            xlabel=f"time $t$ ({style.UNITS})",
+            ylabel="particles inside",
+            ylim=(0, 1.5 * number.mean[-1]),
+        )
         table = pd.DataFrame({"time": time, "number": number.mean, "number_error": number.standard_error})
         table.insert(0, "cell_length", length)
         tables.append(table)
@@ -45,4 +50,4 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
 
 
 if __name__ == "__main__":
-    run(draw, "Number of particles in an open chain")
+    run(draw, "Number of particles in an open chain", number="1", number_error="1")

@@ -31,4 +31,4 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
 
 
 if __name__ == "__main__":
-    run(draw, "Density profiles")
+    run(draw, "Density profiles", x="1")

@@ -34,10 +34,13 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
     for end in ("left", "right"):
         axes.axhline(results[0].parameters[f"temperature-{end}"], **style.GUIDE)
     middle = np.mean([results[0].parameters[f"temperature-{end}"] for end in ("left", "right")])
-    axes.set(xlabel="$x$", ylabel="temperature", xlim=(0, 1), ylim=(0.76 * middle, 1.24 * middle))
+    axes.set(
+        xlabel="$x$", ylabel=f"temperature ({style.UNITS})", xlim=(0, 1), ylim=(0.76 * middle, 1.24 * middle)
+    )
     axes.legend(loc="upper left", **style.OPAQUE)
     return figure, pd.concat(tables)
 
 
 if __name__ == "__main__":
-    run(draw, "Temperature profiles")
+    names = ("scatterer", "scatterer_error", "particle", "particle_error")
+    run(draw, "Temperature profiles", x="1", **dict.fromkeys(names, "temperature"))

@@ -40,7 +40,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
                 )
                 label = None
     axes.axvline(0, **style.GUIDE)
-    axes.set(xlabel="momentum $p$", ylabel="$F(p, x)$", xlim=(-45, 45))
+    axes.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel="$F(p, x)$", xlim=(-45, 45))
     axes.set_ylim(0, 1.45 * axes.get_ylim()[1])
     axes.legend(loc="upper right")
     return figure, pd.concat(tables)

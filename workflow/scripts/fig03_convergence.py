@@ -58,4 +58,4 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
 
 
 if __name__ == "__main__":
-    run(draw, "Convergence of the kinetic solver")
+    run(draw, "Convergence of the kinetic solver", points="1", estimate="1", distance="1")

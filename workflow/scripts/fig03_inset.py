@@ -103,11 +103,12 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
             else:
                 above.plot(part.momentum, 1e3 * part.deviation, color=color, linestyle=dashes)
     above.axhline(0, **style.GUIDE)
-    above.set(xlabel="momentum $p$", ylabel=r"$10^3\,(F_N - F)\,/\,\max F$", xlim=(-45, 45))
+    above.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel=r"$10^3\,(F_N - F)\,/\,\max F$", xlim=(-45, 45))
     above.legend(loc="best")
     draw_decay(below, table)
     return figure, table
 
 
 if __name__ == "__main__":
-    run(draw, "Finite chains against the kinetic equation")
+    units = {"deviation": "1", "error": "1", "absolute_as_printed": "1/momentum"}
+    run(draw, "Finite chains against the kinetic equation", **units)

@@ -48,7 +48,9 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
             table = pd.DataFrame({"x": place, "momentum": momentum, "flux": flux.mean[bond]})
             table["flux_error"] = flux.standard_error[bond]
             table["jump"], table["jump_error"] = jump.mean[bond], jump.standard_error[bond]
-            table.insert(0, "rates", rates)
+            table["nu_left"], table["nu_right"] = (
+                result.parameters[f"nu-{end}"] for end in ("left", "right")
+            )
             tables.append(table)
     main = results[0]["flux"].mean[[1, -1]]
     near = np.abs(results[0]["flux"].axes["momentum"]) < NEAR
@@ -57,6 +59,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
     for axes in (above, below):
         axes.axvline(0, **style.GUIDE)
         axes.set(xlabel="momentum $p$", ylabel="$F_N(p, x)$")
+    below.set_xlabel(f"momentum $p$ ({style.UNITS})")
     above.legend(loc="upper right", title=rf"$\gamma = {style.gamma(results[0])}$")
     below.legend(loc="upper center", fontsize=6.5, **style.OPAQUE)
     return figure, pd.concat(tables)

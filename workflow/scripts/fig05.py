@@ -79,4 +79,5 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
 
 
 if __name__ == "__main__":
-    run(draw, "Persistence probability against the mass ratio")
+    numbers = ("law", "deviation", "law_at_local_energies")
+    run(draw, "Persistence probability against the mass ratio", **dict.fromkeys(numbers, "1"))

@@ -63,7 +63,12 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
             axes.plot(
                 tau[seen], exact[seen], color=style.SKY, zorder=0, label=r"$\sigma = 0$, $n \to \infty$"
             )
-    axes.set(xscale="log", yscale="log", xlabel=r"waiting time $\tau$", ylabel=r"density $\Psi(\tau)$")
+    axes.set(
+        xscale="log",
+        yscale="log",
+        xlabel=rf"waiting time $\tau$ ({style.UNITS})",
+        ylabel=r"density $\Psi(\tau)$",
+    )
     axes.legend(loc="lower left")
     return figure, pd.concat(tables)
 

@@ -22,7 +22,9 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
     axes.errorbar(time, drift.mean, drift.standard_error, **part, **style.POINTS)
     late = time > time[-1] / 100
     axes.plot(time[late], 2 * variance.mean[-1] * (time[late] / time[-1]) ** 2, **style.GUIDE, label=r"$t^2$")
-    axes.set(xscale="log", yscale="log", xlabel="time $t$", ylabel=r"mean square displacement")
+    axes.set(
+        xscale="log", yscale="log", xlabel=f"time $t$ ({style.UNITS})", ylabel=r"mean square displacement"
+    )
     alpha = rf"$\alpha = {style.with_error(result['alpha'])}$"
     axes.legend(loc="upper left", title=rf"$\sigma = {result.parameters['sigma']:g}$, {alpha}")
     table = pd.DataFrame({"time": time, "variance": variance.mean, "variance_error": variance.standard_error})

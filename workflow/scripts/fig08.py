@@ -76,11 +76,17 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
     theory = mean_field(results)
     color = style.BY_GAMMA["N"][1]
     axes.plot(theory.cells, theory.mean_field_kappa, color=color, label=r"$\gamma = N$, mean field")
-    axes.set(xscale="log", yscale="log", xlabel="number of cells $N$", ylabel=r"conductivity $\kappa$")
+    axes.set(
+        xscale="log",
+        yscale="log",
+        xlabel="number of cells $N$",
+        ylabel=rf"conductivity $\kappa$ ({style.UNITS})",
+    )
     axes.legend(loc="upper left", title="bars: from the particles' temperature", title_fontsize=7)
     axes.set_ylim(top=60 * table.kappa.max())
     return figure, table.merge(theory, how="left", on=["gamma", "cells"])
 
 
 if __name__ == "__main__":
-    run(draw, "Heat conductivity against the size of the chain")
+    kappa = "energy/(time temperature)"
+    run(draw, "Heat conductivity against the size of the chain", mean_field_kappa=kappa)

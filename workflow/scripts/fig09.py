@@ -21,7 +21,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
     result = gaussian_start(results)
     difference = result["energy_difference"]
     times = difference.axes["time"]
-    distance = difference.axes["cell"] - (len(difference.axes["cell"]) - 1) / 2
+    distance = difference.axes["cell"] - len(difference.axes["cell"]) // 2
     figure, axes = plt.subplots(figsize=(style.COLUMN, style.HEIGHT))
     shown = np.linspace(1, len(times) - 1, 5).round().astype(int)
     parts = []
@@ -31,10 +31,16 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         axes.fill_between(distance, mean - error, mean + error, color=color, alpha=0.3, linewidth=0)
         columns = {"time": times[k], "distance": distance, "energy_difference": difference.mean[k]}
         parts.append(pd.DataFrame({**columns, "energy_difference_error": difference.standard_error[k]}))
-    axes.set(xlabel=r"distance from the central cell, $x/\lambda$", ylabel=r"$\Delta E(x,t)\,/\,10^3 k_B T$")
-    axes.legend(loc="upper right", title=rf"$\gamma = {style.gamma(result)}$")
+    axes.set(
+        xlabel=r"distance from the central cell, $x/\lambda$",
+        ylabel=rf"$\Delta E(x,t)\,/\,10^3$ ({style.UNITS})",
+    )
+    axes.legend(
+        loc="upper right",
+        title=rf"$\gamma = {style.gamma(result)}$, $\varepsilon^0 = {result.parameters['energy']:g}$",
+    )
     return figure, pd.concat(parts)
 
 
 if __name__ == "__main__":
-    run(draw, "Energy per cell with a pulse minus without")
+    run(draw, "Energy per cell with a pulse minus without", distance="1")

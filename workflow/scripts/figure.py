@@ -1,6 +1,7 @@
 """The frame of every figure script: reads the runs, draws, saves.
 
-A script defines draw(results) and ends with `run(draw, title)`.
+A script defines draw(results) and ends with `run(draw, title)`; it adds the units of the columns that are named
+neither after a quantity nor after an axis or an option.
 """
 
 import argparse
@@ -13,6 +14,7 @@ from matplotlib.figure import Figure
 
 from workflow.provenance.parents import Parents, file_hash
 from workflow.scripts import style
+from workflow.scripts.columns import as_csv, inherited
 from workflow.scripts.load import Result, load
 from workflow.scripts.save import save
 
@@ -32,7 +34,7 @@ def build(result: Result) -> dict[str, str]:
     return {name: result.provenance[name] for name in names}
 
 
-def run(draw: Draw, title: str) -> None:
+def run(draw: Draw, title: str, **units: str) -> None:
     """draw gets the panel's results and returns the figure and the table of what it shows."""
     parser = argparse.ArgumentParser(description=title)
     parser.add_argument("--data", type=Path, nargs="+", required=True, help="result files of the panel")
@@ -57,4 +59,4 @@ def run(draw: Draw, title: str) -> None:
         python=f"{sys.version_info.major}.{sys.version_info.minor}",
         configuration=options.configuration,
     )
-    save(figure, table, options.output, title, parents)
+    save(figure, as_csv(table, inherited(results) | units), options.output, title, parents)

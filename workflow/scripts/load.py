@@ -7,6 +7,8 @@ from typing import Any
 import h5py
 import numpy as np
 
+from workflow.scripts.units import parse
+
 FORMAT = "lorentz-gas"
 FORMAT_VERSION = 2
 NOT_REACHED = "not reached"
@@ -28,6 +30,7 @@ class Quantity:
     count: np.ndarray | None
     axes: dict[str, np.ndarray]
     units: str
+    axis_units: dict[str, str]
     control_variates: bool | None
 
 
@@ -65,7 +68,7 @@ def load(path: Path) -> Result:
         raise FormatError(f"{path} is not a result file: {error}") from error
 
 
-def _attributes(group: h5py.Group) -> dict[str, Any]:
+def _attributes(group: h5py.Group | h5py.Dataset) -> dict[str, Any]:
     return {
         name: value.decode() if isinstance(value, bytes) else value for name, value in group.attrs.items()
     }
@@ -73,6 +76,9 @@ def _attributes(group: h5py.Group) -> dict[str, Any]:
 
 def _quantity(group: h5py.Group) -> Quantity:
     values = {name: dataset[()] for name, dataset in group.items()}
+    units = {name: _attributes(dataset)["units"] for name, dataset in group.items()}
+    for text in units.values():
+        parse(text)
     mean = values.pop("mean")
     computed = "discretisation_error" in values
     names = {"discretisation_error"} if computed else {"standard_error", "count"}
@@ -80,12 +86,12 @@ def _quantity(group: h5py.Group) -> Quantity:
         name: values.pop(name) if name in names else None
         for name in ("standard_error", "discretisation_error", "count")
     }
-    attributes = _attributes(group["mean"])
-    used = attributes.get("control_variates")
+    used = _attributes(group["mean"]).get("control_variates")
     return Quantity(
         mean,
         **rest,
         axes=values,
-        units=attributes["units"],
+        units=units["mean"],
+        axis_units={name: units[name] for name in values},
         control_variates=None if used is None else bool(used),
     )

@@ -6,7 +6,6 @@ Equal inputs give equal bytes: no file holds a time, a host, a user or an absolu
 import io
 from pathlib import Path
 
-import pandas as pd
 from matplotlib.figure import Figure
 
 from workflow.provenance.parents import PARENTS_LINE, Parents
@@ -14,8 +13,8 @@ from workflow.provenance.parents import PARENTS_LINE, Parents
 CREATOR = "lorentz-gas"
 
 
-def save(figure: Figure, table: pd.DataFrame, stem: Path, title: str, parents: Parents) -> None:
-    """Writes stem.pdf, .png, .svg and .csv, all or none."""
+def save(figure: Figure, table: str, stem: Path, title: str, parents: Parents) -> None:
+    """Writes stem.pdf, .png, .svg and .csv, all or none. The table is that of columns.as_csv()."""
     described = parents.as_json()
     pictures = {
         "pdf": {
@@ -29,7 +28,7 @@ def save(figure: Figure, table: pd.DataFrame, stem: Path, title: str, parents: P
         "svg": {"Title": title, "Creator": CREATOR, "Description": described, "Date": None},
     }
     contents = {kind: _picture(figure, kind, metadata) for kind, metadata in pictures.items()}
-    contents["csv"] = _csv(table, title, described)
+    contents["csv"] = f"# {title}\n{PARENTS_LINE}{described}\n{table}".encode()
     stem.parent.mkdir(parents=True, exist_ok=True)
     unfinished = {kind: stem.with_suffix(f".{kind}.tmp") for kind in contents}
     for kind, path in unfinished.items():
@@ -42,8 +41,3 @@ def _picture(figure: Figure, kind: str, metadata: dict) -> bytes:
     buffer = io.BytesIO()
     figure.savefig(buffer, format=kind, metadata=metadata)
     return buffer.getvalue()
-
-
-def _csv(table: pd.DataFrame, title: str, described: str) -> bytes:
-    header = f"# {title}\n{PARENTS_LINE}{described}\n"
-    return (header + table.to_csv(index=False, float_format="%.12g", lineterminator="\n")).encode()

@@ -12,6 +12,9 @@ from workflow.scripts.load import Quantity, Result
 COLUMN = 3.4
 HEIGHT = 3.0
 
+# In a label of every figure that shows a quantity with a dimension.
+UNITS = "$m = k_B = 1$"
+
 # Okabe and Ito (2008), ordered so that neighbours differ in lightness; markers differ too.
 BLACK = "#000000"
 BLUE = "#0072B2"

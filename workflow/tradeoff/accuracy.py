@@ -43,6 +43,8 @@ NAMES = {
     "energy_current_mean": "$J_U$",
     "currents": "currents",
 }
+UNITS = {"cpu_seconds": "second", "mean": "column units"}
+UNITS |= dict.fromkeys(("replicas", "error", "uncertainty"), "1")
 ERRORS = (2e-5, 0.5)  # one axis for all that is sampled
 
 
@@ -72,8 +74,10 @@ def sample(programs: Path, program: str) -> pd.DataFrame:
     for replicas in REPLICAS:
         result, seconds = execute(programs, run, **changes, replicas=replicas)
         target = result.provenance["target_quantity"]
-        rows.append((program, target, replicas, seconds, result[target].mean, result[target].standard_error))
-    table = pd.DataFrame(rows, columns=["program", "quantity", "replicas", "cpu_seconds", "mean", "error"])
+        found = result[target]
+        rows.append((program, target, replicas, seconds, found.mean, found.standard_error, found.units))
+    columns = ["program", "quantity", "replicas", "cpu_seconds", "mean", "error", "units"]
+    table = pd.DataFrame(rows, columns=columns)
     table["error"] = (table.error / abs(table["mean"].iloc[-1])).astype(float)
     table["uncertainty"] = uncertainty(table.error, table.replicas)
     return table.dropna()  # too few replicas may leave no error
@@ -85,8 +89,8 @@ def solve(programs: Path) -> pd.DataFrame:
     rows = []
     for target in TARGETS:
         result, seconds = execute(programs, planned(panel, name), target_error=target)
-        rows.append(("boltzmann", "currents", seconds, result.provenance["achieved_error"]))
-    return pd.DataFrame(rows, columns=["program", "quantity", "cpu_seconds", "error"])
+        rows.append(("boltzmann", "currents", seconds, result.provenance["achieved_error"], "1"))
+    return pd.DataFrame(rows, columns=["program", "quantity", "cpu_seconds", "error", "units"])
 
 
 def draw_program(axes: Axes, table: pd.DataFrame) -> None:
@@ -122,4 +126,4 @@ def measure(programs: Path) -> pd.DataFrame:
 
 
 if __name__ == "__main__":
-    frame.run(measure, __doc__, draw)
+    frame.run(measure, __doc__, UNITS, draw)

@@ -29,12 +29,16 @@ KNOBS = {  # what moves, with what
     "from": ("exponent of damping", "first time fitted"),
     "cut": (r"exponent of $\Psi(\tau)$", "shortest waiting time of the tail"),
 }
+SETTING_UNITS = {"relaxation": "time", "from": "time", "cut": "time"}  # of the other knobs 1
+UNITS = {"setting": "column setting_units", "value": "column units", "error": "column units"}
+UNITS |= {"bias": "1", "bias_error": "1"}
 
 
 def point(knob: str, setting: float, result: Result, name: str, index: tuple = ()) -> dict[str, object]:
     quantity = result[name]
     values = {"value": float(quantity.mean[index]), "error": float(quantity.standard_error[index])}
-    return {"knob": knob, "setting": setting, "quantity": name} | values
+    row = {"knob": knob, "setting": setting, "setting_units": SETTING_UNITS.get(knob, "1"), "quantity": name}
+    return row | values | {"units": quantity.units}
 
 
 def persistence(programs: Path) -> list[dict]:
@@ -129,4 +133,4 @@ def measure(programs: Path) -> pd.DataFrame:
 
 
 if __name__ == "__main__":
-    frame.run(measure, __doc__, draw)
+    frame.run(measure, __doc__, UNITS, draw)

@@ -94,9 +94,12 @@ CASES = {
     r"$\nu_L = 0$, kinetic": kinetic((1,), nu_left=0),
     "$T_R/T_L = 10^8$, kinetic": kinetic((1,), temperature_left=1, temperature_right=1e8),
 }
+HEATED = {scaled_temperatures, open_chains}  # the parameter is a temperature; elsewhere it is a pure number
 
 
 def deviations(run: Run) -> Iterator[dict[str, object]]:
     for case, values in CASES.items():
+        units = "temperature" if values in HEATED else "1"
         for parameter, deviation in values(run):
-            yield {"panel": "extremes", "case": case, "parameter": parameter, "deviation": deviation}
+            row = {"panel": "extremes", "case": case, "parameter": parameter, "units": units}
+            yield row | {"deviation": deviation}

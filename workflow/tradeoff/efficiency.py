@@ -18,21 +18,29 @@ from workflow.tradeoff import frame, reference
 from workflow.tradeoff.measure import execute, planned, shortened
 
 SHARE = 1 / 8  # of the panels' windows: the reference simulator is slow
+UNITS = dict.fromkeys(("factor", "factor_error", "z", "values"), "1") | {
+    f"{kind}_{name}": units
+    for kind in ("plain", "better")
+    for name, units in (("value", "column units"), ("error", "column units"), ("seconds", "second"))
+}
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """A number or an array, its standard error, CPU seconds and replicas."""
+    """A number or an array, its standard error, CPU seconds, replicas, and units of the first two."""
 
     value: np.ndarray
     error: np.ndarray
     seconds: float
     replicas: int
+    units: str
 
     @classmethod
     def of(cls, result: Result, name: str, seconds: float) -> "Estimate":
         quantity = result[name]
-        return cls(quantity.mean, quantity.standard_error, seconds, int(np.max(quantity.count)))
+        return cls(
+            quantity.mean, quantity.standard_error, seconds, int(np.max(quantity.count)), quantity.units
+        )
 
 
 def jackknife(statistic: Callable[[np.ndarray], float], rows: np.ndarray) -> tuple[float, float]:
@@ -42,10 +50,10 @@ def jackknife(statistic: Callable[[np.ndarray], float], rows: np.ndarray) -> tup
     return statistic(rows.mean(axis=0)), float(np.sqrt((len(rows) - 1) * np.var(left_out)))
 
 
-def of_sample(sample: np.ndarray, seconds: float) -> Estimate:
+def of_sample(sample: np.ndarray, seconds: float, units: str) -> Estimate:
     """Mean over replicas, the first dimension."""
     error = sample.std(axis=0, ddof=1) / np.sqrt(len(sample))
-    return Estimate(sample.mean(axis=0), error, seconds, len(sample))
+    return Estimate(sample.mean(axis=0), error, seconds, len(sample), units)
 
 
 def compared(device: str, quantity: str, plain: Estimate, better: Estimate) -> dict[str, object]:
@@ -57,7 +65,7 @@ def compared(device: str, quantity: str, plain: Estimate, better: Estimate) -> d
     relative = np.sqrt(sum(2 / (one.replicas - 1) for one in (plain, better)))
     z = np.abs(plain.value - better.value)[seen] / np.hypot(plain.error, better.error)[seen]
     row = {"device": device, "quantity": quantity, "factor": factor, "factor_error": factor * relative}
-    row |= {"z": float(np.max(z)), "values": int(np.sum(seen))}
+    row |= {"z": float(np.max(z)), "values": int(np.sum(seen)), "units": plain.units}
     for name, one in (("plain", plain), ("better", better)):
         row |= {f"{name}_value": float(one.value) if one.value.ndim == 0 else np.nan}
         row |= {f"{name}_error": float(np.median(one.error[seen])), f"{name}_seconds": one.seconds}
@@ -76,7 +84,10 @@ def conductivity(programs: Path, run: Run, cells: int, replicas: tuple[int, int]
     rows = np.stack([current, *sample["temperature_scatterer"][:, [0, -1]].T], axis=1)
     kappa = [np.array(x) for x in jackknife(lambda row: -row[0] * cells / (row[2] - row[1]), rows)]
     label = f"N = {cells}, gamma = {run.options['gamma']}"
-    plain = {"kappa": Estimate(*kappa, slow, len(rows)), "energy_current": of_sample(current, slow)}
+    plain = {
+        "kappa": Estimate(*kappa, slow, len(rows), result["kappa"].units),
+        "energy_current": of_sample(current, slow, result["energy_current"].units),
+    }
     for name, estimate in plain.items():
         yield compared("engine", f"{name}, {label}", estimate, Estimate.of(result, f"{name}_plain", fast))
         yield compared("control variates", f"{name}, {label}", Estimate.of(result, f"{name}_plain", fast),
@@ -88,7 +99,9 @@ def spreading(programs: Path, panel: str, name: str, label: str) -> Iterator[dic
     """<x^2> from one tagged particle, from all, and with the total momentum as a control variate."""
     result, seconds = execute(programs, planned(panel, name), replicas=50)
     every, better = (
-        Estimate(quantity.mean[-1], quantity.standard_error[-1], seconds, int(quantity.count[-1]))
+        Estimate(
+            quantity.mean[-1], quantity.standard_error[-1], seconds, int(quantity.count[-1]), quantity.units
+        )
         for quantity in (result["variance_plain"], result["variance"])
     )
     spread = np.sqrt(result["fourth_moment"].mean[-1] - better.value**2)
@@ -108,9 +121,11 @@ def pulse(programs: Path) -> Iterator[dict]:
     quantity = result["energy_difference"]
     for k, label in ((0, "energies, first time"), (-1, "energies, last time")):
         reached = quantity.mean[k] > 5 * quantity.standard_error[k]
-        plain, one_start, both_sides = (of_sample(sample[:, k, reached], spent) for sample, spent in
+        plain, one_start, both_sides = (of_sample(sample[:, k, reached], spent, quantity.units) for sample, spent in
                                         ((own, cost_of_own), (shared, cost), (folded, cost)))  # fmt: skip
-        found = Estimate(quantity.mean[k][reached], quantity.standard_error[k][reached], seconds, 60)
+        found = Estimate(
+            quantity.mean[k][reached], quantity.standard_error[k][reached], seconds, 60, quantity.units
+        )
         yield compared("one start for both", label, plain, one_start)
         yield compared("both sides", label, one_start, both_sides)
         yield compared("twice only where it differs", label, replace(found, seconds=twice), found)
@@ -127,4 +142,4 @@ def measure(programs: Path) -> pd.DataFrame:
 
 
 if __name__ == "__main__":
-    frame.run(measure, __doc__, show=partial(pd.DataFrame.to_string, index=False, float_format="%.3g"))
+    frame.run(measure, __doc__, UNITS, show=partial(pd.DataFrame.to_string, index=False, float_format="%.3g"))

@@ -23,6 +23,7 @@ SIGMAS = {0.5: "0.5", 0.3: "0.3", -0.9: "$-0.9$", 1 - 1e-12: r"$1-10^{-12}$"}
 LOOKS = dict(zip(SIGMAS, zip("osv^", (style.BLACK, style.BLUE, style.VERMILLION, style.ORANGE), strict=True),
                  strict=True))  # fmt: skip
 LONGEST = {"smoke": 6, "standard": 8, "paper": 10, "deep": 10}  # log10 of the events of one run
+UNITS = {"parameter": "column units"} | dict.fromkeys(("events", "deviation", "error"), "1")
 UNIT = 2.0**-53
 EXACT = 1e-19  # where a deviation of 0 is drawn
 
@@ -39,7 +40,7 @@ def drifts(run: Run, longest: int) -> Iterator[dict[str, object]]:
             events = result.provenance["events"] / replicas
             rate = events / time
             for name in ("energy_drift", "momentum_drift"):
-                yield {"panel": "drift", "case": name, "parameter": sigma, "events": events,
+                yield {"panel": "drift", "case": name, "parameter": sigma, "units": "1", "events": events,
                        "deviation": float(result[name].mean),
                        "error": float(result[name].standard_error)}  # fmt: skip
 
@@ -114,4 +115,4 @@ def summary(table: pd.DataFrame) -> str:
 
 if __name__ == "__main__":
     quality = {"choices": LONGEST, "help": "how long the longest runs are"}
-    frame.run(measure, __doc__, draw, summary, quality=quality)
+    frame.run(measure, __doc__, UNITS, draw, summary, quality=quality)

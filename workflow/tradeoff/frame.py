@@ -1,16 +1,18 @@
 """The frame of every measurement: measures, writes the table, draws it and prints it.
 
-A module defines measure(programs), draw(table) if there is a figure, and ends with `run(measure, __doc__, draw)`.
+A module defines measure(programs), draw(table) if there is a figure, UNITS of the columns that hold numbers, and ends
+with `run(measure, __doc__, UNITS, draw)`.
 """
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import pandas as pd
 from matplotlib.figure import Figure
 
 from workflow.scripts import style
+from workflow.scripts.columns import as_csv
 
 Measure = Callable[..., pd.DataFrame]  # of the folder of the executables, and further options by name
 Draw = Callable[[pd.DataFrame], Figure]
@@ -23,6 +25,7 @@ def whole(table: pd.DataFrame) -> str:
 def run(
     measure: Measure,
     description: str,
+    units: Mapping[str, str],
     draw: Draw | None = None,
     show: Callable[[pd.DataFrame], str] = whole,
     **further: dict,
@@ -39,7 +42,7 @@ def run(
 
     table = measure(**options)
     output.parent.mkdir(parents=True, exist_ok=True)
-    table.to_csv(output.with_suffix(".csv"), index=False)
+    output.with_suffix(".csv").write_text(as_csv(table, units))
     if draw:
         style.apply()
         figure = draw(table)

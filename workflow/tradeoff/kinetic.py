@@ -17,6 +17,9 @@ from workflow.tradeoff.measure import call
 
 GAMMAS = (1, 50)
 TARGETS = (1e-1, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
+UNITS = dict.fromkeys(("gamma", "target", "estimate", "points", "distance"), "1")
+UNITS |= {"cpu_seconds": "second", "particle_current": "1/time", "energy_current": "energy/time"}
+UNITS |= {"momentum_flux": "momentum/time"}
 REPEATS = 5  # of which the median time counts
 
 
@@ -52,4 +55,4 @@ def summary(table: pd.DataFrame) -> str:
 
 
 if __name__ == "__main__":
-    frame.run(measure, __doc__, draw, summary)
+    frame.run(measure, __doc__, UNITS, draw, summary)

@@ -9,6 +9,8 @@ from workflow.tradeoff import frame
 from workflow.tradeoff.measure import planned
 
 KEYS = ("cells", "particles-per-cell", "sigma", "temperature", "observation-time")
+CHANGE = "relative change of the energy"
+UNITS = {"events": "1", CHANGE: "1"}
 SEED = 1
 
 
@@ -18,8 +20,8 @@ def measure(programs: Path) -> pd.DataFrame:
     words = [programs / "reference_drift", *(options[key] for key in KEYS), SEED]
     output = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=True).stdout
     rows = [line.split() for line in output.splitlines()]
-    return pd.DataFrame(rows, columns=["type", "events", "relative change of the energy"])
+    return pd.DataFrame(rows, columns=["type", "events", CHANGE]).astype({"events": int, CHANGE: float})
 
 
 if __name__ == "__main__":
-    frame.run(measure, __doc__)
+    frame.run(measure, __doc__, UNITS)

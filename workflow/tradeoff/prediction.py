@@ -22,6 +22,8 @@ EXCESSES = {
     "steady_profile": 5,
     "energy_pulse": 4,
 }
+UNITS = dict.fromkeys(("target", "replicas_least", "replicas_most", "replicas"), "1")
+UNITS |= dict.fromkeys(("seconds_least", "seconds_most", "seconds"), "second")
 FORETOLD = re.compile(r"the run ends after (\d+) to (\d+)")
 
 
@@ -55,4 +57,4 @@ def measure(programs: Path) -> pd.DataFrame:
 
 
 if __name__ == "__main__":
-    frame.run(measure, __doc__)
+    frame.run(measure, __doc__, UNITS)

@@ -1,0 +1,199 @@
+"""Units: the grammar, and that every number of every program has the units that its file declares.
+
+A change of units changes no physics: with momenta scaled by s and lengths by r, every program has to find the same
+numbers in other units. For powers of two the random numbers and the events are the same, so all agree to rounding.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.python.conftest import ROOT
+from tests.python.scale import ROUNDING, SCALES, Scale, agree
+from workflow.scripts.columns import OPTIONS
+from workflow.scripts.load import Result
+from workflow.scripts.units import WORDS, Units, UnitsError, parse
+from workflow.tradeoff.measure import call
+
+factors = st.lists(st.tuples(st.sampled_from(sorted(WORDS)), st.integers(1, 12)), min_size=1, max_size=4)
+
+
+def written(product: list[tuple[str, int]]) -> str:
+    return " ".join(word if power == 1 else f"{word}^{power}" for word, power in product)
+
+
+def exponents(product: list[tuple[str, int]]) -> np.ndarray:
+    return sum(power * np.array(WORDS[word]) for word, power in product)
+
+
+@given(factors, st.none() | factors)
+def test_exponents_are_those_of_the_factors(above: list, below: list | None) -> None:
+    text, expected = written(above), exponents(above)
+    if below is not None:
+        several = written(below)
+        text += f"/({several})" if len(below) > 1 else f"/{several}"
+        expected = expected - exponents(below)
+    assert parse(text) == Units(*expected)
+
+
+@pytest.mark.parametrize(
+    ("text", "length", "time"),
+    [("1", 0, 0), ("momentum", 1, -1), ("energy", 2, -2), ("temperature", 2, -2), ("length^4", 4, 0),
+     ("1/(time momentum)", -1, 0), ("energy/(time temperature)", 0, -1)],
+)  # fmt: skip
+def test_dimensions(text: str, length: int, time: int) -> None:
+    assert parse(text) == Units(length, time)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("furlong", "'furlong' in 'furlong' is not a power of 1, length, time"),
+        ("energy^0", "'energy^0'"),
+        ("energy^-1", "'energy^-1'"),
+        ("energy  time", "'' in 'energy  time'"),
+        ("Energy", "'Energy'"),
+        ("", "'' is not a product"),
+        ("1/time/time", "'1/time/time' is not a product"),
+        ("1/time momentum", "not a product"),  # which of the two it is over is not to be guessed
+        ("(energy)", "not a product"),
+        ("1/()", "not a product"),
+        ("k_B T", "'k_B'"),
+    ],
+)
+def test_other_texts_are_refused(text: str, words: str) -> None:
+    with pytest.raises(UnitsError) as error:
+        parse(text)
+    assert words in str(error.value)
+
+
+def test_scale() -> None:
+    momenta, lengths = Scale(momenta=8), Scale(lengths=4)
+    units = ("momentum", "temperature", "energy", "time", "1/time", "length", "1/(time momentum)")
+    assert [momenta(each) for each in units] == [8, 64, 64, 1 / 8, 8, 1, 1]
+    assert [lengths(each) for each in units] == [1, 1, 1, 4, 1 / 4, 4, 1 / 4]
+    assert momenta.option("times", "1.0,3.0") == "0.125,0.375"
+    assert lengths.option("relaxation-time", "0.25N") == "1.0N"
+    assert lengths.option("cell-length", "1/N") == "1/N"
+    assert lengths.option("sigma", 0.5) == 0.5
+
+
+CLOSED = {"cells": 5, "particles_per_cell": 4, "relaxation_time": 5, "observation_time": 10, "replicas": 4}
+PULSE = {"cells": 41, "particles_per_cell": 20, "times": "0.01,0.02,0.03,0.04", "replicas": 8}
+OPEN = {"cells": 4, "cell_length": 0.25, "relaxation_time": 0.5, "observation_time": 4, "replicas": 16}
+FILLING = {"cells": 5, "times": "10,30,100", "replicas": 4}
+CASES = {
+    "persistence": ("persistence", CLOSED),
+    "persistence, rare": ("persistence", CLOSED | {"gamma": 2, "scatterer_temperature": 400}),
+    "waiting_time": ("waiting_time", CLOSED),
+    "waiting_time, rare": ("waiting_time", CLOSED | {"gamma": 2, "tail_from": 100}),
+    "displacement": ("displacement", CLOSED),
+    "displacement, rare": ("displacement", CLOSED | {"gamma": 2, "zero_total_momentum": True}),
+    "displacement, random": ("displacement", CLOSED | {"random_direction": True}),
+    "ageing": ("ageing", CLOSED),
+    "ageing, rare": ("ageing", CLOSED | {"gamma": 0.5}),
+    "energy_pulse": ("energy_pulse", PULSE),
+    "energy_pulse, rare": ("energy_pulse", PULSE | {"gamma": 1, "relaxation_time": 0.1}),
+    "conductivity": ("conductivity", OPEN),
+    "conductivity, rare": ("conductivity", OPEN | {"gamma": 1}),
+    "steady_profile": ("steady_profile", OPEN),
+    "steady_profile, rare": ("steady_profile", OPEN | {"gamma": 1}),
+    "momentum_flux": ("momentum_flux", OPEN),
+    "momentum_flux, rare": ("momentum_flux", OPEN | {"gamma": 1, "start": "empty"}),
+    "particle_count": ("particle_count", FILLING),
+    "particle_count, rare": ("particle_count", FILLING | {"gamma": 1}),
+    "boltzmann": ("boltzmann", {}),
+    "boltzmann, cells": ("boltzmann", {"cells": 4, "gamma": "N"}),
+}
+COUNTS = {
+    "mu/mean",
+    "total_number/mean",
+    "momentum_points/mean",
+}  # and ratios of counts; no rounding is in them
+
+
+@cache
+def measured(case: str) -> tuple[Result, ...]:
+    """In the default units, then in those of SCALES."""
+    program, options = CASES[case]
+    path = ROOT / "build/bin" / program
+    plain = call(path, **options, progress="none").result
+    given_or_not = {name: value for name, value in plain.parameters.items() if name in OPTIONS}
+    scaled = [
+        call(path, **options | {name: scale.option(name, value) for name, value in given_or_not.items()},
+             progress="none").result
+        for scale in SCALES
+    ]  # fmt: skip
+    return plain, *scaled
+
+
+def datasets(result: Result) -> Iterator[tuple[str, np.ndarray, str]]:
+    """Place, values and units."""
+    for name, quantity in result.quantities.items():
+        for kind in ("mean", "standard_error", "discretisation_error"):
+            if getattr(quantity, kind) is not None:
+                yield f"{name}/{kind}", getattr(quantity, kind), quantity.units
+        for axis, values in quantity.axes.items():
+            yield f"{name}/{axis}", values, quantity.axis_units[axis]
+
+
+def faults(plain: Result, scaled: Result, scale: Scale) -> list[str]:
+    """The datasets that do not scale as the plain result says."""
+    found = []
+    for (place, values, units), (_, others, _) in zip(datasets(plain), datasets(scaled), strict=True):
+        rounding = 0 if place in COUNTS else ROUNDING
+        if not agree(values, others, scale(units), rounding):
+            found.append(f"{place} in {units}")
+    return found
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_every_number_scales_as_its_units_say(case: str) -> None:
+    plain, *others = measured(case)
+    for scale, scaled in zip(SCALES, others, strict=True):
+        assert scaled.provenance["events"] == plain.provenance["events"]
+        assert scaled.quantities.keys() == plain.quantities.keys()
+        assert faults(plain, scaled, scale) == []
+        for name, quantity in plain.quantities.items():
+            np.testing.assert_array_equal(scaled[name].count, quantity.count)
+        relative = [result.provenance["achieved_error"] for result in (plain, scaled)]
+        np.testing.assert_allclose(*relative, rtol=ROUNDING)
+
+
+WRONG = ("1", "length", "time", "1/time", "momentum", "energy", "momentum/time", "length^2 energy")
+
+
+def mutants(result: Result) -> Iterator[tuple[str, Result]]:
+    """One wrong unit each, and the dataset's place."""
+
+    def patched(name: str, **changes: object) -> Result:
+        return replace(result, quantities=result.quantities | {name: replace(result[name], **changes)})
+
+    for name, quantity in result.quantities.items():
+        for wrong in WRONG:
+            if parse(wrong) != parse(quantity.units):
+                yield f"{name}/mean in {wrong}", patched(name, units=wrong)
+            for axis, units in quantity.axis_units.items():
+                if parse(wrong) != parse(units):
+                    changed = patched(name, axis_units=quantity.axis_units | {axis: wrong})
+                    yield f"{name}/{axis} in {wrong}", changed
+
+
+@pytest.mark.parametrize("program", sorted({program for program, _ in CASES.values()}))
+def test_every_wrong_unit_is_found(program: str) -> None:
+    """In one of the program's cases at least: a quantity may be NaN or 0 in another."""
+    missed: set[str] | None = None
+    for case in (name for name, (its_program, _) in CASES.items() if its_program == program):
+        plain, *others = measured(case)
+        unseen = {
+            place
+            for place, mutant in mutants(plain)
+            if not any(place in faults(mutant, *pair) for pair in zip(others, SCALES, strict=True))
+        }
+        missed = unseen if missed is None else missed & unseen
+    assert missed == set()

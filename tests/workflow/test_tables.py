@@ -1,0 +1,81 @@
+"""The tables of the figures: every column scales with the results that it was made from, as its units say."""
+
+import importlib
+import json
+from functools import cache
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import pandas as pd
+import pytest
+
+from tests.python.scale import ROUNDING, SCALES, agree
+from tests.workflow.conftest import Clone
+from workflow.config.plan import data_of, load_plan
+from workflow.scripts import style
+from workflow.scripts.columns import BY_ROW, UNITS_LINE, as_csv
+from workflow.scripts.load import load
+from workflow.scripts.units import UnitsError
+
+PLAN = load_plan("smoke")
+
+
+def stated(table: Path) -> dict[str, str]:
+    """Units in the third line."""
+    line = table.read_text().split("\n", maxsplit=3)[2]
+    assert line.startswith(UNITS_LINE)
+    return json.loads(line.removeprefix(UNITS_LINE))
+
+
+@cache
+def tables(folder: Path, panel: str) -> tuple[pd.DataFrame, ...]:
+    """From the results as they are, then in other units."""
+    draw = importlib.import_module(f"workflow.scripts.{PLAN[panel].script}").draw
+    results = [load(folder / path) for path in data_of(PLAN, panel, "smoke")]
+    style.apply()
+    drawn = [
+        draw(one)[1] for one in (results, *([scale.result(each) for each in results] for scale in SCALES))
+    ]
+    plt.close("all")
+    return tuple(drawn)
+
+
+def faults(folder: Path, panel: str, units: dict[str, str]) -> set[str]:
+    """The columns that do not scale so."""
+    plain, *others = tables(folder, panel)
+    found = set()
+    for scale, scaled in zip(SCALES, others, strict=True):
+        for name, text in units.items():
+            by_row = text.startswith(BY_ROW)
+            factor = plain[text.removeprefix(BY_ROW)].map(scale).to_numpy() if by_row else scale(text)
+            values, other = (table[name].to_numpy(dtype=float) for table in (plain, scaled))
+            if not agree(values, other / factor, 1, ROUNDING):
+                found.add(name)
+    return found
+
+
+@pytest.mark.parametrize("panel", PLAN)
+def test_every_column_scales_as_its_units_say(clean: Clone, panel: str) -> None:
+    plain, *others = tables(clean.folder, panel)
+    units = stated(clean.folder / f"figures/smoke/{panel}.csv")
+    assert faults(clean.folder, panel, units) == set()
+    for other in others:
+        labels = [name for name in plain if name not in units]
+        pd.testing.assert_frame_equal(plain[labels], other[labels])
+    # Mutant: other units, of one column after the other.
+    for name, text in units.items():
+        mutant = "1" if text != "1" else "energy"
+        seen = plain[name].abs().max() > 0
+        assert faults(clean.folder, panel, units | {name: mutant}) == ({name} if seen else set())
+
+
+def test_columns_without_units_are_refused() -> None:
+    table = pd.DataFrame({"sigma": [0.5, 1], "label": ["a", 1], "sound": [True, False], "time": [1, 2]})
+    with pytest.raises(UnitsError, match="the columns sigma, time have no units"):
+        as_csv(table, {})
+    with pytest.raises(UnitsError, match="'second/furlong'"):
+        as_csv(table, {"sigma": "1", "time": "second/furlong"})
+    text = as_csv(table, {"sigma": "1", "time": "time", "absent": "1"})
+    assert text.splitlines()[0] == '# units: {"sigma": "1", "time": "time"}'
+    with pytest.raises(UnitsError, match="'a' in 'a'"):
+        as_csv(table.iloc[:1], {"sigma": "1", "time": "column label"})

@@ -1,0 +1,62 @@
+"""Units as the result files and tables write them: products of powers of dimensions, one over another.
+
+    units   = product [ "/" ( factor | "(" product ")" ) ]
+    product = factor { " " factor }
+    factor  = word [ "^" digits ]
+    word    = "1" | "length" | "time" | "momentum" | "energy" | "temperature" | "second"
+
+With m = k_B = 1 a momentum is a length over a time, energy and temperature are its square. A second is one of the
+computer's, which has nothing to do with the time of the model.
+"""
+
+import re
+from typing import NamedTuple
+
+
+class UnitsError(ValueError):
+    """The text is none of the grammar's, or a column of a table has no units."""
+
+
+class Units(NamedTuple):
+    """Exponents of the independent dimensions."""
+
+    length: int = 0
+    time: int = 0
+    second: int = 0
+
+
+WORDS = {
+    "1": Units(),
+    "length": Units(length=1),
+    "time": Units(time=1),
+    "momentum": Units(length=1, time=-1),
+    "energy": Units(length=2, time=-2),
+    "temperature": Units(length=2, time=-2),
+    "second": Units(second=1),
+}
+
+_FACTOR = re.compile(r"([a-z]+|1)(?:\^([1-9][0-9]?))?")
+_QUOTIENT = re.compile(r"([^/()]+)(?:/(?:([^/() ]+)|\(([^/()]+)\)))?")
+
+
+def parse(text: str) -> Units:
+    """Raises UnitsError if the text does not follow the grammar."""
+    quotient = _QUOTIENT.fullmatch(text)
+    if quotient is None:
+        raise UnitsError(
+            f"'{text}' is not a product, nor one over another such as 'energy/(time temperature)'"
+        )
+    above, single, several = quotient.groups()
+    below = _product(single or several or "1", text)
+    return Units(*(a - b for a, b in zip(_product(above, text), below, strict=True)))
+
+
+def _product(factors: str, text: str) -> Units:
+    exponents = Units()
+    for factor in factors.split(" "):
+        parts = _FACTOR.fullmatch(factor)
+        if parts is None or parts[1] not in WORDS:
+            raise UnitsError(f"'{factor}' in '{text}' is not a power of {', '.join(WORDS)}")
+        power = int(parts[2] or 1)
+        exponents = Units(*(a + power * b for a, b in zip(exponents, WORDS[parts[1]], strict=True)))
+    return exponents
