@@ -15,7 +15,7 @@ from workflow.config.plan import Run, load_plan
 from workflow.scripts.load import load
 
 SEEDS = 40
-FACTORS = {"particle_count": 1e-2}  # of all times
+FACTORS = {"particle_count": 2e-3}  # of all times
 OTHERS = 5e-3
 PULSE = {"members": 1, "relaxation-time": 0}
 
