@@ -1,6 +1,6 @@
 """Fig. 1: momentum distribution of the particles in an empty chain that fills, times |p|, at several times.
 
-Left with the paper's distance between scatterers, right with a shorter one; below on logarithmic bins, with the fronts p_0(t).
+With three distances between scatterers, as the paper states none; below on logarithmic bins, with the fronts p_0(t).
 """
 
 from collections.abc import Sequence
@@ -28,10 +28,10 @@ def plot_times(axes: Axes, density: Quantity, axis: str) -> list[pd.DataFrame]:
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
-    figure, rows = plt.subplots(2, len(results), figsize=(2 * style.COLUMN, 2 * style.HEIGHT), sharex="row")
+    figure, rows = plt.subplots(2, len(results), figsize=(3 * style.COLUMN, 2 * style.HEIGHT), sharex="row")
     tables = []
     for (above, below), result in zip(rows.T, results, strict=True):
-        length = result.parameters["cell-length"]
+        length, spacing = style.spacing(result)
         linear = plot_times(above, result["weighted_momentum_density"], "p")
         logarithmic = plot_times(below, result["weighted_speed_density"], "speed")
         front, plateau = result["front"], result["plateau"]
@@ -40,7 +40,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         label = rf"$p_0 \sim t^{{{style.with_error(result['front_exponent'])}}}$"
         below.text(0.04, 0.9, label, transform=below.transAxes)
         above.set(
-            title=rf"$\lambda = {length:g}$", xlabel=f"momentum $p$ ({style.UNITS})", ylabel=r"$|p|\,n_t(p)$"
+            title=rf"$\lambda = {spacing}$", xlabel=f"momentum $p$ ({style.UNITS})", ylabel=r"$|p|\,n_t(p)$"
         )
         below.set(xscale="log", xlabel=r"$|p|$", ylabel=r"$|p|\,n_t(|p|)$")
         for axes in (above, below):

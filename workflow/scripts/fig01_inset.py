@@ -13,11 +13,11 @@ from workflow.scripts.load import Result
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
-    figure, columns = plt.subplots(1, len(results), figsize=(2 * style.COLUMN, style.HEIGHT))
+    figure, columns = plt.subplots(1, len(results), figsize=(3 * style.COLUMN, style.HEIGHT))
     tables = []
     for axes, result in zip(columns, results, strict=True):
         number, plateau = result["total_number"], result["plateau"]
-        time, length = number.axes["time"], result.parameters["cell-length"]
+        time, (length, spacing) = number.axes["time"], style.spacing(result)
         axes.errorbar(
             time,
             number.mean,
@@ -35,7 +35,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         fitted = f"fitted slope {style.with_error(result['log_slope'])}"
         curvature = f"its change with $\\ln t$: {style.with_error(result['log_curvature'])}"
         axes.legend(
-            loc="upper left", title=f"$\\lambda = {length:g}$\n{fitted}\n{curvature}", alignment="left"
+            loc="upper left", title=f"$\\lambda = {spacing}$\n{fitted}\n{curvature}", alignment="left"
         )
         axes.set(
             xscale="log",

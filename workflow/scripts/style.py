@@ -93,3 +93,11 @@ def gamma(result: Result) -> str:
     """N, or the number of scatterings."""
     value = result.parameters["gamma"]
     return value if value == "N" else f"{value:g}"
+
+
+def spacing(result: Result) -> tuple[float, str]:
+    """Distance between scatterers, and how it is written."""
+    given = result.parameters["cell-length"]
+    if given == "1/N":
+        return 1 / int(result.parameters["cells"]), "1/N"
+    return float(given), f"{given:g}"
