@@ -7,8 +7,8 @@
 namespace lorentz {
 namespace {
 
-Flight first_flight(const ClosedChain& chain, const Particle& particle, std::int64_t cells,
-                    std::uint32_t number) {
+Flight flight_over(const ClosedChain& chain, const Particle& particle, std::int64_t cells,
+                   std::uint32_t number) {
   const double cells_from_first = particle.position / chain.cell_length - 0.5;
   const bool rightwards = particle.velocity > 0;
   const double ahead = rightwards ? std::floor(cells_from_first) + 1 : std::ceil(cells_from_first) - 1;
@@ -22,17 +22,21 @@ Flight first_flight(const ClosedChain& chain, const Particle& particle, std::int
 
 }  // namespace
 
+Flight first_flight(const ClosedChain& chain, const Particle& particle, std::uint32_t number,
+                    const Launch& launch) {
+  double velocity = particle.velocity;
+  std::uint64_t draws = particle.draws;
+  const std::int64_t cells = launch.deterministic() ? 1 : launch(number, draws, velocity);
+  Flight flight = flight_over(chain, {particle.position, velocity}, cells, number);
+  flight.draws = draws;
+  return flight;
+}
+
 std::vector<Flight> first_flights(const ClosedChain& chain, const PhasePoint& start, const Launch& launch) {
   std::vector<Flight> flights;
   flights.reserve(start.particles.size());
-  for (const Particle& particle : start.particles) {
-    double velocity = particle.velocity;
-    const auto number = static_cast<std::uint32_t>(flights.size());
-    std::uint64_t draws = particle.draws;
-    const std::int64_t cells = launch.deterministic() ? 1 : launch(number, draws, velocity);
-    flights.push_back(first_flight(chain, {particle.position, velocity}, cells, number));
-    flights.back().draws = draws;
-  }
+  for (const Particle& particle : start.particles)
+    flights.push_back(first_flight(chain, particle, static_cast<std::uint32_t>(flights.size()), launch));
   return flights;
 }
 

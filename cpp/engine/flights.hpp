@@ -9,8 +9,12 @@
 
 namespace lorentz {
 
-/// The flight of every particle to the first scatterer ahead of it, and on to where it scatters. Scatterers
-/// stand at (i + 1/2) times the cell length.
+/// The flight of a particle, whose number is given, to the first scatterer ahead of it, and on to where it
+/// scatters. Scatterers stand at (i + 1/2) times the cell length.
+Flight first_flight(const ClosedChain& chain, const Particle& particle, std::uint32_t number,
+                    const Launch& launch);
+
+/// The same of every particle.
 std::vector<Flight> first_flights(const ClosedChain& chain, const PhasePoint& start, const Launch& launch);
 
 /// Collisions per unit time once the energy is shared equally: the mean |u| of all particles, over the mean

@@ -1,66 +1,56 @@
 #include "engine/pair.hpp"
 
-#include <functional>
-
-#include "engine/flights.hpp"
-
 namespace lorentz {
-namespace {
-
-/// Flights of both trajectories; a single particle has no second flight yet.
-std::vector<Flight> both(const ClosedChain& chain, const PhasePoint& plain, const PhasePoint& perturbed,
-                         const Launch& launch, const std::vector<char>& double_particles) {
-  std::vector<Flight> flights = first_flights(chain, plain, launch);
-  for (Flight flight : first_flights(chain, perturbed, launch)) {
-    if (!double_particles[flight.particle]) continue;
-    flight.particle += chain.particles();
-    flights.push_back(flight);
-  }
-  return flights;
-}
-
-/// One flag per element: whether a and b differ in it, or all.
-template <class Element, class Differ>
-std::vector<char> different(const std::vector<Element>& a, const std::vector<Element>& b, bool all,
-                            Differ differ) {
-  std::vector<char> flags;
-  for (std::size_t i = 0; i < a.size(); ++i) flags.push_back(all || differ(a[i], b[i]));
-  return flags;
-}
-
-}  // namespace
 
 PairDynamics::PairDynamics(const ClosedChain& chain, const PhasePoint& plain, const PhasePoint& perturbed,
                            double end_time, const StreamKey& key, bool share)
     : chain_(chain),
       scatter_(chain),
       launch_(chain, key),
-      double_particles_(different(plain.particles, perturbed.particles, !share,
-                                  [](const Particle& a, const Particle& b) {
-                                    return a.velocity != b.velocity || a.position != b.position;
-                                  })),
-      double_scatterers_(different(plain.scatterers, perturbed.scatterers, !share, std::not_equal_to<>())),
-      scatterers_{scatter_.rule().scaled(plain.scatterers), scatter_.rule().scaled(perturbed.scatterers)},
-      queue_(both(chain, plain, perturbed, launch_, double_particles_), expected_rate(chain, plain),
-             end_time) {}
+      places_(chain.particles(), single),
+      double_flights_(1),
+      double_scatterers_(chain.cells, false),
+      queue_(first_events(plain, perturbed, end_time, share), expected_rate(chain, plain), end_time) {
+  const std::vector<double> one = scatter_.rule().scaled(plain.scatterers);
+  const std::vector<double> other = scatter_.rule().scaled(perturbed.scatterers);
+  for (std::uint32_t cell = 0; cell < chain.cells; ++cell) {
+    scatterers_.push_back({one[cell], other[cell]});
+    if (share && plain.scatterers[cell] == perturbed.scatterers[cell]) continue;
+    double_scatterers_[cell] = true;
+    double_cells_.push_back(cell);
+  }
+}
 
-std::array<PhasePoint, 2> PairDynamics::phase_points(double time) const {
-  const std::uint32_t particles = chain_.particles();
-  PhasePoint plain{{}, scatter_.rule().unscaled(scatterers_[0])};
-  const std::vector<Flight> flights = queue_.flights();
-  const auto seen = [&](const Flight& flight) {
-    return Particle{position(flight, time, chain_), flight.velocity, flight.draws};
-  };
-  for (std::uint32_t particle = 0; particle < particles; ++particle)
-    plain.particles.push_back(seen(flights[particle]));
+/// The first flight of every particle, and of the second copy of those that differ or, without share, of all.
+/// What happens to a single particle after the end concerns neither trajectory's difference.
+std::vector<Flight> PairDynamics::first_events(const PhasePoint& plain, const PhasePoint& perturbed,
+                                               double end_time, bool share) {
+  std::vector<Flight> flights;
+  for (std::uint32_t number = 0; number < chain_.particles(); ++number) {
+    const Particle &one = plain.particles[number], &other = perturbed.particles[number];
+    const Flight flight = first_flight(chain_, one, number, launch_);
+    if (share && one.velocity == other.velocity && one.position == other.position) {
+      if (flight.time < end_time) flights.push_back(flight);
+      continue;
+    }
+    Flight twin = first_flight(chain_, other, number, launch_);
+    twin.particle += chain_.particles();
+    flights.insert(flights.end(), {flight, twin});
+    add_double_particle(flight, twin);
+  }
+  return flights;
+}
 
-  PhasePoint perturbed = plain;
-  for (std::uint32_t particle = 0; particle < particles; ++particle)
-    if (double_particles_[particle]) perturbed.particles[particle] = seen(flights[particle + particles]);
-  for (std::uint32_t cell = 0; cell < chain_.cells; ++cell)
-    if (double_scatterers_[cell])
-      perturbed.scatterers[cell] = scatter_.rule().scatterer_scale() * scatterers_[1][cell];
-  return {std::move(plain), std::move(perturbed)};
+std::uint32_t PairDynamics::add_double_particle(const Flight& plain, const Flight& perturbed) {
+  const auto place = static_cast<std::uint32_t>(double_flights_.size());
+  double_flights_.push_back({plain, perturbed});
+  return places_[plain.particle] = place;
+}
+
+void PairDynamics::add_double_scatterer(std::uint32_t cell) {
+  double_scatterers_[cell] = true;
+  double_cells_.push_back(cell);
+  scatterers_[cell][1] = scatterers_[cell][0];
 }
 
 }  // namespace lorentz

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/event_queue.hpp"
+#include "engine/flights.hpp"
 #include "engine/launch.hpp"
 #include "engine/scattering.hpp"
 #include "model/closed_chain.hpp"
@@ -37,14 +38,34 @@ class PairDynamics {
       advance<true>(until, heartbeat);
   }
 
-  /// The plain one and the perturbed one, at a time between the last event and the next.
-  std::array<PhasePoint, 2> phase_points(double time) const;
+  /// visit(number, plain, perturbed) for every double particle, at a time between the last event and the
+  /// next. The others are the same in both trajectories.
+  template <std::invocable<std::uint32_t, const Particle&, const Particle&> Visit>
+  void for_each_double_particle(double time, Visit&& visit) const {
+    const auto seen = [&](const Flight& flight) {
+      return Particle{position(flight, time, chain_), flight.velocity};
+    };
+    for (std::size_t place = 1; place < double_flights_.size(); ++place) {
+      const auto& [plain, perturbed] = double_flights_[place];
+      visit(plain.particle, seen(plain), seen(perturbed));
+    }
+  }
+
+  /// visit(cell, plain U, perturbed U) for every double scatterer.
+  template <std::invocable<std::uint32_t, double, double> Visit>
+  void for_each_double_scatterer(Visit&& visit) const {
+    const double scale = scatter_.rule().scatterer_scale();
+    for (const std::uint32_t cell : double_cells_)
+      visit(cell, scale * scatterers_[cell][0], scale * scatterers_[cell][1]);
+  }
 
   /// Collisions in both trajectories, and how many of them had to be worked out.
   std::uint64_t events() const { return shared_ * 2 + separate_; }
   std::uint64_t computed() const { return shared_ + separate_; }
 
  private:
+  static constexpr std::uint32_t single = 0;
+
   template <bool launching, class Heartbeat>
   void advance(double until, Heartbeat&& heartbeat) {
     constexpr std::uint64_t events_per_heartbeat = 65536;
@@ -58,32 +79,39 @@ class PairDynamics {
       if (++taken_ % events_per_heartbeat == 0) heartbeat(until);
       const std::uint32_t cell = flight.target;
       const bool second = flight.particle >= particles;
-      if (!double_particles_[second ? flight.particle - particles : flight.particle]) {
-        if (double_scatterers_[cell]) {
-          double_particles_[flight.particle] = true;
+      std::uint32_t place = places_[second ? flight.particle - particles : flight.particle];
+      if ((place != single) != double_scatterers_[cell]) [[unlikely]] {
+        if (place == single) {
           Flight twin = flight;
           twin.particle += particles;
-          collide(flight, scatterers_[0][cell]);
-          collide(twin, scatterers_[1][cell]);
-          separate_ += 2;
+          collide(twin, scatterers_[cell][1]);
+          place = add_double_particle(flight, twin);
+          ++separate_;
         } else {
-          collide(flight, scatterers_[0][cell]);
-          ++shared_;
+          add_double_scatterer(cell);
         }
-      } else {
-        if (!std::exchange(double_scatterers_[cell], true)) scatterers_[1][cell] = scatterers_[0][cell];
-        collide(flight, scatterers_[second ? 1 : 0][cell]);
-        ++separate_;
       }
+      collide(flight, scatterers_[cell][second]);
+      double_flights_[place][second] = flight;
+      ++(place == single ? shared_ : separate_);
     }
   }
+
+  std::uint32_t add_double_particle(const Flight& plain, const Flight& perturbed);
+  void add_double_scatterer(std::uint32_t cell);
+  std::vector<Flight> first_events(const PhasePoint& plain, const PhasePoint& perturbed, double end_time,
+                                   bool share);
 
   ClosedChain chain_;
   Scattering scatter_;
   Launch launch_;
-  std::vector<char> double_particles_, double_scatterers_;
-  std::vector<double> scatterers_[2];  // w of the plain and of the perturbed trajectory; the second if double
-  EventQueue queue_;                   // numbers of the plain trajectory, then those of the perturbed one
+  std::vector<std::uint32_t> places_;  // of a particle in double_flights_, or single
+  std::vector<std::array<Flight, 2>>
+      double_flights_;                   // the present ones of both copies; the first is scratch
+  std::vector<char> double_scatterers_;  // whether a scatterer is among double_cells_
+  std::vector<std::uint32_t> double_cells_;
+  std::vector<std::array<double, 2>> scatterers_;  // w of both trajectories; the second one if double
+  EventQueue queue_;  // numbers of the plain trajectory, then those of the perturbed one
   std::uint64_t taken_ = 0, shared_ = 0, separate_ = 0;
 };
 

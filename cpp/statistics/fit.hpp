@@ -17,14 +17,4 @@ Line fit_line(std::span<const double> x, std::span<const double> y);
 /// Exponent of y ~ x^a: the slope of ln y against ln x over the points with from <= x <= to.
 double fit_power(std::span<const double> x, std::span<const double> y, double from, double to);
 
-struct Maximum {
-  double position;
-  double height;
-};
-
-/// The highest point between the first and the last of the points, x ascending, of the least-squares parabola
-/// through them: its vertex, unless that lies outside or is a minimum. Throws std::invalid_argument with
-/// fewer than three points.
-Maximum fit_maximum(std::span<const double> x, std::span<const double> y);
-
 }  // namespace lorentz

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "engine/closed_dynamics.hpp"
 #include "engine/closed_start.hpp"
 #include "support/collisions.hpp"
@@ -10,13 +12,30 @@ namespace {
 
 using namespace lorentz;
 
-void expect_same(const PhasePoint& a, const PhasePoint& b) {
-  ASSERT_EQ(a.scatterers, b.scatterers);
-  ASSERT_EQ(a.particles.size(), b.particles.size());
-  for (std::size_t i = 0; i < a.particles.size(); ++i) {
-    ASSERT_EQ(a.particles[i].position, b.particles[i].position) << i;
-    ASSERT_EQ(a.particles[i].velocity, b.particles[i].velocity) << i;
-  }
+void expect_same(const Particle& a, const Particle& b, std::uint32_t number) {
+  ASSERT_EQ(a.position, b.position) << number;
+  ASSERT_EQ(a.velocity, b.velocity) << number;
+}
+
+/// Every particle and scatterer: the double ones are those of the two simulations, in the others these are
+/// equal.
+void expect_pair(const PairDynamics& pair, double time, const PhasePoint& plain,
+                 const PhasePoint& perturbed) {
+  std::vector<char> double_particles(plain.particles.size()), double_scatterers(plain.scatterers.size());
+  pair.for_each_double_particle(time, [&](std::uint32_t number, const Particle& one, const Particle& other) {
+    ASSERT_FALSE(std::exchange(double_particles[number], true));
+    expect_same(one, plain.particles[number], number);
+    expect_same(other, perturbed.particles[number], number);
+  });
+  pair.for_each_double_scatterer([&](std::uint32_t cell, double one, double other) {
+    ASSERT_FALSE(std::exchange(double_scatterers[cell], true));
+    ASSERT_EQ(one, plain.scatterers[cell]);
+    ASSERT_EQ(other, perturbed.scatterers[cell]);
+  });
+  for (std::uint32_t i = 0; i < double_particles.size(); ++i)
+    if (!double_particles[i]) expect_same(plain.particles[i], perturbed.particles[i], i);
+  for (std::uint32_t i = 0; i < double_scatterers.size(); ++i)
+    if (!double_scatterers[i]) ASSERT_EQ(plain.scatterers[i], perturbed.scatterers[i]) << i;
 }
 
 PhasePoint kicked(PhasePoint point) {
@@ -38,9 +57,7 @@ TEST_P(Pair, IsTwoSimulationsBitForBit) {
     simulate(plain, time, nobody, support::nothing);
     simulate(perturbed, time, nobody, support::nothing);
     pair.run(time, support::nothing);
-    const auto [first, second] = pair.phase_points(time);
-    expect_same(first, plain.phase_point(time));
-    expect_same(second, perturbed.phase_point(time));
+    expect_pair(pair, time, plain.phase_point(time), perturbed.phase_point(time));
   }
   EXPECT_EQ(pair.events(), plain.events() + perturbed.events());
 }
@@ -57,7 +74,21 @@ TEST_P(Pair, SharesWhatIsTheSame) {
   PairDynamics separate(chain, start, kicked(start), 0.2, {5, 7}, false);
   separate.run(0.2, support::nothing);
   EXPECT_EQ(separate.computed(), separate.events());
-  expect_same(separate.phase_points(0.2)[1], pair.phase_points(0.2)[1]);
+}
+
+TEST_P(Pair, InFullIsTwoSimulationsOfEverything) {
+  const ClosedChain chain = GetParam();
+  const PhasePoint start = closed_chain_start(chain, {500, 500}, false, {1, 0});
+  ClosedDynamics plain(chain, start, 0.2, {5, 7}), perturbed(chain, kicked(start), 0.2, {5, 7});
+  PairDynamics pair(chain, start, kicked(start), 0.2, {5, 7}, false);
+  NoObserver nobody;
+  simulate(plain, 0.2, nobody, support::nothing);
+  simulate(perturbed, 0.2, nobody, support::nothing);
+  pair.run(0.2, support::nothing);
+  expect_pair(pair, 0.2, plain.phase_point(0.2), perturbed.phase_point(0.2));
+  std::uint32_t particles = 0;
+  pair.for_each_double_particle(0.2, [&](std::uint32_t, const Particle&, const Particle&) { ++particles; });
+  EXPECT_EQ(particles, chain.particles());
 }
 
 INSTANTIATE_TEST_SUITE_P(Chains, Pair,

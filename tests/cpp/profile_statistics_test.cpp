@@ -7,42 +7,28 @@
 #include "statistics/collapse.hpp"
 #include "statistics/fit.hpp"
 #include "statistics/log_grid.hpp"
-#include "statistics/peak.hpp"
 #include "support/sample.hpp"
 
 namespace {
 
 using namespace lorentz;
 
-TEST(Fit, FindsExactLinesPowersAndMaxima) {
+TEST(Fit, FindsExactLinesAndPowers) {
   const std::vector<double> x = {1, 2, 4, 5, 7};
-  std::vector<double> line, power, parabola;
+  std::vector<double> line, power;
   for (const double value : x) {
     line.push_back(3 - 2 * value);
     power.push_back(5 * std::pow(value, -2.0 / 3));
-    parabola.push_back(7 - 0.5 * (value - 3.25) * (value - 3.25));
   }
   EXPECT_NEAR(fit_line(x, line).slope, -2, 1e-13);
   EXPECT_NEAR(fit_line(x, line).intercept, 3, 1e-13);
   EXPECT_NEAR(fit_power(x, power, 1, 7), -2.0 / 3, 1e-13);
   EXPECT_NEAR(fit_power(x, power, 2, 5), -2.0 / 3, 1e-13);
-  EXPECT_NEAR(fit_maximum(x, parabola).position, 3.25, 1e-12);
-  EXPECT_NEAR(fit_maximum(x, parabola).height, 7, 1e-12);
-}
-
-// Noise may turn a short parabola round or push its vertex far away.
-TEST(Fit, KeepsTheMaximumBetweenThePoints) {
-  const std::vector<double> x = {1, 2, 3}, falling = {5, 4, 2}, valley = {5, 1, 6};
-  EXPECT_EQ(fit_maximum(x, falling).position, 1);
-  EXPECT_NEAR(fit_maximum(x, falling).height, 5, 1e-14);
-  EXPECT_EQ(fit_maximum(x, valley).position, 3);
-  EXPECT_NEAR(fit_maximum(x, valley).height, 6, 1e-14);
 }
 
 TEST(Fit, RefusesTooFewPoints) {
   const std::vector<double> one = {1}, two = {1, 2};
   EXPECT_THROW(fit_line(one, one), std::invalid_argument);
-  EXPECT_THROW(fit_maximum(two, two), std::invalid_argument);
   EXPECT_THROW(fit_power(two, two, 5, 6), std::invalid_argument);
 }
 
@@ -88,37 +74,6 @@ TEST(Collapse, IsUnbiasedUnderNoise) {
   const double exact = collapse_exponent(scaling_profiles(0.6, 0, 1), -15, 15);
   EXPECT_LT(std::abs(support::z_score(support::sample(found), exact)), 4);
   EXPECT_GT(std::abs(support::z_score(support::sample(found), exact + 0.01)), 4);
-}
-
-TEST(Peak, FoldsARing) {
-  EXPECT_EQ(folded(std::vector<double>{5, 4, 10, 6, 7}), (std::vector<double>{10, 5, 6}));
-}
-
-/// A bump at distance 20 on 40 cells, with noise.
-std::vector<double> noisy_bump(double noise, std::uint64_t seed) {
-  RandomStream random({seed, 1}, Purpose::initial_position, 0);
-  std::vector<double> profile;
-  for (int d = 0; d < 40; ++d)
-    profile.push_back(1 - 0.02 * std::pow(d - 20.3, 2) + noise * random.gaussian());
-  return profile;
-}
-
-// The raw maximum of noisy cells lies too high. The vertex height a + b^2/4|c| is off by the variance of the
-// slope b only: noise^2 / sum x^2 / 4|c| with five cells, sum x^2 = 10, and c = -0.02.
-TEST(Peak, VertexIsFreeOfTheBiasOfTheRawMaximum) {
-  constexpr double noise = 0.05;
-  std::vector<double> heights, raw, positions;
-  for (std::uint64_t seed = 0; seed < 400; ++seed) {
-    const Peak peak = moving_peak(noisy_bump(noise, seed), highest_cell(noisy_bump(0, 0)));
-    heights.push_back(peak.height);
-    positions.push_back(peak.position);
-    raw.push_back(peak.raw_height);
-  }
-  const double exact = moving_peak(noisy_bump(0, 0), 20).height;
-  EXPECT_NEAR(exact, 1, 1e-12);
-  EXPECT_LT(std::abs(support::z_score(support::sample(positions), 20.3)), 4);
-  EXPECT_LT(std::abs(support::z_score(support::sample(heights), 1 + noise * noise / 10 / 0.08)), 4);
-  EXPECT_GT(support::z_score(support::sample(raw), 1), 10);
 }
 
 }  // namespace

@@ -179,7 +179,7 @@ def execute(name: str, options: dict[str, object]) -> tuple[int, str, Result | N
 MAY_BE_NAN = {
     "alpha_relative", "exponent_by_cut", "exponent_spread", "front", "front_exponent", "kurtosis", "local_slope",
     "logarithmic_power", "momentum_drift", "plateau", "square", "temperature_particle", "peak", "peak_position",
-    "damping_exponent_from", "peak_collapse", "centre_collapse", "centre_share",
+    "peak_speed", "damping_exponent_from", "local_damping_exponent", "peak_collapse", "centre_share",
 }  # fmt: skip
 
 

@@ -6,7 +6,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.special import erfc
-from scipy.stats import chi2
 
 from tests.python.conftest import Program
 from workflow.scripts.load import Quantity, Result, load
@@ -16,11 +15,12 @@ SHORT = {  # programs with options that they do not share
     "displacement": {"decades": 2},
     "ageing": {"decades": 2},
     "energy_pulse": {
-        "cells": 11,
+        "cells": 21,
+        "particles-per-cell": 20,
         "relaxation-time": 0,
         "observation-time": None,
-        "members": 2,
-        "times": "0.01,0.02",
+        "members": 4,
+        "times": "0.01,0.014",
     },
 }
 QUANTITIES = {
@@ -32,8 +32,8 @@ QUANTITIES = {
                "scatterer_energy_mean": ["window"], "decade_slope": ["decade"]},
     "energy_pulse": {"energy_difference": ["time", "cell"], "injected_energy": [], "sum_error": [], "peak": ["time"],
                      "peak_position": ["time"], "peak_raw": ["time"], "centre_share": ["time"],
-                     "damping_exponent": [], "damping_exponent_from": ["from"], "peak_collapse": [],
-                     "centre_collapse": []},
+                     "odd_part": ["time", "distance"], "peak_speed": ["middle"], "local_damping_exponent": ["middle"],
+                     "damping_exponent": [], "damping_exponent_from": ["from"], "peak_collapse": []},
 }  # fmt: skip
 
 
@@ -189,11 +189,6 @@ def test_pulse(program: Program, tmp_path: Path) -> None:
     # The fastest particles of the pulse, sqrt(10) times faster than thermal ones, have not gone far.
     assert (difference.mean[0, :12] == 0).all()
     assert (difference.mean[0, 19:] == 0).all()
-    # Mirror symmetry.
-    mirrored = difference.mean[2] - difference.mean[2, ::-1]
-    error = np.hypot(difference.standard_error[2], difference.standard_error[2, ::-1])
-    z = (mirrored / np.where(error > 0, error, 1))[:15]
-    assert float(np.sum(z**2)) < chi2.ppf(1 - 1e-4, 15) * 31 / 29
 
 
 @pytest.mark.parametrize(
@@ -202,7 +197,8 @@ def test_pulse(program: Program, tmp_path: Path) -> None:
         ("energy_pulse", {"times": "0.02,0.01"}, ["--times", "ascend"]),
         ("energy_pulse", {"times": "0.02,x"}, ["--times", "'x'"]),
         ("energy_pulse", {"times": "0.02"}, ["--times", "Add another"]),
-        ("energy_pulse", {"times": "0.01,0.02", "pulse_cells": 12}, ["--pulse-cells", "smaller"]),
+        ("energy_pulse", {"times": "0.01,0.02", "pulse_cells": 22}, ["--pulse-cells", "smaller"]),
+        ("energy_pulse", {"times": "0.01,0.02", "pulse_cells": 2}, ["--pulse-cells", "odd"]),
         ("energy_pulse", {"times": "0.01,0.02", "gamma": "M"}, ["--gamma", "'M'", "or N"]),
         ("energy_pulse", {"times": "0.01,0.02", "gamma": "0"}, ["--gamma", "greater than 0"]),
         ("displacement", {"decades": "0"}, ["--decades", "[1, 15]"]),

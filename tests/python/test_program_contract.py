@@ -91,7 +91,8 @@ LONG = {
     "persistence": {"observation-time": 2000, "replicas": 60},
     "displacement": {"observation-time": 2000, "replicas": 60},
     "energy_pulse": {
-        "observation-time": None, "relaxation-time": 20, "cells": 21, "times": "0.01,0.02", "replicas": 300
+        "observation-time": None, "relaxation-time": 4, "cells": 21, "particles-per-cell": 20, "times": "0.01,0.014",
+        "replicas": 300,
     },
 }  # fmt: skip
 

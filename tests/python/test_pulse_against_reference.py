@@ -10,10 +10,11 @@ import pytest
 from scipy.stats import chi2
 
 from tests.python.conftest import ROOT, Program
+from tests.python.test_pulse_peak import fit
 from workflow.scripts.load import Result, load
 
 CELLS, PARTICLES, SIGMA, ENERGY, PULSE_ENERGY = 41, 20, 0.5, 5000, 50000
-TIMES = {"N": (0.02, 0.03, 0.045, 0.06), 1: (0.01, 0.015, 0.02, 0.03)}
+TIMES = {"N": (0.02, 0.03, 0.045, 0.06), 1: (0.008, 0.01, 0.015, 0.02)}
 
 
 @cache
@@ -26,15 +27,10 @@ def reference(gamma: float, times: tuple[float, ...], *, replicas: int, members:
     return np.array(rows).reshape(replicas, len(times), CELLS)
 
 
-def damping_exponent(profiles: np.ndarray, times: tuple[float, ...], about: list[int]) -> float:
-    """Slope of ln peak against ln t, the peak being the vertex of a parabola through the folded profile."""
-    heights = []
-    for profile, cell in zip(profiles, about, strict=True):
-        centre = CELLS // 2
-        folded = (profile[centre:] + profile[centre::-1]) / 2
-        half = max(1, round(0.12 * cell))
-        distance = np.arange(cell - half, cell + half + 1)
-        heights.append(np.polyval(fit := np.polyfit(distance, folded[distance], 2), -fit[1] / (2 * fit[0])))
+def damping_exponent(profiles: np.ndarray, times: tuple[float, ...]) -> float:
+    """Slope of ln peak against ln t."""
+    centre = CELLS // 2
+    heights = [fit((profile[centre:] + profile[centre::-1]) / 2)[1] for profile in profiles]
     return -np.polyfit(np.log(times), np.log(heights), 1)[0]
 
 
@@ -47,12 +43,11 @@ def scores(result: Result, gamma: float, times: tuple[float, ...]) -> tuple[np.n
     combined = np.hypot(difference.standard_error, error)
     z = (difference.mean - mean)[reached] / combined[reached]
 
-    about = [round(position) for position in result["peak_position"].mean]
     every = np.arange(len(samples))
-    left_out = [damping_exponent(samples[every != i].mean(axis=0), times, about) for i in every]
+    left_out = [damping_exponent(samples[every != i].mean(axis=0), times) for i in every]
     jackknife = np.sqrt((len(samples) - 1) * np.var(left_out))
     exponent = result["damping_exponent"]
-    distance = exponent.mean - damping_exponent(mean, times, about)
+    distance = exponent.mean - damping_exponent(mean, times)
     return z, float(distance / np.hypot(jackknife, exponent.standard_error))
 
 

@@ -99,6 +99,8 @@ def _panel(name: str, panel: dict, efforts: dict) -> Panel:
         effort = efforts.get("panels", {}).get(name, {}).get(series, {})
         options = {**panel.get("common", {}), **own, **(efforts["default"] if replicated else {}), **effort}
         options.pop("replicated", None)
+        if options.get("replicas") == 0:
+            continue
         program = options.pop("program", panel.get("program"))
         if program is None:
             raise ConfigurationError(f"paper.yaml: panels.{name}.series.{series}: program is missing")

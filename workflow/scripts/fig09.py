@@ -21,7 +21,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
     result = gaussian_start(results)
     difference = result["energy_difference"]
     times = difference.axes["time"]
-    distance = difference.axes["cell"] - (len(difference.axes["cell"]) - 1) / 2
+    distance = difference.axes["cell"] - len(difference.axes["cell"]) // 2
     figure, axes = plt.subplots(figsize=(style.COLUMN, style.HEIGHT))
     shown = np.linspace(1, len(times) - 1, 5).round().astype(int)
     parts = []

@@ -1,8 +1,12 @@
-"""Fig. 10: height of the moving peak of an energy pulse against time; a: gamma = N, b: gamma = 1."""
+"""Fig. 10: height of the moving peak of an energy pulse against time; a: gamma = N, b: gamma = 1.
+
+Times without a moving peak, whose height is NaN, are left out.
+"""
 
 from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
+import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
@@ -36,14 +40,22 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         part = pd.DataFrame({"time": time, "peak": peak.mean, "peak_error": peak.standard_error})
         part["peak_raw"], part["peak_position"] = result["peak_raw"].mean, result["peak_position"].mean
         part["peak_position_error"] = result["peak_position"].standard_error
-        part["exponent_from_here"] = pd.Series(exponent.mean)
-        part["exponent_from_here_error"] = pd.Series(exponent.standard_error)
+        for column, name in {
+            "exponent_from_here": "damping_exponent_from",
+            "exponent_to_next": "local_damping_exponent",
+            "speed_to_next": "peak_speed",
+        }.items():  # all but the last time have them
+            part[column] = pd.Series(result[name].mean)
+            part[f"{column}_error"] = pd.Series(result[name].standard_error)
         part.insert(0, "scatterer_temperature", str(result.parameters["scatterer-temperature"]))
         parts.append(part)
     slope, guide = SLOPES[results[0].parameters["gamma"]]
     peak = results[0]["peak"]
-    time = peak.axes["time"]
-    above.plot(time, 1.3 * peak.mean[0] / 1e3 * (time / time[0]) ** slope, **style.GUIDE, label=guide)
+    time, known = peak.axes["time"], np.isfinite(peak.mean)
+    if known.any():
+        first = np.argmax(known)
+        law = 1.3 * peak.mean[first] / 1e3 * (time / time[first]) ** slope
+        above.plot(time[known], law[known], **style.GUIDE, label=guide)
     below.axhline(-slope, **style.GUIDE)
     above.set(xscale="log", yscale="log", ylabel=rf"peak of $\Delta E\,/\,10^3$ ({style.UNITS})")
     below.set(xlabel="time $t$", ylabel="exponent fitted\nfrom $t$ on")

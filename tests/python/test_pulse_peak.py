@@ -1,0 +1,188 @@
+"""The moving peak of a pulse against free flight, where everything is known, and its errors over many seeds."""
+
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.optimize import least_squares
+from scipy.stats import chi2, f, norm
+
+from tests.python.conftest import Program
+from workflow.scripts.load import Result, load
+
+CELLS, PARTICLES, ENERGY, PULSE_ENERGY = 61, 20, 5000, 50000
+FREE = {"cells": CELLS, "particles_per_cell": PARTICLES, "gamma": 1e-9, "relaxation_time": 0,
+        "observation_time": None}  # fmt: skip
+TIMES = (0.01, 0.0125, 0.016, 0.02)
+
+
+def fit(profile: np.ndarray) -> tuple[float, float]:
+    """Position and height of the top of exp(cubic), weighted with 1 - u^2 where the profile, by the distance
+    from the centre, is above half its maximum (|u| < 1)."""
+    top = 1 + int(np.argmax(profile[1:]))
+    level = profile[top] / 2
+    low, high = top, top
+    while profile[low] > level:
+        low -= 1
+    while profile[high] > level:
+        high += 1
+    left = low + (level - profile[low]) / (profile[low + 1] - profile[low])
+    right = high - (level - profile[high]) / (profile[high - 1] - profile[high])
+    middle, half = (left + right) / 2, max((right - left) / 2, 2.5)
+    cells = np.arange(max(0, int(np.ceil(middle - half))), int(middle + half) + 1)
+    u = (cells - middle) / half
+    found = least_squares(
+        lambda c: np.sqrt(1 - u**2) * (np.exp(np.polyval(c, u)) - profile[cells] / profile[top]),
+        [0, np.log(0.5), 0, 0],
+        xtol=1e-14,
+        ftol=1e-14,
+    ).x
+    steps = np.roots(np.polyder(found))
+    place = next(root.real for root in steps if np.polyval(np.polyder(found, 2), root.real) < 0)
+    return middle + half * place, profile[top] * np.exp(np.polyval(found, place))
+
+
+@cache
+def free_profile(time: float) -> np.ndarray:
+    """Mean energy difference by distance from the central cell, where particles never scatter: they start
+    uniform in the cell, with momenta on a sphere, as the pulse gives all of them and the scatterer together a
+    fixed energy, or Gaussian without the pulse."""
+    freedom = PARTICLES + 1
+    speed = np.linspace(-1, 1, 400001)[1:-1] * np.sqrt(2 * PULSE_ENERGY * freedom)
+    with_pulse = (1 - speed**2 / (2 * PULSE_ENERGY * freedom)) ** ((freedom - 3) / 2)
+    without = norm.pdf(speed, scale=np.sqrt(2 * ENERGY))
+    density = with_pulse / with_pulse.sum() - without / without.sum()
+    inside = [np.clip(1 - np.abs(speed * time - d), 0, None) for d in range(CELLS // 2 + 1)]
+    profile = np.array([PARTICLES * np.sum(density * speed**2 / 2 * part) for part in inside])
+    profile[0] += PULSE_ENERGY - ENERGY  # the scatterer
+    return profile
+
+
+def pulse(program: Program, folder: Path, **options: object) -> Result:
+    done = program("energy_pulse", **options)
+    assert done.returncode == 0, done.stderr
+    return load(folder / "out.h5")
+
+
+def test_free_flight(program: Program, tmp_path: Path) -> None:
+    result = pulse(program, tmp_path, **FREE, members=100, replicas=100, times=",".join(map(str, TIMES)))
+    difference = result["energy_difference"]
+    half = CELLS // 2
+    profiles = np.array([free_profile(time) for time in TIMES])
+    expected = np.concatenate([profiles[:, :0:-1], profiles], axis=1)
+    # Cells that so few particles reach that their errors are none are left out.
+    known = difference.standard_error > 0.002 * difference.standard_error.max()
+    known &= np.abs(np.arange(CELLS) - half) < 18
+    z = (difference.mean - expected)[known] / difference.standard_error[known]
+    assert len(z) > 80
+    assert np.abs(z).max() < 4.5
+
+    tops = np.array([fit(profile) for profile in profiles])
+    wanted = {
+        "peak_position": tops[:, 0],
+        "peak": tops[:, 1],
+        "peak_speed": np.diff(tops[:, 0]) / np.diff(TIMES),
+        "local_damping_exponent": -np.diff(np.log(tops[:, 1])) / np.diff(np.log(TIMES)),
+        "damping_exponent": -np.polyfit(np.log(TIMES), np.log(tops[:, 1]), 1)[:1],
+    }
+    for name, values in wanted.items():
+        z = (np.atleast_1d(result[name].mean) - values) / np.atleast_1d(result[name].standard_error)
+        assert np.abs(z).max() < 4, name
+    np.testing.assert_allclose(result["peak_speed"].axes["middle"], [0.01125, 0.01425, 0.018])
+    geometric = np.sqrt(np.array(TIMES[1:]) * TIMES[:-1])
+    np.testing.assert_allclose(result["local_damping_exponent"].axes["middle"], geometric)
+
+
+def test_no_peak_yet(program: Program, tmp_path: Path) -> None:
+    """The first times, at which the energy is still about the centre, are NaN and do not enter the exponent."""
+    options = {**FREE, "members": 20, "replicas": 10}
+    late = pulse(program, tmp_path, **options, times="0.01,0.0125,0.016,0.02")
+    result = pulse(program, tmp_path, **options, times="0.0001,0.0005,0.01,0.0125,0.016,0.02")
+    for name, unknown in {
+        "peak": [0, 1], "peak_position": [0, 1], "peak_speed": [0, 1],
+        "local_damping_exponent": [0, 1], "damping_exponent_from": [0, 1],
+    }.items():  # fmt: skip
+        quantity = result[name]
+        nan = np.isin(np.arange(len(quantity.mean)), unknown)
+        assert (np.isnan(quantity.mean) == nan).all(), name
+        assert (np.isnan(quantity.standard_error) == nan).all(), name
+        assert (quantity.standard_error[~nan] > 0).all(), name
+    for name in ("damping_exponent", "peak_collapse"):
+        assert result[name].mean == pytest.approx(float(late[name].mean), rel=1e-12)
+        assert result[name].standard_error == pytest.approx(float(late[name].standard_error), rel=1e-9)
+
+
+SEEDS, REPLICAS = 100, 24
+
+
+def spread_accepted(values: np.ndarray, errors: np.ndarray) -> bool:
+    """Errors from R replicas: squared Student variables, of mean (R-1)/(R-3), about their weighted mean."""
+    weights = errors**-2
+    statistic = np.sum(weights * (values - np.average(values, weights=weights)) ** 2)
+    low, high = chi2.ppf([1e-4, 1 - 1e-4], SEEDS - 1)
+    return bool(low < statistic < (REPLICAS - 1) / (REPLICAS - 3) * high)
+
+
+def mean_is_zero(samples: np.ndarray) -> bool:
+    """Of [seed, distance], whose columns are correlated: Hotelling's T^2."""
+    count, size = samples.shape
+    mean = samples.mean(axis=0)
+    statistic = count * mean @ np.linalg.solve(np.cov(samples.T), mean)
+    return bool((count - size) / (size * (count - 1)) * statistic < f.ppf(1 - 1e-4, size, count - size))
+
+
+@pytest.mark.parametrize("gamma", ["N", 1])
+def test_errors_over_seeds(program: Program, tmp_path: Path, gamma: str | int) -> None:
+    """Spread over 100 seeds against the stored errors, of everything that is read off the peak."""
+    times = "0.008,0.01,0.014,0.02" if gamma == "N" else "0.006,0.008,0.01,0.0125"
+    found: dict[str, list[np.ndarray]] = {}
+    for seed in range(SEEDS):
+        result = pulse(
+            program, tmp_path, cells=41, particles_per_cell=20, gamma=gamma, relaxation_time=0,
+            observation_time=None, members=16, replicas=REPLICAS, times=times, seed=seed,
+        )  # fmt: skip
+        for name in ("peak", "peak_position", "peak_speed", "local_damping_exponent", "damping_exponent_from",
+                     "damping_exponent", "peak_collapse"):  # fmt: skip
+            quantity = result[name]
+            found.setdefault(name, []).append(
+                np.array([quantity.mean.ravel(), quantity.standard_error.ravel()])
+            )
+    for name, samples in found.items():
+        values, errors = np.moveaxis(np.array(samples), 1, 0)
+        assert (errors > 0).all(), name
+        for column in range(values.shape[1]):
+            for factor, good in (
+                (1, True),
+                (2, False),
+                (0.5, False),
+            ):  # mutants: errors twice and half as large
+                accepted = spread_accepted(values[:, column], factor * errors[:, column])
+                assert accepted == good, (name, column, factor)
+
+
+@pytest.mark.parametrize("gamma", ["N", 1])
+def test_mirror_symmetry(program: Program, tmp_path: Path, gamma: str | int) -> None:
+    """The signed odd part is 0 at all distances, over many seeds; on a ring of an even number of cells too."""
+    for cells in (41, 40):
+        odd, errors, off_centre = [], [], []
+        for seed in range(SEEDS):
+            result = pulse(
+                program, tmp_path, cells=cells, particles_per_cell=20, gamma=gamma, relaxation_time=0,
+                observation_time=None, members=8, replicas=REPLICAS, times="0.01,0.02", seed=seed,
+            )  # fmt: skip
+            quantity, profile = result["odd_part"], result["energy_difference"].mean[-1]
+            distance = quantity.axes["distance"].astype(int)
+            right, left = profile[cells // 2 + distance], profile[cells // 2 - distance]
+            np.testing.assert_allclose(quantity.mean[-1], (right - left) / 2, atol=1e-12 * profile.max())
+            odd.append(quantity.mean[-1])
+            errors.append(quantity.standard_error[-1])
+            off_centre.append((right - profile[cells // 2 - distance + 1]) / 2)
+        reached = np.min(errors, axis=0) > 0.1 * np.max(errors)  # often enough for a Gaussian mean
+        assert reached.sum() > 7
+        assert mean_is_zero(np.array(odd)[:, reached])
+        z = np.array(odd)[:, reached] / np.array(errors)[:, reached]
+        squares = np.sum(z**2, axis=1) * (REPLICAS - 3) / (REPLICAS - 1)
+        assert abs(squares.mean() - reached.sum()) < 4 * squares.std(ddof=1) / np.sqrt(SEEDS)
+        # Mutant: folded about another cell than that of the pulse.
+        assert not mean_is_zero(np.array(off_centre)[:, reached])
