@@ -88,11 +88,12 @@ provenance: .venv/runtime  ## What a product was made from, FILE=figures/standar
 status: build .venv/runtime  ## Which panels are fresh, their errors and what they cost
 	$(PYTHON) -m workflow.provenance.status --quality $(QUALITY)
 
-bench: build .venv/runtime  ## Cost of an event: engine, reference simulator and floor side by side
+bench: build .venv/runtime  ## Cost of an event: engine, reference and floor side by side; programs and bare loops
 	ninja -C build --quiet benchmarks
 	build/bin/benchmarks --benchmark_repetitions=3 --benchmark_enable_random_interleaving=true \
 	  --benchmark_report_aggregates_only=true --benchmark_out=build/bench.json
 	$(PYTHON) -m workflow.tradeoff.bench_table build/bench.json
+	$(PYTHON) -m workflow.tradeoff.bench_programs --programs build/bin
 
 tradeoff: build .venv/runtime  ## Speed against accuracy, measured here: figures/tradeoff
 	ninja -C build --quiet reference_pulse reference_open_chain reference_drift

@@ -10,7 +10,7 @@ namespace {
 Flight flight_over(const ClosedChain& chain, const Particle& particle, std::int64_t cells,
                    std::uint32_t number) {
   const double cells_from_first = particle.position / chain.cell_length - 0.5;
-  const bool rightwards = particle.velocity > 0;
+  const bool rightwards = direction(particle.velocity) > 0;
   const double ahead = rightwards ? std::floor(cells_from_first) + 1 : std::ceil(cells_from_first) - 1;
   const double target = ahead + static_cast<double>(rightwards ? cells - 1 : 1 - cells);
   const double distance = std::abs(target - cells_from_first) * chain.cell_length;

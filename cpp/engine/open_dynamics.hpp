@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
@@ -108,7 +109,7 @@ void OpenDynamics::advance(double until, Observer& observer, Heartbeat&& heartbe
         observer.on_collision(Collision{now, flight.particle, cell, particle, flight.velocity,
                                         scale * scatterer, scale * scatterers_[cell]});
       }
-      const std::int64_t step = flight.velocity > 0 ? 1 : -1;
+      const std::int64_t step = direction(flight.velocity);
       const std::int64_t place = 2 * std::int64_t{cell} + 1;
       fly<passing>(flight, static_cast<double>(place), place + step, cell + step, observer);
       count(now);
@@ -137,18 +138,16 @@ inline void OpenDynamics::fly(Flight flight, double from, std::int64_t first, st
                               Observer& observer) {
   const double u = flight.velocity, departure = flight.time;
   const std::int64_t passed = cells_passed<passing>();
-  const std::int64_t target = next_cell + (u > 0 ? passed : -passed);
+  const std::int64_t target = next_cell + direction(u) * passed;
   const bool leaves = static_cast<std::uint64_t>(target) >= chain_.cells;  // negative ones too
-  std::int64_t last = 2 * target + 1;
-  if (leaves) [[unlikely]]
-    last = u > 0 ? chain_.right_opening() : 0;
+  const std::int64_t last = std::clamp<std::int64_t>(2 * target + 1, 0, chain_.right_opening());
   const double time_per_place = half_cell_ / std::abs(u);
   const double arrival = departure + std::abs(static_cast<double>(last) - from) * time_per_place;
   if constexpr (requires(const Path& path) { observer.on_flight(path); })
     observer.on_flight(Path{departure, arrival, u, from, first, last, time_per_place});
   if (leaves) [[unlikely]] {
     if constexpr (requires { observer.on_exit(End::left, arrival, u); })
-      observer.on_exit(u > 0 ? End::right : End::left, arrival, u);
+      observer.on_exit(last > 0 ? End::right : End::left, arrival, u);
     numbers_.give_back(flight.particle);
     return;
   }
@@ -161,7 +160,7 @@ template <bool passing, class Observer>
 void OpenDynamics::announce_start(Observer& observer) {
   for (const Particle& particle : newcomers_) {
     const double from = particle.position / half_cell_;
-    const bool rightwards = particle.velocity > 0;
+    const bool rightwards = direction(particle.velocity) > 0;
     const auto first = static_cast<std::int64_t>(rightwards ? std::floor(from) + 1 : std::ceil(from) - 1);
     // Scatterers stand at odd places.
     const std::int64_t cell = rightwards ? first / 2 : (first + 1) / 2 - 1;

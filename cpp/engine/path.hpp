@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "engine/flight.hpp"
+
 namespace lorentz {
 
 /// A stretch of time.
@@ -20,7 +22,7 @@ struct Path {
   std::int64_t first, last;   // marks that are reached; a particle that enters reaches the opening at once
   double time_per_place;
 
-  bool rightwards() const { return velocity > 0; }
+  bool rightwards() const { return direction(velocity) > 0; }
   bool reaches(std::int64_t mark) const { return (mark - first) * (mark - last) <= 0; }
   double time_at(std::int64_t mark) const {
     return departure + std::abs(static_cast<double>(mark) - from) * time_per_place;
@@ -48,14 +50,21 @@ struct Marks {
   std::int64_t low, high;
 };
 
-/// A mark belongs to the window in which it is reached, so the marks of adjacent windows are those of both.
-inline Marks marks_in(const Path& path, const Window& window) {
+/// Of a path that the window may not contain as a whole.
+[[gnu::cold]] inline Marks clipped_marks(const Path& path, const Window& window) {
   if (path.arrival < window.begin || path.departure >= window.end) return {1, 0};
   std::int64_t from = path.first, to = path.last;
   const std::int64_t step = path.rightwards() ? 1 : -1;
   if (path.departure < window.begin) from += step * path.marks_before(window.begin);
   if (path.arrival >= window.end) to = path.first + step * (path.marks_before(window.end) - 1);
   return path.rightwards() ? Marks{from, to} : Marks{to, from};
+}
+
+/// A mark belongs to the window in which it is reached, so the marks of adjacent windows are those of both.
+inline Marks marks_in(const Path& path, const Window& window) {
+  if (path.departure >= window.begin && path.arrival < window.end)
+    return {std::min(path.first, path.last), std::max(path.first, path.last)};
+  return clipped_marks(path, window);
 }
 
 /// The part of the chain that a path covers in a window, and the time that it takes, 0 if none.

@@ -38,18 +38,17 @@ class Scattering {
     if constexpr (launching) cells = launch(flight.particle, flight.draws, u);
     flight.velocity = u;
     const double duration = static_cast<double>(cells) * cell_length_ / std::abs(u);
-    const Departure departure{flight.time, flight.particle, u, u > 0 ? cells : -cells, duration};
+    const Departure departure{flight.time, flight.particle, u, direction(u) * cells, duration};
     flight.target = launching ? cells_ahead(flight.target, departure.cells) : neighbour(flight.target, u);
     flight.time += duration;
     return departure;
   }
 
  private:
-  /// Without a branch: the direction cannot be predicted.
   std::uint32_t neighbour(std::uint32_t cell, double velocity) const {
-    const bool left = !(velocity > 0);
-    const std::uint32_t next = cell + 1 - 2 * std::uint32_t{left};  // beyond the last one at both ends
-    const std::uint32_t entry = left ? cells_ - 1 : 0;
+    const std::int64_t step = direction(velocity);
+    const std::uint32_t next = cell + static_cast<std::uint32_t>(step);  // beyond the last one at both ends
+    const std::uint32_t entry = step < 0 ? cells_ - 1 : 0;
     return next < cells_ ? next : entry;
   }
 

@@ -238,7 +238,7 @@ int main(int argc, char** argv) {
     const OpenChain chain = options.chain();
     const Window window = options.window();
     const auto measure = [&](const Replica& replica) {
-      return options.measure(replica, window.end, EndsAndOpenings(chain, window));
+      return options.measure(replica, window, EndsAndOpenings(chain, window));
     };
     const auto results = [&](const Records& records) { return summarise(records, chain.cells); };
     const std::string target = chain.cells > 1 ? "kappa" : "energy_current";

@@ -32,8 +32,8 @@ class Crossings {
       : chain_(chain),
         window_(window),
         bins_(bins),
-        counts_(bins.count(), RangeTally(bonds())),
-        moments_(2 * powers.size(), RangeTally(bonds())),
+        counts_(bins.count() * bonds()),
+        moments_(2, RangeTally<powers.size()>(bonds())),
         injected_(bins) {}
 
   void on_flight(const Path& path) {
@@ -41,14 +41,13 @@ class Crossings {
     const std::int64_t first = (marks.low + 1) / 2, last = marks.high / 2;  // bonds
     if (marks.low > marks.high || first > last) return;
     const std::size_t bin = bins_[path.velocity];
-    if (bin < counts_.size()) counts_[bin].add(first, last, 1);
-    double power = 1;
-    for (std::size_t k = 0; k < powers.size(); ++k, power *= path.velocity * path.velocity)
-      moments_[(path.rightwards() ? powers.size() : 0) + k].add(first, last, power);
+    const auto before = static_cast<std::int64_t>(bin * bonds());
+    if (bin < bins_.count()) counts_.add(before + first, before + last, {1});
+    const double square = path.velocity * path.velocity;
+    moments_[path.rightwards() ? 1 : 0].add(first, last, {1, square, square * square});
   }
 
-  void on_injection(End end, double time, double u) {
-    if (time < window_.begin) return;
+  void on_injection(End end, double, double u) {
     controls_.add(end, u);
     injected_.add(u);
   }
@@ -58,9 +57,12 @@ class Crossings {
   std::vector<double> record() const {
     std::vector<double> values;
     const double duration = window_.end - window_.begin;
-    for (const auto* tallies : {&counts_, &moments_})
-      for (const RangeTally& tally : *tallies)
-        for (const double sum : tally.sums()) values.push_back(sum / duration);
+    const auto append = [&](const std::vector<double>& sums) {
+      for (const double sum : sums) values.push_back(sum / duration);
+    };
+    append(counts_.sums());
+    for (const auto& direction : moments_)
+      for (std::size_t k = 0; k < powers.size(); ++k) append(direction.sums(k));
     for (std::size_t bin = 0; bin < bins_.count(); ++bin) {
       const bool right = bins_.edge(bin) >= 0;
       const double a = std::abs(bins_.edge(bin)), b = std::abs(bins_.edge(bin + 1));
@@ -78,7 +80,8 @@ class Crossings {
   OpenChain chain_;
   Window window_;
   Bins bins_;
-  std::vector<RangeTally> counts_, moments_;
+  RangeTally<> counts_;                             // bin after bin
+  std::vector<RangeTally<powers.size()>> moments_;  // to the left, to the right
   Histogram injected_;
   InjectionControls controls_;
 };
@@ -267,7 +270,7 @@ int main(int argc, char** argv) {
     require_fourth_powers(chain.left, chain.right);
     const Window window = options.window();
     const auto measure = [&](const Replica& replica) {
-      return options.measure(replica, window.end, Crossings(chain, window, bins.bins()));
+      return options.measure(replica, window, Crossings(chain, window, bins.bins()));
     };
     const auto results = [&](const Records& records) {
       return summarise(records, std::size_t{chain.cells} + 1, bins.bins());

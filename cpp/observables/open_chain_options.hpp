@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/open_dynamics.hpp"
+#include "engine/relaxation.hpp"
 #include "model/open_chain.hpp"
 #include "program/options.hpp"
 #include "program/replicas.hpp"
@@ -37,14 +38,16 @@ class OpenChainOptions {
   void validate(double end, const std::string& times) const;
   void validate() const;
 
-  /// A replica from its start to a time, all of it watched by the observer, and its record(). At the end the
+  /// A replica from its start, watched by the observer in a window, and its record(). At the end the
   /// observer's finish(scatterers, end) is called before, with U of every scatterer, if it has one.
   template <class Observer>
-  ReplicaRecord measure(const Replica& replica, double end, Observer observer) const {
-    OpenDynamics dynamics(chain(), start(end, replica.key), end, replica.key);
-    simulate(dynamics, end, observer, [&](double now) { replica.heartbeat(now / end); });
-    if constexpr (requires { observer.finish(dynamics.scatterers(), end); })
-      observer.finish(dynamics.scatterers(), end);
+  ReplicaRecord measure(const Replica& replica, const Window& window, Observer observer) const {
+    OpenDynamics dynamics(chain(), start(window.end, replica.key), window.end, replica.key);
+    const auto heartbeat = [&](double now) { replica.heartbeat(now / window.end); };
+    relax(dynamics, window.begin, observer, heartbeat);
+    simulate(dynamics, window.end, observer, heartbeat);
+    if constexpr (requires { observer.finish(dynamics.scatterers(), window.end); })
+      observer.finish(dynamics.scatterers(), window.end);
     return {observer.record(), dynamics.events()};
   }
 

@@ -26,18 +26,22 @@ constexpr double decades_of_time = 3;
 /// Shows every particle inside at given times.
 class Snapshots {
  public:
-  explicit Snapshots(const std::vector<double>& times) : times_(times) {}
+  explicit Snapshots(const std::vector<double>& times) : times_(times), next_time_(times.front()) {}
 
   /// Calls see(k) for every time of the flight. Departures come in the order of time.
   template <class See>
   void show(const Path& path, See&& see) {
+    if (!(next_time_ < path.arrival)) [[likely]]
+      return;
     while (next_ < times_.size() && times_[next_] < path.departure) ++next_;
     for (std::size_t k = next_; k < times_.size() && times_[k] < path.arrival; ++k) see(k);
+    next_time_ = next_ < times_.size() ? times_[next_] : std::numeric_limits<double>::infinity();
   }
 
  private:
   const std::vector<double>& times_;
   std::size_t next_ = 0;
+  double next_time_;  // times_[next_]
 };
 
 /// The times and bins of the counts.
@@ -83,7 +87,7 @@ class Census {
       const double p = std::abs(path.velocity);
       linear_[k].add(path.velocity, p);
       if (p >= plan_.speeds.front() && p < plan_.speeds.back())
-        logarithmic_[k][plan_.speed_grid.interval(portable::log(p))] += 1;
+        logarithmic_[k][plan_.speed_grid.interval(p)] += 1;
     });
     at_number_times_.show(path, [&](std::size_t k) { number_[k] += 1; });
   }
@@ -210,7 +214,7 @@ int main(int argc, char** argv) {
     const Plan plan(times, bins.bins(), chain.cell_length);
     const double thermal = std::sqrt(std::min(chain.left.temperature, chain.right.temperature));
     const auto measure = [&](const Replica& replica) {
-      return options.measure(replica, times.back(), Census(plan));
+      return options.measure(replica, {0, times.back()}, Census(plan));
     };
     const auto results = [&](const Records& records) { return summarise(records, plan, thermal); };
     return replicas.run({measure, results, "log_slope", RandomStream::description}, progress);

@@ -6,7 +6,7 @@
 /// integral). A finite chain deviates. If particles and scatterers met at the temperatures T_p and T_s
 /// but independently, mu would be 1/2 - arctan(sigma/sqrt(1-sigma^2) sqrt(T_p/T_s))/pi; the local mean
 /// energies are stored so that this part of the deviation can be told from correlations.
-#include <cmath>
+#include <cstdint>
 
 #include "observables/closed_chain_options.hpp"
 #include "program/replica_study.hpp"
@@ -15,21 +15,23 @@ namespace {
 
 using namespace lorentz;
 
-/// u' u > 0, without the underflow of the product.
-bool keeps_direction(double before, double after) {
-  return (before > 0 && after > 0) || (before < 0 && after < 0);
+/// 1 if u' u > 0, else 0, without the underflow of the product. Without branches, which could not be
+/// predicted.
+std::uint64_t keeps_direction(double before, double after) {
+  const auto positive = [](double u) { return std::uint64_t{u > 0}; };
+  return (positive(before) & positive(after)) | (positive(-before) & positive(-after));
 }
 
 /// Sums over the scatterings of one replica, before each collision.
 struct Encounters {
-  double scatterings = 0;
-  double persistent = 0;
+  std::uint64_t scatterings = 0;
+  std::uint64_t persistent = 0;
   double particle_energy = 0;   // sum of u^2/2
   double scatterer_energy = 0;  // sum of U^2/2
 
   void on_collision(const Collision& collision) {
-    scatterings += 1;
-    persistent += keeps_direction(collision.particle_before, collision.particle_after) ? 1 : 0;
+    ++scatterings;
+    persistent += keeps_direction(collision.particle_before, collision.particle_after);
     particle_energy += 0.5 * collision.particle_before * collision.particle_before;
     scatterer_energy += 0.5 * collision.scatterer_before * collision.scatterer_before;
   }
@@ -62,7 +64,8 @@ int main(int argc, char** argv) {
       run.relax();
       Encounters sums;
       run.observe_until(chain.end_time(), sums);
-      return run.record({sums.scatterings, sums.persistent, sums.particle_energy, sums.scatterer_energy});
+      return run.record({static_cast<double>(sums.scatterings), static_cast<double>(sums.persistent),
+                         sums.particle_energy, sums.scatterer_energy});
     };
     return replicas.run({measure, with_drift(summarise), "mu", RandomStream::description}, progress);
   });

@@ -25,18 +25,61 @@ namespace {
 
 using namespace lorentz;
 
-/// What passes the marks of a chain in one direction.
-struct Stream {
-  RangeTally arrivals, squares;  // number, and sum of u^2
+/// What passes the marks of a chain in one direction in a window, and how long particles stay in the cells.
+///
+/// A flight from a scatterer or an opening to another, all of it in the window, is entered by its bonds: with
+/// each it reaches the scatterer behind, if there is one, and it stays one time_per_place in each of the two
+/// half cells at the bond. The others, those at the ends of the window, are entered mark by mark.
+class Stream {
+ public:
+  Stream(const OpenChain& chain, const Window& window)
+      : window_(window),
+        cells_(chain.cells),
+        bonds_(cells_ + 1),
+        marks_(2 * cells_ + 1),
+        residence_(cells_) {}
 
-  explicit Stream(const OpenChain& chain) : arrivals(marks(chain)), squares(marks(chain)) {}
-
-  void add(const Marks& marks, double u) {
-    arrivals.add(marks.low, marks.high, 1);
-    squares.add(marks.low, marks.high, u * u);
+  void add(const Path& path) {
+    // One that departs at the beginning may come from anywhere.
+    if (!(path.departure > window_.begin && path.arrival < window_.end)) return add_clipped(path);
+    const Marks marks = marks_in(path, window_);
+    bonds_.add((marks.low + 1) / 2, marks.high / 2, {1, path.velocity * path.velocity, path.time_per_place});
   }
 
-  static std::size_t marks(const OpenChain& chain) { return 2 * std::size_t{chain.cells} + 1; }
+  [[gnu::cold]] void add_clipped(const Path& path) {
+    const Marks marks = marks_in(path, window_);
+    marks_.add(marks.low, marks.high, {1, path.velocity * path.velocity});
+    const Stretch stretch = stretch_in(path, window_);
+    if (stretch.duration > 0) residence_.spread(0.5 * stretch.low, 0.5 * stretch.high, {stretch.duration});
+  }
+
+  /// Arrivals (kind 0) or the sums of their u^2 (kind 1) at every mark; behind: the scatterer behind a bond,
+  /// as seen from the bond.
+  std::vector<double> at_marks(std::size_t kind, std::ptrdiff_t behind) const {
+    std::vector<double> sums = marks_.sums(kind);
+    const std::vector<double> bonds = bonds_.sums(kind);
+    for (std::size_t bond = 0; bond <= cells_; ++bond) {
+      sums[2 * bond] += bonds[bond];
+      const std::size_t scatterer = 2 * bond + static_cast<std::size_t>(behind);
+      if (scatterer < sums.size()) sums[scatterer] += bonds[bond];
+    }
+    return sums;
+  }
+
+  /// Time that particles spend in every cell.
+  std::vector<double> residence() const {
+    std::vector<double> times = residence_.sums();
+    const std::vector<double> halves = bonds_.sums(2);
+    for (std::size_t cell = 0; cell < cells_; ++cell) times[cell] += halves[cell] + halves[cell + 1];
+    return times;
+  }
+
+ private:
+  Window window_;
+  std::size_t cells_;
+  RangeTally<3> bonds_;
+  RangeTally<2> marks_;
+  RangeTally<> residence_;
 };
 
 class Profile {
@@ -44,26 +87,18 @@ class Profile {
   Profile(const OpenChain& chain, const Window& window, const Bins& bins)
       : chain_(chain),
         window_(window),
-        right_(chain),
-        left_(chain),
-        residence_(2 * std::size_t{chain.cells}),
+        streams_(2, Stream(chain, window)),
         scatterers_(chain.cells, TimeIntegral(Blocks(window.begin, window.end, 1))),
         last_collision_(2, window.begin),
         momenta_(2, Histogram(bins)) {}
 
-  void on_flight(const Path& path) {
-    (path.rightwards() ? right_ : left_).add(marks_in(path, window_), path.velocity);
-    const Stretch stretch = stretch_in(path, window_);
-    if (stretch.duration > 0) residence_.spread(stretch.low, stretch.high, stretch.duration);
-  }
+  void on_flight(const Path& path) { streams_[path.rightwards() ? 0 : 1].add(path); }
 
   void on_collision(const Collision& collision) {
     hold(collision.scatterer, collision.scatterer_before, collision.time);
   }
 
-  void on_injection(End end, double time, double u) {
-    if (time >= window_.begin) controls_.add(end, u);
-  }
+  void on_injection(End end, double, double u) { controls_.add(end, u); }
 
   void finish(const std::vector<double>& scatterers, double end_time) {
     for (std::uint32_t cell = 0; cell < chain_.cells; ++cell) hold(cell, scatterers[cell], end_time);
@@ -79,10 +114,12 @@ class Profile {
       for (const double sum : sums) values.push_back(sum / duration);
     };
     for (const TimeIntegral& scatterer : scatterers_) append(scatterer.sums());
-    const std::vector<double> halves = residence_.sums();
-    for (std::size_t cell = 0; cell < chain_.cells; ++cell) append({halves[2 * cell] + halves[2 * cell + 1]});
-    for (const RangeTally* tally : {&right_.arrivals, &left_.arrivals, &right_.squares, &left_.squares})
-      append(tally->sums());
+    const std::vector<double> rightwards = streams_[0].residence(), leftwards = streams_[1].residence();
+    for (std::size_t cell = 0; cell < chain_.cells; ++cell) append({rightwards[cell] + leftwards[cell]});
+    for (const std::size_t kind : {0, 1}) {
+      append(streams_[0].at_marks(kind, 1));
+      append(streams_[1].at_marks(kind, -1));
+    }
     for (const Histogram& histogram : momenta_) append(histogram.weights());
     controls_.append_to(values, chain_, duration);
     return values;
@@ -91,17 +128,18 @@ class Profile {
  private:
   void hold(std::uint32_t cell, double U, double until) {
     scatterers_[cell].hold(U * U, until);
-    for (const std::size_t end : {0, 1}) {
-      if (cell != (end == 0 ? 0 : chain_.cells - 1) || until <= last_collision_[end]) continue;
-      momenta_[end].add(U, until - last_collision_[end]);
-      last_collision_[end] = until;
-    }
+    if (cell == 0) hold_end(0, U, until);
+    if (cell + 1 == chain_.cells) hold_end(1, U, until);
+  }
+
+  void hold_end(std::size_t end, double U, double until) {
+    momenta_[end].add(U, until - last_collision_[end]);
+    last_collision_[end] = until;
   }
 
   OpenChain chain_;
   Window window_;
-  Stream right_, left_;
-  RangeTally residence_;
+  std::vector<Stream> streams_;  // to the right, to the left
   std::vector<TimeIntegral> scatterers_;
   std::vector<double> last_collision_;  // of the end scatterers, in the window
   std::vector<Histogram> momenta_;
@@ -281,7 +319,7 @@ int main(int argc, char** argv) {
     const OpenChain chain = options.chain();
     const Window window = options.window();
     const auto measure = [&](const Replica& replica) {
-      return options.measure(replica, window.end, Profile(chain, window, bins.bins()));
+      return options.measure(replica, window, Profile(chain, window, bins.bins()));
     };
     const auto results = [&](const Records& records) { return summarise(records, chain.cells, bins.bins()); };
     return replicas.run({measure, results, "energy_current_mean", RandomStream::description}, progress);

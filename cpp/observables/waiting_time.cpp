@@ -15,6 +15,7 @@
 #include "observables/closed_chain_options.hpp"
 #include "program/replica_study.hpp"
 #include "statistics/log_grid.hpp"
+#include "statistics/log_sum.hpp"
 
 namespace {
 
@@ -25,22 +26,31 @@ constexpr std::size_t bins_per_decade = 10;
 
 class WaitingTimes {
  public:
-  explicit WaitingTimes(const LogGrid& bins) : bins_(bins), sums_(2 * bins.intervals(), 0) {}
+  explicit WaitingTimes(const LogGrid& grid) : grid_(grid), bins_(grid.intervals()) {}
 
   void on_flight(const Departure& departure) {
     if (!std::isfinite(departure.duration)) return;  // frozen
-    const double log_duration = portable::log(departure.duration);
-    const std::size_t bin = bins_.interval(log_duration);
-    sums_[bin] += 1;
-    sums_[bins_.intervals() + bin] += log_duration;
+    Bin& bin = bins_[grid_.interval(departure.duration)];
+    ++bin.count;
+    bin.logarithms.add(departure.duration);
   }
 
   /// Counts per bin, then sums of ln tau per bin.
-  const std::vector<double>& sums() const { return sums_; }
+  std::vector<double> sums() const {
+    std::vector<double> result;
+    for (const Bin& bin : bins_) result.push_back(static_cast<double>(bin.count));
+    for (const Bin& bin : bins_) result.push_back(bin.logarithms.sum());
+    return result;
+  }
 
  private:
-  LogGrid bins_;
-  std::vector<double> sums_;
+  struct Bin {
+    std::uint64_t count = 0;
+    LogSum logarithms;
+  };
+
+  const LogGrid& grid_;
+  std::vector<Bin> bins_;
 };
 
 /// Probability per unit time in every bin.
@@ -111,7 +121,7 @@ int main(int argc, char** argv) {
     const double thermal_flight = chain.chain().cell_length / std::sqrt(chain.temperature());
     const LogGrid bins(1e-3 * thermal_flight, decades, bins_per_decade);
     const auto bin_of_cut = [&](double factor) {  // a cut that lies on an edge begins there
-      return bins.interval(portable::log(factor * tail_from * thermal_flight) + 1e-9);
+      return bins.interval(factor * tail_from * thermal_flight * (1 + 1e-9));
     };
     const Tail tail{bin_of_cut(1.0 / 3), bin_of_cut(1), bin_of_cut(3)};
     const auto measure = [&](const Replica& replica) {

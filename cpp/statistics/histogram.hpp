@@ -1,14 +1,18 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace lorentz {
 
-/// Equal bins over [-max, max], an even number, so that an edge lies at 0 exactly.
+/// Equal bins over [-max, max], an even number, so that an edge lies at 0 exactly. The other edges are where
+/// value / width, a multiplication, rounds to a whole number.
 class Bins {
  public:
-  Bins(std::size_t count, double max) : half_(count / 2), max_(max) {}
+  Bins(std::size_t count, double max)
+      : half_(count / 2), max_(max), per_unit_(static_cast<double>(half_) / max) {}
 
   std::size_t count() const { return 2 * half_; }
   double width() const { return max_ / static_cast<double>(half_); }
@@ -16,12 +20,13 @@ class Bins {
     return max_ * (static_cast<double>(bin) - static_cast<double>(half_)) / static_cast<double>(half_);
   }
 
-  /// The bin of a value; count() or more if it lies outside. 0 belongs to the bin above it.
+  /// The bin of a value; count() if it lies outside. 0 belongs to the bin above it, other edges to the bin
+  /// that is farther from 0. Without a branch for the sign, which cannot be predicted.
   std::size_t operator[](double value) const {
-    const double place = value / max_ * static_cast<double>(half_);
-    if (place >= 0)
-      return place < static_cast<double>(half_) ? half_ + static_cast<std::size_t>(place) : count();
-    return place >= -static_cast<double>(half_) ? half_ - 1 - static_cast<std::size_t>(-place) : count();
+    const double place = value * per_unit_;
+    if (!(std::abs(place) < static_cast<double>(half_))) return count();
+    const auto below = static_cast<std::int64_t>(value < 0);
+    return half_ + static_cast<std::size_t>(static_cast<std::int64_t>(place) - below);
   }
 
   std::vector<double> middles() const {
@@ -32,7 +37,7 @@ class Bins {
 
  private:
   std::size_t half_;
-  double max_;
+  double max_, per_unit_;
 };
 
 /// Weights by bin; values outside are left out.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace lorentz {
@@ -9,7 +10,8 @@ namespace lorentz {
 /// Equal blocks of time from `begin` to `end`.
 class Blocks {
  public:
-  Blocks(double begin, double end, std::size_t count) : begin_(begin), end_(end), count_(count) {}
+  Blocks(double begin, double end, std::size_t count)
+      : begin_(begin), end_(end), per_time_(static_cast<double>(count) / (end - begin)), count_(count) {}
 
   double length() const { return (end_ - begin_) / static_cast<double>(count_); }
   std::size_t count() const { return count_; }
@@ -21,11 +23,11 @@ class Blocks {
 
   /// Of a time that they contain.
   std::size_t operator[](double time) const {
-    return std::min(static_cast<std::size_t>((time - begin_) / length()), count_ - 1);
+    return std::min(static_cast<std::size_t>((time - begin_) * per_time_), count_ - 1);
   }
 
  private:
-  double begin_, end_;
+  double begin_, end_, per_time_;
   std::size_t count_;
 };
 
@@ -33,24 +35,30 @@ class Blocks {
 class TimeIntegral {
  public:
   explicit TimeIntegral(const Blocks& blocks)
-      : blocks_(blocks), since_(blocks.edge(0)), sums_(blocks.count(), 0) {}
+      : since_(blocks.edge(0)), edge_(blocks.edge(1)), blocks_(blocks), sums_(blocks.count(), 0) {}
 
   /// The quantity had this value up to a time, no earlier than the one before.
   void hold(double value, double until) {
-    while (since_ < until && block_ < blocks_.count()) {
-      const double edge = blocks_.edge(block_ + 1), step = std::min(until, edge);
-      sums_[block_] += value * (step - since_);
-      since_ = step;
-      if (step == edge) ++block_;
+    if (!(until > since_)) return;
+    while (!(until < edge_)) [[unlikely]] {
+      if (block_ == blocks_.count()) return;
+      sum_ += value * (edge_ - since_);
+      since_ = edge_;
+      sums_[block_++] = std::exchange(sum_, 0);
+      if (block_ < blocks_.count()) edge_ = blocks_.edge(block_ + 1);
     }
+    sum_ += value * (until - since_);
+    since_ = until;
   }
 
+  /// Of the blocks that are over.
   const std::vector<double>& sums() const { return sums_; }
 
  private:
-  Blocks blocks_;
-  double since_;
+  double since_, edge_;  // of the current block, its end
+  double sum_ = 0;       // over the current block
   std::size_t block_ = 0;
+  Blocks blocks_;
   std::vector<double> sums_;
 };
 

@@ -238,17 +238,25 @@ INSTANTIATE_TEST_SUITE_P(
                     Source{"Directions", directions}),
     [](const auto& source) { return source.param.name; });
 
+/// Particles of the plain trajectory of a pair of which all is simulated twice.
+std::vector<Particle> plain_particles(const PairDynamics& pair, double time, std::size_t size) {
+  std::vector<Particle> particles(size);
+  pair.for_each_double_particle(
+      time, [&](std::uint32_t number, const Particle& plain, const Particle&) { particles[number] = plain; });
+  return particles;
+}
+
 /// The same of the plain trajectory of a pair, which tells no observer: flights end where the velocity
 /// changes. Velocities are looked at so often that no flight of one cell is missed.
 Draws pair_flights(const ClosedChain& chain, const PhasePoint& start, const StreamKey& key) {
   constexpr double step = 0.05;
-  PairDynamics pair(chain, start, start, duration, key);
-  std::vector<Particle> last = pair.phase_points(0)[0].particles;
+  PairDynamics pair(chain, start, start, duration, key, /*share=*/false);
+  std::vector<Particle> last = plain_particles(pair, 0, chain.particles());
   std::vector<double> departure(last.size(), -1);  // -1: from the start
   std::vector<Sequence> drawn(last.size());
   for (double time = step; time < duration; time += step) {
     pair.run(time, support::nothing);
-    const std::vector<Particle> now = pair.phase_points(time)[0].particles;
+    const std::vector<Particle> now = plain_particles(pair, time, chain.particles());
     for (std::size_t i = 0; i < now.size(); ++i) {
       if (now[i].velocity == last[i].velocity) continue;
       const double cells = std::round(last[i].velocity * (time - departure[i]));

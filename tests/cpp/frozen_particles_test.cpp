@@ -45,6 +45,18 @@ TEST(FrozenParticles, AreThoseThatStop) {
     if (collision.particle_after == 0) stopped[collision.particle] = true;
   }
   EXPECT_EQ(std::count(stopped.begin(), stopped.end(), true), chain.cells);
+
+  // And they are seen where they stopped. Mutant: a zero taken as motion to the left by the flight, to the
+  // right by who asks for the place.
+  ClosedDynamics dynamics(chain, start, 20, {1, 0});
+  NoObserver nobody;
+  simulate(dynamics, 20, nobody, nothing);
+  const PhasePoint end = dynamics.phase_point(20);
+  for (const Collision& collision : all) {
+    if (collision.particle_after == 0) {
+      EXPECT_DOUBLE_EQ(end.particles[collision.particle].position, collision.scatterer + 0.5);
+    }
+  }
 }
 
 }  // namespace

@@ -7,10 +7,12 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "engine/open_start.hpp"
+#include "engine/relaxation.hpp"
 #include "support/collisions.hpp"
 #include "support/sample.hpp"
 
@@ -35,7 +37,7 @@ struct Everything {
     ++entries;
   }
   void on_exit(End end, double, double u) {
-    EXPECT_EQ(u > 0, end == End::right);
+    EXPECT_EQ(direction(u) > 0, end == End::right);
     left += 0.5 * u * u;
     ++exits;
   }
@@ -104,6 +106,66 @@ TEST(OpenDynamics, StopsInBetweenChangeNothing) {
     };
     EXPECT_EQ(scatterers(30), scatterers(0.125));
   }
+}
+
+/// What happens in a window: marks reached, time spent, energy that comes and goes, collisions.
+struct InWindow {
+  Window window;
+  std::uint64_t marks = 0, collisions = 0;
+  double square = 0, time = 0, entered = 0, left = 0;
+  double first_arrival = infinity;
+  void on_flight(const Path& path) {
+    first_arrival = std::min(first_arrival, path.arrival);
+    const Marks reached = marks_in(path, window);
+    if (reached.low <= reached.high) marks += static_cast<std::uint64_t>(reached.high - reached.low + 1);
+    const Stretch stretch = stretch_in(path, window);
+    time += stretch.duration;
+    square += path.velocity * path.velocity * stretch.duration;
+  }
+  void on_collision(const Collision& collision) {
+    if (collision.time >= window.begin) ++collisions;
+  }
+  void on_injection(End, double at, double u) {
+    if (at >= window.begin) entered += u * u;
+  }
+  void on_exit(End, double at, double u) {
+    if (at >= window.begin && at < window.end) left += u * u;
+  }
+};
+
+// To the last digit, whether the chain is observed from its start on or from the window on. Mutants: the
+// flights that are on their way not told, or those on their way out not, or all of the relaxation told.
+TEST(OpenDynamics, AnUnobservedRelaxationChangesNothing) {
+  for (const double gamma : {infinity, 2., 0.}) {
+    for (const double begin : {0., 1.7, 9.}) {
+      const OpenChain chain = chain_of(6, gamma);
+      const PhasePoint start = local_equilibrium_start(chain, chain.left, chain.right, 10, {5, 0});
+      const auto dynamics = [&] { return OpenDynamics(chain, start, 10, {5, 0}); };
+      OpenDynamics watched = dynamics(), unwatched = dynamics();
+      InWindow all{{begin, 10}}, part{{begin, 10}};
+      simulate(watched, 10, all, support::nothing);
+      relax(unwatched, begin, part, support::nothing);
+      simulate(unwatched, 10, part, support::nothing);
+      const auto seen = [](const InWindow& sums) {
+        return std::tuple(sums.marks, sums.collisions, sums.square, sums.time, sums.entered, sums.left);
+      };
+      EXPECT_EQ(seen(part), seen(all)) << gamma << " " << begin;
+      EXPECT_GT(part.left, 0);
+      EXPECT_GE(part.first_arrival, begin);
+    }
+  }
+}
+
+// At sigma = 0 and scatterers at rest the first to come stops for ever; it stays where it is.
+TEST(OpenDynamics, TellsOfThoseThatStoppedDuringTheRelaxation) {
+  const OpenChain chain = chain_of(6, infinity, 0);
+  OpenDynamics dynamics(chain, empty_start(chain), 30, {5, 0});
+  Everything seen;
+  relax(dynamics, 20, seen, support::nothing);
+  const auto stopped = std::count_if(seen.paths.begin(), seen.paths.end(), [](const Path& path) {
+    return path.velocity == 0 && path.place(25) == path.from;
+  });
+  EXPECT_EQ(stopped, chain.cells);
 }
 
 TEST(OpenDynamics, RefusesAStartOfAnotherSize) {

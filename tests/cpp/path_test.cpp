@@ -68,23 +68,25 @@ TEST(Path, WindowsAddUp) {
   }
 }
 
+// Mutant: single elements left out of the sums.
 TEST(RangeTally, IsTheSumOverElements) {
   std::mt19937_64 generator(3);
   std::uniform_real_distribution<double> uniform;
-  RangeTally tally(10), spread(10);
+  RangeTally<2> tally(10);
+  RangeTally<> spread(10);
   std::vector<double> plain(10, 0), overlap(10, 0);
   for (int trial = 0; trial < 500; ++trial) {
     std::ptrdiff_t first = static_cast<std::ptrdiff_t>(10 * uniform(generator));
-    std::ptrdiff_t last = static_cast<std::ptrdiff_t>(10 * uniform(generator));
+    const std::ptrdiff_t last = trial % 5 == 0 ? first : static_cast<std::ptrdiff_t>(10 * uniform(generator));
     const double value = uniform(generator);
-    tally.add(first, last, value);
+    tally.add(first, last, {value, -2 * value});
     for (std::ptrdiff_t i = first; i <= last; ++i) plain[static_cast<std::size_t>(i)] += value;
     double low = 10 * uniform(generator), high = 10 * uniform(generator);
     if (trial % 3 == 0) low = std::floor(low), high = std::floor(high);
     if (low > high) std::swap(low, high);
     if (trial % 7 == 0) high = low;
     if (trial % 11 == 0) low = high = 10;
-    spread.spread(low, high, value);
+    spread.spread(low, high, {value});
     for (std::size_t i = 0; i < 10; ++i) {
       const double a = std::max(low, static_cast<double>(i)), b = std::min(high, static_cast<double>(i + 1));
       if (b > a) overlap[i] += value * (b - a) / (high - low);
@@ -92,7 +94,8 @@ TEST(RangeTally, IsTheSumOverElements) {
     if (low == high) overlap[std::min<std::size_t>(static_cast<std::size_t>(low), 9)] += value;
   }
   for (std::size_t i = 0; i < 10; ++i) {
-    EXPECT_NEAR(tally.sums()[i], plain[i], 1e-11);
+    EXPECT_NEAR(tally.sums(0)[i], plain[i], 1e-11);
+    EXPECT_NEAR(tally.sums(1)[i], -2 * plain[i], 1e-11);
     EXPECT_NEAR(spread.sums()[i], overlap[i], 1e-11);
   }
 }
@@ -104,6 +107,38 @@ TEST(Bins, HaveAnEdgeAtZero) {
   EXPECT_EQ(bins[0.0], 3U);
   EXPECT_EQ(bins[-1e-300], 2U);
   for (const double outside : {3.0, -3.0, 1e300, -1e300}) EXPECT_GE(bins[outside], 6U) << outside;
+}
+
+/// The double so many steps after x.
+double neighbour(double x, int steps) {
+  for (; steps > 0; --steps) x = std::nextafter(x, 1e300);
+  for (; steps < 0; ++steps) x = std::nextafter(x, -1e300);
+  return x;
+}
+
+// The bin grows with the value, one by one, and changes within two last digits of every edge; the two halves
+// mirror each other. Mutant: places rounded after half of the bins is added, which takes -1e-17 for 0.
+TEST(Bins, ChangeAtTheEdges) {
+  for (const double max : {3., 60., 0.7, 1e-150, 1e150}) {
+    const Bins bins(100, max);
+    for (std::size_t edge = 1; edge < 100; ++edge) {
+      std::size_t before = edge - 1;
+      for (int steps = -3; steps <= 3; ++steps) {
+        const double value = neighbour(bins.edge(edge), steps);
+        const std::size_t bin = bins[value];
+        ASSERT_TRUE(bin == before || bin == edge) << max << " " << edge << " " << steps;
+        before = bin;
+        if (value != 0) {
+          ASSERT_EQ(bins[-value], 99 - bin);
+        }
+      }
+      ASSERT_EQ(bins[neighbour(bins.edge(edge), -3)], edge - 1);
+      ASSERT_EQ(before, edge);
+    }
+    EXPECT_EQ(bins[-1e-17 * max], 49U);
+    EXPECT_EQ(bins[neighbour(max, -3)], 99U);
+    EXPECT_EQ(bins[neighbour(max, 3)], 100U);
+  }
 }
 
 TEST(TimeIntegral, DividesAmongBlocks) {

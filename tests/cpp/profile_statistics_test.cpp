@@ -1,12 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "engine/random.hpp"
 #include "statistics/collapse.hpp"
 #include "statistics/fit.hpp"
 #include "statistics/log_grid.hpp"
+#include "statistics/log_sum.hpp"
 #include "support/sample.hpp"
 
 namespace {
@@ -40,10 +42,47 @@ TEST(LogGrid, HasEqualFactorsAndFindsIntervals) {
   EXPECT_NEAR(points.back(), 10, 1e-13);
   for (std::size_t i = 0; i < grid.intervals(); ++i) {
     EXPECT_NEAR(points[i + 1] / points[i], std::pow(10, 0.125), 1e-12);
-    EXPECT_EQ(grid.interval(std::log(grid.middles()[i])), i);
+    EXPECT_EQ(grid.interval(grid.middles()[i]), i);
   }
-  EXPECT_EQ(grid.interval(-100), 0U);
-  EXPECT_EQ(grid.interval(100), grid.intervals() - 1);
+}
+
+// Exactly: a point belongs to the interval above it. Mutants: cells of the table twice as wide, which hold
+// two points; a point counted to the interval below.
+TEST(LogGrid, FindsIntervalsNextToPointsAndBeyondTheEnds) {
+  for (const std::size_t per_decade : {1, 8, 10, 37}) {
+    for (const double first : {0.01, 3., 1e-200, 1e200}) {
+      const LogGrid grid(first, 3, per_decade);
+      const std::vector<double> points = grid.points();
+      for (std::size_t i = 1; i < grid.intervals(); ++i) {
+        ASSERT_EQ(grid.interval(std::nextafter(points[i], 0.)), i - 1) << per_decade << " " << first;
+        ASSERT_EQ(grid.interval(points[i]), i) << per_decade << " " << first;
+      }
+      for (const double below : {5e-324, 1e-300, points[0] / 2, std::nextafter(points[0], 0.), points[0]})
+        EXPECT_EQ(grid.interval(below), 0U) << per_decade << " " << first;
+      for (const double above : {std::nextafter(points.back(), 0.), points.back(), 2 * points.back(), 1e308,
+                                 std::numeric_limits<double>::infinity()})
+        EXPECT_EQ(grid.interval(above), grid.intervals() - 1) << per_decade << " " << first;
+    }
+  }
+}
+
+// Mutant: the product not set back to 1, or its own logarithm forgotten, when it leaves the range.
+TEST(LogSum, IsTheSumOfLogarithms) {
+  RandomStream random({1, 0}, Purpose::initial_position, 0);
+  for (const double scale : {1e-300, 1e-3, 1., 50., 1e300}) {
+    LogSum sum;
+    long double exact = 0, magnitude = 0;
+    for (int i = 0; i < 10'000; ++i) {
+      const double number = scale * std::exp(5 * random.gaussian());
+      sum.add(number);
+      exact += std::log(static_cast<long double>(number));
+      magnitude += std::abs(std::log(static_cast<long double>(number)));
+    }
+    // What rounding every one of as many additions may amount to.
+    EXPECT_NEAR(sum.sum(), static_cast<double>(exact), static_cast<double>(1e4L * 0x1p-53L * magnitude))
+        << scale;
+  }
+  EXPECT_EQ(LogSum().sum(), 0);
 }
 
 /// Profiles y = t^-xi f(x/t^xi) of a lopsided f, with Gaussian noise.

@@ -10,60 +10,73 @@ from matplotlib.figure import Figure
 
 from workflow.scripts import style
 from workflow.scripts.figure import run
-from workflow.scripts.load import Quantity, Result
+from workflow.scripts.fit import fit_line, with_error
+from workflow.scripts.load import Result
+
+# Deviation of a quantity from a straight line or from the mean over the bonds, with an error of its own.
+SIDES = {"rate_right": ">", "rate_left": "<"}
+CURRENTS = {"particle_current": "o", "energy_current": "s"}
 
 
-def deviation(quantity: Quantity, x: np.ndarray, degree: int) -> tuple[np.ndarray, np.ndarray]:
-    """From the weighted polynomial, in percent of its mean, with the error."""
-    fit = np.polyfit(x, quantity.mean, degree, w=1 / quantity.standard_error)
-    scale = 100 / np.abs(quantity.mean).mean()
-    return scale * (quantity.mean - np.polyval(fit, x)), scale * quantity.standard_error
-
-
-def plot_deviations(axes: Axes, result: Result, curves: dict, look: dict) -> list[pd.DataFrame]:
+def plot_deviations(axes: Axes, result: Result, curves: dict[str, str]) -> list[pd.DataFrame]:
+    """In percent of the mean."""
     tables = []
-    for (name, degree), (marker, face) in curves.items():
-        quantity = result[name]
-        (axis,) = quantity.axes
-        cells = result.parameters["cells"]
-        x = (quantity.axes[axis] + (0.5 if axis == "cell" else 0)) / cells
-        percent, error = deviation(quantity, x, degree)
+    cells = int(result.parameters["cells"])
+    color = style.BY_GAMMA[result.parameters["gamma"]][1]
+    for index, (name, marker) in enumerate(curves.items()):
+        whole, deviation = result[name], result[f"{name}_deviation"]
+        (axis,) = whole.axes
+        x = (whole.axes[axis] + (0.5 if axis == "cell" else 0)) / cells
+        scale = 100 / np.abs(whole.mean).mean()
+        look = {"marker": marker, "color": color, "markerfacecolor": "white" if index else color}
         label = rf"{name.replace('_', ' ')}, $\gamma = {style.gamma(result)}$"
-        axes.errorbar(x, percent, error, marker=marker, markerfacecolor=face, label=label, **look)
-        table = pd.DataFrame(
-            {"quantity": name, "x": x, "value": quantity.mean, "error": quantity.standard_error}
-        )
-        table["units"], table["deviation_percent"] = quantity.units, percent
-        tables.append(table.assign(gamma=style.gamma(result), cells=cells))
+        percent, error = scale * deviation.mean, scale * deviation.standard_error
+        axes.errorbar(x, percent, error, label=label, **look, **style.POINTS)
+        table = pd.DataFrame({"quantity": name, "x": x, "value": whole.mean, "error": whole.standard_error})
+        table["deviation_percent"], table["deviation_percent_error"] = percent, error
+        tables.append(table.assign(units=whole.units, gamma=style.gamma(result), cells=cells))
     return tables
+
+
+def plot_excess(axes: Axes, results: Sequence[Result]) -> pd.DataFrame:
+    """Excess density of both end cells against the size, with a + b ln N through the chains of 20 cells or more."""
+    cells = np.array([int(result.parameters["cells"]) for result in results])
+    tables = []
+    for end, (name, marker, color) in enumerate(
+        (("left", "o", style.BLUE), ("right", "s", style.VERMILLION))
+    ):
+        excess = np.array([result["density_excess"].mean[end] for result in results])
+        error = np.array([result["density_excess"].standard_error[end] for result in results])
+        fitted = cells >= 20
+        line = fit_line(np.log(cells[fitted]), excess[fitted], error[fitted])
+        label = (
+            rf"{name}: slope {with_error(line.slope, line.error)} per $\ln N$, "
+            rf"$\chi^2 = {line.chi_square:.1f}$ of {line.freedom}"
+        )
+        look = {"marker": marker, "color": color, "markerfacecolor": "white", **style.POINTS}
+        axes.errorbar(cells, excess, error, label=label, **look)
+        axes.plot(cells[fitted], line.at(np.log(cells[fitted])), color=color)
+        table = pd.DataFrame({"quantity": f"density_excess {name}", "cells": cells, "value": excess})
+        tables.append(table.assign(error=error, units="1", gamma=style.gamma(results[0])))
+    return pd.concat(tables)
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
     profiles = [result for result in results if result.parameters["cells"] == 30]
     sizes = [result for result in results if style.gamma(result) == "1"]
     sizes.sort(key=lambda result: result.parameters["cells"])
-    figure, (rates, currents, density) = plt.subplots(3, 1, figsize=(style.COLUMN, 2.6 * style.HEIGHT))
+    figure, (rates, currents, excess) = plt.subplots(3, 1, figsize=(style.COLUMN, 2.6 * style.HEIGHT))
     tables = []
     for result in profiles:
-        color = style.BY_GAMMA[result.parameters["gamma"]][1]
-        look = {"color": color, **style.POINTS}
-        sides = {("rate_right", 1): (">", color), ("rate_left", 1): ("<", "white")}
-        kinds = {("particle_current", 0): ("o", "white"), ("energy_current", 0): ("s", color)}
-        tables += plot_deviations(rates, result, sides, look)
-        tables += plot_deviations(currents, result, kinds, look)
-    for result, color, dashes in zip(sizes, style.SEQUENCE, style.DASHES, strict=False):
-        cells, rho = int(result.parameters["cells"]), result["density"]
-        x = (rho.axes["cell"] + 0.5) / cells
-        middle = rho.mean[cells // 4 : -(cells // 4)].mean()
-        ratio, error = rho.mean / middle, rho.standard_error / middle
-        density.plot(x, ratio, color=color, linestyle=dashes, label=f"$N = {cells}$")
-        density.fill_between(x, ratio - error, ratio + error, color=color, alpha=0.3, linewidth=0)
-        table = pd.DataFrame({"quantity": "density", "x": x, "value": rho.mean, "error": rho.standard_error})
-        tables.append(table.assign(units=rho.units, gamma=style.gamma(result), cells=cells))
+        tables += plot_deviations(rates, result, SIDES)
+        tables += plot_deviations(currents, result, CURRENTS)
+    tables.append(plot_excess(excess, sizes))
     rates.set(xlabel="$x$", ylabel="rates minus line / %")
     currents.set(xlabel="$x$", ylabel="currents minus mean / %")
-    density.set(xlabel="$x$", ylabel=r"$\rho(x)$ / middle half")
-    density.legend(loc="best", title=r"$\gamma = 1$")
+    excess.set(xscale="log", xlabel="number of cells $N$", ylabel="excess density of an end cell")
+    excess.legend(loc="upper left", fontsize=7, title=r"$\gamma = 1$")
+    low, high = excess.get_ylim()
+    excess.set_ylim(min(0, low), high + 0.5 * (high - low))
     for axes in (rates, currents):
         axes.axhline(0, **style.GUIDE)
         low, high = axes.get_ylim()
@@ -74,4 +87,11 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
 
 if __name__ == "__main__":
     by_row = {"value": "column units", "error": "column units"}
-    run(draw, "Rates, currents and density along the chain", x="1", deviation_percent="1", **by_row)
+    run(
+        draw,
+        "Rates, currents and density along the chain",
+        x="1",
+        deviation_percent="1",
+        deviation_percent_error="1",
+        **by_row,
+    )

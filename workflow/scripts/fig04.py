@@ -1,6 +1,7 @@
 """Fig. 4: momentum distribution of the particles at both ends of an open chain; a: gamma = 1, b: gamma = N.
 
-Below, the surroundings of p = 0, where the distribution jumps; in b also with equal rates at both ends.
+Below, the surroundings of p = 0, where the distribution jumps; in b also with equal rates at both ends. Black: without
+correlations, that is, the kinetic equation in a, as many scatterers of it in b.
 """
 
 from collections.abc import Sequence
@@ -13,7 +14,7 @@ from matplotlib.figure import Figure
 
 from workflow.scripts import style
 from workflow.scripts.figure import run
-from workflow.scripts.load import Result
+from workflow.scripts.load import Quantity, Result
 
 NEAR = 12  # momenta shown in the lower panel
 
@@ -29,7 +30,14 @@ def plot_bond(axes: Axes, result: Result, bond: int, **look: object) -> None:
         label = None
 
 
+def row_at(flux: Quantity, x: float) -> np.ndarray:
+    """F of the kinetic equation at a place."""
+    return flux.mean[np.abs(flux.axes["x"] - x).argmin()]
+
+
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
+    (kinetic,) = (result for result in results if result.provenance["program"] == "boltzmann")
+    results = [result for result in results if result is not kinetic]
     figure, (above, below) = plt.subplots(2, 1, figsize=(style.COLUMN, 1.8 * style.HEIGHT))
     tables = []
     fills = [{}, {"alpha": 0.45}]
@@ -47,6 +55,12 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
             plot_bond(below, result, bond, **look, label=rf"$\nu = {rates}$, {label}")
             table = pd.DataFrame({"x": place, "momentum": momentum, "flux": flux.mean[bond]})
             table["flux_error"] = flux.standard_error[bond]
+            expected = row_at(kinetic["flux"], bond / last)
+            if not fill:
+                table["kinetic"] = expected
+                for half in (momentum < 0, momentum > 0):
+                    for axes in (above, below):
+                        axes.plot(momentum[half], expected[half], color=style.BLACK, linewidth=0.6, zorder=1)
             table["jump"], table["jump_error"] = jump.mean[bond], jump.standard_error[bond]
             table["nu_left"], table["nu_right"] = (
                 result.parameters[f"nu-{end}"] for end in ("left", "right")
@@ -66,4 +80,4 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
 
 
 if __name__ == "__main__":
-    run(draw, "Momentum distribution of the particles at both ends")
+    run(draw, "Momentum distribution of the particles at both ends", kinetic="1/(time momentum)")

@@ -6,6 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
+from workflow.scripts import fit
 from workflow.scripts.load import Quantity, Result
 
 # Width of one column of a journal, and the height that goes with it, in inches.
@@ -85,10 +86,7 @@ def cross_out(axes: Axes, x: np.ndarray, y: np.ndarray, where: np.ndarray) -> No
 def with_error(quantity: Quantity, index: int | tuple = (), unit: float = 1) -> str:
     """A number, or one of an array, with its error in units of the last digits, as 1.862(5)."""
     mean, error = unit * float(quantity.mean[index]), unit * float(quantity.standard_error[index])
-    if not (np.isfinite(error) and error > 0):
-        return f"{mean:.4g}"
-    digits = max(0, -int(np.floor(np.log10(error))))
-    return f"{mean:.{digits}f}({round(error * 10**digits)})"
+    return fit.with_error(mean, error)
 
 
 def gamma(result: Result) -> str:
