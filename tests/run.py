@@ -10,9 +10,10 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 REPORTS = Path("build/tests")
+PYTEST = [sys.executable, "-m", "pytest", "-c", "tests/pytest.ini"]
 SUITES = {
     "cpp": ["build/bin/cpp_tests", "--gtest_brief=1", "--gtest_output=xml:{report}"],
-    "python": [sys.executable, "-m", "pytest", "-c", "tests/pytest.ini", "tests", "--junitxml={report}"],
+    "python": [*PYTEST, "-n", "2", "--dist", "loadfile", "tests", "--junitxml={report}"],
 }
 
 

@@ -91,7 +91,8 @@ std::vector<double> energy_difference(const PairDynamics& pair, double time, con
   return cells;
 }
 
-PhasePoint relaxed_start(const Pulse& pulse, const StreamKey& key, const Heartbeat& heartbeat, std::uint64_t& events) {
+PhasePoint relaxed_start(const Pulse& pulse, const StreamKey& key, const Heartbeat& heartbeat,
+                         std::uint64_t& events) {
   const double temperature = 2 * pulse.energy;
   const double of_scatterers = pulse.scatterer_temperature < 0 ? temperature : pulse.scatterer_temperature;
   PhasePoint start = closed_chain_start(pulse.chain, {temperature, of_scatterers}, false, key);

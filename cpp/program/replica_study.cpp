@@ -80,9 +80,11 @@ void ReplicaOptions::declare(Options& options) {
   options.integer("--max-replicas", max_replicas_, {1, 100'000'000},
                   "With a target error, give up after so many");
   options.integer("--seed", seed_, {}, "Key of all random streams");
-  options.real("--target-error", target_error_, non_negative,
-               "Add replicas, 64 at least, until the relative standard error of the target quantity is below "
-               "this with 95 % confidence; 0: no target");
+  options.real(
+      "--target-error", target_error_, non_negative,
+      fmt::format("Add replicas, {} at least, until the relative standard error of the target quantity is "
+                  "below this with 95 % confidence; 0: no target",
+                  StoppingRule::least));
   options.real("--target-absolute", target_absolute_, non_negative,
                "The same for the standard error itself; 0: no target");
   options.integer("--threads", threads_, {1, 4096}, "Threads; no result depends on them", conduct);

@@ -36,7 +36,7 @@ struct StoppingRule {
   /// number.
   struct Forecast {
     std::uint64_t likely;
-    std::uint64_t low, high;  // 95 % prediction interval for normal records
+    std::uint64_t low, high;  // 95 % prediction interval for normal records; less for skewed ones
   };
   Forecast forecast(std::uint64_t used, double excess) const;
 

@@ -4,10 +4,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.stats import chi2
+from scipy.stats import binom, chi2
 
 from tests.python.conftest import Program
 from workflow.scripts.load import load
+from workflow.tradeoff.prediction import FORETOLD
 
 SEEDS = 50
 REPLICAS = 24
@@ -72,12 +73,20 @@ def test_standard_error_over_seeds_where_a_target_ends_the_run(
 ) -> None:
     """With the smallest batches that have an error. What the rule does to means and errors is measured in
     tests/cpp/stopping_rule_test.cpp; this is its use, with control variates where there are some."""
-    found = []
+    found, foretold = [], []
     for seed in range(SEEDS):
-        assert program(name, seed=seed, replicas=2, **options).returncode == 0
+        done = program(name, seed=seed, replicas=2, progress="log", **options)
+        assert done.returncode == 0
         result = load(tmp_path / "out.h5")[quantity]
         found.append((float(result.mean), float(result.standard_error), int(result.count)))
+        foretold.append([int(bound) for bound in FORETOLD.search(done.stderr).groups()])
     values, errors, counts = np.array(found).T
+    least, most = np.array(foretold).T
+    as_foretold = np.count_nonzero((least <= counts) & (counts <= most))
+    assert binom.cdf(as_foretold, SEEDS, 0.95) > 5e-4
+    # Mutant: the middle of the range alone, give or take the eighth by which looks lie apart.
+    middle = np.sqrt(least * most)
+    assert binom.cdf(np.count_nonzero(abs(counts - middle) < middle / 16), SEEDS, 0.95) < 5e-4
     assert (errors <= options["target_error"] * abs(values)).all()
     assert counts.min() >= LEAST
     assert counts.max() > counts.min()  # where it ends is decided by the data

@@ -67,5 +67,6 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
 
 
 if __name__ == "__main__":
-    exponents = {"exponent_from_here": "1", "exponent_from_here_error": "1"}
-    run(draw, "Damping of the moving peak of an energy pulse", **exponents)
+    units = {"exponent_from_here": "1", "exponent_to_next": "1", "speed_to_next": "1/time"}
+    errors = {f"{column}_error": unit for column, unit in units.items()}
+    run(draw, "Damping of the moving peak of an energy pulse", **units, **errors)

@@ -6,15 +6,15 @@ from pathlib import Path
 
 import pandas as pd
 
-from workflow.config.plan import Run, load_plan
-from workflow.tradeoff.measure import call
+from workflow.config.plan import Run
+from workflow.tradeoff.measure import call, planned
 
 RUNS = (  # panel and run
     ("ext07", "energy"),
     ("fig05", "paper_sigma=0.5"),
     ("fig07", "all"),
     ("fig06", "all_sigma=0.5"),
-    ("fig08", "deterministic_cells=64"),
+    ("fig08", "deterministic_cells=16"),
     ("fig08", "rare_cells=64"),
     ("fig01", "paper"),
     ("fig04b", "deterministic"),
@@ -64,8 +64,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--programs", type=Path, required=True, help="folder of the executables")
     programs = parser.parse_args().programs
-    plan = load_plan("standard")
-    rows = [row(programs, panel, plan[panel].run(name)) for panel, name in RUNS]
+    rows = [row(programs, panel, planned(panel, name)) for panel, name in RUNS]
     formatters = {"ratio": "{:.2f}".format}
     print(pd.DataFrame(rows).to_string(index=False, formatters=formatters, float_format="{:.1f}".format))
 

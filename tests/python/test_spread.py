@@ -1,0 +1,129 @@
+"""Every series of the standard figures in small: as many replicas, shorter, over 40 seeds. What the seeds scatter by
+has to be what the errors say, for that number of replicas."""
+
+import re
+import shlex
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.stats import chi2, f
+
+from tests.python.conftest import ROOT
+from workflow.config.plan import Run, load_plan
+from workflow.scripts.load import load
+
+SEEDS = 40
+FACTORS = {"particle_count": 2e-3}  # of all times
+OTHERS = 5e-3
+PULSE = {"members": 1, "relaxation-time": 0}
+
+# The numbers of a program that figures and claims stand on; of an array the last element.
+NUMBERS = {
+    "persistence": ("mu", "particle_energy"),
+    "waiting_time": ("exponent",),
+    "displacement": ("variance", "alpha"),
+    "ageing": ("scatterer_energy_mean", "log_slope"),
+    "conductivity": ("energy_current", "temperature_first", "temperature_last"),
+    "steady_profile": ("energy_current_mean", "density", "temperature_difference"),
+    "momentum_flux": ("crossings", "square", "jump"),
+    "particle_count": ("log_slope", "total_number"),
+    "energy_pulse": ("injected_energy", "peak"),
+}
+
+
+def series() -> dict[str, Run]:
+    """The middle run of every series that is measured."""
+    found: dict[str, list[Run]] = {}
+    for panel in load_plan("standard").values():
+        for run in panel.runs:
+            if run.replicated:
+                found.setdefault(f"{panel.name}-{run.name.split('_')[0]}", []).append(run)
+    return {name: runs[len(runs) // 2] for name, runs in found.items()}
+
+
+def shorter(value: object, factor: float) -> object:
+    """A time, a list of times or a multiple of N."""
+    return re.sub(r"[0-9.]+(e-?[0-9]+)?", lambda number: f"{factor * float(number[0]):.6g}", str(value))
+
+
+def in_small(run: Run) -> dict[str, object]:
+    factor = FACTORS.get(run.program, OTHERS)
+    times = {name: shorter(run.options[name], factor) for name in run.options if name.endswith("-time")}
+    if run.program == "particle_count":
+        times["times"] = shorter(run.options["times"], factor)
+    options = {**run.options, **times}
+    return options | PULSE if run.program == "energy_pulse" else options
+
+
+def values(run: Run, folder: Path) -> dict[str, np.ndarray]:
+    """[seed, (mean, error)] of every number of a series."""
+    found: dict[str, list] = {name: [] for name in NUMBERS[run.program]}
+    for seed in range(SEEDS):
+        options = Run(run.name, run.program, {**in_small(run), "seed": 1000 + seed}).arguments()
+        command = [str(ROOT / "build/bin" / run.program), *shlex.split(options)]
+        command += ["--threads", "1", "--progress", "none", "--output", str(folder / "out.h5")]
+        subprocess.run(command, check=True)
+        result = load(folder / "out.h5")
+        for name, pairs in found.items():
+            quantity = result[name]
+            pairs.append((quantity.mean.flat[-1], quantity.standard_error.flat[-1]))
+    return {name: np.array(pairs) for name, pairs in found.items()}
+
+
+def spread_over_error(pairs: np.ndarray) -> float:
+    """Variance of the means over the mean square error."""
+    mean, error = pairs.T
+    return float(mean.var(ddof=1) / np.mean(error**2))
+
+
+def plausible(ratio: float, seeds: int, replicas: int, trials: int) -> bool:
+    """Of normal records the ratio has the F distribution; both tails, at one false alarm in ten thousand."""
+    tail = 1e-4 / (2 * trials)
+    freedom = (seeds - 1, seeds * (replicas - 1))
+    return f.isf(1 - tail, *freedom) < ratio < f.isf(tail, *freedom)
+
+
+@pytest.fixture(scope="module")
+def ratios(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[float, int]]:
+    """Spread over error, squared, and replicas, of every number of every series."""
+    folder = tmp_path_factory.mktemp("spread")
+    return {
+        f"{name} {number}": (spread_over_error(pairs), int(run.options["replicas"]))
+        for name, run in series().items()
+        for number, pairs in values(run, folder).items()
+    }
+
+
+def test_no_error_comes_from_fewer_than_32_replicas() -> None:
+    assert min(run.options["replicas"] for run in series().values()) >= 32
+
+
+def test_seeds_scatter_as_their_errors_say(ratios: dict[str, tuple[float, int]]) -> None:
+    def outliers(factor: float) -> list[str]:
+        return [
+            name
+            for name, (ratio, replicas) in ratios.items()
+            if not plausible(factor * ratio, SEEDS, replicas, len(ratios))
+        ]
+
+    assert outliers(1) == []
+    # Mutants: errors too small or too large by a factor of two.
+    assert len(outliers(4)) > 0.8 * len(ratios)
+    assert len(outliers(1 / 4)) > 0.8 * len(ratios)
+
+
+def test_errors_are_right_on_the_whole(ratios: dict[str, tuple[float, int]]) -> None:
+    """One number of every series, as those of one series go together."""
+    firsts = {name.split()[0]: ratio for name, (ratio, _) in reversed(ratios.items())}
+    freedom = (SEEDS - 1) * len(firsts)
+
+    def plausible_sum(factor: float) -> bool:
+        total = factor * (SEEDS - 1) * sum(firsts.values())
+        return chi2.isf(1 - 5e-5, freedom) < total < chi2.isf(5e-5, freedom)
+
+    assert plausible_sum(1)
+    # Mutants: errors of n instead of n - 1 replicas would pass, errors 15 % too small or too large do not.
+    assert not plausible_sum(1.15**2)
+    assert not plausible_sum(1 / 1.15**2)
