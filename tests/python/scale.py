@@ -45,6 +45,8 @@ class Scale:
 
         quantities = {name: scaled(quantity) for name, quantity in result.quantities.items()}
         options = {name: type(value)(self.option(name, value)) for name, value in result.parameters.items()}
+        if options.get("cell-length") == "1/N":  # of a chain whose length is 1 in the other units
+            options["cell-length"] = self.lengths / int(options["cells"])
         return replace(result, quantities=quantities, parameters=options)
 
 
