@@ -38,6 +38,13 @@ def test_every_quality_describes_every_panel(quality: str) -> None:
             assert run.options.get("replicas", 2) >= 2
 
 
+def test_a_series_without_replicas_is_left_out(folder: Path) -> None:
+    edit(folder / "quality/smoke.yaml", "panels", "fig05", "dense", value={"replicas": 0})
+    names = [run.name for run in load_plan("smoke", folder)["fig05"].runs]
+    assert names
+    assert all(name.startswith("paper") for name in names)
+
+
 def test_names_and_seeds_are_unique() -> None:
     panels = load_plan("paper").values()
     names = [(panel.name, run.name) for panel in panels for run in panel.runs]
@@ -107,7 +114,7 @@ def test_bad_paper_configuration(
 @pytest.mark.parametrize(
     ("keys", "value", "words"),
     [
-        (("default", "replicas"), 0, ["default.replicas = 0", "minimum 1"]),
+        (("default", "replicas"), -1, ["default.replicas = -1", "minimum 0"]),
         (("default", "sigma"), 0.5, ["default", "sigma"]),
         (("panels", "fig99"), {}, ["panels", "fig99"]),
         (("panels", "fig05", "denser"), {"replicas": 3}, ["panels.fig05", "denser"]),

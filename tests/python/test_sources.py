@@ -13,7 +13,8 @@ def test_imports_are_followed() -> None:
     found = sources_of("workflow/scripts/ext02.py")
     assert found[0] == "workflow/scripts/ext02.py"
     modules = {
-        f"workflow/scripts/{module}.py" for module in ("fig08", "figure", "fit", "load", "save", "style")
+        f"workflow/scripts/{module}.py"
+        for module in ("columns", "fig08", "figure", "fit", "load", "save", "style", "units")
     }
     assert set(found[1:]) == modules | {"workflow/provenance/parents.py"}
 
