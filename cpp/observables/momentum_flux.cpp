@@ -9,6 +9,7 @@
 /// side; the kurtosis of a half of F, <p^4>/<p^2>^2, is 3 where that half is Gaussian.
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -25,6 +26,13 @@ namespace {
 using namespace lorentz;
 
 constexpr std::array powers{0, 2, 4};  // of |p| whose sums are kept
+
+/// Particles that a reservoir injects into a bin in the window, on average.
+double expected_injections(const OpenChain& chain, const Window& window, const Bins& bins, std::size_t bin) {
+  const double a = std::abs(bins.edge(bin)), b = std::abs(bins.edge(bin + 1));
+  const Reservoir& source = bins.edge(bin) >= 0 ? chain.left : chain.right;
+  return (window.end - window.begin) * source.rate * source.probability(std::min(a, b), std::max(a, b));
+}
 
 class Crossings {
  public:
@@ -63,13 +71,8 @@ class Crossings {
     append(counts_.sums());
     for (const auto& direction : moments_)
       for (std::size_t k = 0; k < powers.size(); ++k) append(direction.sums(k));
-    for (std::size_t bin = 0; bin < bins_.count(); ++bin) {
-      const bool right = bins_.edge(bin) >= 0;
-      const double a = std::abs(bins_.edge(bin)), b = std::abs(bins_.edge(bin + 1));
-      const Reservoir& source = right ? chain_.left : chain_.right;
-      values.push_back(injected_.weights()[bin] -
-                       duration * source.rate * source.probability(std::min(a, b), std::max(a, b)));
-    }
+    for (std::size_t bin = 0; bin < bins_.count(); ++bin)
+      values.push_back(injected_.weights()[bin] - expected_injections(chain_, window_, bins_, bin));
     controls_.append_to(values, chain_, duration);
     return values;
   }
@@ -85,6 +88,8 @@ class Crossings {
   Histogram injected_;
   InjectionControls controls_;
 };
+
+using Expected = std::function<double(std::size_t bin)>;  // injections in a replica
 
 /// Columns of the records: the bonds of every bin, those of every moment, then the controls.
 struct Layout {
@@ -136,10 +141,13 @@ class Correction {
   std::vector<std::vector<double>> rows_;
 };
 
-ReducedRecords with_corrected_bins(const Records& records, const Layout& layout) {
+/// Of the bins into which so many particles are injected that the replicas tell a coefficient.
+ReducedRecords with_corrected_bins(const Records& records, const Layout& layout, const Expected& expected) {
+  constexpr double enough = 10;  // per replica
   Correction correction(records);
   for (std::size_t bin = 0; bin < layout.bins; ++bin)
-    correction.regress(bin * layout.bonds, layout.bonds, layout.own_control(bin), 1);
+    if (expected(bin) >= enough)
+      correction.regress(bin * layout.bonds, layout.bonds, layout.own_control(bin), 1);
   return correction.best();
 }
 
@@ -221,7 +229,7 @@ std::vector<double> joined(std::initializer_list<std::vector<double>> parts) {
   return values;
 }
 
-Results summarise(const Records& records, std::size_t bonds, const Bins& bins) {
+Results summarise(const Records& records, std::size_t bonds, const Bins& bins, const Expected& expected) {
   const Layout layout{bonds, bins.count()};
   std::vector<double> numbers(bonds);
   std::iota(numbers.begin(), numbers.end(), 0.0);
@@ -232,7 +240,7 @@ Results summarise(const Records& records, std::size_t bonds, const Bins& bins) {
   const auto shape = [&](std::span<const double> row) { return Shape(row, layout, bins); };
 
   Results results =
-      estimate(with_corrected_bins(records, layout),
+      estimate(with_corrected_bins(records, layout, expected),
                {{"flux", flux_units, "F_N, crossings per unit time and momentum", {bond, momentum}},
                 {"jump", flux_units, "F_N at p = 0+ minus p = 0-", {bond}}},
                [&](std::span<const double> row) { return joined({shape(row).flux(), shape(row).jump()}); });
@@ -273,7 +281,8 @@ int main(int argc, char** argv) {
       return options.measure(replica, window, Crossings(chain, window, bins.bins()));
     };
     const auto results = [&](const Records& records) {
-      return summarise(records, std::size_t{chain.cells} + 1, bins.bins());
+      return summarise(records, std::size_t{chain.cells} + 1, bins.bins(),
+                       [&](std::size_t bin) { return expected_injections(chain, window, bins.bins(), bin); });
     };
     return replicas.run({measure, results, "crossings", RandomStream::description}, progress);
   });

@@ -8,6 +8,7 @@ t ln(t/tau)^b, which is 0 for t and -1 for t/ln t.
 from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
+import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -38,8 +39,8 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         ):
             part[name.replace("-", "_")] = result.parameters[name]
         for name in ("alpha", "logarithmic_power", "momentum_drift"):
-            if name not in result.quantities:  # there is no logarithmic power where the chain drifts
-                continue
+            if name not in result.quantities or np.isnan(result[name].mean):
+                continue  # no logarithmic power where the chain drifts, no momentum where directions are drawn
             part[name] = float(result[name].mean)
             part[f"{name}_error"] = float(result[name].standard_error)
         parts.append(part)
