@@ -177,7 +177,8 @@ def execute(name: str, options: dict[str, object]) -> tuple[int, str, Result | N
 
 # Where nothing was there to be measured, as docs/format.md says.
 MAY_BE_NAN = {
-    "alpha_relative", "exponent_by_cut", "exponent_spread", "front", "front_exponent", "kurtosis", "local_slope",
+    "alpha_relative", "alpha_difference", "density_slope", "density_excess", "temperature_difference",
+    "rate_right_deviation", "rate_left_deviation", "drift_p_value", "exponent_by_cut", "exponent_spread", "front", "front_exponent", "kurtosis", "local_slope",
     "logarithmic_power", "momentum_drift", "plateau", "square", "temperature_particle", "peak", "peak_position",
     "peak_speed", "damping_exponent_from", "local_damping_exponent", "peak_collapse", "centre_share",
 }  # fmt: skip
@@ -190,9 +191,8 @@ def check_physics(result: Result) -> None:
             assert not np.isnan(quantity.mean).any(), name
         known = quantity.mean[np.isfinite(quantity.mean)]
         positive = name.startswith(("temperature", "rate", "density", "weighted", "variance"))
-        if (positive or name.endswith(("particle_energy", "scatterer_energy"))) and not name.endswith(
-            "_drift"
-        ):
+        signed = name.endswith(("_drift", "_difference", "_deviation", "_slope", "_excess"))
+        if (positive or name.endswith(("particle_energy", "scatterer_energy"))) and not signed:
             assert (known >= -1e-9 * np.abs(known).max(initial=0)).all(), name
     drift = result.quantities.get("energy_drift")
     if drift is not None:

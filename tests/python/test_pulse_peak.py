@@ -72,7 +72,7 @@ def test_free_flight(program: Program, tmp_path: Path) -> None:
     profiles = np.array([free_profile(time) for time in TIMES])
     expected = np.concatenate([profiles[:, :0:-1], profiles], axis=1)
     # Cells that so few particles reach that their errors are none are left out.
-    known = difference.standard_error > 0.002 * difference.standard_error.max()
+    known = difference.standard_error > 0.002 * np.nanmax(difference.standard_error)
     known &= np.abs(np.arange(CELLS) - half) < 18
     z = (difference.mean - expected)[known] / difference.standard_error[known]
     assert len(z) > 80
@@ -176,7 +176,7 @@ def test_mirror_symmetry(program: Program, tmp_path: Path, gamma: str | int) -> 
             right, left = profile[cells // 2 + distance], profile[cells // 2 - distance]
             np.testing.assert_allclose(quantity.mean[-1], (right - left) / 2, atol=1e-12 * profile.max())
             odd.append(quantity.mean[-1])
-            errors.append(quantity.standard_error[-1])
+            errors.append(np.nan_to_num(quantity.standard_error[-1]))  # NaN: never reached
             off_centre.append((right - profile[cells // 2 - distance + 1]) / 2)
         reached = np.min(errors, axis=0) > 0.1 * np.max(errors)  # often enough for a Gaussian mean
         assert reached.sum() > 7
