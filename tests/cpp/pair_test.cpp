@@ -35,7 +35,9 @@ void expect_pair(const PairDynamics& pair, double time, const PhasePoint& plain,
   for (std::uint32_t i = 0; i < double_particles.size(); ++i)
     if (!double_particles[i]) expect_same(plain.particles[i], perturbed.particles[i], i);
   for (std::uint32_t i = 0; i < double_scatterers.size(); ++i)
-    if (!double_scatterers[i]) ASSERT_EQ(plain.scatterers[i], perturbed.scatterers[i]) << i;
+    if (!double_scatterers[i]) {
+      ASSERT_EQ(plain.scatterers[i], perturbed.scatterers[i]) << i;
+    }
 }
 
 PhasePoint kicked(PhasePoint point) {
