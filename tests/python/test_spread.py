@@ -109,9 +109,9 @@ def test_seeds_scatter_as_their_errors_say(ratios: dict[str, tuple[float, int]])
         ]
 
     assert outliers(1) == []
-    # Mutants: errors too small or too large by a factor of two.
+    # Mutants: errors too small by a factor of two, too large by one of three; 40 seeds tell no less of one number.
     assert len(outliers(4)) > 0.8 * len(ratios)
-    assert len(outliers(1 / 4)) > 0.8 * len(ratios)
+    assert len(outliers(1 / 9)) > 0.8 * len(ratios)
 
 
 def test_errors_are_right_on_the_whole(ratios: dict[str, tuple[float, int]]) -> None:
