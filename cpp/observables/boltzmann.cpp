@@ -156,6 +156,8 @@ Values evaluate(const KineticProblem& problem, const KineticSolution& solution, 
   MatrixXd kurtosis(2, flux.cols());
   kurtosis.row(0) = moments.left(4).array() * left.array() / moments.left(2).array().square();
   kurtosis.row(1) = moments.right(4).array() * right.array() / moments.right(2).array().square();
+  // Beyond the range of numbers there is none.
+  kurtosis = kurtosis.array().isFinite().select(kurtosis, std::numeric_limits<double>::quiet_NaN());
   return {list(on_half_lines(means, flux)),
           list(on_half_lines(momenta.interpolation(grid.middles()), flux)),
           list(ascending(density.topRows(bins), density.bottomRows(bins))),
