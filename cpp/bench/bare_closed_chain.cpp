@@ -1,26 +1,39 @@
-/// The event loop of a closed chain that nobody observes: what the programs are measured against.
-#include "observables/closed_chain_options.hpp"
-#include "program/replica_study.hpp"
+/// The event loop of a closed chain without an observer, the baseline of the programs' cost.
+#include "program/study.hpp"
+#include "runs/closed_run.hpp"
+
+namespace {
+
+using namespace lorentz;
+
+struct Tallies : ClosedTallies {
+  ScalarTally events = tally("events", "1", "Collisions");
+};
+
+Study bare_run(const ClosedParameters& parameters) {
+  validate(parameters);
+  const Tallies tallies;
+  const auto measure = [=](const Replica& replica, Record& record) {
+    ClosedRun run(parameters, replica);
+    NoObserver nobody;
+    run.observe_until(parameters.end_time(), nobody);
+    record[tallies.events] = static_cast<double>(run.chain().events());
+    return run.finish(tallies, record);
+  };
+  Formulas formulas;
+  formulas.quantity("events", "1", "Collisions of a replica",
+                    [=](RecordView mean) { return mean[tallies.events]; });
+  return {.tallies = tallies,
+          .measure = measure,
+          .estimators = {formulas.estimator(), conservation_errors(tallies)},
+          .target = "events"};
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
-  using namespace lorentz;
-  Program program("bare_closed_chain", "A closed chain without an observer");
-  ClosedChainOptions chain;
-  chain.declare(program.options());
-  ReplicaOptions replicas(program);
-  replicas.declare(program.options());
-  return program.run(argc, argv, [&](Progress& progress) {
-    chain.validate();
-    const auto measure = [&](const Replica& replica) {
-      ClosedReplica run(chain, replica);
-      NoObserver nobody;
-      run.observe_until(chain.end_time(), nobody);
-      return run.record({static_cast<double>(run.chain().events())});
-    };
-    const auto summarise = [](const Records& records) {
-      return estimate(records, {{"events", "1", "Collisions of a replica"}},
-                      [](std::span<const double> row) { return std::vector{row[0]}; });
-    };
-    return replicas.run({measure, with_drift(summarise), "events", RandomStream::description}, progress);
-  });
+  StudyProgram program("bare_closed_chain", "A closed chain without an observer");
+  ClosedParameters parameters;
+  declare(program.options(), parameters);
+  return program.run(argc, argv, [&] { return bare_run(parameters); });
 }

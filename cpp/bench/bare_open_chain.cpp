@@ -1,32 +1,41 @@
-/// The event loop of an open chain that nobody observes: what the programs are measured against.
-#include "observables/open_chain_options.hpp"
-#include "program/replica_study.hpp"
+/// The event loop of an open chain without an observer, the baseline of the programs' cost.
+#include "program/study.hpp"
+#include "runs/open_run.hpp"
 
 namespace {
 
 using namespace lorentz;
 
-struct Nothing : NoObserver {
-  std::vector<double> record() const { return {1}; }
+struct Parameters : OpenParameters {
+  WindowParameters times;
 };
+
+struct Tallies : TallySchema {
+  ScalarTally events = tally("events", "1", "Collisions, injections and exits");
+};
+
+Study bare_run(const Parameters& parameters) {
+  validate(parameters, parameters.times);
+  const Tallies tallies;
+  const double end = parameters.times.window(parameters.scattering.cells).end;
+  const auto measure = [=](const Replica& replica, Record& record) {
+    OpenRun run(parameters, {0, end}, replica);
+    run.observe(NoObserver());
+    record[tallies.events] = static_cast<double>(run.events());
+    return run.events();
+  };
+  Formulas formulas;
+  formulas.quantity("events", "1", "Events of a replica",
+                    [=](RecordView mean) { return mean[tallies.events]; });
+  return {.tallies = tallies, .measure = measure, .estimators = {formulas.estimator()}, .target = "events"};
+}
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program("bare_open_chain", "An open chain without an observer");
-  OpenChainOptions options({.cell_length = 0}, "warm", {{{100}, {1000}}});
-  options.declare(program.options());
-  ReplicaOptions replicas(program);
-  replicas.declare(program.options());
-  return program.run(argc, argv, [&](Progress& progress) {
-    options.validate();
-    const auto measure = [&](const Replica& replica) {
-      return options.measure(replica, {0, options.window().end}, Nothing());
-    };
-    const auto summarise = [](const Records& records) {
-      return estimate(records, {{"replicas", "1", "1 of every replica"}},
-                      [](std::span<const double> row) { return std::vector{row[0]}; });
-    };
-    return replicas.run({measure, summarise, "replicas", RandomStream::description}, progress);
-  });
+  StudyProgram program("bare_open_chain", "An open chain without an observer");
+  Parameters parameters;
+  declare(program.options(), parameters);
+  declare(program.options(), parameters.times);
+  return program.run(argc, argv, [&] { return bare_run(parameters); });
 }

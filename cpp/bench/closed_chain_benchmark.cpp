@@ -1,7 +1,6 @@
-/// Cost of an event of closed chains: the engine, the reference simulator (binary heap), and the floor, that
-/// is, the same collisions and flights on the same memory with no queue, particle after particle. A short run
-/// with and without the freezing of late arrivals. items_per_second is events per second; gamma:0 stands for
-/// gamma = N.
+/// Cost of an event of closed chains: the engine, the reference simulator (binary heap), and a lower bound,
+/// the same collisions and flights on the same memory without a queue, particle by particle. Also short runs
+/// with and without freezing of late arrivals. items_per_second is events per second; gamma:0 is gamma = N.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -17,7 +16,7 @@ namespace {
 
 using namespace lorentz;
 
-/// The least that an observable does, the same for all.
+/// A minimal observable, the same in all benchmarks.
 struct Persistent {
   std::uint64_t count = 0;
   void add(double before, double after) { count += (before > 0) == (after > 0) ? 1 : 0; }
@@ -74,21 +73,18 @@ void closed_reference(benchmark::State& state) {
 void closed_floor(benchmark::State& state) {
   const Case of(state);
   const Scattering scatter(of.chain);
-  const Launch launch(of.chain, {1, 0});
-  std::vector<Flight> flights = first_flights(of.chain, of.start, launch);
-  // Otherwise neighbours in memory begin at one scatterer and wait for each other, as in the order of time
-  // they seldom do.
+  const FreeFlight free_flight(of.chain, {1, 0});
+  std::vector<Flight> flights = first_flights(of.chain, of.start, free_flight);
+  // Unshuffled, neighbours in memory meet the same scatterer, and each collision waits for the one before.
   std::shuffle(flights.begin(), flights.end(), std::mt19937(1));
-  std::vector<Flight, HugePageAllocator<Flight>> memory(flights.begin(), flights.end());
   std::vector<double> scatterers = scatter.rule().scaled(of.start.scatterers);
   Persistent observer;
   std::size_t slot = 0;
-  const auto advance = [&]<bool launching>(std::uint64_t events) {
+  const auto advance = [&]<bool stochastic>(std::uint64_t events) {
     for (; events > 0; --events) {
-      Flight& flight = memory[slot];
-      __builtin_prefetch(&flight + Piles::ahead, 1);
+      Flight& flight = flights[slot];
       const double before = flight.velocity;
-      scatter.operator()<launching>(flight, scatterers[flight.target], launch);
+      scatter.operator()<stochastic>(flight, scatterers[flight.target], free_flight);
       observer.add(before, flight.velocity);
       if (++slot == of.chain.particles()) slot = 0;
     }
@@ -104,8 +100,7 @@ void closed_floor(benchmark::State& state) {
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * events));
 }
 
-/// A whole short run, construction included. Arrivals after its end are frozen, or waited for as if more were
-/// to come.
+/// A short run, construction included. Arrivals after its end are frozen or remain pending.
 void short_run(benchmark::State& state) {
   const ClosedChain chain{1000, 50, 1, 0.5};
   const PhasePoint start = closed_chain_start(chain, {}, false, {1, 0});
@@ -122,7 +117,7 @@ void short_run(benchmark::State& state) {
   state.SetItemsProcessed(static_cast<std::int64_t>(events));
 }
 
-// Iterations are given, as the preparation of a large chain takes longer than they do.
+// The number of iterations is fixed, as the preparation of a large chain takes longer than they do.
 void all_sizes(benchmark::internal::Benchmark* benchmark) {
   benchmark->ArgNames({"cells", "particles_per_cell", "gamma"})->Iterations(100);
   for (const std::int64_t gamma : {0, 1}) {

@@ -1,4 +1,4 @@
-/// Three ways to code the collision, for speed and for the drift of the energy (docs/numerics.md).
+/// Speed and energy drift of three forms of the collision (docs/numerics.md).
 /// Counter `drift`: relative change of the total energy over the run; `per_sqrt_event`: the same over
 /// 2^-53 sqrt(events), of order 1 or less for a random walk of roundings, growing for a systematic drift.
 #include <benchmark/benchmark.h>
@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "engine/random.hpp"
 #include "model/collision.hpp"
+#include "numerics/random.hpp"
 
 namespace {
 
@@ -64,7 +64,7 @@ __attribute__((target("fma"))) void collisions(benchmark::State& state) {
   const long double before = energy();
   std::uint64_t pair = 1;
   for ([[maybe_unused]] auto iteration : state) {
-    pair = pair * 6364136223846793005ULL + 1442695040888963407ULL;  // which pair meets (Knuth's MMIX)
+    pair = pair * 6364136223846793005ULL + 1442695040888963407ULL;  // the MMIX generator of Knuth
     collide(particles[(pair >> 40) % population], scatterers[(pair >> 50) % population]);
   }
   const auto drift = static_cast<double>(energy() / before - 1);

@@ -1,4 +1,4 @@
-/// The kinetic equation solved to 1e-10, set-up and error estimate included.
+/// Solution of the kinetic equation to 1e-10, set-up and error estimate included.
 #include <benchmark/benchmark.h>
 
 #include "boltzmann/refinement.hpp"

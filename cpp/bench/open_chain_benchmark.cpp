@@ -1,7 +1,7 @@
-/// Cost of an event of open chains: the engine, the reference simulator (binary heap), and the floor, that
-/// is, the same collisions, flights and injections on the same memory with no queue, particle after particle.
-/// The reservoirs inject `filling` times as many particles as the default ones. items_per_second is
-/// collisions per second; gamma:0 stands for gamma = N.
+/// Cost of an event of open chains: the engine, the reference simulator (binary heap), and a lower bound, the
+/// same collisions, flights and injections on the same memory without a queue, particle by particle. The
+/// reservoirs inject `filling` times as many particles as the default ones. items_per_second is collisions
+/// per second; gamma:0 means gamma = N.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 using namespace lorentz;
 
-constexpr double age = 2;  // in which the reference simulator, which starts empty, fills its chain
+constexpr double age = 2;  // time in which the reference simulator, which starts empty, fills its chain
 
 OpenChain chain_of(const benchmark::State& state) {
   OpenChain chain;
@@ -35,7 +35,7 @@ double time_of(double collisions, const OpenChain& chain) {
   return collisions / (scatterings_per_crossing * (chain.left.rate + chain.right.rate));
 }
 
-/// Collisions, and the particles' numbers, which serve again: the largest is the population.
+/// Counts collisions. Numbers of particles are reused, so the largest one measures the population.
 struct Collisions {
   std::int64_t count = 0;
   std::uint32_t last_slot = 0;
@@ -74,12 +74,12 @@ void open_reference(benchmark::State& state) {
   state.SetItemsProcessed(collisions);
 }
 
-/// As many particles as the engine begins with; one that leaves enters anew at the same end.
+/// The particles of the engine's start. One that leaves is replaced by one that enters at the same end.
 class Queueless {
  public:
   explicit Queueless(const OpenChain& chain)
       : chain_(chain),
-        log_pass_probability_(std::log1p(-std::min(1.0, chain.gamma / chain.cells))),
+        cells_to_scattering_(chain.gamma / chain.cells),
         injectors_{Injector(chain.left, {1, 0}, Purpose::injection_left),
                    Injector(chain.right, {1, 0}, Purpose::injection_right)} {
     const PhasePoint start = local_equilibrium_start(chain, chain.left, chain.right, age, {1, 0});
@@ -93,24 +93,23 @@ class Queueless {
 
   std::uint32_t particles() const { return static_cast<std::uint32_t>(flights_.size()); }
 
-  /// The next collision of a particle and the flight after it.
-  template <bool passing>
+  /// Processes the next collision of a particle and the flight after it.
+  template <bool stochastic>
   void advance(std::uint32_t slot, Collisions& observer) {
     Flight& flight = flights_[slot];
-    __builtin_prefetch(&flight + Piles::ahead, 1);
     const double particle = flight.velocity, scatterer = scatterers_[flight.target];
     collide_(flight.velocity, scatterers_[flight.target]);
     observer.on_collision(
         {flight.time, slot, flight.target, particle, flight.velocity, scatterer, scatterers_[flight.target]});
-    for (std::int64_t from = flight.target; !fly<passing>(flight, from);) from = enter(flight);
+    for (std::int64_t from = flight.target; !fly<stochastic>(flight, from);) from = enter(flight);
   }
 
  private:
-  /// From a scatterer on; false if the particle leaves.
-  template <bool passing>
+  /// Begins a flight at a scatterer; false if the particle leaves.
+  template <bool stochastic>
   bool fly(Flight& flight, std::int64_t from) {
     std::int64_t cells = 1;
-    if constexpr (passing) cells = cells_to_scattering(passes_.uniform(), log_pass_probability_);
+    if constexpr (stochastic) cells = cells_to_scattering_(passes_.uniform());
     const std::int64_t target = from + (flight.velocity > 0 ? cells : -cells);
     flight.time += static_cast<double>(cells) * chain_.cell_length / std::abs(flight.velocity);
     if (static_cast<std::uint64_t>(target) >= chain_.cells) [[unlikely]]
@@ -119,7 +118,7 @@ class Queueless {
     return true;
   }
 
-  /// From where it would have come if there were one more scatterer outside.
+  /// Replaces the particle; returns the cell before the first one of its flight.
   std::int64_t enter(Flight& flight) {
     const bool right = flight.velocity > 0;
     const double speed = injectors_[right ? 1 : 0].take();
@@ -129,11 +128,11 @@ class Queueless {
 
   OpenChain chain_;
   CollisionRule collide_{chain_.sigma};
-  double log_pass_probability_;
+  GeometricCells cells_to_scattering_;
   RandomStream passes_{{1, 0}, Purpose::passes, 0};
   std::array<Injector, 2> injectors_;
   std::vector<double> scatterers_;
-  std::vector<Flight, HugePageAllocator<Flight>> flights_;
+  std::vector<Flight> flights_;
 };
 
 void open_floor(benchmark::State& state) {
@@ -141,9 +140,9 @@ void open_floor(benchmark::State& state) {
   Queueless particles(chain);
   Collisions observer;
   std::uint32_t slot = 0;
-  const auto advance = [&]<bool passing>(std::uint64_t events) {
+  const auto advance = [&]<bool stochastic>(std::uint64_t events) {
     for (; events > 0; --events) {
-      particles.advance<passing>(slot, observer);
+      particles.advance<stochastic>(slot, observer);
       if (++slot == particles.particles()) slot = 0;
     }
   };
@@ -158,7 +157,7 @@ void open_floor(benchmark::State& state) {
   state.SetItemsProcessed(observer.count);
 }
 
-// Iterations are given, as the preparation of a full chain takes longer than they do.
+// The number of iterations is fixed, as the preparation of a full chain takes longer than they do.
 void all_fillings(benchmark::internal::Benchmark* benchmark) {
   benchmark->ArgNames({"cells", "filling", "gamma"})->Iterations(100);
   benchmark->ArgsProduct({{201}, {1, 10, 100, 10'000}, {0, 1}});

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/portable.hpp"
+#include "numerics/elementary.hpp"
 
 namespace lorentz {
 namespace {
@@ -15,18 +15,19 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr double last_scale = 1e-17;  // sigma^j of the last factor of the product
+constexpr double last_scale = 1e-17;  // sigma^j at which the product is truncated
 
 double c_squared(double sigma) { return (1 - sigma) * (1 + sigma); }
 
-/// Number of factors of the product, as a power of two.
+/// Base-2 logarithm of the number of factors of the product.
 int doublings(double sigma) {
-  const double factors = portable::log(last_scale) / portable::log(std::abs(sigma));
-  return std::max(1, static_cast<int>(std::ceil(portable::log(factors) / std::numbers::ln2)));
+  const double factors = elementary::log(last_scale) / elementary::log(std::abs(sigma));
+  return std::max(1, static_cast<int>(std::ceil(elementary::log(factors) / std::numbers::ln2)));
 }
 
-/// Takes the values of a function that vanishes at 0 to its values at `scale` times the nodes: what is
-/// interpolated is the function divided by k, so that an error near 0 does not add up over many factors.
+/// Matrix from the values of a function at the nodes k to its values at scale k, for functions that vanish at
+/// 0. It interpolates the function divided by k, so that errors near k = 0 do not accumulate over many
+/// factors.
 Eigen::SparseMatrix<double, Eigen::RowMajor> scaling(const Panels& panels, double scale) {
   Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(panels.size(), panels.size());
   matrix.reserve(Eigen::VectorXi::Constant(panels.size(), panels.order()));
@@ -43,22 +44,23 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> scaling(const Panels& panels, doubl
   return matrix;
 }
 
-/// The equilibrium's product over j < n of exp(-T (c^2 sigma^j k)^2/2), n = 2^doubling, minus 1.
+/// q_n(k) - 1 of the equilibrium in closed form, q_n = product over j < n of exp(-T (c^2 sigma^j k)^2/2), n =
+/// 2^doubling.
 VectorXcd equilibrium_product(double sigma, double temperature, int doubling, const Eigen::ArrayXd& k) {
-  const double last = portable::pow(sigma * sigma, std::ldexp(1, doubling));
+  const double last = elementary::pow(sigma * sigma, std::ldexp(1, doubling));
   const double variance = temperature * c_squared(sigma) * (1 - last);
-  return (-0.5 * variance * k.square()).unaryExpr(&portable::expm1).cast<std::complex<double>>();
+  return (-0.5 * variance * k.square()).unaryExpr(&elementary::expm1).cast<std::complex<double>>();
 }
 
 }  // namespace
 
 Eigen::ArrayXd normal_density(const Eigen::ArrayXd& z, double scale) {
-  return (-0.5 * z.square()).unaryExpr(&portable::exp) / (scale * std::sqrt(2 * std::numbers::pi));
+  return (-0.5 * z.square()).unaryExpr(&elementary::exp) / (scale * std::sqrt(2 * std::numbers::pi));
 }
 
 VectorXd injected_flux(const Reservoir& bath, const VectorXd& p) {
   const double height = bath.rate * std::sqrt(2 / (std::numbers::pi * bath.temperature));
-  return height * (-p.array().square() / (2 * bath.temperature)).unaryExpr(&portable::exp);
+  return height * (-p.array().square() / (2 * bath.temperature)).unaryExpr(&elementary::exp);
 }
 
 CollisionOperator::CollisionOperator(double sigma, const Reservoir& equilibrium, const Panels& momenta,
@@ -72,14 +74,14 @@ CollisionOperator::CollisionOperator(double sigma, const Reservoir& equilibrium,
   const Eigen::ArrayXd k = wave_numbers.nodes().array();
   const double temperature = equilibrium.temperature;
   for (int n = 0; n < doublings(sigma); ++n) {
-    const double scale = portable::pow(std::abs(sigma), std::ldexp(1, n));
+    const double scale = elementary::pow(std::abs(sigma), std::ldexp(1, n));
     scalings_.push_back(scaling(wave_numbers, scale));
     equilibrium_doublings_.push_back({equilibrium_product(sigma, temperature, n, k),
                                       equilibrium_product(sigma, temperature, n, scale * k)});
   }
   equilibrium_product_ = equilibrium_product(sigma, temperature, doublings(sigma), k);
   reflected_equilibrium_ =
-      (2 * equilibrium.rate * (-0.5 * sigma * sigma * temperature * k.square()).unaryExpr(&portable::exp))
+      (2 * equilibrium.rate * (-0.5 * sigma * sigma * temperature * k.square()).unaryExpr(&elementary::exp))
           .cast<std::complex<double>>();
 }
 
@@ -105,20 +107,22 @@ Flux CollisionOperator::inverse_transform(const FourierIntegrals& integrals, con
   return flux;
 }
 
-/// J phi(-sigma k).
+/// Spectrum J phi(-sigma k) of the reflected flux [eq. 38].
 CollisionOperator::Spectrum CollisionOperator::reflected(const Flux& flux) const {
   const Spectrum spectrum = transform(reflected_, flux);
   return sigma_ > 0 ? Spectrum(spectrum.conjugate()) : spectrum;
 }
 
-/// What becomes of phi(c^2 k) - 1 when the flux changes to that of the J remembered.
+/// Exact change of phi(c^2 k) - 1, which is `before` without the change, when `change` is added to the flux
+/// and the number becomes J = number_; for a small change, the derivative.
 CollisionOperator::Spectrum CollisionOperator::first_change(const Flux& change,
                                                             const Spectrum& before) const {
   return (transform(kicked_, change) - before * number(change).asDiagonal()) *
          number_.cwiseInverse().asDiagonal();
 }
 
-/// The spectrum at sigma^(2^doubling) k; only the first of these factors can be negative.
+/// Spectrum at sigma^(2^doubling) k. A negative factor, possible for the first doubling only, gives the
+/// complex conjugate.
 CollisionOperator::Spectrum CollisionOperator::scaled(std::size_t doubling, const Spectrum& spectrum) const {
   Spectrum result(spectrum.rows(), spectrum.cols());
   const Eigen::Map<const RowMajorMatrix> from(reinterpret_cast<const double*>(spectrum.data()),
@@ -142,6 +146,7 @@ Flux CollisionOperator::gain(const Flux& deviation) {
   reflected_flux_ = reflected_deviation.colwise() + reflected_equilibrium_;
   Spectrum change =
       first_change(deviation, equilibrium_doublings_.front().here.replicate(1, deviation.cols()));
+  // q_{2n}(k) = q_n(k) q_n(sigma^n k), written for the change of q_n - 1 from its equilibrium value.
   doublings_.clear();
   for (std::size_t n = 0; n < scalings_.size(); ++n) {
     const auto& [here, there] = equilibrium_doublings_[n];
@@ -167,7 +172,8 @@ Flux CollisionOperator::derivative(const Flux& direction) const {
   return conserving(inverse_transform(inverse_, gain), direction);
 }
 
-/// Adds the first three Hermite functions, at the temperature of the flux.
+/// Adds the first three Hermite functions at the temperature of the flux, so that the number, momentum and
+/// energy of the gain equal those of the source.
 Flux CollisionOperator::conserving(const Flux& gain, const Flux& source) const {
   const Index half = momenta_.size();
   Flux result = gain;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/portable.hpp"
+#include "numerics/elementary.hpp"
 
 namespace lorentz {
 namespace {
@@ -12,14 +12,16 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// The conserved ones and three more. He_n grows as p^n, so moments of many more would be noise of the tails.
+/// Hermite modes at a site: the three conserved ones and three more. He_n grows as p^n, so the errors of the
+/// tails dominate moments of much higher order.
 constexpr Index modes_at_site = 6;  // even
 
+/// Eigenvalue epsilon_n of the linearised gain [eq. 42].
 double eigenvalue(double sigma, Index order) {
   const auto n = static_cast<int>(order);
   if (n == 0) return 1;
-  return portable::pow(-sigma, n) +
-         portable::pow((1 - sigma) * (1 + sigma), n) / (1 - portable::pow(sigma, n));
+  return elementary::pow(-sigma, n) +
+         elementary::pow((1 - sigma) * (1 + sigma), n) / (1 - elementary::pow(sigma, n));
 }
 
 double sign(Index n) { return n % 2 == 0 ? 1 : -1; }
@@ -52,7 +54,7 @@ HydrodynamicPreconditioner::HydrodynamicPreconditioner(double sigma, const Panel
     : even_(eigenvalue(sigma, modes_at_site)), odd_(eigenvalue(sigma, modes_at_site + 1)) {
   static_assert(modes_at_site % 2 == 0);
   const Index sites = temperatures.size(), size = modes_at_site * sites;
-  // (even + odd)/2 leaves p as it is, (even - odd)/2 turns it round.
+  // (even + odd)/2 couples p to itself, (even - odd)/2 couples p to -p.
   const MatrixXd identity = MatrixXd::Identity(sites, sites);
   MatrixXd shared(2 * sites, 2 * sites);
   shared << 0.5 * (even_ + odd_) * identity, 0.5 * (even_ - odd_) * identity, 0.5 * (even_ - odd_) * identity,
@@ -77,7 +79,7 @@ HydrodynamicPreconditioner::HydrodynamicPreconditioner(double sigma, const Panel
       hermite = next;
     }
   }
-  MatrixXd system = tests_.transpose() * shapes_;  // overlaps on p > 0; those on p < 0 differ by signs
+  MatrixXd system = tests_.transpose() * shapes_;  // overlaps on p > 0; those on p < 0 differ in sign only
   const auto& r = response_.matrix;
   for (Index column = 0; column < size; ++column)
     for (Index row = 0; row < size; ++row) {
@@ -111,7 +113,7 @@ Flux HydrodynamicPreconditioner::modes(const VectorXd& amplitudes) const {
   return result;
 }
 
-/// G' with the shared eigenvalues only.
+/// Product with G' if every mode had its shared eigenvalue.
 Flux HydrodynamicPreconditioner::common(const Flux& flux) const {
   const Index half = flux.rows() / 2;
   Flux result = 0.5 * (even_ + odd_) * flux;

@@ -6,24 +6,27 @@
 
 namespace lorentz {
 
-/// A matrix on the sites of both half lines, F(p > 0) first, that acts alike on every p.
+/// Matrix over the sites of both half lines, F(p > 0) first, that is the same for every |p|.
 struct Streaming {
   Eigen::MatrixXd matrix;
 
-  /// With absorption: F = L S takes what is scattered in at the sites to what arrives there,
-  /// L = (1 + gamma B)^-1 gamma B with B of either direction.
+  /// Free streaming with absorption: F = L G maps the gain at the sites to the flux that arrives there, L =
+  /// (1 + gamma B)^-1 gamma B with B = from_left or from_right.
   static Streaming absorbing(double gamma, const Eigen::MatrixXd& from_left,
                              const Eigen::MatrixXd& from_right);
 
   Flux operator()(const Flux& gain) const;
 };
 
-/// Approximate inverse of 1 - L G', right for the slow modes of a gas near equilibrium.
+/// Approximate inverse of 1 - L G', accurate for the slow modes of a gas near equilibrium: the preconditioner
+/// of Newton's linear systems.
 ///
-/// At a Maxwellian, G' is diagonal in Hermite functions, with the eigenvalues
-/// (-sigma)^n + (1-sigma^2)^n / (1-sigma^n): 1 for n = 0, 1, 2 (number, momentum and energy), below 1 beyond.
-/// Those close to 1 are what makes iterations slow when gamma is large. Here the first few have their own
-/// eigenvalues, at the temperature of each site; all other even ones share one, and all other odd ones.
+/// At a Maxwellian, G' is diagonal in Hermite functions with the eigenvalues (-sigma)^n + (1-sigma^2)^n /
+/// (1-sigma^n) for n >= 1 and 1 for n = 0 [eq. 42]: 1 for number, momentum and energy, n = 0, 1, 2, and less
+/// beyond. Eigenvalues close to 1 slow the Krylov iteration at large gamma. Here the first few modes have
+/// their own eigenvalues, at the temperature of each site; all other even modes share one eigenvalue, and all
+/// other odd modes another. The modes with their own eigenvalues are a correction of low rank, which the
+/// Woodbury formula inverts.
 class HydrodynamicPreconditioner {
  public:
   HydrodynamicPreconditioner(double sigma, const Panels& momenta, const Streaming& streaming,
@@ -38,7 +41,7 @@ class HydrodynamicPreconditioner {
 
   double even_, odd_;               // the shared eigenvalues
   Streaming response_;              // (1 - L G')^-1 L with the shared eigenvalues only
-  Eigen::MatrixXd tests_, shapes_;  // for p > 0, all modes of one site, then of the next
+  Eigen::MatrixXd tests_, shapes_;  // for p > 0; columns: [site, mode]
   Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
 };
 

@@ -3,12 +3,12 @@
 #include <array>
 
 #include "boltzmann/collision_operator.hpp"
-#include "model/portable.hpp"
 #include "model/reservoir.hpp"
+#include "numerics/elementary.hpp"
 
 namespace lorentz {
 
-/// Integrals of |p|^n F(p) dp over either half line, one for each column of the flux.
+/// Integrals of |p|^n F(p) dp over either half line, one element per column of the flux.
 class HalfMoments {
  public:
   HalfMoments(const Panels& momenta, const Flux& flux) : momenta_(momenta), flux_(flux) {}
@@ -16,15 +16,15 @@ class HalfMoments {
   Eigen::RowVectorXd right(int n) const { return weights(n) * flux_.topRows(momenta_.size()); }
   Eigen::RowVectorXd left(int n) const { return weights(n) * flux_.bottomRows(momenta_.size()); }
 
-  /// Without the modulus: int p^n F dp over the whole line.
+  /// Moments over the whole line, int p^n F dp.
   Eigen::RowVectorXd whole(int n) const { return right(n) + (n % 2 == 0 ? 1 : -1) * left(n); }
 
-  /// What crosses from left to right minus what crosses from right to left: int sign(p) |p|^n F dp.
+  /// Net transport to the right, int sign(p) |p|^n F dp.
   Eigen::RowVectorXd net(int n) const { return right(n) - left(n); }
 
  private:
   Eigen::RowVectorXd weights(int n) const {
-    const auto power = [n](double p) { return portable::pow(p, n); };
+    const auto power = [n](double p) { return elementary::pow(p, n); };
     return momenta_.weights().cwiseProduct(momenta_.nodes().unaryExpr(power)).transpose();
   }
 
@@ -32,7 +32,8 @@ class HalfMoments {
   const Flux& flux_;
 };
 
-/// What scattering conserves flows through every x alike.
+/// Currents of the conserved quantities [eq. 26], one element per column of the flux; constant in x for a
+/// stationary solution [eq. 40].
 struct Currents {
   Eigen::RowVectorXd particles;  // int sign(p) F dp
   Eigen::RowVectorXd energy;     // int sign(p) p^2/2 F dp
@@ -48,7 +49,8 @@ struct Currents {
   }
 };
 
-/// What two baths inject of each together: the scale that errors of the currents are measured by.
+/// Particles, energy and momentum that two baths together inject per unit time, the scale of errors of the
+/// currents.
 inline std::array<double, 3> injected(const Reservoir& left, const Reservoir& right) {
   return {left.rate + right.rate, left.rate * left.mean_energy() + right.rate * right.mean_energy(),
           left.rate * left.mean_momentum() + right.rate * right.mean_momentum()};

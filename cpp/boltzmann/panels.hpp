@@ -5,16 +5,16 @@
 
 namespace lorentz {
 
-/// Matrices that take the values of a function at the nodes to its Fourier integrals, one row for each k.
+/// Matrices from the values of a function at the nodes to its Fourier integrals; one row per k.
 struct FourierIntegrals {
   Eigen::MatrixXd cosine;            // int f(p) cos(k p) dp
   Eigen::MatrixXd cosine_minus_one;  // int f(p) (cos(k p) - 1) dp, to full relative precision
-  Eigen::MatrixXd sine;
+  Eigen::MatrixXd sine;              // int f(p) sin(k p) dp
 };
 
-/// Piecewise polynomials on adjacent panels, given by their values at the Gauss-Legendre nodes of every
-/// panel. Everything linear that is done to them is a matrix, exact for such functions: rows are points,
-/// columns nodes.
+/// Piecewise polynomials on adjacent panels, represented by their values at the Gauss-Legendre nodes of every
+/// panel. Linear operations on them are matrices, exact for such functions, with one row per point and one
+/// column per node.
 class Panels {
  public:
   /// Breaks ascend; `order` nodes on every panel.
@@ -27,19 +27,20 @@ class Panels {
   double begin() const { return breaks_.front(); }
   double end() const { return breaks_.back(); }
 
-  /// The panel that a point belongs to; the last one beyond the end.
+  /// Panel of a point; the last one for points beyond the end.
   std::size_t panel(double point) const;
 
-  /// Values at the nodes of the point's panel times these weights add up to the value at the point.
+  /// Weights of Lagrange interpolation: the sum of the values at the panel's nodes times these is the value
+  /// at the point.
   Eigen::VectorXd lagrange(std::size_t panel, double point) const;
 
-  /// Values at points; 0 beyond the end.
+  /// Matrix to the values at points; 0 beyond the end.
   Eigen::MatrixXd interpolation(const Eigen::VectorXd& points) const;
 
-  /// Integrals from the beginning to the points.
+  /// Matrix to the integrals from the beginning to the points.
   Eigen::MatrixXd integration(const Eigen::VectorXd& points) const;
 
-  /// Filon's rule: the integrals over all panels, however large k is.
+  /// Integrals over all panels by Filon's rule, whose accuracy does not depend on k.
   FourierIntegrals fourier(const Eigen::VectorXd& k) const;
 
  private:
@@ -51,11 +52,11 @@ class Panels {
   std::vector<double> breaks_;
   int order_;
   Eigen::VectorXd nodes_, weights_;
-  Eigen::MatrixXd legendre_;  // values at the nodes to Legendre coefficients, on one panel
+  Eigen::MatrixXd legendre_;  // from values at the nodes to Legendre coefficients, on one panel
 };
 
-/// 0, smallest, then growing by `ratio` until `largest` is reached: resolves what happens near 0 on every
-/// scale.
+/// Breaks 0 and `largest` ratio^-n, n = ..., 1, 0, the first of them at most `smallest`: a grid that resolves
+/// structure near 0 on every scale.
 std::vector<double> graded_breaks(double smallest, double largest, double ratio);
 
 }  // namespace lorentz

@@ -5,9 +5,9 @@
 #include <limits>
 #include <numbers>
 
-#include "boltzmann/gmres.hpp"
 #include "boltzmann/hydrodynamic_preconditioner.hpp"
-#include "model/portable.hpp"
+#include "numerics/elementary.hpp"
+#include "numerics/gmres.hpp"
 
 namespace lorentz {
 namespace {
@@ -16,14 +16,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double reach = 11;          // of the momenta, in thermal momenta: exp(-60) is left beyond
-constexpr double finest = 0.25;       // smallest panel of momenta, in units of the smoothing of F near 0
-constexpr double slowest = 1;         // smallest panel of wave numbers, in units of 1 / thermal momentum
-constexpr double undetected = 1e-16;  // g^ is cut off where it has fallen to this part of its maximum
-constexpr double exchange = 1e-8;     // |sigma| below which momenta are exchanged: G - F is of order sigma^2
+constexpr double reach = 11;     // largest momentum in thermal momenta; F falls to exp(-60) of its maximum
+constexpr double finest = 0.25;  // smallest panel of momenta in units of smoothing()
+constexpr double slowest = 1;    // smallest panel of wave numbers in units of 1 / thermal momentum
+constexpr double undetected = 1e-16;  // part of its maximum at which g^ is truncated
+constexpr double exchange = 1e-8;     // |sigma| below which sigma = 0 is solved: G - F is of order sigma^2
 
 struct Widths {
-  double narrow, wide;  // thermal momenta
+  double narrow, wide;  // thermal momenta of the colder and the hotter bath
 };
 
 Widths thermal_momenta(const KineticProblem& problem) {
@@ -33,7 +33,7 @@ Widths thermal_momenta(const KineticProblem& problem) {
   return {std::min(left, right), std::max(left, right)};
 }
 
-/// G is F smoothed near p = 0 over this part of the thermal momentum.
+/// Width in thermal momenta over which G is smooth near p = 0, where F is discontinuous.
 double smoothing(double sigma) { return std::min(std::abs(sigma), std::sqrt((1 - sigma) * (1 + sigma))); }
 
 KineticProblem with_exchange(KineticProblem problem) {
@@ -47,7 +47,7 @@ Panels momentum_panels(const KineticProblem& problem, int order) {
   return {graded_breaks(finest * layer * width.narrow, reach * width.wide, 2), order};
 }
 
-/// Bound of |q(k)| for a flux that jumps at 0: |phi(k)| < 1/(k width).
+/// Bound of |q(k)| for a flux that is discontinuous at 0, from |phi(k)| < 1/(k width).
 double decay(double sigma, double k) {
   double product = 1;
   for (double scale = (1 - sigma) * (1 + sigma); scale * k > 1 && product > undetected;
@@ -67,7 +67,8 @@ Sites make_sites(const KineticProblem& problem, const Resolution& resolution) {
   return problem.cells > 0 ? Sites::chain(problem.cells) : Sites::continuum(resolution.sites);
 }
 
-/// Between the baths; theirs, to the last digit, if they are equal.
+/// Bath with the mean rate and the rate-weighted mean temperature; equal to both baths to the last digit if
+/// they are equal.
 Reservoir mean(const Reservoir& left, const Reservoir& right) {
   const double weight = right.rate / (left.rate + right.rate);
   return {0.5 * (left.rate + right.rate), left.temperature + weight * (right.temperature - left.temperature)};
@@ -76,8 +77,8 @@ Reservoir mean(const Reservoir& left, const Reservoir& right) {
 }  // namespace
 
 Resolution Resolution::level(int level, double gamma) {
-  const double factor = portable::pow(std::numbers::sqrt2, level);
-  const double layers = std::sqrt(gamma);  // Gauss nodes resolve layers of width 1/gamma at the ends
+  const double factor = elementary::pow(std::numbers::sqrt2, level);
+  const double layers = std::sqrt(gamma);  // sqrt(gamma) Gauss nodes resolve boundary layers of width 1/gamma
   return {static_cast<int>(std::lround(14 * factor)), static_cast<int>(std::ceil((5 + 3 * layers) * factor))};
 }
 
@@ -93,7 +94,7 @@ KineticSolution::KineticSolution(const KineticProblem& problem, const Resolution
   iterate(guess != nullptr ? resampled(*guess) : first_guess(), heartbeat);
 }
 
-/// What the baths become if scattering only turned particles round, each with probability 1/2.
+/// Solution for scattering that reverses every momentum, G(p) = F(-p).
 Flux KineticSolution::first_guess() const {
   const Eigen::RowVectorXd x = problem_.gamma * sites_.positions().transpose();
   const Eigen::RowVectorXd near = ((1 + problem_.gamma) - x.array()) / (1 + problem_.gamma);
@@ -140,8 +141,8 @@ Flux KineticSolution::scatterer_density(const VectorXd& x, const VectorXd& point
 
 void KineticSolution::iterate(Flux flux, const Heartbeat& heartbeat) {
   constexpr int newton_limit = 100, krylov_limit = 200;
-  constexpr double rounding = 3e-14;    // of the residual, relative
-  constexpr double acceptable = 1e-10;  // where the residual may cease to fall
+  constexpr double rounding = 3e-14;    // relative residual that rounding permits
+  constexpr double acceptable = 1e-10;  // relative residual that suffices if it falls no further
   const Transport transport = sites_.transport_to(sites_.positions());
   const Streaming streaming = Streaming::absorbing(problem_.gamma, transport.from_left, transport.from_right);
   const auto as_flux = [&](const VectorXd& vector) -> Flux {
@@ -166,7 +167,7 @@ void KineticSolution::iterate(Flux flux, const Heartbeat& heartbeat) {
     const double now = size(residual);
     const bool stagnates = smallest < acceptable && now > 0.5 * smallest;
     if (now < rounding || (stagnates && now < acceptable)) return;
-    if (!(now < smallest)) {  // too far, or no number at all
+    if (!(now < smallest)) {  // the step was too long, or gave NaN
       change *= 0.5;
       flux -= change;
       continue;
@@ -177,15 +178,15 @@ void KineticSolution::iterate(Flux flux, const Heartbeat& heartbeat) {
     const LinearMap precondition = [&](const VectorXd& vector) -> VectorXd {
       return preconditioner(as_flux(vector)).reshaped();
     };
-    // Newton's steps still converge quadratically, and no step is more exact than rounding.
+    // A tolerance proportional to the residual keeps Newton's convergence quadratic; its lower bound is the
+    // accuracy that rounding permits.
     const double tolerance = std::min(0.01, std::max(now, 0.1 * rounding / now));
     change = as_flux(gmres(linearised, precondition, residual.reshaped(), tolerance, krylov_limit).solution);
     flux += change;
   }
   throw ConvergenceError(
       "Newton's iteration for the Boltzmann equation did not converge. Choose baths that differ less, a "
-      "smaller "
-      "gamma, or sigma farther from -1, 0 and 1.");
+      "smaller gamma, or sigma farther from -1, 0 and 1.");
 }
 
 }  // namespace lorentz

@@ -9,12 +9,12 @@
 
 namespace lorentz {
 
-/// Stationary flux F(p, x) on [0, 1] between two baths (m = k_B = 1),
+/// Stationary Boltzmann equation [eq. 36] for the flux F(p, x) on [0, 1] between two baths (m = k_B = 1),
 ///
 ///   sign(p) dF/dx = gamma (G - F),   F(p > 0, x = 0) and F(p < 0, x = 1) given,
 ///
-/// or, with `cells` > 0, of the mean-field chain: scatterers that each scatter a particle with probability
-/// gamma/cells, F and g independent at each.
+/// or, with `cells` > 0, the mean-field chain [eq. 41]: scatterers that each scatter a particle with
+/// probability gamma/cells, with F and g independent at each.
 struct KineticProblem {
   double sigma = 0.5;
   double gamma = 1;
@@ -23,9 +23,9 @@ struct KineticProblem {
   int cells = 0;
 };
 
-/// How finely a problem is resolved; level 0 is the coarsest of use. One level up, every panel of p and k and
-/// the line have about sqrt(2) times as many nodes, so the number of unknowns doubles. Errors fall
-/// exponentially.
+/// Numerical resolution. One level up multiplies the number of nodes on every panel of p and k, and of nodes
+/// in x, by about sqrt(2), so that the number of unknowns doubles. Errors fall exponentially with the number
+/// of nodes. Level 0 is the coarsest in normal use.
 struct Resolution {
   int order;  // nodes on every panel of p and k
   int sites;  // nodes in x; a chain has its scatterers instead
@@ -33,26 +33,27 @@ struct Resolution {
   static Resolution level(int level, double gamma);
 };
 
-/// No solution within the fixed limits of the iteration.
+/// Newton's iteration did not converge within its limits.
 struct ConvergenceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Called at every evaluation of the collision operator; may throw, to stop.
+/// Called at every evaluation of the collision operator; stops the computation by throwing.
 using Heartbeat = std::function<void()>;
 
+/// Solution of a KineticProblem by Newton's method, with GMRES for the linear systems.
 class KineticSolution {
  public:
-  /// Newton's method with GMRES. Throws ConvergenceError. The guess, if any, is what another resolution
-  /// found.
+  /// `guess`: a solution at another resolution, from which the iteration starts. Throws ConvergenceError.
   KineticSolution(
       const KineticProblem& problem, const Resolution& resolution, const KineticSolution* guess = nullptr,
       const Heartbeat& heartbeat = [] {});
 
-  /// F at any x in [0, 1], one column each. At a scatterer of a chain: of the particles that arrive there.
+  /// F at positions x in [0, 1], one column each. At a scatterer of a chain, the flux of the arriving
+  /// particles.
   Flux flux(const Eigen::VectorXd& x) const;
 
-  /// g at any x: values of the density of U at points, then at minus the points.
+  /// g at positions x, one column each: density of U at points, then at minus the points.
   Flux scatterer_density(const Eigen::VectorXd& x, const Eigen::VectorXd& points) const;
 
   const Panels& momenta() const { return momenta_; }  // of the flux, on either half line
@@ -67,11 +68,11 @@ class KineticSolution {
   void iterate(Flux deviation, const Heartbeat& heartbeat);
 
   KineticProblem problem_;
-  Reservoir equilibrium_;  // what F is given as a deviation from
+  Reservoir equilibrium_;  // E; fluxes are stored as F - E
   Panels momenta_;
   Sites sites_;
   CollisionOperator collision_;
-  Eigen::VectorXd left_, right_;  // what the baths inject, less the equilibrium, at the nodes
+  Eigen::VectorXd left_, right_;  // injected fluxes minus E, at the nodes
   Flux source_;                   // gamma (G - F) at the sites
   int evaluations_ = 0;
 };

@@ -26,8 +26,8 @@ ClosedDynamics::ClosedDynamics(const ClosedChain& chain, const PhasePoint& start
     : chain_(checked(chain, start)),
       scatter_(chain),
       scatterers_(scatter_.rule().scaled(start.scatterers)),
-      launch_(chain, key),
-      queue_(first_flights(chain, start, launch_), expected_rate(chain, start), end_time) {}
+      free_flight_(chain, key),
+      queue_(first_flights(chain, start, free_flight_), expected_rate(chain, start), end_time) {}
 
 std::vector<double> ClosedDynamics::positions_from_targets(double time) const {
   std::vector<double> positions;

@@ -4,8 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/event_loop.hpp"
 #include "engine/event_queue.hpp"
-#include "engine/launch.hpp"
+#include "engine/free_flight.hpp"
 #include "engine/observation.hpp"
 #include "engine/scattering.hpp"
 #include "model/closed_chain.hpp"
@@ -13,15 +14,14 @@
 
 namespace lorentz {
 
-/// A closed chain in motion.
+/// The dynamics of a closed chain.
 class ClosedDynamics {
  public:
-  /// Arrivals at or after end_time (> 0) are frozen; simulate() can go no further. key: of the draws
+  /// Arrivals at or after end_time (> 0) are frozen; simulate() goes no further. key: of the random numbers
   /// that gamma < N and a random direction need.
   ClosedDynamics(const ClosedChain& chain, const PhasePoint& start, double end_time, const StreamKey& key);
 
-  /// The clock shows 0 at what was `time`, where simulate() stopped. A clock resolves 2^-53 of what it shows,
-  /// so that it must not show much more than a flight takes.
+  /// Counts time from `time` on, where simulate() stopped: a clock resolves 2^-53 of what it shows.
   void restart_clock(double time) { queue_.shift(time); }
 
   Invariants invariants() const;
@@ -42,13 +42,13 @@ class ClosedDynamics {
  private:
   template <class Observer, std::invocable<double> Heartbeat>
   friend void simulate(ClosedDynamics&, double, Observer&, Heartbeat&&);
-  template <bool launching, class Observer, std::invocable<double> Heartbeat>
+  template <bool stochastic, class Observer, std::invocable<double> Heartbeat>
   void advance(double until, Observer& observer, Heartbeat&& heartbeat);
 
   ClosedChain chain_;
   Scattering scatter_;
   std::vector<double> scatterers_;  // w, see CollisionRule
-  Launch launch_;
+  FreeFlight free_flight_;
   EventQueue queue_;
   std::uint64_t events_ = 0;
 };
@@ -61,33 +61,28 @@ class ClosedDynamics {
 /// A particle with u = 0, or so slow that the flight's duration overflows, never arrives: it is frozen.
 template <class Observer, std::invocable<double> Heartbeat>
 void simulate(ClosedDynamics& chain, double until, Observer& observer, Heartbeat&& heartbeat) {
-  if (chain.launch_.deterministic())
+  if (chain.free_flight_.deterministic())
     chain.advance<false>(until, observer, heartbeat);
   else
     chain.advance<true>(until, observer, heartbeat);
 }
 
-/// launching: whether Launch has a say, see Scattering.
-template <bool launching, class Observer, std::invocable<double> Heartbeat>
+/// stochastic: see Scattering.
+template <bool stochastic, class Observer, std::invocable<double> Heartbeat>
 void ClosedDynamics::advance(double until, Observer& observer, Heartbeat&& heartbeat) {
-  constexpr std::uint64_t events_per_heartbeat = 65536;
   const Scattering scatter = scatter_;
   const double scale = scatter.rule().scatterer_scale();
-
-  for (Flight flight; queue_.take_before(until, flight);) {
+  const auto arrive = [&](Flight flight) __attribute__((always_inline)) {
     const std::uint32_t cell = flight.target;
-    const double particle = flight.velocity;
-    const double scatterer = scatterers_[cell];
-    const Departure departure = scatter.template operator()<launching>(flight, scatterers_[cell], launch_);
-    if constexpr (requires(const Collision& collision) { observer.on_collision(collision); }) {
-      observer.on_collision(Collision{departure.time, flight.particle, cell, particle, departure.velocity,
-                                      scale * scatterer, scale * scatterers_[cell]});
-    }
-    if constexpr (requires(const Departure& seen) { observer.on_flight(seen); })
-      observer.on_flight(departure);
+    const double particle = flight.velocity, scatterer = scatterers_[cell];
+    const Departure departure =
+        scatter.template operator()<stochastic>(flight, scatterers_[cell], free_flight_);
+    notify(observer, Collision{departure.time, flight.particle, cell, particle, departure.velocity,
+                               scale * scatterer, scale * scatterers_[cell]});
+    if constexpr (requires { observer.on_flight(departure); }) observer.on_flight(departure);
     queue_.schedule(flight);
-    if (++events_ % events_per_heartbeat == 0) heartbeat(departure.time);
-  }
+  };
+  process_arrivals(queue_, until, events_, arrive, heartbeat);
 }
 
 }  // namespace lorentz

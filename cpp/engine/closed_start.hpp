@@ -1,8 +1,8 @@
 #pragma once
 
-#include "engine/random.hpp"
 #include "model/closed_chain.hpp"
 #include "model/phase_point.hpp"
+#include "numerics/random.hpp"
 
 namespace lorentz {
 
@@ -11,9 +11,11 @@ struct StartTemperatures {
   double scatterers = 0;   // variance of U; 0: at rest, as in the paper
 };
 
-/// The start of a closed chain: in every cell particles_per_cell particles uniform in position,
-/// all momenta Gaussian. With zero_total_momentum one shift of all particle momenta makes
-/// sum p + sum P = 0.
+/// Sampler of the start of a closed chain.
+/// pdf: in every cell particles_per_cell particles, uniform in position; all u and U Gaussian.
+/// Method: Box-Muller; with zero_total_momentum one shift of all u makes sum p + sum P = 0 [eq. 4].
+/// Validity: temperatures >= 0.
+/// Reference: Box and Muller, Ann. Math. Statist. 29, 610 (1958), doi:10.1214/aoms/1177706645.
 PhasePoint closed_chain_start(const ClosedChain& chain, const StartTemperatures& temperatures,
                               bool zero_total_momentum, const StreamKey& key);
 

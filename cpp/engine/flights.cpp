@@ -23,20 +23,21 @@ Flight flight_over(const ClosedChain& chain, const Particle& particle, std::int6
 }  // namespace
 
 Flight first_flight(const ClosedChain& chain, const Particle& particle, std::uint32_t number,
-                    const Launch& launch) {
+                    const FreeFlight& free_flight) {
   double velocity = particle.velocity;
   std::uint64_t draws = particle.draws;
-  const std::int64_t cells = launch.deterministic() ? 1 : launch(number, draws, velocity);
+  const std::int64_t cells = free_flight.deterministic() ? 1 : free_flight(number, draws, velocity);
   Flight flight = flight_over(chain, {particle.position, velocity}, cells, number);
   flight.draws = draws;
   return flight;
 }
 
-std::vector<Flight> first_flights(const ClosedChain& chain, const PhasePoint& start, const Launch& launch) {
+std::vector<Flight> first_flights(const ClosedChain& chain, const PhasePoint& start,
+                                  const FreeFlight& free_flight) {
   std::vector<Flight> flights;
   flights.reserve(start.particles.size());
   for (const Particle& particle : start.particles)
-    flights.push_back(first_flight(chain, particle, static_cast<std::uint32_t>(flights.size()), launch));
+    flights.push_back(first_flight(chain, particle, static_cast<std::uint32_t>(flights.size()), free_flight));
   return flights;
 }
 

@@ -3,19 +3,20 @@
 #include <vector>
 
 #include "engine/flight.hpp"
-#include "engine/launch.hpp"
+#include "engine/free_flight.hpp"
 #include "model/closed_chain.hpp"
 #include "model/phase_point.hpp"
 
 namespace lorentz {
 
-/// The flight of a particle, whose number is given, to the first scatterer ahead of it, and on to where it
-/// scatters. Scatterers stand at (i + 1/2) times the cell length.
+/// The flight of a particle to the scatterer where it scatters first. Scatterers are at (i + 1/2) times the
+/// cell length.
 Flight first_flight(const ClosedChain& chain, const Particle& particle, std::uint32_t number,
-                    const Launch& launch);
+                    const FreeFlight& free_flight);
 
 /// The same of every particle.
-std::vector<Flight> first_flights(const ClosedChain& chain, const PhasePoint& start, const Launch& launch);
+std::vector<Flight> first_flights(const ClosedChain& chain, const PhasePoint& start,
+                                  const FreeFlight& free_flight);
 
 /// Collisions per unit time once the energy is shared equally: the mean |u| of all particles, over the mean
 /// length of a flight.

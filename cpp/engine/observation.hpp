@@ -14,7 +14,13 @@ struct Collision {
   double scatterer_before, scatterer_after;  // U
 };
 
-/// For stretches of time that nobody watches, such as a relaxation.
+/// For stretches of time that are not observed, such as a relaxation.
 struct NoObserver {};
+
+/// An event that the observer has no hook for costs nothing.
+template <class Observer>
+[[gnu::always_inline]] inline void notify(Observer& observer, const Collision& collision) {
+  if constexpr (requires { observer.on_collision(collision); }) observer.on_collision(collision);
+}
 
 }  // namespace lorentz

@@ -1,9 +1,6 @@
 #include "engine/open_dynamics.hpp"
 
-#include <algorithm>
 #include <stdexcept>
-
-#include "model/portable.hpp"
 
 namespace lorentz {
 namespace {
@@ -21,7 +18,7 @@ OpenDynamics::OpenDynamics(const OpenChain& chain, const PhasePoint& start, doub
                            const StreamKey& key)
     : chain_(chain),
       collide_(chain.sigma),
-      log_pass_probability_(portable::log1p(-std::min(1.0, chain.gamma / chain.cells))),
+      cells_to_scattering_(chain.gamma / chain.cells),
       half_cell_(chain.cell_length / 2),
       passes_(key, Purpose::passes, 0),
       injectors_{Injector(chain.left, key, Purpose::injection_left),

@@ -7,26 +7,26 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/closed_dynamics.hpp"
+#include "engine/event_loop.hpp"
 #include "engine/event_queue.hpp"
+#include "engine/free_flight.hpp"
+#include "engine/id_pool.hpp"
 #include "engine/injector.hpp"
-#include "engine/launch.hpp"
-#include "engine/numbers.hpp"
 #include "engine/observation.hpp"
 #include "engine/path.hpp"
-#include "engine/random.hpp"
 #include "model/collision.hpp"
 #include "model/open_chain.hpp"
 #include "model/phase_point.hpp"
+#include "numerics/random.hpp"
 
 namespace lorentz {
 
 enum class End : std::uint8_t { left, right };
 
-/// An open chain in motion. Its particles' momenta are energy-normalised, and m = 1, so u = p.
+/// The dynamics of an open chain. m = 1, so the energy-normalised u is the momentum p.
 class OpenDynamics {
  public:
-  /// Arrivals at or after end_time (> 0) are frozen; simulate() can go no further. Throws
+  /// Arrivals at or after end_time (> 0) are frozen; simulate() goes no further. Throws
   /// std::invalid_argument if the start does not have one scatterer per cell.
   OpenDynamics(const OpenChain& chain, const PhasePoint& start, double end_time, const StreamKey& key);
 
@@ -35,41 +35,34 @@ class OpenDynamics {
   /// U of every scatterer.
   std::vector<double> scatterers() const;
 
-  /// Energy of the scatterers and of the particles that have another collision before them; those on their
-  /// way out are gone.
+  /// Energy of the scatterers and of the particles that scatter again; those on their last flight are not
+  /// counted.
   double energy() const;
 
  private:
   template <class Observer, std::invocable<double> Heartbeat>
   friend void simulate(OpenDynamics&, double, Observer&, Heartbeat&&);
-  template <bool passing, class Observer, std::invocable<double> Heartbeat>
+  template <bool stochastic, class Observer, std::invocable<double> Heartbeat>
   void advance(double until, Observer& observer, Heartbeat&& heartbeat);
-  template <bool passing, class Observer>
-  void enter(End end, Observer& observer);
+  template <bool stochastic, class Observer>
+  void inject(End end, Observer& observer);
   /// Inlined and by value, so that the flight stays in registers: by reference an event takes 1.4 times as
-  /// long.
-  template <bool passing, class Observer>
+  /// long (docs/numerics.md).
+  template <bool stochastic, class Observer>
   [[gnu::always_inline]] void fly(Flight flight, double from, std::int64_t first, std::int64_t next_cell,
                                   Observer& observer);
-  template <bool passing, class Observer>
+  template <bool stochastic, class Observer>
   void announce_start(Observer& observer);
-
-  /// Marks from the first one on to the next scattering, or beyond the chain.
-  template <bool passing>
-  std::int64_t cells_passed() {
-    if constexpr (passing) return cells_to_scattering(passes_.uniform(), log_pass_probability_) - 1;
-    return 0;
-  }
 
   OpenChain chain_;
   CollisionRule collide_;
-  double log_pass_probability_;
+  GeometricCells cells_to_scattering_;
   double half_cell_;
   RandomStream passes_;
   std::array<Injector, 2> injectors_;  // by End
   std::vector<double> scatterers_;     // w, see CollisionRule
   std::vector<Particle> newcomers_;    // of the start, until the first call of simulate()
-  Numbers numbers_;
+  IdPool ids_;
   EventQueue queue_;
   std::uint64_t events_ = 0;
 };
@@ -90,55 +83,49 @@ void simulate(OpenDynamics& chain, double until, Observer& observer, Heartbeat&&
     chain.advance<true>(until, observer, heartbeat);
 }
 
-template <bool passing, class Observer, std::invocable<double> Heartbeat>
+/// stochastic: whether a particle may pass a scatterer.
+template <bool stochastic, class Observer, std::invocable<double> Heartbeat>
 void OpenDynamics::advance(double until, Observer& observer, Heartbeat&& heartbeat) {
-  constexpr std::uint64_t events_per_heartbeat = 65536;
   const double scale = collide_.scatterer_scale();
-  const auto count = [&](double now) {
-    if (++events_ % events_per_heartbeat == 0) heartbeat(now);
+  const auto arrive = [&](Flight flight) __attribute__((always_inline)) {
+    const std::uint32_t cell = flight.target;
+    const double time = flight.time, particle = flight.velocity, scatterer = scatterers_[cell];
+    collide_(flight.velocity, scatterers_[cell]);
+    notify(observer, Collision{time, flight.particle, cell, particle, flight.velocity, scale * scatterer,
+                               scale * scatterers_[cell]});
+    const std::int64_t step = direction(flight.velocity), place = 2 * std::int64_t{cell} + 1;
+    fly<stochastic>(flight, static_cast<double>(place), place + step, cell + step, observer);
   };
-  announce_start<passing>(observer);
+  announce_start<stochastic>(observer);
   for (;;) {
     const End next = injectors_[0].time() <= injectors_[1].time() ? End::left : End::right;
-    const double entry = injectors_[static_cast<std::size_t>(next)].time();
-    for (Flight flight; queue_.take_before(std::min(until, entry), flight);) {
-      const std::uint32_t cell = flight.target;
-      const double now = flight.time, particle = flight.velocity, scatterer = scatterers_[cell];
-      collide_(flight.velocity, scatterers_[cell]);
-      if constexpr (requires(const Collision& collision) { observer.on_collision(collision); }) {
-        observer.on_collision(Collision{now, flight.particle, cell, particle, flight.velocity,
-                                        scale * scatterer, scale * scatterers_[cell]});
-      }
-      const std::int64_t step = direction(flight.velocity);
-      const std::int64_t place = 2 * std::int64_t{cell} + 1;
-      fly<passing>(flight, static_cast<double>(place), place + step, cell + step, observer);
-      count(now);
-    }
-    if (!(entry < until)) return;
-    enter<passing>(next, observer);
-    count(entry);
+    const double injection = injectors_[static_cast<std::size_t>(next)].time();
+    process_arrivals(queue_, std::min(until, injection), events_, arrive, heartbeat);
+    if (!(injection < until)) return;
+    inject<stochastic>(next, observer);
+    count_event(events_, injection, heartbeat);
   }
 }
 
-template <bool passing, class Observer>
-void OpenDynamics::enter(End end, Observer& observer) {
+template <bool stochastic, class Observer>
+void OpenDynamics::inject(End end, Observer& observer) {
   Injector& injector = injectors_[static_cast<std::size_t>(end)];
   const double time = injector.time(), speed = injector.take();
   const double u = end == End::left ? speed : -speed;
   if constexpr (requires { observer.on_injection(end, time, u); }) observer.on_injection(end, time, u);
   const std::int64_t opening = end == End::left ? 0 : chain_.right_opening();
   const std::int64_t cell = end == End::left ? 0 : std::int64_t{chain_.cells} - 1;
-  fly<passing>({time, u, 0, numbers_.take()}, static_cast<double>(opening), opening, cell, observer);
+  fly<stochastic>({time, u, 0, ids_.take()}, static_cast<double>(opening), opening, cell, observer);
 }
 
-/// The flight that begins at the given one's time, from a place on, of a particle whose next scatterer is
-/// that of next_cell.
-template <bool passing, class Observer>
+/// Begins a flight at flight.time and at the place `from`, with the mark `first` ahead and the scatterer of
+/// next_cell as the next one.
+template <bool stochastic, class Observer>
 inline void OpenDynamics::fly(Flight flight, double from, std::int64_t first, std::int64_t next_cell,
                               Observer& observer) {
   const double u = flight.velocity, departure = flight.time;
-  const std::int64_t passed = cells_passed<passing>();
-  const std::int64_t target = next_cell + direction(u) * passed;
+  const std::int64_t cells = stochastic ? cells_to_scattering_(passes_.uniform()) : 1;
+  const std::int64_t target = next_cell + direction(u) * (cells - 1);
   const bool leaves = static_cast<std::uint64_t>(target) >= chain_.cells;  // negative ones too
   const std::int64_t last = std::clamp<std::int64_t>(2 * target + 1, 0, chain_.right_opening());
   const double time_per_place = half_cell_ / std::abs(u);
@@ -148,7 +135,7 @@ inline void OpenDynamics::fly(Flight flight, double from, std::int64_t first, st
   if (leaves) [[unlikely]] {
     if constexpr (requires { observer.on_exit(End::left, arrival, u); })
       observer.on_exit(last > 0 ? End::right : End::left, arrival, u);
-    numbers_.give_back(flight.particle);
+    ids_.give_back(flight.particle);
     return;
   }
   flight.target = static_cast<std::uint32_t>(target);
@@ -156,7 +143,7 @@ inline void OpenDynamics::fly(Flight flight, double from, std::int64_t first, st
   queue_.schedule(flight);
 }
 
-template <bool passing, class Observer>
+template <bool stochastic, class Observer>
 void OpenDynamics::announce_start(Observer& observer) {
   for (const Particle& particle : newcomers_) {
     const double from = particle.position / half_cell_;
@@ -164,7 +151,7 @@ void OpenDynamics::announce_start(Observer& observer) {
     const auto first = static_cast<std::int64_t>(rightwards ? std::floor(from) + 1 : std::ceil(from) - 1);
     // Scatterers stand at odd places.
     const std::int64_t cell = rightwards ? first / 2 : (first + 1) / 2 - 1;
-    fly<passing>({0, particle.velocity, 0, numbers_.take()}, from, first, cell, observer);
+    fly<stochastic>({0, particle.velocity, 0, ids_.take()}, from, first, cell, observer);
   }
   newcomers_.clear();
 }

@@ -5,14 +5,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/random.hpp"
-#include "model/portable.hpp"
+#include "numerics/elementary.hpp"
+#include "numerics/random.hpp"
 
 namespace lorentz {
 namespace {
 
-/// A half-Gaussian stream of particles through a piece of the chain. Those slower than one flight per age
-/// have been let in only for the age.
+/// Sampler of the speeds of half-Gaussian particles that have entered for a time, the age [eq. 24].
+/// pdf: exp(-v^2/2) / max(v, slow_) up to a factor, v > 0 in units of sqrt(T): a particle slower than one
+/// flight per age has accumulated for the age only.
+/// Method: composition of v < slow_ and v > slow_. Below, rejection: of a uniform v by exp(-v^2/2), or of a
+/// half-Gaussian v beyond slow_ where slow_ > 1. Above, rejection of a log-uniform v by exp(-v^2/2).
+/// Validity: age, T > 0; speeds beyond 9 sqrt(T), of probability below 1e-18, are left out.
+/// Reference: Devroye, Non-Uniform Random Variate Generation (Springer 1986), sections II.3 and II.4.
 class Stream {
  public:
   /// flight: mean length of a flight.
@@ -26,9 +31,10 @@ class Stream {
     const bool slow = stream.uniform() * (slow_part() + fast_part()) < slow_part();
     for (;;) {
       const double v =
-          slow ? slow_candidate(stream) : slow_ * portable::pow(fastest / slow_, stream.uniform());
+          slow ? slow_candidate(stream) : slow_ * elementary::pow(fastest / slow_, stream.uniform());
       const bool gaussian_already = slow && slow_ > 1;
-      if (gaussian_already ? v < slow_ : stream.uniform() < portable::exp(-0.5 * v * v)) return thermal_ * v;
+      if (gaussian_already ? v < slow_ : stream.uniform() < elementary::exp(-0.5 * v * v))
+        return thermal_ * v;
     }
   }
 
@@ -40,7 +46,7 @@ class Stream {
   }
 
   /// Integrals of sqrt(2/pi) exp(-v^2/2) over max(v, slow_), below slow_ and above.
-  double slow_part() const { return portable::erf(slow_ / std::numbers::sqrt2) / slow_; }
+  double slow_part() const { return elementary::erf(slow_ / std::numbers::sqrt2) / slow_; }
   double fast_part() const {
     return slow_ < fastest ? gsl_sf_expint_E1(0.5 * slow_ * slow_) / std::sqrt(2 * std::numbers::pi) : 0;
   }

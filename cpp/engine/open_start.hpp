@@ -9,14 +9,14 @@ namespace lorentz {
 /// No particles, scatterers at rest: the start of the paper.
 PhasePoint empty_start(const OpenChain& chain);
 
-/// Near the stationary state: in every cell as many particles, and as hot, as a stream like that of a
-/// reservoir would hold there, its rate nu and its nu T on straight lines between `left` and `right`;
-/// scatterers Gaussian at the same temperature.
-///
-/// The density of such a stream, F(p)/|p|, cannot be normalised: slow particles have gathered since the
-/// beginning. The chain is given the age `age`, so particles that would not have finished a flight within it
-/// are as many as entered. With the chain's own reservoirs the start is a guess that is close for gamma = N;
-/// the relaxation has to make it forgotten.
+/// Sampler of a start near the stationary state.
+/// pdf: in every cell a Poisson number of particles, uniform in position, with the density
+/// F(p) min(1/|p|, age/flight) [eq. 24] of a half-Gaussian stream in each direction; the rate nu and the
+/// power nu T of the stream are linear between `left` and `right`. Scatterers are Gaussian at temperature T.
+/// Method: the speeds by composition and rejection, the Poisson number by exponential intervals.
+/// Validity: close to the stationary state for gamma = N and the chain's own reservoirs, else a guess; the
+/// relaxation removes the difference. F(p)/|p| cannot be normalised, hence the finite age.
+/// Reference: docs/model.md, "Filling of the open chain".
 PhasePoint local_equilibrium_start(const OpenChain& chain, const Reservoir& left, const Reservoir& right,
                                    double age, const StreamKey& key);
 

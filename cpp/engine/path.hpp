@@ -8,13 +8,13 @@
 
 namespace lorentz {
 
-/// A stretch of time.
+/// A time interval [begin, end).
 struct Window {
   double begin, end;
 };
 
-/// A straight flight in an open chain, known when it begins. Places are those of OpenChain, in half cells; a
-/// mark is a bond or a scatterer, that is, a whole number.
+/// A straight flight in an open chain, known when it begins. Places are those of OpenChain, in half cells;
+/// a mark is a bond or a scatterer, at a whole number.
 struct Path {
   double departure, arrival;  // times
   double velocity;            // u
@@ -28,7 +28,7 @@ struct Path {
     return departure + std::abs(static_cast<double>(mark) - from) * time_per_place;
   }
 
-  /// How many marks are reached before a time.
+  /// Number of marks reached before a time.
   std::int64_t marks_before(double time) const {
     const std::int64_t all = std::abs(last - first) + 1;
     if (time > arrival) return all;
@@ -44,13 +44,12 @@ struct Path {
   }
 };
 
-/// The marks that a path reaches in a window, as the range [low, high] from left to right; empty if low >
-/// high.
+/// The marks [low, high] that a path reaches in a window; none if low > high.
 struct Marks {
   std::int64_t low, high;
 };
 
-/// Of a path that the window may not contain as a whole.
+/// For a path that may extend beyond the window.
 [[gnu::cold]] inline Marks clipped_marks(const Path& path, const Window& window) {
   if (path.arrival < window.begin || path.departure >= window.end) return {1, 0};
   std::int64_t from = path.first, to = path.last;
@@ -60,14 +59,14 @@ struct Marks {
   return path.rightwards() ? Marks{from, to} : Marks{to, from};
 }
 
-/// A mark belongs to the window in which it is reached, so the marks of adjacent windows are those of both.
+/// A mark belongs to the window in which it is reached, so adjacent windows share no mark.
 inline Marks marks_in(const Path& path, const Window& window) {
   if (path.departure >= window.begin && path.arrival < window.end)
     return {std::min(path.first, path.last), std::max(path.first, path.last)};
   return clipped_marks(path, window);
 }
 
-/// The part of the chain that a path covers in a window, and the time that it takes, 0 if none.
+/// The part of the chain that a path covers in a window, and its duration, 0 if there is none.
 struct Stretch {
   double low, high;
   double duration;

@@ -17,8 +17,8 @@ struct UnfinishedFlights {
   }
 };
 
-/// Advances the chain through everything before `until` unobserved, as it costs less. Then the observer is
-/// told of the flights and exits to come, as it would have been at their departure.
+/// Advances the chain through every event before `until` without the observer, which costs less. Then
+/// notifies the observer of the pending flights and exits, as it would have been at their departure.
 template <class Observer, std::invocable<double> Heartbeat>
 void relax(OpenDynamics& chain, double until, Observer& observer, Heartbeat&& heartbeat) {
   UnfinishedFlights flights{until};

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "engine/flight.hpp"
-#include "engine/launch.hpp"
+#include "engine/free_flight.hpp"
 #include "model/closed_chain.hpp"
 #include "model/collision.hpp"
 
@@ -27,19 +27,19 @@ class Scattering {
 
   const CollisionRule& rule() const { return collide_; }
 
-  /// The flight ends at the scatterer w; both get their new state. launching: whether `launch` has a say in
-  /// what follows; otherwise the particle scatters again at the neighbouring scatterer.
-  template <bool launching>
-  Departure operator()(Flight& flight, double& w, const Launch& launch) const {
-    double u = flight.velocity, scatterer = w;  // copies: the two references might be one
+  /// Ends the flight at the scatterer w and begins the next one, in place. stochastic: whether free_flight
+  /// draws the next flight; otherwise the particle scatters again at the neighbouring scatterer.
+  template <bool stochastic>
+  Departure operator()(Flight& flight, double& w, const FreeFlight& free_flight) const {
+    double u = flight.velocity, scatterer = w;  // copies: for the compiler the references may alias
     collide_(u, scatterer);
     w = scatterer;
     std::int64_t cells = 1;
-    if constexpr (launching) cells = launch(flight.particle, flight.draws, u);
+    if constexpr (stochastic) cells = free_flight(flight.particle, flight.draws, u);
     flight.velocity = u;
     const double duration = static_cast<double>(cells) * cell_length_ / std::abs(u);
     const Departure departure{flight.time, flight.particle, u, direction(u) * cells, duration};
-    flight.target = launching ? cells_ahead(flight.target, departure.cells) : neighbour(flight.target, u);
+    flight.target = stochastic ? cells_ahead(flight.target, departure.cells) : neighbour(flight.target, u);
     flight.time += duration;
     return departure;
   }

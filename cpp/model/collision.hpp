@@ -6,32 +6,32 @@
 
 namespace lorentz {
 
-/// Scattering of a particle off a fixed scatterer, p' = -sigma p + (1-sigma) P and
-/// P' = (1+sigma) p + sigma P, with sigma = (M-m)/(M+m) (Collet, Eckmann, Mejia-Monasterio 2009).
+/// Elastic collision of a particle with a fixed scatterer, p' = -sigma p + (1-sigma) P and P' = (1+sigma) p +
+/// sigma P with sigma = (M-m)/(M+m) [eq. 1] (Collet, Eckmann, Mejia-Monasterio 2009).
 ///
-/// In energy-normalised variables u = p/sqrt(m), U = P/sqrt(M) this is the orthogonal reflection
-/// u' = -sigma u + c U, U' = c u + sigma U with c^2 = 1 - sigma^2. Coded like that, the rounding of
-/// c makes sigma^2 + c^2 miss 1 always on the same side, and the energy drifts linearly with the
-/// number of collisions. The scatterer is therefore kept as w = U / scatterer_scale(), a velocity
-/// up to a power of two, and a multiple of the relative velocity is added:
+/// In energy-normalised variables u = p/sqrt(m), U = P/sqrt(M) this is the orthogonal reflection u' = -sigma
+/// u + c U, U' = c u + sigma U with c^2 = 1 - sigma^2 [eq. 2]. This form is not used: because c is rounded,
+/// sigma^2 + c^2 differs from 1 by a constant, and the energy drifts linearly with the number of collisions.
+/// The code uses velocities [eq. 3]: the scatterer is stored as w = U / scatterer_scale(), its velocity up to
+/// a power of two, and a multiple of the relative velocity is added,
 ///
 ///   |sigma| <  1/2:  u' = w + sigma (w - u)               w' = u + sigma (w - u)
 ///   |sigma| >= 1/2:  u' = u + (1+sigma) (w - u)           w' = w - (1-sigma) (w - u)
 ///
-/// Near +-1, where 1-|sigma| is hardly more than the last digit of 1+|sigma|, the one of the two that is
-/// turned round takes the first form and the other one the second: u' = w + sigma (w - u) at +1, w' = u +
-/// sigma (w - u) at -1. Then sigma is what was asked for to its last digit.
+/// For 1-|sigma| < 2^-10, the velocity that is reversed has the first form, u' at sigma = 1 and w' at sigma =
+/// -1, and the other one the second form. The stored sigma is then accurate to its last digit, although
+/// 1-|sigma| is close to the last digit of 1+|sigma|.
 ///
-/// With 1+sigma and 1-sigma stored so that they add up to exactly 2, the map of real numbers conserves
-/// energy and momentum exactly; only the roundings of the operations remain. The first form is an exact
-/// exchange at sigma = 0; the second keeps full relative precision at sigma -> +-1, where the powers of
-/// two keep w as large as U.
+/// The stored 1+sigma and 1-sigma add up to exactly 2, so that the map of real numbers conserves energy and
+/// momentum exactly, and errors come only from the rounding of each operation. The first form is an exact
+/// exchange at sigma = 0. The second form has full relative precision at sigma -> +-1, where the powers of
+/// two keep w and U of the same order of magnitude.
 ///
-/// The roundings average out only if the coefficient is not close to a fraction with a small
-/// denominator: the products of 0.3 with the numbers of a binade fall on ten places between two
-/// neighbouring results, all shifted one way, and the energy drifts. So sigma, or 1-|sigma| in the second
-/// form, is raised by one part in 1e11, far below every other error; what is left is a random walk
-/// (docs/numerics.md has the measurements). 0 and +-1 stay exact.
+/// Rounding errors have mean 0 only if the coefficient is not close to a fraction with a small denominator.
+/// Products with 0.3, for example, have only ten different remainders relative to the spacing of the results;
+/// their rounding errors have the same sign on average, and the energy drifts. Therefore sigma, or 1-|sigma|
+/// in the second form, is multiplied by 1 + 1e-11, a change far below every other error. The remaining energy
+/// error is a random walk (docs/numerics.md). 0 and +-1 are exact.
 class CollisionRule {
  public:
   /// Throws std::invalid_argument unless -1 <= sigma <= 1.
@@ -43,7 +43,8 @@ class CollisionRule {
       use_relative_form(std::copysign(1.0, sigma), detuning * (1 - std::abs(sigma)));
   }
 
-  /// One collision, in place: u is the particle's, w the scatterer's scaled velocity.
+  /// One collision, in place: u is the velocity of the particle, w the scaled velocity of the scatterer [eq.
+  /// 3].
   void operator()(double& u, double& w) const {
     const double from_scatterer = scatterer_weight_ * w, from_particle = particle_weight_ * u;
     const double relative = from_scatterer - from_particle;
@@ -53,26 +54,26 @@ class CollisionRule {
     w = scatterer_base + scatterer_gain_ * relative;
   }
 
-  /// The value that the stored coefficients stand for.
+  /// sigma of the stored, rounded coefficients.
   double sigma() const { return sigma_; }
 
-  /// U / w, in [1/2, 2].
+  /// The ratio U / w, in [1/2, 2].
   double scatterer_scale() const { return scatterer_scale_; }
 
-  /// The scatterers' U as w.
+  /// Converts U of the scatterers to w.
   std::vector<double> scaled(std::vector<double> scatterers) const {
     for (double& scatterer : scatterers) scatterer /= scatterer_scale_;
     return scatterers;
   }
 
-  /// Their w as U.
+  /// Converts w of the scatterers to U.
   std::vector<double> unscaled(std::vector<double> scatterers) const {
     for (double& scatterer : scatterers) scatterer *= scatterer_scale_;
     return scatterers;
   }
 
-  /// P / U = sqrt(M). 0 at sigma = 1 as well: an infinitely heavy scatterer is a wall, and its momentum is
-  /// left out of every sum.
+  /// P / U = sqrt(M). At sigma = 1, where M is infinite, it is 0, so that the scatterers' momenta are left
+  /// out of every sum.
   double root_mass() const { return root_mass_; }
 
  private:
@@ -85,7 +86,7 @@ class CollisionRule {
     root_mass_ = scatterer_scale_ = std::sqrt((1 + sigma) / (1 - sigma));
   }
 
-  /// one_minus is 1-|sigma|.
+  /// `one_minus` is 1-|sigma|.
   void use_relative_form(double sign, double one_minus) {
     const bool near_limit = one_minus < 0x1p-10;
     const double whole = near_limit ? 1 : 2;
@@ -99,7 +100,7 @@ class CollisionRule {
     scatterer_gain_ = -(sign > 0 ? light : heavy);
     double& partner_weight = sign > 0 ? scatterer_weight_ : particle_weight_;
     double& light_gain = sign > 0 ? scatterer_gain_ : particle_gain_;
-    if (light == 0) {  // sigma = +-1: the partner has no say in the relative velocity
+    if (light == 0) {  // sigma = +-1: the velocity of the infinitely heavier partner vanishes
       partner_weight = 0;
       root_mass_ = 0;
       return;
@@ -113,8 +114,8 @@ class CollisionRule {
   }
 
   double sigma_ = 0;
-  bool particle_takes_ = false;  // the first form, from the scatterer
-  bool scatterer_takes_ = false;
+  bool particle_takes_ = false;   // u' has the first form, which starts from w
+  bool scatterer_takes_ = false;  // w' has the first form, which starts from u
   double scatterer_weight_ = 1;
   double particle_weight_ = 1;
   double particle_gain_ = 0;

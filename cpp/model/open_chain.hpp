@@ -7,11 +7,12 @@
 
 namespace lorentz {
 
-/// A row of cells between two reservoirs; each has one fixed scatterer at its centre. A particle that leaves
-/// is gone.
+/// Parameters of an open chain: a row of cells between two reservoirs, each cell with one fixed scatterer at
+/// its centre. A particle that reaches an opening is removed. The default reservoirs have equal pressures
+/// [eq. 29] and a nonzero particle current [eq. 30].
 ///
-/// Places along the chain are counted in half cells: the left opening is 0, bond j (between scatterers j - 1
-/// and j) is 2j, scatterer i is 2i + 1, the right opening is 2 cells.
+/// Marks along the chain are numbered in half cells: the left opening is 0, bond j (between scatterers j - 1
+/// and j, which are counted from 0) is 2j, scatterer i is 2i + 1, the right opening is 2 cells.
 struct OpenChain {
   std::uint32_t cells = 30;
   double cell_length = 1. / 30;

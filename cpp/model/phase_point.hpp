@@ -8,11 +8,11 @@ namespace lorentz {
 struct Particle {
   double position;  // from the left end, in [0, cells * cell_length)
   double velocity;  // u = p/sqrt(m)
-  std::uint64_t draws =
-      0;  // random numbers that it has taken, so that a simulation that goes on repeats none
+  /// Random numbers drawn so far: a simulation continued from this state draws the next ones.
+  std::uint64_t draws = 0;
 };
 
-/// Every degree of freedom of a chain at one time.
+/// State of a chain at one time, a point of its phase space.
 struct PhasePoint {
   std::vector<Particle> particles;
   std::vector<double> scatterers;  // U = P/sqrt(M), one per cell

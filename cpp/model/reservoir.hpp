@@ -3,24 +3,25 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/portable.hpp"
+#include "numerics/elementary.hpp"
 
 namespace lorentz {
 
-/// A bath that injects particles at one end of an open chain: a Poisson process in time, momenta
-/// half-Gaussian with the flux distribution F(p) = rate sqrt(2/(pi T)) exp(-p^2/2T) on the half line that
-/// points inwards (m = k_B = 1; the paper prints half of it).
+/// Heat bath that injects particles at one end of an open chain, as a Poisson process in time with
+/// independent half-Gaussian momenta. The flux per unit time and momentum is F(p) = rate sqrt(2/(pi T))
+/// exp(-p^2/2T) on the half line that points inwards [eq. 5]; the paper prints half of it. Units: m = k_B =
+/// 1.
 struct Reservoir {
   double rate;         // nu: particles per unit time
   double temperature;  // T
 
-  double mean_momentum() const { return std::sqrt(2 * temperature / std::numbers::pi); }  // of |p|
-  double mean_energy() const { return 0.5 * temperature; }
+  double mean_momentum() const { return std::sqrt(2 * temperature / std::numbers::pi); }  // of |p| [eq. 6]
+  double mean_energy() const { return 0.5 * temperature; }                                // of p^2/2 [eq. 6]
 
-  /// Probability of |p| in [low, high].
+  /// Probability that |p| of an injected particle lies in [low, high].
   double probability(double low, double high) const {
     const double scale = 1 / std::sqrt(2 * temperature);
-    return portable::erfc(low * scale) - portable::erfc(high * scale);
+    return elementary::erfc(low * scale) - elementary::erfc(high * scale);
   }
 };
 

@@ -4,8 +4,9 @@
 
 namespace lorentz {
 
-/// Identity of the random streams of one replica. Whatever draws takes one; there is no default, because
-/// replicas that share a stream are not independent, and no error bar shows it.
+/// Key of the random streams of one replica, an argument of every function that draws random numbers. It has
+/// no default, because replicas that share a stream are not independent, and their standard error does not
+/// show this.
 struct StreamKey {
   std::uint64_t seed, replica;
 

@@ -1,21 +1,44 @@
-/// Ageing of the closed chain: the mean energy of a scatterer, and of a particle, against time from the
-/// start.
+/// Ageing of the closed chain: mean energies of a scatterer and of a particle as functions of the time since
+/// the start.
 ///
-/// The invariant density of the particles, exp(-u^2/2T)/|u|, cannot be normalised: ever more of them slow
-/// down, and the energy that they lose heats the scatterers and the rest, logarithmically in time. Whether
-/// that goes on or saturates is read off means over the windows between neighbouring times: their slope
-/// against ln t, decade by decade, and over the last --fit-decades decades. The total energy, whose mean over
-/// starts is known, is a control variate (statistics/control_variates.hpp).
-#include "model/portable.hpp"
-#include "observables/closed_chain_options.hpp"
-#include "observables/log_times_options.hpp"
-#include "program/replica_study.hpp"
-#include "statistics/control_variates.hpp"
+/// The invariant density of the particles, exp(-u^2/2T)/|u| [eq. 8], is not normalisable. The number of slow
+/// particles keeps growing, and the energy that they lose heats the scatterers and the other particles
+/// logarithmically in time [eq. 14]. The slope against ln t of the means over windows between neighbouring
+/// times, in every decade and over the last --fit-decades decades, shows whether heating continues or
+/// saturates. The total energy, whose mean over initial states is known, is a control variate [eq. 33].
+#include <functional>
+
+#include "runs/closed_study.hpp"
+#include "runs/log_times.hpp"
 #include "statistics/fit.hpp"
 
 namespace {
 
 using namespace lorentz;
+
+struct Parameters : ClosedParameters {
+  LogTimeParameters log_times{.fit_decades = 2};
+
+  Parameters() {
+    relaxation_time = 0;
+    observation_time = 10'000;
+  }
+  std::vector<double> times() const { return log_times.times(observation_time); }
+};
+
+struct Tallies : ClosedTallies {
+  Axis time, window;
+  Tally scatterer = tally("scatterer", {time}, "energy", "Mean over scatterers of U^2/2");
+  Tally particle = tally("particle", {time}, "energy", "Mean over particles of u^2/2");
+  Tally scatterer_window = tally("scatterer_window", {window}, "energy",
+                                 "Mean over scatterers and over the window between two times of U^2/2");
+  ScalarTally total_energy = tally("total_energy", "1", "Total energy over its mean, minus 1; mean 0");
+
+  explicit Tallies(const Parameters& parameters)
+      : time{"time", "time", "Time since the start", parameters.times()},
+        window{"window", "time", "Geometric middle of a window",
+               parameters.log_times.grid(parameters.observation_time).middles()} {}
+};
 
 double scatterers_energy(const ClosedDynamics& chain) {
   double sum = 0;
@@ -23,11 +46,11 @@ double scatterers_energy(const ClosedDynamics& chain) {
   return sum;
 }
 
-/// Mean over a window of the energy of all scatterers: that at its beginning, and every change for the part
-/// of the window that is left.
+/// Mean over a window of the energy of all scatterers: its value at the beginning plus every change weighted
+/// by the remaining part of the window.
 class WindowMean {
  public:
-  WindowMean(const ClosedReplica& run, double begin, double end)
+  WindowMean(const ClosedRun& run, double begin, double end)
       : run_(run), begin_(begin), end_(end), energy_(scatterers_energy(run.chain())) {}
 
   void on_collision(const Collision& collision) {
@@ -38,92 +61,74 @@ class WindowMean {
   double value() const { return energy_ + changes_ / (end_ - begin_); }
 
  private:
-  const ClosedReplica& run_;
+  const ClosedRun& run_;
   double begin_, end_;
   double energy_, changes_ = 0;
 };
 
-/// Energies per scatterer and per particle at every time, per scatterer over every window between two times;
-/// then the control.
-ReplicaRecord measure(const ClosedChainOptions& options, const std::vector<double>& times,
-                      const Replica& replica) {
-  ClosedReplica run(options, replica);
-  run.relax();
-  const double cells = options.chain().cells, start = options.relaxation_time();
-  std::vector<double> scatterer, particle, window;
+void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& run, Record& record) {
+  const ClosedChain chain = parameters.chain();
+  const double cells = chain.cells, start = parameters.relaxation_time;
   double before = start;
-  for (const double time : times) {
-    WindowMean mean(run, before, start + time);
-    run.observe_until(start + time, mean);
+  for (std::size_t k = 0; k < tallies.time.values.size(); ++k) {
+    const double time = start + tallies.time.values[k];
+    WindowMean mean(run, before, time);
+    run.observe_until(time, mean);
     const double energy = scatterers_energy(run.chain());
-    scatterer.push_back(energy / cells);
-    particle.push_back((run.chain().invariants().energy - energy) / options.chain().particles());
-    if (before > start) window.push_back(mean.value() / cells);
-    before = start + time;
+    record[tallies.scatterer][k] = energy / cells;
+    record[tallies.particle][k] = (run.chain().invariants().energy - energy) / chain.particles();
+    if (k > 0) record[tallies.scatterer_window][k - 1] = mean.value() / cells;
+    before = time;
   }
-  for (const std::vector<double>& more : {particle, window, {run.energy_control()}})
-    scatterer.insert(scatterer.end(), more.begin(), more.end());
-  return run.record(std::move(scatterer));
+  record[tallies.total_energy] = run.energy_control();
 }
 
-/// Slope against ln t of the part of y whose times lie in [from, to].
-double log_slope(const std::vector<double>& times, std::span<const double> y, double from, double to) {
-  std::vector<double> log_time, part;
-  for (std::size_t k = 0; k < times.size(); ++k) {
-    if (times[k] < from || times[k] > to) continue;
-    log_time.push_back(portable::log(times[k]));
-    part.push_back(y[k]);
-  }
-  return fit_line(log_time, part).slope;
-}
+Estimator energies(const Parameters& parameters, const Tallies& tallies) {
+  const std::vector<double>& times = tallies.time.values;
+  const std::vector<double> middles = tallies.window.values;
+  Axis decade{"decade", "time", "First time of a decade", {}};
+  constexpr std::size_t per_decade = LogTimeParameters::points_per_decade;
+  for (std::size_t k = 0; k + per_decade < times.size(); k += per_decade) decade.values.push_back(times[k]);
+  const double fit_from = parameters.log_times.fit_from(parameters.observation_time), last = times.back();
 
-/// Times of the record, geometric middles of the windows between them, and first times of the decades.
-struct Grid {
-  std::vector<double> times, middles, decades;
-  double fit_from;
-};
-
-Results summarise(const Records& records, const Grid& grid) {
-  const std::size_t size = grid.times.size();
-  const Axis time{"time", "time", "Time since the start", grid.times};
-  const Axis window{"window", "time", "Geometric middle of a window", grid.middles};
-  const Axis decade{"decade", "time", "First time of a decade", grid.decades};
-  return estimate(
-      reduce_variance(records, 1),
-      {{"scatterer_energy", "energy", "Mean kinetic energy of a scatterer", {time}},
-       {"particle_energy", "energy", "Mean kinetic energy of a particle", {time}},
-       {"scatterer_energy_mean", "energy", "Mean kinetic energy of a scatterer over a window", {window}},
-       {"decade_slope", "energy", "Slope of scatterer_energy_mean against ln t in a decade", {decade}},
-       {"log_slope", "energy", "The same over the last --fit-decades decades"}},
-      [&](std::span<const double> sums) {
-        const std::span<const double> means = sums.subspan(2 * size, size - 1);
-        std::vector<double> values(sums.begin(), sums.end() - 1);
-        for (const double first : grid.decades)
-          values.push_back(log_slope(grid.middles, means, first, 10 * first));
-        values.push_back(log_slope(grid.middles, means, grid.fit_from, grid.times.back()));
-        return values;
+  Formulas formulas;
+  formulas.quantity("scatterer_energy", {tallies.time}, "energy", "Mean kinetic energy of a scatterer",
+                    mean_of(tallies.scatterer));
+  formulas.quantity("particle_energy", {tallies.time}, "energy", "Mean kinetic energy of a particle",
+                    mean_of(tallies.particle));
+  formulas.quantity("scatterer_energy_mean", {tallies.window}, "energy",
+                    "Mean kinetic energy of a scatterer over a window", mean_of(tallies.scatterer_window));
+  formulas.quantity(
+      "decade_slope", {decade}, "energy", "Slope of scatterer_energy_mean against ln t in a decade",
+      [=](RecordView mean) {
+        std::vector<double> slopes;
+        for (const double first : decade.values)
+          slopes.push_back(fit_logarithm(middles, mean[tallies.scatterer_window], first, 10 * first));
+        return slopes;
       });
+  formulas.quantity("log_slope", "energy", "The same over the last --fit-decades decades",
+                    [=](RecordView mean) {
+                      return fit_logarithm(middles, mean[tallies.scatterer_window], fit_from, last);
+                    });
+  const Columns measured = columns_of({tallies.scatterer, tallies.particle, tallies.scatterer_window});
+  return formulas.estimator([=](const Records& records) {
+    return reduce_variance(records, {{measured, columns_of({tallies.total_energy})}});
+  });
+}
+
+Study ageing(const Parameters& parameters) {
+  validate(parameters);
+  const Tallies tallies(parameters);
+  return closed_study(parameters, tallies, std::bind_front(observe, parameters, tallies),
+                      {energies(parameters, tallies)}, "log_slope");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program("ageing", "Energy of the scatterers of a closed chain against time");
-  ClosedChainOptions chain(/*relaxation_time=*/0, /*observation_time=*/10'000);
-  chain.declare(program.options());
-  LogTimesOptions log_times(/*fit_decades=*/2);
-  log_times.declare(program.options());
-  ReplicaOptions replicas(program);
-  replicas.declare(program.options());
-  return program.run(argc, argv, [&](Progress& progress) {
-    chain.validate();
-    const double last = chain.observation_time();
-    Grid grid{log_times.times(last), log_times.grid(last).middles(), {}, log_times.fit_from(last)};
-    for (std::size_t k = 0; k + LogTimesOptions::points_per_decade < grid.times.size();
-         k += LogTimesOptions::points_per_decade)
-      grid.decades.push_back(grid.times[k]);
-    const auto one = [&](const Replica& replica) { return measure(chain, grid.times, replica); };
-    const auto results = [&](const Records& records) { return summarise(records, grid); };
-    return replicas.run({one, with_drift(results), "log_slope", RandomStream::description}, progress);
-  });
+  StudyProgram program("ageing", "Energy of the scatterers of a closed chain against time");
+  Parameters parameters;
+  declare(program.options(), parameters);
+  declare(program.options(), parameters.log_times);
+  return program.run(argc, argv, [&] { return ageing(parameters); });
 }

@@ -1,33 +1,38 @@
-/// Persistence mu(sigma): the fraction of scatterings after which a particle goes on in the direction
-/// in which it came, p' p > 0, over all particles and both directions.
+/// Persistence mu(sigma): fraction of the scatterings that conserve the direction of the particle, p' p > 0,
+/// over all particles and both directions.
 ///
-/// In equilibrium mu = arccos(sigma)/pi: the velocities that meet at a scatterer are Gaussian at one
-/// temperature, with the flux weight |v| and density 1/|v| cancelling (closed form of the paper's
-/// integral). A finite chain deviates. If particles and scatterers met at the temperatures T_p and T_s
-/// but independently, mu would be 1/2 - arctan(sigma/sqrt(1-sigma^2) sqrt(T_p/T_s))/pi; the local mean
-/// energies are stored so that this part of the deviation can be told from correlations.
+/// In equilibrium mu = arccos(sigma)/pi [eq. 10], from which a finite chain deviates. For independent
+/// particles and scatterers at the temperatures T_p and T_s, mu follows from the ratio of the temperatures
+/// [eq. 11]. The mean energies before scatterings are stored to separate this part of the deviation from
+/// correlations.
 #include <cstdint>
 
-#include "observables/closed_chain_options.hpp"
-#include "program/replica_study.hpp"
+#include "runs/closed_study.hpp"
 
 namespace {
 
 using namespace lorentz;
 
-/// 1 if u' u > 0, else 0, without the underflow of the product. Without branches, which could not be
-/// predicted.
+struct Tallies : ClosedTallies {
+  ScalarTally scatterings = tally("scatterings", "1", "Collisions of a particle with a scatterer");
+  ScalarTally persistent = tally("persistent", "1", "Collisions with p' p > 0");
+  ScalarTally particle_energy = tally("particle_energy", "energy", "Sum of u^2/2 before collisions");
+  ScalarTally scatterer_energy = tally("scatterer_energy", "energy", "Sum of U^2/2 before collisions");
+};
+
+/// 1 if u' u > 0, else 0. The signs are compared, because the product could underflow, and without a branch,
+/// because branch prediction fails for random signs.
 std::uint64_t keeps_direction(double before, double after) {
   const auto positive = [](double u) { return std::uint64_t{u > 0}; };
   return (positive(before) & positive(after)) | (positive(-before) & positive(-after));
 }
 
-/// Sums over the scatterings of one replica, before each collision.
+/// Sums over the scatterings of one replica.
 struct Encounters {
   std::uint64_t scatterings = 0;
   std::uint64_t persistent = 0;
-  double particle_energy = 0;   // sum of u^2/2
-  double scatterer_energy = 0;  // sum of U^2/2
+  double particle_energy = 0;
+  double scatterer_energy = 0;
 
   void on_collision(const Collision& collision) {
     ++scatterings;
@@ -37,36 +42,34 @@ struct Encounters {
   }
 };
 
-Results summarise(const Records& records) {
-  return estimate(
-      records,
-      {{"mu", "1", "Fraction of scatterings with p' p > 0"},
-       {"particle_energy", "energy", "Mean kinetic energy of a particle as it meets a scatterer"},
-       {"scatterer_energy", "energy", "Mean kinetic energy of a scatterer as a particle meets it"}},
-      [](std::span<const double> sums) {
-        return std::vector{sums[1] / sums[0], sums[2] / sums[0], sums[3] / sums[0]};
-      });
+Study persistence(const ClosedParameters& parameters) {
+  const Tallies tallies;
+  const auto observe = [=](ClosedRun& run, Record& record) {
+    Encounters sums;
+    run.observe(sums);
+    record[tallies.scatterings] = static_cast<double>(sums.scatterings);
+    record[tallies.persistent] = static_cast<double>(sums.persistent);
+    record[tallies.particle_energy] = sums.particle_energy;
+    record[tallies.scatterer_energy] = sums.scatterer_energy;
+  };
+  Formulas formulas;
+  formulas.quantity("mu", "1", "Fraction of scatterings with p' p > 0",
+                    [=](RecordView mean) { return mean[tallies.persistent] / mean[tallies.scatterings]; });
+  formulas.quantity(
+      "particle_energy", "energy", "Mean kinetic energy of a particle as it meets a scatterer",
+      [=](RecordView mean) { return mean[tallies.particle_energy] / mean[tallies.scatterings]; });
+  formulas.quantity(
+      "scatterer_energy", "energy", "Mean kinetic energy of a scatterer as a particle meets it",
+      [=](RecordView mean) { return mean[tallies.scatterer_energy] / mean[tallies.scatterings]; });
+  return closed_study(parameters, tallies, observe, {formulas.estimator()}, "mu");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program("persistence",
-                  "Probability that a particle keeps its direction when it scatters, in a closed chain");
-  ClosedChainOptions chain;
-  chain.declare(program.options());
-  ReplicaOptions replicas(program);
-  replicas.declare(program.options());
-  return program.run(argc, argv, [&](Progress& progress) {
-    chain.validate();
-    const auto measure = [&](const Replica& replica) {
-      ClosedReplica run(chain, replica);
-      run.relax();
-      Encounters sums;
-      run.observe_until(chain.end_time(), sums);
-      return run.record({static_cast<double>(sums.scatterings), static_cast<double>(sums.persistent),
-                         sums.particle_energy, sums.scatterer_energy});
-    };
-    return replicas.run({measure, with_drift(summarise), "mu", RandomStream::description}, progress);
-  });
+  StudyProgram program("persistence",
+                       "Probability that a particle keeps its direction when it scatters, in a closed chain");
+  ClosedParameters parameters;
+  declare(program.options(), parameters);
+  return program.run(argc, argv, [&] { return persistence(parameters); });
 }

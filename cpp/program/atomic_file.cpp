@@ -14,7 +14,7 @@
 namespace lorentz {
 namespace {
 
-/// A file under a temporary name that vanishes unless it is committed.
+/// Temporary file that commit() renames to the path and that is otherwise deleted. Throws UsageError.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& path)

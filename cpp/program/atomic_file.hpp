@@ -6,14 +6,13 @@
 
 namespace lorentz {
 
-/// Writes a file whole or not at all: to a temporary name in the same folder, flushed to the disk,
-/// then renamed. Throws UsageError, and leaves neither file, when the folder cannot be written or
-/// the disk is full.
+/// Writes a file atomically: under a temporary name in the same folder, flushed to the disk, then renamed.
+/// Throws UsageError, and leaves no new file, if the folder is not writable or the disk is full.
 void write_atomically(const std::string& path, std::span<const std::byte> content);
 void write_atomically(const std::string& path, const std::string& content);
 
-/// Throws UsageError if write_atomically(path, ...) could not write `size` bytes now; leaves nothing
-/// behind. Asked before a long run, not after it.
+/// Throws UsageError if write_atomically(path, ...) could not write `size` bytes now; leaves no file. Called
+/// before a long run, so that the run does not fail at its end.
 void require_writable(const std::string& path, std::size_t size);
 
 }  // namespace lorentz

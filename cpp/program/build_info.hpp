@@ -2,8 +2,8 @@
 
 namespace lorentz {
 
-/// What an executable was built from. Defined in a source that the build generates for each
-/// executable (workflow/provenance/build_id.py); it names no path, host or time.
+/// Provenance of an executable, defined in a source file that the build generates for each executable
+/// (workflow/provenance/build_id.py). It contains no path, host or time, so that equal builds have equal ids.
 struct BuildInfo {
   const char* version;
   const char* source_hash;  // sha256 over the include closure

@@ -11,22 +11,30 @@
 
 namespace lorentz {
 
-Checkpoint::Checkpoint(const std::string& output, std::string identity)
-    : path_(output + ".checkpoint"), identity_(std::move(identity)) {}
+Checkpoint::Checkpoint(const std::string& output, std::string identity, std::vector<Description> tallies)
+    : path_(output + ".checkpoint"), identity_(std::move(identity)), tallies_(std::move(tallies)) {}
 
 void Checkpoint::save(const FinishedReplicas& finished) const {
   if (finished.empty()) return;
   std::vector<std::uint64_t> indices, events;
-  std::vector<double> values;
   for (const auto& [index, record] : finished) {
     indices.push_back(index);
     events.push_back(record.events);
-    values.insert(values.end(), record.values.begin(), record.values.end());
   }
   Hdf5Writer file;
   file.dataset("/replicas/index", {indices.size()}, indices);
   file.dataset("/replicas/events", {events.size()}, events);
-  file.dataset("/replicas/values", {indices.size(), values.size() / indices.size()}, values);
+  std::ptrdiff_t column = 0;
+  for (const Description& tally : tallies_) {
+    std::vector<double> values;
+    const auto size = static_cast<std::ptrdiff_t>(tally.size());
+    for (const auto& [index, record] : finished) {
+      const auto first = record.values.begin() + column;
+      values.insert(values.end(), first, first + size);
+    }
+    file.dataset("/tallies/" + tally.name, {indices.size(), tally.size()}, values);
+    column += size;
+  }
   file.attribute("/replicas", "identity", identity_);
   write_atomically(path_, file.image());
 }
@@ -37,7 +45,7 @@ FinishedReplicas Checkpoint::load() const {
     return read();
   } catch (const UsageError&) {
     throw;
-  } catch (const std::exception& error) {  // HDF5 stumbles over damage in many ways
+  } catch (const std::exception& error) {  // a damaged file causes various HDF5 errors
     throw UsageError(fmt::format("'{}' cannot be resumed: it is damaged ({}). Remove it to start anew.",
                                  path_, error.what()));
   }
@@ -52,13 +60,19 @@ FinishedReplicas Checkpoint::read() const {
         path_));
   const std::vector<std::uint64_t> indices = file.counts("/replicas/index");
   const std::vector<std::uint64_t> events = file.counts("/replicas/events");
-  const std::vector<double> values = file.doubles("/replicas/values");
-  if (indices.empty() || events.size() != indices.size() || values.size() % indices.size() != 0)
-    throw UsageError(fmt::format("'{}' cannot be resumed: it is damaged. Remove it to start anew.", path_));
-  const std::size_t width = values.size() / indices.size();
-  for (std::size_t row = 0; row < indices.size(); ++row) {
-    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row * width);
-    finished[indices[row]] = {{begin, begin + static_cast<std::ptrdiff_t>(width)}, events[row]};
+  const std::string damaged =
+      fmt::format("'{}' cannot be resumed: it is damaged. Remove it to start anew.", path_);
+  if (indices.empty() || events.size() != indices.size()) throw UsageError(damaged);
+  for (std::size_t row = 0; row < indices.size(); ++row) finished[indices[row]].events = events[row];
+  for (const Description& tally : tallies_) {
+    const std::vector<double> values = file.doubles("/tallies/" + tally.name);
+    if (values.size() != indices.size() * tally.size()) throw UsageError(damaged);
+    auto first = values.begin();
+    for (const std::uint64_t index : indices) {
+      std::vector<double>& record = finished[index].values;
+      record.insert(record.end(), first, first + static_cast<std::ptrdiff_t>(tally.size()));
+      first += static_cast<std::ptrdiff_t>(tally.size());
+    }
   }
   return finished;
 }

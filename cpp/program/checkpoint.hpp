@@ -1,18 +1,20 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "program/replicas.hpp"
+#include "statistics/description.hpp"
 
 namespace lorentz {
 
-/// The finished replicas of a run that goes on, kept in a file beside the output so that an
-/// interrupted run loses at most the replicas in progress.
+/// File beside the output with the finished replicas of a run, from which an interrupted run resumes with the
+/// loss of at most the replicas in progress.
 class Checkpoint {
  public:
-  /// identity: everything that the records depend on (parameters and build id). A checkpoint of
-  /// another identity is refused on resumption.
-  Checkpoint(const std::string& output, std::string identity);
+  /// identity: everything that the records depend on (parameters and build id); a checkpoint with another
+  /// identity is rejected. tallies: arrays that make up a record.
+  Checkpoint(const std::string& output, std::string identity, std::vector<Description> tallies);
 
   const std::string& path() const { return path_; }
   void save(const FinishedReplicas& finished) const;
@@ -26,6 +28,7 @@ class Checkpoint {
 
   std::string path_;
   std::string identity_;
+  std::vector<Description> tallies_;
 };
 
 }  // namespace lorentz

@@ -14,17 +14,17 @@ enum class ExitStatus : int {
   interrupted = 128,
 };
 
-/// The request cannot be carried out as it stands. The message says what, why and what to do.
+/// Invalid input. The message states the problem, why it is one, and what to do.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A computation failed; no number can be vouched for.
+/// A computation failed and has no valid result.
 struct NumericalError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A signal asked the program to stop.
+/// The run is stopped by a signal; signal 0: because another replica failed.
 struct Interrupted : std::runtime_error {
   explicit Interrupted(int signal_number) : std::runtime_error("interrupted"), signal(signal_number) {}
   int signal;

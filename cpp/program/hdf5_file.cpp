@@ -1,6 +1,7 @@
 #include "program/hdf5_file.hpp"
 
 #include <fmt/format.h>
+#include <hdf5_hl.h>
 
 #include <algorithm>
 #include <functional>
@@ -128,6 +129,17 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, c
     const Hdf5Handle type = text_type(text.size());
     write_attribute(owner, name, type, type, text.c_str());
   }
+}
+
+void Hdf5Writer::make_scale(const std::string& dataset, const std::string& name) {
+  const Hdf5Handle scale(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  check(H5DSset_scale(scale, name.c_str()), "make a dimension scale");
+}
+
+void Hdf5Writer::attach_scale(const std::string& dataset, std::size_t dimension, const std::string& scale) {
+  const Hdf5Handle array(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  const Hdf5Handle axis(H5Dopen2(file_, scale.c_str(), H5P_DEFAULT), H5Dclose);
+  check(H5DSattach_scale(array, axis, static_cast<unsigned>(dimension)), "attach a dimension scale");
 }
 
 std::vector<std::byte> Hdf5Writer::image() {

@@ -13,7 +13,7 @@
 
 namespace lorentz {
 
-/// Owner of one HDF5 identifier.
+/// Owner of one HDF5 identifier, closed on destruction.
 class Hdf5Handle {
  public:
   using Close = herr_t (*)(hid_t);
@@ -32,19 +32,24 @@ class Hdf5Handle {
 
 using Shape = std::vector<std::size_t>;  // empty for a 0-d dataset
 
-/// Builds an HDF5 file in memory, so that writing it is one write that can fail cleanly. Equal calls
-/// give equal bytes: no time stamps are stored.
+/// Builds an HDF5 file in memory, so that one write to the disk succeeds or fails as a whole. Equal calls
+/// give equal bytes, because no time stamps are stored. Throws NumericalError if HDF5 fails.
 class Hdf5Writer {
  public:
   Hdf5Writer();
 
-  /// Groups along the path are made as needed.
+  /// Creates a group and the missing groups along its path.
   void group(const std::string& path);
   void dataset(const std::string& path, const Shape& shape, std::span<const double> values);
   void dataset(const std::string& path, const Shape& shape, std::span<const std::uint64_t> values);
   void attribute(const std::string& object, const std::string& name, const AttributeValue& value);
 
-  /// The bytes of the file.
+  /// Makes a dataset a named dimension scale.
+  void make_scale(const std::string& dataset, const std::string& name);
+  /// Attaches a dimension scale to a dimension of a dataset.
+  void attach_scale(const std::string& dataset, std::size_t dimension, const std::string& scale);
+
+  /// Bytes of the file.
   std::vector<std::byte> image();
 
  private:
@@ -54,7 +59,7 @@ class Hdf5Writer {
   Hdf5Handle file_;
 };
 
-/// Reads what Hdf5Writer wrote. Throws UsageError, naming the file, when something is missing.
+/// Reads files of Hdf5Writer. Throws UsageError, which names the file, if something is missing.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(const std::string& path);

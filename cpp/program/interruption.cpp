@@ -8,7 +8,7 @@ namespace lorentz {
 namespace {
 
 std::atomic<int> received{0};
-static_assert(std::atomic<int>::is_always_lock_free, "signal handlers may only touch lock-free atomics");
+static_assert(std::atomic<int>::is_always_lock_free, "signal handlers may only access lock-free atomics");
 
 extern "C" void note_signal(int number) { received.store(number); }
 

@@ -2,10 +2,10 @@
 
 namespace lorentz {
 
-/// From now on SIGINT and SIGTERM are noted instead of ending the process at once.
+/// Installs handlers that record SIGINT and SIGTERM instead of terminating the process.
 void watch_for_signals();
 
-/// The signal received, or 0. Safe to ask from any thread, and cheap.
+/// Last signal received, or 0. Thread-safe and cheap: one atomic load.
 int received_signal();
 
 }  // namespace lorentz

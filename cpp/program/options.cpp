@@ -2,218 +2,287 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <iostream>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "program/config_file.hpp"
 #include "program/errors.hpp"
 
 namespace lorentz {
+
+using nlohmann::json;
+
+/// What distinguishes one option from another; Options::add() puts in what all have in common.
+struct Option {
+  json description;                              // an element of describe()
+  std::string admissible;                        // "a number at least 0"; empty for any text
+  std::function<bool(const std::string&)> read;  // sets the value; false if the text is not admissible
+  std::function<AttributeValue()> recorded;
+  std::string name = {};
+  bool given = false;
+};
+
 namespace {
 
-/// Whole numbers are recorded in one width.
 template <class Number>
-using Recorded = std::conditional_t<std::is_integral_v<Number>, std::uint64_t, Number>;
+json numeric(const std::string& type, const Range<Number>& range, const std::string& units) {
+  json description = {{"type", type}, {"units", units}};
+  if (range.bounded_below()) description[range.open_below ? "exclusive_minimum" : "minimum"] = range.low;
+  if (range.bounded_above()) description["maximum"] = range.high;
+  return description;
+}
 
 template <class Number>
 std::string interval(const Range<Number>& range) {
-  const bool bounded_above = range.high != std::numeric_limits<Number>::max();
-  const bool bounded_below = range.low != std::numeric_limits<Number>::lowest() || range.low == 0;
-  const char* relation = range.open_below ? "greater than" : "at least";
-  if (bounded_below && bounded_above)
+  if (range.bounded_above())
     return fmt::format("in {}{}, {}]", range.open_below ? '(' : '[', range.low, range.high);
-  if (bounded_below) return fmt::format("{} {}", relation, range.low);
-  if (bounded_above) return fmt::format("at most {}", range.high);
-  return "finite";
+  if (!range.bounded_below()) return "that is finite";
+  return fmt::format("{} {}", range.open_below ? "greater than" : "at least", range.low);
 }
 
-/// Reads a decimal number, rounded to the nearest that there is; false if the text is not one.
 template <class Number>
-bool read_number(const std::string& text, Number& value) {
+std::string number_in(const Range<Number>& range) {
+  return (std::is_integral_v<Number> ? "a whole number " : "a number ") + interval(range);
+}
+
+/// Sets the value to a decimal number, rounded to nearest; false if the text is not one in the range.
+template <class Number>
+bool read_number(const std::string& text, const Range<Number>& range, Number& value) {
+  const char* begin = text.data() + (text.starts_with('+') && !text.starts_with("+-") ? 1 : 0);
   const char* end = text.data() + text.size();
-  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
   const auto [stop, error] = std::from_chars(begin, end, value);
-  return error == std::errc{} && stop == end && std::isfinite(static_cast<double>(value));
+  return error == std::errc{} && stop == end && (range.open_below ? value > range.low : value >= range.low) &&
+         value <= range.high;
 }
 
-/// The number in a text to which there is no objection.
 template <class Number>
-Number number_in(const std::string& text) {
-  Number value{};
-  read_number(text, value);
-  return value;
+Option number(Number& value, Range<Number> range, const std::string& units) {
+  constexpr bool whole = std::is_integral_v<Number>;
+  using Recorded = std::conditional_t<whole, std::uint64_t, double>;  // whole numbers in one width
+  return {numeric(whole ? "integer" : "number", range, units), number_in(range),
+          [&value, range](const std::string& text) { return read_number(text, range, value); },
+          [&value] { return AttributeValue(Recorded{value}); }};
 }
 
-/// Why the text is not an admissible number; empty if it is.
+/// The number is recorded as floating point, also where it is whole.
 template <class Number>
-std::string objection(const std::string& text, const Range<Number>& range) {
-  constexpr const char* kind = std::is_integral_v<Number> ? "whole number" : "number";
-  Number value{};
-  const bool inside = read_number(text, value) &&
-                      (range.open_below ? value > range.low : value >= range.low) && value <= range.high;
-  if (inside) return {};
-  return fmt::format("'{}' cannot be used: it must be a {} {}", text, kind, interval(range));
+Option number_or_word(std::optional<Number>& value, Range<Number> range, const std::string& word,
+                      const std::string& units) {
+  const auto read = [&value, range, word](const std::string& text) {
+    if (text != word) return read_number(text, range, value.emplace());
+    value.reset();
+    return true;
+  };
+  const auto recorded = [&value, word] {
+    return value ? AttributeValue(static_cast<double>(*value)) : AttributeValue(word);
+  };
+  const std::string type = std::is_integral_v<Number> ? "integer or word" : "number or word";
+  Option option{numeric(type, range, units), number_in(range) + ", or " + word, read, recorded};
+  option.description["word"] = word;
+  return option;
+}
+
+std::string as_text(const AttributeValue& value) {
+  return std::visit([](const auto& each) { return fmt::format("{}", each); }, value);
+}
+
+/// The value as an option of this type reads it; where no string or array is admissible, as the literal.
+const std::string& text_for(const std::string& type, const ConfigEntry& entry) {
+  const bool word = type != "number" && type != "integer" && type != "flag";
+  const bool fits = entry.form == ConfigEntry::Form::string ? word : type == "numbers";
+  return fits ? entry.text : entry.literal;
 }
 
 }  // namespace
 
 Options::Options(std::string program, const std::string& description)
-    : app_(description, program), program_(std::move(program)) {
-  app_.set_config("--config", "", "Read options from a TOML file (keys without the dashes)");
-  app_.allow_config_extras(false);
-  app_.set_version_flag("--version", std::string{}, "Print version and build id, then exit");
-  app_.get_formatter()->column_width(36);
+    : program_(std::move(program)), app_(std::make_unique<CLI::App>(description, program_)) {
+  app_->add_option("--config", "Read options from a TOML file (keys without the dashes)")->type_name("");
+  app_->set_version_flag("--version", std::string{}, "Print version and build id, then exit");
+  app_->get_formatter()->column_width(36);
 }
 
-void Options::record(const std::string& name, Role role, std::function<AttributeValue()> value) {
-  if (role == Role::result) recorded_.emplace_back(name.substr(2), std::move(value));
+Options::~Options() = default;
+
+void Options::add(const std::string& name, const std::string& help, Role role, Option option) {
+  const AttributeValue preset = option.recorded();
+  option.name = name;
+  option.description["name"] = name.substr(2);
+  option.description["description"] = help;
+  option.description["default"] = std::visit([](const auto& value) { return json(value); }, preset);
+  option.description["affects_results"] = role == Role::result;
+  const std::string units = option.description.value("units", "1");
+  std::string text = help;
+  if (units != "1") text += fmt::format(" [{}]", units);
+  if (!option.admissible.empty())
+    text += fmt::format(" ({}; default {})", option.admissible, as_text(preset));
+  if (option.description["type"] == "flag")
+    app_->add_flag(name, help);
+  else
+    app_->add_option(name, CLI::callback_t{}, text)->type_name("");
+  options_.push_back(std::move(option));
 }
 
-template <class Number>
-void Options::number(const std::string& name, Number& value, Range<Number> range, const std::string& help,
-                     Role role) {
-  record(name, role, [&value] { return AttributeValue(Recorded<Number>{value}); });
-  const auto read = [&value](const std::string& text) { value = number_in<Number>(text); };
-  app_.add_option_function<std::string>(name, read,
-                                        fmt::format("{} ({}; default {})", help, interval(range), value))
-      ->check([range](const std::string& text) { return objection(text, range); })
-      ->type_name("")
-      ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
-}
-
-void Options::real(const std::string& name, double& value, Range<double> range, const std::string& help,
-                   Role role) {
-  number(name, value, range, help, role);
+void Options::real(const std::string& name, double& value, Range<double> range, const std::string& units,
+                   const std::string& help, Role role) {
+  add(name, help, role, number(value, range, units));
 }
 
 void Options::integer(const std::string& name, std::uint32_t& value, Range<std::uint32_t> range,
                       const std::string& help, Role role) {
-  number(name, value, range, help, role);
+  add(name, help, role, number(value, range, "1"));
 }
 
 void Options::integer(const std::string& name, std::uint64_t& value, Range<std::uint64_t> range,
                       const std::string& help, Role role) {
-  number(name, value, range, help, role);
+  add(name, help, role, number(value, range, "1"));
 }
 
-void Options::real_or_word(const std::string& name, double& value, Range<double> range,
-                           const std::string& word, double meaning, const std::string& help, Role role) {
-  const std::string preset = value == meaning ? word : fmt::format("{}", value);
-  record(name, role,
-         [&value, word, meaning] { return value == meaning ? AttributeValue(word) : AttributeValue(value); });
-  const auto read = [&value, word, meaning](const std::string& text) {
-    value = text == word ? meaning : number_in<double>(text);
-  };
-  app_.add_option_function<std::string>(
-          name, read, fmt::format("{} ({}, or {}; default {})", help, interval(range), word, preset))
-      ->check([range, word](const std::string& text) {
-        const std::string why = text == word ? std::string{} : objection(text, range);
-        return why.empty() ? why : fmt::format("{}, or {}", why, word);
-      })
-      ->type_name("")
-      ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+void Options::real_or_word(const std::string& name, std::optional<double>& value, Range<double> range,
+                           const std::string& word, const std::string& units, const std::string& help,
+                           Role role) {
+  add(name, help, role, number_or_word(value, range, word, units));
 }
 
-void Options::scaled(const std::string& name, Scaled& value, Range<double> range, const std::string& help,
-                     Role role) {
-  const auto as_given = [](const Scaled& scaled) {
-    return fmt::format("{}{}", scaled.factor, scaled.per_cell ? "N" : "");
+void Options::integer_or_word(const std::string& name, std::optional<std::uint32_t>& value,
+                              Range<std::uint32_t> range, const std::string& word, const std::string& help,
+                              Role role) {
+  add(name, help, role, number_or_word(value, range, word, "1"));
+}
+
+void Options::scaled(const std::string& name, Scaled& value, Range<double> range, char symbol,
+                     const std::string& units, const std::string& help, Role role) {
+  const auto read = [&value, range, symbol](const std::string& text) {
+    value.of_size = text.ends_with(symbol);
+    return read_number(text.substr(0, text.size() - value.of_size), range, value.factor);
   };
-  record(name, role, [&value, as_given] {
-    return value.per_cell ? AttributeValue(as_given(value)) : AttributeValue(value.factor);
-  });
-  const auto factor = [](const std::string& text) {
-    return text.ends_with('N') ? text.substr(0, text.size() - 1) : text;
+  const auto recorded = [&value, symbol] {
+    return value.of_size ? AttributeValue(fmt::format("{}{}", value.factor, symbol))
+                         : AttributeValue(value.factor);
   };
-  const auto read = [&value, factor](const std::string& text) {
-    value = {number_in<double>(factor(text)), text.ends_with('N')};
-  };
-  app_.add_option_function<std::string>(
-          name, read,
-          fmt::format("{} ({}, or such a number of N; default {})", help, interval(range), as_given(value)))
-      ->check([range, factor](const std::string& text) {
-        const std::string why = objection(factor(text), range);
-        return why.empty() ? why : fmt::format("{}, or such a number followed by N", why);
-      })
-      ->type_name("")
-      ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+  add(name, help, role,
+      {numeric(fmt::format("number or multiple of {}", symbol), range, units),
+       fmt::format("{}, or such a number followed by {}", number_in(range), symbol), read, recorded});
 }
 
 void Options::ascending_list(const std::string& name, std::vector<double>& values, Range<double> range,
-                             const std::string& help, Role role) {
-  record(name, role, [&values] { return AttributeValue(fmt::format("{}", fmt::join(values, ","))); });
-  const auto read = [&values](const std::string& text) {
+                             const std::string& units, const std::string& help, Role role) {
+  const auto read = [&values, range](const std::string& text) {
     values.clear();
-    for (const std::string& item : CLI::detail::split(text, ',')) values.push_back(number_in<double>(item));
+    std::istringstream items(text + ',');  // getline passes over an empty item after the last comma
+    for (std::string item; std::getline(items, item, ',');) {
+      double value;
+      if (!read_number(item, range, value) || (!values.empty() && value <= values.back())) return false;
+      values.push_back(value);
+    }
+    return true;
   };
-  app_.add_option_function<std::string>(
-          name, read,
-          fmt::format("{} (each {}, ascending; default {})", help, interval(range), fmt::join(values, ",")))
-      ->check([range](const std::string& text) {
-        double last = -std::numeric_limits<double>::infinity();
-        for (const std::string& item : CLI::detail::split(text, ',')) {
-          if (std::string why = objection(item, range); !why.empty()) return why;
-          if (!(number_in<double>(item) > last))
-            return fmt::format("'{}' cannot be used: the numbers must ascend", text);
-          last = number_in<double>(item);
-        }
-        return std::string{};
-      })
-      ->type_name("")
-      ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+  const auto recorded = [&values] { return AttributeValue(fmt::format("{}", fmt::join(values, ","))); };
+  add(name, help, role,
+      {numeric("numbers", range, units),
+       fmt::format("numbers {}, ascending, separated by commas", interval(range)), read, recorded});
 }
 
 void Options::flag(const std::string& name, bool& value, const std::string& help, Role role) {
-  app_.add_flag(name, value, help);
-  record(name, role, [&value] { return AttributeValue(value); });
+  const auto read = [&value](const std::string& text) {
+    value = text == "true";
+    return value || text == "false";
+  };
+  add(name, help, role,
+      {{{"type", "flag"}}, "true or false", read, [&value] { return AttributeValue(value); }});
 }
 
 void Options::choice(const std::string& name, std::string& value, const std::vector<std::string>& choices,
                      const std::string& help, Role role) {
-  app_.add_option(name, value,
-                  fmt::format("{} (one of {}; default {})", help, fmt::join(choices, ", "), value))
-      ->check([choices](const std::string& text) {
-        if (std::find(choices.begin(), choices.end(), text) != choices.end()) return std::string{};
-        return fmt::format("'{}' cannot be used: it must be one of {}", text, fmt::join(choices, ", "));
-      })
-      ->type_name("");
-  record(name, role, [&value] { return AttributeValue(value); });
+  const auto read = [&value, choices](const std::string& text) {
+    value = text;
+    return std::find(choices.begin(), choices.end(), text) != choices.end();
+  };
+  add(name, help, role,
+      {{{"type", "choice"}, {"choices", choices}},
+       fmt::format("one of {}", fmt::join(choices, ", ")),
+       read,
+       [&value] { return AttributeValue(value); }});
 }
 
 void Options::text(const std::string& name, std::string& value, const std::string& help, Role role) {
-  app_.add_option(name, value, help)->type_name("");
-  record(name, role, [&value] { return AttributeValue(value); });
+  const auto read = [&value](const std::string& text) {
+    value = text;
+    return true;
+  };
+  add(name, help, role, {{{"type", "text"}}, "", read, [&value] { return AttributeValue(value); }});
+}
+
+bool Options::given(const std::string& name) const {
+  return std::any_of(options_.begin(), options_.end(),
+                     [&](const Option& option) { return option.given && option.name == name; });
+}
+
+void Options::refuse(const std::string& why) const {
+  throw UsageError(fmt::format("{}. Correct it; '{} --help' lists every option.", why, program_));
+}
+
+void Options::read(Option& option, const std::string& text, const std::string& place) {
+  option.given = option.read(text);
+  if (!option.given)
+    refuse(
+        fmt::format("{}{}: '{}' cannot be used: it must be {}", place, option.name, text, option.admissible));
+}
+
+void Options::read_file(const std::string& path) {
+  for (const ConfigEntry& entry : read_config_file(path)) {
+    const auto option = std::find_if(options_.begin(), options_.end(), [&](const Option& each) {
+      return each.description["name"] == entry.key;
+    });
+    if (option == options_.end())
+      refuse(fmt::format("{}: no option has the name '{}'", entry.place, entry.key));
+    if (option->description["type"] == "text" && entry.form != ConfigEntry::Form::string)
+      refuse(fmt::format("{}: {}: '{}' cannot be used: it must be a string", entry.place, option->name,
+                         entry.literal));
+    read(*option, text_for(option->description["type"], entry), entry.place + ": ");
+  }
 }
 
 bool Options::parse(int argc, const char* const* argv, const std::string& version_text) {
   try {
-    app_.parse(argc, argv);
+    app_->parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    std::cout << app_.help();
+    std::cout << app_->help();
     return false;
   } catch (const CLI::CallForVersion&) {
     std::cout << version_text << '\n';
     return false;
   } catch (const CLI::ParseError& error) {
-    throw UsageError(fmt::format("{}. Correct it; '{} --help' lists every option.", error.what(), program_));
+    refuse(error.what());
   }
+  if (app_->count("--config") > 0) read_file(app_->get_option("--config")->results().back());
+  for (Option& option : options_)
+    if (app_->count(option.name) > 0) read(option, app_->get_option(option.name)->results().back(), "");
   return true;
 }
 
 std::vector<Parameter> Options::parameters() const {
   std::vector<Parameter> result;
-  for (const auto& [name, value] : recorded_) result.push_back({name, value()});
+  for (const Option& option : options_)
+    if (option.description["affects_results"]) result.push_back({option.name.substr(2), option.recorded()});
   std::sort(result.begin(), result.end(),
             [](const Parameter& a, const Parameter& b) { return a.name < b.name; });
   return result;
 }
 
+json Options::describe() const {
+  json result = json::array();
+  for (const Option& option : options_) result.push_back(option.description);
+  return result;
+}
+
 std::string as_text(const std::vector<Parameter>& parameters) {
   std::string text;
-  for (const Parameter& parameter : parameters)
-    std::visit([&](const auto& value) { text += fmt::format("{} = {}\n", parameter.name, value); },
-               parameter.value);
+  for (const Parameter& each : parameters) text += fmt::format("{} = {}\n", each.name, as_text(each.value));
   return text;
 }
 

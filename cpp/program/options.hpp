@@ -1,14 +1,22 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+namespace CLI {
+class App;
+}
+
 namespace lorentz {
+
+struct Option;
 
 using AttributeValue = std::variant<bool, std::int64_t, std::uint64_t, double, std::string>;
 
@@ -24,22 +32,24 @@ struct Range {
   Number low = std::numeric_limits<Number>::lowest();
   Number high = std::numeric_limits<Number>::max();
   bool open_below = false;
+
+  bool bounded_below() const { return low != std::numeric_limits<Number>::lowest() || low == 0; }
+  bool bounded_above() const { return high != std::numeric_limits<Number>::max(); }
 };
 
 inline constexpr Range<double> positive{0, std::numeric_limits<double>::max(), true};
 inline constexpr Range<double> non_negative{0};
 
-/// A number, or a multiple of the number of cells.
+/// A number, or a multiple of a size of the system.
 struct Scaled {
   double factor;
-  bool per_cell = false;
+  bool of_size = false;
 
-  double at(double cells) const { return per_cell ? factor * cells : factor; }
+  double at(double size) const { return of_size ? factor * size : factor; }
 };
 
-/// The options of one executable. Each is declared once, with its admissible range and units; that
-/// one declaration serves the command line, the configuration file, --help, the check and the
-/// record of parameters in the output file.
+/// The options of one executable. One declaration of each serves the command line, the configuration file,
+/// --help, the check, the record of parameters in the output file and describe().
 ///
 /// parse() writes to the values that were declared: they must not be const, nor move. So a class with options
 /// declares them in a function that is not const, and is written to by nothing else.
@@ -47,35 +57,44 @@ class Options {
  public:
   enum class Role {
     result,   // determines the result: recorded in the output file
-    conduct,  // how the run is conducted: threads, progress, files
+    runtime,  // how the run is conducted: threads, progress, files
   };
 
   Options(std::string program, const std::string& description);
+  ~Options();
 
-  /// The value given is the default. Names carry their leading dashes.
-  void real(const std::string& name, double& value, Range<double> range, const std::string& help,
-            Role role = Role::result);
+  /// The value given is the default. Names carry their leading dashes. Units are a dimension, such as
+  /// "temperature" or "1/time", or "1".
+  void real(const std::string& name, double& value, Range<double> range, const std::string& units,
+            const std::string& help, Role role = Role::result);
   void integer(const std::string& name, std::uint32_t& value, Range<std::uint32_t> range,
                const std::string& help, Role role = Role::result);
   void integer(const std::string& name, std::uint64_t& value, Range<std::uint64_t> range,
                const std::string& help, Role role = Role::result);
-  /// A number, or a word that stands for a value: --gamma N. Recorded as given.
-  void real_or_word(const std::string& name, double& value, Range<double> range, const std::string& word,
-                    double meaning, const std::string& help, Role role = Role::result);
-  /// A number, or one that ends with N for a multiple of the number of cells: 0.05N. Recorded as given.
-  void scaled(const std::string& name, Scaled& value, Range<double> range, const std::string& help,
-              Role role = Role::result);
+  /// A number, or a word, for which the value is none: --gamma N.
+  void real_or_word(const std::string& name, std::optional<double>& value, Range<double> range,
+                    const std::string& word, const std::string& units, const std::string& help,
+                    Role role = Role::result);
+  void integer_or_word(const std::string& name, std::optional<std::uint32_t>& value,
+                       Range<std::uint32_t> range, const std::string& word, const std::string& help,
+                       Role role = Role::result);
+  /// A number, or one that is followed by the symbol of a size for a multiple of it: 0.05N with the symbol
+  /// 'N'.
+  void scaled(const std::string& name, Scaled& value, Range<double> range, char symbol,
+              const std::string& units, const std::string& help, Role role = Role::result);
   /// Increasing numbers, separated by commas.
   void ascending_list(const std::string& name, std::vector<double>& values, Range<double> range,
-                      const std::string& help, Role role = Role::result);
+                      const std::string& units, const std::string& help, Role role = Role::result);
   void flag(const std::string& name, bool& value, const std::string& help, Role role = Role::result);
   void choice(const std::string& name, std::string& value, const std::vector<std::string>& choices,
               const std::string& help, Role role = Role::result);
   void text(const std::string& name, std::string& value, const std::string& help, Role role = Role::result);
 
-  bool given(const std::string& name) const { return app_.count(name) > 0; }
+  /// Whether the command line or the configuration file has the option.
+  bool given(const std::string& name) const;
   const std::string& program() const { return program_; }
 
+  /// Reads the command line and the configuration file that it names; the command line has the last word.
   /// Returns true if the program should go on; false after --help or --version, which print to
   /// standard output. Throws UsageError.
   bool parse(int argc, const char* const* argv, const std::string& version_text);
@@ -83,15 +102,18 @@ class Options {
   /// Values of all options that determine the result, sorted by name.
   std::vector<Parameter> parameters() const;
 
- private:
-  void record(const std::string& name, Role role, std::function<AttributeValue()> value);
-  template <class Number>
-  void number(const std::string& name, Number& value, Range<Number> range, const std::string& help,
-              Role role);
+  /// The options in the order of declaration: name, type, limits, default, units, description.
+  nlohmann::json describe() const;
 
-  CLI::App app_;
+ private:
+  void add(const std::string& name, const std::string& help, Role role, Option option);
+  void read(Option& option, const std::string& text, const std::string& place);
+  void read_file(const std::string& path);
+  [[noreturn]] void refuse(const std::string& why) const;
+
   std::string program_;
-  std::vector<std::pair<std::string, std::function<AttributeValue()>>> recorded_;
+  std::unique_ptr<CLI::App> app_;
+  std::vector<Option> options_;
 };
 
 /// One "name = value" line per parameter, numbers with all their digits.

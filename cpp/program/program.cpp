@@ -6,11 +6,13 @@
 #include <chrono>
 #include <cstdio>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "program/atomic_file.hpp"
 #include "program/build_info.hpp"
 #include "program/interruption.hpp"
+#include "program/results.hpp"
 
 namespace lorentz {
 namespace {
@@ -28,7 +30,8 @@ std::string cost_path(const std::string& output) {
   return stem + ".cost.json";
 }
 
-/// What the run cost, kept apart from its results because no two runs cost the same.
+/// Computing time and memory as JSON, stored apart from the results because they differ between runs with
+/// equal results.
 std::string cost(Clock::time_point start, std::uint64_t events) {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
@@ -57,11 +60,34 @@ std::string version_text(const std::string& program) {
 
 }  // namespace
 
-Program::Program(const std::string& name, const std::string& description) : options_(name, description) {
+Program::Program(const std::string& name, const std::string& description)
+    : options_(name, description), description_(description) {
   options_.text("--output", output_, "HDF5 file to write, whole or not at all (required)",
-                Options::Role::conduct);
+                Options::Role::runtime);
   options_.choice("--progress", progress_, {"auto", "bar", "log", "none"},
-                  "How to show progress on standard error", Options::Role::conduct);
+                  "Display of progress on standard error", Options::Role::runtime);
+  options_.flag("--describe", describe_, "Print options and quantities as JSON, then exit",
+                Options::Role::runtime);
+}
+
+void Program::print_description(const std::vector<Description>& quantities) const {
+  using nlohmann::json;
+  json described = json::array();
+  for (const Description& what : quantities) {
+    json axes = json::array();
+    for (const Axis& axis : what.axes)
+      axes.push_back({{"name", axis.name},
+                      {"units", axis.units},
+                      {"description", axis.description},
+                      {"size", axis.values.size()}});
+    described.push_back(
+        {{"name", what.name}, {"units", what.units}, {"description", what.description}, {"axes", axes}});
+  }
+  fmt::print("{}\n", json{{"program", options_.program()},
+                          {"description", description_},
+                          {"options", options_.describe()},
+                          {"quantities", described}}
+                         .dump(2));
 }
 
 void Program::write_output(const Outcome& outcome) const {
@@ -94,9 +120,13 @@ void Program::write_output(const Outcome& outcome) const {
   write_atomically(output_, file.image());
 }
 
-ExitStatus Program::run_or_throw(int argc, char** argv, const std::function<Outcome(Progress&)>& compute) {
+ExitStatus Program::run_or_throw(int argc, char** argv, const Describe& describe, const Compute& compute) {
   const Clock::time_point start = Clock::now();
   if (!options_.parse(argc, argv, version_text(options_.program()))) return ExitStatus::done;
+  if (describe_) {
+    print_description(describe());
+    return ExitStatus::done;
+  }
   if (output_.empty())
     throw UsageError("--output is missing: the results need a file. Add --output FILE.h5.");
   require_writable(output_, space_asked_for);
@@ -109,22 +139,24 @@ ExitStatus Program::run_or_throw(int argc, char** argv, const std::function<Outc
   return outcome.convergence == Convergence::not_reached ? ExitStatus::not_converged : ExitStatus::done;
 }
 
-int Program::run(int argc, char** argv, const std::function<Outcome(Progress&)>& compute) {
+int Program::run(int argc, char** argv, const Describe& describe, const Compute& compute) {
   const auto complain = [this](const char* kind, const char* what) {
     fmt::print(stderr, "{}: {}: {}\n", options_.program(), kind, what);
   };
   try {
-    return static_cast<int>(run_or_throw(argc, argv, compute));
+    return static_cast<int>(run_or_throw(argc, argv, describe, compute));
   } catch (const UsageError& error) {
     complain("error", error.what());
     return static_cast<int>(ExitStatus::usage);
   } catch (const Interrupted& interruption) {
     return static_cast<int>(ExitStatus::interrupted) + interruption.signal;
   } catch (const std::bad_alloc&) {
-    complain("error", "the memory does not suffice. Choose fewer --cells, particles, bins or --threads.");
+    complain("error", "there is not enough memory. Choose a smaller system, fewer bins or fewer --threads.");
     return static_cast<int>(ExitStatus::usage);
   } catch (const std::length_error&) {
-    complain("error", "an array would be larger than any. Choose fewer --cells, bins or times.");
+    complain("error",
+             "an array would exceed the largest possible size. Choose a smaller system, fewer bins or fewer "
+             "times.");
     return static_cast<int>(ExitStatus::usage);
   } catch (const std::exception& error) {
     complain("numerical failure", error.what());

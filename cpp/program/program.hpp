@@ -3,29 +3,31 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "program/errors.hpp"
 #include "program/options.hpp"
 #include "program/progress.hpp"
-#include "program/results.hpp"
+#include "statistics/quantity.hpp"
 
 namespace lorentz {
 
 enum class Convergence { reached, not_reached, no_target };
 
-/// What a run found, and what the output file says of how it was found.
+/// Results of a run, and their provenance in the output file.
 struct Outcome {
   Results results{};
   std::uint64_t seed = 0;
   std::string streams{};  // of random numbers
   std::uint64_t events = 0;
   std::string target_quantity{};
-  double target_error = 0;    // NaN if none was asked for
+  double target_error = 0;    // NaN without a target
   double achieved_error = 0;  // relative, or absolute if the target was
   Convergence convergence = Convergence::not_reached;
+  std::size_t replicas = 0;  // used for the results
 };
 
-/// The frame of every executable: options, one computation, one HDF5 file written whole, the cost
+/// Common part of every executable: options, one computation, one HDF5 file written atomically, a cost file
 /// beside it, and the exit status.
 class Program {
  public:
@@ -35,15 +37,21 @@ class Program {
   const Options& options() const { return options_; }
   const std::string& output() const { return output_; }
 
-  /// Parses the command line, computes, writes. Returns the exit status; never throws. Errors go to
-  /// standard error as one line.
-  int run(int argc, char** argv, const std::function<Outcome(Progress&)>& compute);
+  using Describe = std::function<std::vector<Description>()>;
+  using Compute = std::function<Outcome(Progress&)>;
+
+  /// Parses the command line, computes and writes; with --describe prints options and quantities as JSON
+  /// instead. Returns the exit status and never throws: errors are printed on standard error as one line.
+  int run(int argc, char** argv, const Describe& describe, const Compute& compute);
 
  private:
-  ExitStatus run_or_throw(int argc, char** argv, const std::function<Outcome(Progress&)>& compute);
+  ExitStatus run_or_throw(int argc, char** argv, const Describe& describe, const Compute& compute);
+  void print_description(const std::vector<Description>& quantities) const;
   void write_output(const Outcome& outcome) const;
 
   Options options_;
+  std::string description_;
+  bool describe_ = false;
   std::string output_;
   std::string progress_ = "auto";
 };

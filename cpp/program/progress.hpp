@@ -5,8 +5,8 @@
 
 namespace lorentz {
 
-/// Shows on standard error how far a run is and how long it will still take: one bar that is
-/// redrawn, on a terminal; otherwise lines for a log, at most one every ten seconds.
+/// Displays progress and remaining time on standard error: on a terminal as a bar that is redrawn, otherwise
+/// as log lines, at most one every ten seconds.
 class Progress {
  public:
   enum class Style { bar, log, none };
@@ -17,10 +17,11 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// done and wanted in replicas, fractions included; `resumed` of them were there at the start.
+  /// done and wanted: numbers of replicas, fractions included; resumed: how many of them come from a
+  /// checkpoint.
   void show(double done, double wanted, double resumed);
 
-  /// A line of its own: a result, or why the run stopped.
+  /// Prints a line: a result, or why the run stops.
   void say(const std::string& line);
 
  private:

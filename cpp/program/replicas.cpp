@@ -13,7 +13,7 @@
 namespace lorentz {
 namespace {
 
-/// The state that the workers share; everything under the mutex but the fractions.
+/// State shared by the worker threads. The mutex protects everything except the atomic members.
 class Team {
  public:
   Team(const ReplicaRun& run, const Measurement& measure, FinishedReplicas& finished)
@@ -36,7 +36,8 @@ class Team {
   }
 
  private:
-  /// The next replica to begin; false if there is none.
+  /// Takes the index of the next replica. False if there is none, after a failure, and after the deadline
+  /// except for the first two replicas.
   bool begin_next(std::uint64_t& index) {
     const std::lock_guard lock(mutex_);
     if (todo_.empty() || failure_) return false;
@@ -46,7 +47,7 @@ class Team {
     return true;
   }
 
-  /// The first failure counts; every replica stops at its next heartbeat. Under the mutex.
+  /// Stores the first failure; every replica then stops at its next heartbeat. The caller holds the mutex.
   void fail(std::exception_ptr failure) {
     if (!failure_) failure_ = std::move(failure);
     failed_ = true;
@@ -61,7 +62,7 @@ class Team {
         if (failed_.load(std::memory_order_relaxed)) throw Interrupted(0);
       };
       try {
-        heartbeat(0);  // a replica may be too short to ask by itself
+        heartbeat(0);  // a short replica may not call it itself
         ReplicaRecord record = measure_({StreamKey(run_.seed, index), heartbeat});
         const std::lock_guard lock(mutex_);
         finished_.emplace(index, std::move(record));

@@ -10,14 +10,15 @@
 
 namespace lorentz {
 
-/// One replica, as the observable sees it.
+/// Random streams and heartbeat of one replica, the input of its measurement.
 struct Replica {
-  StreamKey key;  // of all that it draws
-  /// To be called often with the part done, in [0, 1]. Throws Interrupted when the run must end.
+  StreamKey key;  // of all its random numbers
+  /// The measurement calls it often with its completed part in [0, 1]. Throws Interrupted if the run must
+  /// end.
   std::function<void(double)> heartbeat;
 };
 
-/// What a replica measured: sums whose mean over replicas is meaningful, and its number of events.
+/// Tallies of a replica, sums whose mean over replicas is meaningful, and its number of events.
 struct ReplicaRecord {
   std::vector<double> values;
   std::uint64_t events = 0;
@@ -28,21 +29,22 @@ using Measurement = std::function<ReplicaRecord(const Replica&)>;
 /// Finished replicas by index.
 using FinishedReplicas = std::map<std::uint64_t, ReplicaRecord>;
 
+/// Number of replicas, resources and reporting of run_replicas().
 struct ReplicaRun {
   std::uint64_t seed;
   std::uint64_t wanted;  // replicas 0 ... wanted - 1
   unsigned threads;
-  std::chrono::steady_clock::time_point deadline;  // no replica is begun later, but the first two are
+  std::chrono::steady_clock::time_point deadline;  // no replica but the first two starts after it
 
-  /// Called by the calling thread a few times per second; replicas in progress count in part.
+  /// Called in the thread of run_replicas() a few times per second; replicas in progress count as fractions.
   std::function<void(double replicas_done, const FinishedReplicas&)> report;
 };
 
-/// Measures every replica that is wanted and not yet in `finished`, in the order of the index, each
-/// on one thread, and adds it. A replica's record depends on its index alone. Returns when all are
-/// finished, or at the deadline when those begun are finished; the finished ones are then those with
-/// the lowest indices. Throws Interrupted after a signal, or the first exception of a replica; what
-/// was finished before is in `finished`.
+/// Measures every wanted replica that is not in `finished`, in the order of the index, each in one thread,
+/// and adds it. The record of a replica depends on its index alone. Returns when all are finished, or after
+/// the deadline when those in progress are; the finished ones then have the lowest indices. Throws
+/// Interrupted after a signal, or the first exception of a replica; `finished` then contains the replicas
+/// finished before.
 void run_replicas(const ReplicaRun& run, const Measurement& measure, FinishedReplicas& finished);
 
 }  // namespace lorentz

@@ -8,8 +8,8 @@
 namespace lorentz {
 namespace {
 
-/// Bound below which the true standard error of `used` normal records lies with a probability, over its
-/// estimate.
+/// Upper confidence bound at a probability of the standard error of `used` normal records, relative to its
+/// estimate [eq. 52].
 double bound(std::uint64_t used, double probability) {
   const auto freedom = static_cast<double>(used - 1);
   return std::sqrt(freedom / gsl_cdf_chisq_Qinv(probability, freedom));

@@ -17,10 +17,10 @@ bool Blocking::converged() const {
 Blocking blocking(const Records& blocks) {
   if (!std::has_single_bit(blocks.width()))
     throw std::invalid_argument("the number of blocks must be a power of two");
-  // Replicas follow one another, so neighbours in this list are neighbours in time until only one is left
-  // each.
+  // Rows are stored one after another, so joining neighbours joins blocks of one replica until one block per
+  // replica is left.
   std::vector<double> means = blocks.values();
-  double scale = 0;  // so that no square overflows
+  double scale = 0;  // largest modulus; dividing by it prevents overflow of the squares
   for (const double mean : means) scale = std::max(scale, std::abs(mean));
   if (scale > 0)
     for (double& mean : means) mean /= scale;

@@ -6,15 +6,15 @@
 #include <stdexcept>
 #include <utility>
 
-#include "model/portable.hpp"
+#include "numerics/elementary.hpp"
 
 namespace lorentz {
 namespace {
 
-constexpr std::size_t points = 41;  // at which the rescaled profiles are compared
-constexpr double smallest = 0.1, largest = 1.5;
+constexpr std::size_t points = 41;               // at which the rescaled profiles are compared
+constexpr double smallest = 0.1, largest = 1.5;  // range of the search for xi
 
-/// Linear interpolation; 0 outside.
+/// y at x by linear interpolation; 0 outside the range of the profile.
 double value_at(const Profile& profile, double x) {
   const double step = profile.x[1] - profile.x[0];
   const double place = (x - profile.x.front()) / step;
@@ -24,12 +24,13 @@ double value_at(const Profile& profile, double x) {
   return (1 - part) * profile.y[left] + part * profile.y[left + 1];
 }
 
-/// Mean square spread of the rescaled profiles over the mean square of their mean.
+/// Variance of the rescaled profiles about their mean, averaged over s, relative to the mean square of that
+/// mean.
 double spread(std::span<const Profile> profiles, double low, double high, double xi) {
   const double last = profiles.back().time;
   std::array<double, points> sum{}, squares{};
   for (const Profile& profile : profiles) {
-    const double stretch = portable::pow(profile.time / last, xi);
+    const double stretch = elementary::pow(profile.time / last, xi);
     for (std::size_t i = 0; i < points; ++i) {
       const double s = low + (high - low) * static_cast<double>(i) / (points - 1);
       const double y = stretch * value_at(profile, s * stretch);
@@ -46,7 +47,7 @@ double spread(std::span<const Profile> profiles, double low, double high, double
   return differences / size;
 }
 
-/// The least of a function between a and b, which has one valley there, by the golden section, to 1e-5.
+/// Minimum of a function that is unimodal on [a, b], by golden-section search, to 1e-5.
 template <class Function>
 double bottom(const Function& cost, double a, double b) {
   const double golden = (std::sqrt(5.0) - 1) / 2;
@@ -69,7 +70,7 @@ double bottom(const Function& cost, double a, double b) {
 
 double collapse_exponent(std::span<const Profile> profiles, double low, double high) {
   if (profiles.size() < 2) throw std::invalid_argument("a collapse needs two profiles");
-  // A scan finds the valley.
+  // A scan brackets the minimum, because golden-section search needs a unimodal function.
   constexpr int steps = 28;
   const auto cost = [&](double xi) { return spread(profiles, low, high, xi); };
   double best = smallest, least = cost(smallest);

@@ -1,36 +1,44 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "statistics/records.hpp"
+#include "statistics/tally.hpp"
 
 namespace lorentz {
 
-/// Regresses control variates out of measured columns.
+/// Measured columns and the control variates on which they are regressed.
+struct Regression {
+  Columns measured, controls;
+};
+
+/// Records with control variates regressed out of the measured columns [eq. 34].
 ///
-/// The last `controls` columns of a record are control variates c, whose exact mean is 0. Every other column
-/// y becomes y - b c, with the coefficients b of the linear regression of y on c over the other records: a
-/// record's correction then has mean 0, and no bias comes in (Glasserman, Monte Carlo Methods in Financial
-/// Engineering, section 4.1). Controls that do not vary are left out. Nothing comes back without controls,
-/// with fewer than three records for each of those that vary or not eight more than those, or if one varies
-/// in hardly more than one record. The error of the mean follows from the scatter of the corrected records,
-/// as they share nothing but the small noise of the coefficients.
-std::optional<Records> regress_out(const Records& records, std::size_t controls);
+/// The controls x have the exact mean 0. A measured column y becomes y - b_(i).x with the leave-one-out
+/// coefficients b_(i) of the linear regression of y on x. A record is independent of its coefficients, so its
+/// correction has mean 0 and adds no bias (Glasserman, Monte Carlo Methods in Financial Engineering, section
+/// 4.1). The standard error of the mean follows from the scatter of the corrected records, which are
+/// correlated only through the sampling errors of the coefficients. Controls that do not vary are left out.
+/// The result is empty without controls, with fewer than max(3k, k + 8) records for k varying controls, or
+/// with a leverage above 0.99.
+std::optional<Records> regress_out(const Records& records, const Regression& regression);
 
-/// Mean over columns from `first` on of the variance over records of a, divided by that of b. Columns
-/// that do not vary in b are left out; 1 if none does.
-double variance_ratio(const Records& a, const Records& b, std::size_t first, std::size_t columns);
+/// Variance over the records of a divided by that of b, averaged over columns. Columns that do not vary in b
+/// are left out; 1 if none varies.
+double variance_ratio(const Records& a, const Records& b, const Columns& columns);
 
-/// Records that control variates may have been regressed out of.
+/// Records after reduce_variance().
 struct ReducedRecords {
   Records records;
   bool control_variates;  // whether they were used
 };
 
-/// Uses the control variates if that is possible and makes the columns scatter less on average; otherwise the
-/// records come back as they are. The columns are treated alike, because neighbours in a profile belong
-/// together.
-ReducedRecords reduce_variance(const Records& records, std::size_t controls);
+/// Applies control variates if this is possible and lowers the variance of the measured columns of all
+/// regressions on average; otherwise returns the records unchanged. The decision is common to all columns,
+/// because neighbouring columns belong to one profile. A column that the controls determine, such as the
+/// particles that enter at an opening, stays uncorrected: its corrected value would be the known mean with an
+/// error of 0, which is not a measurement.
+ReducedRecords reduce_variance(const Records& records, const std::vector<Regression>& regressions);
 
 }  // namespace lorentz

@@ -2,10 +2,10 @@
 
 #include <gsl/gsl_fit.h>
 
+#include <limits>
 #include <stdexcept>
-#include <vector>
 
-#include "model/portable.hpp"
+#include "numerics/elementary.hpp"
 
 namespace lorentz {
 
@@ -22,10 +22,40 @@ double fit_power(std::span<const double> x, std::span<const double> y, double fr
   std::vector<double> log_x, log_y;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (x[i] < from || x[i] > to) continue;
-    log_x.push_back(portable::log(x[i]));
-    log_y.push_back(portable::log(y[i]));
+    log_x.push_back(elementary::log(x[i]));
+    log_y.push_back(elementary::log(y[i]));
   }
   return fit_line(log_x, log_y).slope;
+}
+
+double fit_logarithm(std::span<const double> x, std::span<const double> y, double from, double to) {
+  std::vector<double> log_x, part;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (x[i] < from || x[i] > to) continue;
+    log_x.push_back(elementary::log(x[i]));
+    part.push_back(y[i]);
+  }
+  return fit_line(log_x, part).slope;
+}
+
+double fit_logarithmic_power(std::span<const double> x, std::span<const double> y, double from,
+                             double scale) {
+  std::vector<double> logarithm, ratio;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (x[i] < from) continue;
+    logarithm.push_back(elementary::log(x[i] / scale));
+    ratio.push_back(y[i] / x[i]);
+  }
+  return fit_power(logarithm, ratio, logarithm.front(), logarithm.back());
+}
+
+std::vector<double> local_exponents(std::span<const double> x, std::span<const double> y) {
+  std::vector<double> exponents;
+  for (std::size_t i = 0; i + 1 < x.size(); ++i)
+    exponents.push_back(y[i] > 0 && y[i + 1] > 0
+                            ? elementary::log(y[i + 1] / y[i]) / elementary::log(x[i + 1] / x[i])
+                            : std::numeric_limits<double>::quiet_NaN());
+  return exponents;
 }
 
 }  // namespace lorentz

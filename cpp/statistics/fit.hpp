@@ -1,20 +1,31 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 namespace lorentz {
 
-/// y = intercept + slope x.
+/// The line y = intercept + slope x.
 struct Line {
   double intercept;
   double slope;
 };
 
-/// Least squares with equal weights. Throws std::invalid_argument with fewer than two points. Its errors
-/// are left to the jackknife, because the points of one run are correlated.
+/// Line by least squares with equal weights. Its errors follow from the jackknife, because the points of one
+/// run are correlated. Throws std::invalid_argument for fewer than two points.
 Line fit_line(std::span<const double> x, std::span<const double> y);
 
-/// Exponent of y ~ x^a: the slope of ln y against ln x over the points with from <= x <= to.
+/// Exponent a of y ~ x^a: the slope of ln y against ln x over the points with from <= x <= to.
 double fit_power(std::span<const double> x, std::span<const double> y, double from, double to);
+
+/// Slope of y against ln x over the points with from <= x <= to.
+double fit_logarithm(std::span<const double> x, std::span<const double> y, double from, double to);
+
+/// Exponent b of y ~ x ln(x/scale)^b over the points with x >= from [eq. 19]; NaN unless these exceed the
+/// scale.
+double fit_logarithmic_power(std::span<const double> x, std::span<const double> y, double from, double scale);
+
+/// Local exponents d ln y / d ln x between neighbouring points; NaN unless y is positive.
+std::vector<double> local_exponents(std::span<const double> x, std::span<const double> y);
 
 }  // namespace lorentz

@@ -7,8 +7,8 @@
 
 namespace lorentz {
 
-/// Equal bins over [-max, max], an even number, so that an edge lies at 0 exactly. The other edges are where
-/// value / width, a multiplication, rounds to a whole number.
+/// An even number of equal bins on [-max, max], so that one edge is exactly 0. A value is divided by the bin
+/// width through a multiplication, whose rounding defines the other edges.
 class Bins {
  public:
   Bins(std::size_t count, double max)
@@ -20,8 +20,8 @@ class Bins {
     return max_ * (static_cast<double>(bin) - static_cast<double>(half_)) / static_cast<double>(half_);
   }
 
-  /// The bin of a value; count() if it lies outside. 0 belongs to the bin above it, other edges to the bin
-  /// that is farther from 0. Without a branch for the sign, which cannot be predicted.
+  /// Bin of a value; count() outside. The edge 0 belongs to the bin above it, every other edge to the bin
+  /// farther from 0. The sign is handled without a branch, because branch prediction fails for random signs.
   std::size_t operator[](double value) const {
     const double place = value * per_unit_;
     if (!(std::abs(place) < static_cast<double>(half_))) return count();
@@ -40,7 +40,7 @@ class Bins {
   double max_, per_unit_;
 };
 
-/// Weights by bin; values outside are left out.
+/// Sums of weights by bin; values outside are ignored.
 class Histogram {
  public:
   explicit Histogram(const Bins& bins) : bins_(bins), weights_(bins.count(), 0) {}

@@ -8,13 +8,13 @@
 
 namespace lorentz {
 
-double zero_mean_p_value(const Records& records, std::size_t columns, std::size_t fitted) {
+double zero_mean_p_value(const Records& records, const Columns& columns, std::size_t fitted) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const auto rows = static_cast<Eigen::Index>(records.size());
   if (rows < 2) return none;
   const Eigen::Map<const Matrix> all(records.values().data(), rows,
                                      static_cast<Eigen::Index>(records.width()));
-  const Matrix x = standardised(all.leftCols(static_cast<Eigen::Index>(columns)));
+  const Matrix x = standardised(all(Eigen::all, columns));
   const Eigen::VectorXd mean = x.colwise().mean().transpose();
   const Matrix centred = x.rowwise() - x.colwise().mean();
   const auto covariance = (centred.transpose() * centred / static_cast<double>(rows - 1))

@@ -3,14 +3,15 @@
 #include <cstddef>
 
 #include "statistics/records.hpp"
+#include "statistics/tally.hpp"
 
 namespace lorentz {
 
-/// p-value of the hypothesis that the first `columns` columns all have mean 0, by Hotelling's T^2 test: with
-/// R records and columns of rank k, T^2 (R - k)/(k (R - 1)) has the F distribution with k and R - k degrees
-/// of freedom if the records are independent and normal (Hotelling, Ann. Math. Stat. 2, 360 (1931)). `fitted`
-/// coefficients that were taken from the same records, as those of control variates, count as so many records
-/// less. NaN with too few records, or if no column varies.
-double zero_mean_p_value(const Records& records, std::size_t columns, std::size_t fitted);
+/// p-value of the hypothesis that the means of all given columns are 0, by Hotelling's T^2 test (Ann. Math.
+/// Stat. 2, 360 (1931)): with R independent normal records and columns of rank k, T^2 (R - k)/(k (R - 1)) has
+/// the F distribution with k and R - k degrees of freedom [eq. 51]. R is the number of records minus
+/// `fitted`, the number of coefficients estimated from the same records, such as those of control variates.
+/// NaN with too few records, or if no column varies.
+double zero_mean_p_value(const Records& records, const Columns& columns, std::size_t fitted);
 
 }  // namespace lorentz

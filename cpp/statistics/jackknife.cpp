@@ -15,14 +15,15 @@ Estimate jackknife(const Records& records, const RecordFunction& f) {
     return estimate;
   }
 
-  // What is left without the only replica that saw something is then exactly 0, and no ratio is made of its
-  // roundings.
+  // Extended precision: where only one replica contributes to a sum, the sum without it is exactly 0, and no
+  // ratio of rounding errors occurs.
   std::vector<long double> sums(mean.size(), 0);
   for (std::size_t replica = 0; replica < records.size(); ++replica)
     for (std::size_t i = 0; i < mean.size(); ++i) sums[i] += records[replica][i];
 
-  // Welford's update over the delete-one values: stable when they differ in the last digits only. It keeps
-  // the root of the sum of squares, as squares of large or small numbers are none.
+  // Welford's algorithm is stable if the leave-one-out values differ in their last digits only. It
+  // accumulates the root of the sum of squares, because squares of large or small numbers overflow or
+  // underflow.
   std::vector<double> centre(quantities, 0), root(quantities, 0), without(mean.size());
   for (std::size_t replica = 0; replica < records.size(); ++replica) {
     for (std::size_t i = 0; i < mean.size(); ++i)

@@ -8,36 +8,36 @@
 #include <limits>
 #include <vector>
 
-#include "model/portable.hpp"
+#include "numerics/elementary.hpp"
 
 namespace lorentz {
 
-/// Points that divide every decade from `first` upwards into equal factors.
+/// Points in geometric progression from `first` upwards.
 class LogGrid {
  public:
   LogGrid(double first, double decades, std::size_t points_per_decade)
-      : log_first_(portable::log(first)),
-        steps_per_unit_(static_cast<double>(points_per_decade) / portable::log(10.0)),
+      : log_first_(elementary::log(first)),
+        steps_per_unit_(static_cast<double>(points_per_decade) / elementary::log(10.0)),
         steps_(static_cast<std::size_t>(std::llround(decades * static_cast<double>(points_per_decade)))) {
     make_table();
   }
 
-  /// All points, ends included.
+  /// All points, both ends included.
   std::vector<double> points() const {
     std::vector<double> result;
     for (std::size_t i = 0; i <= steps_; ++i) result.push_back(point(static_cast<double>(i)));
     return result;
   }
 
-  /// Geometric middle of every interval.
+  /// Geometric mean of the ends of every interval.
   std::vector<double> middles() const {
     std::vector<double> result;
     for (std::size_t i = 0; i < steps_; ++i) result.push_back(point(static_cast<double>(i) + 0.5));
     return result;
   }
 
-  /// The interval of a positive value, its lower point included; values outside count to the first or the
-  /// last. Without a logarithm.
+  /// Interval of a positive value, its lower point included; values outside belong to the first or the last
+  /// interval. A table lookup by the leading bits of the value replaces the slower logarithm.
   std::size_t interval(double value) const {
     const Cell& cell = table_[static_cast<std::size_t>(std::clamp(cell_of(value), first_, last_) - first_)];
     return cell.interval + (value >= cell.next_point ? 1 : 0);
@@ -46,17 +46,17 @@ class LogGrid {
   std::size_t intervals() const { return steps_; }
 
  private:
-  /// Numbers that agree in sign, exponent and the leading bits of the fraction.
+  /// Range of numbers with the same sign, exponent and leading bits of the fraction.
   struct Cell {
-    double next_point;     // after the lower end of the cell; NaN, which no value reaches, in the last one
-    std::size_t interval;  // of that end
+    double next_point;     // above the lower end of the cell; NaN, never reached, in the last interval
+    std::size_t interval;  // that contains the lower end
   };
 
   std::int64_t cell_of(double value) const { return std::bit_cast<std::int64_t>(value) >> ignored_bits_; }
 
-  /// Cells so narrow that none holds two points.
+  /// Fills the table with the widest cells that contain at most one point each.
   void make_table() {
-    const double factor = portable::exp(1 / steps_per_unit_);
+    const double factor = elementary::exp(1 / steps_per_unit_);
     for (double width = 1; 1 + width >= factor; width /= 2) --ignored_bits_;
     const std::vector<double> edges = points();
     first_ = cell_of(edges.front());
@@ -70,11 +70,11 @@ class LogGrid {
     }
   }
 
-  double point(double step) const { return portable::exp(log_first_ + step / steps_per_unit_); }
+  double point(double step) const { return elementary::exp(log_first_ + step / steps_per_unit_); }
 
   double log_first_, steps_per_unit_;
   std::size_t steps_;
-  int ignored_bits_ = 52;  // of a number, the last ones
+  int ignored_bits_ = 52;  // trailing bits of a number that do not select its cell
   std::int64_t first_, last_;
   std::vector<Cell> table_;
 };

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "model/portable.hpp"
+#include "numerics/elementary.hpp"
 
 namespace lorentz {
 
-/// Sum of the logarithms of positive numbers: as the logarithm of their product, so that few are taken.
+/// Sum of the logarithms of positive numbers, computed from products, so that few logarithms are evaluated.
 class LogSum {
  public:
   void add(double number) {
@@ -12,16 +12,16 @@ class LogSum {
     if (product > 0x1p-1000 && product < 0x1p1000) [[likely]] {
       product_ = product;
     } else {
-      sum_ += portable::log(product_) + portable::log(number);
+      sum_ += elementary::log(product_) + elementary::log(number);
       product_ = 1;
     }
   }
 
-  double sum() const { return sum_ + portable::log(product_); }
+  double sum() const { return sum_ + elementary::log(product_); }
 
  private:
   double product_ = 1;
-  double sum_ = 0;  // without the product's
+  double sum_ = 0;  // of the numbers that are not in the product
 };
 
 }  // namespace lorentz

@@ -6,14 +6,14 @@
 #include <limits>
 #include <unsupported/Eigen/NonLinearOptimization>
 
-#include "model/portable.hpp"
+#include "numerics/elementary.hpp"
 
 namespace lorentz {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr double part_of_maximum = 0.5;
-constexpr double least_half_width = 2.5;
+constexpr double part_of_maximum = 0.5;   // level of the window
+constexpr double least_half_width = 2.5;  // in cells
 
 std::vector<double> running_mean(const std::vector<double>& profile) {
   std::vector<double> means;
@@ -27,7 +27,8 @@ std::vector<double> running_mean(const std::vector<double>& profile) {
   return means;
 }
 
-/// sqrt(weight) (exp(c0 + c1 u + c2 u^2 + c3 u^3) - y) of every cell, for Eigen's Levenberg-Marquardt.
+/// Residuals sqrt(weight) (exp(c0 + c1 u + c2 u^2 + c3 u^3) - y) of every cell, in the form of Eigen's
+/// Levenberg-Marquardt algorithm.
 struct ExpCubic {
   using Scalar = double;
   using InputType = Eigen::VectorXd;
@@ -41,7 +42,7 @@ struct ExpCubic {
   int inputs() const { return 4; }
   int values() const { return static_cast<int>(y.size()); }
   Eigen::VectorXd weighted(const Eigen::VectorXd& c) const {
-    return (powers * c).unaryExpr(&portable::exp).cwiseProduct(root_weight);
+    return (powers * c).unaryExpr(&elementary::exp).cwiseProduct(root_weight);
   }
   int operator()(const Eigen::VectorXd& c, Eigen::VectorXd& residuals) const {
     residuals = weighted(c) - y.cwiseProduct(root_weight);
@@ -84,7 +85,7 @@ std::optional<PeakWindow> peak_window(const std::vector<double>& profile) {
   while (low > 0 && y[low] > level) --low;
   while (high < y.size() - 1 && y[high] > level) ++high;
   if (y[low] > level || y[high] > level) return {};
-  // Between two cells, of which the outer one is not above the level.
+  // Linear interpolation between the outermost cell above the level and its neighbour.
   const double left = static_cast<double>(low) + (level - y[low]) / (y[low + 1] - y[low]);
   const double right = static_cast<double>(high) - (level - y[high]) / (y[high - 1] - y[high]);
   return PeakWindow{0.5 * (left + right), std::max(0.5 * (right - left), least_half_width)};
@@ -108,16 +109,16 @@ Peak fit_peak(const std::vector<double>& profile, const PeakWindow& window) {
       window.half_width;
   ExpCubic fit{{size, 4}, (1 - u.square()).max(0).sqrt(), y / scale};
   fit.powers << Eigen::ArrayXd::Ones(size), u, u.square(), u.cube();
-  Eigen::VectorXd c = Eigen::Vector4d(0, 0, portable::log(part_of_maximum), 0);
+  Eigen::VectorXd c = Eigen::Vector4d(0, 0, elementary::log(part_of_maximum), 0);
   Eigen::LevenbergMarquardt solver(fit);
   solver.parameters.ftol = solver.parameters.xtol = 1e-12;  // well below the differences of jackknife samples
   solver.minimize(c);
 
-  // p'(u) = 0 where p''(u) < 0.
+  // Maximum of the cubic p(u): p'(u) = 0 and p''(u) < 0, in the form without cancellation.
   const double root = std::sqrt(c[2] * c[2] - 3 * c[1] * c[3]);
   const double top = c[1] / (root - c[2]);
   if (!(std::abs(top) < 1)) return {none, none};
-  const double height = portable::exp(c[0] + top * (c[1] + top * (c[2] + top * c[3])));
+  const double height = elementary::exp(c[0] + top * (c[1] + top * (c[2] + top * c[3])));
   return {window.middle + window.half_width * top, scale * height};
 }
 

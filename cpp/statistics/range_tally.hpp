@@ -8,10 +8,9 @@
 
 namespace lorentz {
 
-/// Sums per element, several kinds of them side by side, to which ranges of elements are added at a cost that
-/// does not depend on their length: a difference array, summed once at the end. Single elements, which are
-/// all that particles reach that scatter everywhere, have an array of their own, so that one place of memory
-/// is touched.
+/// Arrays of sums, `kinds` of them, to which values are added over a range of elements at a cost that does
+/// not depend on its length: a difference array, summed once at the end [eq. 35]. Single elements, the only
+/// ranges at gamma = N, are added to an array of their own, which touches one cache line instead of two.
 template <std::size_t kinds = 1>
 class RangeTally {
  public:
@@ -19,7 +18,7 @@ class RangeTally {
 
   explicit RangeTally(std::size_t size) : singles_(size), steps_(size + 1) {}
 
-  /// Adds the values to the elements first...last; nothing if first > last.
+  /// Adds the values to the elements first, ..., last; to none if first > last.
   void add(std::ptrdiff_t first, std::ptrdiff_t last, const Values& values) {
     if (first == last) {
       add(singles_[static_cast<std::size_t>(first)], values, 1);
@@ -29,8 +28,8 @@ class RangeTally {
     }
   }
 
-  /// The elements being the intervals [k, k + 1): spreads totals evenly over [low, high], a point if low ==
-  /// high.
+  /// Distributes totals evenly over [low, high], where element k is the interval [k, k + 1). For low == high
+  /// all goes to one element.
   void spread(double low, double high, const Values& totals) {
     const auto end = static_cast<std::ptrdiff_t>(singles_.size());
     const auto first = std::min(static_cast<std::ptrdiff_t>(low), end - 1);  // low may be the end itself
@@ -49,7 +48,7 @@ class RangeTally {
     add(last, last, part(high - static_cast<double>(last)));
   }
 
-  /// Of one kind, by element.
+  /// Sums of one kind by element.
   std::vector<double> sums(std::size_t kind = 0) const {
     std::vector<double> result;
     double ranges = 0;

@@ -6,7 +6,7 @@
 namespace lorentz {
 namespace {
 
-/// A power of two that brings a number close to 1, so that squares neither overflow nor vanish.
+/// Power of two that scales a number to about 1, so that squares neither overflow nor underflow.
 double towards_one(double number) {
   return number > 0 ? std::ldexp(1.0, std::min(1000, -std::ilogb(number))) : 1;
 }

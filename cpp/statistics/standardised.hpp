@@ -6,8 +6,8 @@ namespace lorentz {
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Every column divided by the norm of its deviations from its mean, whatever its size; one that does not
-/// vary by more than its rounding becomes 0.
+/// Columns divided by the norm of their deviations from the mean, without overflow or underflow. A column
+/// that varies by no more than its rounding error becomes 0.
 Matrix standardised(const Matrix& columns);
 
 }  // namespace lorentz

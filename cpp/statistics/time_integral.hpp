@@ -21,7 +21,7 @@ class Blocks {
     return block == count_ ? end_ : begin_ + static_cast<double>(block) * length();
   }
 
-  /// Of a time that they contain.
+  /// Block that contains a time in [begin, end).
   std::size_t operator[](double time) const {
     return std::min(static_cast<std::size_t>((time - begin_) * per_time_), count_ - 1);
   }
@@ -31,14 +31,15 @@ class Blocks {
   std::size_t count_;
 };
 
-/// Integral over blocks of time of a quantity that is constant between its changes.
+/// Exact integrals over blocks of time of a piecewise constant quantity.
 class TimeIntegral {
  public:
   explicit TimeIntegral(const Blocks& blocks)
       : since_(blocks.edge(0)), edge_(blocks.edge(1)), blocks_(blocks), sums_(blocks.count(), 0) {}
 
-  /// The quantity had this value up to a time, no earlier than the one before.
-  void hold(double value, double until) {
+  /// Adds the time since the last call up to `until`, during which the quantity had this value. Times before
+  /// that of the last call are ignored.
+  void advance(double value, double until) {
     if (!(until > since_)) return;
     while (!(until < edge_)) [[unlikely]] {
       if (block_ == blocks_.count()) return;
@@ -51,12 +52,12 @@ class TimeIntegral {
     since_ = until;
   }
 
-  /// Of the blocks that are over.
+  /// Integrals over the completed blocks; 0 for the others.
   const std::vector<double>& sums() const { return sums_; }
 
  private:
-  double since_, edge_;  // of the current block, its end
-  double sum_ = 0;       // over the current block
+  double since_, edge_;  // time of the last call; end of the current block
+  double sum_ = 0;       // integral over the current block
   std::size_t block_ = 0;
   Blocks blocks_;
   std::vector<double> sums_;

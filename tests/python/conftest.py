@@ -8,14 +8,14 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 
-# A chain that a fraction of a second suffices for.
+# A chain that runs for a fraction of a second.
 SMALL = {"cells": 5, "particles-per-cell": 4, "relaxation-time": 5, "observation-time": 10, "replicas": 4}
 
 Program = Callable[..., subprocess.CompletedProcess]
 
 
 def command_line(program: str, options: dict) -> list[str]:
-    """A value of True stands for a flag; None leaves an option of SMALL out."""
+    """A value of True gives a flag; None omits an option of SMALL."""
     words = [str(ROOT / "build/bin" / program)]
     for name, value in {**SMALL, **options}.items():
         if value is True:
@@ -27,7 +27,7 @@ def command_line(program: str, options: dict) -> list[str]:
 
 @pytest.fixture
 def program(tmp_path: Path) -> Program:
-    """Runs a program in an empty folder; options as keywords, underscores for dashes."""
+    """Runs a program in an empty folder. Options are keywords with underscores instead of dashes."""
 
     def run(name: str, **options: object) -> subprocess.CompletedProcess:
         named = {key.replace("_", "-"): value for key, value in options.items()}

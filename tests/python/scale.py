@@ -1,19 +1,19 @@
-"""Other units: what they make of options, of results and of their comparison."""
+"""Conversion of options and results to other units, and comparison of results in different units."""
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from workflow.scripts.columns import OPTIONS
-from workflow.scripts.load import Quantity, Result
-from workflow.scripts.units import parse
+from workflow.lib.columns import OPTIONS
+from workflow.lib.load import Quantity, Result
+from workflow.lib.units import parse
 
 ROUNDING = 1e-9  # relative to the largest value of a dataset
 
 
 @dataclass(frozen=True)
 class Scale:
-    """Other units: of momenta and of lengths."""
+    """Factors by which the numbers of momenta and of lengths change in other units."""
 
     momenta: float = 1
     lengths: float = 1
@@ -23,14 +23,14 @@ class Scale:
         return self.momenta**-time * self.lengths ** (length + time)
 
     def option(self, name: str, value: object) -> object:
-        """What stands on the command line: a number, or several of them, each maybe times N; or a word."""
+        """An option of the command line: one or more numbers, each possibly times N, or a word."""
         if name not in OPTIONS or value in ("particles", "1/N"):
             return value
         factor, parts = self(OPTIONS[name]), str(value).split(",")
         return ",".join(f"{factor * float(part.rstrip('N'))!r}{'N' * part.endswith('N')}" for part in parts)
 
     def result(self, result: Result) -> Result:
-        """The same result in these units."""
+        """The result converted to these units."""
 
         def scaled(quantity: Quantity) -> Quantity:
             factor = self(quantity.units)
@@ -45,7 +45,7 @@ class Scale:
 
         quantities = {name: scaled(quantity) for name, quantity in result.quantities.items()}
         options = {name: type(value)(self.option(name, value)) for name, value in result.parameters.items()}
-        if options.get("cell-length") == "1/N":  # of a chain whose length is 1 in the other units
+        if options.get("cell-length") == "1/N":  # the chain has length 1 in the original units
             options["cell-length"] = self.lengths / int(options["cells"])
         return replace(result, quantities=quantities, parameters=options)
 
@@ -54,6 +54,6 @@ SCALES = (Scale(momenta=8), Scale(lengths=4))
 
 
 def agree(plain: np.ndarray, scaled: np.ndarray, factor: float, rounding: float) -> bool:
-    """NaN only where the other is NaN."""
+    """Agreement to rounding, with NaN in the same places."""
     largest = np.max(np.abs(plain[np.isfinite(plain)]), initial=0)
     return np.allclose(scaled / factor, plain, rtol=0, atol=rounding * largest, equal_nan=True)

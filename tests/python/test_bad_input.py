@@ -1,4 +1,4 @@
-"""Bad input: exit status 2, a message that says what, why and what to do, and no file."""
+"""Bad input: exit status 2, no file, and a message with the problem, its reason and the remedy."""
 
 import os
 import resource
@@ -83,13 +83,13 @@ def test_output_that_cannot_be_written(persistence: Program, tmp_path: Path, tar
 
 
 def limit_file_size() -> None:
-    """Stands for a full disk, without the rights to make one: no file may grow beyond 1000 bytes."""
+    """Simulates a full disk without special rights: the size of a file is limited to 1000 bytes."""
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
 
 
 def test_no_space_is_noticed_before_the_run(tmp_path: Path) -> None:
-    # A run that would take days is refused at once.
+    # The run would take days, so the check must precede it.
     options = {"output": "out.h5", "progress": "none", "observation-time": 1e9}
     result = subprocess.run(
         command_line("persistence", options),

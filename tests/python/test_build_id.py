@@ -1,4 +1,4 @@
-"""The build id changes with what an executable is built from, and with nothing else."""
+"""The build id changes if and only if an input of the build changes."""
 
 import json
 import subprocess
@@ -17,7 +17,7 @@ SOURCES = {
     "engine/x.hpp": '  #  include "model/y.hpp"\n#include "library/z.h"\n',
     "engine/x.cpp": '#include "engine/x.hpp"\n#include "engine/own.hpp"\n',
     "engine/own.hpp": "",
-    "model/y.hpp": '#include "engine/x.hpp"\n',  # a circle must not hang it
+    "model/y.hpp": '#include "engine/x.hpp"\n',  # a cyclic include must not cause an infinite loop
     "model/unused.hpp": "",
 }
 
@@ -48,7 +48,7 @@ def test_id_follows_sources_and_flags_only(tree: Path) -> None:
     (tree / "cpp/model/unused.hpp").write_text("// changed\n")
     (tree / "cpp/engine/x.hpp").touch()
     assert identify(tree) == first
-    assert (tree / "out/a.json").stat().st_mtime_ns == stamp  # not even written again
+    assert (tree / "out/a.json").stat().st_mtime_ns == stamp  # not rewritten
     assert identify(tree, flags="-O2")["build_id"] != first["build_id"]
     (tree / "cpp/engine/own.hpp").write_text("// changed\n")
     assert identify(tree)["source_hash"] != first["source_hash"]
@@ -58,3 +58,16 @@ def test_id_names_no_place(tree: Path) -> None:
     identify(tree)
     for name in ("out/a.json", "out/a.cpp"):
         assert str(tree) not in (tree / name).read_text()
+
+
+def test_every_source_that_programs_link_is_in_a_closure():
+    """A source file that no header pairs with would be linked without a trace in any build id."""
+    cpp = ROOT / "cpp"
+    programs = sorted(path.relative_to(cpp).as_posix() for path in cpp.glob("observables/*.cpp"))
+    known = set().union(*(include_closure(cpp, program) for program in programs))
+    linked = {
+        path.relative_to(cpp).as_posix()
+        for floor in ("numerics", "engine", "statistics", "program", "boltzmann", "runs")
+        for path in (cpp / floor).glob("*.cpp")
+    }
+    assert linked - known == set()

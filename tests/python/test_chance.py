@@ -1,9 +1,9 @@
-"""Every program draws as if by chance: closed chains agree with the reference simulator, means that symmetry
-forces to 0 are 0, and seeds lie as far apart as the errors say.
+"""Randomness of every program: closed chains agree with the reference simulator, means that are 0 by symmetry
+are 0, and results of different seeds scatter as their errors predict.
 
-Tests on errors alone ask whether a seed repeats its results and whether results scatter over replicas and seeds
-as the errors say: directions and passes that all replicas and all seeds have in common shift every result
-alike, so neither sees them.
+Tests of errors alone check only that a seed reproduces its results and that results scatter over replicas and
+seeds as the errors predict. They do not detect directions or passes common to all replicas and seeds, which
+shift every result alike.
 """
 
 import subprocess
@@ -17,18 +17,18 @@ import pytest
 from scipy.stats import norm, t
 
 from tests.python.conftest import ROOT, Program
-from workflow.scripts.load import Quantity, Result, load
+from workflow.lib.load import Quantity, Result, load
 
 
 def run(program: Program, folder: Path, name: str, **options: object) -> Result:
     done = program(name, threads=1, **options)
-    assert done.returncode in (0, 4), done.stderr  # 4: so small a pulse has no damping exponent
+    assert done.returncode in (0, 4), done.stderr  # 4: a pulse so small has no damping exponent
     return load(folder / "out.h5")
 
 
 @dataclass(frozen=True)
 class Chain:
-    """Few particles in many replicas: what these have in common stands out against their errors."""
+    """Few particles in many replicas, so that errors common to all replicas exceed the standard errors."""
 
     sigma: float = 0.5
     gamma: float | str = "N"
@@ -42,7 +42,7 @@ class Chain:
 
     @property
     def options(self) -> dict[str, object]:
-        """For a program; the flag only where it is set, as `displacement` alone knows it."""
+        """Options of a program. A flag is given only if it is set, because only `displacement` has it."""
         return {name: value for name, value in asdict(self).items() if value is not False}
 
     def __str__(self) -> str:
@@ -50,7 +50,7 @@ class Chain:
         return f"sigma={self.sigma},gamma={self.gamma},{directions},cells={self.cells}"
 
 
-DECADES, POINTS_PER_DECADE, EVERY = 2, 8, 4  # times of the programs, of which some are looked at
+DECADES, POINTS_PER_DECADE, EVERY = 2, 8, 4  # times of the programs; every fourth is compared
 BINS_PER_DECADE, BINS = 10, 50  # of waiting times
 
 
@@ -60,7 +60,7 @@ def waiting_time_edges(chain: Chain) -> np.ndarray:
 
 @cache
 def reference(chain: Chain) -> dict[str, np.ndarray]:
-    """[replica, ...] of everything that the reference simulator measures."""
+    """Measurements of the reference simulator, [replica, ...]."""
     gamma = chain.cells if chain.gamma == "N" else chain.gamma
     times = chain.observation_time * 10 ** np.arange(-DECADES, 0.01, EVERY / POINTS_PER_DECADE)
     words = [chain.cells, chain.particles_per_cell, chain.sigma, gamma, chain.temperature]
@@ -80,7 +80,7 @@ def average(sample: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def ratio(counts: np.ndarray, totals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Of sums over replicas, with its standard error to first order."""
+    """Ratio of sums over replicas, with its standard error to first order."""
     value = counts.sum(axis=0) / totals.sum()
     return value, average((counts - value * totals) / totals.mean())[1]
 
@@ -89,7 +89,7 @@ Measured = dict[str, tuple[np.ndarray, np.ndarray]]  # means and standard errors
 
 
 def measured(program: Program, folder: Path, chain: Chain) -> Measured:
-    """By the programs."""
+    """Measurements of the programs."""
     found: Measured = {}
 
     def measure(name: str, quantities: list[str], every: int = 1, **options: object) -> None:
@@ -107,12 +107,12 @@ def measured(program: Program, folder: Path, chain: Chain) -> Measured:
 
 
 def scores(found: Measured, chain: Chain) -> dict[str, np.ndarray]:
-    """Against the reference simulator, of everything that was measured."""
+    """z-scores of all measurements against the reference simulator."""
     sample = reference(chain)
     expected = {
         name: average(sample[name.removesuffix("_plain")]) for name in found if name not in ("mu", "density")
     }
-    often = sample["waits"].sum(axis=0) > 200  # so that a mean has a normal distribution
+    often = sample["waits"].sum(axis=0) > 200  # often enough for a normal mean
     if "mu" in found:
         expected["mu"] = ratio(sample["persistent"], sample["scatterings"])
         widths = np.diff(waiting_time_edges(chain))
@@ -126,7 +126,7 @@ def scores(found: Measured, chain: Chain) -> dict[str, np.ndarray]:
 
 
 def agree(z: dict[str, np.ndarray]) -> bool:
-    """Largest of as many normal numbers; neighbours are correlated, which makes it smaller."""
+    """Bound for the largest of as many independent normal scores; correlations reduce the largest."""
     every = np.concatenate([np.ravel(each) for each in z.values()])
     return bool(np.abs(every).max() < norm.isf(1e-4 / 2 / every.size))
 
@@ -166,7 +166,7 @@ SEEDS, SEED_REPLICAS = 40, 40
 
 @dataclass(frozen=True)
 class Seen:
-    """By one seed: numbers that symmetry forces to have the mean 0, and means with their standard errors."""
+    """Results of one seed: numbers with mean 0 by symmetry, and means with their standard errors."""
 
     odd: np.ndarray
     means: np.ndarray
@@ -174,7 +174,7 @@ class Seen:
 
 
 def signed(quantity: Quantity) -> Seen:
-    """At three times, or a single one."""
+    """Signed quantity at three times, or at a single one."""
     every = max(1, quantity.mean.size // 2)
     means, errors = (np.ravel(x)[::every] for x in (quantity.mean, quantity.standard_error))
     return Seen(means, means, errors)
@@ -188,7 +188,7 @@ def flux_by_direction(result: Result) -> Seen:
 
 
 def pulse(result: Result, shift: int = 0) -> Seen:
-    """Every time: sums over the distance d from the centre of the right half minus the left, times 1, d, d^2."""
+    """At every time, sums over the distance d from the centre of right minus left half times 1, d, d^2."""
     difference = result["energy_difference"]
     centre = difference.mean.shape[1] // 2
     profiles = np.roll(difference.mean, shift, axis=1)
@@ -198,7 +198,7 @@ def pulse(result: Result, shift: int = 0) -> Seen:
 
 
 def momenta(result: Result) -> Seen:
-    """Every time: sums over p of |p| n(p) times the sign of p, of the slow ones too, and times p."""
+    """At every time, sums over p of |p| n(p) times sign(p), for all and for slow particles, and times p."""
     density = result["weighted_momentum_density"]
     p = density.axes["p"]
     odd = density.mean @ np.column_stack([np.sign(p), np.sign(p) * (np.abs(p) < 10), p])
@@ -224,7 +224,7 @@ SETTINGS = {
     "momentum_flux": OPEN,
     "energy_pulse": {
         "cells": 7,
-        "members": 1,
+        "pairs_per_replica": 1,
         "relaxation_time": 0.05,
         "observation_time": None,
         "times": "0.02,0.04",
@@ -234,26 +234,26 @@ SETTINGS = {
 
 
 def over_seeds(program: Program, folder: Path, name: str, read: Reader, **options: object) -> Seen:
-    """[seed, ...]"""
+    """Results of all seeds, [seed, ...]."""
     options = {"replicas": SEED_REPLICAS, **SETTINGS[name], **options}
     seen = [read(run(program, folder, name, seed=seed, **options)) for seed in range(SEEDS)]
     return Seen(*(np.array([getattr(each, field.name) for each in seen]) for field in fields(Seen)))
 
 
 def zero(values: np.ndarray) -> bool:
-    """Means over seeds, by Student's test."""
+    """Whether means over seeds are compatible with 0 by Student's t-test."""
     score = values.mean(axis=0) / values.std(axis=0, ddof=1) * np.sqrt(SEEDS)
     return bool(np.abs(score).max() < t.isf(1e-4 / 2 / score.size, SEEDS - 1))
 
 
 def spread(values: np.ndarray, errors: np.ndarray) -> np.ndarray:
-    """Sum over seeds of squared distances from the mean in units of the seeds' own errors."""
+    """Sum over seeds of squared deviations from the mean in units of each seed's standard error."""
     return np.sum(((values - values.mean(axis=0)) / errors) ** 2, axis=0)
 
 
 @cache
 def limits_of_spread(level: float) -> tuple[float, float]:
-    """Of normal records: the means of as many seeds are normal, the errors' squares are chi-square distributed."""
+    """Limits of spread() for normal records: normal means of the seeds, chi-square distributed squared errors."""
     generator, shape, freedom = np.random.default_rng(1), (SEEDS, 100000), SEED_REPLICAS - 1
     errors = np.sqrt(generator.chisquare(freedom, shape) / freedom)
     low, high = np.quantile(spread(generator.standard_normal(shape), errors), [level / 2, 1 - level / 2])
@@ -275,12 +275,12 @@ def scatter_as_stated(values: np.ndarray, errors: np.ndarray) -> bool:
     ids=lambda value: "-".join(map(str, value.values())) if isinstance(value, dict) else value,
 )
 def test_symmetry_over_seeds(program: Program, tmp_path: Path, name: str, options: dict) -> None:
-    """What replicas and seeds have in common moves the mean away from 0; what seeds have in common keeps them
-    closer together than their errors say, what replicas have in common farther apart."""
+    """Random numbers common to replicas and seeds shift the mean from 0; those common to seeds make the spread
+    smaller than the errors predict, those common to replicas larger."""
     seen = over_seeds(program, tmp_path, name, READERS[name], **options)
     assert zero(seen.odd)
     assert scatter_as_stated(seen.means, seen.errors)
-    # Mutants: a shift by the spread of one seed; errors three times as large, or as small.
+    # Mutants: a shift by the standard deviation of one seed; errors three times too large or too small.
     assert not zero(seen.odd + seen.odd.std(axis=0, ddof=1))
     assert not scatter_as_stated(seen.means, 3 * seen.errors)
     assert not scatter_as_stated(seen.means, seen.errors / 3)

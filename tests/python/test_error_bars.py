@@ -1,4 +1,4 @@
-"""The standard error says how far results from independent seeds lie apart."""
+"""The standard error equals the standard deviation of results from independent seeds."""
 
 from pathlib import Path
 
@@ -7,7 +7,7 @@ import pytest
 from scipy.stats import binom, chi2
 
 from tests.python.conftest import Program
-from workflow.scripts.load import load
+from workflow.lib.load import load
 from workflow.tradeoff.prediction import FORETOLD
 
 SEEDS = 50
@@ -16,7 +16,7 @@ LEAST = 64  # replicas of a run with a target error
 
 
 def chi_square(values: np.ndarray, errors: np.ndarray) -> float:
-    """About the weighted mean; SEEDS - 1 degrees of freedom."""
+    """Chi-square about the weighted mean; SEEDS - 1 degrees of freedom."""
     weights = errors**-2
     return float(np.sum(weights * (values - np.average(values, weights=weights)) ** 2))
 
@@ -30,7 +30,13 @@ def accepted(statistic: float, replicas: int = REPLICAS) -> bool:
 
 
 OPEN = {"particles_per_cell": None, "relaxation_time": "0.05N"}
-PULSE = {"cells": 31, "particles_per_cell": 20, "relaxation_time": 0, "observation_time": None, "members": 8}
+PULSE = {
+    "cells": 31,
+    "particles_per_cell": 20,
+    "relaxation_time": 0,
+    "observation_time": None,
+    "pairs_per_replica": 8,
+}
 
 
 @pytest.mark.parametrize(
@@ -56,7 +62,7 @@ def test_standard_error_over_seeds(
         estimates.append((float(result.mean), float(result.standard_error)))
     values, errors = np.array(estimates).T
     assert accepted(chi_square(values, errors))
-    # Mutants: the spread of one replica instead of the mean's error, and a factor two either way.
+    # Mutants: the standard deviation of one replica instead of the mean; errors wrong by a factor of two.
     for factor in (np.sqrt(REPLICAS), 2, 0.5):
         assert not accepted(chi_square(values, factor * errors))
 
@@ -71,8 +77,8 @@ def test_standard_error_over_seeds(
 def test_standard_error_over_seeds_where_a_target_ends_the_run(
     program: Program, tmp_path: Path, name: str, quantity: str, options: dict
 ) -> None:
-    """With the smallest batches that have an error. What the rule does to means and errors is measured in
-    tests/cpp/stopping_rule_test.cpp; this is its use, with control variates where there are some."""
+    """The smallest batches that have an error. tests/cpp/program/stopping_rule_test.cpp measures the effect of the
+    rule on means and errors; this test covers programs, with control variates where they have some."""
     found, foretold = [], []
     for seed in range(SEEDS):
         done = program(name, seed=seed, replicas=2, progress="log", **options)
@@ -84,12 +90,12 @@ def test_standard_error_over_seeds_where_a_target_ends_the_run(
     least, most = np.array(foretold).T
     as_foretold = np.count_nonzero((least <= counts) & (counts <= most))
     assert binom.cdf(as_foretold, SEEDS, 0.95) > 5e-4
-    # Mutant: the middle of the range alone, give or take the eighth by which looks lie apart.
+    # Mutant: the middle of the range, with half the spacing of the looks, an eighth, on either side.
     middle = np.sqrt(least * most)
     assert binom.cdf(np.count_nonzero(abs(counts - middle) < middle / 16), SEEDS, 0.95) < 5e-4
     assert (errors <= options["target_error"] * abs(values)).all()
     assert counts.min() >= LEAST
-    assert counts.max() > counts.min()  # where it ends is decided by the data
+    assert counts.max() > counts.min()  # the end depends on the data
     assert accepted(chi_square(values, errors), LEAST)
     for factor in (2, 0.5):
         assert not accepted(chi_square(values, factor * errors), LEAST)

@@ -1,4 +1,4 @@
-"""Every program over the whole domain of its options: a result that can be right, or a refusal that says why."""
+"""Every program over the whole domain of its options: a plausible result, or an error message with a reason."""
 
 import os
 import resource
@@ -12,17 +12,17 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from tests.python.conftest import ROOT
-from workflow.scripts.load import NOT_REACHED, Result, load
+from workflow.lib.load import NOT_REACHED, Result, load
 
 DRAWN = settings(
     derandomize=True, database=None, deadline=None, max_examples=20, suppress_health_check=list(HealthCheck)
 )
-MEMORY = 2 << 30  # bytes; what needs more has to be refused
+MEMORY = 2 << 30  # bytes; a run that needs more must be rejected
 REPLICAS = 3
 
 LIMITS = [1 - 10.0**-k for k in range(1, 17)]
 SIGMAS = st.sampled_from([0.0, 1.0, -1.0, 5e-324, *LIMITS, *(-x for x in LIMITS)]) | st.floats(-1, 1)
-# Of runs that end soon, and of such as no machine could finish.
+# log10 of the number of flights: runs that end soon, and runs that no machine could finish.
 FLIGHTS = st.floats(-3, 2) | st.floats(-300, -20) | st.floats(16, 300)
 
 
@@ -71,7 +71,7 @@ def aged(draw: st.DrawFn) -> dict[str, object]:
 
 @st.composite
 def pulsed(draw: st.DrawFn) -> dict[str, object]:
-    options = draw(closed()) | {"cells": draw(st.integers(6, 9)), "members": 2}
+    options = draw(closed()) | {"cells": draw(st.integers(6, 9)), "pairs-per-replica": 2}
     options["energy"] = options.pop("temperature")
     pulse = float(options["energy"]) * draw(powers(-6, 3))
     last = options.pop("observation-time")
@@ -87,7 +87,7 @@ def opened(draw: st.DrawFn) -> dict[str, object]:
     contrast = draw(st.floats(-8, 8))
     flight = length - max(temperature, temperature + contrast) / 2
     last = flight + draw(FLIGHTS)
-    # Particles injected in all: few, or more than can be.
+    # Number of particles injected in all: few, or more than possible.
     rates = st.just("0") | (st.floats(-300, 3) | st.floats(16, 300)).map(lambda x: number(x - last))
     return {
         "cells": cells,
@@ -160,7 +160,7 @@ def limit_memory() -> None:
 
 
 def execute(name: str, options: dict[str, object]) -> tuple[int, str, Result | None]:
-    """Exit status, what was said, and the result if there is one."""
+    """Exit status, standard error output, and the result if there is one."""
     words = [str(ROOT / "build/bin" / name), "--output", "out.h5", "--progress", "none"]
     if name != "boltzmann":
         options = {"replicas": REPLICAS, "threads": 1} | options
@@ -175,7 +175,7 @@ def execute(name: str, options: dict[str, object]) -> tuple[int, str, Result | N
         return done.returncode, done.stderr, load(output) if output.exists() else None
 
 
-# Where nothing was there to be measured, as docs/format.md says.
+# NaN if there is nothing to measure, as documented in docs/format.md.
 MAY_BE_NAN = {
     "alpha_relative", "alpha_difference", "density_slope", "density_excess", "temperature_difference",
     "rate_right_deviation", "rate_left_deviation", "drift_p_value", "exponent_by_cut", "exponent_spread", "front", "front_exponent", "kurtosis", "local_slope",
@@ -187,7 +187,13 @@ MAY_BE_NAN = {
 def check_physics(result: Result) -> None:
     for name, quantity in result.quantities.items():
         assert not np.isinf(quantity.mean).any(), name
-        if result.converged != NOT_REACHED and name not in MAY_BE_NAN and not name.startswith("kappa"):
+        no_line = name == "jump" and result.parameters["momentum-bins"] < 4
+        if (
+            result.converged != NOT_REACHED
+            and name not in MAY_BE_NAN
+            and not no_line
+            and not name.startswith("kappa")
+        ):
             assert not np.isnan(quantity.mean).any(), name
         known = quantity.mean[np.isfinite(quantity.mean)]
         positive = name.startswith(("temperature", "rate", "density", "weighted", "variance"))
@@ -196,7 +202,7 @@ def check_physics(result: Result) -> None:
             assert (known >= -1e-9 * np.abs(known).max(initial=0)).all(), name
     drift = result.quantities.get("energy_drift")
     if drift is not None:
-        # At worst every collision errs by its 14 roundings of a velocity, all to one side.
+        # Worst case: every collision has 14 rounding errors of a velocity, all of the same sign.
         assert drift.mean <= 28 * 2.0**-53 * max(1, result.provenance["events"])
     if "sum_error" in result.quantities:
         assert result["sum_error"].mean <= 1e-10
@@ -238,14 +244,14 @@ def same_but_for_units(one: Result, other: Result, units: dict[str, float], k: i
         if name in units:
             unit = units[name] ** k
             assert other[name].mean == quantity.mean * unit, name
-            # Sums of squares are kept by their roots, which are rounded once more.
+            # Sums of squares are accumulated as roots, which are rounded once more.
             np.testing.assert_allclose(other[name].standard_error, quantity.standard_error * unit, rtol=1e-14)
 
 
 @settings(DRAWN, max_examples=20)
 @given(st.integers(-490, 480), SIGMAS)
 def test_temperatures_are_a_matter_of_units(k: int, sigma: float) -> None:
-    """A power of two as the unit of velocity changes no digit."""
+    """A power of two as the unit of velocity leaves results bitwise unchanged."""
 
     def persistence(power: int) -> Result:
         return execute("persistence", CLOSED | {"sigma": repr(sigma), "temperature": repr(4.0**power),

@@ -1,4 +1,4 @@
-"""Loading results and saving panels: formats, parents, equal bytes."""
+"""Loading results and saving panels: formats, provenance, reproducible bytes."""
 
 import subprocess
 import sys
@@ -11,14 +11,14 @@ import pandas as pd
 import pytest
 
 from tests.python.conftest import ROOT, Program
-from workflow.provenance.parents import ArtefactError, Parents, file_hash
-from workflow.scripts.fig05 import law, tabulate
-from workflow.scripts.load import FormatError, load
+from workflow.figures.fig05 import law, tabulate
+from workflow.lib.load import FormatError, load
+from workflow.lib.parents import ArtefactError, Parents, file_hash
 
 
 def draw(folder: Path, stem: str, data: list[Path]) -> None:
-    command = [sys.executable, "-m", "workflow.scripts.fig05", "--configuration", "c0ffee"]
-    command += ["--sources", "workflow/scripts/fig05.py", "--lock", "requirements.lock"]
+    command = [sys.executable, "-m", "workflow.figures.fig05", "--configuration", "c0ffee"]
+    command += ["--sources", "workflow/figures/fig05.py", "--lock", "requirements.lock"]
     command += ["--output", str(folder / stem), "--data", *map(str, data)]
     subprocess.run(command, cwd=ROOT, check=True)
 
@@ -35,7 +35,7 @@ def runs(persistence: Program, tmp_path: Path) -> list[Path]:
 
 def test_panel_is_byte_stable_and_names_its_parents(runs: list[Path], tmp_path: Path) -> None:
     draw(tmp_path, "1/smoke/panel", runs)
-    time.sleep(1.1)  # a time stamp would differ
+    time.sleep(1.1)  # longer than the resolution of a time stamp
     draw(tmp_path, "2/smoke/panel", runs)
     for kind in ("pdf", "png", "svg", "csv"):
         assert (tmp_path / f"1/smoke/panel.{kind}").read_bytes() == (
@@ -52,7 +52,7 @@ def test_panel_is_byte_stable_and_names_its_parents(runs: list[Path], tmp_path: 
     assert all(data["build_id"] == provenance["build_id"] for data in parents.data.values())
     assert all(data["seed"] == provenance["seed"] for data in parents.data.values())
     assert parents.builds[provenance["build_id"]]["source_hash"] == provenance["source_hash"]
-    assert parents.sources == {"workflow/scripts/fig05.py": file_hash(ROOT / "workflow/scripts/fig05.py")}
+    assert parents.sources == {"workflow/figures/fig05.py": file_hash(ROOT / "workflow/figures/fig05.py")}
     assert parents.packages == file_hash(ROOT / "requirements.lock")
 
 
@@ -83,8 +83,8 @@ def test_table_holds_what_the_files_hold(runs: list[Path], tmp_path: Path) -> No
 def test_law_at_its_limits(runs: list[Path]) -> None:
     np.testing.assert_array_equal(law(np.array([-1.0, 0.0, 1.0])), [1.0, 0.5, 0.0])
     table = tabulate([load(run) for run in runs])
-    # Equal temperatures would give the law itself; hotter particles are turned back more often
-    # when they are lighter than the scatterer.
+    # Equal temperatures give the law itself [eq. 10]. Particles hotter than the scatterers are reversed more
+    # often if they are lighter [eq. 11].
     hotter = table.particle_energy > table.scatterer_energy
     shift = table.law_at_local_energies - table.law
     assert ((shift < 0) == (hotter == (table.sigma > 0))).all()

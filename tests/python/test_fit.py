@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
-from workflow.scripts.fit import fit_power
+from workflow.lib.fit import fit_power
 
 SIZE = np.array([4, 8, 16, 64, 256])
 
@@ -17,7 +17,7 @@ def test_an_exact_law() -> None:
 
 
 def test_error_and_goodness_over_samples() -> None:
-    """Unequal errors; the pulls of the exponent are standard normal, chi^2 has its distribution."""
+    """With unequal errors, the pulls of the exponent are standard normal and chi^2 is chi-square distributed."""
     generator = np.random.default_rng(1)
     exact, relative = 3 * SIZE**0.4, np.array([0.01, 0.02, 0.01, 0.03, 0.02])
     pulls, chi_squares = [], []

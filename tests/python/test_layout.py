@@ -1,4 +1,4 @@
-"""A result file is held against docs/format.md: whole files pass, and every way to break one is found."""
+"""Check of result files against docs/format.md: valid files pass, and every kind of defect is found."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -8,24 +8,52 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import Program
-from workflow.provenance.layout import faults
+from workflow.lib.layout import OF_SCALES, faults
 
 Break = Callable[[h5py.File], None]
 
 
 @pytest.fixture
 def result(program: Program, tmp_path: Path) -> Path:
-    """One quantity of numbers, one with an axis."""
+    """A result with a scalar quantity and one with an axis."""
     done = program("waiting_time", target_error=100)
     assert done.returncode == 0, done.stderr
     return tmp_path / "out.h5"
 
 
 def replace(file: h5py.File, path: str, values: object) -> None:
-    attributes = dict(file[path].attrs)
+    """Other values, with the same attributes and dimension scales."""
+    group, name = file[path].parent, Path(path).name
+    attributes = {key: value for key, value in file[path].attrs.items() if key not in OF_SCALES}
+    users = {
+        (user, i)
+        for user, dataset in group.items()
+        for i, dimension in enumerate(dataset.dims)
+        for scale in dimension.values()
+        if name in (user, Path(scale.name).name)
+    }
+    scales = {user_and_i: axis_of(group, *user_and_i) for user_and_i in users}
+    for (user, i), axis in scales.items():
+        group[user].dims[i].detach_scale(group[axis])
     del file[path]
     file[path] = values
     file[path].attrs.update(attributes)
+    if name in scales.values():
+        file[path].make_scale(name)
+    for (user, i), axis in scales.items():
+        group[user].dims[i].attach_scale(group[axis])
+
+
+def axis_of(group: h5py.Group, dataset: str, i: int) -> str:
+    return Path(group[dataset].dims[i][0].name).name
+
+
+def detached(path: str) -> Break:
+    def spoil(file: h5py.File) -> None:
+        dataset = file[path]
+        dataset.dims[0].detach_scale(dataset.dims[0][0])
+
+    return spoil
 
 
 def attribute(path: str, name: str, value: object) -> Break:
@@ -48,6 +76,19 @@ def retyped(path: str, dtype: str) -> Break:
     return lambda file: replace(file, path, file[path][()].astype(dtype))
 
 
+def in_units(place: str, units: str) -> Break:
+    def spoil(file: h5py.File) -> None:
+        for name in ("mean", "standard_error"):
+            file[place][name].attrs["units"] = units
+
+    return spoil
+
+
+def renamed_axis(file: h5py.File, place: str, old: str, new: str) -> None:
+    """The dimension scale, a reference to the dataset itself, follows the name."""
+    file.move(f"{place}/{old}", f"{place}/{new}")
+
+
 def test_measured_and_computed_files_have_no_fault(result: Path, program: Program, tmp_path: Path) -> None:
     assert faults(result) == []
     none = dict.fromkeys(("cells", "particles_per_cell", "relaxation_time", "observation_time", "replicas"))
@@ -68,8 +109,26 @@ def test_measured_and_computed_files_have_no_fault(result: Path, program: Progra
             lambda file: file.copy("results/exponent/mean", "results/exponent/discretisation_error"),
             ["/results/exponent", "or discretisation_error"],
         ),
-        (without("results/density/tau"), ["/results/density", "axes have the lengths {}"]),
-        (shortened("results/density/tau"), ["/results/density", "'tau'"]),
+        (without("results/density/tau"), ["/results/density", "its axes are []"]),
+        (
+            detached("results/density/mean"),
+            [
+                "/results/density: the dimension scales of mean are [[]], its axes are ['/results/density/tau']"
+            ],
+        ),
+        (
+            detached("results/density/count"),
+            [
+                "/results/density: the dimension scales of count are [[]], those of mean [['/results/density/tau']]"
+            ],
+        ),
+        (
+            lambda file: (
+                file["results/density/mean"].dims[0].attach_scale(file["results/exponent_by_cut/cut"])
+            ),
+            ["/results/density: the dimension scales of mean", "/results/exponent_by_cut/cut"],
+        ),
+        (shortened("results/density/tau"), ["/results/density", "tau': [119]"]),
         (shortened("results/density/standard_error"), ["/results/density: standard_error has the shape"]),
         (shortened("results/density/count"), ["/results/density: count has the shape"]),
         (retyped("results/density/mean", "f4"), ["/results/density/mean/dtype: 'float64' was expected"]),
@@ -91,6 +150,16 @@ def test_measured_and_computed_files_have_no_fault(result: Path, program: Progra
         (
             without_attribute("results/density/mean", "description"),
             ["/results/density/mean/attributes: 'description' is a required property"],
+        ),
+        (
+            lambda file: file.copy("results/exponent", "results/other"),
+            ["/quantities", "'other' was unexpected"],
+        ),
+        (without("results/exponent_spread"), ["/quantities", "'exponent_spread' is a required property"]),
+        (in_units("results/exponent", "length"), ["/quantities/exponent: '1' was expected"]),
+        (
+            lambda file: renamed_axis(file, "results/density", "tau", "time"),
+            ["/quantities/density: '1/time [tau in time]' was expected"],
         ),
         (
             attribute("provenance", "build_id", "0" * 63),

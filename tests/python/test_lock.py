@@ -1,19 +1,61 @@
-"""The lock holds what its jobs name, and nothing else."""
+"""The lock file contains exactly the files that its jobs name."""
 
 from pathlib import Path
 
 import pytest
 
 from workflow.provenance import repository, stale
-from workflow.provenance.lock import Job, Lock, changing
+from workflow.provenance.chain import difference_of
+from workflow.provenance.lock import Job, Lock, LockError, changing
 
 
-def test_a_build_leaves_with_the_last_run_of_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture
+def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     for module in (repository, stale):
         monkeypatch.setattr(module, "ROOT", tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def job() -> Job:
+    options = {"sigma": 0.1, "cells": 11, "zero-total-momentum": True, "gamma": "N"}
+    return Job("persistence", options, {}, {}, None, None, "", 0, build_id="kept")
+
+
+def test_a_build_leaves_with_the_last_run_of_it(root: Path, job: Job) -> None:
     with changing("smoke") as lock:
         lock.builds = {"kept": {}, "replaced": {}}
-        lock.jobs["fig05/all"] = Job({}, {"build_id": "kept"}, {}, None, None, "")
+        lock.jobs["fig05/all"] = job
     assert Lock.read("smoke").builds == {"kept": {}}
-    stale.retire("smoke", {})
+    stale.retire("smoke", stale.unasked("smoke", {}))
     assert Lock.read("smoke").builds == {}
+
+
+def test_options_keep_their_types(root: Path, job: Job) -> None:
+    with changing("smoke") as lock:
+        lock.jobs["fig05/all"] = job
+    read = Lock.read("smoke").jobs["fig05/all"]
+    assert read == job
+    assert {name: type(value) for name, value in read.options.items()} == {
+        name: type(value) for name, value in job.options.items()
+    }
+    assert difference_of(read.options, job.options) is None
+    assert difference_of(job.options, job.options | {"gamma": 1}) == "--gamma from N to 1"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('"persistence"', '"conductivity"', "its checksum does not fit"),
+        ('"tool"', '"tol"', "is damaged"),
+        ('"version": 2', '"version": 1', "is of version 1, not 2"),
+    ],
+)
+def test_another_lock_is_refused(root: Path, job: Job, old: str, new: str, words: str) -> None:
+    with changing("smoke") as lock:
+        lock.jobs["fig05/all"] = job
+    text = Lock.path("smoke").read_text()
+    assert old in text
+    Lock.path("smoke").write_text(text.replace(old, new))
+    with pytest.raises(LockError, match=words):
+        Lock.read("smoke")

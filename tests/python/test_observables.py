@@ -8,9 +8,9 @@ import pytest
 from scipy.special import erfc
 
 from tests.python.conftest import Program
-from workflow.scripts.load import Quantity, Result, load
+from workflow.lib.load import Quantity, Result, load
 
-SHORT = {  # programs with options that they do not share
+SHORT = {  # options specific to a program
     "waiting_time": {},
     "displacement": {"decades": 2},
     "ageing": {"decades": 2},
@@ -19,7 +19,7 @@ SHORT = {  # programs with options that they do not share
         "particles-per-cell": 20,
         "relaxation-time": 0,
         "observation-time": None,
-        "members": 4,
+        "pairs_per_replica": 4,
         "times": "0.01,0.014",
     },
 }
@@ -63,8 +63,8 @@ def test_layout_and_threads(program: Program, tmp_path: Path, name: str) -> None
 
 
 def test_waiting_times_at_sigma_0_are_the_exact_ones(program: Program, tmp_path: Path) -> None:
-    """Many particles per cell: between two flights a momentum rests on a scatterer for a time of order 1/n,
-    which the law neglects."""
+    """Many particles per cell, because the law neglects the time of order 1/n for which a scatterer holds a
+    momentum between two flights [eq. 17]."""
     result = run(
         program, tmp_path, "waiting_time", sigma=0, replicas=64, cells=11, particles_per_cell=320,
         relaxation_time=5, observation_time=20,
@@ -76,12 +76,12 @@ def test_waiting_times_at_sigma_0_are_the_exact_ones(program: Program, tmp_path:
     low, high = tau[seen] * 10**-0.05, tau[seen] * 10**0.05
 
     def largest_score(below: Callable[[np.ndarray], np.ndarray]) -> float:
-        """below(t): probability of a waiting time below t."""
+        """Largest z-score; below(t) is the probability of a waiting time below t."""
         expected = (below(high) - below(low)) / (high - low)
         return float(np.abs((density.mean[seen] - expected) / density.standard_error[seen]).max())
 
     assert largest_score(lambda t: np.exp(-((thermal / t) ** 2) / 2)) < 4
-    # Mutants: another temperature, and momenta without the flux weight.
+    # Mutants: another temperature; momenta without the flux weight.
     assert largest_score(lambda t: np.exp(-1.05 * (thermal / t) ** 2 / 2)) > 4
     assert largest_score(lambda t: erfc(thermal / t / np.sqrt(2))) > 40
 
@@ -119,7 +119,7 @@ FEW = {"cells": 4, "particles_per_cell": 5, "observation_time": 20, "decades": 1
 
 
 def test_displacement_with_known_momentum(program: Program, tmp_path: Path) -> None:
-    """Over seeds both estimates agree, scatterers with momenta of their own included, and one errs less."""
+    """Over seeds both estimates agree, also with moving scatterers at the start, and one has the smaller error."""
     found = []
     for seed in range(50):
         result = run(program, tmp_path, "displacement", **FEW, sigma=0.8, scatterer_temperature=500,
@@ -133,7 +133,7 @@ def test_displacement_with_known_momentum(program: Program, tmp_path: Path) -> N
         return abs(float(sample.mean() / sample.std(ddof=1))) * np.sqrt(len(sample))
 
     assert difference(1) < 4
-    # Mutant: the mean square of the particles' momentum only, 20 of 20 + 4 x 9 parts.
+    # Mutant: the mean square of the particles' momentum only, 20 / (20 + 4 x 9) of the total.
     assert difference(20 / 56) > 10
     assert np.mean(plain_error**2) > 10 * np.mean(error**2)
 
@@ -148,7 +148,7 @@ def test_displacement_without_a_random_momentum_that_lasts(
 
 
 def test_walls_confine(program: Program, tmp_path: Path) -> None:
-    """At sigma = 1 every particle bounces between two scatterers; at -1 it flies freely."""
+    """At sigma = 1 every particle is confined between two scatterers; at -1 it flies freely."""
     confined = run(program, tmp_path, "displacement", sigma=1, observation_time=100, decades=2)["variance"]
     assert confined.mean.max() <= 1
     free = run(program, tmp_path, "displacement", sigma=-1, observation_time=100, decades=2)
@@ -177,16 +177,16 @@ def test_ageing_moves_energy_from_particles_to_scatterers(program: Program, tmp_
 def test_pulse(program: Program, tmp_path: Path) -> None:
     result = run(
         program, tmp_path, "energy_pulse", cells=31, particles_per_cell=50, relaxation_time=0, observation_time=None,
-        replicas=32, members=4, times="0.001,0.01,0.02",
+        replicas=32, pairs_per_replica=4, times="0.001,0.01,0.02",
     )  # fmt: skip
-    # 51 degrees of freedom from 5000 to 50000 each on average, and nothing lost on the way.
+    # The mean energy of 51 degrees of freedom rises from 5000 to 50000 each, and the sum is conserved.
     assert abs(score(result["injected_energy"], 51 * 45000)) < 4
     assert abs(score(result["injected_energy"], 50 * 45000)) > 4
     assert result["sum_error"].mean < 1e-13
     difference = result["energy_difference"]
     sums = difference.mean.sum(axis=1)
     np.testing.assert_allclose(sums, float(result["injected_energy"].mean), rtol=1e-12)
-    # The fastest particles of the pulse, sqrt(10) times faster than thermal ones, have not gone far.
+    # The fastest particles of the pulse, sqrt(10) times faster than thermal ones, are still near.
     assert (difference.mean[0, :12] == 0).all()
     assert (difference.mean[0, 19:] == 0).all()
 
@@ -195,7 +195,7 @@ def test_pulse(program: Program, tmp_path: Path) -> None:
     ("name", "options", "words"),
     [
         ("energy_pulse", {"times": "0.02,0.01"}, ["--times", "ascend"]),
-        ("energy_pulse", {"times": "0.02,x"}, ["--times", "'x'"]),
+        ("energy_pulse", {"times": "0.02,x"}, ["--times", "'0.02,x'", "ascending"]),
         ("energy_pulse", {"times": "0.02"}, ["--times", "Add another"]),
         ("energy_pulse", {"times": "0.01,0.02", "pulse_cells": 22}, ["--pulse-cells", "smaller"]),
         ("energy_pulse", {"times": "0.01,0.02", "pulse_cells": 2}, ["--pulse-cells", "odd"]),

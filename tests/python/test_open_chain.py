@@ -1,4 +1,4 @@
-"""The observables of the open chain: against the reference simulator, in equilibrium, at the extremes."""
+"""The observables of the open chain: agreement with the reference simulator, equilibrium, extreme options."""
 
 import subprocess
 from functools import cache
@@ -9,7 +9,7 @@ import pytest
 from scipy.stats import chi2, norm
 
 from tests.python.conftest import ROOT, Program
-from workflow.scripts.load import Quantity, Result, load
+from workflow.lib.load import Quantity, Result, load
 
 BATHS = {"nu_left": 220, "nu_right": 180, "temperature_left": 900 / 11, "temperature_right": 1100 / 9}
 EQUAL = {"nu_left": 200, "nu_right": 200, "temperature_left": 100, "temperature_right": 100}
@@ -50,7 +50,7 @@ def run(program: Program, folder: Path, name: str, **options: object) -> Result:
 
 @cache
 def reference(cells: int, gamma: float, relaxation: float, observation: float) -> dict[str, np.ndarray]:
-    """[replica, value] of everything that the reference simulator measures, with the default baths."""
+    """Measurements of the reference simulator with the default baths, [replica, value]."""
     words = [ROOT / "build/bin/reference_open_chain", cells, 1 / cells, 0.5, gamma, *BATHS.values()]
     words += [relaxation, observation, BINS, MAX, 100, 1]
     done = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=True)
@@ -67,7 +67,7 @@ def reference(cells: int, gamma: float, relaxation: float, observation: float) -
 
 
 def scores(quantity: Quantity, sample: np.ndarray) -> np.ndarray:
-    """Of the values that occur often enough to have a normal distribution."""
+    """z-scores of the values that occur often enough to have a normal distribution."""
     mean, error = sample.mean(axis=0), sample.std(axis=0, ddof=1) / np.sqrt(len(sample))
     often = (np.count_nonzero(sample, axis=0) > len(sample) / 2) & (quantity.standard_error.ravel() > 0)
     difference = quantity.mean.ravel() - mean
@@ -75,7 +75,7 @@ def scores(quantity: Quantity, sample: np.ndarray) -> np.ndarray:
 
 
 def agree(z: np.ndarray) -> bool:
-    """Largest of as many normal numbers; neighbours are correlated, which makes it smaller."""
+    """Bound for the largest of as many independent normal scores; correlations reduce the largest."""
     return bool(np.abs(z).max() < norm.isf(1e-4 / 2 / len(z)))
 
 
@@ -121,7 +121,7 @@ def test_against_the_reference_simulator(
                          for name, sample in found.items() for suffix in ("", "_plain")])  # fmt: skip
 
     assert np.abs(conductivity_scores()).max() < 4
-    # Mutants: baths exchanged, one bath a little hotter.
+    # Mutants: baths exchanged; one bath slightly hotter.
     assert np.abs(conductivity_scores(temperature_left=1100 / 9, temperature_right=900 / 11)).max() > 4
     assert np.abs(conductivity_scores(temperature_right=145)).max() > 4
 
@@ -140,7 +140,7 @@ def test_number_of_particles_against_the_reference_simulator(program: Program, t
     sample = expected["total_number"][:, 0]
     error = np.hypot(number.standard_error[-1], sample.std(ddof=1) / np.sqrt(len(sample)))
     assert abs(number.mean[-1] - sample.mean()) < 4 * error
-    # Fast particles of a bin, where |p| n(p) is nearly n(p) times the middle of the bin.
+    # Bins of fast particles, where |p| n(p) is nearly n(p) times the middle of the bin.
     width, p = 2 * MAX / BINS, density.axes["p"]
     fast = (np.abs(p) > 20) & (np.abs(p) < 30)
     inside = expected["inside"][:, fast] * np.abs(p[fast]) / width
@@ -152,7 +152,7 @@ def test_number_of_particles_against_the_reference_simulator(program: Program, t
 
 @pytest.mark.parametrize("gamma", ["N", 1])
 def test_equilibrium(program: Program, tmp_path: Path, gamma: str | int) -> None:
-    """No currents; F and g Gaussian at the temperature of the baths, by moments and bins over replicas."""
+    """No currents; F and g are Gaussian at the temperature of the baths, by moments and by bins."""
     options = {"cells": 8, "gamma": gamma, "replicas": 200, "relaxation_time": 50, "observation_time": 50}
     options |= {**EQUAL, "momentum_bins": BINS}
     profile = run(program, tmp_path, "steady_profile", **options)
@@ -163,7 +163,7 @@ def test_equilibrium(program: Program, tmp_path: Path, gamma: str | int) -> None
     assert abs(ends["energy_current"].mean) < 4 * ends["energy_current"].standard_error
     for name in ("temperature_first", "temperature_last"):
         assert abs(ends[name].mean - 100) < 4 * ends[name].standard_error
-        assert abs(ends[name].mean - 103) > 4 * ends[name].standard_error  # mutant: three hundredths too hot
+        assert abs(ends[name].mean - 103) > 4 * ends[name].standard_error  # mutant: 3 % too hot
 
     def gaussian(edges: np.ndarray, temperature: float) -> np.ndarray:
         return np.diff(norm.cdf(edges / np.sqrt(temperature)))
@@ -173,7 +173,7 @@ def test_equilibrium(program: Program, tmp_path: Path, gamma: str | int) -> None
     inner = np.abs(density.axes["momentum"]) < 30
 
     def largest(quantity: Quantity, expected: np.ndarray) -> float:
-        """Where a reservoir injects, the control variates leave no noise."""
+        """Largest z-score without injected fluxes, from which the control variates remove all noise."""
         noisy = inner & (quantity.standard_error > 1e-9 * quantity.mean)
         z = (quantity.mean - expected)[noisy] / quantity.standard_error[noisy]
         return float(np.abs(z).max() / norm.isf(1e-4 / 2 / z.size))
@@ -201,7 +201,7 @@ def test_equilibrium(program: Program, tmp_path: Path, gamma: str | int) -> None
 def test_reduced_and_plain_estimates_over_seeds(
     program: Program, tmp_path: Path, gamma: str | int, cells: int, target: str
 ) -> None:
-    """Both agree, the reduced error is smaller, and it says how far the results of 50 seeds lie apart."""
+    """Both agree, the reduced error is smaller, and both errors predict the spread of the results of 50 seeds."""
     seeds, replicas = 50, 40
     options = {"gamma": gamma, "cells": cells, "replicas": replicas}
     options |= {"relaxation_time": 10, "observation_time": 20}
@@ -218,7 +218,7 @@ def test_reduced_and_plain_estimates_over_seeds(
     assert np.mean(plain_error**2) > 8 * np.mean(error**2)
 
     def accepted(values: np.ndarray, errors: np.ndarray) -> bool:
-        """Student's variables of R - 1 degrees of freedom have a larger variance than 1."""
+        """Student's t with R - 1 degrees of freedom has the variance (R - 1)/(R - 3)."""
         low, high = chi2.ppf([5e-4, 1 - 5e-4], seeds - 1)
         statistic = np.sum((values - values.mean()) ** 2 / errors**2)
         return bool(low < statistic < (replicas - 1) / (replicas - 3) * high)
@@ -231,7 +231,7 @@ def test_reduced_and_plain_estimates_over_seeds(
 
 
 def scaled(temperature: float) -> dict[str, float]:
-    """Baths as hot as that, everything else as much faster."""
+    """Options with baths at this temperature and all rates and times scaled by the thermal speed."""
     speed = np.sqrt(temperature / 100)
     baths = {"temperature_left": temperature, "temperature_right": temperature}
     baths |= {"nu_left": 200 * speed, "nu_right": 200 * speed}
@@ -259,7 +259,7 @@ SLOW, FAST = scaled(1e-135), scaled(1e130)
 )
 @pytest.mark.parametrize("name", QUANTITIES)
 def test_extremes(program: Program, tmp_path: Path, name: str, options: dict) -> None:
-    """Finite numbers, or none where there is nothing to measure; no nonsense."""
+    """Results are finite and plausible, or NaN if there is nothing to measure."""
     if name == "particle_count":
         options = {**options, "times": "2,10" if "relaxation_time" not in options else
                    f"{options['relaxation_time']},{options['observation_time']}"}  # fmt: skip

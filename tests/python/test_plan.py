@@ -1,4 +1,4 @@
-"""The configuration: what it expands to, and how it complains."""
+"""The configuration: its expansion to runs, and its error messages."""
 
 import shutil
 from pathlib import Path
@@ -7,7 +7,8 @@ import pytest
 import yaml
 
 from tests.python.conftest import ROOT
-from workflow.config.plan import FOLDER, QUALITIES, ConfigurationError, Run, load_plan
+from workflow.lib.options import arguments
+from workflow.lib.plan import FOLDER, QUALITIES, ConfigurationError, load_plan
 
 
 @pytest.fixture
@@ -29,7 +30,7 @@ def edit(path: Path, *keys: str, value: object) -> None:
 @pytest.mark.parametrize("quality", QUALITIES)
 def test_every_quality_describes_every_panel(quality: str) -> None:
     for panel in load_plan(quality).values():
-        assert (ROOT / f"workflow/scripts/{panel.script}.py").is_file()
+        assert (ROOT / f"workflow/figures/{panel.script}.py").is_file()
         assert panel.runs or panel.uses
         for run in panel.runs:
             assert (ROOT / f"cpp/observables/{run.program}.cpp").is_file()
@@ -61,7 +62,7 @@ def test_a_panel_may_only_use_panels_with_runs(folder: Path) -> None:
 
 
 def test_quality_changes_effort_only() -> None:
-    effort = {"replicas", "max-replicas", "target-error", "target-absolute", "members", "cells"}
+    effort = {"replicas", "max-replicas", "target-error", "target-absolute", "pairs-per-replica", "cells"}
     plans = [load_plan(quality) for quality in QUALITIES]
     for name, panel in plans[0].items():
         for run in panel.runs:
@@ -80,24 +81,54 @@ def test_fig05_covers_the_range_and_its_limits() -> None:
 
 
 def test_arguments() -> None:
-    run = Run("a", "p", {"sigma": -0.5, "zero-total-momentum": True, "random-direction": False, "gamma": "N"})
-    assert run.arguments() == "--sigma -0.5 --zero-total-momentum --gamma N"
+    options = {"sigma": -0.5, "zero-total-momentum": True, "random-direction": False, "gamma": "N; touch x"}
+    assert arguments(options) == ["--sigma", "-0.5", "--zero-total-momentum", "--gamma", "N; touch x"]
 
 
 @pytest.mark.parametrize(
     ("keys", "value", "words"),
     [
-        (("panels", "fig05", "series", "paper", "sigma"), 2, ["panels.fig05.series.paper.sigma = 2", "1"]),
         (
             ("panels", "fig05", "series", "paper", "sigma"),
-            [0.5, -3],
-            ["sigma.1 = -3", "minimum -1", "maximum 1"],
+            2,
+            ["panels.fig05.series.paper.sigma = 2", "number at least -1 and at most 1"],
         ),
-        (("panels", "fig05", "series", "paper", "sigma"), "half", ["sigma", "half", "type number"]),
-        (("panels", "fig05", "common", "cells"), 0, ["panels.fig05.common.cells = 0", "minimum 1"]),
-        (("panels", "fig05", "common", "cels"), 11, ["panels.fig05.common", "cels"]),
+        (("panels", "fig05", "series", "paper", "sigma"), [0.5, -3], ["sigma.1 = -3", "at least -1"]),
+        (("panels", "fig05", "series", "paper", "sigma"), [0.5, 0.5], ["sigma", "repeats a value"]),
+        (("panels", "fig05", "series", "paper", "sigma"), [], ["sigma", "empty"]),
+        (("panels", "fig05", "series", "paper", "sigma"), "half", ['sigma = "half"', "number at least -1"]),
+        (("panels", "fig05", "series", "paper", "sigma"), float("nan"), ["sigma = NaN", "number at least"]),
+        (("panels", "fig05", "common", "cells"), 0, ["panels.fig05.common.cells = 0", "integer at least 1"]),
+        (("panels", "fig05", "common", "cells"), 2.5, ["common.cells = 2.5", "integer at least 1"]),
+        (("panels", "fig05", "common", "cells"), True, ["common.cells = true", "integer at least 1"]),
+        (
+            ("panels", "fig05", "common", "cels"),
+            11,
+            ["panels.fig05.common.cels", "persistence has no such option", "cells"],
+        ),
+        (("panels", "fig05", "common", "times"), "1,2", ["common.times", "persistence has no such option"]),
         (("panels", "fig05", "common", "replicas"), 11, ["panels.fig05.common", "replicas"]),
+        (("panels", "fig05", "common", "seed"), 1, ["panels.fig05.common", "seed"]),
+        (("panels", "fig05", "common", "threads"), 1, ["panels.fig05.common", "threads"]),
+        (("panels", "fig05", "common", "gamma"), "n", ['gamma = "n"', "number above 0, or N"]),
+        (
+            ("panels", "fig01", "common", "times"),
+            "200,100",
+            ['times = "200,100"', "ascending, separated by commas"],
+        ),
+        (("panels", "fig01", "common", "start"), "hot", ['start = "hot"', "empty or warm"]),
+        (
+            ("panels", "fig08", "series", "rare", "observation-time"),
+            "-1N",
+            ["series.rare.observation-time", "number above 0, or such a number followed by N"],
+        ),
+        (
+            ("panels", "fig07_inset", "series", "zero-momentum", "zero-total-momentum"),
+            "yes",
+            ["series.zero-momentum.zero-total-momentum", "true or false"],
+        ),
         (("panels", "fig05", "program"), 7, ["panels.fig05.program = 7", "string"]),
+        (("panels", "fig05", "program"), "persistance", ["fig05", "no program persistance", "persistence"]),
         (("panels", "fig05", "series"), {}, ["panels.fig05.series"]),
     ],
 )
@@ -114,7 +145,13 @@ def test_bad_paper_configuration(
 @pytest.mark.parametrize(
     ("keys", "value", "words"),
     [
-        (("default", "replicas"), -1, ["default.replicas = -1", "minimum 0"]),
+        (("default", "replicas"), -1, ["default.replicas = -1", "integer at least 1"]),
+        (("panels", "fig05", "paper"), {"cells": 0}, ["panels.fig05.paper.cells = 0", "integer at least 1"]),
+        (
+            ("panels", "fig05", "paper"),
+            {"pairs-per-replica": 2},
+            ["panels.fig05.paper.pairs-per-replica", "persistence has no such option"],
+        ),
         (("default", "sigma"), 0.5, ["default", "sigma"]),
         (("panels", "fig99"), {}, ["panels", "fig99"]),
         (("panels", "fig05", "denser"), {"replicas": 3}, ["panels.fig05", "denser"]),

@@ -1,4 +1,4 @@
-"""What every executable promises: output layout, determinism, interruption, targets and limits."""
+"""Common properties of all executables: output layout, determinism, interruption, targets and limits."""
 
 import json
 import signal
@@ -11,13 +11,14 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import ROOT, Program, command_line
-from workflow.scripts.load import load
+from workflow.lib.load import load
 
 PROVENANCE = {
     "format", "format_version", "program", "source_hash", "build_id", "compiler", "flags", "libraries", "seed",
     "streams", "events", "target_quantity", "target_error", "achieved_error", "converged",
 }  # fmt: skip
-NOT_PARAMETERS = {"threads", "progress", "config", "output", "resume", "checkpoint-interval", "time-limit"}
+NOT_PARAMETERS = {"threads", "progress", "config", "describe", "output", "resume", "checkpoint-interval"}
+NOT_PARAMETERS |= {"time-limit"}
 
 
 def test_layout(persistence: Program, tmp_path: Path) -> None:
@@ -188,7 +189,7 @@ def test_progress_lines(persistence: Program) -> None:
     assert warning == "persistence: standard errors from 4 replicas are uncertain by about 41 %"
     bar = persistence(progress="bar", observation_time=20_000).stderr
     assert "left" in bar
-    assert "\x1b[K" in bar  # redraws its line
+    assert "\x1b[K" in bar  # erases the line to redraw it
 
 
 def test_version_and_help(persistence: Program) -> None:

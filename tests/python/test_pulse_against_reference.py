@@ -1,5 +1,5 @@
-"""The energy pulse as a whole, profiles and exponent, against the reference simulator, which shares nothing
-with the program: neither engine, nor start, nor random numbers, nor the reading of the peak."""
+"""Profiles and exponent of the energy pulse against the reference simulator, which shares no code with the
+program: neither engine, nor initial state, nor random numbers, nor the fit of the peak."""
 
 import subprocess
 from functools import cache
@@ -11,17 +11,17 @@ from scipy.stats import chi2
 
 from tests.python.conftest import ROOT, Program
 from tests.python.test_pulse_peak import fit
-from workflow.scripts.load import Result, load
+from workflow.lib.load import Result, load
 
 CELLS, PARTICLES, SIGMA, ENERGY, PULSE_ENERGY = 41, 20, 0.5, 5000, 50000
 TIMES = {"N": (0.02, 0.03, 0.045, 0.06), 1: (0.008, 0.01, 0.015, 0.02)}
 
 
 @cache
-def reference(gamma: float, times: tuple[float, ...], *, replicas: int, members: int) -> np.ndarray:
+def reference(gamma: float, times: tuple[float, ...], *, replicas: int, pairs: int) -> np.ndarray:
     """Energy differences [replica, time, cell]."""
     command = [ROOT / "build/bin/reference_pulse", CELLS, PARTICLES, SIGMA, gamma, ENERGY, PULSE_ENERGY]
-    words = [*command, members, replicas, 1, "shared", *times]
+    words = [*command, pairs, replicas, 1, "shared", *times]
     output = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=True).stdout
     rows = [[float(word) for word in line.split()] for line in output.splitlines()]
     return np.array(rows).reshape(replicas, len(times), CELLS)
@@ -35,8 +35,8 @@ def damping_exponent(profiles: np.ndarray, times: tuple[float, ...]) -> float:
 
 
 def scores(result: Result, gamma: float, times: tuple[float, ...]) -> tuple[np.ndarray, float]:
-    """Of every cell that the pulse has reached at every time, and of the exponent."""
-    samples = reference(gamma, times, replicas=40, members=150)
+    """z-scores of every cell reached by the pulse, at every time, and of the exponent."""
+    samples = reference(gamma, times, replicas=40, pairs=150)
     mean, error = samples.mean(axis=0), samples.std(axis=0, ddof=1) / np.sqrt(len(samples))
     difference = result["energy_difference"]
     reached = np.abs(difference.mean) > 5 * difference.standard_error
@@ -52,7 +52,7 @@ def scores(result: Result, gamma: float, times: tuple[float, ...]) -> tuple[np.n
 
 
 def accepted(z: np.ndarray) -> bool:
-    """Cells of one time are anticorrelated, as they share the injected energy; the bound stays valid."""
+    """Bound for the largest score, valid although cells are anticorrelated by conservation of energy."""
     return bool(np.abs(z).max() < 4 and np.sum(z**2) < chi2.ppf(1 - 1e-4, len(z)))
 
 
@@ -62,7 +62,7 @@ def test_profiles_and_exponent(program: Program, tmp_path: Path, gamma: str | in
 
     def pulse(**options: object) -> Result:
         physics = {"cells": CELLS, "particles_per_cell": PARTICLES, "sigma": SIGMA, "gamma": gamma}
-        effort = {"times": ",".join(map(str, times)), "members": 150, "replicas": 40}
+        effort = {"times": ",".join(map(str, times)), "pairs_per_replica": 150, "replicas": 40}
         unused = {"relaxation_time": 0, "observation_time": None}
         done = program("energy_pulse", **physics | effort | unused | options)
         assert done.returncode == 0, done.stderr
@@ -73,6 +73,6 @@ def test_profiles_and_exponent(program: Program, tmp_path: Path, gamma: str | in
     assert len(z) > 60
     assert accepted(z)
     assert abs(exponent_score) < 4
-    # Mutants: lighter scatterers, a larger pulse.
+    # Mutants: lighter scatterers; a larger pulse.
     assert not accepted(scores(pulse(sigma=0.4 if gamma == "N" else 0.3), visited, times)[0])
     assert not accepted(scores(pulse(pulse_energy=53000), visited, times)[0])

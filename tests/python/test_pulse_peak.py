@@ -1,4 +1,4 @@
-"""The moving peak of a pulse against free flight, where everything is known, and its errors over many seeds."""
+"""The moving peak of a pulse against exact results for free flight, and its errors over many seeds."""
 
 from functools import cache
 from pathlib import Path
@@ -9,7 +9,7 @@ from scipy.optimize import least_squares
 from scipy.stats import chi2, f, norm
 
 from tests.python.conftest import Program
-from workflow.scripts.load import Result, load
+from workflow.lib.load import Result, load
 
 CELLS, PARTICLES, ENERGY, PULSE_ENERGY = 61, 20, 5000, 50000
 FREE = {"cells": CELLS, "particles_per_cell": PARTICLES, "gamma": 1e-9, "relaxation_time": 0,
@@ -45,9 +45,9 @@ def fit(profile: np.ndarray) -> tuple[float, float]:
 
 @cache
 def free_profile(time: float) -> np.ndarray:
-    """Mean energy difference by distance from the central cell, where particles never scatter: they start
-    uniform in the cell, with momenta on a sphere, as the pulse gives all of them and the scatterer together a
-    fixed energy, or Gaussian without the pulse."""
+    """Mean energy difference by distance from the central cell without scattering. Particles start uniformly in
+    the cell. Their momenta are uniform on a sphere with the pulse, which fixes the total energy of the cell, and
+    Gaussian without."""
     freedom = PARTICLES + 1
     speed = np.linspace(-1, 1, 400001)[1:-1] * np.sqrt(2 * PULSE_ENERGY * freedom)
     with_pulse = (1 - speed**2 / (2 * PULSE_ENERGY * freedom)) ** ((freedom - 3) / 2)
@@ -55,7 +55,7 @@ def free_profile(time: float) -> np.ndarray:
     density = with_pulse / with_pulse.sum() - without / without.sum()
     inside = [np.clip(1 - np.abs(speed * time - d), 0, None) for d in range(CELLS // 2 + 1)]
     profile = np.array([PARTICLES * np.sum(density * speed**2 / 2 * part) for part in inside])
-    profile[0] += PULSE_ENERGY - ENERGY  # the scatterer
+    profile[0] += PULSE_ENERGY - ENERGY  # energy of the scatterer
     return profile
 
 
@@ -66,12 +66,14 @@ def pulse(program: Program, folder: Path, **options: object) -> Result:
 
 
 def test_free_flight(program: Program, tmp_path: Path) -> None:
-    result = pulse(program, tmp_path, **FREE, members=100, replicas=100, times=",".join(map(str, TIMES)))
+    result = pulse(
+        program, tmp_path, **FREE, pairs_per_replica=100, replicas=100, times=",".join(map(str, TIMES))
+    )
     difference = result["energy_difference"]
     half = CELLS // 2
     profiles = np.array([free_profile(time) for time in TIMES])
     expected = np.concatenate([profiles[:, :0:-1], profiles], axis=1)
-    # Cells that so few particles reach that their errors are none are left out.
+    # Cells reached by so few particles that their error is undefined are left out.
     known = difference.standard_error > 0.002 * np.nanmax(difference.standard_error)
     known &= np.abs(np.arange(CELLS) - half) < 18
     z = (difference.mean - expected)[known] / difference.standard_error[known]
@@ -95,8 +97,8 @@ def test_free_flight(program: Program, tmp_path: Path) -> None:
 
 
 def test_no_peak_yet(program: Program, tmp_path: Path) -> None:
-    """The first times, at which the energy is still about the centre, are NaN and do not enter the exponent."""
-    options = {**FREE, "members": 20, "replicas": 10}
+    """The first times, before the peak leaves the centre, are NaN and do not contribute to the exponent."""
+    options = {**FREE, "pairs_per_replica": 20, "replicas": 10}
     late = pulse(program, tmp_path, **options, times="0.01,0.0125,0.016,0.02")
     result = pulse(program, tmp_path, **options, times="0.0001,0.0005,0.01,0.0125,0.016,0.02")
     for name, unknown in {
@@ -117,7 +119,7 @@ SEEDS, REPLICAS = 100, 24
 
 
 def spread_accepted(values: np.ndarray, errors: np.ndarray) -> bool:
-    """Errors from R replicas: squared Student variables, of mean (R-1)/(R-3), about their weighted mean."""
+    """Chi-square about the weighted mean; squared Student variables have the mean (R-1)/(R-3)."""
     weights = errors**-2
     statistic = np.sum(weights * (values - np.average(values, weights=weights)) ** 2)
     low, high = chi2.ppf([1e-4, 1 - 1e-4], SEEDS - 1)
@@ -125,7 +127,7 @@ def spread_accepted(values: np.ndarray, errors: np.ndarray) -> bool:
 
 
 def mean_is_zero(samples: np.ndarray) -> bool:
-    """Of [seed, distance], whose columns are correlated: Hotelling's T^2."""
+    """Hotelling's T^2 test of [seed, distance], whose columns are correlated."""
     count, size = samples.shape
     mean = samples.mean(axis=0)
     statistic = count * mean @ np.linalg.solve(np.cov(samples.T), mean)
@@ -134,13 +136,13 @@ def mean_is_zero(samples: np.ndarray) -> bool:
 
 @pytest.mark.parametrize("gamma", ["N", 1])
 def test_errors_over_seeds(program: Program, tmp_path: Path, gamma: str | int) -> None:
-    """Spread over 100 seeds against the stored errors, of everything that is read off the peak."""
+    """Spread over 100 seeds against the stored errors, for all quantities of the peak."""
     times = "0.008,0.01,0.014,0.02" if gamma == "N" else "0.006,0.008,0.01,0.0125"
     found: dict[str, list[np.ndarray]] = {}
     for seed in range(SEEDS):
         result = pulse(
             program, tmp_path, cells=41, particles_per_cell=20, gamma=gamma, relaxation_time=0,
-            observation_time=None, members=16, replicas=REPLICAS, times=times, seed=seed,
+            observation_time=None, pairs_per_replica=16, replicas=REPLICAS, times=times, seed=seed,
         )  # fmt: skip
         for name in ("peak", "peak_position", "peak_speed", "local_damping_exponent", "damping_exponent_from",
                      "damping_exponent", "peak_collapse"):  # fmt: skip
@@ -163,13 +165,13 @@ def test_errors_over_seeds(program: Program, tmp_path: Path, gamma: str | int) -
 
 @pytest.mark.parametrize("gamma", ["N", 1])
 def test_mirror_symmetry(program: Program, tmp_path: Path, gamma: str | int) -> None:
-    """The signed odd part is 0 at all distances, over many seeds; on a ring of an even number of cells too."""
+    """The odd part has mean 0 at all distances over many seeds, also on a ring with an even number of cells."""
     for cells in (41, 40):
         odd, errors, off_centre = [], [], []
         for seed in range(SEEDS):
             result = pulse(
                 program, tmp_path, cells=cells, particles_per_cell=20, gamma=gamma, relaxation_time=0,
-                observation_time=None, members=8, replicas=REPLICAS, times="0.01,0.02", seed=seed,
+                observation_time=None, pairs_per_replica=8, replicas=REPLICAS, times="0.01,0.02", seed=seed,
             )  # fmt: skip
             quantity, profile = result["odd_part"], result["energy_difference"].mean[-1]
             distance = quantity.axes["distance"].astype(int)
@@ -184,5 +186,5 @@ def test_mirror_symmetry(program: Program, tmp_path: Path, gamma: str | int) -> 
         z = np.array(odd)[:, reached] / np.array(errors)[:, reached]
         squares = np.sum(z**2, axis=1) * (REPLICAS - 3) / (REPLICAS - 1)
         assert abs(squares.mean() - reached.sum()) < 4 * squares.std(ddof=1) / np.sqrt(SEEDS)
-        # Mutant: folded about another cell than that of the pulse.
+        # Mutant: folding about a cell other than that of the pulse.
         assert not mean_is_zero(np.array(off_centre)[:, reached])

@@ -1,4 +1,4 @@
-"""When two products of one job count as the same: to the byte, but for rounding, or within their errors."""
+"""Criteria for equal products of a job: the same bytes, equality up to rounding, or agreement within errors."""
 
 from pathlib import Path
 
@@ -70,4 +70,4 @@ def test_rounding_explains_other_bytes_elsewhere_only(
         (tmp_path / f"again_{name}").write_text(new)
     monkeypatch.setattr(redo, "ROOT", tmp_path)
     monkeypatch.setattr(redo, "draw", lambda *_: {name: tmp_path / f"again_{name}" for name in files})
-    assert redrawn(Job({}, {}, {}, None, None, place), "", [], tmp_path) == differing
+    assert redrawn(Job("", {}, {}, {}, None, None, place, 0), tmp_path) == differing

@@ -1,40 +1,37 @@
-"""The files that a script is made of are found from its imports."""
+"""The source files of a script are found from its imports."""
 
 from pathlib import Path
 
 import pytest
 
-from workflow.config.plan import load_plan
+from workflow.lib.plan import load_plan
 from workflow.provenance import sources
 from workflow.provenance.sources import sources_of
 
 
 def test_imports_are_followed() -> None:
-    found = sources_of("workflow/scripts/ext02.py")
-    assert found[0] == "workflow/scripts/ext02.py"
-    modules = {
-        f"workflow/scripts/{module}.py"
-        for module in ("columns", "fig08", "figure", "fit", "load", "save", "style", "units")
-    }
-    assert set(found[1:]) == modules | {"workflow/provenance/parents.py"}
+    found = sources_of("workflow/figures/ext02.py")
+    assert found[0] == "workflow/figures/ext02.py"
+    lib = ("columns", "figure", "fit", "load", "parents", "save", "style", "units")
+    assert set(found[1:]) == {"workflow/figures/fig08.py", *(f"workflow/lib/{name}.py" for name in lib)}
 
 
 def test_every_form_of_import(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    folder = tmp_path / "workflow/scripts"
+    folder = tmp_path / "workflow/figures"
     folder.mkdir(parents=True)
-    (folder / "a.py").write_text("import os\nimport workflow.scripts.b\nfrom workflow.scripts import c\n")
-    (folder / "b.py").write_text("from workflow.scripts.d import x\nfrom workflow.scripts import a\n")
+    (folder / "a.py").write_text("import os\nimport workflow.figures.b\nfrom workflow.figures import c\n")
+    (folder / "b.py").write_text("from workflow.figures.d import x\nfrom workflow.figures import a\n")
     for name in "cde":
         (folder / f"{name}.py").write_text("")
     monkeypatch.setattr(sources, "ROOT", tmp_path)
-    assert sources_of("workflow/scripts/a.py") == [f"workflow/scripts/{name}.py" for name in "abcd"]
+    assert sources_of("workflow/figures/a.py") == [f"workflow/figures/{name}.py" for name in "abcd"]
 
 
 def test_every_panel_has_its_sources() -> None:
     for panel in load_plan("smoke").values():
-        assert "workflow/scripts/load.py" in sources_of(f"workflow/scripts/{panel.script}.py")
+        assert "workflow/lib/load.py" in sources_of(f"workflow/figures/{panel.script}.py")
 
 
 def test_a_missing_script_is_an_error() -> None:
     with pytest.raises(FileNotFoundError, match="nothing"):
-        sources_of("workflow/scripts/nothing.py")
+        sources_of("workflow/figures/nothing.py")

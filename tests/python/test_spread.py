@@ -1,8 +1,7 @@
-"""Every series of the standard figures in small: as many replicas, shorter, over 40 seeds. What the seeds scatter by
-has to be what the errors say, for that number of replicas."""
+"""Short versions of every series of the standard figures, with as many replicas, over 40 seeds: the spread over
+seeds agrees with the errors for that number of replicas."""
 
 import re
-import shlex
 import subprocess
 from pathlib import Path
 
@@ -11,15 +10,16 @@ import pytest
 from scipy.stats import chi2, f
 
 from tests.python.conftest import ROOT
-from workflow.config.plan import Run, load_plan
-from workflow.scripts.load import load
+from workflow.lib.load import load
+from workflow.lib.options import arguments
+from workflow.lib.plan import Run, load_plan
 
 SEEDS = 40
-FACTORS = {"particle_count": 2e-3}  # of all times
+FACTORS = {"particle_count": 2e-3}  # factor of all times
 OTHERS = 5e-3
-PULSE = {"members": 1, "relaxation-time": 0}
+PULSE = {"pairs-per-replica": 1, "relaxation-time": 0}
 
-# The numbers of a program that figures and claims stand on; of an array the last element.
+# The quantities of a program on which figures and claims rely; of an array, the last element.
 NUMBERS = {
     "persistence": ("mu", "particle_energy"),
     "waiting_time": ("exponent",),
@@ -34,7 +34,7 @@ NUMBERS = {
 
 
 def series() -> dict[str, Run]:
-    """The middle run of every series that is measured."""
+    """The middle run of every replicated series."""
     found: dict[str, list[Run]] = {}
     for panel in load_plan("standard").values():
         for run in panel.runs:
@@ -44,7 +44,7 @@ def series() -> dict[str, Run]:
 
 
 def shorter(value: object, factor: float) -> object:
-    """A time, a list of times or a multiple of N."""
+    """Multiplies a time, a list of times or a multiple of N by a factor."""
     return re.sub(r"[0-9.]+(e-?[0-9]+)?", lambda number: f"{factor * float(number[0]):.6g}", str(value))
 
 
@@ -58,11 +58,11 @@ def in_small(run: Run) -> dict[str, object]:
 
 
 def values(run: Run, folder: Path) -> dict[str, np.ndarray]:
-    """[seed, (mean, error)] of every number of a series."""
+    """Every quantity of a series as an array [seed, (mean, error)]."""
     found: dict[str, list] = {name: [] for name in NUMBERS[run.program]}
     for seed in range(SEEDS):
-        options = Run(run.name, run.program, {**in_small(run), "seed": 1000 + seed}).arguments()
-        command = [str(ROOT / "build/bin" / run.program), *shlex.split(options)]
+        options = {**in_small(run), "seed": 1000 + seed}
+        command = [str(ROOT / "build/bin" / run.program), *arguments(options)]
         command += ["--threads", "1", "--progress", "none", "--output", str(folder / "out.h5")]
         subprocess.run(command, check=True)
         result = load(folder / "out.h5")
@@ -73,13 +73,13 @@ def values(run: Run, folder: Path) -> dict[str, np.ndarray]:
 
 
 def spread_over_error(pairs: np.ndarray) -> float:
-    """Variance of the means over the mean square error."""
+    """Ratio of the variance of the means to the mean square error."""
     mean, error = pairs.T
     return float(mean.var(ddof=1) / np.mean(error**2))
 
 
 def plausible(ratio: float, seeds: int, replicas: int, trials: int) -> bool:
-    """Of normal records the ratio has the F distribution; both tails, at one false alarm in ten thousand."""
+    """Two-sided F test of the ratio, valid for normal records, at one false alarm in 10^4 for all trials."""
     tail = 1e-4 / (2 * trials)
     freedom = (seeds - 1, seeds * (replicas - 1))
     return f.isf(1 - tail, *freedom) < ratio < f.isf(tail, *freedom)
@@ -87,7 +87,7 @@ def plausible(ratio: float, seeds: int, replicas: int, trials: int) -> bool:
 
 @pytest.fixture(scope="module")
 def ratios(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[float, int]]:
-    """Spread over error, squared, and replicas, of every number of every series."""
+    """spread_over_error() and the number of replicas for every quantity of every series."""
     folder = tmp_path_factory.mktemp("spread")
     return {
         f"{name} {number}": (spread_over_error(pairs), int(run.options["replicas"]))
@@ -109,13 +109,13 @@ def test_seeds_scatter_as_their_errors_say(ratios: dict[str, tuple[float, int]])
         ]
 
     assert outliers(1) == []
-    # Mutants: errors too small by a factor of two, too large by one of three; 40 seeds tell no less of one number.
+    # Mutants: errors too small by a factor of 2, too large by a factor of 3, the resolution of 40 seeds.
     assert len(outliers(4)) > 0.8 * len(ratios)
     assert len(outliers(1 / 9)) > 0.8 * len(ratios)
 
 
 def test_errors_are_right_on_the_whole(ratios: dict[str, tuple[float, int]]) -> None:
-    """One number of every series, as those of one series go together."""
+    """Joint test with one quantity of every series, because quantities of one series are correlated."""
     firsts = {name.split()[0]: ratio for name, (ratio, _) in reversed(ratios.items())}
     freedom = (SEEDS - 1) * len(firsts)
 
@@ -124,6 +124,6 @@ def test_errors_are_right_on_the_whole(ratios: dict[str, tuple[float, int]]) -> 
         return chi2.isf(1 - 5e-5, freedom) < total < chi2.isf(5e-5, freedom)
 
     assert plausible_sum(1)
-    # Mutants: errors of n instead of n - 1 replicas would pass, errors 15 % too small or too large do not.
+    # Mutants: errors 15 % too small or too large. The normalisation n instead of n - 1 would pass.
     assert not plausible_sum(1.15**2)
     assert not plausible_sum(1 / 1.15**2)

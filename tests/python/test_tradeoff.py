@@ -11,9 +11,9 @@ import pytest
 from scipy.stats import chi2
 
 from workflow import tradeoff
-from workflow.config.plan import Run, load_plan
-from workflow.provenance import status
-from workflow.provenance.status import effort, expected_cost, scaled
+from workflow.lib import costs
+from workflow.lib.costs import effort, expected_cost, scaled
+from workflow.lib.plan import Run, load_plan
 from workflow.tradeoff.accuracy import amplitude, uncertainty
 from workflow.tradeoff.bias import with_bias
 from workflow.tradeoff.efficiency import Estimate, compared, jackknife
@@ -26,7 +26,7 @@ REPLICAS = np.array([10, 100, 1000])
 def test_amplitude_of_the_law_and_of_noisy_errors() -> None:
     seconds = np.array([0.1, 1, 10])
     assert amplitude(seconds, 3 / np.sqrt(seconds), REPLICAS) == pytest.approx(3)
-    # The least precise point hardly counts.
+    # The least precise point has a negligible weight.
     assert amplitude(seconds, 3 / np.sqrt(seconds) * [2, 1, 1], REPLICAS) == pytest.approx(3, rel=0.01)
 
 
@@ -53,7 +53,7 @@ def test_jackknife_of_a_ratio_over_samples() -> None:
         value, error = jackknife(lambda row: row[0] / row[1], rows)
         pulls.append((value - 1.5) / error)
     low, high = chi2.ppf([5e-4, 1 - 5e-4], 400)
-    assert low < np.sum(np.square(pulls)) < 19 / 17 * high  # Student's variables
+    assert low < np.sum(np.square(pulls)) < 19 / 17 * high  # squared Student variables have the mean 19/17
     assert not low < np.sum(np.square(pulls)) / 1.5**2 < 19 / 17 * high  # mutant: errors too large
 
 
@@ -82,10 +82,10 @@ def test_bias_is_the_difference_from_the_last_row_of_a_knob() -> None:
 
 
 @pytest.mark.parametrize(
-    ("changes", "factor"), [({"replicas": 8}, 4), ({"members": 48}, 3), ({"times": "1,6"}, 1.75)]
+    ("changes", "factor"), [({"replicas": 8}, 4), ({"pairs-per-replica": 48}, 3), ({"times": "1,6"}, 1.75)]
 )
 def test_effort_is_what_cost_is_proportional_to(changes: dict, factor: float) -> None:
-    options = {"replicas": 2, "members": 16, "times": "1,3", "relaxation-time": "0.25N", "cells": 4}
+    options = {"replicas": 2, "pairs-per-replica": 16, "times": "1,3", "relaxation-time": "0.25N", "cells": 4}
     assert effort(options | changes) == pytest.approx(factor * effort(options))
 
 
@@ -95,7 +95,7 @@ def cost(effort: float) -> float:
 
 @pytest.mark.parametrize("share", [0.1, 1, 16])
 def test_cost_is_foretold_as_a_range(share: float) -> None:
-    """The program's start takes as long as the cheapest execution, or less."""
+    """The start of a program takes at most as long as the cheapest execution."""
     for start in (0.05, 0.07):
         least, most = scaled(cost(8), share, start)
         assert least <= cost(8 * share) * (1 + 1e-12)
@@ -106,20 +106,20 @@ def test_cost_is_foretold_as_a_range(share: float) -> None:
 
 
 def test_cost_is_foretold_by_the_nearest_execution(monkeypatch: pytest.MonkeyPatch) -> None:
-    """And by the options that it had, not by those that the plan has now."""
+    """The options of that execution count, not those of the present plan."""
     known = [
         ({"replicas": 2, "observation-time": 5.0}, 1.0),
         ({"replicas": 16, "observation-time": 5.0}, 6.0),
     ]
-    monkeypatch.setattr(status, "executions", lambda _panel, _run: iter(known))
+    monkeypatch.setattr(costs, "executions", lambda _panel, _run: iter(known))
     assert expected_cost("", Run("", "", {"replicas": 32}), 0) == (12, 12)
     assert expected_cost("", Run("", "", {"replicas": 1}), 0.2) == pytest.approx((0.5, 0.6))
-    monkeypatch.setattr(status, "executions", lambda _panel, _run: iter([]))
+    monkeypatch.setattr(costs, "executions", lambda _panel, _run: iter([]))
     assert np.isnan(expected_cost("", Run("", "", {"replicas": 1}), 0)).all()
 
 
 def named_runs(panels: Collection[str]) -> Iterator[tuple[str, str]]:
-    """Whatever stands side by side in these modules as the name of a panel and another one."""
+    """Pairs of adjacent constants in these modules: the name of a panel and that of a run."""
     for module in Path(tradeoff.__path__[0]).glob("*.py"):
         for node in ast.walk(ast.parse(module.read_text())):
             values = node.args if isinstance(node, ast.Call) else getattr(node, "elts", [])

@@ -1,7 +1,8 @@
-"""Units: the grammar, and that every number of every program has the units that its file declares.
+"""Units: the grammar, and the units that files declare for every number of every program.
 
-A change of units changes no physics: with momenta scaled by s and lengths by r, every program has to find the same
-numbers in other units. For powers of two the random numbers and the events are the same, so all agree to rounding.
+Physics does not depend on units: with momenta scaled by s and lengths by r, every program must find the same
+numbers in other units. For powers of two the random numbers and the events are the same, so that all results
+agree to rounding.
 """
 
 from collections.abc import Iterator
@@ -15,9 +16,9 @@ from hypothesis import strategies as st
 
 from tests.python.conftest import ROOT
 from tests.python.scale import ROUNDING, SCALES, Scale, agree
-from workflow.scripts.columns import OPTIONS
-from workflow.scripts.load import Result
-from workflow.scripts.units import WORDS, Units, UnitsError, parse
+from workflow.lib.columns import OPTIONS
+from workflow.lib.load import Result
+from workflow.lib.units import WORDS, Units, UnitsError, parse
 from workflow.tradeoff.measure import call
 
 factors = st.lists(st.tuples(st.sampled_from(sorted(WORDS)), st.integers(1, 12)), min_size=1, max_size=4)
@@ -60,7 +61,7 @@ def test_dimensions(text: str, length: int, time: int) -> None:
         ("Energy", "'Energy'"),
         ("", "'' is not a product"),
         ("1/time/time", "'1/time/time' is not a product"),
-        ("1/time momentum", "not a product"),  # which of the two it is over is not to be guessed
+        ("1/time momentum", "not a product"),  # ambiguous denominator
         ("(energy)", "not a product"),
         ("1/()", "not a product"),
         ("k_B T", "'k_B'"),
@@ -114,12 +115,12 @@ COUNTS = {
     "mu/mean",
     "total_number/mean",
     "momentum_points/mean",
-}  # and ratios of counts; no rounding is in them
+}  # ratios of counts, without rounding
 
 
 @cache
 def measured(case: str) -> tuple[Result, ...]:
-    """In the default units, then in those of SCALES."""
+    """Results in the default units, then in those of SCALES."""
     program, options = CASES[case]
     path = ROOT / "build/bin" / program
     plain = call(path, **options, progress="none").result
@@ -133,7 +134,7 @@ def measured(case: str) -> tuple[Result, ...]:
 
 
 def datasets(result: Result) -> Iterator[tuple[str, np.ndarray, str]]:
-    """Place, values and units."""
+    """Path, values and units of every dataset."""
     for name, quantity in result.quantities.items():
         for kind in ("mean", "standard_error", "discretisation_error"):
             if getattr(quantity, kind) is not None:
@@ -143,7 +144,7 @@ def datasets(result: Result) -> Iterator[tuple[str, np.ndarray, str]]:
 
 
 def faults(plain: Result, scaled: Result, scale: Scale) -> list[str]:
-    """The datasets that do not scale as the plain result says."""
+    """The datasets that do not scale according to the units of the plain result."""
     found = []
     for (place, values, units), (_, others, _) in zip(datasets(plain), datasets(scaled), strict=True):
         rounding = 0 if place in COUNTS else ROUNDING
@@ -169,7 +170,7 @@ WRONG = ("1", "length", "time", "1/time", "momentum", "energy", "momentum/time",
 
 
 def mutants(result: Result) -> Iterator[tuple[str, Result]]:
-    """One wrong unit each, and the dataset's place."""
+    """Results with one wrong unit each, and the path of the dataset."""
 
     def patched(name: str, **changes: object) -> Result:
         return replace(result, quantities=result.quantities | {name: replace(result[name], **changes)})
@@ -186,7 +187,7 @@ def mutants(result: Result) -> Iterator[tuple[str, Result]]:
 
 @pytest.mark.parametrize("program", sorted({program for program, _ in CASES.values()}))
 def test_every_wrong_unit_is_found(program: str) -> None:
-    """In one of the program's cases at least: a quantity may be NaN or 0 in another."""
+    """Found in at least one case of the program, because a quantity may be NaN or 0 in others."""
     missed: set[str] | None = None
     for case in (name for name, (its_program, _) in CASES.items() if its_program == program):
         plain, *others = measured(case)

@@ -40,12 +40,12 @@ class Clone:
         self.git("commit", "--quiet", "--allow-empty", "--message", "all")
 
     def products(self) -> dict[str, bytes]:
-        """Data and figures by path, without the lock, which names the commit."""
+        """Data and figures by path, without the lock, which names the commit, and what is tracked."""
         files = [path for place in ("data", "figures") for path in (self.folder / place).rglob("*")]
         return {
             str(path.relative_to(self.folder)): path.read_bytes()
             for path in files
-            if path.is_file() and path.name != "lock.json"
+            if path.is_file() and path.name not in ("lock.json", "README.md")
         }
 
 

@@ -1,14 +1,18 @@
 """Every tampering is found, and the first broken link is named; a clean run has none."""
 
 import json
+import subprocess
 from collections.abc import Callable
+from pathlib import Path
 
 import h5py
 import pytest
 
 from tests.workflow.conftest import Clone, Edit, append, copy, delete, replace
-from workflow.provenance.lock import _seal
-from workflow.provenance.parents import file_hash
+from workflow.lib.parents import file_hash
+from workflow.provenance import repository
+from workflow.provenance.lock import checksum_of
+from workflow.provenance.repository import signature
 
 DATA = "data/smoke/fig03/paper.h5"
 TABLE = "figures/smoke/fig03.csv"
@@ -32,15 +36,15 @@ def forge_value(clone: Clone) -> None:
 
 
 def relock(change: Callable[[dict], None] = lambda _: None) -> Edit:
-    """A lock that fits what is there, sealed: only the links between the products can tell."""
+    """A lock that fits what is there, with its checksum: only the links between the products can tell."""
 
     def edit(clone: Clone) -> None:
         content = json.loads((clone.folder / LOCK).read_text())
-        del content["seal"]
+        del content["checksum"]
         for job in content["jobs"].values():
             job["outputs"] = {path: file_hash(clone.folder / path) for path in job["outputs"]}
         change(content)
-        content["seal"] = _seal(content)
+        content["checksum"] = checksum_of(content)
         (clone.folder / LOCK).write_text(json.dumps(content))
 
     return edit
@@ -98,8 +102,8 @@ TAMPERINGS = {
         "workflow/config/quality/smoke.yaml",
     ),
     "configuration spoilt": (append("workflow/config/paper.yaml", "}\n"), "workflow/config/paper.yaml"),
-    "script": (append("workflow/scripts/fig03.py", "# x\n"), "workflow/scripts/fig03.py"),
-    "shared module deleted": (delete("workflow/scripts/fit.py"), "workflow/scripts/fit.py"),
+    "script": (append("workflow/figures/fig03.py", "# x\n"), "workflow/figures/fig03.py"),
+    "shared module deleted": (delete("workflow/lib/fit.py"), "workflow/lib/fit.py"),
     "C++ source": (append("cpp/boltzmann/gmres.cpp", "// x\n"), "cpp/boltzmann/gmres.cpp"),
     "C++ source deleted": (delete("cpp/boltzmann/gmres.cpp"), "cpp/boltzmann/gmres.cpp"),
     "Python packages": (append("requirements.lock", "# x\n"), "requirements.lock"),
@@ -138,3 +142,39 @@ def test_tampering_is_found_and_named(kept: Clone, tampering: str) -> None:
     assert audited.returncode != 0
     assert "Traceback" not in audited.stdout
     assert f"the first is {first}" in audited.stdout
+
+
+SIGNER = r"""#!/bin/bash
+# A stand-in for gpg: signs anything, and accepts what it has signed.
+cat >/dev/null
+case "$*" in
+  *--verify*) printf '\n%s\n' '[GNUPG:] GOODSIG 0 Nobody' ;;
+  *) echo '[GNUPG:] SIG_CREATED ' >&2
+     printf -- '-----BEGIN PGP SIGNATURE-----\n\nx\n-----END PGP SIGNATURE-----\n' ;;
+esac
+"""
+
+
+def test_the_commit_that_is_compared_is_named(clean: Clone) -> None:
+    commit = subprocess.check_output(
+        ["git", "rev-list", "--max-parents=0", "HEAD"], cwd=clean.folder, text=True
+    )
+    told = clean.make("audit", "QUALITY=smoke", "PANEL=fig03").stdout
+    assert f"compared with commit {commit[:12]} (not signed)" in told
+
+
+def test_signatures_are_told_apart(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(repository, "ROOT", tmp_path)
+    signer = tmp_path / "signer"
+    signer.write_text(SIGNER)
+    signer.chmod(0o755)
+    clone = Clone(tmp_path)
+    clone.git("init", "--quiet")
+    program = ("-c", f"gpg.program={signer}", "-c", "user.signingkey=0")
+    clone.git(*program, "commit", "--quiet", "--allow-empty", "--message", "plain")
+    assert signature("HEAD") == "not signed"
+    clone.git(*program, "commit", "--quiet", "--allow-empty", "--message", "gpgsig x", "--gpg-sign")
+    clone.git("config", "gpg.program", str(signer))
+    assert signature("HEAD") == "signed"
+    clone.git("config", "gpg.program", "/bin/false")
+    assert signature("HEAD") == "signed, but git cannot verify it"

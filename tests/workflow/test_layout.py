@@ -1,8 +1,8 @@
 """Every result of the pipeline follows the documented layout."""
 
 from tests.workflow.conftest import Clone
-from workflow.config.plan import load_plan
-from workflow.provenance.layout import faults
+from workflow.lib.layout import faults
+from workflow.lib.plan import load_plan
 
 
 def test_every_file_of_the_smoke_run_has_no_fault(clean: Clone) -> None:

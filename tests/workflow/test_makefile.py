@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.workflow.conftest import ROOT, Clone, clone_into
-from workflow.config.plan import load_plan
+from workflow.lib.plan import load_plan
 
 HOSTILE = {
     "LC_ALL": "de_DE.UTF-8",
@@ -95,6 +95,32 @@ def test_refusals(clean: Clone, arguments: tuple[str, ...], words: list[str]) ->
     assert "Traceback" not in made.stdout
     for word in words:
         assert word in made.stdout
+
+
+@pytest.mark.parametrize(
+    "text", ["fig03;touch {0};`touch {0}`$(shell touch {0})$$(touch {0})';touch {0};'", "fig03\ntouch {0}"]
+)
+@pytest.mark.parametrize(
+    ("target", "option"),
+    [
+        ("panel", "PANEL"),
+        ("panel", "JOBS"),
+        ("figures", "QUALITY"),
+        ("audit", "PANEL"),
+        ("verify", "SAMPLE"),
+        ("provenance", "FILE"),
+        ("crate", "PANEL"),
+        ("status", "QUALITY"),
+        ("provenance", "UNKNOWN"),
+        ("provenance", "http_proxy"),
+    ],
+)
+def test_options_are_text(clean: Clone, tmp_path: Path, target: str, option: str, text: str) -> None:
+    options = {"QUALITY": "smoke", "PANEL": "fig03", "FILE": "README.md", option: text.format(tmp_path / "x")}
+    made = clean.make(target, *(f"{name}={value}" for name, value in options.items()))
+    assert not (tmp_path / "x").exists(), made.stdout
+    if target != "audit":  # which would draw a panel that is not there
+        assert made.returncode != 0
 
 
 def test_bad_configuration_is_refused_before_anything_runs(clean: Clone) -> None:

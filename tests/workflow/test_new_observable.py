@@ -16,17 +16,18 @@ def test_readme_example(clean: Clone) -> None:
         "cpp/observables/collision_rate.cpp",
         "cpp/CMakeLists.txt",
         "workflow/config/paper.yaml",
-        "workflow/scripts/rate.py",
+        "workflow/figures/rate.py",
     }
     for path, text in blocks.items():
         file = clean.folder / path
         file.write_text((file.read_text() if file.is_file() else "") + text)
 
-    made = clean.make("panel", "PANEL=rate", "QUALITY=smoke")
+    made = clean.make("describe", "panel", "PANEL=rate", "QUALITY=smoke")
     assert made.returncode == 0, made.stdout
     table = pd.read_csv(clean.folder / "figures/smoke/rate.csv", comment="#")
     assert list(table.sigma) == [-0.9, -0.5, 0, 0.5, 0.9]
     assert (table.rate > 0).all()
+    assert "| `collision_rate` | `rate` | 1/time |" in (clean.folder / "docs/format.md").read_text()
     # Nothing else was made again: the other programs keep their build ids.
     made = clean.make("figures", "QUALITY=smoke")
     assert "Nothing to be done" in made.stdout

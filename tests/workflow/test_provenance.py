@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from tests.workflow.conftest import Clone, append, replace
-from workflow.config.plan import load_plan
-from workflow.provenance.parents import file_hash
+from workflow.lib.parents import file_hash
+from workflow.lib.plan import load_plan
 
 FIGURE = "figures/smoke/fig03"
 
@@ -21,7 +21,7 @@ def test_copy_elsewhere_tells_the_whole_chain(clean: Clone, tmp_path: Path, kind
     identity = json.loads((clean.folder / "build/id/boltzmann.json").read_text())
     data = clean.folder / "data/smoke/fig03/paper.h5"
     wanted = [file_hash(copied), identity["build_id"], identity["source_hash"], file_hash(data)]
-    wanted += [file_hash(clean.folder / path) for path in ("requirements.lock", "workflow/scripts/fig03.py")]
+    wanted += [file_hash(clean.folder / path) for path in ("requirements.lock", "workflow/figures/fig03.py")]
     wanted += [file_hash(clean.folder / f"cpp/{path}") for path in identity["sources"]]
     assert all(digest[:16] in told for digest in wanted)
     for word in ("panel fig03 at quality smoke", "seed 0", "numpy==", identity["compiler"], "parameters"):
@@ -37,7 +37,7 @@ def test_run_tells_its_chain(clean: Clone) -> None:
 
 
 def test_parents_that_have_changed_are_found_in_history(kept: Clone) -> None:
-    for path in ("workflow/scripts/fig03.py", "cpp/boltzmann/gmres.cpp", "requirements.lock"):
+    for path in ("workflow/figures/fig03.py", "cpp/boltzmann/gmres.cpp", "requirements.lock"):
         append(path, "\n")(kept)
     replace("workflow/config/paper.yaml", "fig03:", "fig03x:")(kept)
     told = kept.make("provenance", f"FILE={FIGURE}.pdf").stdout
@@ -78,11 +78,11 @@ def test_status_says_what_is_stale_and_why(kept: Clone) -> None:
 
     assert states().keys() >= load_plan("smoke").keys()
     assert set(states().values()) == {"fresh"}
-    append("workflow/scripts/fig06.py", "\n")(kept)
+    append("workflow/figures/fig06.py", "\n")(kept)
     replace(
         "workflow/config/quality/smoke.yaml", "fig07: {all: {replicas: 4}}", "fig07: {all: {replicas: 5}}"
     )(kept)
     stale = {panel: state for panel, state in states().items() if state != "fresh"}
     assert stale.keys() == {"fig06", "fig07"}
-    assert stale["fig06"] == "workflow/scripts/fig06.py changed"
+    assert stale["fig06"] == "workflow/figures/fig06.py changed"
     assert stale["fig07"] == "parameters changed: --replicas from 4 to 5"

@@ -6,7 +6,7 @@ from collections.abc import Callable
 import pytest
 
 from tests.workflow.conftest import Clone, Edit, append, copy, delete, files_below, replace
-from workflow.config.plan import Panel, data_path, drawings_of, load_plan, with_used
+from workflow.lib.plan import Panel, data_path, drawings_of, load_plan, with_used
 from workflow.provenance.sources import sources_of
 
 PLAN = load_plan("smoke")
@@ -35,32 +35,29 @@ def of_program(program: str) -> Jobs:
 
 def importing(module: str) -> Jobs:
     return {
-        name for name, panel in PLAN.items() if module in sources_of(f"workflow/scripts/{panel.script}.py")
+        name for name, panel in PLAN.items() if module in sources_of(f"workflow/figures/{panel.script}.py")
     }
 
 
 FIG07 = "decades: 6\n        fit-decades: 1\n"
 
 
+def stamps(clone: Clone) -> dict[str, set[int]]:
+    """The files that are each job's products."""
+    files = {
+        f"{name}/{run.name}": [data_path("smoke", name, run.name)] for name in PLAN for run in PLAN[name].runs
+    }
+    files |= {name: drawings_of("smoke", name) for name in PLAN}
+    present = {job: [clone.folder / path for path in paths] for job, paths in files.items()}
+    return {job: {path.stat().st_ino for path in paths if path.exists()} for job, paths in present.items()}
+
+
 def remade(clone: Clone) -> Jobs:
     """Jobs whose products are other files after `make figures` than before."""
-
-    def stamps() -> dict[str, set[int]]:
-        files = {
-            f"{name}/{run.name}": [data_path("smoke", name, run.name)]
-            for name in PLAN
-            for run in PLAN[name].runs
-        }
-        files |= {name: drawings_of("smoke", name) for name in PLAN}
-        present = {job: [clone.folder / path for path in paths] for job, paths in files.items()}
-        return {
-            job: {path.stat().st_ino for path in paths if path.exists()} for job, paths in present.items()
-        }
-
-    before = stamps()
+    before = stamps(clone)
     made = clone.make("figures", "QUALITY=smoke")
     assert made.returncode == 0, made.stdout
-    return {job for job, inodes in stamps().items() if inodes != before[job]}
+    return {job for job, inodes in stamps(clone).items() if inodes != before[job]}
 
 
 def touch(clone: Clone) -> None:
@@ -75,8 +72,8 @@ def forget(clone: Clone) -> None:
 
 CHANGES: dict[str, tuple[Edit, Jobs]] = {
     "C++ file of one program": (append("cpp/statistics/peak.hpp", "// more\n"), of_program("energy_pulse")),
-    "script": (append("workflow/scripts/fig06.py", "# more\n"), {"fig06"}),
-    "shared module": (append("workflow/scripts/fit.py", "# more\n"), importing("workflow/scripts/fit.py")),
+    "script": (append("workflow/figures/fig06.py", "# more\n"), {"fig06"}),
+    "shared module": (append("workflow/lib/fit.py", "# more\n"), importing("workflow/lib/fit.py")),
     "parameter": (replace("workflow/config/paper.yaml", FIG07, FIG07.replace("6", "5")), of_panel("fig07")),
     "effort": (
         replace(
@@ -103,3 +100,4 @@ def test_exactly_what_is_affected_runs_again(kept: Clone, change: str) -> None:
     edit, expected = CHANGES[change]
     edit(kept)
     assert remade(kept) == expected
+    assert all(stamps(kept).values())  # nothing is missing

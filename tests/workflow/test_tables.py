@@ -11,11 +11,11 @@ import pytest
 
 from tests.python.scale import ROUNDING, SCALES, agree
 from tests.workflow.conftest import Clone
-from workflow.config.plan import data_of, load_plan
-from workflow.scripts import style
-from workflow.scripts.columns import BY_ROW, UNITS_LINE, as_csv
-from workflow.scripts.load import load
-from workflow.scripts.units import UnitsError
+from workflow.lib import style
+from workflow.lib.columns import BY_ROW, UNITS_LINE, as_csv
+from workflow.lib.load import load
+from workflow.lib.plan import data_of, load_plan
+from workflow.lib.units import UnitsError
 
 PLAN = load_plan("smoke")
 
@@ -30,7 +30,7 @@ def stated(table: Path) -> dict[str, str]:
 @cache
 def tables(folder: Path, panel: str) -> tuple[pd.DataFrame, ...]:
     """From the results as they are, then in other units."""
-    draw = importlib.import_module(f"workflow.scripts.{PLAN[panel].script}").draw
+    draw = importlib.import_module(f"workflow.figures.{PLAN[panel].script}").draw
     results = [load(folder / path) for path in data_of(PLAN, panel, "smoke")]
     style.apply()
     drawn = [

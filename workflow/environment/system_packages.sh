@@ -11,11 +11,14 @@ header:Eigen/Dense     libeigen3-dev      eigen3-devel     eigen
 header:gsl/gsl_math.h  libgsl-dev         gsl-devel        gsl
 header:hdf5.h          libhdf5-dev        hdf5-devel       hdf5
 header:CLI/CLI.hpp     libcli11-dev       cli11-devel      cli11
+header:toml++/toml.h   libtomlplusplus-dev tomlplusplus-devel tomlplusplus
+header:nlohmann/json.hpp nlohmann-json3-dev json-devel nlohmann-json
 header:Random123/philox.h librandom123-dev Random123-devel random123
 header:sleef.h         libsleef-dev       sleef-devel      sleef
 header:fmt/format.h    libfmt-dev         fmt-devel        fmt
 header:gtest/gtest.h   libgtest-dev       gtest-devel      googletest
 header:benchmark/benchmark.h libbenchmark-dev google-benchmark-devel google-benchmark
+command:doxygen        doxygen            doxygen          doxygen
 venv:                  python3-venv       python3          python
 '
 

@@ -11,19 +11,27 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from rocrate.rocrate import ROCrate
 
-from workflow.config.plan import ConfigurationError, Panel, load_plan, with_used
+from workflow.lib.plan import ConfigurationError, Panel, load_plan, with_used
+from workflow.provenance.chain import Chain
 from workflow.provenance.crate_graph import crate_of
 from workflow.provenance.lock import Job, Lock, LockError, builds_of
 from workflow.provenance.repository import ROOT, git
-from workflow.provenance.stale import Staleness
 
 PLACE = ROOT / "build/crate"
 DRAFT = "smoke"
 NAMED = 5  # stale jobs that a refusal names
 # What belongs to the project where git cannot tell.
-FOLDERS = ("cpp", "docs", "tests", "workflow")
+FOLDERS = ("cpp", "docs", "profiles", "tests", "workflow")
 FILES = ("Makefile", "Snakefile", "requirements.lock", "requirements-dev.lock", ".clang-format", ".ruff.toml")
-PAPERS = ("README.md", "CHANGELOG.md", "CITATION.cff", "LICENSE", ".gitignore")
+PAPERS = (
+    "README.md",
+    "CHANGELOG.md",
+    "CITATION.cff",
+    "LICENSE",
+    ".gitignore",
+    "data/README.md",
+    "figures/README.md",
+)
 
 
 class CrateError(ValueError):
@@ -33,7 +41,7 @@ class CrateError(ValueError):
 def chosen_jobs(lock: Lock, plan: dict[str, Panel], panel: str | None, remedy: str) -> dict[str, Job]:
     """Jobs of the panel, or of all, runs before the drawing that shows them. Raises CrateError if one is stale."""
     panels = [panel] if panel else list(plan)
-    stale = Staleness(lock.quality, plan).reasons(panels)
+    stale = Chain(lock.quality, plan, lock).stale(panels)
     if stale:
         named = [f"\n  {job}: {reason}" for job, reason in list(stale.items())[:NAMED]]
         more = f"\n  and {len(stale) - NAMED} more" if len(stale) > NAMED else ""
@@ -47,7 +55,7 @@ def chosen_jobs(lock: Lock, plan: dict[str, Panel], panel: str | None, remedy: s
 
 def source_files(lock: Lock, jobs: dict[str, Job]) -> set[str]:
     """The project's files, and what the jobs were made from, tracked by git or not; relative paths."""
-    scripts = [path for job in jobs.values() if job.is_drawing for path in job.parents["sources"]]
+    scripts = [path for job in jobs.values() for path in job.sources]
     builds = builds_of(jobs.values())
     built = [f"cpp/{path}" for build_id in builds for path in lock.builds[build_id]["sources"]]
     return {*project_files(), *scripts, *built}
@@ -92,7 +100,7 @@ def pack(quality: str, panel: str | None) -> Path:
         raise CrateError(f"{error}, so nobody knows what made the products: {remedy} writes it") from error
     jobs = chosen_jobs(lock, plan, panel, remedy)
     archive = PLACE / f"lorentz-gas-{quality}.zip"
-    write(crate_of(lock, jobs, plan, source_files(lock, jobs), remedy), PLACE / quality, archive)
+    write(crate_of(lock, jobs, source_files(lock, jobs), remedy), PLACE / quality, archive)
     return archive
 
 

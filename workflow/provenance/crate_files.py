@@ -7,7 +7,7 @@ import yaml
 from rocrate.model import ContextEntity, Entity
 from rocrate.rocrate import ROCrate
 
-from workflow.provenance.parents import file_hash
+from workflow.lib.parents import file_hash
 from workflow.provenance.repository import ROOT
 
 PROFILES = {

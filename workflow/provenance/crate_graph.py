@@ -1,9 +1,10 @@
 """Which job made which product from what: one CreateAction for every job, one for the workflow as a whole.
 
-The lock is the only witness, so nothing names a time of day, a host, a user or a folder of this machine.
+It is taken from the lock alone, so that nothing names a time of day, a host, a user or a folder of this machine.
 """
 
 import os
+import shlex
 from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import UTC, date, datetime
@@ -11,11 +12,11 @@ from datetime import UTC, date, datetime
 from rocrate.model import Entity
 from rocrate.rocrate import ROCrate
 
-from workflow.config.plan import Panel
+from workflow.lib.options import arguments
+from workflow.lib.parents import PACKAGES
 from workflow.provenance.crate_files import WORKFLOW, add, add_files, compact, new_crate
 from workflow.provenance.lock import Job, Lock, builds_of, configuration_files
 from workflow.provenance.repository import ROOT, git
-from workflow.provenance.stale import PACKAGES
 
 
 @dataclass(frozen=True)
@@ -30,9 +31,7 @@ class Action:
     outputs: Iterable[str]
 
 
-def crate_of(
-    lock: Lock, jobs: dict[str, Job], plan: dict[str, Panel], sources: set[str], remade_by: str
-) -> ROCrate:
+def crate_of(lock: Lock, jobs: dict[str, Job], sources: set[str], remade_by: str) -> ROCrate:
     """The crate of some jobs of the lock and of all sources; `remade_by` is the command that makes the same
     products again."""
     description = (
@@ -40,11 +39,9 @@ def crate_of(
     )
     crate = new_crate(description, published(jobs))
     products = {path for job in jobs.values() for path in job.outputs}
-    scripts = {
-        name: f"workflow/scripts/{plan[name].script}.py" for name, job in jobs.items() if job.is_drawing
-    }
+    scripts = {job.tool for job in jobs.values() if job.is_drawing}
     lock_path = str(Lock.path(lock.quality).relative_to(ROOT))
-    files = add_files(crate, {*sources, *products, lock_path}, set(scripts.values()))
+    files = add_files(crate, {*sources, *products, lock_path}, scripts)
     used = sorted(builds_of(jobs.values()))
     programs = {build_id: _add_program(crate, lock.builds[build_id], files) for build_id in used}
 
@@ -53,9 +50,9 @@ def crate_of(
     actions = [Action("#workflow", remade_by, files[WORKFLOW], remade_by, inputs, sorted(products))]
     for name, job in jobs.items():
         if job.is_drawing:
-            actions.append(_drawing(name, job, files[scripts[name]]))
+            actions.append(_drawing(name, job, files[job.tool]))
         else:
-            actions.append(_run(name, job, programs[job.parents["build_id"]], settings))
+            actions.append(_run(name, job, programs[job.build_id], settings))
     crate.root_dataset["mentions"] = [_add_action(crate, action, files) for action in actions]
     return crate
 
@@ -69,12 +66,11 @@ def published(jobs: dict[str, Job]) -> date:
 
 
 def _drawing(name: str, job: Job, script: Entity) -> Action:
-    inputs = [*job.parents["data"], *job.parents["sources"], PACKAGES]
-    return Action(f"#job/{name}", name, script, f"Draws {name}", inputs, job.outputs)
+    return Action(f"#job/{name}", name, script, f"Draws {name}", job.inputs, job.outputs)
 
 
 def _run(name: str, job: Job, program: Entity, settings: list[str]) -> Action:
-    command = f"{job.parents['program']} {job.parents['arguments']}"
+    command = shlex.join([job.tool, *arguments(job.options)])
     return Action(f"#job/{name}", name, program, command, settings, job.outputs)
 
 

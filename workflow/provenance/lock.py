@@ -1,10 +1,8 @@
-"""data/<quality>/lock.json: for every job that made a product, the product's hash and its parents.
+"""data/<quality>/lock.json: for every job that made a product, what ran, from what, and the hash of what it wrote.
 
-Every job records itself when it is done, so that nothing enters the lock but what a job has just written.
-Run by the rules: python -m workflow.provenance.lock.
+Every job enters itself when it is done (execute.py), so that nothing is in the lock but what a job has just written.
 """
 
-import argparse
 import contextlib
 import fcntl
 import hashlib
@@ -14,11 +12,10 @@ from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
+from workflow.lib.options import Options
 from workflow.provenance import repository
-from workflow.provenance.parents import Parents, file_hash
 
-FORMAT = "lorentz-gas-lock"
-VERSION = 1
+FORMAT = {"format": "lorentz-gas-lock", "version": 2}
 
 
 class LockError(ValueError):
@@ -27,18 +24,35 @@ class LockError(ValueError):
 
 @dataclass(frozen=True)
 class Job:
-    """A run of a program, `panel/run`, or the drawing of a panel, `panel`."""
+    """A run of a program, `panel/run`, or the drawing of a panel, `panel`. Paths are relative to the project, hashes
+    are sha256."""
 
-    outputs: dict[str, str]  # path: sha256
-    parents: dict  # of a run: program, build_id, arguments; of a drawing: see Parents
-    configuration: dict[str, str]  # path: sha256 of the files that asked for it
+    tool: str  # program, or script
+    options: Options  # of the program; of a drawing, the hash of the panel's configuration
+    outputs: dict[str, str]  # path: hash
+    configuration: dict[str, str]  # path: hash of the files that asked for it
     commit: str | None  # of the repository when the job was done
     dirty: bool | None  # whether tracked files differed from it
     machine: str
+    exit: int
+    build_id: str | None = None  # of the program
+    inputs: dict[str, str] = field(
+        default_factory=dict
+    )  # of a drawing: path: hash of sources, packages, data
+    python: str | None = None  # version that drew
 
     @property
     def is_drawing(self) -> bool:
-        return "data" in self.parents
+        return self.build_id is None
+
+    @property
+    def sources(self) -> dict[str, str]:
+        """Of a drawing: script, modules that it imports, locked packages."""
+        return {path: digest for path, digest in self.inputs.items() if path not in self.data}
+
+    @property
+    def data(self) -> dict[str, str]:
+        return {path: digest for path, digest in self.inputs.items() if path.startswith("data/")}
 
 
 @dataclass
@@ -55,29 +69,34 @@ class Lock:
     def read(cls, quality: str) -> "Lock":
         """Raises LockError."""
         path = cls.path(quality)
+        name = path.relative_to(repository.ROOT)
         if not path.is_file():
-            raise LockError(f"{path.relative_to(repository.ROOT)} is missing")
+            raise LockError(f"{name} is missing")
         try:
             content = json.loads(path.read_text())
-            seal = content.pop("seal")
+            checksum = content.pop("checksum", None)
+            if {key: content[key] for key in FORMAT} != FORMAT:
+                raise LockError(f"{name} is of version {content['version']}, not {FORMAT['version']}")
             jobs = {name: Job(**job) for name, job in content["jobs"].items()}
             lock = cls(content["quality"], jobs, content["builds"])
+        except LockError:
+            raise
         except (ValueError, KeyError, TypeError, AttributeError) as error:
-            raise LockError(f"{path.relative_to(repository.ROOT)} is damaged: {error}") from error
-        if seal != _seal(content):
-            raise LockError(f"{path.relative_to(repository.ROOT)} has been edited: its seal does not fit")
+            raise LockError(f"{name} is damaged: {error}") from error
+        if checksum != checksum_of(content):
+            raise LockError(f"{name} is damaged or edited: its checksum does not fit")
         return lock
 
     def write(self) -> None:
         """Builds that no run names are left out."""
         path = self.path(self.quality)
         named = builds_of(self.jobs.values())
-        content = {"format": FORMAT, "version": VERSION, "quality": self.quality}
-        content["builds"] = {build_id: build for build_id, build in self.builds.items() if build_id in named}
-        content["jobs"] = {name: asdict(job) for name, job in self.jobs.items()}
-        content["seal"] = _seal(content)
+        content = FORMAT | {"quality": self.quality}
+        content["builds"] = {name: build for name, build in sorted(self.builds.items()) if name in named}
+        content["jobs"] = {name: asdict(job) for name, job in sorted(self.jobs.items())}
+        content["checksum"] = checksum_of(content)
         unfinished = path.with_suffix(".tmp")
-        unfinished.write_text(json.dumps(content, indent=1, sort_keys=True) + "\n")
+        unfinished.write_text(json.dumps(content, indent=1) + "\n")
         unfinished.replace(path)
 
     def runs(self) -> dict[str, Job]:
@@ -92,10 +111,10 @@ class Lock:
 
 def builds_of(jobs: Iterable[Job]) -> set[str]:
     """Build ids of the programs that made the runs among the jobs."""
-    return {job.parents["build_id"] for job in jobs if not job.is_drawing}
+    return {job.build_id for job in jobs if not job.is_drawing}
 
 
-def _seal(content: dict) -> str:
+def checksum_of(content: dict) -> str:
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
@@ -121,33 +140,14 @@ def changing(quality: str) -> Iterator[Lock]:
         os.close(descriptor)
 
 
-def record(quality: str, name: str, outputs: list[str], parents: dict, builds: dict[str, dict]) -> None:
-    """Enters a job that has just written its outputs; paths are relative to the project."""
-    hashes = {path: file_hash(repository.ROOT / path) for path in outputs}
-    asked = {path: file_hash(repository.ROOT / path) for path in configuration_files(quality)}
-    job = Job(hashes, parents, asked, **repository.state(), machine=repository.machine())
+def record(quality: str, name: str, outputs: list[str], made_by: dict, build: dict | None = None) -> None:
+    """Enters a job that has just written its outputs."""
+    hashes = repository.FileHashes()
+    written = {path: hashes[path] for path in outputs}
+    asked = {path: hashes[path] for path in configuration_files(quality)}
+    state = repository.state() | {"machine": repository.machine()}
+    job = Job(**made_by, outputs=written, configuration=asked, **state)
     with changing(quality) as lock:
         lock.jobs[name] = job
-        lock.builds |= builds
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(description="Enters a finished job into the lock")
-    parser.add_argument("--quality", required=True)
-    parser.add_argument("--job", required=True, help="panel/run, or panel for a drawing")
-    parser.add_argument("--outputs", nargs="+", required=True, help="relative to the project")
-    parser.add_argument("--build", type=Path, help="build/id/PROGRAM.json, for a run")
-    parser.add_argument("--arguments", help="of the program, for a run")
-    options = parser.parse_args()
-
-    if options.build is None:
-        table = next(path for path in options.outputs if path.endswith(".csv"))
-        record(options.quality, options.job, options.outputs, vars(Parents.of(Path(table))), {})
-    else:
-        build = json.loads(options.build.read_text())
-        parents = {"program": build["program"], "build_id": build["build_id"], "arguments": options.arguments}
-        record(options.quality, options.job, options.outputs, parents, {build["build_id"]: build})
-
-
-if __name__ == "__main__":
-    main()
+        if build:
+            lock.builds[build["build_id"]] = build

@@ -1,20 +1,18 @@
 """Makes a product again in another folder, as its record in the lock says."""
 
-import shlex
 import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 from scipy.special import stdtr  # scipy.stats takes half a second to import
 
+from workflow.lib.load import Quantity, load
+from workflow.lib.parents import PACKAGES
+from workflow.provenance.execute import ENVIRONMENT, UNCONVERGED, program_command, script_command
 from workflow.provenance.lock import Job
 from workflow.provenance.repository import ROOT, machine
-from workflow.provenance.stale import PACKAGES
-from workflow.scripts.load import Quantity, load
 
-UNCONVERGED = 4  # status of a program that wrote its result and says that the target was not reached
 ROUNDING = 1e-9  # relative: what another processor's vector units may change in a table
 MANY = 1000  # replicas
 
@@ -26,42 +24,31 @@ class RedoError(RuntimeError):
 def simulate(job: Job, folder: Path) -> Path:
     """Runs the program; returns the file that it wrote."""
     output = folder / "again.h5"
-    arguments = shlex.split(job.parents["arguments"])
-    program = ROOT / "build/bin" / job.parents["program"]
-    _run([str(program), *arguments, "--progress", "none", "--output", str(output)], (0, UNCONVERGED))
+    _run([*program_command(job.tool, job.options, output), "--progress", "none"], (0, UNCONVERGED))
     return output
 
 
-def draw(job: Job, script: str, data: list[str], folder: Path) -> dict[str, Path]:
-    """Draws the panel into the folder; returns the new file for each recorded one. The order of the data is
-    that of the configuration."""
-    parents = job.parents
-    stem = folder / "figures" / parents["quality"] / parents["panel"]
-    command = [
-        sys.executable,
-        "-m",
-        f"workflow.scripts.{script}",
-        "--configuration",
-        parents["configuration"],
-    ]
-    command += ["--sources", *parents["sources"], "--lock", PACKAGES, "--output", str(stem)]
-    _run([*command, "--data", *data], (0,))
+def draw(job: Job, folder: Path) -> dict[str, Path]:
+    """Draws the panel into the folder; returns the new file for each recorded one."""
+    stem = (folder / min(job.outputs)).with_suffix("")
+    sources = [path for path in job.sources if path != PACKAGES]
+    _run(script_command(job.tool, job.options["configuration"], sources, job.data, stem))
     return {path: folder / path for path in job.outputs}
 
 
-def redrawn(job: Job, script: str, data: list[str], folder: Path) -> dict[str, bool]:
+def redrawn(job: Job, folder: Path) -> dict[str, bool]:
     """Draws the panel again: the files that get other bytes, each with whether rounding explains it, as it can on
     another kind of machine: that of any picture, and of a table whose numbers agree. Raises RedoError."""
     elsewhere = job.machine != machine()
     return {
         path: elsewhere and (not path.endswith(".csv") or tables_agree(ROOT / path, new))
-        for path, new in draw(job, script, data, folder).items()
+        for path, new in draw(job, folder).items()
         if not same_bytes(ROOT / path, new)
     }
 
 
-def _run(command: list[str], allowed: tuple[int, ...]) -> None:
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+def _run(command: list[str], allowed: tuple[int, ...] = (0,)) -> None:
+    done = subprocess.run(command, cwd=ROOT, env=ENVIRONMENT, capture_output=True, text=True, check=False)
     if done.returncode not in allowed:
         last = (done.stderr.strip().splitlines() or ["no message"])[-1]
         raise RedoError(f"{Path(command[0]).name} ended with status {done.returncode}: {last}")

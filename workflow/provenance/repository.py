@@ -6,7 +6,7 @@ import subprocess
 import tarfile
 from pathlib import Path
 
-from workflow.provenance.parents import file_hash
+from workflow.lib.parents import file_hash
 
 ROOT = Path(__file__).parents[2]
 
@@ -46,6 +46,14 @@ def files_at(commit: str, *folders: str) -> dict[str, bytes] | None:
 def commits(*paths: str) -> list[str]:
     """Those that changed one of the paths, newest first."""
     return (git("log", "--all", "--format=%H", "--", *paths) or b"").decode().split()
+
+
+def signature(commit: str) -> str:
+    """Whether the commit is signed, and git can verify it."""
+    if git("verify-commit", commit) is not None:
+        return "signed"
+    signed = b"\ngpgsig" in (git("cat-file", "commit", commit) or b"").partition(b"\n\n")[0]
+    return "signed, but git cannot verify it" if signed else "not signed"
 
 
 def machine() -> str:

@@ -3,7 +3,7 @@
 import ast
 from pathlib import Path
 
-ROOT = Path(__file__).parents[2]
+from workflow.provenance.repository import ROOT
 
 
 def sources_of(script: str) -> list[str]:

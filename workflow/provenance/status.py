@@ -1,73 +1,21 @@
 """Prints for every panel whether it is fresh and if not why, its errors, what it cost and what it would cost."""
 
 import argparse
-import json
 import math
 import sys
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import suppress
+from collections.abc import Iterable, Sequence
 
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from workflow.config.plan import QUALITIES, ConfigurationError, Options, Panel, Run, data_path, load_plan
+from workflow.lib.costs import cheapest, cost_file, expected_cost
+from workflow.lib.load import FormatError, load
+from workflow.lib.plan import ConfigurationError, Panel, data_path, load_plan
+from workflow.provenance.chain import Chain
 from workflow.provenance.repository import ROOT
-from workflow.provenance.stale import Staleness
-from workflow.scripts.load import FormatError, load
 
 WIDE = 150  # columns, where nobody reads them on a screen
-
-
-def cost_file(quality: str, panel: str, run: str) -> dict | None:
-    """What the last execution of the run cost, as its sidecar says."""
-    path = ROOT / f"build/costs/{quality}/{panel}/{run}.json"
-    return json.loads(path.read_text()) if path.is_file() else None
-
-
-def effort(options: Options) -> float:
-    """Replicas, with their members, times the simulated time: what cost is proportional to, but for the start."""
-
-    def simulated(time: str) -> float:
-        return float(time.rstrip("N")) * (float(options["cells"]) if time.endswith("N") else 1)
-
-    replicas = float(options.get("replicas", 1)) * float(options.get("members", 1))
-    last = str(options.get("times", "")).rsplit(",", maxsplit=1)[-1] or options.get("observation-time", 1)
-    return replicas * sum(simulated(str(time)) for time in (last, options.get("relaxation-time", 0)))
-
-
-def executions(panel: str, run: str) -> Iterator[tuple[Options, float]]:
-    """Options and CPU seconds of the last execution at every quality that has one; the plan may have changed since."""
-    for quality in QUALITIES:
-        cost = cost_file(quality, panel, run)
-        with suppress(FormatError):
-            parameters = load(ROOT / data_path(quality, panel, run)).parameters
-            if cost is not None:
-                yield parameters, cost["cpu_seconds"]
-
-
-def scaled(cost: float, share: float, start: float) -> tuple[float, float]:
-    """The least and the most that a run costs if up to `start` seconds of another's cost do not grow with the effort."""
-    least, most = sorted((cost * share, start + (cost - start) * share))
-    return least, most
-
-
-def expected_cost(panel: str, run: Run, start: float) -> tuple[float, float]:
-    """The least and the most CPU seconds, by the execution whose effort is nearest; NaN if there is none."""
-    known = [
-        (effort(options | run.options) / effort(options), cost)
-        for options, cost in executions(panel, run.name)
-    ]
-    if not known:
-        return math.nan, math.nan
-    share, cost = min(known, key=lambda one: abs(math.log(one[0])))
-    return scaled(cost, share, start)
-
-
-def cheapest() -> float:
-    """CPU seconds of the cheapest execution: no start of a program costs more."""
-    costs = (json.loads(path.read_text())["cpu_seconds"] for path in (ROOT / "build/costs").rglob("*.json"))
-    return min(costs, default=0)
 
 
 def worst_error(quality: str, panel: Panel) -> str:
@@ -99,7 +47,7 @@ def seconds_between(ranges: Sequence[tuple[float, float]]) -> str:
 def table(quality: str) -> Table:
     """Raises ConfigurationError."""
     plan = load_plan(quality)
-    stale = Staleness(quality, plan).reasons(plan)
+    stale = Chain(quality, plan).stale(plan)
     start = cheapest()
     result = Table(
         "panel", "state", "largest error", "CPU s, last", "CPU s, next", title=f"Quality {quality}"

@@ -16,12 +16,11 @@ from rich.console import Console
 from rich.markup import escape
 from rich.tree import Tree
 
-from workflow.config.plan import ConfigurationError, Panel, load_plan
+from workflow.lib.load import FormatError, Result, load
+from workflow.lib.parents import PACKAGES, ArtefactError, Parents, file_hash
+from workflow.lib.plan import ConfigurationError, Panel, load_plan
 from workflow.provenance.build_id import content_hashes, include_closure, source_hash
-from workflow.provenance.parents import ArtefactError, Parents, file_hash
 from workflow.provenance.repository import ROOT, commits, files_at
-from workflow.provenance.stale import PACKAGES
-from workflow.scripts.load import FormatError, Result, load
 
 SHORT = 16  # digits of a hash that are shown
 UNLIMITED = 100_000  # columns, where nobody reads them on a screen
@@ -34,34 +33,44 @@ Found = TypeVar("Found")
 
 def product_tree(path: Path) -> Tree:
     """Raises ArtefactError or FormatError if the file does not say what it was made from."""
-    root = f"{path.name}  {short(file_hash(path))}" if path.is_file() else path.name
+    title = f"{path.name}  {short(file_hash(path))}" if path.is_file() else path.name
     if path.suffix == ".h5":
-        return run_node(Tree(escape(root)), load(path))
+        tree, result = Tree(escape(title)), load(path)
+        add_parameters(tree, result)
+        add_build(tree, result.provenance["build_id"], result.provenance)
+        return tree
     parents = Parents.of(path)
-    tree = Tree(escape(f"{root}  panel {parents.panel} at quality {parents.quality}"))
-    found = configuration_place(parents.quality, parents.panel, parents.configuration)
+    tree = Tree(escape(f"{title}  panel {parents.panel} at quality {parents.quality}"))
+    found = search(CONFIGURATION, lambda root: asks_for(root, parents))[0]
     tree.add(escape(f"configuration  {short(parents.configuration)}  {found}"))
-    add_packages(tree, parents)
+    found, locked = search(PACKAGES, lambda root: holding(root / PACKAGES, parents.packages))
+    node = tree.add(escape(f"{PACKAGES}  {short(parents.packages)}  {found}; Python {parents.python}"))
+    if names := re.findall(r"^([\w.-]+==[^ ;\\]+)", (locked or b"").decode(), re.MULTILINE):
+        node.add(escape(", ".join(names)))
     scripts = tree.add("scripts")
     for name, digest in parents.sources.items():
-        scripts.add(escape(f"{name}  {short(digest)}  {place(name, digest)}"))
+        found = search(name, lambda root, name=name, digest=digest: holding(root / name, digest))[0]
+        scripts.add(escape(f"{name}  {short(digest)}  {found}"))
     shown: set[str] = set()
     for name, data in parents.data.items():
-        node = tree.add(escape(f"{name}  {short(data['sha256'])}  {data_place(name, data['sha256'])}"))
-        present = ROOT / name
-        if present.is_file() and file_hash(present) == data["sha256"]:
-            add_parameters(node, load(present))
-        else:
-            node.add(f"seed {data['seed']}")
-        add_build(node, data["build_id"], parents.builds[data["build_id"]], data["build_id"] in shown)
+        add_data(tree, name, data, parents.builds[data["build_id"]], data["build_id"] in shown)
         shown.add(data["build_id"])
     return tree
 
 
-def run_node(tree: Tree, result: Result) -> Tree:
-    add_parameters(tree, result)
-    add_build(tree, result.provenance["build_id"], result.provenance, shown=False)
-    return tree
+def add_data(tree: Tree, name: str, data: dict, build: dict, shown: bool) -> None:
+    here = holding(ROOT / name, data["sha256"]) is not None
+    other = (
+        "is here with other bytes"
+        if (ROOT / name).is_file()
+        else "is not here: `make figures` makes it again"
+    )
+    node = tree.add(escape(f"{name}  {short(data['sha256'])}  {'is here' if here else other}"))
+    if here:
+        add_parameters(node, load(ROOT / name))
+    else:
+        node.add(f"seed {data['seed']}")
+    add_build(node, data["build_id"], build, shown)
 
 
 def add_parameters(node: Tree, result: Result) -> None:
@@ -70,72 +79,41 @@ def add_parameters(node: Tree, result: Result) -> None:
     node.add(escape(f"parameters  {values}"))
 
 
-def add_build(node: Tree, identifier: str, build: dict, shown: bool) -> None:
-    title = f"program {build['program']}  build {short(identifier)}"
+def add_build(node: Tree, identifier: str, build: dict, shown: bool = False) -> None:
+    program = node.add(
+        escape(f"program {build['program']}  build {short(identifier)}{'  as above' if shown else ''}")
+    )
     if shown:
-        node.add(escape(f"{title}  as above"))
         return
-    program = node.add(escape(title))
     program.add(escape(f"{build['compiler']}, {build['flags']}"))
     program.add(escape(f"libraries  {build['libraries']}"))
-    found, contents = closure(build["program"], build["source_hash"])
+    found, contents = search("cpp", lambda root: closure(root / "cpp", build))
     sources = program.add(escape(f"sources  {short(build['source_hash'])}  {found}"))
     for name, digest in (contents or {}).items():
         sources.add(escape(f"cpp/{name}  {short(digest)}"))
 
 
-def add_packages(tree: Tree, parents: Parents) -> None:
-    found, text = content(PACKAGES, parents.packages)
-    node = tree.add(escape(f"{PACKAGES}  {short(parents.packages)}  {found}; Python {parents.python}"))
-    if names := re.findall(r"^([\w.-]+==[^ ;\\]+)", (text or b"").decode(), re.MULTILINE):
-        node.add(escape(", ".join(names)))
+def holding(path: Path, digest: str) -> bytes | None:
+    """What the file holds, if it has this hash."""
+    return path.read_bytes() if path.is_file() and file_hash(path) == digest else None
 
 
-def place(path: str, digest: str) -> str:
-    return content(path, digest)[0]
+def closure(folder: Path, build: dict) -> dict[str, str] | None:
+    """Hashes of the sources that the program is built from, if they are those of the build."""
+    source = f"observables/{build['program']}.cpp"
+    if not (folder / source).is_file():
+        return None
+    hashes = content_hashes(folder, include_closure(folder, source))
+    return hashes if source_hash(hashes) == build["source_hash"] else None
 
 
-def data_place(path: str, digest: str) -> str:
-    if not (ROOT / path).is_file():
-        return "is not here: `make figures` makes it again"
-    return "is here" if file_hash(ROOT / path) == digest else "is here with other bytes"
-
-
-def content(path: str, digest: str) -> tuple[str, bytes | None]:
-    """Where the file with this hash is, and what it holds."""
-
-    def read(root: Path) -> bytes | None:
-        holds = (root / path).is_file() and file_hash(root / path) == digest
-        return (root / path).read_bytes() if holds else None
-
-    return search(path, read)
-
-
-def closure(program: str, digest: str) -> tuple[str, dict[str, str] | None]:
-    """Where the sources with this hash are, and the hash of each."""
-    source = f"observables/{program}.cpp"
-
-    def read(root: Path) -> dict[str, str] | None:
-        folder = root / "cpp"
-        if not (folder / source).is_file():
-            return None
-        hashes = content_hashes(folder, include_closure(folder, source))
-        return hashes if source_hash(hashes) == digest else None
-
-    return search("cpp", read)
-
-
-def configuration_place(quality: str, panel: str, digest: str) -> str:
-    """Where the configuration asks for the panel as it is."""
-
-    def read(root: Path) -> Panel | None:
-        try:
-            found = load_plan(quality, root / CONFIGURATION).get(panel)
-        except ConfigurationError:
-            return None
-        return found if found and found.hash() == digest else None
-
-    return search(CONFIGURATION, read)[0]
+def asks_for(root: Path, parents: Parents) -> Panel | None:
+    """The panel, if the configuration asks for it as it is."""
+    try:
+        panel = load_plan(parents.quality, root / CONFIGURATION).get(parents.panel)
+    except ConfigurationError:
+        return None
+    return panel if panel and panel.hash() == parents.configuration else None
 
 
 def search(path: str, read: Callable[[Path], Found | None]) -> tuple[str, Found | None]:

@@ -10,7 +10,6 @@ import sys
 import tempfile
 from pathlib import Path
 
-from workflow.config.plan import ConfigurationError, Panel, data_of, load_plan
 from workflow.provenance.lock import Job, Lock, LockError
 from workflow.provenance.redo import RedoError, disagreement, redrawn, same_bytes, simulate
 from workflow.provenance.repository import ROOT, machine
@@ -18,21 +17,23 @@ from workflow.provenance.repository import ROOT, machine
 SIGNIFICANCE = 1e-3  # of a deviation of independent random numbers
 
 
-def verdict(plan: dict[str, Panel], quality: str, name: str, job: Job, folder: Path) -> tuple[bool, str]:
+def verdict(job: Job, folder: Path) -> tuple[bool, str]:
     """Whether the job makes again what it made, and in what sense. Raises RedoError."""
-    if job.is_drawing:
-        return drawing_verdict(job, redrawn(job, plan[name].script, data_of(plan, name, quality), folder))
-    return run_verdict(job, next(iter(job.outputs)), simulate(job, folder))
+    return (
+        drawing_verdict(job, redrawn(job, folder))
+        if job.is_drawing
+        else run_verdict(job, simulate(job, folder))
+    )
 
 
 def drawing_verdict(job: Job, differing: dict[str, bool]) -> tuple[bool, str]:
-    wrong = [path for path, rounded in differing.items() if not rounded]
-    if wrong:
+    if wrong := [path for path, rounded in differing.items() if not rounded]:
         return False, f"other {'bytes' if job.machine == machine() else 'numbers'} in {', '.join(wrong)}"
     return True, "the same table but for rounding" if differing else "the same bytes"
 
 
-def run_verdict(job: Job, path: str, again: Path) -> tuple[bool, str]:
+def run_verdict(job: Job, again: Path) -> tuple[bool, str]:
+    (path,) = job.outputs
     if same_bytes(ROOT / path, again):
         return True, "the same bytes"
     if job.machine == machine():
@@ -41,7 +42,7 @@ def run_verdict(job: Job, path: str, again: Path) -> tuple[bool, str]:
     within = probability > SIGNIFICANCE
     return (
         within,
-        f"{'within' if within else 'not within'} errors: largest |z| {largest:.2g}, p = {probability:.2g}",
+        f"{'' if within else 'not '}within errors: largest |z| {largest:.2g}, p = {probability:.2g}",
     )
 
 
@@ -55,25 +56,20 @@ def sample(lock: Lock, names: list[str], share: float, verdicts: dict) -> list[s
     return sorted(names, key=order)[: math.ceil(share * len(names))]
 
 
-def jobs_of(plan: dict[str, Panel], lock: Lock, only: str | None) -> list[str]:
-    return [
-        name for name in lock.jobs if (panel := name.split("/")[0]) in plan and (not only or panel == only)
-    ]
-
-
 def verify(quality: str, share: float, only: str | None) -> bool:
-    """Prints a line per job; true if none differs. Raises LockError, ConfigurationError."""
-    plan, lock = load_plan(quality), Lock.read(quality)
+    """Prints a line per job; true if none differs. Raises LockError."""
+    lock = Lock.read(quality)
     record = Lock.path(quality).with_name("verification.json")
     verdicts = json.loads(record.read_text()) if record.is_file() else {}
-    names = sample(lock, jobs_of(plan, lock, only), share, verdicts)
+    names = [name for name in lock.jobs if only in (None, name.split("/")[0])]
+    names = sample(lock, names, share, verdicts)
     if not names:
         raise LockError(f"nothing of {only or quality} has been made yet")
     for name in names:
         job = lock.jobs[name]
         with tempfile.TemporaryDirectory() as folder:
             try:
-                same, words = verdict(plan, quality, name, job, Path(folder))
+                same, words = verdict(job, Path(folder))
             except (RedoError, OSError) as error:
                 same, words = False, str(error)
         verdicts[name] = {"outputs": job.outputs, "same": same, "verdict": words, "machine": machine()}
@@ -92,7 +88,7 @@ def main() -> None:
         parser.error(f"SAMPLE={options.sample} is not a share: choose a number above 0 and up to 1")
     try:
         same = verify(options.quality, options.sample, options.panel)
-    except (LockError, ConfigurationError) as error:
+    except LockError as error:
         sys.exit(f"make verify: {error}")
     sys.exit(0 if same else "make verify: some products cannot be made again as they are")
 

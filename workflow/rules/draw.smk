@@ -3,11 +3,14 @@
 
 rule draw:
     input:
-        data=ancient(lambda wildcards: data_of(PANELS, wildcards.panel, wildcards.quality)),
-        sources=ancient(lambda wildcards: sources_of(f"workflow/scripts/{PANELS[wildcards.panel].script}.py")),
+        data=data_of_panel,
+        sources=ancient(lambda wildcards: CHAIN.sources(wildcards.panel)),
         lock=ancient("requirements.lock"),
     output:
-        multiext("figures/{quality}/{panel}", *(f".{kind}" for kind in KINDS)),
+        pdf="figures/{quality}/{panel}.pdf",
+        png=report("figures/{quality}/{panel}.png", category="{quality}", labels={"panel": "{panel}"}),
+        svg="figures/{quality}/{panel}.svg",
+        csv="figures/{quality}/{panel}.csv",
     log:
         "build/logs/{quality}/{panel}.log",
     benchmark:
@@ -15,14 +18,10 @@ rule draw:
     conda:
         "../environment/conda.yaml"
     params:
-        module=lambda wildcards: f"workflow.scripts.{PANELS[wildcards.panel].script}",
         configuration=lambda wildcards: PANELS[wildcards.panel].hash(),
-        stem="figures/{quality}/{panel}",
     shell:
         """
-        exec 2> {log}
-        .venv/bin/python -m {params.module} --configuration {params.configuration} \
-            --sources {input.sources} --lock {input.lock} --output {params.stem} --data {input.data}
-        .venv/bin/python -S -m workflow.provenance.lock --quality {wildcards.quality} \
-            --job {wildcards.panel} --outputs {output}
+        .venv/bin/python -S -m workflow.provenance.execute draw --log {log:q} \
+            --quality {wildcards.quality:q} --panel {wildcards.panel:q} \
+            --configuration {params.configuration:q} --sources {input.sources:q} --data {input.data:q}
         """

@@ -11,13 +11,13 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from workflow.config.plan import Run
-from workflow.scripts import style
+from workflow.lib import style
+from workflow.lib.plan import Run
 from workflow.tradeoff import frame
 from workflow.tradeoff.measure import execute, planned, shortened
 
 REPLICAS = (10, 32, 110, 360, 1300)
-MEMBERS = 2  # of a replica of the pulse
+PAIRS = 2  # of a replica of the pulse
 TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)  # of what is computed, not sampled
 # A cheap run of every program, and the part of its window that is watched here.
 SETTINGS = {
@@ -62,7 +62,7 @@ def window(run: Run, share: float) -> dict[str, object]:
     """Options that shorten a run: a part of its times, the smallest replicas."""
     times = ("relaxation-time", "observation-time", "times")
     changes = {key: shortened(run.options[key], share) for key in times if key in run.options}
-    return changes | ({"members": MEMBERS} if "members" in run.options else {})
+    return changes | ({"pairs-per-replica": PAIRS} if "pairs-per-replica" in run.options else {})
 
 
 def sample(programs: Path, program: str) -> pd.DataFrame:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from workflow.config.plan import Run
+from workflow.lib.plan import Run
 from workflow.tradeoff.measure import call, planned
 
 RUNS = (  # panel and run

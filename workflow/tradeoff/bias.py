@@ -11,9 +11,9 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from workflow.config.plan import Run
-from workflow.scripts import style
-from workflow.scripts.load import Result
+from workflow.lib import style
+from workflow.lib.load import Result
+from workflow.lib.plan import Run
 from workflow.tradeoff import frame
 from workflow.tradeoff.measure import execute, planned, shortened
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from workflow.scripts.load import Result
+from workflow.lib.load import Result
 
 Run = Callable[..., Result]  # of a program, with options as keywords
 Cases = Iterator[tuple[float, float]]  # parameter, relative deviation

@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from workflow.config.plan import Run
-from workflow.scripts.load import Result
+from workflow.lib.load import Result
+from workflow.lib.plan import Run
 from workflow.tradeoff import frame, reference
 from workflow.tradeoff.measure import execute, planned, shortened
 

@@ -13,8 +13,8 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from workflow.scripts import style
-from workflow.scripts.load import Result
+from workflow.lib import style
+from workflow.lib.load import Result
 from workflow.tradeoff import frame
 from workflow.tradeoff.deviations import CASES, Run, deviations
 from workflow.tradeoff.measure import call

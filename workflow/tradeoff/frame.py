@@ -11,8 +11,8 @@ from pathlib import Path
 import pandas as pd
 from matplotlib.figure import Figure
 
-from workflow.scripts import style
-from workflow.scripts.columns import as_csv
+from workflow.lib import style
+from workflow.lib.columns import as_csv
 
 Measure = Callable[..., pd.DataFrame]  # of the folder of the executables, and further options by name
 Draw = Callable[[pd.DataFrame], Figure]

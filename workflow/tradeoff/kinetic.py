@@ -10,8 +10,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from workflow.scripts import style
-from workflow.scripts.fig03_convergence import CURRENTS, distance_from_finest, draw_errors
+from workflow.lib import style
+from workflow.lib.convergence import CURRENTS, distance_from_finest, draw_errors
 from workflow.tradeoff import frame
 from workflow.tradeoff.measure import call
 

@@ -1,16 +1,16 @@
 """Runs programs at the settings of panels and says what they found and what they cost."""
 
 import json
-import shlex
 import subprocess
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from workflow.config.plan import Run, load_plan
-from workflow.scripts.load import Result, load
+from workflow.lib.load import Result, load
+from workflow.lib.options import arguments
+from workflow.lib.plan import Run, load_plan
 
-QUALITY = "smoke"  # whose members and target errors are the smallest
+QUALITY = "smoke"  # whose pairs per replica and target errors are the smallest
 
 
 def planned(panel: str, run: str) -> Run:
@@ -36,8 +36,7 @@ def call(program: Path, **options: object) -> Done:
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder) / "out.h5"
         named = {key.replace("_", "-"): value for key, value in options.items()} | {"output": output}
-        words = shlex.split(Run("", program.name, named).arguments())
-        done = subprocess.run([program, *words], check=False, capture_output=True, text=True)
+        done = subprocess.run([program, *arguments(named)], check=False, capture_output=True, text=True)
         if done.returncode not in (0, 4):  # 4: the target was not reached
             raise RuntimeError(done.stderr)
         seconds = json.loads(output.with_suffix(".cost.json").read_text())["cpu_seconds"]

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from workflow.config.plan import Options
+from workflow.lib.options import Options
 
 # What a line of reference_open_chain begins with, and the number of values per cell and besides.
 COLUMNS = {
@@ -48,6 +48,14 @@ def pulse(programs: Path, options: Options, replicas: int, start: str) -> tuple[
     visited = options["cells"] if options["gamma"] == "N" else options["gamma"]
     times = options["times"].split(",")
     words = [programs / "reference_pulse", options["cells"], options["particles-per-cell"], options["sigma"]]
-    words += [visited, options["energy"], options["pulse-energy"], options["members"], replicas, 1, start]
+    words += [
+        visited,
+        options["energy"],
+        options["pulse-energy"],
+        options["pairs-per-replica"],
+        replicas,
+        1,
+        start,
+    ]
     rows, seconds = _rows([*words, *times])
     return rows.reshape(replicas, len(times), options["cells"]), seconds

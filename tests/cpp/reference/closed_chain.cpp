@@ -1,10 +1,10 @@
-/// The closed chain by the reference simulator: nothing here is shared with the engine or with the programs,
-/// random numbers and start included. Particles start uniform in position and Gaussian, scatterers at rest;
-/// cells have the length 1. Prints one line per replica: at every time after the relaxation the mean over the
-/// particles of x^2, the square of their mean x, their mean x, and the mean energy of a scatterer; then, of
-/// the observation after the relaxation, the number of scatterings, of those with p' p > 0, and of the
-/// waiting times that begin with them in bins that divide a decade into equal factors. The chain runs on
-/// until every such waiting time has ended or is beyond the last bin.
+/// Closed chain by the reference simulator, with independent random numbers and initial states and no code
+/// shared with the engine or the programs. Particles start with uniform positions and Gaussian momenta,
+/// scatterers at rest; cells have length 1. Prints one line per replica: at every time after the relaxation
+/// the mean over the particles of x^2, the square of their mean x, their mean x, and the mean energy of a
+/// scatterer; then, over the observation after the relaxation, the number of scatterings, the number with p'
+/// p > 0, and a histogram, with bins of equal ratio, of the waiting times that begin with these scatterings.
+/// The chain runs until every such waiting time has ended or exceeds the last bin.
 ///
 ///   reference_closed_chain cells particles_per_cell sigma gamma temperature relaxation observation
 ///                          kept|drawn replicas seed first_edge bins_per_decade bins time...
@@ -35,7 +35,7 @@ struct Setting {
   double last_edge() const { return first_edge * std::pow(10, static_cast<double>(bins) / bins_per_decade); }
 };
 
-/// What collisions tell. A displacement is the integral of the momentum over time.
+/// Statistics from the collisions. A displacement is the time integral of the momentum.
 class Watch {
  public:
   Watch(const Setting& setting, const std::vector<double>& momenta)
@@ -58,7 +58,7 @@ class Watch {
     persistent_ += observed && event.p_before * event.p_after > 0 ? 1 : 0;
   }
 
-  /// Displacements count from this time on.
+  /// Starts the measurement of displacements.
   void begin(double time) {
     for (Tagged& particle : particles_) particle.x -= particle.x_at(time);
   }
@@ -86,7 +86,7 @@ class Watch {
  private:
   struct Tagged {
     double p, x = 0, since = 0;
-    double wait_begin = std::numeric_limits<double>::quiet_NaN();  // NaN: it is not observed
+    double wait_begin = std::numeric_limits<double>::quiet_NaN();  // NaN: not observed
     double x_at(double time) const { return x + p * (time - since); }
   };
 

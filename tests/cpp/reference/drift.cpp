@@ -1,5 +1,5 @@
-/// Energy drift of the reference simulator for three types of numbers: for each a line with its name, events
-/// and |E(t)/E(0) - 1|. The start, in double precision, is the same for all.
+/// Energy drift of the reference simulator for three floating-point types: for each a line with its name, the
+/// number of events and |E(t)/E(0) - 1|. The initial state, in double precision, is the same for all.
 ///
 ///   reference_drift cells particles_per_cell sigma temperature time seed
 #include <cmath>

@@ -10,9 +10,9 @@
 
 namespace reference {
 
-/// The closed chain, written again as plainly as possible to check and to time the engine against:
-/// a binary heap, every crossing an event, momenta (p, P) and masses as the paper prints them. It
-/// shares no code with the engine. Real may be long double.
+/// Independent reference implementation of the closed chain for tests and timing of the engine: a binary
+/// heap, every crossing an event, momenta (p, P) and masses as in the paper. It shares no code with the
+/// engine. Real may be long double.
 template <class Real>
 class HeapSimulator {
  public:
@@ -29,7 +29,7 @@ class HeapSimulator {
     const auto cells = static_cast<long>(P_.size());
     for (std::size_t i = 0; i < positions.size(); ++i) {
       const Real p = momenta[i];
-      // Walk from the particle's own cell to the first scatterer ahead.
+      // Searches the first scatterer ahead, from the particle's own cell.
       long cell = static_cast<long>(positions[i] / cell_length_);
       if (p > 0 && centre(cell) <= positions[i]) ++cell;
       if (p <= 0 && centre(cell) >= positions[i]) --cell;
@@ -38,13 +38,13 @@ class HeapSimulator {
     }
   }
 
-  /// From now on a particle scatters with this probability at every scatterer that it crosses.
+  /// Sets the probability with which a particle scatters at every scatterer that it crosses.
   void scatter_with(double probability, std::uint64_t seed) {
     probability_ = probability;
     generator_.seed(seed);
   }
 
-  /// From now on a fair coin decides the direction of a particle after every collision.
+  /// Draws the direction of a particle after every collision, each with probability 1/2.
   void draw_directions(std::uint64_t seed) {
     directions_drawn_ = true;
     coin_.seed(seed);
@@ -52,8 +52,8 @@ class HeapSimulator {
 
   Real scatterer_mass() const { return (1 + sigma_) / (1 - sigma_); }
 
-  /// Energy of every cell, its scatterer's and that of the particles inside, between the last event and
-  /// the next.
+  /// Energy of every cell, its scatterer and the particles inside, at a time between the last event and the
+  /// next one.
   std::vector<Real> cell_energies(Real time) const {
     std::vector<Real> energies;
     for (const Real P : P_) energies.push_back(P * P / (2 * scatterer_mass()));
@@ -118,8 +118,8 @@ class HeapSimulator {
   std::mt19937_64 coin_;
 };
 
-/// The simulator at the start that the engine uses: any type with particles[i].{position,velocity}
-/// and scatterers[i] in energy-normalised variables.
+/// Simulator in the initial state of the engine: any type with particles[i].{position,velocity} and
+/// scatterers[i] in energy-normalised variables.
 template <class Real, class PhasePoint>
 HeapSimulator<Real> heap_simulator(double sigma, double cell_length, const PhasePoint& start) {
   std::vector<Real> positions, momenta, scatterers;

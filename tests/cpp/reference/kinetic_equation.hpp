@@ -10,16 +10,16 @@
 #include <utility>
 #include <vector>
 
-/// The kinetic equation a second time, in real space and with nothing shared: collision integrals by
-/// quadrature, split where F jumps; g by iterating its balance; Chebyshev-Lobatto collocation of the
-/// differential equation; fixed-point iteration, accelerated after Anderson. Small and slow.
+/// Independent solution of the Boltzmann equation in real space [eq. 36], without shared code: collision
+/// integrals by quadrature split at the discontinuity of F; g from its balance equation; Chebyshev-Lobatto
+/// collocation in x; fixed-point iteration with Anderson acceleration. Small and slow.
 namespace reference {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// A function on [-reach, reach] with a break at 0, by its values at Gauss nodes of equal panels.
+/// Function on [-reach, reach], discontinuous at 0, given by its values at the Gauss nodes of equal panels.
 class Line {
  public:
   static constexpr int order = 16;
@@ -44,8 +44,8 @@ class Line {
   const VectorXd& nodes() const { return nodes_; }
   const VectorXd& weights() const { return weights_; }
 
-  /// The weights of g at the nodes in the integral of f((a v - b)/d) g(v) dv, split at v = b/a, where f
-  /// jumps.
+  /// Weights of g at the nodes in the integral of f((a v - b)/d) g(v) dv, split at v = b/a, where f is
+  /// discontinuous.
   VectorXd kernel(const VectorXd& f, double a, double b, double d) const {
     VectorXd row = VectorXd::Zero(nodes_.size());
     for (Index panel = 0; panel < panels_; ++panel) {
@@ -119,7 +119,7 @@ class KineticEquation {
   const Line& line() const { return line_; }
   const VectorXd& x() const { return x_; }
 
-  /// g(U) from J g(U) = 1/c int dU' F((U - sigma U')/c) g(U') and int g = 1.
+  /// Solves J g(U) = 1/c int dU' F((U - sigma U')/c) g(U') with int g = 1 for g.
   VectorXd scatterer(const VectorXd& flux) const {
     const Index size = flux.size();
     MatrixXd balance(size, size);
@@ -127,7 +127,7 @@ class KineticEquation {
     for (Index i = 0; i < size; ++i)
       balance.row(i) = line_.kernel(flux, sigma_, line_.nodes()[i], -c_).transpose() / scale;
     balance.diagonal().array() -= 1;
-    balance.row(size / 2) = line_.weights().transpose();  // one of the equations follows from the others
+    balance.row(size / 2) = line_.weights().transpose();  // replaces one redundant equation
     return balance.partialPivLu().solve(VectorXd::Unit(size, size / 2));
   }
 
@@ -139,7 +139,7 @@ class KineticEquation {
     return result;
   }
 
-  /// F at the nodes of the line, a column for every x.
+  /// F at the nodes of the line, one column per x.
   MatrixXd solve(double tolerance = 1e-13, int limit = 200) const {
     const Index half = line_.nodes().size() / 2, sites = x_.size();
     MatrixXd flux(2 * half, sites);
@@ -180,7 +180,7 @@ class KineticEquation {
     return next;
   }
 
-  /// Anderson's mixing: the combination of the latest iterates whose changes cancel best.
+  /// Anderson acceleration: the combination of the latest iterates with the least residual.
   static VectorXd accelerated(const std::vector<VectorXd>& points, const std::vector<VectorXd>& changes) {
     const std::size_t last = points.size() - 1, depth = std::min<std::size_t>(last, 25);
     VectorXd next = points[last] + changes[last];

@@ -1,8 +1,8 @@
-/// The open chain by the reference simulator. Prints one line per replica, of the window after the
-/// relaxation: per cell temperature of the scatterer, <p^2> of the arrivals, density, arrivals to the right
-/// and to the left per unit time; per bond particle current, energy current; per bond and bin the flux per
-/// unit momentum; then, of the particles inside at the end of the window, their number and their number per
-/// bin.
+/// Open chain by the reference simulator. Prints one line per replica with the results of the window after
+/// the relaxation: per cell the temperature of the scatterer, <p^2> of the arrivals, the density, and the
+/// arrivals to the right and to the left per unit time; per bond the particle current and the energy current;
+/// per bond and bin the flux per unit momentum; then for the particles inside at the end of the window their
+/// number and their number per bin.
 ///
 ///   reference_open_chain cells cell_length sigma gamma nu_left nu_right T_left T_right relaxation
 ///                        observation bins momentum_max replicas seed

@@ -10,9 +10,9 @@
 
 namespace reference {
 
-/// The open chain, written again as plainly as possible to check and to time the engine against: a binary
-/// heap, every crossing of a scatterer or of a bond an event, momenta (p, P) and masses as the paper prints
-/// them, empty start, plain counting. It shares no code with the engine.
+/// Independent reference implementation of the open chain for tests and timing of the engine: a binary heap,
+/// every crossing of a scatterer or a bond an event, momenta (p, P) and masses as in the paper, empty start,
+/// direct counting. It shares no code with the engine.
 struct OpenHeapParameters {
   std::size_t cells;
   double cell_length, sigma, gamma, nu_left, nu_right, T_left, T_right, relaxation, observation;
@@ -40,7 +40,7 @@ class OpenHeapSimulator {
     next_injection(false, 0);
   }
 
-  /// Everything before `end`. Returns the number of collisions.
+  /// Processes all events before `end`. Returns the number of collisions.
   std::uint64_t run(double end) {
     std::uint64_t collisions = 0;
     while (!events_.empty() && events_.top().time < end) {
@@ -57,11 +57,11 @@ class OpenHeapSimulator {
       event.time += parameters_.cell_length / 2 / std::abs(event.p);
       events_.push(event);
     }
-    for (std::size_t cell = 0; cell < parameters_.cells; ++cell) hold(cell, end);
+    for (std::size_t cell = 0; cell < parameters_.cells; ++cell) advance(cell, end);
     return collisions;
   }
 
-  /// The window is over.
+  /// Prints the results at the end of the window.
   void print() {
     const double time = parameters_.observation;
     const double width = 2 * parameters_.momentum_max / static_cast<double>(parameters_.bins);
@@ -111,7 +111,7 @@ class OpenHeapSimulator {
     return place >= 0 ? static_cast<std::size_t>(place) : parameters_.bins;
   }
 
-  /// False if the particle has left.
+  /// Processes the crossing of a bond; false if the particle leaves the chain.
   bool cross_bond(const Event& event) {
     const auto bond = static_cast<std::size_t>(event.mark / 2);
     if (event.time >= parameters_.relaxation) {
@@ -126,7 +126,7 @@ class OpenHeapSimulator {
     return !(bond == 0 && into_left) && !(bond == parameters_.cells && !into_left);
   }
 
-  /// Whether the particle scatters.
+  /// Processes the crossing of a scatterer; true if the particle scatters.
   bool meet_scatterer(Event& event) {
     const auto cell = static_cast<std::size_t>(event.mark / 2);
     if (event.time >= parameters_.relaxation) {
@@ -135,7 +135,7 @@ class OpenHeapSimulator {
     }
     const double probability = parameters_.gamma / static_cast<double>(parameters_.cells);
     if (probability < 1 && std::uniform_real_distribution<>()(generator_) >= probability) return false;
-    hold(cell, event.time);
+    advance(cell, event.time);
     const double sigma = parameters_.sigma, p = event.p;
     event.p = -sigma * p + (1 - sigma) * P_[cell];
     P_[cell] = (1 + sigma) * p + sigma * P_[cell];
@@ -143,12 +143,12 @@ class OpenHeapSimulator {
   }
 
   void occupy(std::size_t cell, int change, double time) {
-    hold(cell, time);
+    advance(cell, time);
     occupied_[cell] += change;
   }
 
-  /// Time integrals of a cell up to now.
-  void hold(std::size_t cell, double time) {
+  /// Advances the time integrals of a cell.
+  void advance(std::size_t cell, double time) {
     if (time <= changed_[cell]) return;
     const double mass = (1 + parameters_.sigma) / (1 - parameters_.sigma);
     scatterer_[cell] += P_[cell] * P_[cell] / mass * (time - changed_[cell]);

@@ -1,9 +1,10 @@
-/// The energy pulse by the reference simulator: nothing here is shared with the engine or with the program
-/// energy_pulse, random numbers and start included. Prints one line per replica: the mean over its members of
-/// the energy per cell with the pulse minus without, all cells at the first time, all cells at the second...
-/// Both trajectories begin with one start, or, to see what that saves, each with its own.
+/// Energy pulse by the reference simulator, with independent random numbers and initial states and no code
+/// shared with the engine or the program energy_pulse. Prints one line per replica: the mean over its pairs
+/// of the energy per cell with the pulse minus without, all cells at the first time, all cells at the second,
+/// ... Both trajectories start from the same state or, to measure the variance reduction by that, from
+/// independent ones.
 ///
-///   reference_pulse cells particles_per_cell sigma gamma energy pulse_energy members replicas seed
+///   reference_pulse cells particles_per_cell sigma gamma energy pulse_energy pairs replicas seed
 ///                   shared|independent time...
 #include <cmath>
 #include <cstdio>
@@ -31,7 +32,7 @@ struct Start {
   std::vector<double> x, p, P;
 };
 
-/// Gaussian particles and scatterers, cells of length 1.
+/// Initial state with Gaussian momenta of particles and scatterers; cells of length 1.
 Start draw_start(const Pulse& pulse, std::mt19937_64& generator) {
   std::normal_distribution<> gaussian;
   std::uniform_real_distribution<> uniform;
@@ -58,8 +59,8 @@ Start with_pulse(const Pulse& pulse, Start start) {
   return start;
 }
 
-/// Adds what one member finds to the sums.
-void add_member(const Pulse& pulse, std::mt19937_64& generator, std::vector<double>& sums) {
+/// Adds the energy differences of one pair to the sums.
+void add_pair(const Pulse& pulse, std::mt19937_64& generator, std::vector<double>& sums) {
   const Start start = draw_start(pulse, generator);
   const Start pulsed = with_pulse(pulse, pulse.shared_start ? start : draw_start(pulse, generator));
   Simulator plain(pulse.sigma, 1, start.x, start.p, start.P),
@@ -94,12 +95,12 @@ int main(int argc, char** argv) {
               std::string_view(argv[10]) == "shared",
               {}};
   for (int i = 11; i < argc; ++i) pulse.times.push_back(number(i));
-  const double members = number(7);
+  const double pairs = number(7);
   std::mt19937_64 generator(static_cast<std::uint64_t>(number(9)));
   for (int replica = 0; replica < static_cast<int>(number(8)); ++replica) {
     std::vector<double> sums(pulse.times.size() * pulse.cells, 0);
-    for (int member = 0; member < static_cast<int>(members); ++member) add_member(pulse, generator, sums);
-    for (const double sum : sums) std::printf("%.17g ", sum / members);
+    for (int pair = 0; pair < static_cast<int>(pairs); ++pair) add_pair(pulse, generator, sums);
+    for (const double sum : sums) std::printf("%.17g ", sum / pairs);
     std::printf("\n");
   }
 }

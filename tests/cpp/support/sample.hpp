@@ -11,7 +11,7 @@ struct Sample {
   double standard_error;
 };
 
-/// Of independent values.
+/// Mean and standard error of independent values.
 inline Sample sample(std::span<const double> values) {
   const auto count = static_cast<double>(values.size());
   double mean = 0;

@@ -5,59 +5,71 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <span>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "program/errors.hpp"
 #include "program/hdf5_file.hpp"
-#include "program/replica_study.hpp"
-#include "program/results.hpp"
+#include "program/study.hpp"
 
 namespace support {
 
 using namespace lorentz;
 using Arguments = std::vector<std::string>;
 
+using MeasureValue = std::function<double(const Replica&)>;
+
 /// A number that differs between replicas, with a standard deviation of about 0.3.
-inline ReplicaRecord measure(const Replica& replica) {
-  return {{1 + static_cast<double>((replica.key.replica * 7919 + 13) % 101) / 101}, 10};
+inline double measure(const Replica& replica) {
+  return 1 + static_cast<double>((replica.key.replica * 7919 + 13) % 101) / 101;
 }
 
-inline Results summarise(const Records& records) {
-  return estimate(records, {{"value", "1", "A number"}},
-                  [](std::span<const double> mean) { return std::vector(mean.begin(), mean.end()); });
+struct ValueTallies : TallySchema {
+  ScalarTally value = tally("value", "1", "A number");
+};
+
+/// Study of one number per replica.
+inline Study study_of(const MeasureValue& measurement) {
+  const ValueTallies tallies;
+  Formulas formulas;
+  formulas.quantity("value", "1", "A number", [=](RecordView mean) { return mean[tallies.value]; });
+  return {.tallies = tallies,
+          .measure =
+              [=](const Replica& replica, Record& record) {
+                record[tallies.value] = measurement(replica);
+                return 10;
+              },
+          .estimators = {formulas.estimator()},
+          .target = "value"};
 }
 
-/// Runs a program of one study to its exit status.
-inline int run_program(Arguments arguments, const Measurement& measurement) {
+/// Runs a program of one study; returns its exit status.
+inline int run_program(Arguments arguments, const MeasureValue& measurement) {
   arguments.insert(arguments.begin(), "example");
   if (std::ranges::find(arguments, "--progress") == arguments.end())
     arguments.insert(arguments.end(), {"--progress", "none"});
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
-  Program program("example", "An example");
-  ReplicaOptions replicas(program);
-  replicas.declare(program.options());
-  const int status = program.run(static_cast<int>(pointers.size()), pointers.data(), [&](Progress& progress) {
-    return replicas.run({measurement, summarise, "value", "none"}, progress);
-  });
-  for (const int number : {SIGINT, SIGTERM}) ::signal(number, SIG_DFL);  // the tests may be stopped again
+  StudyProgram program("example", "An example");
+  const int status =
+      program.run(static_cast<int>(pointers.size()), pointers.data(), [&] { return study_of(measurement); });
+  for (const int number : {SIGINT, SIGTERM}) ::signal(number, SIG_DFL);  // restores the default handlers
   return status;
 }
 
-/// What the last run wrote to standard error.
+/// Output of the last run on standard error.
 inline std::string complaints;
 
-inline int run(const Arguments& arguments, const Measurement& measurement = measure) {
+inline int run(const Arguments& arguments, const MeasureValue& measurement = measure) {
   testing::internal::CaptureStderr();
   const int status = run_program(arguments, measurement);
   complaints = testing::internal::GetCapturedStderr();
   return status;
 }
 
-/// The measurement, stopped like by a signal at one replica.
-inline Measurement interrupted_at(std::uint64_t index) {
+/// Measurement that is interrupted at one replica as by a signal.
+inline MeasureValue interrupted_at(std::uint64_t index) {
   return [index](const Replica& replica) {
     if (replica.key.replica == index) throw Interrupted(SIGINT);
     return measure(replica);

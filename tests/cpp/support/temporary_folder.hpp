@@ -11,7 +11,7 @@
 
 namespace support {
 
-/// A folder of a test's own, removed with everything in it.
+/// Temporary folder of a test, removed with its content.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -26,7 +26,7 @@ class TemporaryFolder {
   std::string operator/(const std::string& name) const { return path_ + "/" + name; }
   const std::string& path() const { return path_; }
 
-  /// Names of what is in the folder.
+  /// Names of the files in the folder.
   std::set<std::string> names() const {
     std::set<std::string> result;
     for (const auto& entry : std::filesystem::directory_iterator(path_))

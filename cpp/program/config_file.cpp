@@ -1,0 +1,60 @@
+#include "program/config_file.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "program/errors.hpp"
+
+namespace lorentz {
+namespace {
+
+std::string content_of(const std::string& path) try {
+  std::ifstream file;
+  file.exceptions(std::ios::failbit);
+  file.open(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+} catch (const std::ios::failure&) {
+  throw UsageError(fmt::format("--config: '{}' cannot be read: {}. Name a TOML file that can be.", path,
+                               std::strerror(errno)));
+}
+
+ConfigEntry entry(const toml::node& node) {
+  using Form = ConfigEntry::Form;
+  if (node.is_table()) return {.form = Form::scalar, .literal = "{...}", .text = "{...}"};
+  if (node.is_string()) {
+    const std::string& text = node.ref<std::string>();
+    return {.form = Form::string, .literal = '"' + text + '"', .text = text};
+  }
+  if (node.is_array()) {
+    std::vector<std::string> items;
+    for (const toml::node& item : *node.as_array()) items.push_back(entry(item).literal);
+    const std::string text = fmt::format("{}", fmt::join(items, ","));
+    return {.form = Form::array, .literal = '[' + text + ']', .text = text};
+  }
+  std::ostringstream text;
+  node.visit([&text](const auto& value) { text << value; });
+  return {.form = Form::scalar, .literal = text.str(), .text = text.str()};
+}
+
+}  // namespace
+
+std::vector<ConfigEntry> read_config_file(const std::string& path) try {
+  std::vector<ConfigEntry> entries;
+  for (const auto& [key, node] : toml::parse(content_of(path))) {
+    entries.push_back(entry(node));
+    entries.back().key = key.str();
+    entries.back().place = fmt::format("{}, line {}", path, key.source().begin.line);
+  }
+  return entries;
+} catch (const toml::parse_error& error) {
+  const toml::source_position where = error.source().begin;
+  throw UsageError(fmt::format("{}, line {}, column {}: {}. Correct the file.", path, where.line,
+                               where.column, error.description()));
+}
+
+}  // namespace lorentz

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "model/closed_chain.hpp"
+#include "model/reservoir.hpp"
+#include "program/options.hpp"
+
+namespace lorentz {
+
+/// Parameters that closed and open chains have in common.
+struct ScatteringParameters {
+  std::uint32_t cells;
+  double sigma = 0.5;             // (M-m)/(M+m)
+  std::optional<double> gamma{};  // mean number of scatterings in N cells; none: N, every scatterer scatters
+
+  double mean_scatterings() const;  // gamma of the model: infinite for N
+};
+
+/// Declares --cells, --sigma and --gamma.
+void declare(Options& options, ScatteringParameters& parameters, Range<double> gamma_range);
+
+/// Declares --nu-left, --nu-right, --temperature-left and --temperature-right.
+void declare(Options& options, Reservoir& left, Reservoir& right);
+
+/// Parameters of a closed chain.
+struct ClosedChainParameters {
+  ScatteringParameters scattering{.cells = 11};
+  std::uint32_t particles_per_cell = 20;
+  double cell_length = 1;
+
+  ClosedChain chain() const;
+};
+
+/// Declares --cells, --sigma, --gamma, --particles-per-cell and --cell-length.
+void declare(Options& options, ClosedChainParameters& parameters);
+
+}  // namespace lorentz

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "model/open_chain.hpp"
+#include "statistics/time_integral.hpp"
+
+namespace lorentz {
+
+/// Control variate for the mean energy of one scatterer with random scattering, gamma < N [eq. 32].
+///
+/// A collision changes U^2 by g = (c u + sigma U)^2 - U^2, c^2 = 1 - sigma^2. An arriving particle is
+/// scattered with probability q = gamma/N, independently of the past. With s = 1 if it is scattered and s = 0
+/// if not, the sum of (s - q) g over all arrivals is a martingale of mean 0.
+///
+/// It is correlated with the scatterer's energy. The sum of s g is the change of U^2 over the window, which
+/// is bounded. The rest is -q times the sum of g over all arrivals, where g is c^2 (u^2 - U^2) plus a cross
+/// term of mean near 0: the excess of the scatterer's energy over that of all arriving particles, N/gamma
+/// times as many as are scattered. The regression removes the noise of the random selection among them.
+class ScatteringControl {
+ public:
+  ScatteringControl(const OpenChain& chain, const Blocks& blocks)
+      : sigma_(chain.sigma),
+        c_(std::sqrt((1 - chain.sigma) * (1 + chain.sigma))),
+        probability_(chain.deterministic() ? 1 : chain.gamma / chain.cells),
+        blocks_(blocks),
+        sums_(blocks.count(), 0) {}
+
+  /// Registers a particle of velocity u that arrives at a time, which the blocks contain, and is scattered or
+  /// not. Ignored for gamma = N, where the control is 0.
+  void arrival(double time, double u, bool scattered) {
+    if (probability_ < 1) pending_.push_back({time, u, (scattered ? 1 : 0) - probability_});
+  }
+
+  /// Adds the arrivals up to `until`, inclusive: since the last call the scatterer had the momentum U, which
+  /// a collision at `until` still meets.
+  void advance(double scatterer, double until) {
+    std::erase_if(pending_, [&](const Arrival& arrival) {
+      if (arrival.time > until) return false;
+      const double after = c_ * arrival.velocity + sigma_ * scatterer;
+      sums_[blocks_[arrival.time]] += arrival.residual * (after * after - scatterer * scatterer);
+      return true;
+    });
+  }
+
+  /// Sum over each block; its mean is 0.
+  const std::vector<double>& sums() const { return sums_; }
+
+ private:
+  struct Arrival {
+    double time;
+    double velocity;  // u
+    double residual;  // s - q
+  };
+
+  double sigma_, c_, probability_;
+  Blocks blocks_;
+  std::vector<Arrival> pending_;
+  std::vector<double> sums_;
+};
+
+}  // namespace lorentz

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "statistics/peak.hpp"
+#include "statistics/records.hpp"
+#include "statistics/tally.hpp"
+
+namespace lorentz {
+
+/// Window of the peak fit at every time; empty without a peak.
+using PeakWindows = std::vector<std::optional<PeakWindow>>;
+
+/// Windows of the mean profile over all replicas. A window is dropped if the fit fails for that mean or for a
+/// leave-one-out mean, whose jackknife error would be NaN. `profile`: columns of the profiles on the ring,
+/// [time, cell].
+PeakWindows peak_windows(const Records& records, const Columns& profile, std::size_t times);
+
+/// Moving peak of a mean profile that spreads on a ring. Arrays have one element per time or per pair of
+/// neighbouring times; NaN without a peak.
+class MovingPeak {
+ public:
+  /// profiles: [time, cell], part of the mean record.
+  MovingPeak(std::span<const double> profiles, RecordView mean, std::vector<double> times,
+             const PeakWindows& windows);
+
+  RecordView mean() const { return mean_; }
+
+  std::vector<double> positions() const { return positions_; }
+  std::vector<double> heights() const { return heights_; }
+  std::vector<double> raw_heights() const;
+  std::vector<double> centre_shares(double total) const;  // part in the five central cells
+  std::vector<double> odd_parts() const;                  // [time, distance]
+  std::vector<double> speeds() const;
+  std::vector<double> damping_exponents() const;  // between neighbouring times
+  std::vector<double> exponents_from() const;     // fits from every time but the last on
+  double exponent() const { return exponent_from(0); }
+
+  /// Collapse exponent xi of the profiles about their peaks, within a quarter of the last peak position [eq.
+  /// 48].
+  double collapse() const;
+
+ private:
+  /// Minus the slope of ln height against ln t over the times with a peak, from time number `first` on.
+  double exponent_from(std::size_t first) const;
+
+  std::span<const double> profiles_;
+  RecordView mean_;
+  std::vector<double> times_;
+  std::vector<std::vector<double>> sides_;  // folded profile at every time
+  std::vector<double> positions_, heights_;
+};
+
+}  // namespace lorentz

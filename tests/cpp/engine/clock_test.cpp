@@ -1,0 +1,80 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/closed_dynamics.hpp"
+#include "engine/closed_start.hpp"
+#include "reference/heap_simulator.hpp"
+#include "support/collisions.hpp"
+
+namespace {
+
+using namespace lorentz;
+
+constexpr std::size_t events = 4000;
+constexpr double cell_length = 1, temperature = 500;
+
+/// The sequence of particles at each scatterer, on which alone the velocities depend.
+using Arrivals = std::vector<std::vector<std::size_t>>;
+
+ClosedChain chain(double sigma) { return {11, 20, cell_length, sigma}; }
+
+PhasePoint start(double sigma) { return closed_chain_start(chain(sigma), {temperature, 100}, false, {1, 0}); }
+
+/// The clock begins at `flights` thermal flights and is restarted so many times.
+Arrivals arrivals(double sigma, double flights, int restarts = 0) {
+  const double shown = flights * cell_length / std::sqrt(temperature);
+  ClosedDynamics dynamics(chain(sigma), start(sigma), 1e6, {1, 0});
+  support::Recorder engine;
+  dynamics.restart_clock(-shown);
+  double until = shown;
+  for (; restarts > 0; --restarts) {
+    dynamics.restart_clock(until);
+    simulate(dynamics, until = 0.25, engine, support::nothing);
+  }
+  while (engine.collisions.size() < events) simulate(dynamics, until += 0.25, engine, support::nothing);
+  Arrivals result(11);
+  for (std::size_t k = 0; k < events; ++k)
+    result[engine.collisions[k].scatterer].push_back(engine.collisions[k].particle);
+  return result;
+}
+
+Arrivals in_extended_precision(double sigma) {
+  auto simulator =
+      reference::heap_simulator<long double>(CollisionRule(sigma).sigma(), cell_length, start(sigma));
+  Arrivals result(11);
+  reference::HeapSimulator<long double>::Event event{};
+  for (std::size_t k = 0; k < events && simulator.step(1e9L, event); ++k)
+    result[event.scatterer].push_back(event.particle);
+  return result;
+}
+
+/// Compares as far as both lists go, as the last events may belong to another scatterer.
+bool same_order(const Arrivals& a, const Arrivals& b) {
+  for (std::size_t cell = 0; cell < a.size(); ++cell) {
+    const auto common = static_cast<std::ptrdiff_t>(std::min(a[cell].size(), b[cell].size()));
+    if (!std::equal(a[cell].begin(), a[cell].begin() + common, b[cell].begin())) return false;
+  }
+  return true;
+}
+
+// Programs restart the clock of a closed chain every 2^32 thermal flights. Mutant: at 2^40.
+TEST(Clock, KeepsTheOrderOfEventsAsLongAsItRuns) {
+  for (const double sigma : {-0.9, 0.0, 0.5}) {
+    const Arrivals exact = in_extended_precision(sigma);
+    EXPECT_TRUE(same_order(arrivals(sigma, 0x1p32), exact)) << sigma;
+    EXPECT_FALSE(same_order(arrivals(sigma, 0x1p40), exact)) << sigma;
+  }
+}
+
+TEST(Clock, StartsAgainWithoutChangingTheOrder) {
+  for (const double sigma : {-0.9, 0.0, 0.5}) {
+    const Arrivals exact = in_extended_precision(sigma);
+    EXPECT_TRUE(same_order(arrivals(sigma, 0, 10), exact)) << sigma;
+    EXPECT_TRUE(same_order(arrivals(sigma, 0x1p32, 10), exact)) << sigma;
+  }
+}
+
+}  // namespace

@@ -1,0 +1,111 @@
+#include "engine/closed_dynamics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <vector>
+
+#include "engine/closed_start.hpp"
+#include "support/collisions.hpp"
+
+namespace {
+
+using namespace lorentz;
+using namespace support;
+
+TEST(Simulate, DoesNotDependOnStopsInBetween) {
+  const ClosedChain chain{11, 20, 1, 0.5};
+  const PhasePoint start = closed_chain_start(chain, {}, false, {1, 0});
+  const std::vector<Collision> whole = collisions(chain, start, 20);
+  ASSERT_GT(whole.size(), 10000U);
+  for (const double piece : {7.0, 0.5, 0.001}) {
+    ClosedDynamics dynamics(chain, start, 20, {1, 0});
+    Recorder recorder;
+    for (double until = 0; until < 20;) simulate(dynamics, until += piece, recorder, nothing);
+    expect_same(recorder.collisions, whole);
+    EXPECT_EQ(dynamics.events(), whole.size());
+  }
+  ClosedDynamics longer(chain, start, 1e5, {1, 0});  // a later end freezes fewer particles only
+  Recorder recorder;
+  simulate(longer, 20, recorder, nothing);
+  expect_same(recorder.collisions, whole);
+}
+
+TEST(Simulate, TimesNeverDecreaseAndStayBeforeTheEnd) {
+  const ClosedChain chain{7, 10, 0.1, -0.3};
+  const std::vector<Collision> all = collisions(chain, closed_chain_start(chain, {}, false, {2, 0}), 5);
+  ASSERT_GT(all.size(), 1000U);
+  for (std::size_t k = 1; k < all.size(); ++k) ASSERT_GE(all[k].time, all[k - 1].time);
+  EXPECT_GT(all.front().time, 0);
+  EXPECT_LT(all.back().time, 5);
+}
+
+// Mirror images reach the scatterer at 1.5 at the same time, 0.25. The lower number goes first, and the
+// other particle meets the scatterer in its new state.
+TEST(Simulate, SimultaneousArrivalsGoInTheOrderOfTheParticles) {
+  const ClosedChain chain{3, 1, 1, 0};
+  const Particle left{1.25, 1}, right{1.75, -1}, elsewhere{0.25, 0};
+  for (const bool left_first : {true, false}) {
+    const PhasePoint start{{left_first ? left : right, left_first ? right : left, elsewhere}, {0, 0.125, 0}};
+    const std::vector<Collision> all = collisions(chain, start, 0.5);
+    ASSERT_EQ(all.size(), 2U);
+    const double sign = left_first ? 1 : -1;
+    for (std::uint32_t k : {0U, 1U}) {
+      EXPECT_EQ(all[k].time, 0.25);
+      EXPECT_EQ(all[k].particle, k);
+      EXPECT_EQ(all[k].scatterer, 1U);
+    }
+    EXPECT_EQ(all[0].particle_after, 0.125);
+    EXPECT_EQ(all[0].scatterer_after, sign);
+    EXPECT_EQ(all[1].scatterer_before, sign);
+    EXPECT_EQ(all[1].particle_after, sign);
+    EXPECT_EQ(all[1].scatterer_after, -sign);
+  }
+}
+
+TEST(Simulate, AParticleThatStartsOnAScattererFliesToTheNext) {
+  const ClosedChain chain{3, 1, 1, 0};
+  const PhasePoint start{{{1.5, 1}, {0.5, -0.5}, {0.25, 0}}, {0, 0, 0}};
+  const std::vector<Collision> all = collisions(chain, start, 2.5);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].time, 1);
+  EXPECT_EQ(all[0].scatterer, 2U);
+  EXPECT_EQ(all[1].time, 2);
+  EXPECT_EQ(all[1].scatterer, 2U);  // to the left, around the ring
+}
+
+TEST(Simulate, HeartbeatMayStopTheRunAndLeavesItWhole) {
+  const ClosedChain chain{11, 20, 1, 0.5};
+  const PhasePoint start = closed_chain_start(chain, {}, false, {5, 0});
+  const std::vector<Collision> whole = collisions(chain, start, 100);
+  ASSERT_GT(whole.size(), 2 * 65536U);
+
+  ClosedDynamics dynamics(chain, start, 100, {1, 0});
+  Recorder recorder;
+  double beat = -1;
+  const auto stop = [&beat](double time) {
+    beat = time;
+    throw std::runtime_error("stop");
+  };
+  EXPECT_THROW(simulate(dynamics, 100, recorder, stop), std::runtime_error);
+  EXPECT_EQ(dynamics.events(), 65536U);
+  EXPECT_GE(beat, whole[65535].time);
+  simulate(dynamics, 100, recorder, nothing);
+  expect_same(recorder.collisions, whole);
+}
+
+TEST(Simulate, RefusesAPhasePointOfAnotherChain) {
+  const ClosedChain chain{3, 2, 1, 0.5};
+  const PhasePoint good = closed_chain_start(chain, {}, false, {1, 0});
+  EXPECT_NO_THROW(ClosedDynamics(chain, good, 1, {1, 0}));
+  PhasePoint bad = good;
+  bad.particles.pop_back();
+  EXPECT_THROW(ClosedDynamics(chain, bad, 1, {1, 0}), std::invalid_argument);
+  bad = good;
+  bad.scatterers.push_back(0);
+  EXPECT_THROW(ClosedDynamics(chain, bad, 1, {1, 0}), std::invalid_argument);
+  EXPECT_THROW(ClosedDynamics(chain, PhasePoint{}, 1, {1, 0}), std::invalid_argument);
+  EXPECT_THROW(ClosedDynamics({3, 2, 1, 1.5}, good, 1, {1, 0}), std::invalid_argument);
+}
+
+}  // namespace

@@ -1,0 +1,128 @@
+#include "engine/closed_start.hpp"
+
+#include <gsl/gsl_cdf.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <vector>
+
+#include "model/collision.hpp"
+
+namespace {
+
+using namespace lorentz;
+
+const ClosedChain chain{1000, 50, 0.5, 0.3};
+constexpr StartTemperatures temperatures{500, 80};
+
+PhasePoint start(std::uint64_t seed = 1, std::uint64_t replica = 0, bool zero_total_momentum = false) {
+  return closed_chain_start(chain, temperatures, zero_total_momentum, {seed, replica});
+}
+
+/// Position of a particle in its cell, in [0, 1).
+double place(std::size_t index, const Particle& particle) {
+  return particle.position / chain.cell_length - static_cast<double>(index / chain.particles_per_cell);
+}
+
+/// Two-sided, as a too small chi^2 is implausible too.
+testing::AssertionResult plausible(double chi_squared, double degrees_of_freedom) {
+  const double below = gsl_cdf_chisq_P(chi_squared, degrees_of_freedom);
+  const double above = gsl_cdf_chisq_Q(chi_squared, degrees_of_freedom);
+  if (std::min(below, above) > 1e-5) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "chi^2 = " << chi_squared << " for " << degrees_of_freedom;
+}
+
+/// chi^2 of 100 equal bins.
+double evenness(const std::function<double(std::size_t)>& place_of) {
+  std::vector<double> bins(100, 0);
+  for (std::size_t i = 0; i < chain.particles(); ++i)
+    bins.at(static_cast<std::size_t>(100 * place_of(i))) += 1;
+  const double expected = chain.particles() / 100.0;
+  return std::accumulate(bins.begin(), bins.end(), 0.0, [expected](double sum, double count) {
+    return sum + (count - expected) * (count - expected) / expected;
+  });
+}
+
+TEST(InitialState, PlacesParticlesEvenlyInTheirOwnCells) {
+  const PhasePoint point = start();
+  ASSERT_EQ(point.particles.size(), chain.particles());
+  for (std::size_t i = 0; i < point.particles.size(); ++i) {
+    ASSERT_GE(place(i, point.particles[i]), 0);
+    ASSERT_LT(place(i, point.particles[i]), 1);
+  }
+  const auto place_of = [&](std::size_t i) { return place(i, point.particles[i]); };
+  EXPECT_TRUE(plausible(evenness(place_of), 99));
+  // Mutant: the last two hundredths of each cell are left out.
+  EXPECT_FALSE(plausible(evenness([&](std::size_t i) { return 0.98 * place_of(i); }), 99));
+}
+
+/// Sum of squared velocities over the temperature: chi^2 with one degree of freedom per velocity.
+TEST(InitialState, DrawsVelocitiesAtTheTemperatures) {
+  const PhasePoint point = start();
+  ASSERT_EQ(point.scatterers.size(), chain.cells);
+  double particles = 0, scatterers = 0, mean = 0;
+  for (const Particle& particle : point.particles) {
+    particles += particle.velocity * particle.velocity / temperatures.particles;
+    mean += particle.velocity / chain.particles();
+  }
+  for (const double scatterer : point.scatterers)
+    scatterers += scatterer * scatterer / temperatures.scatterers;
+  EXPECT_TRUE(plausible(particles, chain.particles()));
+  EXPECT_TRUE(plausible(scatterers, chain.cells));
+  EXPECT_LT(std::abs(mean) / std::sqrt(temperatures.particles / chain.particles()), 4);
+  // Mutants: the temperature taken as the mean energy u^2/2; the particles' temperature for scatterers.
+  EXPECT_FALSE(plausible(particles / 2, chain.particles()));
+  EXPECT_FALSE(plausible(scatterers * temperatures.scatterers / temperatures.particles, chain.cells));
+}
+
+TEST(InitialState, ScatterersAreAtRestAtTemperatureZero) {
+  for (const double scatterer : closed_chain_start(chain, {500, 0}, false, {1, 0}).scatterers)
+    EXPECT_EQ(scatterer, 0);
+}
+
+TEST(InitialState, DependsOnSeedAndReplicaOnly) {
+  const PhasePoint point = start(), again = start(), seed = start(2), replica = start(1, 1);
+  const PhasePoint colder = closed_chain_start(chain, {500, 0}, false, {1, 0});
+  for (std::size_t i = 0; i < point.particles.size(); ++i) {
+    ASSERT_EQ(point.particles[i].position, again.particles[i].position);
+    ASSERT_EQ(point.particles[i].velocity, again.particles[i].velocity);
+    ASSERT_NE(point.particles[i].position, seed.particles[i].position);
+    ASSERT_NE(point.particles[i].velocity, replica.particles[i].velocity);
+    ASSERT_EQ(point.particles[i].velocity, colder.particles[i].velocity);  // streams of their own
+  }
+}
+
+// The bound is that of a sum of so many numbers in double precision.
+TEST(InitialState, ShiftsTheTotalMomentumToZero) {
+  for (const double sigma : {-1.0, -0.9, 0.0, 0.3, 1 - 1e-12, 1.0}) {
+    ClosedChain other = chain;
+    other.sigma = sigma;
+    const PhasePoint free = closed_chain_start(other, temperatures, false, {1, 0});
+    const PhasePoint shifted = closed_chain_start(other, temperatures, true, {1, 0});
+    EXPECT_EQ(free.scatterers, shifted.scatterers);
+    const double root_mass = CollisionRule(sigma).root_mass();
+    long double total = 0;
+    double magnitude = 0;
+    for (const Particle& particle : shifted.particles) {
+      total += particle.velocity;
+      magnitude += std::abs(particle.velocity);
+    }
+    for (const double scatterer : shifted.scatterers) {
+      total += static_cast<long double>(root_mass) * scatterer;
+      magnitude += root_mass * std::abs(scatterer);
+    }
+    EXPECT_LT(std::abs(total), 0x1p-53 * chain.particles() * magnitude) << sigma;
+
+    const double shift = free.particles[0].velocity - shifted.particles[0].velocity;
+    EXPECT_NE(shift, 0);
+    for (std::size_t i = 0; i < free.particles.size(); ++i) {
+      const double velocity = free.particles[i].velocity;
+      ASSERT_NEAR(velocity - shifted.particles[i].velocity, shift,
+                  0x1p-50 * (std::abs(velocity) + std::abs(free.particles[0].velocity) + std::abs(shift)));
+    }
+  }
+}
+
+}  // namespace

@@ -1,0 +1,204 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "engine/closed_dynamics.hpp"
+#include "engine/closed_start.hpp"
+#include "support/sample.hpp"
+
+namespace {
+
+using namespace lorentz;
+
+/// Changes of one invariant, collision by collision. In exact arithmetic each is 0, so each is the
+/// rounding error of one collision.
+class Steps {
+ public:
+  explicit Steps(std::size_t particles) : of_particle_(particles, 0) {}
+
+  void add(std::size_t particle, long double change) {
+    total_ += change;
+    squares_ += change * change;
+    of_particle_[particle] += change;
+  }
+
+  long double total() const { return total_; }
+
+  /// The total over its standard error when the steps are a random walk. Linear growth makes this score
+  /// grow with the root of the number of events.
+  double as_random_walk() const { return static_cast<double>(total_ / std::sqrt(squares_)); }
+
+  /// The same when only the sums of different particles are independent: between scatterers that hardly
+  /// move, a particle's velocity and with it its rounding error repeat for thousands of collisions.
+  double as_walks_of_particles() const {
+    long double squares = 0;
+    for (const long double sum : of_particle_) squares += sum * sum;
+    return static_cast<double>(total_ / std::sqrt(squares));
+  }
+
+ private:
+  long double total_ = 0, squares_ = 0;
+  std::vector<long double> of_particle_;
+};
+
+/// Observer of both invariants. The differences are exact in extended precision up to its own roundings,
+/// 2^-11 of those observed. U is w times a scale and so rounded once more than w; that adds to the
+/// squares of the steps, not to the total, and makes the scores smaller by less than a factor of 2.
+struct Invariances {
+  Invariances(double sigma, std::size_t particles)
+      : root_mass(CollisionRule(sigma).root_mass()), energy(particles), momentum(particles) {}
+
+  void on_collision(const Collision& c) {
+    const long double u = c.particle_before, u2 = c.particle_after;
+    const long double scatterer = c.scatterer_before, scatterer2 = c.scatterer_after;
+    energy.add(c.particle, ((u2 - u) * (u2 + u) + (scatterer2 - scatterer) * (scatterer2 + scatterer)) / 2);
+    momentum.add(c.particle, u2 - u + root_mass * (scatterer2 - scatterer));
+  }
+
+  long double root_mass;
+  Steps energy, momentum;
+};
+
+struct Outcome {
+  double energy_drift, momentum_drift;  // relative, of the invariants themselves
+  Invariances steps;
+};
+
+Outcome run(double sigma, std::uint64_t events, std::uint64_t seed) {
+  const ClosedChain chain{11, 20, 1, sigma};
+  ClosedDynamics dynamics(chain, closed_chain_start(chain, {}, false, {seed, 0}), 1e9, {1, 0});
+  const Invariants before = dynamics.invariants();
+  Invariances steps(sigma, chain.particles());
+  for (double until = 0; dynamics.events() < events;) simulate(dynamics, until += 1, steps, [](double) {});
+  const Invariants after = dynamics.invariants();
+  return {(after.energy - before.energy) / before.energy,
+          (after.momentum - before.momentum) / after.momentum_scale, steps};
+}
+
+constexpr std::uint64_t ten_million = 10'000'000;
+
+void expect_conserved(double sigma, std::uint64_t events) {
+  const Outcome outcome = run(sigma, events, 1);
+  EXPECT_LT(std::abs(outcome.energy_drift), 1e-11) << sigma;
+  EXPECT_LT(std::abs(outcome.momentum_drift), 1e-11) << sigma;
+  EXPECT_LT(std::abs(outcome.steps.energy.as_walks_of_particles()), 4) << sigma;
+  EXPECT_LT(std::abs(outcome.steps.momentum.as_walks_of_particles()), 4) << sigma;
+}
+
+// The hard cases are simple fractions (see collision.hpp) and the limits.
+TEST(Conservation, ErrorsStaySmallAndGrowAsTheRootOfTheNumberOfCollisions) {
+  for (const double sigma : {-1 + 1e-12, -0.9, -0.5, 0.3, 1.0 / 3, 0.5, 0.6, 0.8, 0.9, 1 - 1e-12})
+    expect_conserved(sigma, ten_million);
+}
+
+TEST(Conservation, HoldsForAHundredMillionCollisions) { expect_conserved(0.5, 10 * ten_million); }
+
+/// Energy steps of a collision law u, U -> u', U' without a chain: random particles meet random
+/// scatterers, as the rounding errors depend on nothing else of the dynamics.
+template <class Law>
+Steps encounters(const Law& law, std::uint64_t events) {
+  std::mt19937_64 generator(1);
+  std::normal_distribution<double> velocity(0, std::sqrt(500.0));
+  std::vector<double> particles(220), scatterers(11, 0);
+  for (double& u : particles) u = velocity(generator);
+  Steps energy(particles.size());
+  for (std::uint64_t event = 0; event < events; ++event) {
+    const std::size_t particle = generator() % particles.size();
+    double& u = particles[particle];
+    double& scatterer = scatterers[generator() % scatterers.size()];
+    const long double before =
+        static_cast<long double>(u) * u + static_cast<long double>(scatterer) * scatterer;
+    law(u, scatterer);
+    energy.add(particle,
+               static_cast<long double>(u) * u + static_cast<long double>(scatterer) * scatterer - before);
+  }
+  return energy;
+}
+
+// Mutant: the reflection as printed, with c = sqrt(1-sigma^2) rounded. sigma^2 + c^2 differs from 1, so every
+// collision errs in the same direction.
+TEST(Conservation, ScoreFindsALinearDrift) {
+  const double sigma = 0.5;
+  const double c = std::sqrt((1 - sigma) * (1 + sigma));
+  const auto as_printed = [=](double& u, double& scatterer) {
+    const double before = u;
+    u = -sigma * before + c * scatterer;
+    scatterer = c * before + sigma * scatterer;
+  };
+  const CollisionRule rule(sigma);
+  const auto as_in_the_engine = [&rule](double& u, double& scatterer) {
+    double w = scatterer / rule.scatterer_scale();
+    rule(u, w);
+    scatterer = rule.scatterer_scale() * w;
+  };
+  EXPECT_LT(std::abs(encounters(as_in_the_engine, ten_million).as_walks_of_particles()), 4);
+
+  const Steps mutant = encounters(as_printed, ten_million);
+  EXPECT_GT(std::abs(mutant.as_walks_of_particles()), 10);
+  const Steps part = encounters(as_printed, ten_million / 10);
+  const double tolerance = 4 * 10 * std::hypot(1 / part.as_random_walk(), 1 / mutant.as_random_walk());
+  EXPECT_NEAR(static_cast<double>(mutant.total() / part.total()), 10, tolerance);
+}
+
+// The engine's form, where M = 4 m, with 1+sigma = 8/5 as near as a double comes to it.
+TEST(Conservation, ScoreFindsTheResonanceOfAFractionOfFive) {
+  const auto resonant = [](double& u, double& scatterer) {
+    constexpr double heavy = 1.6, light = 2 - heavy;
+    const double relative = scatterer / 2 - u;
+    u += heavy * relative;
+    scatterer -= 2 * light * relative;
+  };
+  EXPECT_GT(std::abs(encounters(resonant, ten_million).as_walks_of_particles()), 10);
+}
+
+/// Mean over its standard error of the energy that independent groups gain, relative, in so many encounters
+/// each. A drift too small for the steps of one group to show it grows with their number here.
+template <class Law>
+double mean_drift_score(const Law& law, int groups, std::uint64_t events) {
+  std::vector<double> drifts;
+  for (int group = 0; group < groups; ++group) {
+    std::mt19937_64 generator(static_cast<std::uint64_t>(group));
+    std::normal_distribution<double> velocity(0, 1);
+    std::array<double, 220> particles;
+    std::array<double, 11> scatterers;
+    for (double& u : particles) u = velocity(generator);
+    for (double& w : scatterers) w = velocity(generator) / law.scatterer_scale();
+    const auto energy = [&] {
+      long double twice_energy = 0;
+      const long double mass = law.scatterer_scale() * law.scatterer_scale();
+      for (const long double u : particles) twice_energy += u * u;
+      for (const long double w : scatterers) twice_energy += mass * w * w;
+      return twice_energy;
+    };
+    const long double before = energy();
+    for (std::uint64_t event = 0; event < events; ++event) {
+      const std::uint64_t draw = generator();
+      law(particles[draw % particles.size()], scatterers[(draw >> 32) % scatterers.size()]);
+    }
+    drifts.push_back(static_cast<double>(energy() / before - 1));
+  }
+  return support::z_score(support::sample(drifts), 0);
+}
+
+/// sigma = 1/2 raised by one part in 1e13 only: the product with 1 - sigma has some hundred rounding errors
+/// per binade, too few for their mean to vanish.
+struct HardlyDetuned {
+  double light = 0.5 * (1 + 1e-13), heavy = 2 - light;
+  double scatterer_scale() const { return std::sqrt(heavy / light); }
+  void operator()(double& u, double& w) const {
+    const double relative = w - u;
+    u += heavy * relative;
+    w -= light * relative;
+  }
+};
+
+TEST(Conservation, NothingIsLeftOfADriftThatABillionCollisionsWouldShow) {
+  EXPECT_LT(std::abs(mean_drift_score(CollisionRule(0.5), 24, 5 * ten_million)), 4);
+  EXPECT_GT(std::abs(mean_drift_score(HardlyDetuned(), 24, 5 * ten_million)), 4);
+}
+
+}  // namespace

@@ -1,0 +1,61 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/closed_dynamics.hpp"
+#include "engine/closed_start.hpp"
+#include "support/collisions.hpp"
+
+namespace {
+
+using namespace lorentz;
+using namespace support;
+
+// A particle that never arrives has no effect: the chain without it has the same collisions.
+TEST(FrozenParticles, TouchNothing) {
+  const ClosedChain few{4, 2, 1, 0.5};
+  const ClosedChain more{4, 3, 1, 0.5};
+  const PhasePoint start = closed_chain_start(few, {}, false, {3, 0});
+  const std::vector<Collision> expected = collisions(few, start, 50);
+  ASSERT_GT(expected.size(), 1000U);
+  for (const double velocity : {0.0, -0.0, 5e-324, -5e-324, 1e-310, -1e-308}) {
+    PhasePoint crowded = start;
+    for (const double position : {0.5, 0.0, 3.999, 2.5}) crowded.particles.push_back({position, velocity});
+    expect_same(collisions(more, crowded, 50), expected);
+    ClosedDynamics dynamics(more, crowded, 50, {1, 0});
+    NoObserver nobody;
+    simulate(dynamics, 50, nobody, nothing);
+    const Invariants invariants = dynamics.invariants();
+    EXPECT_TRUE(std::isfinite(invariants.energy) && std::isfinite(invariants.momentum) &&
+                std::isfinite(invariants.momentum_scale));
+  }
+}
+
+// At sigma = 0 a particle takes over the velocity of the scatterer: the first to reach a scatterer at
+// rest stops there for ever, exactly one per scatterer.
+TEST(FrozenParticles, AreThoseThatStop) {
+  const ClosedChain chain{11, 20, 1, 0};
+  const PhasePoint start = closed_chain_start(chain, {}, false, {4, 0});
+  const std::vector<Collision> all = collisions(chain, start, 20);
+  std::vector<bool> stopped(chain.particles(), false);
+  for (const Collision& collision : all) {
+    ASSERT_FALSE(stopped[collision.particle]);
+    if (collision.particle_after == 0) stopped[collision.particle] = true;
+  }
+  EXPECT_EQ(std::count(stopped.begin(), stopped.end(), true), chain.cells);
+
+  // They stay where they stopped. Mutant: the flight and position() disagree on the direction of u = 0.
+  ClosedDynamics dynamics(chain, start, 20, {1, 0});
+  NoObserver nobody;
+  simulate(dynamics, 20, nobody, nothing);
+  const PhasePoint end = dynamics.phase_point(20);
+  for (const Collision& collision : all) {
+    if (collision.particle_after == 0) {
+      EXPECT_DOUBLE_EQ(end.particles[collision.particle].position, collision.scatterer + 0.5);
+    }
+  }
+}
+
+}  // namespace

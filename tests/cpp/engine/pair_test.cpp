@@ -1,0 +1,101 @@
+#include "engine/pair.hpp"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "engine/closed_dynamics.hpp"
+#include "engine/closed_start.hpp"
+#include "support/collisions.hpp"
+
+namespace {
+
+using namespace lorentz;
+
+void expect_same(const Particle& a, const Particle& b, std::uint32_t number) {
+  ASSERT_EQ(a.position, b.position) << number;
+  ASSERT_EQ(a.velocity, b.velocity) << number;
+}
+
+/// Every particle and scatterer: the diverged ones are those of the two simulations, which agree in the
+/// others.
+void expect_pair(const PairDynamics& pair, double time, const PhasePoint& plain,
+                 const PhasePoint& perturbed) {
+  std::vector<char> particle_diverged(plain.particles.size()), scatterer_diverged(plain.scatterers.size());
+  pair.for_each_diverged_particle(time,
+                                  [&](std::uint32_t number, const Particle& one, const Particle& other) {
+                                    ASSERT_FALSE(std::exchange(particle_diverged[number], true));
+                                    expect_same(one, plain.particles[number], number);
+                                    expect_same(other, perturbed.particles[number], number);
+                                  });
+  pair.for_each_diverged_scatterer([&](std::uint32_t cell, double one, double other) {
+    ASSERT_FALSE(std::exchange(scatterer_diverged[cell], true));
+    ASSERT_EQ(one, plain.scatterers[cell]);
+    ASSERT_EQ(other, perturbed.scatterers[cell]);
+  });
+  for (std::uint32_t i = 0; i < particle_diverged.size(); ++i)
+    if (!particle_diverged[i]) expect_same(plain.particles[i], perturbed.particles[i], i);
+  for (std::uint32_t i = 0; i < scatterer_diverged.size(); ++i)
+    if (!scatterer_diverged[i]) {
+      ASSERT_EQ(plain.scatterers[i], perturbed.scatterers[i]) << i;
+    }
+}
+
+PhasePoint kicked(PhasePoint point) {
+  for (std::size_t i = 200; i < 220; ++i) point.particles[i].velocity *= 3;
+  point.scatterers[10] *= 3;
+  return point;
+}
+
+class Pair : public testing::TestWithParam<ClosedChain> {};
+
+TEST_P(Pair, IsTwoSimulationsBitForBit) {
+  const ClosedChain chain = GetParam();
+  const PhasePoint start = closed_chain_start(chain, {500, 500}, false, {1, 0});
+  constexpr double end = 1;
+  ClosedDynamics plain(chain, start, end, {5, 7}), perturbed(chain, kicked(start), end, {5, 7});
+  PairDynamics pair(chain, start, kicked(start), end, {5, 7});
+  NoObserver nobody;
+  for (const double time : {0.01, 0.1, 0.3, 1.0}) {
+    simulate(plain, time, nobody, support::nothing);
+    simulate(perturbed, time, nobody, support::nothing);
+    pair.run(time, support::nothing);
+    expect_pair(pair, time, plain.phase_point(time), perturbed.phase_point(time));
+  }
+  EXPECT_EQ(pair.events(), plain.events() + perturbed.events());
+}
+
+TEST_P(Pair, SharesWhatIsTheSame) {
+  const ClosedChain chain = GetParam();
+  const PhasePoint start = closed_chain_start(chain, {500, 500}, false, {1, 0});
+  PairDynamics pair(chain, start, kicked(start), 0.2, {5, 7});
+  pair.run(0.2, support::nothing);
+  EXPECT_LT(pair.computed(), pair.events());
+  PairDynamics equal(chain, start, start, 0.2, {5, 7});
+  equal.run(0.2, support::nothing);
+  EXPECT_EQ(2 * equal.computed(), equal.events());
+  PairDynamics separate(chain, start, kicked(start), 0.2, {5, 7}, false);
+  separate.run(0.2, support::nothing);
+  EXPECT_EQ(separate.computed(), separate.events());
+}
+
+TEST_P(Pair, InFullIsTwoSimulationsOfEverything) {
+  const ClosedChain chain = GetParam();
+  const PhasePoint start = closed_chain_start(chain, {500, 500}, false, {1, 0});
+  ClosedDynamics plain(chain, start, 0.2, {5, 7}), perturbed(chain, kicked(start), 0.2, {5, 7});
+  PairDynamics pair(chain, start, kicked(start), 0.2, {5, 7}, false);
+  NoObserver nobody;
+  simulate(plain, 0.2, nobody, support::nothing);
+  simulate(perturbed, 0.2, nobody, support::nothing);
+  pair.run(0.2, support::nothing);
+  expect_pair(pair, 0.2, plain.phase_point(0.2), perturbed.phase_point(0.2));
+  std::uint32_t particles = 0;
+  pair.for_each_diverged_particle(0.2, [&](std::uint32_t, const Particle&, const Particle&) { ++particles; });
+  EXPECT_EQ(particles, chain.particles());
+}
+
+INSTANTIATE_TEST_SUITE_P(Chains, Pair,
+                         testing::Values(ClosedChain{21, 20, 1, 0.5}, ClosedChain{21, 20, 0.5, -0.9},
+                                         ClosedChain{21, 20, 1, 0.5, 1.0}, ClosedChain{21, 20, 1, 0, 3.0}));
+
+}  // namespace

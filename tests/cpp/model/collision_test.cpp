@@ -1,0 +1,157 @@
+#include "model/collision.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using lorentz::CollisionRule;
+
+constexpr double unit = 0x1p-53;  // largest relative error of one rounding
+
+const std::vector<double> sigmas = {-1,  -1 + 1e-12, -0.9, -0.5,      -0.49999,    -1e-10,       0, 1e-10,
+                                    0.3, 0.5,        0.9,  1 - 1e-12, 1 - 0x1p-53, -1 + 0x1p-53, 1};
+
+/// Bound on the error of u' and U' in units of 2^-53 max(|u|, |U|). The worst case is U' at sigma <= -1/2. w
+/// = U / scale has 2.5 roundings (1.5 of them from the scale), which enter U' with the weight |sigma|; w - u
+/// and its product with 1-sigma have one each, at magnitudes of at most 2 (1 + 1/sqrt(3)); the sum has one,
+/// the scale and the product with it 2.5, at |U'| <= sqrt(2). The total is 13.8; other cases stay below 11.
+constexpr double roundings = 14;
+
+struct Pair {
+  double u, scatterer;
+};
+
+Pair collide(const CollisionRule& rule, Pair before) {
+  double u = before.u;
+  double w = before.scatterer / rule.scatterer_scale();
+  rule(u, w);
+  return {u, rule.scatterer_scale() * w};
+}
+
+/// Velocities of comparable size, of sizes up to 12 decades apart, at rest, and equal.
+std::vector<Pair> velocities() {
+  std::vector<Pair> result = {{1, 0}, {0, 1}, {1, 1}, {1, -1}, {1e-300, 1}, {1, 1e-300}, {-0.75, 1e-9}};
+  std::mt19937_64 generator(1);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> decades(-12, 12);
+  for (int i = 0; i < 10000; ++i) {
+    result.push_back({normal(generator), normal(generator)});
+    result.push_back({normal(generator), std::pow(10.0, decades(generator)) * normal(generator)});
+  }
+  return result;
+}
+
+double larger(Pair pair) { return std::max(std::abs(pair.u), std::abs(pair.scatterer)); }
+
+TEST(Collision, EqualsTheClosedForm) {
+  for (const double sigma : sigmas) {
+    const CollisionRule rule(sigma);
+    const long double s = rule.sigma();
+    const long double c = std::sqrt((1 - s) * (1 + s));
+    for (const Pair before : velocities()) {
+      const Pair after = collide(rule, before);
+      const double bound = roundings * unit * larger(before);
+      ASSERT_LE(std::abs(after.u - (-s * before.u + c * before.scatterer)), bound) << sigma;
+      ASSERT_LE(std::abs(after.scatterer - (c * before.u + s * before.scatterer)), bound) << sigma;
+    }
+  }
+}
+
+// sigma, or 1-|sigma|, is changed by one part in 1e11 on purpose. In addition 1+|sigma| is rounded to a
+// multiple of 2^-52: at sigma = 1 - 1e-12 this is one part in 1e4 of 1-sigma, hence 5e-5 of c.
+TEST(Collision, StandsForTheSigmaAskedFor) {
+  for (const double sigma : sigmas) {
+    const double magnitude = std::abs(sigma);
+    const bool exact = magnitude == 0 || magnitude == 1;
+    const double bound = exact ? 0 : 1.01e-11 * std::min(magnitude, 1 - magnitude) + 2 * unit;
+    EXPECT_LE(std::abs(CollisionRule(sigma).sigma() - sigma), bound);
+  }
+}
+
+// Velocities grow by at most sqrt(2) in the first collision, so the bound is twice that of one collision at
+// sqrt(2) max.
+TEST(Collision, StandsForEveryDigitOfSigmaNearTheLimits) {
+  for (int k = 6; k <= 16; ++k)
+    for (const double sign : {-1, 1})
+      EXPECT_EQ(CollisionRule(sign * (1 - std::pow(10, -k))).sigma(), sign * (1 - std::pow(10, -k))) << k;
+}
+
+TEST(Collision, IsItsOwnInverse) {
+  for (const double sigma : sigmas) {
+    const CollisionRule rule(sigma);
+    for (const Pair before : velocities()) {
+      const Pair back = collide(rule, collide(rule, before));
+      const double bound = 2 * std::sqrt(2.0) * roundings * unit * larger(before);
+      ASSERT_NEAR(back.u, before.u, bound) << sigma;
+      ASSERT_NEAR(back.scatterer, before.scatterer, bound) << sigma;
+    }
+  }
+}
+
+// The stored coefficients conserve both invariants exactly, so the error of sigma does not contribute.
+TEST(Collision, ConservesEnergyAndMomentum) {
+  for (const double sigma : sigmas) {
+    const CollisionRule rule(sigma);
+    const long double root_mass = rule.root_mass();
+    for (const Pair before : velocities()) {
+      const Pair after = collide(rule, before);
+      const long double u = before.u, scatterer = before.scatterer, u2 = after.u,
+                        scatterer2 = after.scatterer;
+      // |d(u^2+U^2)| <= 2 (|u'|+|U'|) times the error of each, and |u'|+|U'| <= sqrt(2(u^2+U^2)).
+      ASSERT_LE(std::abs(u2 * u2 + scatterer2 * scatterer2 - u * u - scatterer * scatterer),
+                2 * std::sqrt(2.0) * roundings * unit * (before.u * before.u + scatterer * scatterer))
+          << sigma;
+      if (sigma == 1) continue;  // infinite mass: the momentum is not conserved
+      const long double magnitude =
+          std::abs(u) + std::abs(u2) + root_mass * (std::abs(scatterer) + std::abs(scatterer2));
+      ASSERT_LE(std::abs(u2 - u + root_mass * (scatterer2 - scatterer)), roundings * unit * magnitude)
+          << sigma;
+    }
+  }
+}
+
+TEST(Collision, ExchangesVelocitiesBitForBitAtEqualMasses) {
+  const CollisionRule rule(0);
+  ASSERT_EQ(rule.scatterer_scale(), 1);
+  ASSERT_EQ(rule.root_mass(), 1);
+  const double tiny = std::numeric_limits<double>::denorm_min();
+  const std::vector<double> values = {tiny, -3 * tiny, 1e-310, 1e-300, -1e-300, 1, -22.36, 0.1, 1e300};
+  for (const double first : values) {
+    for (const double second : values) {
+      double u = first, w = second;
+      rule(u, w);
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(u), std::bit_cast<std::uint64_t>(second));
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(w), std::bit_cast<std::uint64_t>(first));
+    }
+  }
+}
+
+TEST(Collision, LimitsAreExact) {
+  const CollisionRule wall(1), feather(-1);
+  for (const Pair before : velocities()) {
+    const Pair reflected = collide(wall, before);
+    ASSERT_EQ(reflected.u, -before.u);
+    ASSERT_EQ(reflected.scatterer, before.scatterer);
+    const Pair passed = collide(feather, before);
+    ASSERT_EQ(passed.u, before.u);
+    ASSERT_EQ(passed.scatterer, -before.scatterer);
+  }
+}
+
+TEST(Collision, RefusesSigmaOutOfRange) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double next = std::nextafter(1.0, 2.0);
+  for (const double sigma : {next, -next, 2.0, -2.0, infinity, -infinity, std::nan("")})
+    EXPECT_THROW(CollisionRule{sigma}, std::invalid_argument) << sigma;
+}
+
+}  // namespace

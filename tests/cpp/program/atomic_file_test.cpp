@@ -1,0 +1,132 @@
+#include "program/atomic_file.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/fsuid.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "program/errors.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace {
+
+using namespace lorentz;
+using support::content_of;
+using support::TemporaryFolder;
+using Names = std::set<std::string>;
+
+/// Both writing and the check before fail; the message names the file and ends with a sentence on what to do.
+void expect_refused(const std::string& path, std::size_t size = 100) {
+  for (const bool ask_only : {true, false}) {
+    try {
+      ask_only ? require_writable(path, size) : write_atomically(path, std::string(size, 'x'));
+      ADD_FAILURE() << path << " was written";
+    } catch (const UsageError& error) {
+      const std::string message = error.what();
+      EXPECT_NE(message.find("'" + path + "' cannot be written: "), std::string::npos) << message;
+      EXPECT_TRUE(message.ends_with(".")) << message;
+    }
+  }
+}
+
+TEST(AtomicFile, WritesAndReplaces) {
+  const TemporaryFolder folder;
+  const std::string zeros("a\0b", 3);
+  for (const std::string& content : {std::string("first"), std::string(1 << 20, 'x'), zeros, std::string()}) {
+    write_atomically(folder / "file", content);
+    EXPECT_EQ(content_of(folder / "file"), content);
+    EXPECT_EQ(folder.names(), Names{"file"});
+  }
+}
+
+TEST(AtomicFile, AskingLeavesNothingBehindAndTouchesNothing) {
+  const TemporaryFolder folder;
+  require_writable(folder / "file", 1 << 16);
+  EXPECT_EQ(folder.names(), Names{});
+  write_atomically(folder / "file", std::string("content"));
+  require_writable(folder / "file", 1 << 16);
+  EXPECT_EQ(folder.names(), Names{"file"});
+  EXPECT_EQ(content_of(folder / "file"), "content");
+}
+
+TEST(AtomicFile, RefusesAFolderThatDoesNotExist) {
+  const TemporaryFolder folder;
+  write_atomically(folder / "file", std::string("content"));
+  expect_refused(folder / "absent/file");
+  expect_refused(folder / "file/below");
+  EXPECT_EQ(folder.names(), Names{"file"});
+}
+
+/// Accesses files with the rights of user nobody, because the super-user needs no permission.
+class AsNobody {
+ public:
+  AsNobody() : before_(::setfsuid(65534)) {}
+  AsNobody(const AsNobody&) = delete;
+  AsNobody& operator=(const AsNobody&) = delete;
+  ~AsNobody() { ::setfsuid(static_cast<uid_t>(before_)); }
+
+ private:
+  int before_;
+};
+
+TEST(AtomicFile, RefusesAFolderWithoutPermission) {
+  const TemporaryFolder folder;
+  write_atomically(folder / "file", std::string("content"));
+  ASSERT_EQ(::chmod(folder.path().c_str(), 0555), 0);
+  {
+    const AsNobody nobody;
+    expect_refused(folder / "file");
+    expect_refused(folder / "other");
+  }
+  ASSERT_EQ(::chmod(folder.path().c_str(), 0755), 0);
+  EXPECT_EQ(folder.names(), Names{"file"});
+  EXPECT_EQ(content_of(folder / "file"), "content");
+}
+
+TEST(AtomicFile, RefusesWhatIsNotARegularFile) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "folder");
+  expect_refused(folder / "folder");
+  EXPECT_EQ(folder.names(), Names{"folder"});
+  expect_refused("/dev/full");
+}
+
+/// Limits the size of files, so that writing fails halfway as on a full disk.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t size) : handler_(::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{size, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    ::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST(AtomicFile, KeepsTheOldFileWhenTheDiskIsFull) {
+  const TemporaryFolder folder;
+  write_atomically(folder / "file", std::string("content"));
+  {
+    const FileSizeLimit limit(1 << 16);
+    expect_refused(folder / "file", 1 << 17);
+    expect_refused(folder / "other", 1 << 17);
+    EXPECT_NO_THROW(write_atomically(folder / "small", std::string("fits")));
+  }
+  EXPECT_EQ(folder.names(), (Names{"file", "small"}));
+  EXPECT_EQ(content_of(folder / "file"), "content");
+}
+
+}  // namespace

@@ -1,0 +1,69 @@
+#include "program/program.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <cstdlib>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "support/study.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace {
+
+using namespace lorentz;
+using namespace support;
+using Names = std::set<std::string>;
+
+TEST(Program, ErrorsLeaveNothingBehind) {
+  const TemporaryFolder folder;
+  const auto never = [](const Replica&) -> double { throw std::logic_error("measured"); };
+  const auto failing = [](const Replica&) -> double { throw NumericalError("overflow"); };
+  const auto expect_one_line = [](const std::string& part) {
+    EXPECT_EQ(complaints.find('\n'), complaints.size() - 1) << complaints;
+    EXPECT_TRUE(complaints.starts_with("example: ")) << complaints;
+    EXPECT_NE(complaints.find(part), std::string::npos) << complaints;
+  };
+  EXPECT_EQ(run({}, never), 2);
+  expect_one_line("--output");
+  EXPECT_EQ(run({"--output", folder / "a.h5", "--replicas", "0"}, never), 2);
+  expect_one_line("--replicas");
+  EXPECT_EQ(run({"--output", folder / "absent/a.h5"}, never), 2);
+  expect_one_line("absent/a.h5");
+  EXPECT_EQ(run({"--output", folder / "a.h5"}, failing), 3);
+  expect_one_line("numerical failure: overflow");
+  EXPECT_EQ(folder.names(), Names{});
+}
+
+// Runs in a separate process, because a received signal is stored for the rest of the process.
+TEST(ProgramDeathTest, SignalsEndTheRunWithACheckpoint) {
+  for (const int number : {SIGINT, SIGTERM}) {
+    const TemporaryFolder folder;
+    const auto killed = [number](const Replica& replica) {
+      if (replica.key.replica == 3) ::raise(number);
+      replica.heartbeat(0.5);
+      return measure(replica);
+    };
+    EXPECT_EXIT(std::_Exit(run_program({"--output", folder / "a.h5", "--threads", "1"}, killed)),
+                testing::ExitedWithCode(128 + number), "");
+    EXPECT_EQ(folder.names(), Names{"a.h5.checkpoint"});
+    EXPECT_EQ(Hdf5Reader(folder / "a.h5.checkpoint").counts("/replicas/index"),
+              (std::vector<std::uint64_t>{0, 1, 2}));
+  }
+}
+
+TEST(ProgramDeathTest, SignalsAreNoticedBetweenReplicasTooShortToAsk) {
+  const TemporaryFolder folder;
+  const auto killed = [](const Replica& replica) {
+    if (replica.key.replica == 3) ::raise(SIGTERM);
+    return measure(replica);
+  };
+  EXPECT_EXIT(std::_Exit(run_program({"--output", folder / "a.h5", "--threads", "1"}, killed)),
+              testing::ExitedWithCode(128 + SIGTERM), "");
+  EXPECT_EQ(folder.names(), Names{"a.h5.checkpoint"});
+}
+
+}  // namespace

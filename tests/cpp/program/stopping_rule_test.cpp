@@ -1,0 +1,260 @@
+#include "program/stopping_rule.hpp"
+
+#include <gsl/gsl_cdf.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <vector>
+
+namespace {
+
+using namespace lorentz;
+
+constexpr int seeds = 3000;
+constexpr double significant = 4;  // standard errors
+
+/// Record of two sums, the ratio of whose means is estimated; the second one is 1 where a mean is estimated.
+struct Record {
+  double y, x;
+};
+
+struct Law {
+  double mean, deviation, skewness;  // of the ratio, and of y - mean x over the mean of x
+  std::function<Record(std::mt19937_64&)> draw;
+  bool relative;  // whether the target is relative
+
+  /// Bias of the mean times the number of replicas [eq. 53].
+  double bias() const { return -deviation * (skewness - (relative ? 2 * deviation / std::abs(mean) : 0)); }
+};
+
+Law normal(bool relative) {
+  return {1, 0.3, 0, [](std::mt19937_64& g) { return Record{std::normal_distribution(1., 0.3)(g), 1}; },
+          relative};
+}
+
+Law exponential(bool relative) {
+  return {1, 1, 2, [](std::mt19937_64& g) { return Record{std::exponential_distribution(1.)(g), 1}; },
+          relative};
+}
+
+Law lognormal() {
+  constexpr double s = 0.5;
+  const double v = std::sqrt(std::expm1(s * s));
+  const auto draw = [](std::mt19937_64& g) {
+    return Record{std::lognormal_distribution(-s * s / 2, s)(g), 1};
+  };
+  return {1, v, v * (v * v + 3), draw, true};
+}
+
+/// Law of the ratio of a lognormal numerator to a lognormal denominator of half its width.
+Law ratio() {
+  const auto draw = [](std::mt19937_64& g) {
+    return Record{std::lognormal_distribution(-0.125, 0.5)(g),
+                  std::lognormal_distribution(-0.03125, 0.25)(g)};
+  };
+  return {1, std::sqrt(std::expm1(0.25) + std::expm1(0.0625)), NAN, draw, true};
+}
+
+/// Sums over records, the ratio of means, and its standard error by the delta method.
+struct Sample {
+  double replicas = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+
+  void add(const Record& record) {
+    replicas += 1;
+    x += record.x, y += record.y;
+    xx += record.x * record.x, xy += record.x * record.y, yy += record.y * record.y;
+  }
+  double mean() const { return y / x; }
+  double error() const {
+    const double r = mean(), square = yy - 2 * r * xy + r * r * xx;
+    return std::sqrt(std::max(0., square) * replicas / (replicas - 1)) / x;
+  }
+};
+
+using Looks = std::function<std::uint64_t(std::uint64_t)>;
+using Stop = std::function<bool(std::uint64_t, double)>;
+
+/// Adds records look by look until `stop`, a function of their number and of the error over the target, ends
+/// it.
+Sample until(const Law& law, double target, const Looks& next, const Stop& stop, std::mt19937_64& generator) {
+  Sample sample;
+  for (std::uint64_t look = next(0);; look = next(look)) {
+    while (sample.replicas < static_cast<double>(look)) sample.add(law.draw(generator));
+    const double error = sample.error() / (law.relative ? std::abs(sample.mean()) : 1);
+    if (stop(look, error / target)) return sample;
+  }
+}
+
+/// Statistics of many runs whose target is the error of `ideal` replicas.
+struct Runs {
+  double inside[2] = {0, 0};   // parts of the runs within 1 and 2 standard errors of the truth
+  double student[2] = {0, 0};  // the same for normal records
+  double reached = 0;          // part whose true error is within the target
+  double bias = 0;             // mean deviation
+  double bias_error = 0;
+  double expected_bias = 0;  // by the delta method
+};
+
+Runs many(const Law& law, double ideal, const Looks& next, const Stop& stop) {
+  Runs runs;
+  const double error = law.deviation / std::sqrt(ideal);
+  for (int seed = 0; seed < seeds; ++seed) {
+    std::mt19937_64 generator(static_cast<unsigned>(seed));
+    const Sample sample = until(law, error / (law.relative ? law.mean : 1), next, stop, generator);
+    const double deviation = sample.mean() - law.mean,
+                 true_error = law.deviation / std::sqrt(sample.replicas);
+    for (int k : {1, 2}) {
+      runs.inside[k - 1] += (std::abs(deviation) < k * sample.error()) / double{seeds};
+      runs.student[k - 1] += (2 * gsl_cdf_tdist_P(k, sample.replicas - 1) - 1) / seeds;
+    }
+    runs.reached += (true_error <= error) / double{seeds};
+    runs.bias += deviation / seeds;
+    runs.bias_error += deviation * deviation / seeds;
+    runs.expected_bias += law.bias() / sample.replicas / seeds;
+  }
+  runs.bias_error = std::sqrt(runs.bias_error / seeds);
+  return runs;
+}
+
+Runs by_rule(const Law& law, double ideal, std::uint64_t batch) {
+  const StoppingRule rule{batch, 1'000'000};
+  return many(law, ideal, [&](std::uint64_t used) { return rule.next_look(used); }, &StoppingRule::reached);
+}
+
+/// Mutant: a run ends as soon as the error is below the target, from the first batch of two or more on.
+Runs at_once(const Law& law, double ideal, std::uint64_t batch) {
+  const auto next = [=](std::uint64_t used) { return std::max<std::uint64_t>(used + batch, 2); };
+  return many(law, ideal, next, [](std::uint64_t, double excess) { return excess <= 1; });
+}
+
+Runs given_in_advance(const Law& law, std::uint64_t replicas) {
+  return many(law, 1, [=](std::uint64_t) { return replicas; }, [](std::uint64_t, double) { return true; });
+}
+
+/// Difference between the fractions of two sets of runs, in standard errors.
+double difference(double share, double other, double other_variance) {
+  return (share - other) / std::sqrt((share * (1 - share) + other_variance) / seeds);
+}
+
+const std::vector<std::uint64_t> batches = {1, 5, 16, 64};
+const std::vector<double> ideals = {10, 60, 200};
+
+TEST(StoppingRule, StoppedRunsCoverLikeStudentsLawWhereRecordsAreNormal) {
+  for (const bool relative : {false, true})
+    for (const std::uint64_t batch : batches)
+      for (const double ideal : ideals) {
+        const Runs runs = by_rule(normal(relative), ideal, batch);
+        for (int k : {0, 1})
+          EXPECT_LT(std::abs(difference(runs.inside[k], runs.student[k], 0)), significant)
+              << relative << ' ' << batch << ' ' << ideal << ": " << runs.inside[k] << " for "
+              << runs.student[k];
+        EXPECT_GT(difference(runs.reached, 0.95, 0), -significant)
+            << batch << ' ' << ideal << ": " << runs.reached;
+      }
+  for (const std::uint64_t batch : {1, 5}) {
+    const Runs mutant = at_once(normal(true), 60, batch);
+    EXPECT_LT(difference(mutant.inside[1], mutant.student[1], 0), -significant) << mutant.inside[1];
+    EXPECT_LT(difference(mutant.reached, 0.95, 0), -significant) << mutant.reached;
+  }
+}
+
+// The increase of errors by a target for skewed records is at most that from 32 replicas instead of 64.
+TEST(StoppingRule, StoppedRunsOfSkewedRecordsCoverLikeThirtyTwoReplicasGivenInAdvance) {
+  for (const Law& law : {exponential(true), exponential(false), lognormal(), ratio()}) {
+    const Runs standard = given_in_advance(law, 32);
+    const auto compare = [&](const Runs& runs, int k) {
+      return difference(runs.inside[k], standard.inside[k], standard.inside[k] * (1 - standard.inside[k]));
+    };
+    for (const std::uint64_t batch : {1, 16, 64})
+      for (const double ideal : {60., 200.}) {
+        const Runs runs = by_rule(law, ideal, batch);
+        for (int k : {0, 1})
+          EXPECT_GT(compare(runs, k), -significant)
+              << batch << ' ' << ideal << ": " << runs.inside[k] << " for " << standard.inside[k];
+      }
+    EXPECT_LT(compare(at_once(law, 60, 1), 1), -significant);
+    EXPECT_LT(compare(at_once(law, 20, 3), 1), -significant);
+  }
+}
+
+// Bias where neither the least number of replicas nor the batch size matters [eq. 53]. It is 0 for an
+// exponential law and a relative target.
+TEST(StoppingRule, BiasOfStoppedMeans) {
+  for (const Law& law : {normal(false), normal(true), exponential(true), exponential(false), lognormal()})
+    for (const std::uint64_t batch : {1, 5, 16})
+      for (const double ideal : {90., 200.}) {
+        const Runs runs = by_rule(law, ideal, batch);
+        EXPECT_LT(std::abs(runs.bias - runs.expected_bias), significant * runs.bias_error)
+            << batch << ' ' << ideal << ": " << runs.bias << " for " << runs.expected_bias;
+      }
+  const Runs runs = by_rule(exponential(false), 60, 1), mutant = at_once(exponential(false), 60, 1);
+  EXPECT_LT(mutant.bias - runs.bias, -significant * std::hypot(runs.bias_error, mutant.bias_error));
+}
+
+/// Forecasts at the first look compared with the actual ends; runs that end at that look are excluded.
+struct Foretold {
+  double runs = 0, within = 0, as_likely = 0;
+};
+
+Foretold foretold(const Law& law, double ideal, std::uint64_t batch) {
+  const StoppingRule rule{batch, 1'000'000};
+  Foretold result;
+  for (int seed = 0; seed < seeds / 4; ++seed) {
+    std::mt19937_64 generator(static_cast<unsigned>(seed));
+    StoppingRule::Forecast forecast{0, 0, 0};
+    const Sample sample = until(
+        law, law.deviation / std::sqrt(ideal), [&](std::uint64_t used) { return rule.next_look(used); },
+        [&](std::uint64_t used, double excess) {
+          if (StoppingRule::reached(used, excess)) return true;
+          if (forecast.likely == 0) forecast = rule.forecast(used, excess);
+          return false;
+        },
+        generator);
+    if (forecast.likely == 0) continue;
+    const auto spent = static_cast<std::uint64_t>(sample.replicas);
+    result.runs += 1;
+    result.within += forecast.low <= spent && spent <= forecast.high;
+    result.as_likely += forecast.likely == spent;
+  }
+  return result;
+}
+
+TEST(StoppingRule, RunsEndWhereTheFirstLookForetells) {
+  const auto excess = [](double hits, double runs) {
+    return (hits - 0.95 * runs) / std::sqrt(0.95 * 0.05 * runs);
+  };
+  for (const std::uint64_t batch : batches)
+    for (const double ideal : {250., 1000.}) {
+      const Foretold found = foretold(normal(true), ideal, batch);
+      EXPECT_GT(found.runs, 100);
+      EXPECT_GT(excess(found.within, found.runs), -significant)
+          << batch << ' ' << ideal << ": " << found.within;
+      EXPECT_LT(excess(found.as_likely, found.runs), -significant);  // mutant: no range
+    }
+}
+
+TEST(StoppingRule, LooksEverSeldomerFromTheLeastNumberOn) {
+  const StoppingRule rule{10, 305};
+  std::vector<std::uint64_t> looks;
+  for (std::uint64_t used = 0; used < 300;) looks.push_back(used = rule.next_look(used));
+  EXPECT_EQ(looks, (std::vector<std::uint64_t>{70, 80, 90, 100, 110, 120, 130, 140, 150, 160, 180, 200, 220,
+                                               240, 270, 300}));
+  EXPECT_EQ((StoppingRule{10, 25}.next_look(0)), 20U);  // limited by `most`
+  EXPECT_EQ((StoppingRule{10, 5}.next_look(0)), 10U);   // the first batch is measured anyway
+  EXPECT_FALSE(StoppingRule::reached(63, 0));
+  EXPECT_TRUE(StoppingRule::reached(64, 0));
+  EXPECT_FALSE(StoppingRule::reached(64, NAN));
+}
+
+TEST(StoppingRule, ForetellsNoMoreThanThereMayBe) {
+  const StoppingRule rule{16, 1000};
+  const StoppingRule::Forecast forecast = rule.forecast(64, 100);
+  EXPECT_EQ(forecast.low, 992U);
+  EXPECT_EQ(forecast.high, 992U);
+}
+
+}  // namespace

@@ -1,0 +1,215 @@
+#include "program/study.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <set>
+#include <sstream>
+#include <string>
+#include <thread>
+
+#include "program/stopping_rule.hpp"
+#include "support/study.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace {
+
+using namespace lorentz;
+using namespace support;
+using Names = std::set<std::string>;
+
+TEST(Study, WritesEqualBytesForAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run({"--output", folder / "a.h5", "--threads", "1"}), 0);
+  EXPECT_EQ(run({"--output", folder / "b.h5", "--threads", "5"}), 0);
+  EXPECT_EQ(content_of(folder / "a.h5"), content_of(folder / "b.h5"));
+  EXPECT_EQ(folder.names(), (Names{"a.h5", "a.cost.json", "b.h5", "b.cost.json"}));
+  EXPECT_EQ(replicas_in(folder / "a.h5"), 16U);
+}
+
+TEST(Study, EndsAtTheSameReplicaForAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  for (const char* threads : {"1", "7"})
+    EXPECT_EQ(run({"--output", folder / threads, "--target-error", "0.02", "--replicas", "3", "--threads",
+                   threads}),
+              0);
+  EXPECT_EQ(content_of(folder / "1"), content_of(folder / "7"));
+  EXPECT_GT(replicas_in(folder / "1"), 66U);
+}
+
+// Without the checkpoint the last replica would wait for ten seconds.
+TEST(Study, WritesCheckpointsOnTheWay) {
+  const TemporaryFolder folder;
+  bool seen = false;
+  const auto wait_for_checkpoint = [&](const Replica& replica) {
+    for (int i = 0; replica.key.replica == 15 && !seen && i < 1000; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      seen = folder.names().contains("a.h5.checkpoint");
+    }
+    return measure(replica);
+  };
+  EXPECT_EQ(run({"--output", folder / "a.h5", "--threads", "1", "--checkpoint-interval", "0.01"},
+                wait_for_checkpoint),
+            0);
+  EXPECT_TRUE(seen);
+  EXPECT_EQ(folder.names(), (Names{"a.h5", "a.cost.json"}));
+}
+
+TEST(Study, ResumesToEqualBytes) {
+  const TemporaryFolder folder;
+  const Arguments common = {"--threads", "1", "--output"};
+  const auto with = [&](const std::string& name, const Arguments& more) {
+    Arguments arguments = common;
+    arguments.push_back(folder / name);
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  EXPECT_EQ(run(with("whole.h5", {})), 0);
+  EXPECT_EQ(run(with("parts.h5", {}), interrupted_at(5)), 128 + SIGINT);
+  EXPECT_EQ(folder.names(), (Names{"whole.h5", "whole.cost.json", "parts.h5.checkpoint"}));
+  EXPECT_EQ(run(with("parts.h5", {"--resume"}), interrupted_at(9)), 128 + SIGINT);
+
+  // With other parameters resumption is rejected, and the checkpoint stays.
+  EXPECT_EQ(run(with("parts.h5", {"--resume", "--seed", "2"})), 2);
+  EXPECT_NE(complaints.find("other parameters"), std::string::npos) << complaints;
+  EXPECT_TRUE(folder.names().contains("parts.h5.checkpoint"));
+
+  std::set<std::uint64_t> measured;
+  EXPECT_EQ(run(with("parts.h5", {"--resume"}),
+                [&](const Replica& replica) {
+                  measured.insert(replica.key.replica);
+                  return measure(replica);
+                }),
+            0);
+  EXPECT_EQ(measured, (std::set<std::uint64_t>{9, 10, 11, 12, 13, 14, 15}));
+  EXPECT_EQ(content_of(folder / "parts.h5"), content_of(folder / "whole.h5"));
+  EXPECT_FALSE(folder.names().contains("parts.h5.checkpoint"));
+  EXPECT_EQ(run(with("fresh.h5", {"--resume"})), 0);  // there is no checkpoint
+  EXPECT_EQ(content_of(folder / "fresh.h5"), content_of(folder / "whole.h5"));
+}
+
+// 0.3 / sqrt(R) / 1.5 is far enough below 0.02 near R = 128; up to there a look follows every 8 replicas.
+TEST(Study, StopsAtTheTargetErrorOnABatchBoundary) {
+  const TemporaryFolder folder;
+  const Arguments batches = {"--replicas", "8", "--output", folder / "a.h5"};
+  const auto with = [&](const Arguments& more) {
+    Arguments arguments = batches;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  };
+  const auto reached = [](std::uint64_t count, double mean, double error) {
+    return StoppingRule::reached(count, error / mean / 0.02);
+  };
+  EXPECT_EQ(with({"--target-error", "0.02"}), 0);
+  const std::uint64_t count = replicas_in(folder / "a.h5");
+  EXPECT_EQ(count % 8, 0U);
+  const Hdf5Reader file(folder / "a.h5");
+  EXPECT_TRUE(reached(count, file.doubles("/results/value/mean")[0],
+                      file.doubles("/results/value/standard_error")[0]));
+  Records fewer(1);
+  for (std::uint64_t index = 0; index < count - 8; ++index)
+    fewer.append(std::vector{measure({{1, index}, {}})});
+  const Quantity before = study_of(measure).estimators[0].estimate(fewer)[0];
+  EXPECT_FALSE(reached(count - 8, before.mean[0], before.standard_error[0]));
+
+  EXPECT_EQ(with({"--target-error", "10"}), 0);  // never with fewer than 64
+  EXPECT_EQ(replicas_in(folder / "a.h5"), 64U);
+  EXPECT_EQ(with({"--target-error", "10", "--max-replicas", "20"}), 4);
+  EXPECT_EQ(replicas_in(folder / "a.h5"), 16U);
+  EXPECT_EQ(with({"--target-error", "1e-6", "--max-replicas", "100"}), 4);
+  EXPECT_EQ(replicas_in(folder / "a.h5"), 96U);
+  EXPECT_EQ(with({"--target-error", "1e-6", "--time-limit", "1e-9"}), 4);
+  EXPECT_EQ(replicas_in(folder / "a.h5"), 2U);
+  EXPECT_EQ(with({"--target-error", "0.1", "--target-absolute", "0.1"}), 2);
+}
+
+TEST(Study, SaysWhereTheRunEnds) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run({"--target-error", "0.01", "--output", folder / "a.h5", "--progress", "log"}), 0);
+  const std::string words = "the run ends after ";
+  const std::size_t found = complaints.find(words);
+  ASSERT_NE(found, std::string::npos) << complaints;
+  std::istringstream rest(complaints.substr(found + words.size()));
+  std::uint64_t low = 0, high = 0;
+  std::string to;
+  rest >> low >> to >> high;
+  const std::uint64_t spent = replicas_in(folder / "a.h5");
+  EXPECT_LE(low, spent) << complaints;
+  EXPECT_GE(high, spent) << complaints;
+}
+
+TEST(Study, SaysHowUncertainErrorsFromFewReplicasAre) {
+  const TemporaryFolder folder;
+  const auto said = [&](const char* replicas, const char* progress) {
+    EXPECT_EQ(run({"--replicas", replicas, "--output", folder / "a.h5", "--progress", progress}), 0);
+    return complaints;
+  };
+  const std::string warning = "example: standard errors from 9 replicas are uncertain by about 25 %\n";
+  EXPECT_TRUE(said("9", "log").ends_with(warning)) << complaints;
+  EXPECT_EQ(said("9", "none"), "");
+  for (const char* replicas : {"1", "32"})
+    EXPECT_EQ(said(replicas, "log").find("uncertain"), std::string::npos) << complaints;
+}
+
+// Looks take place only where an uninterrupted run has them: after 64, 72, 80, ... replicas.
+TEST(Study, ResumesToTheSameBatchBoundary) {
+  const TemporaryFolder folder;
+  const auto with = [&](const std::string& name, const MeasureValue& measurement, const Arguments& more) {
+    Arguments arguments = {"--threads",      "1",    "--replicas", "8",
+                           "--target-error", "0.02", "--output",   folder / name};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments, measurement);
+  };
+  EXPECT_EQ(with("whole.h5", measure, {}), 0);
+  const std::uint64_t count = replicas_in(folder / "whole.h5");
+  ASSERT_GT(count, 72U);
+  EXPECT_EQ(with("parts.h5", interrupted_at(count - 1), {}), 128 + SIGINT);
+  EXPECT_EQ(with("parts.h5", measure, {"--resume"}), 0);
+  EXPECT_EQ(content_of(folder / "parts.h5"), content_of(folder / "whole.h5"));
+}
+
+// The checkpoint has replicas finished out of order. The time limit leaves replica 2 missing, and those after
+// it are not used.
+TEST(Study, UsesTheLowestIndicesAtTheTimeLimitOfAResumedRun) {
+  const TemporaryFolder folder;
+  const auto late_interruption = [](const Replica& replica) {
+    if (replica.key.replica == 2) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+      throw Interrupted(SIGINT);
+    }
+    if (replica.key.replica == 8) std::this_thread::sleep_for(std::chrono::milliseconds(400));
+    return measure(replica);
+  };
+  EXPECT_EQ(run({"--output", folder / "a.h5", "--threads", "2"}, late_interruption), 128 + SIGINT);
+  EXPECT_EQ(run({"--output", folder / "a.h5", "--resume", "--time-limit", "1e-9"}), 4);
+  EXPECT_EQ(replicas_in(folder / "a.h5"), 2U);
+}
+
+TEST(Study, TakesAnyTimeLimitAndInterval) {
+  const TemporaryFolder folder;
+  for (const char* seconds : {"1e10", "1e300"})
+    EXPECT_EQ(run({"--output", folder / "a.h5", "--time-limit", seconds, "--checkpoint-interval", seconds}),
+              0);
+}
+
+// Before anything is measured.
+TEST(Study, WithoutItsTargetIsRefused) {
+  const TemporaryFolder folder;
+  std::vector<std::string> arguments{"example", "--output", folder / "a.h5", "--progress", "none"};
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  StudyProgram program("example", "An example");
+  bool measured = false;
+  testing::internal::CaptureStderr();
+  const int status = program.run(static_cast<int>(pointers.size()), pointers.data(), [&] {
+    Study study = study_of([&](const Replica&) { return measured = true, 1.0; });
+    study.target = "vale";
+    return study;
+  });
+  EXPECT_EQ(status, 3);
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("vale"), std::string::npos);
+  EXPECT_FALSE(measured);
+}
+
+}  // namespace

@@ -1,0 +1,163 @@
+#include "statistics/control_variates.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "support/columns.hpp"
+#include "support/sample.hpp"
+
+namespace {
+
+using namespace lorentz;
+
+/// y = 5 + 2 c_1 - 3 c_2 + noise, with skewed controls of mean 0.
+Records noisy(std::size_t size, double noise, std::uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  std::exponential_distribution<double> exponential;
+  std::normal_distribution<double> normal;
+  Records records(3);
+  for (std::size_t i = 0; i < size; ++i) {
+    const double a = exponential(generator) - 1, b = 100 * (exponential(generator) - 1);
+    records.append(std::vector{5 + 2 * a - 0.03 * b + noise * normal(generator), a, b});
+  }
+  return records;
+}
+
+support::Sample first_column(const Records& records) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < records.size(); ++i) values.push_back(records[i][0]);
+  return support::sample(values);
+}
+
+TEST(ControlVariates, UseCoefficientsOfTheOtherRecords) {
+  const Records records = noisy(12, 1, 1);
+  const Records reduced = *regress_out(records, support::on_last(records, 2));
+  for (std::size_t left_out = 0; left_out < records.size(); ++left_out) {
+    Eigen::MatrixXd design(11, 3);
+    Eigen::VectorXd y(11);
+    for (std::size_t i = 0, row = 0; i < records.size(); ++i) {
+      if (i == left_out) continue;
+      design.row(static_cast<Eigen::Index>(row)) << 1, records[i][1], records[i][2];
+      y(static_cast<Eigen::Index>(row++)) = records[i][0];
+    }
+    const Eigen::VectorXd fit = design.colPivHouseholderQr().solve(y);
+    const double expected =
+        records[left_out][0] - fit(1) * records[left_out][1] - fit(2) * records[left_out][2];
+    EXPECT_NEAR(reduced[left_out][0], expected, 1e-12);
+    EXPECT_EQ(reduced[left_out][1], records[left_out][1]);
+  }
+}
+
+TEST(ControlVariates, LeaveTheNoiseAndNoBias) {
+  std::vector<double> means, variances;
+  double squares = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    const support::Sample reduced =
+        first_column(*regress_out(noisy(30, 0.5, seed), support::on_last(noisy(30, 0.5, seed), 2)));
+    means.push_back(reduced.mean);
+    variances.push_back(reduced.standard_error * reduced.standard_error);
+    squares += std::pow(reduced.mean - 5, 2) / 400;
+  }
+  EXPECT_LT(std::abs(support::z_score(support::sample(means), 5.0)), 4);
+  // Squared deviations from the truth agree with the squared errors; sum of squares of 400 normal numbers.
+  const double ratio = squares / support::sample(variances).mean;
+  EXPECT_LT(std::abs(ratio - 1), 4 * std::sqrt(2. / 400));
+  // The plain error is five times larger.
+  EXPECT_GT(first_column(noisy(30, 0.5, 1)).standard_error, 3 * std::sqrt(support::sample(variances).mean));
+}
+
+TEST(ControlVariates, ThatDoNotVaryAreLeftOut) {
+  Records records(4);
+  const Records source = noisy(10, 0.1, 3);  // enough for two controls, not for three
+  for (std::size_t i = 0; i < source.size(); ++i)
+    records.append(std::vector{source[i][0], source[i][1], source[i][2], 1. / 3});
+  const Records with = *regress_out(records, support::on_last(records, 3)),
+                without = *regress_out(source, support::on_last(source, 2));
+  for (std::size_t i = 0; i < source.size(); ++i) EXPECT_NEAR(with[i][0], without[i][0], 1e-12);
+}
+
+TEST(ControlVariates, MayBeOfAnySize) {
+  const Records usual = noisy(30, 0.5, 1), expected = *regress_out(usual, support::on_last(usual, 2));
+  for (const int exponent : {-1000, -600, 600, 1000}) {
+    Records extreme(3);
+    for (std::size_t i = 0; i < usual.size(); ++i)
+      extreme.append(
+          std::vector{usual[i][0], std::ldexp(usual[i][1], exponent), std::ldexp(usual[i][2], exponent)});
+    const Records reduced = *regress_out(extreme, support::on_last(extreme, 2));
+    for (std::size_t i = 0; i < usual.size(); ++i) EXPECT_EQ(reduced[i][0], expected[i][0]) << exponent;
+  }
+}
+
+TEST(ControlVariates, AreNotUsedWhereTheyCannotBeRegressed) {
+  const Records few = noisy(5, 1, 1);
+  EXPECT_FALSE(regress_out(few, support::on_last(few, 2)));
+  EXPECT_FALSE(regress_out(few, support::on_last(few, 0)));
+  Records lonely(2);  // one record determines the coefficient
+  for (int i = 0; i < 20; ++i) lonely.append(std::vector{std::sin(i), i == 3 ? 1. : 0.});
+  EXPECT_FALSE(regress_out(lonely, support::on_last(lonely, 1)));
+  const ReducedRecords unchanged = reduce_variance(few, {support::on_last(few, 2)});
+  EXPECT_FALSE(unchanged.control_variates);
+  EXPECT_EQ(unchanged.records.values(), few.values());
+}
+
+/// Controls that are independent of the columns increase the variance, relatively by about the ratio of the
+/// numbers of controls and records.
+TEST(ControlVariates, AreUsedOnlyIfTheyHelp) {
+  int used = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    std::mt19937_64 generator(seed);
+    std::normal_distribution<double> normal;
+    Records unrelated(23);
+    for (int i = 0; i < 32; ++i) {
+      std::vector<double> row;
+      for (int column = 0; column < 23; ++column) row.push_back(normal(generator));
+      unrelated.append(row);
+    }
+    EXPECT_GT(variance_ratio(*regress_out(unrelated, support::on_last(unrelated, 3)), unrelated,
+                             support::columns(0, 20)),
+              0.9);
+    const ReducedRecords chosen = reduce_variance(unrelated, {support::on_last(unrelated, 3)});
+    used += chosen.control_variates ? 1 : 0;
+    EXPECT_LE(variance_ratio(chosen.records, unrelated, support::columns(0, 20)), 1);
+  }
+  EXPECT_LT(used, 20);
+  EXPECT_TRUE(reduce_variance(noisy(30, 0.5, 1), {support::on_last(noisy(30, 0.5, 1), 2)}).control_variates);
+}
+
+/// A column that the controls determine would become a constant with an error of 0.
+TEST(ControlVariates, LeaveColumnsThatTheyDetermine) {
+  const Records source = noisy(30, 0.5, 1);
+  Records records(4);  // measured, determined, two controls
+  for (std::size_t i = 0; i < source.size(); ++i)
+    records.append(
+        std::vector{source[i][0], 7 + source[i][1] - 2 * source[i][2], source[i][1], source[i][2]});
+  const ReducedRecords reduced = reduce_variance(records, {support::on_last(records, 2)});
+  EXPECT_TRUE(reduced.control_variates);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    EXPECT_EQ(reduced.records[i][1], records[i][1]);
+    EXPECT_NE(reduced.records[i][0], records[i][0]);
+  }
+}
+
+/// Each regression has its own controls; columns of no regression stay unchanged.
+TEST(ControlVariates, AreRegressedGroupByGroup) {
+  const Records source = noisy(30, 0.5, 1), other = noisy(30, 0.5, 2);
+  Records records(6);
+  for (std::size_t i = 0; i < source.size(); ++i)
+    records.append(
+        std::vector{source[i][0], source[i][1], source[i][2], other[i][0], other[i][1], other[i][2]});
+  const ReducedRecords reduced = reduce_variance(records, {{{0}, {1, 2}}, {{3}, {4, 5}}});
+  const Records first = *regress_out(source, support::on_last(source, 2));
+  const Records second = *regress_out(other, support::on_last(other, 2));
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    EXPECT_DOUBLE_EQ(reduced.records[i][0], first[i][0]);
+    EXPECT_DOUBLE_EQ(reduced.records[i][3], second[i][0]);
+    EXPECT_EQ(reduced.records[i][4], records[i][4]);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,72 @@
+#include "statistics/histogram.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace {
+
+using namespace lorentz;
+
+TEST(Bins, HaveAnEdgeAtZero) {
+  const Bins bins(6, 3);
+  EXPECT_EQ(bins.edge(3), 0);
+  for (std::size_t bin = 0; bin < 6; ++bin) EXPECT_EQ(bins[bins.middles()[bin]], bin);
+  EXPECT_EQ(bins[0.0], 3U);
+  EXPECT_EQ(bins[-1e-300], 2U);
+  for (const double outside : {3.0, -3.0, 1e300, -1e300}) EXPECT_GE(bins[outside], 6U) << outside;
+}
+
+/// The double `steps` steps above x.
+double neighbour(double x, int steps) {
+  for (; steps > 0; --steps) x = std::nextafter(x, 1e300);
+  for (; steps < 0; ++steps) x = std::nextafter(x, -1e300);
+  return x;
+}
+
+// The bin number is nondecreasing in steps of one and changes within two units in the last place of every
+// edge; the two halves are mirror images. Mutant: adding half the number of bins before truncation, which
+// rounds -1e-17 to 0.
+TEST(Bins, ChangeAtTheEdges) {
+  for (const double max : {3., 60., 0.7, 1e-150, 1e150}) {
+    const Bins bins(100, max);
+    for (std::size_t edge = 1; edge < 100; ++edge) {
+      std::size_t before = edge - 1;
+      for (int steps = -3; steps <= 3; ++steps) {
+        const double value = neighbour(bins.edge(edge), steps);
+        const std::size_t bin = bins[value];
+        ASSERT_TRUE(bin == before || bin == edge) << max << " " << edge << " " << steps;
+        before = bin;
+        if (value != 0) {
+          ASSERT_EQ(bins[-value], 99 - bin);
+        }
+      }
+      ASSERT_EQ(bins[neighbour(bins.edge(edge), -3)], edge - 1);
+      ASSERT_EQ(before, edge);
+    }
+    EXPECT_EQ(bins[-1e-17 * max], 49U);
+    EXPECT_EQ(bins[neighbour(max, -3)], 99U);
+    EXPECT_EQ(bins[neighbour(max, 3)], 100U);
+  }
+}
+
+TEST(Bins, DivideTheRangeEvenly) {
+  const Bins bins(6, 1.5);
+  EXPECT_EQ(bins.count(), 6U);
+  EXPECT_EQ(bins.width(), 0.5);
+  EXPECT_EQ(bins.edge(0), -1.5);
+  EXPECT_EQ(bins.edge(6), 1.5);
+  EXPECT_EQ(bins.middles(), (std::vector<double>{-1.25, -0.75, -0.25, 0.25, 0.75, 1.25}));
+}
+
+// Mutants: values outside are counted in the last bin; weights are replaced by 1.
+TEST(Histogram, SumsWeightsAndLeavesOutWhatLiesOutside) {
+  Histogram histogram(Bins(4, 2));
+  for (const double value : {-2.5, -1.5, -0.5, 0.5, 0.5, 2., 7.}) histogram.add(value);
+  histogram.add(1.5, 0.25);
+  histogram.add(-0.5, -3);
+  EXPECT_EQ(histogram.weights(), (std::vector<double>{1, -2, 2, 0.25}));
+}
+
+}  // namespace

@@ -1,0 +1,145 @@
+#include "statistics/jackknife.hpp"
+
+#include <gsl/gsl_cdf.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include "support/sample.hpp"
+
+namespace {
+
+using namespace lorentz;
+
+std::vector<double> identity(std::span<const double> mean) { return {mean.begin(), mean.end()}; }
+std::vector<double> ratio(std::span<const double> mean) { return {mean[1] / mean[0]}; }
+
+// For the mean, the leave-one-out values are the mean plus (mean - x_r)/(R-1), and the jackknife error is the
+// usual standard error.
+TEST(Jackknife, IsTheStandardErrorOfAMean) {
+  std::mt19937_64 generator(1);
+  std::normal_distribution<double> normal(1000, 1);
+  for (const int replicas : {2, 3, 10, 1000}) {
+    Records records(1);
+    for (int i = 0; i < replicas; ++i) records.append(std::vector{normal(generator)});
+    const Estimate estimate = jackknife(records, identity);
+    const support::Sample expected = support::sample(records.values());
+    // The mean has rounding errors of 2^-53 of 1000, which multiplies in x_r.
+    EXPECT_NEAR(estimate.mean[0], expected.mean, 1e-12);
+    EXPECT_NEAR(estimate.standard_error[0] / expected.standard_error, 1, 1e-12 * replicas);
+  }
+}
+
+// Rare events, such as the longest waiting times, occur in one replica only. Their part of the mean is not a
+// binary fraction, so that mean + (mean - x)/(R-1) would leave rounding errors, whose ratio is arbitrary.
+TEST(Jackknife, KnowsNoRatioWithoutTheOnlyReplicaThatHasOne) {
+  for (const int replicas : {3, 7, 24, 49}) {
+    Records records(2);
+    for (int i = 1; i < replicas; ++i) records.append(std::vector{0.0, 0.0});
+    records.append(std::vector{3.0, 0.7});
+    const Estimate estimate = jackknife(records, ratio);
+    EXPECT_NEAR(estimate.mean[0], 0.7 / 3, 1e-15);
+    EXPECT_TRUE(std::isnan(estimate.standard_error[0])) << replicas;
+  }
+}
+
+// The squares of these numbers underflow or overflow.
+TEST(Jackknife, HasAnErrorAtEveryMagnitude) {
+  for (const double unit : {1e-300, 1e300}) {
+    Records records(1);
+    for (const double x : {1.0, 2.0, 6.0}) records.append(std::vector{unit * x});
+    EXPECT_NEAR(jackknife(records, identity).standard_error[0] / unit, std::sqrt(7. / 3), 1e-14);
+  }
+}
+
+TEST(Jackknife, HasNoErrorForOneReplica) {
+  Records records(2);
+  records.append(std::vector{2.0, 3.0});
+  const Estimate estimate = jackknife(records, ratio);
+  EXPECT_EQ(estimate.mean, std::vector{1.5});
+  ASSERT_EQ(estimate.standard_error.size(), 1U);
+  EXPECT_TRUE(std::isnan(estimate.standard_error[0]));
+}
+
+TEST(Jackknife, IsExactlyZeroWithoutSpread) {
+  for (const double value : {0.1, 1e-300, 1e300, -7.3}) {
+    Records records(1);
+    for (int i = 0; i < 7; ++i) records.append(std::vector{value});
+    EXPECT_EQ(jackknife(records, identity).mean, std::vector{value});
+    EXPECT_EQ(jackknife(records, identity).standard_error, std::vector{0.0});
+  }
+}
+
+TEST(Jackknife, KeepsQuantitiesApart) {
+  Records records(2);
+  for (const double x : {1.0, 2.0, 4.0}) records.append(std::vector{x, 10 * x * x});
+  const Estimate both = jackknife(records, identity);
+  Records second(1);
+  for (const double x : {1.0, 2.0, 4.0}) second.append(std::vector{10 * x * x});
+  EXPECT_EQ(both.standard_error.at(1), jackknife(second, identity).standard_error.at(0));
+  EXPECT_THROW(records.append(std::vector{1.0}), std::invalid_argument);
+}
+
+/// Records (x, y) with means 2 and 3: x = 2 + 0.2 g, y = 3 + 0.6 g + 0.4 h with g, h standard normal. To
+/// leading order the ratio of the means has the variance ((0.6 - 1.5 0.2)^2 + 0.4^2) / 2^2 per replica.
+constexpr int replicas = 200;
+constexpr double true_ratio = 1.5;
+constexpr double true_deviation = 0.25;
+
+Records synthetic_records(std::mt19937_64& generator) {
+  std::normal_distribution<double> normal;
+  Records records(2);
+  for (int i = 0; i < replicas; ++i) {
+    const double g = normal(generator), h = normal(generator);
+    records.append(std::vector{2 + 0.2 * g, 3 + 0.6 * g + 0.4 * h});
+  }
+  return records;
+}
+
+/// Sum of ((estimate - truth) / error)^2 over 400 independent repetitions.
+constexpr int repetitions = 400;
+
+double chi_squared(const std::function<double(const Records&)>& error) {
+  std::mt19937_64 generator(2);
+  double sum = 0;
+  for (int i = 0; i < repetitions; ++i) {
+    const Records records = synthetic_records(generator);
+    sum += std::pow((ratio(records.mean())[0] - true_ratio) / error(records), 2);
+  }
+  return sum;
+}
+
+double jackknife_error(const Records& records) { return jackknife(records, ratio).standard_error[0]; }
+
+bool plausible(double chi_squared) {
+  return std::min(gsl_cdf_chisq_P(chi_squared, repetitions), gsl_cdf_chisq_Q(chi_squared, repetitions)) >
+         5e-5;
+}
+
+// The error from 200 replicas has a relative error of 5 %, which adds 1 % to the expected chi^2, a tenth of
+// its standard deviation. The bias of the ratio, of second order in 0.1/sqrt(200), is negligible.
+TEST(Jackknife, GivesTheErrorOfARatio) {
+  EXPECT_TRUE(plausible(chi_squared(jackknife_error)));
+  EXPECT_TRUE(plausible(chi_squared([](const Records&) { return true_deviation / std::sqrt(replicas); })));
+}
+
+TEST(Jackknife, WrongErrorsAreImplausible) {
+  // Mutant: the standard deviation of the leave-one-out values without the factor R-1 for their correlation.
+  const auto without_factor = [](const Records& r) { return jackknife_error(r) / std::sqrt(replicas - 1.0); };
+  // Mutant: numerator and denominator treated as independent.
+  const auto uncorrelated = [](const Records& r) {
+    const Estimate means = jackknife(r, identity);
+    return ratio(means.mean)[0] *
+           std::hypot(means.standard_error[0] / means.mean[0], means.standard_error[1] / means.mean[1]);
+  };
+  EXPECT_FALSE(plausible(chi_squared(without_factor)));
+  EXPECT_FALSE(plausible(chi_squared(uncorrelated)));
+}
+
+}  // namespace

@@ -1,0 +1,45 @@
+#include "statistics/log_grid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace {
+
+using namespace lorentz;
+
+TEST(LogGrid, HasEqualFactorsAndFindsIntervals) {
+  const LogGrid grid(0.01, 3, 8);
+  const std::vector<double> points = grid.points();
+  ASSERT_EQ(points.size(), 25U);
+  EXPECT_NEAR(points.front(), 0.01, 1e-16);
+  EXPECT_NEAR(points.back(), 10, 1e-13);
+  for (std::size_t i = 0; i < grid.intervals(); ++i) {
+    EXPECT_NEAR(points[i + 1] / points[i], std::pow(10, 0.125), 1e-12);
+    EXPECT_EQ(grid.interval(grid.middles()[i]), i);
+  }
+}
+
+// A point belongs exactly to the interval above it. Mutants: cells of the table twice as wide, so that some
+// contain two points; a point counted in the interval below.
+TEST(LogGrid, FindsIntervalsNextToPointsAndBeyondTheEnds) {
+  for (const std::size_t per_decade : {1, 8, 10, 37}) {
+    for (const double first : {0.01, 3., 1e-200, 1e200}) {
+      const LogGrid grid(first, 3, per_decade);
+      const std::vector<double> points = grid.points();
+      for (std::size_t i = 1; i < grid.intervals(); ++i) {
+        ASSERT_EQ(grid.interval(std::nextafter(points[i], 0.)), i - 1) << per_decade << " " << first;
+        ASSERT_EQ(grid.interval(points[i]), i) << per_decade << " " << first;
+      }
+      for (const double below : {5e-324, 1e-300, points[0] / 2, std::nextafter(points[0], 0.), points[0]})
+        EXPECT_EQ(grid.interval(below), 0U) << per_decade << " " << first;
+      for (const double above : {std::nextafter(points.back(), 0.), points.back(), 2 * points.back(), 1e308,
+                                 std::numeric_limits<double>::infinity()})
+        EXPECT_EQ(grid.interval(above), grid.intervals() - 1) << per_decade << " " << first;
+    }
+  }
+}
+
+}  // namespace

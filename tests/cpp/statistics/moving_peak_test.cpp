@@ -1,0 +1,114 @@
+#include "statistics/moving_peak.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <span>
+#include <vector>
+
+namespace {
+
+using namespace lorentz;
+
+constexpr int cells = 121, centre = cells / 2;
+const std::vector<double> times{1, 2, 4};
+constexpr double positions[] = {20, 25, 35};
+constexpr double heights[] = {8, 4, 2};  // 8/t
+
+/// Gaussian peaks, whose logarithm the fit meets exactly, at equal distances on both sides, and an odd part:
+/// `odd` at the distance 3 on the right, minus that on the left.
+std::vector<double> profiles(double factor = 1, double odd = 0) {
+  std::vector<double> values;
+  for (std::size_t k = 0; k < times.size(); ++k)
+    for (int cell = 0; cell < cells; ++cell) {
+      const double distance = std::abs(cell - centre), width = 2 * times[k];
+      const double x = (distance - positions[k]) / width;
+      const double extra = distance == 3 ? std::copysign(odd, cell - centre) : 0;
+      values.push_back(factor * heights[k] * std::exp(-0.5 * x * x) + extra);
+    }
+  return values;
+}
+
+Columns all_columns() {
+  Columns columns;
+  for (std::size_t i = 0; i < times.size() * cells; ++i) columns.push_back(i);
+  return columns;
+}
+
+Records records_of(std::initializer_list<std::vector<double>> rows) {
+  Records records(times.size() * cells);
+  for (const std::vector<double>& row : rows) records.append(row);
+  return records;
+}
+
+PeakWindows windows_of(const Records& records) { return peak_windows(records, all_columns(), times.size()); }
+
+/// Of a mean record that holds nothing but the profiles, and that lives on.
+MovingPeak peak_of(const std::vector<double>& mean, const PeakWindows& windows) {
+  return {mean, std::span(mean), times, windows};
+}
+
+// Mutants: the profile not folded; times exchanged; a slope with its sign; a width of t^1/2.
+TEST(MovingPeak, FollowsGaussianPeaks) {
+  const std::vector<double> mean = profiles();
+  const PeakWindows windows = windows_of(records_of({profiles(0.9), profiles(1.1)}));
+  const MovingPeak peak = peak_of(mean, windows);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    EXPECT_NEAR(peak.positions()[k], positions[k], 1e-3) << k;
+    EXPECT_NEAR(peak.heights()[k], heights[k], 1e-3) << k;
+    EXPECT_NEAR(peak.raw_heights()[k], heights[k], 1e-12) << k;
+  }
+  ASSERT_EQ(peak.speeds().size(), 2U);
+  EXPECT_NEAR(peak.speeds()[0], 5, 1e-3);
+  EXPECT_NEAR(peak.speeds()[1], 5, 1e-3);
+  EXPECT_NEAR(peak.exponent(), 1, 1e-3);
+  ASSERT_EQ(peak.exponents_from().size(), 2U);
+  EXPECT_NEAR(peak.exponents_from()[1], 1, 1e-3);
+  EXPECT_NEAR(peak.collapse(), 1, 0.02);  // the width grows as t, the height falls as 1/t
+}
+
+// Mutants: the even part; the left side minus the right one; a share of one side.
+TEST(MovingPeak, OddPartAndCentre) {
+  const std::vector<double> mean = profiles(1, 0.5);
+  const MovingPeak peak = peak_of(mean, PeakWindows(times.size()));
+  const std::vector<double> odd = peak.odd_parts();
+  ASSERT_EQ(odd.size(), times.size() * centre);
+  for (std::size_t k = 0; k < times.size(); ++k)
+    for (std::size_t d = 1; d <= centre; ++d)
+      EXPECT_NEAR(odd[k * centre + d - 1], d == 3 ? 0.5 : 0, 1e-12) << k << ' ' << d;
+  double share = 0;
+  for (int cell = centre - 2; cell <= centre + 2; ++cell) share += mean[2 * cells + cell];
+  EXPECT_NEAR(peak.centre_shares(10)[2], share / 10, 1e-12);
+}
+
+// A peak that has not left the centre at the first time: what derives from it is NaN, the rest uses the other
+// times. Mutants: a height of 0; a fit that includes it; NaN for all.
+TEST(MovingPeak, IsNoneBeforeThePeakHasLeftTheCentre) {
+  std::vector<double> mean = profiles();
+  for (int cell = 0; cell < cells; ++cell) mean[cell] = std::exp(-0.02 * (cell - centre) * (cell - centre));
+  const PeakWindows windows = windows_of(records_of({mean, mean}));
+  EXPECT_FALSE(windows[0]);
+  ASSERT_TRUE(windows[1]);
+  const MovingPeak peak = peak_of(mean, windows);
+  EXPECT_TRUE(std::isnan(peak.positions()[0]));
+  EXPECT_TRUE(std::isnan(peak.heights()[0]));
+  EXPECT_TRUE(std::isnan(peak.speeds()[0]));
+  EXPECT_TRUE(std::isnan(peak.exponents_from()[0]));
+  EXPECT_NEAR(peak.speeds()[1], 5, 1e-3);
+  EXPECT_NEAR(peak.exponent(), 1, 1e-3);
+}
+
+// The mean has a peak, but without the second replica the profile rises to the far side: no error could be
+// had. Mutant: windows of the mean alone.
+TEST(PeakWindows, HoldThePeakWhicheverReplicaIsLeftOut) {
+  std::vector<double> none(times.size() * cells);
+  for (std::size_t i = 0; i < none.size(); ++i)
+    none[i] = 1e-3 * std::exp(0.02 * std::abs(static_cast<int>(i) % cells - centre));
+  const PeakWindows windows = windows_of(records_of({none, profiles(3)}));
+  for (const auto& window : windows) EXPECT_FALSE(window);
+  for (const auto& window : windows_of(records_of({profiles(1), profiles(3)}))) EXPECT_TRUE(window);
+  for (const auto& window : windows_of(records_of({profiles()}))) EXPECT_TRUE(window);
+}
+
+}  // namespace

@@ -1,0 +1,67 @@
+#include "statistics/tally.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+namespace {
+
+using namespace lorentz;
+
+struct Tallies : TallySchema {
+  Axis place = numbered_axis("place", "Where", 3, 1), side{"side", "1", "Which", {-1, 1}};
+  ScalarTally number = tally("number", "1", "A number");
+  Tally table = tally("table", {side, place}, "energy", "An array");
+  ScalarTally last = tally("last", "time", "Another number");
+};
+
+// Mutants: the width before the tally is added; the size of the first axis alone.
+TEST(TallySchema, LaysTalliesSideBySide) {
+  const Tallies tallies;
+  EXPECT_EQ(tallies.width(), 8U);
+  EXPECT_EQ(tallies.number.column, 0U);
+  EXPECT_EQ(tallies.table.first, 1U);
+  EXPECT_EQ(tallies.table.size, 6U);
+  EXPECT_EQ(tallies.last.column, 7U);
+  EXPECT_EQ(columns_of({tallies.last, tallies.table}), (Columns{7, 1, 2, 3, 4, 5, 6}));
+}
+
+TEST(TallySchema, KeepsDescriptionsInOrder) {
+  const std::vector<Description> described = Tallies().tallies();
+  ASSERT_EQ(described.size(), 3U);
+  EXPECT_EQ(described[1].name, "table");
+  EXPECT_EQ(described[1].units, "energy");
+  EXPECT_EQ(described[1].description, "An array");
+  EXPECT_EQ(described[1].axes[1].values, (std::vector<double>{1, 2, 3}));
+  EXPECT_TRUE(described[2].axes.empty());
+}
+
+// Mutants: a record that is not zero at first; a span that begins at the first tally.
+TEST(Record, HoldsEveryTallyAtItsPlace) {
+  const Tallies tallies;
+  Record record(tallies);
+  EXPECT_EQ(record.values(), std::vector<double>(8, 0));
+  record[tallies.number] += 2;
+  record[tallies.table][4] = 3;
+  record[tallies.last] = 5;
+  EXPECT_EQ(record.values(), (std::vector<double>{2, 0, 0, 0, 0, 3, 0, 5}));
+
+  const RecordView view(record.values());
+  EXPECT_EQ(view[tallies.number], 2);
+  EXPECT_EQ(view[tallies.last], 5);
+  EXPECT_TRUE(std::ranges::equal(view[tallies.table], record[tallies.table]));
+}
+
+// Mutants: fewer values, or more, copied without a word.
+TEST(Record, RefusesArraysOfAnotherSize) {
+  const Tallies tallies;
+  Record record(tallies);
+  record.set(tallies.table, std::vector<double>{1, 2, 3, 4, 5, 6});
+  EXPECT_EQ(record.values(), (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 0}));
+  EXPECT_THROW(record.set(tallies.table, std::vector<double>(5)), std::out_of_range);
+  EXPECT_THROW(record.set(tallies.table, std::vector<double>(7)), std::out_of_range);
+}
+
+}  // namespace

@@ -1,0 +1,115 @@
+"""A job is run with its options word by word, in an environment of its own, and entered into the lock if it succeeds."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.python.conftest import ROOT
+
+HOSTILE = {
+    "name": "x; touch a",
+    "other": "`touch a`$(touch a)'\"",
+    "negative": -0.5,
+    "flag": True,
+    "off": False,
+}
+PROGRAM = """#!/usr/bin/python3
+import json, os, signal, sys, time
+options = dict(zip(sys.argv, sys.argv[1:]))
+output = options["--output"]
+signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
+print("said", file=sys.stderr, flush=True)
+if "--wait" in sys.argv:
+    time.sleep(60)
+status = int(options.get("--status", 0))
+if status in (0, 4):
+    open(output, "w").write(json.dumps([sys.argv[1:], sorted(os.environ)]))
+    open(output.removesuffix(".h5") + ".cost.json", "w").write("{}")
+sys.exit(status)
+"""
+
+
+@pytest.fixture
+def root(tmp_path: Path) -> Path:
+    """A project with one program, `fake`, which writes down its words and its environment."""
+    shutil.copytree(ROOT / "workflow", tmp_path / "workflow")
+    for folder in ("bin", "id", "logs"):
+        (tmp_path / "build" / folder).mkdir(parents=True)
+    (tmp_path / "build/bin/fake").write_text(PROGRAM)
+    (tmp_path / "build/bin/fake").chmod(0o755)
+    (tmp_path / "build/id/fake.json").write_text(
+        json.dumps({"program": "fake", "build_id": "b", "sources": {}})
+    )
+    return tmp_path
+
+
+def start(root: Path, options: dict) -> subprocess.Popen:
+    command = [
+        sys.executable,
+        "-S",
+        "-m",
+        "workflow.provenance.execute",
+        "simulate",
+        "--log",
+        "build/logs/log",
+    ]
+    command += ["--quality", "smoke", "--panel", "fig99", "--run", "all_gamma=1", "--program", "fake"]
+    command += ["--options", json.dumps(options), "--threads", "3", "--replicated"]
+    return subprocess.Popen(
+        command, cwd=root, env={"PATH": os.defpath, "OMP_NUM_THREADS": "7", "HOSTILE": "1"}
+    )
+
+
+def jobs(root: Path) -> dict:
+    lock = root / "data/smoke/lock.json"
+    return json.loads(lock.read_text())["jobs"] if lock.is_file() else {}
+
+
+@pytest.mark.parametrize("status", [0, 4])
+def test_options_reach_the_program_as_they_are(root: Path, status: int) -> None:
+    options = HOSTILE | {"status": status}
+    assert start(root, options).wait() == 0
+    words, environment = json.loads((root / "data/smoke/fig99/all_gamma=1.h5").read_text())
+    asked = ["--name", HOSTILE["name"], "--other", HOSTILE["other"], "--negative", "-0.5", "--flag"]
+    assert words[: len(asked)] == asked
+    assert "--off" not in words
+    assert words[-5:] == ["--threads", "3", "--resume", "--progress", "log"]
+    assert "HOSTILE" not in environment
+    assert not (root / "a").exists()
+    recorded = jobs(root)["fig99/all_gamma=1"]
+    assert (recorded["tool"], recorded["options"], recorded["exit"]) == ("fake", options, status)
+    assert (root / "build/logs/log").read_text() == "said\n"
+    assert (root / "build/costs/smoke/fig99/all_gamma=1.json").is_file()
+
+
+@pytest.mark.parametrize("status", [1, 3])
+def test_what_fails_is_not_recorded(root: Path, status: int) -> None:
+    assert start(root, {"status": status}).wait() == status
+    assert jobs(root) == {}
+    assert not list((root / "data").rglob("*.h5"))
+
+
+def test_a_program_is_told_to_stop_and_waited_for(root: Path) -> None:
+    running = start(root, {"wait": True})
+    log = root / "build/logs/log"
+    while not (log.is_file() and log.read_text()):
+        time.sleep(0.05)
+    running.send_signal(signal.SIGTERM)
+    assert running.wait(timeout=10) == 143
+    assert jobs(root) == {}
+
+
+def test_a_checkpoint_belongs_to_its_options(root: Path) -> None:
+    for options in ({"sigma": 1}, {"sigma": 1}, {"sigma": 2}):
+        start(root, options).wait()
+        words, _ = json.loads((root / "data/smoke/fig99/all_gamma=1.h5").read_text())
+        (root / "seen").open("a").write(words[words.index("--output") + 1] + "\n")
+    first, second, third = (root / "seen").read_text().split()
+    assert first == second != third

@@ -1,0 +1,104 @@
+"""Ext. 10: equilibrium. Both baths alike: the flux of the particles and the momenta of the end scatterers against the
+Gaussian at the temperature of the baths.
+
+Left the flux F_N that leaves at both ends, right the density g of the end scatterers' P/sqrt(M), both over the exact one, bin by
+bin, minus 1. The legends give chi^2 over the bins that hold more than 1e-4 of all, and the distance of Kolmogorov and Smirnov.
+"""
+
+from collections.abc import Sequence
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from scipy.special import erf
+
+from workflow.lib import style
+from workflow.lib.figure import run
+from workflow.lib.load import Result
+
+SEEN = 1e-4  # probability of the rarest bins that are shown
+
+
+def gaussian(momentum: np.ndarray, temperature: float) -> np.ndarray:
+    """Probability density, averaged over equal bins about the given momenta."""
+    half = 0.5 * (momentum[1] - momentum[0])
+    below = [erf((momentum + sign * half) / np.sqrt(2 * temperature)) for sign in (-1, 1)]
+    return 0.5 * (below[1] - below[0]) / (2 * half)
+
+
+def outgoing_flux(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Momenta, F_N of what leaves (p < 0 at the left end, p > 0 at the right one), its error, the exact F."""
+    flux, parameters = result["flux"], result.parameters
+    momentum = flux.axes["momentum"]
+    left = momentum < 0
+    values = [np.where(left, array[0], array[-1]) for array in (flux.mean, flux.standard_error)]
+    exact = 2 * parameters["nu-left"] * gaussian(momentum, parameters["temperature-left"])
+    return momentum, *values, exact
+
+
+def end_scatterers(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Momenta, g of both end scatterers together, its error, the exact g."""
+    density = result["scatterer_density"]
+    momentum = density.axes["momentum"]
+    error = np.hypot(*density.standard_error) / 2
+    return (
+        momentum,
+        density.mean.mean(axis=0),
+        error,
+        gaussian(momentum, result.parameters["temperature-left"]),
+    )
+
+
+def largest_distance(found: np.ndarray, error: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
+    """Kolmogorov and Smirnov's, between the sums up to a bin, with the error of the sum where it is largest."""
+    total = exact.sum()
+    distance = np.cumsum(found - exact) / total
+    at = int(np.abs(distance).argmax())
+    return float(np.abs(distance[at])), float(np.sqrt(np.nansum(error[: at + 1] ** 2)) / total)
+
+
+def plot(axes: Axes, result: Result, curve: tuple, units: str, shift: float) -> pd.DataFrame:
+    momentum, found, error, exact = curve
+    seen = exact * (momentum[1] - momentum[0]) > SEEN * exact.sum() * (momentum[1] - momentum[0])
+    momentum, found, error, exact = (array[seen] for array in (momentum, found, error, exact))
+    chi_square = float(np.sum(((found - exact) / error) ** 2))
+    distance, distance_error = largest_distance(found, error, exact)
+    marker, color = style.BY_GAMMA[result.parameters["gamma"]]
+    look = {"marker": marker, "color": color, "markerfacecolor": "white", "markersize": 2.5, **style.POINTS}
+    label = (
+        rf"$\gamma = {style.gamma(result)}$: $\chi^2 = {chi_square:.0f}$ of {len(found)}, "
+        rf"$D = {1e4 * distance:.1f}({1e4 * distance_error:.1f})\cdot 10^{{-4}}$"
+    )
+    axes.errorbar(momentum + shift, 100 * (found / exact - 1), 100 * error / exact, label=label, **look)
+    table = pd.DataFrame({"momentum": momentum, "found": found, "found_error": error, "exact": exact})
+    table.insert(0, "gamma", style.gamma(result))
+    return table.assign(units=units, chi_square=chi_square, distance=distance, distance_error=distance_error)
+
+
+def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
+    figure, columns = plt.subplots(1, 2, figsize=(2 * style.COLUMN, 1.1 * style.HEIGHT), sharey=True)
+    kinds = {
+        "momentum_flux": (columns[0], outgoing_flux, "flux"),
+        "steady_profile": (columns[1], end_scatterers, "scatterer_density"),
+    }
+    tables = []
+    for result in results:
+        axes, curve, name = kinds[result.provenance["program"]]
+        shift = 0.2 if style.gamma(result) == "1" else -0.2
+        table = plot(axes, result, curve(result), result[name].units, shift)
+        table.insert(0, "quantity", name)
+        tables.append(table)
+    columns[0].set(xlabel="momentum $p$", ylabel="found over exact, minus 1 / %", ylim=(-20, 20))
+    columns[1].set(xlabel=r"momentum $P/\sqrt{M}$")
+    for axes, title in zip(columns, ("flux of the particles that leave", "end scatterers"), strict=True):
+        axes.axhline(0, **style.GUIDE)
+        axes.set_title(title, fontsize=9)
+        axes.legend(loc="upper center", fontsize=7)
+    return figure, pd.concat(tables)
+
+
+if __name__ == "__main__":
+    by_row = {"found": "column units", "found_error": "column units", "exact": "column units"}
+    run(draw, "Equilibrium", chi_square="1", distance="1", distance_error="1", **by_row)

@@ -1,0 +1,83 @@
+"""Fig. 5: persistence mu against the mass ratio sigma, with the law arccos(sigma)/pi."""
+
+from collections.abc import Sequence
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from workflow.lib import style
+from workflow.lib.figure import run
+from workflow.lib.load import NOT_REACHED, Result
+
+MARKS = [
+    {"marker": "o", "color": style.BLUE, "markerfacecolor": style.BLUE},
+    {"marker": "s", "color": style.VERMILLION, "markerfacecolor": "white"},
+]
+DASHES = ["dashed", "dotted"]
+
+
+def law(sigma: np.ndarray) -> np.ndarray:
+    """Particle and scatterer Gaussian and independent, at one temperature."""
+    return np.arccos(sigma) / np.pi
+
+
+def law_at_local_energies(table: pd.DataFrame) -> np.ndarray:
+    """The same at the mean energies that particles and scatterers have when they meet."""
+    c = np.sqrt((1 - table.sigma) * (1 + table.sigma))
+    speeds = np.sqrt(table.particle_energy / table.scatterer_energy)
+    return 0.5 - np.arctan2(table.sigma * speeds, c) / np.pi
+
+
+def tabulate(results: Sequence[Result]) -> pd.DataFrame:
+    """One row per run, by number of particles and sigma."""
+    rows = [
+        {
+            "particles_per_cell": int(result.parameters["particles-per-cell"]),
+            "sigma": float(result.parameters["sigma"]),
+            "mu": float(result["mu"].mean),
+            "mu_error": float(result["mu"].standard_error),
+            "particle_energy": float(result["particle_energy"].mean),
+            "scatterer_energy": float(result["scatterer_energy"].mean),
+            "replicas": int(result["mu"].count),
+            "converged": result.converged,
+        }
+        for result in results
+    ]
+    table = pd.DataFrame(rows).sort_values(["particles_per_cell", "sigma"], ignore_index=True)
+    table.insert(4, "law", law(table.sigma))
+    table.insert(5, "deviation", table.mu - table.law)
+    table["law_at_local_energies"] = law_at_local_energies(table)
+    return table
+
+
+def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
+    table = tabulate(results)
+    figure, (above, below) = plt.subplots(
+        2, 1, sharex=True, figsize=(style.COLUMN, 1.25 * style.HEIGHT), height_ratios=[2.2, 1]
+    )
+    sigma = np.sin(np.linspace(-np.pi / 2, np.pi / 2, 401))
+    above.plot(sigma, law(sigma), color=style.BLACK, label=r"$\arccos(\sigma)/\pi$", zorder=1)
+    below.axhline(0, color=style.BLACK, zorder=1)
+    for (particles, series), mark, dashes in zip(
+        table.groupby("particles_per_cell"), MARKS, DASHES, strict=True
+    ):
+        label = f"$n = {particles}$"
+        above.errorbar(series.sigma, series.mu, series.mu_error, label=label, **mark, **style.POINTS)
+        below.errorbar(series.sigma, 1e3 * series.deviation, 1e3 * series.mu_error, **mark, **style.POINTS)
+        expected = 1e3 * (series.law_at_local_energies - series.law)
+        below.plot(series.sigma, expected, color=mark["color"], linestyle=dashes, zorder=1)
+        style.cross_out(above, series.sigma, series.mu, series.converged == NOT_REACHED)
+    below.plot([], [], color="grey", linestyle="dashed", label="law at local energies")
+    below.legend(loc="lower left")
+    above.set(ylabel=r"persistence $\mu$", xlim=(-1.04, 1.04), ylim=(-0.03, 1.03))
+    above.legend(loc="upper right", title=f"$N = {results[0].parameters['cells']}$")
+    below.set(xlabel=r"mass ratio $\sigma = (M-m)/(M+m)$", ylabel=r"$10^3\,(\mu - \mathrm{law})$")
+    figure.align_ylabels()
+    return figure, table
+
+
+if __name__ == "__main__":
+    numbers = ("law", "deviation", "law_at_local_energies")
+    run(draw, "Persistence probability against the mass ratio", **dict.fromkeys(numbers, "1"))

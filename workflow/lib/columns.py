@@ -1,0 +1,72 @@
+"""Units of the columns of a table, which a CSV states in its line `# units: `.
+
+A column named after a quantity, with `_error` for its error, after an axis or after an option has its units. What else
+a script makes of them it declares.
+"""
+
+import json
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import pandas as pd
+import yaml
+from pandas.api.types import is_bool_dtype
+
+from workflow.lib.load import Result
+from workflow.lib.units import UnitsError, parse
+
+UNITS_LINE = "# units: "
+
+# Where units differ from row to row, this and the name of the column that holds them stand in their place.
+BY_ROW = "column "
+
+SCHEMA = Path(__file__).parents[1] / "config/schema.yaml"
+
+# Of the programs' options, as the programs declare them (`make describe`); all others are pure numbers.
+OPTIONS = {
+    name: option["units"]
+    for options in yaml.safe_load(SCHEMA.read_text())["programs"].values()
+    for name, option in options.items()
+    if "units" in option
+}
+
+
+def inherited(results: Sequence[Result]) -> dict[str, str]:
+    """Units by name, as the files state them; a name that they use with several is left out."""
+    found: dict[str, set[str]] = defaultdict(set)
+    for result in results:
+        for name, quantity in result.quantities.items():
+            found[name].add(quantity.units)
+            found[f"{name}_error"].add(quantity.units)
+            for axis, units in quantity.axis_units.items():
+                found[axis].add(units)
+        for option in result.parameters:
+            found[option.replace("-", "_")].add(OPTIONS.get(option, "1"))
+    return {name: units.pop() for name, units in found.items() if len(units) == 1}
+
+
+def as_csv(table: pd.DataFrame, known: Mapping[str, str]) -> str:
+    """With the line of units before it. Raises UnitsError if a column of numbers has none, or a text is none."""
+    numbers = table.to_csv(index=False, float_format="%.12g", lineterminator="\n")
+    return f"{UNITS_LINE}{json.dumps(_units(table, known))}\n{numbers}"
+
+
+def _is_label(column: pd.Series) -> bool:
+    """One text among the values suffices: gamma is N or a number."""
+    return is_bool_dtype(column) or any(isinstance(value, str) for value in column)
+
+
+def _units(table: pd.DataFrame, known: Mapping[str, str]) -> dict[str, str]:
+    numbers = [name for name in table if not _is_label(table[name])]
+    without = [name for name in numbers if name not in known]
+    if without:
+        raise UnitsError(
+            f"the columns {', '.join(without)} have no units: name them after a quantity, or declare their units "
+            "where the script calls run()"
+        )
+    units = {name: known[name] for name in numbers}
+    for text in units.values():
+        for each in table[text.removeprefix(BY_ROW)].unique() if text.startswith(BY_ROW) else [text]:
+            parse(each)
+    return units

@@ -1,0 +1,64 @@
+"""What runs cost, and what they would cost at other settings."""
+
+import json
+import math
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+
+from workflow.lib.load import FormatError, load
+from workflow.lib.options import Options
+from workflow.lib.plan import QUALITIES, Run, data_path
+
+ROOT = Path(__file__).parents[2]
+
+
+def cost_file(quality: str, panel: str, run: str) -> dict | None:
+    """What the last execution of the run cost, as its sidecar says."""
+    path = ROOT / f"build/costs/{quality}/{panel}/{run}.json"
+    return json.loads(path.read_text()) if path.is_file() else None
+
+
+def effort(options: Options) -> float:
+    """Replicas, with their pairs, times the simulated time: what cost is proportional to, but for the start."""
+
+    def simulated(time: str) -> float:
+        return float(time.rstrip("N")) * (float(options["cells"]) if time.endswith("N") else 1)
+
+    replicas = float(options.get("replicas", 1)) * float(options.get("pairs-per-replica", 1))
+    last = str(options.get("times", "")).rsplit(",", maxsplit=1)[-1] or options.get("observation-time", 1)
+    return replicas * sum(simulated(str(time)) for time in (last, options.get("relaxation-time", 0)))
+
+
+def executions(panel: str, run: str) -> Iterator[tuple[Options, float]]:
+    """Options and CPU seconds of the last execution at every quality that has one; the plan may have changed since."""
+    for quality in QUALITIES:
+        cost = cost_file(quality, panel, run)
+        with suppress(FormatError):
+            parameters = load(ROOT / data_path(quality, panel, run)).parameters
+            if cost is not None:
+                yield parameters, cost["cpu_seconds"]
+
+
+def scaled(cost: float, share: float, start: float) -> tuple[float, float]:
+    """The least and the most that a run costs if up to `start` seconds of another's cost do not grow with the effort."""
+    least, most = sorted((cost * share, start + (cost - start) * share))
+    return least, most
+
+
+def expected_cost(panel: str, run: Run, start: float) -> tuple[float, float]:
+    """The least and the most CPU seconds, by the execution whose effort is nearest; NaN if there is none."""
+    known = [
+        (effort(options | run.options) / effort(options), cost)
+        for options, cost in executions(panel, run.name)
+    ]
+    if not known:
+        return math.nan, math.nan
+    share, cost = min(known, key=lambda one: abs(math.log(one[0])))
+    return scaled(cost, share, start)
+
+
+def cheapest() -> float:
+    """CPU seconds of the cheapest execution: no start of a program costs more."""
+    costs = (json.loads(path.read_text())["cpu_seconds"] for path in (ROOT / "build/costs").rglob("*.json"))
+    return min(costs, default=0)

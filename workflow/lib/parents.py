@@ -1,0 +1,92 @@
+"""What a figure was made from, and where PDF, PNG, SVG and CSV say it."""
+
+import hashlib
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree import ElementTree
+
+PACKAGES = "requirements.lock"
+PARENTS_LINE = "# parents: "  # of a CSV
+
+
+class ArtefactError(ValueError):
+    """A file does not say what it was made from."""
+
+
+@dataclass(frozen=True)
+class Parents:
+    """Paths are relative to the project, hashes are sha256."""
+
+    panel: str
+    quality: str
+    data: dict[str, dict]  # path: sha256, build_id, seed
+    builds: dict[str, dict]  # build id: program, source_hash, compiler, flags, libraries
+    sources: dict[str, str]  # script and the modules that it imports
+    packages: str  # the locked Python packages
+    python: str  # version, which chooses among them
+    configuration: str  # of the panel
+
+    def inputs(self) -> dict[str, str]:
+        """Every file that the figure was drawn from, with its hash."""
+        data = {path: each["sha256"] for path, each in self.data.items()}
+        return data | self.sources | {PACKAGES: self.packages}
+
+    def as_json(self) -> str:
+        return json.dumps(vars(self), sort_keys=True)
+
+    @staticmethod
+    def of(path: Path) -> "Parents":
+        """Raises ArtefactError if the file is missing, damaged, or names no parents."""
+        try:
+            return Parents(**json.loads(_described(path)))
+        except TypeError as error:
+            raise ArtefactError(f"{path} names no parents as this version does: draw it again") from error
+        except (OSError, ValueError, KeyError, SyntaxError) as error:  # the last one: XML
+            raise ArtefactError(f"{path} names no parents: {error}") from error
+
+
+def file_hash(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def _described(path: Path) -> str:
+    """The JSON text, from the place where each format keeps it."""
+    readers = {".csv": _of_table, ".svg": _of_svg, ".png": _of_png, ".pdf": _of_pdf}
+    if path.suffix not in readers:
+        raise ValueError(f"only {', '.join(readers)} and .h5 files do")
+    return readers[path.suffix](path)
+
+
+def _of_table(path: Path) -> str:
+    with path.open(encoding="utf-8") as lines:
+        lines.readline()
+        line = lines.readline()
+    if not line.startswith(PARENTS_LINE):
+        raise ValueError(f"the second line does not begin with '{PARENTS_LINE.strip()}'")
+    return line.removeprefix(PARENTS_LINE)
+
+
+def _of_svg(path: Path) -> str:
+    found = ElementTree.parse(path).find(".//{http://purl.org/dc/elements/1.1/}description")
+    if found is None or found.text is None:
+        raise ValueError("it has no description")
+    return found.text
+
+
+# The libraries that read pictures are imported late: the lock, which reads tables only, starts for every job.
+def _of_png(path: Path) -> str:
+    from PIL import Image  # noqa: PLC0415
+
+    with Image.open(path) as picture:
+        return picture.info["Description"]
+
+
+def _of_pdf(path: Path) -> str:
+    from pypdf import PdfReader  # noqa: PLC0415
+    from pypdf.errors import PdfReadError  # noqa: PLC0415
+
+    try:
+        return PdfReader(path).metadata.subject
+    except (PdfReadError, AttributeError) as error:
+        raise ValueError(str(error)) from error

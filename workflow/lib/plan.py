@@ -1,0 +1,130 @@
+"""The plan that the configuration defines: panels, and the runs of programs that each panel needs."""
+
+import hashlib
+import itertools
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+from workflow.lib.configuration import (
+    Admissible,
+    ConfigurationError,
+    load_checked,
+    paper_schema,
+    quality_schema,
+)
+from workflow.lib.options import Options
+
+FOLDER = Path(__file__).parents[1] / "config"
+KINDS = ("pdf", "png", "svg", "csv")
+QUALITIES = ("smoke", "standard", "paper", "deep")
+
+
+@dataclass(frozen=True)
+class Run:
+    """One execution of a program. The name is unique within the panel."""
+
+    name: str
+    program: str
+    options: Options
+    replicated: bool = True  # over independent replicas; False for a deterministic program
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A figure: its own runs, and the names of other panels whose runs it also shows."""
+
+    name: str
+    script: str
+    runs: tuple[Run, ...]
+    uses: tuple[str, ...] = ()
+
+    def run(self, name: str) -> Run:
+        return next(run for run in self.runs if run.name == name)
+
+    def hash(self) -> str:
+        """sha256 of the complete configuration of the panel, effort included."""
+        runs = [[run.name, run.program, run.options] for run in self.runs]
+        content = [self.name, self.script, runs, self.uses]
+        return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+
+
+def load_plan(quality: str, folder: Path = FOLDER) -> dict[str, Panel]:
+    """All panels at one quality, by name. Raises ConfigurationError."""
+    if quality not in QUALITIES:
+        raise ConfigurationError(f"QUALITY={quality} is not known: choose one of {', '.join(QUALITIES)}.")
+    paper = load_checked(folder / "paper.yaml", paper_schema())
+    efforts = load_checked(folder / "quality" / f"{quality}.yaml", quality_schema(paper))
+    admissible = Admissible.of(folder)
+    for name, panel in paper["panels"].items():
+        _check(name, panel, efforts, f"{quality}.yaml", admissible)
+    panels = {name: _panel(name, panel, efforts) for name, panel in paper["panels"].items()}
+    for panel in panels.values():
+        for used in panel.uses:
+            if used not in panels or not panels[used].runs:
+                raise ConfigurationError(f"paper.yaml: panels.{panel.name}.uses: {used} has no runs")
+    return panels
+
+
+def with_used(plan: dict[str, Panel], name: str) -> list[Panel]:
+    """The panels whose runs a panel shows: those in `uses`, then itself."""
+    return [plan[one] for one in (*plan[name].uses, name)]
+
+
+def data_path(quality: str, panel: str, run: str) -> str:
+    return f"data/{quality}/{panel}/{run}.h5"
+
+
+def data_of(plan: dict[str, Panel], name: str, quality: str) -> list[str]:
+    """Paths of the result files that a panel shows."""
+    return [data_path(quality, panel.name, run.name) for panel in with_used(plan, name) for run in panel.runs]
+
+
+def drawings_of(quality: str, panel: str) -> list[str]:
+    return [f"figures/{quality}/{panel}.{kind}" for kind in KINDS]
+
+
+def _check(name: str, panel: dict, efforts: dict, quality: str, admissible: Admissible) -> None:
+    """Every option that a run of the panel is given is one that its program has, with a value that it accepts."""
+    place = f"paper.yaml: panels.{name}"
+    for series, own in panel.get("series", {}).items():
+        program = own.get("program", panel.get("program"))
+        admissible.check_program(program, f"{place}.series.{series}")
+        admissible.check_physics(program, panel.get("common", {}), f"{place}.common")
+        admissible.check_physics(program, _options(own), f"{place}.series.{series}")
+        if own.get("replicated", True):
+            admissible.check_effort(program, efforts["default"], f"{quality}: default")
+        effort = _effort(efforts, name, series)
+        admissible.check_effort(program, effort, f"{quality}: panels.{name}.{series}")
+
+
+def _options(series: dict) -> dict:
+    return {key: value for key, value in series.items() if key not in ("program", "replicated")}
+
+
+def _effort(efforts: dict, panel: str, series: str) -> dict:
+    return efforts.get("panels", {}).get(panel, {}).get(series, {})
+
+
+def _panel(name: str, panel: dict, efforts: dict) -> Panel:
+    runs = []
+    for series, own in panel.get("series", {}).items():
+        replicated = own.get("replicated", True)
+        default = efforts["default"] if replicated else {}
+        effort = {**default, **_effort(efforts, name, series)}
+        options = {**panel.get("common", {}), **_options(own), **effort}
+        if options.get("replicas") == 0:
+            continue
+        program = own.get("program", panel.get("program"))
+        listed = [key for key, value in options.items() if isinstance(value, list)]
+        for values in itertools.product(*(options[key] for key in listed)):
+            chosen = dict(zip(listed, values, strict=True))
+            run = "_".join([series, *(f"{key}={value}" for key, value in chosen.items())])
+            seed = {"seed": _seed(name, run)} if replicated else {}
+            runs.append(Run(run, program, {**options, **chosen, **seed}, replicated))
+    return Panel(name, panel.get("script", name), tuple(runs), tuple(panel.get("uses", ())))
+
+
+def _seed(panel: str, run: str) -> int:
+    """Seed from a hash of the names, so that every run has its own, reproducible random streams."""
+    return int.from_bytes(hashlib.sha256(f"{panel}/{run}".encode()).digest()[:4], "big")

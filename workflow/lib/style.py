@@ -1,0 +1,103 @@
+"""How every figure looks: sizes, fonts, colours that differ also for the colour-blind and in grey."""
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+from workflow.lib import fit
+from workflow.lib.load import Quantity, Result
+
+# Width of one column of a journal, and the height that goes with it, in inches.
+COLUMN = 3.4
+HEIGHT = 3.0
+
+# In a label of every figure that shows a quantity with a dimension.
+UNITS = "$m = k_B = 1$"
+
+# Okabe and Ito (2008), ordered so that neighbours differ in lightness; markers differ too.
+BLACK = "#000000"
+BLUE = "#0072B2"
+ORANGE = "#E69F00"
+GREEN = "#009E73"
+VERMILLION = "#D55E00"
+SKY = "#56B4E9"
+
+# For curves in an order, from early to late: lightness rises, and so do the gaps of the dashes.
+SEQUENCE = [BLACK, BLUE, VERMILLION, ORANGE, SKY]
+DASHES = ["solid", (0, (6, 1)), (0, (4, 1, 1, 1)), (0, (3, 1.5)), (0, (1, 1))]
+
+# Marker and colour by gamma, where a figure shows both.
+BY_GAMMA = {"N": ("o", BLUE), 1: ("s", VERMILLION)}
+
+# A legend that hides the lines behind it.
+OPAQUE = {"frameon": True, "framealpha": 1, "edgecolor": "none"}
+
+GUIDE = {"color": "0.55", "linestyle": (0, (4, 2)), "linewidth": 0.8, "zorder": 0}
+
+POINTS = {"linestyle": "none", "capsize": 1.5, "elinewidth": 0.8, "capthick": 0.8, "markeredgewidth": 0.8}
+
+_SETTINGS = {
+    "font.family": "STIXGeneral",
+    "font.size": 9,
+    "mathtext.fontset": "stix",
+    "axes.linewidth": 0.6,
+    "axes.labelsize": 9,
+    "legend.fontsize": 8,
+    "legend.frameon": False,
+    "legend.handlelength": 1.6,
+    "lines.linewidth": 1.0,
+    "lines.markersize": 3.5,
+    "xtick.direction": "in",
+    "ytick.direction": "in",
+    "xtick.top": True,
+    "ytick.right": True,
+    "xtick.labelsize": 8,
+    "ytick.labelsize": 8,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "figure.constrained_layout.use": True,
+    "savefig.dpi": 300,
+    "pdf.fonttype": 42,
+    "svg.fonttype": "path",
+    "svg.hashsalt": "lorentz-gas",
+}
+
+
+def apply() -> None:
+    """From now on figures are drawn in this style, whatever matplotlibrc says."""
+    mpl.rcdefaults()
+    mpl.rcParams.update(_SETTINGS)
+
+
+def label_within_decades(axis: Axis) -> None:
+    """Ticks at 1, 2 and 5 in plain digits, for logarithmic axes of a decade or two."""
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def cross_out(axes: Axes, x: np.ndarray, y: np.ndarray, where: np.ndarray) -> None:
+    """Marks the points whose run did not reach its target error."""
+    axes.plot(x[where], y[where], linestyle="none", marker="x", color=BLACK, markersize=6, zorder=5)
+
+
+def with_error(quantity: Quantity, index: int | tuple = (), unit: float = 1) -> str:
+    """A number, or one of an array, with its error in units of the last digits, as 1.862(5)."""
+    mean, error = unit * float(quantity.mean[index]), unit * float(quantity.standard_error[index])
+    return fit.with_error(mean, error)
+
+
+def gamma(result: Result) -> str:
+    """N, or the number of scatterings."""
+    value = result.parameters["gamma"]
+    return value if value == "N" else f"{value:g}"
+
+
+def spacing(result: Result) -> tuple[float, str]:
+    """Distance between scatterers, and how it is written."""
+    given = result.parameters["cell-length"]
+    if given == "1/N":
+        return 1 / int(result.parameters["cells"]), "1/N"
+    return float(given), f"{given:g}"

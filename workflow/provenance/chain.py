@@ -1,0 +1,114 @@
+"""The chain from sources to figures, job by job: what a product was made from against what is there now.
+
+Decided by content alone, so that neither time stamps nor copies nor identical builds make anything run again.
+"""
+
+import json
+from collections.abc import Iterable, Iterator
+
+from workflow.lib.options import Options
+from workflow.lib.parents import PACKAGES
+from workflow.lib.plan import Panel, Run, data_of, data_path, drawings_of, with_used
+from workflow.provenance.lock import Job, Lock, LockError
+from workflow.provenance.repository import ROOT, FileHashes
+from workflow.provenance.sources import sources_of
+
+
+class Chain:
+    """Jobs are named as in the lock: `panel/run`, and `panel` for a drawing."""
+
+    def __init__(self, quality: str, plan: dict[str, Panel], lock: Lock | None = None) -> None:
+        """Where no lock is given it is read; one that cannot be read is taken as empty."""
+        self.quality = quality
+        self.plan = plan
+        try:
+            self.lock = lock or Lock.read(quality)
+        except LockError:
+            self.lock = Lock(quality)
+        self.hashes = FileHashes()
+
+    def stale(self, panels: Iterable[str]) -> dict[str, str]:
+        """Stale jobs of the panels, each with its first reason, runs before the drawings that show them."""
+        panels = list(panels)
+        runs = [f"{used}/{run.name}" for name in panels for used, run in self._shown(name)]
+        return {job: reason for job in dict.fromkeys([*runs, *panels]) if (reason := self.reason(job))}
+
+    def reason(self, name: str) -> str | None:
+        """Why the job has to run again; none if it has not."""
+        run = self.planned(name)
+        if run is None:
+            for panel, shown in self._shown(name):
+                if self.reason(f"{panel}/{shown.name}"):
+                    return f"{data_path(self.quality, panel, shown.name)} has to be made again"
+        job = self.lock.jobs.get(name)
+        for path in self.outputs(name):
+            if self.hashes[path] is None:
+                return f"{path} is missing"
+            if job is None:
+                return f"{path} has no record in the lock"
+            if self.hashes[path] != job.outputs.get(path):
+                return f"{path} is not what the job wrote"
+        changed = self.changed_build(job) if run else next(self.changed_inputs(name), None)
+        return changed or self.changed_request(name)
+
+    def planned(self, name: str) -> Run | None:
+        panel, _, run = name.partition("/")
+        runs = self.plan[panel].runs if panel in self.plan else ()
+        return next((one for one in runs if one.name == run), None)
+
+    def outputs(self, name: str) -> list[str]:
+        panel, _, run = name.partition("/")
+        return [data_path(self.quality, panel, run)] if run else drawings_of(self.quality, panel)
+
+    def sources(self, name: str) -> list[str]:
+        """The script that draws the panel, and what it imports."""
+        return sources_of(f"workflow/figures/{self.plan[name].script}.py")
+
+    def changed_inputs(self, name: str) -> Iterator[str]:
+        """Of a drawing: files that it would be made from now, or was made from, and that are not the same."""
+        before = self.lock.jobs[name].inputs
+        paths = [*self.sources(name), PACKAGES, *data_of(self.plan, name, self.quality)]
+        now = {path: self.hashes[path] for path in paths}
+        return (f"{path} changed" for path in sorted({*before, *now}) if before.get(path) != now.get(path))
+
+    def changed_request(self, name: str) -> str | None:
+        """What the configuration asks for against what was made."""
+        job, run = self.lock.jobs[name], self.planned(name)
+        if job.is_drawing:
+            if name not in self.plan:
+                return "there is no such panel"
+            same = job.options == {"configuration": self.plan[name].hash()}
+            return None if same else "the panel's configuration changed"
+        if run is None:
+            return "there is no such run"
+        difference = difference_of(job.options, run.options)
+        return f"parameters changed: {difference}" if difference else None
+
+    def changed_build(self, job: Job) -> str | None:
+        """What makes the build id of the executable differ; none where nothing is built."""
+        identity = ROOT / f"build/id/{job.tool}.json"
+        build = json.loads(identity.read_text()) if identity.is_file() else None
+        if build is None or build["build_id"] == job.build_id:
+            return None
+        old = self.lock.builds.get(job.build_id, {})
+        before, after = old.get("sources", {}), build["sources"]
+        for path in sorted({*before, *after}):
+            if before.get(path) != after.get(path):
+                return f"cpp/{path} changed"
+        for part in ("compiler", "flags", "libraries", "version"):
+            if old.get(part) != build[part]:
+                return f"{part} of {job.tool} changed: {old.get(part)} to {build[part]}"
+        return f"{job.tool} changed"
+
+    def _shown(self, name: str) -> Iterator[tuple[str, Run]]:
+        """Runs that a panel shows, each with the panel that it belongs to."""
+        return ((panel.name, run) for panel in with_used(self.plan, name) for run in panel.runs)
+
+
+def difference_of(old: Options, new: Options) -> str | None:
+    """The first option that differs."""
+    for name in sorted({*old, *new}):
+        before, after = (options.get(name, "absent") for options in (old, new))
+        if before != after:
+            return f"--{name} from {before} to {after}"
+    return None

@@ -1,0 +1,115 @@
+"""Runs one job and enters it into the lock: a program, which makes data, or a script, which draws a figure.
+
+Run by the rules: python -S -m workflow.provenance.execute simulate|draw. No shell sees an option's value, and no
+variable of the caller's environment reaches the job. Standard library only, as it starts for every job.
+"""
+
+import argparse
+import hashlib
+import json
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+
+from workflow.lib.options import Options, arguments
+from workflow.lib.parents import PACKAGES, Parents
+from workflow.provenance.lock import record
+from workflow.provenance.repository import ROOT
+
+UNCONVERGED = 4  # exit status of a program that wrote its result and says that the target was not reached
+ENVIRONMENT = {
+    "PATH": "/usr/local/bin:/usr/bin:/bin",
+    "LC_ALL": "C.UTF-8",
+    "TZ": "UTC",
+    "PYTHONHASHSEED": "0",
+    "PYTHONNOUSERSITE": "1",
+    "PYTHONDONTWRITEBYTECODE": "1",
+    "OMP_NUM_THREADS": "1",
+    "OPENBLAS_NUM_THREADS": "1",
+    "MPLBACKEND": "Agg",
+    "MPLCONFIGDIR": str(ROOT / ".cache/matplotlib"),
+}
+
+
+def program_command(program: str, options: Options, output: Path) -> list[str]:
+    return [str(ROOT / "build/bin" / program), *arguments(options), "--output", str(output)]
+
+
+def script_command(
+    script: str, configuration: str, sources: Iterable[str], data: Iterable[str], stem: Path
+) -> list[str]:
+    """Draws a panel; sources are the script and what it imports."""
+    module = script.removesuffix(".py").replace("/", ".")
+    command = [sys.executable, "-m", module, "--configuration", configuration, "--output", str(stem)]
+    return [*command, "--lock", PACKAGES, "--sources", *sources, "--data", *data]
+
+
+def call(command: list[str], allowed: tuple[int, ...] = (0,)) -> int:
+    """Exit status; leaves with it if it is not among the allowed ones. On SIGINT and SIGTERM a program writes its
+    checkpoint, which this process waits for; a terminal sends SIGINT to both."""
+    child = subprocess.Popen(command, cwd=ROOT, env=ENVIRONMENT)
+    signal.signal(signal.SIGINT, lambda *_: None)
+    signal.signal(signal.SIGTERM, lambda number, _: child.send_signal(number))
+    status = child.wait()
+    if status not in allowed:
+        sys.exit(status if status > 0 else 128 - status)
+    return status
+
+
+def simulate(job: argparse.Namespace) -> None:
+    """Partial results and checkpoints lie under a name that changes with build and options, so that an interrupted
+    run goes on and one with other parameters starts anew."""
+    build = json.loads((ROOT / f"build/id/{job.program}.json").read_text())
+    identity = hashlib.sha256(json.dumps([job.options, build["build_id"]]).encode()).hexdigest()[:16]
+    name = f"{job.quality}/{job.panel}/{job.run}"
+    partial = Path(f"build/partial/{name}-{identity}.h5")
+    cost, output = Path(f"build/costs/{name}.json"), Path(f"data/{name}.h5")
+    for path in (partial, cost, output):
+        path.parent.mkdir(parents=True, exist_ok=True)
+    resumed = ["--threads", str(job.threads), "--resume"] if job.replicated else []
+    command = program_command(job.program, job.options, partial)
+    status = call([*command, *resumed, "--progress", "log"], (0, UNCONVERGED))
+    partial.with_suffix(".cost.json").replace(cost)
+    partial.replace(output)
+    made_by = {"tool": job.program, "options": job.options, "build_id": build["build_id"], "exit": status}
+    record(job.quality, f"{job.panel}/{job.run}", [str(output)], made_by, build)
+
+
+def draw(job: argparse.Namespace) -> None:
+    script, stem = job.sources[0], Path(f"figures/{job.quality}/{job.panel}")
+    status = call(script_command(script, job.configuration, job.sources, job.data, stem))
+    parents = Parents.of(stem.with_suffix(".csv"))
+    made_by = {"tool": script, "options": {"configuration": job.configuration}, "exit": status}
+    inputs = parents.inputs()
+    order = [*job.sources, PACKAGES, *job.data]
+    made_by |= {"inputs": {path: inputs[path] for path in order}, "python": parents.python}
+    record(job.quality, job.panel, [f"{stem}.{kind}" for kind in ("csv", "pdf", "png", "svg")], made_by)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Runs a job and enters it into the lock")
+    kinds = parser.add_subparsers(required=True)
+    run, drawing = kinds.add_parser("simulate"), kinds.add_parser("draw")
+    for kind, function in ((run, simulate), (drawing, draw)):
+        kind.set_defaults(function=function)
+        for name in ("log", "quality", "panel"):
+            kind.add_argument(f"--{name}", required=True)
+    run.add_argument("--run", required=True)
+    run.add_argument("--program", required=True)
+    run.add_argument("--options", type=json.loads, required=True, help="JSON object")
+    run.add_argument("--threads", type=int, required=True)
+    run.add_argument("--replicated", action="store_true", help="the program takes --threads and --resume")
+    drawing.add_argument("--configuration", required=True, help="hash of the panel's configuration")
+    drawing.add_argument("--sources", nargs="+", required=True, help="the script and what it imports")
+    drawing.add_argument("--data", nargs="+", required=True)
+    job = parser.parse_args()
+    with Path(job.log).open("w") as log:
+        os.dup2(log.fileno(), sys.stderr.fileno())
+    job.function(job)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,44 @@
+"""Inputs of the rules. What is stale is found where a job enters the DAG, and moved where the run starts."""
+
+STALE = {}  # job: reason
+
+
+def force_if_stale(job):
+    if workflow.is_main_process and job not in STALE and (reason := CHAIN.reason(job)):
+        STALE[job] = reason
+        workflow.dag.forcefiles.update(CHAIN.outputs(job))
+        if any(CHAIN.hashes[path] for path in CHAIN.outputs(job)):
+            logger.info(f"{job} is stale: {reason}")
+
+
+def run_of(wildcards):
+    return PANELS[wildcards.panel].run(wildcards.run)
+
+
+def build_id_of_run(wildcards):
+    force_if_stale(f"{wildcards.panel}/{wildcards.run}")
+    return f"build/id/{run_of(wildcards).program}.json"
+
+
+def data_of_panel(wildcards):
+    """Ancient but for a stale panel: Snakemake drops a forced job whose inputs from jobs that run are all ancient."""
+    force_if_stale(wildcards.panel)
+    paths = data_of(PANELS, wildcards.panel, QUALITY)
+    return paths if wildcards.panel in STALE else [ancient(path) for path in paths]
+
+
+def all_figures(wildcards):
+    """Jobs that are not asked for any more leave when all is made, also where nothing else is to be done."""
+    leaving = unasked(QUALITY, PANELS) if workflow.is_main_process else []
+    executing = workflow.executor_plugin and not (workflow.dryrun or workflow.touch)
+    for job in leaving:
+        logger.info(f"{job} is not asked for any more{f': moved to {REPLACED}' if executing else ''}")
+    if executing and leaving:
+        retire(QUALITY, leaving)
+    return [path for panel in PANELS for path in drawings_of(QUALITY, panel)]
+
+
+onstart:
+    if workflow.is_main_process and not workflow.touch:
+        for job in STALE:
+            replace(CHAIN.outputs(job))
