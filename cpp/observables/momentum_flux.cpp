@@ -128,6 +128,7 @@ Study momentum_flux(const Parameters& parameters) {
   const OpenChain chain = parameters.chain();
   const Window window = parameters.times.window(chain.cells);
   const Bins bins = parameters.bins.bins();
+  require_record_size((chain.cells + 1.0) * static_cast<double>(bins.count()), "--cells, --momentum-bins");
   const BondTallies tallies(chain.cells, bins);
   const auto measure = [=](const Replica& replica, Record& record) {
     OpenRun run(parameters, window, replica);

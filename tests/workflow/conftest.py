@@ -97,6 +97,7 @@ Edit = Callable[[Clone], object]  # something done to a clone
 
 def append(path: str, text: str) -> Edit:
     def edit(clone: Clone) -> None:
+        assert (clone.folder / path).is_file()
         with (clone.folder / path).open("a") as file:
             file.write(text)
 

@@ -133,7 +133,7 @@ def test_bad_configuration_is_refused_before_anything_runs(clean: Clone) -> None
         config.write_text(text)
     assert made.returncode != 0
     assert "paper.yaml: panels.fig05.common.cells = 0" in made.stdout
-    assert "minimum 1" in made.stdout
+    assert "persistence does not accept it (allowed: integer at least 1" in made.stdout
 
 
 def test_missing_system_packages_are_named_for_those_without_rights(tmp_path: Path) -> None:

@@ -37,7 +37,7 @@ def test_run_tells_its_chain(clean: Clone) -> None:
 
 
 def test_parents_that_have_changed_are_found_in_history(kept: Clone) -> None:
-    for path in ("workflow/figures/fig03.py", "cpp/boltzmann/gmres.cpp", "requirements.lock"):
+    for path in ("workflow/figures/fig03.py", "cpp/numerics/gmres.cpp", "requirements.lock"):
         append(path, "\n")(kept)
     replace("workflow/config/paper.yaml", "fig03:", "fig03x:")(kept)
     told = kept.make("provenance", f"FILE={FIGURE}.pdf").stdout

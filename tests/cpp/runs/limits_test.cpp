@@ -74,6 +74,12 @@ TEST(Limits, NameTheOptionsThatLeadBeyondThem) {
   EXPECT_TRUE(refused("--hot: the sum of all energies seen", extent));
 }
 
+TEST(Limits, OfTheSizeOfARecord) {
+  EXPECT_NO_THROW(require_record_size(1e8, "--cells"));
+  EXPECT_EQ(refusal([] { require_record_size(2e8, "--cells, --bins"); }),
+            "--cells, --bins: a replica would record 2e+08 values, more than 1e8. Choose fewer of either.");
+}
+
 // Mutant: the product in 32 bits, which is 0 for 65536 times 65536.
 TEST(Limits, OfTheNumberOfParticles) {
   const auto check = [](std::uint32_t cells, std::uint32_t particles_per_cell) {
