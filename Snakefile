@@ -9,20 +9,21 @@ import json
 import re
 import sys
 
-from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
 
-sys.path.insert(0, workflow.basedir)
-from workflow.lib.plan import QUALITIES, ConfigurationError, data_of, drawings_of, load_plan
+sys.path.append(workflow.basedir)  # last, so that no file here takes the place of a package
+from workflow.lib.plan import ConfigurationError, data_of, drawings_of, load_plan, panel_named
 from workflow.provenance.chain import Chain
-from workflow.provenance.stale import REPLACED, replace, retire, unasked
+from workflow.provenance.stale import REPLACED, forget_partial, replace, retire, set_damaged_lock_aside, unasked
 
-QUALITY = config.get("quality", "standard")
+QUALITY, PANEL = config.get("quality", "standard"), config.get("panel")
+FRESH = config.get("fresh") in (True, "yes")
 try:
     PANELS = load_plan(QUALITY)
+    ASKED = [panel_named(PANELS, PANEL).name] if PANEL else []
+    CHAIN = Chain(QUALITY, PANELS)
 except ConfigurationError as error:
-    raise WorkflowError(str(error))
-CHAIN = Chain(QUALITY, PANELS)
+    sys.exit(str(error))
 
 
 include: "workflow/rules/common.smk"
@@ -37,6 +38,11 @@ wildcard_constraints:
 rule figures:
     input:
         all_figures,
+
+
+rule panel:
+    input:
+        [path for name in ASKED for path in drawings_of(QUALITY, name)],
 
 
 include: "workflow/rules/simulate.smk"

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from tests.python.conftest import ROOT
+from workflow.lib.parents import file_hash
 
 HOSTILE = {
     "name": "x; touch a",
@@ -47,14 +48,22 @@ def root(tmp_path: Path) -> Path:
     (tmp_path / "build/id/fake.json").write_text(
         json.dumps({"program": "fake", "build_id": "b", "sources": {}})
     )
+    note_executable(tmp_path)
     return tmp_path
+
+
+def note_executable(root: Path) -> None:
+    """As the linker does."""
+    digest = file_hash(root / "build/bin/fake")
+    (root / "build/id/fake.sha256").write_text(f"{digest}  fake\n")
 
 
 def start(root: Path, options: dict) -> subprocess.Popen:
     command = [
         sys.executable,
+        "-I",
         "-S",
-        "-m",
+        "workflow/environment/launch.py",
         "workflow.provenance.execute",
         "simulate",
         "--log",
@@ -85,6 +94,8 @@ def test_options_reach_the_program_as_they_are(root: Path, status: int) -> None:
     assert not (root / "a").exists()
     recorded = jobs(root)["fig99/all_gamma=1"]
     assert (recorded["tool"], recorded["options"], recorded["exit"]) == ("fake", options, status)
+    assert recorded["executable"] == file_hash(root / "build/bin/fake")
+    assert "workflow/provenance/execute.py" in recorded["pipeline"]
     assert (root / "build/logs/log").read_text() == "said\n"
     assert (root / "build/costs/smoke/fig99/all_gamma=1.json").is_file()
 
@@ -94,6 +105,28 @@ def test_what_fails_is_not_recorded(root: Path, status: int) -> None:
     assert start(root, {"status": status}).wait() == status
     assert jobs(root) == {}
     assert not list((root / "data").rglob("*.h5"))
+
+
+def test_an_edited_program_does_not_run(root: Path) -> None:
+    (root / "build/bin/fake").write_text(PROGRAM.replace('"{}"', '"{} "'))
+    assert start(root, {}).wait() == 1
+    assert jobs(root) == {}
+    assert "not what was built" in (root / "build/logs/log").read_text()
+
+
+def test_a_program_that_is_built_while_it_runs_is_not_recorded(root: Path) -> None:
+    program = PROGRAM.replace("sys.exit(status)", "open(sys.argv[0], 'a').write('#')\nsys.exit(status)")
+    (root / "build/bin/fake").write_text(program)
+    note_executable(root)
+    assert start(root, {}).wait() == 1
+    assert jobs(root) == {}
+
+
+def test_files_of_the_project_hide_no_module(root: Path) -> None:
+    for place in (root, root / "workflow", root / "workflow/environment"):
+        for module in ("json", "hashlib", "argparse"):
+            (place / f"{module}.py").write_text("raise SystemExit('hidden')\n")
+    assert start(root, {}).wait() == 0
 
 
 def test_a_program_is_told_to_stop_and_waited_for(root: Path) -> None:

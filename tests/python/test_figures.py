@@ -17,7 +17,14 @@ from workflow.lib.parents import ArtefactError, Parents, file_hash
 
 
 def draw(folder: Path, stem: str, data: list[Path]) -> None:
-    command = [sys.executable, "-m", "workflow.figures.fig05", "--configuration", "c0ffee"]
+    command = [
+        sys.executable,
+        "-P",
+        "workflow/environment/launch.py",
+        "workflow.figures.fig05",
+        "--configuration",
+        "c0ffee",
+    ]
     command += ["--sources", "workflow/figures/fig05.py", "--lock", "requirements.lock"]
     command += ["--output", str(folder / stem), "--data", *map(str, data)]
     subprocess.run(command, cwd=ROOT, check=True)

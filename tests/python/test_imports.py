@@ -14,7 +14,8 @@ ALLOWED = {
     "config": {"lib"},
     "figures": {"lib"},
     "tradeoff": {"lib"},
-    "provenance": {"lib"},
+    "provenance": {"lib", "environment"},
+    "environment": set(),
 }
 
 

@@ -19,7 +19,7 @@ def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture
 def job() -> Job:
     options = {"sigma": 0.1, "cells": 11, "zero-total-momentum": True, "gamma": "N"}
-    return Job("persistence", options, {}, {}, None, None, "", 0, build_id="kept")
+    return Job("persistence", options, {}, {}, None, None, "", 0, {}, build_id="kept")
 
 
 def test_a_build_leaves_with_the_last_run_of_it(root: Path, job: Job) -> None:
@@ -48,7 +48,7 @@ def test_options_keep_their_types(root: Path, job: Job) -> None:
     [
         ('"persistence"', '"conductivity"', "its checksum does not fit"),
         ('"tool"', '"tol"', "is damaged"),
-        ('"version": 2', '"version": 1', "is of version 1, not 2"),
+        ('"version": 3', '"version": 2', "is of version 2, not 3"),
     ],
 )
 def test_another_lock_is_refused(root: Path, job: Job, old: str, new: str, words: str) -> None:

@@ -58,9 +58,6 @@ def clone_into(folder: Path) -> Clone:
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(ROOT / name, folder / name)
     shutil.copytree(ROOT / ".venv", folder / ".venv", copy_function=os.link, symlinks=True)
-    for stamp in ("runtime", "dev"):  # newer than the copied locks
-        (folder / ".venv" / stamp).unlink()
-        (folder / ".venv" / stamp).touch()
     return Clone(folder)
 
 

@@ -1,8 +1,10 @@
 """The plan that the configuration defines: panels, and the runs of programs that each panel needs."""
 
+import difflib
 import hashlib
 import itertools
 import json
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,6 +20,7 @@ from workflow.lib.options import Options
 FOLDER = Path(__file__).parents[1] / "config"
 KINDS = ("pdf", "png", "svg", "csv")
 QUALITIES = ("smoke", "standard", "paper", "deep")
+STOPPING = ("target-error", "target-absolute", "max-replicas")  # options that add replicas to a run
 
 
 @dataclass(frozen=True)
@@ -49,21 +52,58 @@ class Panel:
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
-def load_plan(quality: str, folder: Path = FOLDER) -> dict[str, Panel]:
+@dataclass(frozen=True)
+class Quality:
+    """A quality by the name of its folders: `standard`, or with the user's seed or replicas in place of the
+    configuration's, as in `standard_seed=7_replicas=200`."""
+
+    name: str
+    base: str
+    seed: int | None = None
+    replicas: int | None = None
+
+    @classmethod
+    def of(cls, name: str) -> "Quality":
+        """Raises ConfigurationError."""
+        parts = re.fullmatch(r"([a-z]+)(?:_seed=(0|[1-9]\d*))?(?:_replicas=([1-9]\d*))?", name)
+        if not parts or parts[1] not in QUALITIES:
+            raise ConfigurationError(f"QUALITY={name} is not known: choose one of {', '.join(QUALITIES)}")
+        seed, replicas = (None if part is None else int(part) for part in parts.groups()[1:])
+        return cls(name, parts[1], seed, replicas)
+
+    def complete(self, panel: str, run: str, options: Options) -> Options:
+        """Options of a replicated run with its seed, and with the replicas of this quality."""
+        if self.replicas is not None:
+            options = {key: value for key, value in options.items() if key not in STOPPING}
+            options["replicas"] = self.replicas
+        return options | {
+            "seed": _seed(f"{panel}/{run}" if self.seed is None else f"{panel}/{run}/{self.seed}")
+        }
+
+
+def load_plan(name: str, folder: Path = FOLDER) -> dict[str, Panel]:
     """All panels at one quality, by name. Raises ConfigurationError."""
-    if quality not in QUALITIES:
-        raise ConfigurationError(f"QUALITY={quality} is not known: choose one of {', '.join(QUALITIES)}.")
+    quality = Quality.of(name)
     paper = load_checked(folder / "paper.yaml", paper_schema())
-    efforts = load_checked(folder / "quality" / f"{quality}.yaml", quality_schema(paper))
+    efforts = load_checked(folder / "quality" / f"{quality.base}.yaml", quality_schema(paper))
     admissible = Admissible.of(folder)
-    for name, panel in paper["panels"].items():
-        _check(name, panel, efforts, f"{quality}.yaml", admissible)
-    panels = {name: _panel(name, panel, efforts) for name, panel in paper["panels"].items()}
+    for panel_name, panel in paper["panels"].items():
+        _check(panel_name, panel, efforts, f"{quality.base}.yaml", admissible)
+    panels = {name: _panel(name, panel, efforts, quality) for name, panel in paper["panels"].items()}
     for panel in panels.values():
         for used in panel.uses:
             if used not in panels or not panels[used].runs:
                 raise ConfigurationError(f"paper.yaml: panels.{panel.name}.uses: {used} has no runs")
     return panels
+
+
+def panel_named(plan: dict[str, Panel], name: str) -> Panel:
+    """Raises ConfigurationError, with the nearest name."""
+    if name in plan:
+        return plan[name]
+    near = difflib.get_close_matches(name, plan, 1)
+    known = f"did you mean {near[0]}?" if near else f"choose one of {', '.join(plan)}"
+    raise ConfigurationError(f"PANEL={name} is not known: {known}")
 
 
 def with_used(plan: dict[str, Panel], name: str) -> list[Panel]:
@@ -106,7 +146,7 @@ def _effort(efforts: dict, panel: str, series: str) -> dict:
     return efforts.get("panels", {}).get(panel, {}).get(series, {})
 
 
-def _panel(name: str, panel: dict, efforts: dict) -> Panel:
+def _panel(name: str, panel: dict, efforts: dict, quality: Quality) -> Panel:
     runs = []
     for series, own in panel.get("series", {}).items():
         replicated = own.get("replicated", True)
@@ -120,11 +160,12 @@ def _panel(name: str, panel: dict, efforts: dict) -> Panel:
         for values in itertools.product(*(options[key] for key in listed)):
             chosen = dict(zip(listed, values, strict=True))
             run = "_".join([series, *(f"{key}={value}" for key, value in chosen.items())])
-            seed = {"seed": _seed(name, run)} if replicated else {}
-            runs.append(Run(run, program, {**options, **chosen, **seed}, replicated))
+            given = {**options, **chosen}
+            completed = quality.complete(name, run, given) if replicated else given
+            runs.append(Run(run, program, completed, replicated))
     return Panel(name, panel.get("script", name), tuple(runs), tuple(panel.get("uses", ())))
 
 
-def _seed(panel: str, run: str) -> int:
+def _seed(names: str) -> int:
     """Seed from a hash of the names, so that every run has its own, reproducible random streams."""
-    return int.from_bytes(hashlib.sha256(f"{panel}/{run}".encode()).digest()[:4], "big")
+    return int.from_bytes(hashlib.sha256(names.encode()).digest()[:4], "big")

@@ -1,6 +1,6 @@
 """Runs one job and enters it into the lock: a program, which makes data, or a script, which draws a figure.
 
-Run by the rules: python -S -m workflow.provenance.execute simulate|draw. No shell sees an option's value, and no
+Run by the rules: python -I -S workflow/environment/launch.py workflow.provenance.execute simulate|draw. No shell sees an option's value, and no
 variable of the caller's environment reaches the job. Standard library only, as it starts for every job.
 """
 
@@ -15,10 +15,11 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from workflow.lib.options import Options, arguments
-from workflow.lib.parents import PACKAGES, Parents
+from workflow.lib.parents import PACKAGES, Parents, file_hash
 from workflow.provenance.lock import record
 from workflow.provenance.repository import ROOT
 
+LAUNCH = "workflow/environment/launch.py"
 UNCONVERGED = 4  # exit status of a program that wrote its result and says that the target was not reached
 ENVIRONMENT = {
     "PATH": "/usr/local/bin:/usr/bin:/bin",
@@ -43,7 +44,7 @@ def script_command(
 ) -> list[str]:
     """Draws a panel; sources are the script and what it imports."""
     module = script.removesuffix(".py").replace("/", ".")
-    command = [sys.executable, "-m", module, "--configuration", configuration, "--output", str(stem)]
+    command = [sys.executable, "-P", LAUNCH, module, "--configuration", configuration, "--output", str(stem)]
     return [*command, "--lock", PACKAGES, "--sources", *sources, "--data", *data]
 
 
@@ -59,10 +60,21 @@ def call(command: list[str], allowed: tuple[int, ...] = (0,)) -> int:
     return status
 
 
+def built(program: str) -> tuple[dict, str]:
+    """What the program was built from, and the hash of its file. Leaves if it is not the file that was built."""
+    build = json.loads((ROOT / f"build/id/{program}.json").read_text())
+    executable = file_hash(ROOT / "build/bin" / program)
+    if executable not in (ROOT / f"build/id/{program}.sha256").read_text().split():
+        sys.exit(
+            f"build/bin/{program} is not what was built: edited or replaced. `make build` builds it again."
+        )
+    return build, executable
+
+
 def simulate(job: argparse.Namespace) -> None:
     """Partial results and checkpoints lie under a name that changes with build and options, so that an interrupted
     run goes on and one with other parameters starts anew."""
-    build = json.loads((ROOT / f"build/id/{job.program}.json").read_text())
+    build, executable = built(job.program)
     identity = hashlib.sha256(json.dumps([job.options, build["build_id"]]).encode()).hexdigest()[:16]
     name = f"{job.quality}/{job.panel}/{job.run}"
     partial = Path(f"build/partial/{name}-{identity}.h5")
@@ -72,9 +84,12 @@ def simulate(job: argparse.Namespace) -> None:
     resumed = ["--threads", str(job.threads), "--resume"] if job.replicated else []
     command = program_command(job.program, job.options, partial)
     status = call([*command, *resumed, "--progress", "log"], (0, UNCONVERGED))
+    if built(job.program) != (build, executable):
+        sys.exit(f"build/bin/{job.program} was built again while it ran; run make again")
     partial.with_suffix(".cost.json").replace(cost)
     partial.replace(output)
-    made_by = {"tool": job.program, "options": job.options, "build_id": build["build_id"], "exit": status}
+    made_by = {"tool": job.program, "options": job.options, "exit": status}
+    made_by |= {"build_id": build["build_id"], "executable": executable}
     record(job.quality, f"{job.panel}/{job.run}", [str(output)], made_by, build)
 
 

@@ -15,7 +15,18 @@ from pathlib import Path
 from workflow.lib.options import Options
 from workflow.provenance import repository
 
-FORMAT = {"format": "lorentz-gas-lock", "version": 2}
+FORMAT = {"format": "lorentz-gas-lock", "version": 3}
+PIPELINE = (  # what runs the jobs, beside the programs and the scripts
+    "Makefile",
+    "Snakefile",
+    "cpp/CMakeLists.txt",
+    "profiles/*/*",
+    "workflow/environment/launch.py",
+    "workflow/lib/options.py",
+    "workflow/lib/plan.py",
+    "workflow/provenance/execute.py",
+    "workflow/rules/*",
+)
 
 
 class LockError(ValueError):
@@ -35,7 +46,9 @@ class Job:
     dirty: bool | None  # whether tracked files differed from it
     machine: str
     exit: int
+    pipeline: dict[str, str]  # path: hash of the files that ran it
     build_id: str | None = None  # of the program
+    executable: str | None = None  # hash of the program's file
     inputs: dict[str, str] = field(
         default_factory=dict
     )  # of a drawing: path: hash of sources, packages, data
@@ -119,21 +132,24 @@ def checksum_of(content: dict) -> str:
 
 
 def configuration_files(quality: str) -> list[str]:
-    return ["workflow/config/paper.yaml", f"workflow/config/quality/{quality}.yaml"]
+    return ["workflow/config/paper.yaml", f"workflow/config/quality/{quality.partition('_')[0]}.yaml"]
+
+
+def pipeline_files() -> list[str]:
+    paths = (path for pattern in PIPELINE for path in sorted(repository.ROOT.glob(pattern)))
+    return [str(path.relative_to(repository.ROOT)) for path in paths if path.is_file()]
 
 
 @contextlib.contextmanager
 def changing(quality: str) -> Iterator[Lock]:
-    """The lock, or an empty one if there is none that can be read; written at the end. One at a time."""
+    """The lock, or an empty one if there is none; written at the end. One at a time. Raises LockError if it is
+    damaged."""
     folder = Lock.path(quality).parent
     folder.mkdir(parents=True, exist_ok=True)
     descriptor = os.open(folder, os.O_RDONLY)
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX)
-        try:
-            lock = Lock.read(quality)
-        except LockError:
-            lock = Lock(quality)
+        lock = Lock.read(quality) if Lock.path(quality).exists() else Lock(quality)
         yield lock
         lock.write()
     finally:
@@ -145,8 +161,9 @@ def record(quality: str, name: str, outputs: list[str], made_by: dict, build: di
     hashes = repository.FileHashes()
     written = {path: hashes[path] for path in outputs}
     asked = {path: hashes[path] for path in configuration_files(quality)}
+    pipeline = {path: hashes[path] for path in pipeline_files()}
     state = repository.state() | {"machine": repository.machine()}
-    job = Job(**made_by, outputs=written, configuration=asked, **state)
+    job = Job(**made_by, outputs=written, configuration=asked, pipeline=pipeline, **state)
     with changing(quality) as lock:
         lock.jobs[name] = job
         if build:

@@ -3,6 +3,7 @@
 Run by Snakemake itself when it starts (Snakefile).
 """
 
+import glob
 from collections.abc import Iterable
 
 from workflow.lib.plan import Panel
@@ -18,6 +19,25 @@ def replace(paths: Iterable[str]) -> None:
         if (ROOT / path).exists():
             (ROOT / REPLACED / path).parent.mkdir(parents=True, exist_ok=True)
             (ROOT / path).replace(ROOT / REPLACED / path)
+
+
+def forget_partial(quality: str, job: str) -> None:
+    """Removes partial results and checkpoints of a run."""
+    for path in (ROOT / "build/partial" / quality).glob(f"{glob.escape(job)}-*"):
+        path.unlink()
+
+
+def set_damaged_lock_aside(quality: str) -> str | None:
+    """Moves a lock that cannot be read; returns why. Everything is made again then."""
+    path = Lock.path(quality)
+    if not path.exists():
+        return None
+    try:
+        Lock.read(quality)
+    except LockError as error:
+        replace([str(path.relative_to(ROOT))])
+        return str(error)
+    return None
 
 
 def unasked(quality: str, plan: dict[str, Panel]) -> list[str]:

@@ -4,11 +4,15 @@ STALE = {}  # job: reason
 
 
 def force_if_stale(job):
-    if workflow.is_main_process and job not in STALE and (reason := CHAIN.reason(job)):
+    if workflow.is_main_process and job not in STALE and (reason := made_anew(job)):
         STALE[job] = reason
         workflow.dag.forcefiles.update(CHAIN.outputs(job))
         if any(CHAIN.hashes[path] for path in CHAIN.outputs(job)):
             logger.info(f"{job} is stale: {reason}")
+
+
+def made_anew(job):
+    return "everything is asked for anew" if FRESH else CHAIN.reason(job)
 
 
 def run_of(wildcards):
@@ -40,5 +44,9 @@ def all_figures(wildcards):
 
 onstart:
     if workflow.is_main_process and not workflow.touch:
+        if reason := set_damaged_lock_aside(QUALITY):
+            logger.info(f"{reason}: moved to {REPLACED}, and all is made again")
         for job in STALE:
             replace(CHAIN.outputs(job))
+            if FRESH:
+                forget_partial(QUALITY, job)

@@ -21,7 +21,7 @@ rule draw:
         configuration=lambda wildcards: PANELS[wildcards.panel].hash(),
     shell:
         """
-        .venv/bin/python -S -m workflow.provenance.execute draw --log {log:q} \
+        .venv/bin/python -I -S workflow/environment/launch.py workflow.provenance.execute draw --log {log:q} \
             --quality {wildcards.quality:q} --panel {wildcards.panel:q} \
             --configuration {params.configuration:q} --sources {input.sources:q} --data {input.data:q}
         """

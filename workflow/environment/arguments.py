@@ -1,0 +1,48 @@
+"""Checks the arguments of make, before anything else happens. Prints what is wrong with the first one that is.
+
+Standard library only: this runs before anything is installed.
+"""
+
+import difflib
+import re
+import sys
+
+QUALITIES = ("smoke", "standard", "paper", "deep")
+ADMITTED = {  # name: pattern of the whole value, what it may be, an example
+    "QUALITY": ("|".join(QUALITIES), f"one of {', '.join(QUALITIES)}", "QUALITY=smoke"),
+    "PANEL": (r"[A-Za-z0-9_-]+", "the name of a panel", "PANEL=fig05"),
+    "JOBS": (r"[1-9][0-9]{0,3}", "a number of processes, at least 1", "JOBS=2"),
+    "FRESH": (r"yes|no|1|0|", "yes or no", "FRESH=yes"),
+    "FULL": (r"yes|no|1|0|", "yes or no", "FULL=yes"),
+    "SEED": (r"[0-9]{1,18}", "a whole number of at most 18 digits", "SEED=7"),
+    "REPLICAS": (r"[1-9][0-9]{0,8}", "a number of replicas, at least 1", "REPLICAS=200"),
+    "SAMPLE": (r"0?\.[0-9]*[1-9][0-9]*|1(\.0*)?", "a share, above 0 and at most 1", "SAMPLE=0.1"),
+    "FILE": (r"[^\n]+", "the path of a file", "FILE=figures/standard/fig05.pdf"),
+    "CRATE": (r"[^\n]+", "the path of a crate", "CRATE=crate.zip"),
+}
+
+
+def fault(argument: str) -> str | None:
+    """What is wrong with NAME=VALUE, in one line."""
+    name, _, value = argument.partition("=")
+    if name not in ADMITTED:
+        near = difflib.get_close_matches(name.upper(), ADMITTED, 1, 0.5)
+        known = f"did you mean {near[0]}" if near else f"choose from {', '.join(ADMITTED)}"
+        return f"{name!r} is not an argument of this Makefile: {known}"
+    pattern, admitted, example = ADMITTED[name]
+    if re.fullmatch(pattern, value):
+        return None
+    near = difflib.get_close_matches(value.lower(), QUALITIES, 1) if name == "QUALITY" else []
+    suggested = f"QUALITY={near[0]}" if near else example
+    return f"{name}={value!r} cannot be used: it must be {admitted}; try {suggested}"
+
+
+def main() -> None:
+    for argument in sys.argv[1:]:
+        if found := fault(argument):
+            print(found)
+            break
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,135 @@
+"""The Python packages in .venv: installed from locks of hashes, and again as soon as a file is not what was installed.
+
+.venv/installed.json has the hashes of the locks and of every file below .venv. A file is read again when its inode,
+size or time of change differs; the last, unlike the time of modification, cannot be set. Standard library only: this
+runs before anything is installed.
+"""
+
+import argparse
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+FOLDER = ROOT / ".venv"
+RECORD = FOLDER / "installed.json"
+PYTHON = FOLDER / "bin/python"
+
+State = dict[str, list]  # path below .venv: [sha256 or target of a link, inode, size, time of change]
+
+
+def state(known: State) -> State:
+    """Of every file; what is not read again is taken from `known`."""
+    names = [os.path.join(folder, name) for folder, _, files in os.walk(FOLDER) for name in files]
+    paths = sorted(os.path.relpath(name, FOLDER) for name in names if name != str(RECORD))
+
+    def of(path: str) -> list:
+        status = os.lstat(FOLDER / path)
+        stamp = [status.st_ino, status.st_size, status.st_ctime_ns]
+        if path in known and known[path][1:] == stamp:
+            return known[path]
+        return [digest(FOLDER / path), *stamp]
+
+    with ThreadPoolExecutor() as threads:
+        return dict(zip(paths, threads.map(of, paths), strict=True))
+
+
+def digest(path: Path) -> str:
+    if path.is_symlink():
+        return f"link to {path.readlink()}"
+    if not path.is_file():
+        return "no regular file"
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def record() -> dict:
+    """Empty if there is none that can be read."""
+    try:
+        read = json.loads(RECORD.read_text())
+        return read if isinstance(read["locks"], dict) and isinstance(read["files"], dict) else {}
+    except (OSError, ValueError, KeyError, TypeError):
+        return {}
+
+
+def write(locks: dict[str, str], files: State) -> None:
+    unfinished = RECORD.with_suffix(".tmp")
+    unfinished.write_text(json.dumps({"locks": locks, "files": files}))
+    unfinished.replace(RECORD)
+
+
+def faults() -> list[str]:
+    """Paths below the project's folder of what is not as it was installed: changed, missing or foreign."""
+    before = record().get("files")
+    if before is None:
+        return [str(RECORD.relative_to(ROOT))]
+    return differing(before, state(before))
+
+
+def differing(before: State, now: State) -> list[str]:
+    return [
+        f".venv/{path}"
+        for path in sorted({*before, *now})
+        if before.get(path, [0])[0] != now.get(path, [1])[0]
+    ]
+
+
+def install(locks: list[str]) -> None:
+    """What the locks say, unless it is there. Packages of a lock that is asked for later are added to it."""
+    asked = {lock: digest(ROOT / lock) for lock in locks}
+    known = record()
+    before, there = known.get("files", {}), known.get("locks", {})
+    if PYTHON.exists() and there:
+        now = state(before)
+        wrong = differing(before, now)
+        if wrong:
+            print(f"{wrong[0]} is not what was installed; all packages are installed again")
+        elif any(there[lock] != asked.get(lock, there[lock]) for lock in there):
+            print("Locked packages have changed; all are installed again")
+        else:
+            missing = [lock for lock in locks if lock not in there]
+            if missing:
+                add(missing)
+                write({**there, **asked}, state(now))
+            elif now != before:
+                write(there, now)
+            return
+    if FOLDER.exists():
+        shutil.rmtree(FOLDER)
+    subprocess.run([sys.executable, "-m", "venv", FOLDER], check=True)
+    add(locks)
+    write(asked, state({}))
+
+
+def add(locks: list[str]) -> None:
+    for lock in locks:
+        print(f"Installing Python packages of {lock} into .venv", flush=True)
+        command = [
+            PYTHON,
+            "-P",
+            "-m",
+            "pip",
+            "install",
+            "--quiet",
+            "--disable-pip-version-check",
+            "--require-hashes",
+        ]
+        subprocess.run([*command, "-r", ROOT / lock], check=True)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("locks", nargs="+")
+    try:
+        install(parser.parse_args().locks)
+    except (OSError, subprocess.CalledProcessError) as error:
+        sys.exit(f"The Python packages cannot be installed: {error}")
+
+
+if __name__ == "__main__":
+    main()
