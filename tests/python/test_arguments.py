@@ -1,0 +1,50 @@
+"""Arguments of make are refused in one line before anything happens."""
+
+import pytest
+
+from workflow.environment.arguments import fault
+
+
+@pytest.mark.parametrize(
+    "argument",
+    ["QUALITY=smoke", "PANEL=fig02_upper", "JOBS=16", "FRESH=yes", "FRESH=", "SEED=0", "REPLICAS=200", "SAMPLE=1",
+     "SAMPLE=.05", "FILE=a copy; of 'x'.pdf", "CRATE=../crate.zip", "FULL=no"],
+)  # fmt: skip
+def test_admitted(argument: str) -> None:
+    assert fault(argument) is None
+
+
+@pytest.mark.parametrize(
+    ("argument", "words"),
+    [
+        ("quality=smoke", "did you mean QUALITY"),
+        ("QUALTY=smoke", "did you mean QUALITY"),
+        ("SEEDS=7", "did you mean SEED"),
+        ("MAKEFLAGS=-k", "choose from QUALITY"),
+        ("SHELL=/bin/sh", "is not an argument"),
+        ("QUALITY=smok", "try QUALITY=smoke"),
+        ("QUALITY=smoke paper", "one of smoke"),
+        ("QUALITY=", "one of smoke"),
+        ("PANEL=fig03;touch x", "the name of a panel"),
+        ("PANEL=fig03\n", "the name of a panel"),
+        ("PANEL=../fig03", "the name of a panel"),
+        ("JOBS=0", "at least 1"),
+        ("JOBS=-1", "at least 1"),
+        ("JOBS=2.5", "at least 1"),
+        ("JOBS=٣", "at least 1"),
+        ("FRESH=maybe", "yes or no"),
+        ("SEED=-1", "whole number"),
+        ("SEED=1e3", "whole number"),
+        ("REPLICAS=0", "at least 1"),
+        ("SAMPLE=0", "a share"),
+        ("SAMPLE=0.0", "a share"),
+        ("SAMPLE=1.1", "a share"),
+        ("SAMPLE=nan", "a share"),
+        ("FILE=", "the path of a file"),
+    ],
+)
+def test_refused(argument: str, words: str) -> None:
+    said = fault(argument)
+    assert said is not None
+    assert words in said
+    assert "\n" not in said

@@ -1,0 +1,54 @@
+"""A source is built again if its content differs, and an executable linked again; times decide nothing."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from workflow.environment import build_by_content
+
+SOURCE = "cpp/model/a.cpp"
+
+
+@pytest.fixture
+def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    for path in (SOURCE, "cpp/CMakeLists.txt", "build/build.ninja", "build/bin/fake", "build/id/fake.json",
+                 "build/bin/cpp_tests"):  # fmt: skip
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / path).write_text(path)
+        os.utime(tmp_path / path, (0, 0))
+    digest = build_by_content.hash_of(tmp_path / "build/bin/fake")
+    (tmp_path / "build/id/fake.sha256").write_text(f"{digest}  fake\n")
+    for name, path in {"ROOT": "", "BUILD": "build", "RECORD": "build/built_from.json"}.items():
+        monkeypatch.setattr(build_by_content, name, tmp_path / path)
+    build_by_content.main()  # the first time all is new
+    (tmp_path / "build/build.ninja").write_text("")
+    (tmp_path / "build/bin/fake").write_text("build/bin/fake")
+    os.utime(tmp_path / SOURCE, (0, 0))
+    return tmp_path
+
+
+def test_an_old_time_does_not_hide_another_content(root: Path) -> None:
+    build_by_content.main()
+    assert (root / SOURCE).stat().st_mtime == 0
+    (root / SOURCE).write_text("edited")
+    os.utime(root / SOURCE, (0, 0))
+    build_by_content.main()
+    assert (root / SOURCE).stat().st_mtime > 0
+
+
+def test_another_compiler_configures_again(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    now = build_by_content.present() | {"compiler": "another"}
+    monkeypatch.setattr(build_by_content, "present", lambda: now)
+    build_by_content.main()
+    assert not (root / "build/build.ninja").exists()
+
+
+@pytest.mark.parametrize("file", ["build/bin/fake", "build/id/fake.sha256"])
+def test_an_executable_that_is_not_as_linked_leaves(root: Path, file: str) -> None:
+    build_by_content.main()
+    assert (root / "build/bin/fake").exists()
+    (root / file).write_text("edited")
+    build_by_content.main()
+    assert not (root / "build/bin/fake").exists()
+    assert (root / "build/bin/cpp_tests").exists()  # it makes no product
