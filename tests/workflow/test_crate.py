@@ -117,7 +117,7 @@ def test_in_a_repository_it_holds_what_is_tracked_and_the_day_of_the_commit(pack
 def test_without_a_repository_the_day_is_that_of_the_makefile(packed: Clone) -> None:
     hidden = (packed.folder / ".git").rename(packed.folder / ".cache/git")
     try:
-        for arguments in (("panel", "FRESH=1"), ("crate",)):
+        for arguments in (("panel", "FRESH=yes"), ("crate",)):
             made = packed.make(*arguments, *CHEAP)
             assert made.returncode == 0, made.stdout
     finally:
