@@ -53,7 +53,7 @@ ONLY_PANEL := $(if $(PANEL),--panel $(PANEL))
 COMPARE = $(if $(SEED)$(REPLICAS)$(filter $(YES),$(FRESH)),$(PYTHON) workflow.provenance.compare --quality $(EFFORT))
 
 .PHONY: help figures panel build test check format describe reference lock audit verify provenance status \
-  crate bench tradeoff clean
+  crate bench tradeoff clean system-packages runtime dev
 help:  ## This list
 	sed -nE 's/^([a-z]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 16
 	echo 'Options: QUALITY=smoke|standard|paper|deep  PANEL=fig05  FRESH=yes  SEED=7  REPLICAS=200  JOBS=2'
@@ -72,7 +72,7 @@ panel: build runtime  ## The same for one panel, PANEL=fig05; FRESH=yes simulate
 crate: build runtime  ## Figures, data, code and runs as an RO-Crate in build/crate; PANEL=fig05 packs one panel
 	$(PYTHON) workflow.provenance.crate --quality $(EFFORT) $(ONLY_PANEL)
 
-build: build/system-packages  ## The executables in build/bin
+build: system-packages  ## The executables in build/bin
 	grep -qsxF $(call quote,CMAKE_HOME_DIRECTORY:INTERNAL=$(CURDIR)/cpp) build/CMakeCache.txt || \
 	  rm -rf build/CMakeCache.txt build/CMakeFiles build/build.ninja
 	python3 -I workflow/environment/build_by_content.py
@@ -100,14 +100,14 @@ describe: build runtime  ## State the programs' options and quantities in schema
 audit: runtime  ## Check every link from the sources to the figures; PANEL=fig05 draws only that again
 	$(PYTHON) workflow.provenance.audit --quality $(EFFORT) $(ONLY_PANEL)
 
-verify: build runtime  ## Make a sample of the products again and compare; SAMPLE=0.1 PANEL=fig05
+verify: runtime  ## Make a sample of the products again and compare; SAMPLE=0.1 PANEL=fig05
 	$(PYTHON) workflow.provenance.verify --quality $(EFFORT) --sample $(SAMPLE) $(ONLY_PANEL)
 
 provenance: runtime  ## What a product was made from, FILE=figures/standard/fig05.pdf or a copy of it
 	$(if $(FILE),,echo 'make provenance: FILE is missing; try make provenance FILE=figures/standard/fig05.pdf'; exit 2)
 	$(PYTHON) workflow.provenance.tree $(if $(filter $(YES),$(FULL)),--full) -- $(FILE)
 
-status: build runtime  ## Which panels are fresh, their errors and what they cost
+status: runtime  ## Which panels are fresh, their errors and what they cost
 	$(PYTHON) workflow.provenance.status --quality $(EFFORT)
 
 bench: build runtime  ## Cost of an event: engine, reference and floor side by side; programs and bare loops
@@ -127,7 +127,7 @@ tradeoff: build runtime  ## Speed against accuracy, measured here: figures/trade
 	$(PYTHON) workflow.tradeoff.prediction --programs build/bin --output figures/tradeoff/ext06_prediction
 	$(PYTHON) workflow.tradeoff.extremes --programs build/bin --quality $(EFFORT) --output figures/tradeoff/ext08
 
-reference: build/system-packages dev  ## C++ and Python reference in build/reference; any warning is an error
+reference: system-packages dev  ## C++ and Python reference in build/reference; any warning is an error
 	mkdir -p build/reference
 	doxygen docs/Doxyfile
 	PDOC_ALLOW_EXEC=1 .venv/bin/python -P -W error::UserWarning workflow/environment/launch.py pdoc -o build/reference/python \
@@ -142,14 +142,13 @@ lock: dev  ## Renew both locks of Python packages
 clean:  ## Remove what can be made again, results included
 	rm -rf build data/*/ figures/*/ .snakemake .cache
 
-build/system-packages: workflow/environment/system_packages.sh
-	mkdir -p build
-	bash workflow/environment/system_packages.sh
-	touch $@
+system-packages:
+	cmp -s workflow/environment/system_packages.sh build/system-packages || \
+	  { bash workflow/environment/system_packages.sh && { mkdir -p build && \
+	    cp workflow/environment/system_packages.sh build/system-packages; } || test ! -w .; }
 
-.PHONY: runtime dev
-runtime: build/system-packages
+runtime: system-packages
 	python3 -I workflow/environment/packages.py requirements.lock
 
-dev: build/system-packages
+dev: system-packages
 	python3 -I workflow/environment/packages.py requirements.lock requirements-dev.lock

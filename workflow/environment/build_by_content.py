@@ -36,7 +36,7 @@ def recorded() -> dict[str, str]:
 
 def renew(before: dict[str, str], now: dict[str, str]) -> None:
     changed = [path for path in now if before.get(path) != now[path] and path != "compiler"]
-    if before.get("compiler") != now["compiler"]:  # CMake knows its version since it was first run
+    if before and before.get("compiler") != now["compiler"]:  # CMake knows its version since it was first run
         changed.append("cpp/CMakeLists.txt")
         for name in ("CMakeCache.txt", "build.ninja"):
             (BUILD / name).unlink(missing_ok=True)

@@ -96,7 +96,7 @@ def install(locks: list[str]) -> None:
             if missing:
                 add(missing)
                 write({**there, **asked}, state(now))
-            elif now != before:
+            elif now != before and os.access(FOLDER, os.W_OK):
                 write(there, now)
             return
     if FOLDER.exists():

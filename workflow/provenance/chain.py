@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator
 from workflow.lib.options import Options
 from workflow.lib.parents import PACKAGES
 from workflow.lib.plan import Panel, Run, data_of, data_path, drawings_of, with_used
+from workflow.provenance.build_id import include_closure
 from workflow.provenance.lock import Job, Lock, LockError
 from workflow.provenance.repository import ROOT, FileHashes
 from workflow.provenance.sources import sources_of
@@ -26,6 +27,7 @@ class Chain:
         except LockError:
             self.lock = Lock(quality)
         self.hashes = FileHashes()
+        self._program_sources: dict[str, dict[str, str | None]] = {}
 
     def stale(self, panels: Iterable[str]) -> dict[str, str]:
         """Stale jobs of the panels, each with its first reason, runs before the drawings that show them."""
@@ -64,6 +66,15 @@ class Chain:
         """The script that draws the panel, and what it imports."""
         return sources_of(f"workflow/figures/{self.plan[name].script}.py")
 
+    def program_sources(self, program: str) -> dict[str, str | None]:
+        """Files below cpp that the program is built from, with their hashes; empty if there is no such program."""
+        if program not in self._program_sources:
+            root = f"observables/{program}.cpp"
+            there = (ROOT / "cpp" / root).is_file()
+            paths = include_closure(ROOT / "cpp", root) if there else []
+            self._program_sources[program] = {path: self.hashes[f"cpp/{path}"] for path in paths}
+        return self._program_sources[program]
+
     def changed_inputs(self, name: str) -> Iterator[str]:
         """Of a drawing: files that it would be made from now, or was made from, and that are not the same."""
         before = self.lock.jobs[name].inputs
@@ -85,16 +96,16 @@ class Chain:
         return f"parameters changed: {difference}" if difference else None
 
     def changed_build(self, job: Job) -> str | None:
-        """What makes the build id of the executable differ; none where nothing is built."""
+        """A source of the executable that differs, or another part of its build id where it is built."""
+        old = self.lock.builds.get(job.build_id, {})
+        before, after = old.get("sources", {}), self.program_sources(job.tool)
+        for path in sorted({*before, *after}):
+            if before.get(path) != after.get(path):
+                return f"cpp/{path} changed"
         identity = ROOT / f"build/id/{job.tool}.json"
         build = json.loads(identity.read_text()) if identity.is_file() else None
         if build is None or build["build_id"] == job.build_id:
             return None
-        old = self.lock.builds.get(job.build_id, {})
-        before, after = old.get("sources", {}), build["sources"]
-        for path in sorted({*before, *after}):
-            if before.get(path) != after.get(path):
-                return f"cpp/{path} changed"
         for part in ("compiler", "flags", "libraries", "version"):
             if old.get(part) != build[part]:
                 return f"{part} of {job.tool} changed: {old.get(part)} to {build[part]}"
