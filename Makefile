@@ -46,7 +46,7 @@ PYTHON := .venv/bin/python -P workflow/environment/launch.py
 YES := yes 1
 EFFORT := $(call quote,$(QUALITY)$(if $(SEED),_seed=$(SEED))$(if $(REPLICAS),_replicas=$(REPLICAS)))
 $(foreach name,JOBS PANEL FILE CRATE SAMPLE,$(if $($(name)),$(eval override $(name) := $$(call quote,$$($(name))))))
-SNAKEMAKE := $(PYTHON) snakemake --cores $(or $(JOBS),$(shell nproc 2>/dev/null || sysctl -n hw.ncpu)) \
+SNAKEMAKE := $(PYTHON) snakemake --cores $(or $(JOBS),$(shell env -u OMP_NUM_THREADS nproc 2>/dev/null || sysctl -n hw.ncpu)) \
   --config quality=$(EFFORT) $(if $(PANEL),panel=$(PANEL)) $(if $(filter $(YES),$(FRESH)),fresh=yes)
 SNAKEFMT := .venv/bin/snakefmt --no-format-shell --line-length 110
 ONLY_PANEL := $(if $(PANEL),--panel $(PANEL))
