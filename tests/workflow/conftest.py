@@ -1,3 +1,5 @@
+import contextlib
+import fcntl
 import os
 import shutil
 import subprocess
@@ -58,17 +60,53 @@ def clone_into(folder: Path) -> Clone:
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(ROOT / name, folder / name)
     shutil.copytree(ROOT / ".venv", folder / ".venv", copy_function=os.link, symlinks=True)
+    share_objects(folder)
     return Clone(folder)
+
+
+def share_objects(folder: Path) -> None:
+    """Clones compile each source once in all: what the compiler writes does not depend on the folder."""
+    settings = {"CCACHE_DIR": ROOT / "build/ccache", "CCACHE_BASEDIR": folder, "CCACHE_NOHASHDIR": 1}
+    launcher = ";".join(["env", *(f"{name}={value}" for name, value in settings.items()), "ccache"])
+    command = [
+        "cmake",
+        "-S",
+        "cpp",
+        "-B",
+        "build",
+        "-G",
+        "Ninja",
+        f"-DCMAKE_CXX_COMPILER_LAUNCHER={launcher}",
+    ]
+    subprocess.run(command, cwd=folder, env={"PATH": os.defpath}, check=True, stdout=subprocess.DEVNULL)
+
+
+@contextlib.contextmanager
+def locked(path: Path) -> Iterator[None]:
+    with path.open("w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        yield
 
 
 @pytest.fixture(scope="session")
 def clean(tmp_path_factory: pytest.TempPathFactory) -> Clone:
-    """A repository with one commit, built and drawn once, at smoke quality, in a quiet environment."""
+    """A repository with one commit, built, with every figure at smoke quality. Processes that run tests beside each
+    other draw once and copy."""
+    own = tmp_path_factory.getbasetemp()
+    shared = own.parent if "PYTEST_XDIST_WORKER" in os.environ else own
+    with locked(shared / "drawn.lock"):
+        drawn = Clone(shared / "drawn")
+        if not drawn.folder.exists():
+            clone = clone_into(shared / "being drawn")
+            clone.git("init", "--quiet")
+            clone.commit()
+            made = clone.make("figures", "QUALITY=smoke")
+            assert made.returncode == 0, made.stdout
+            clone.folder.rename(drawn.folder)
     clone = clone_into(tmp_path_factory.mktemp("clean"))
-    clone.git("init", "--quiet")
-    clone.commit()
-    made = clone.make("figures", "QUALITY=smoke")
-    assert made.returncode == 0, made.stdout
+    for place in (".git", "data", "figures", "build/logs", "build/costs", "build/benchmarks"):
+        shutil.copytree(drawn.folder / place, clone.folder / place, dirs_exist_ok=True)
+    assert clone.make("build").returncode == 0
     return clone
 
 

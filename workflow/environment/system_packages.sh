@@ -19,6 +19,7 @@ header:fmt/format.h    libfmt-dev         fmt-devel        fmt
 header:gtest/gtest.h   libgtest-dev       gtest-devel      googletest
 header:benchmark/benchmark.h libbenchmark-dev google-benchmark-devel google-benchmark
 command:doxygen        doxygen            doxygen          doxygen
+command:ccache         ccache             ccache           ccache
 venv:                  python3-venv       python3          python
 '
 
