@@ -15,7 +15,7 @@ extern "C" void note_signal(int number) { received.store(number); }
 }  // namespace
 
 void watch_for_signals() {
-  struct sigaction action{};
+  struct sigaction action {};
   action.sa_handler = note_signal;
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
