@@ -128,6 +128,7 @@ Results results(const KineticParameters& parameters, const RefinedSolution& solu
 }
 
 Outcome solve(const KineticParameters& parameters, Progress& progress) {
+  const NothingToSave nothing_to_save;
   const double target = parameters.target_error;
   const RefinedSolution solution =
       refine(parameters.problem(), target, static_cast<int>(parameters.coarsening), [] {

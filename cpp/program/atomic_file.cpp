@@ -20,7 +20,7 @@ class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& path)
       : path_(path), temporary_(fmt::format("{}.{}.tmp", path, ::getpid())) {
-    struct stat status {};
+    struct stat status{};
     if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
       fail("it exists and is not a regular file", "Name a file that may be replaced");
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);

@@ -152,8 +152,7 @@ ExitStatus Program::run_or_throw(int argc, char** argv, const Describe& describe
 
 int Program::run(int argc, char** argv, const Describe& describe, const Compute& compute) {
   const auto complain = [this](const char* kind, std::string what) {
-    std::ranges::replace_if(
-        what, [](unsigned char c) { return std::iscntrl(c); }, ' ');  // one line
+    std::ranges::replace_if(what, [](unsigned char c) { return std::iscntrl(c); }, ' ');  // one line
     print_error(fmt::format("{}: {}: {}\n", options_.program(), kind, what));
   };
   secure_standard_streams();

@@ -124,6 +124,7 @@ class StudyRun {
   static void keep(const Checkpoint& checkpoint, const FinishedReplicas& finished, Progress& progress,
                    const std::string& why) try {
     checkpoint.save(finished);
+    if (finished.empty()) return progress.say(why + " before the first replica was finished");
     progress.say(fmt::format("{} after {} replicas; --resume continues from '{}'", why, finished.size(),
                              checkpoint.path()));
   } catch (const UsageError& error) {
