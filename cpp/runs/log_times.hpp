@@ -42,8 +42,8 @@ inline void declare(Options& options, LogTimeParameters& parameters) {
 inline void validate(const LogTimeParameters& parameters) {
   if (parameters.fit_decades > parameters.decades)
     throw UsageError(
-        "--fit-decades exceeds --decades: the fit would begin before the first time. Fit fewer decades, or "
-        "choose more of them.");
+        "--fit-decades exceeds --decades: the fit would begin before the first time. Choose fewer decades of "
+        "the fit, or more of the grid.");
 }
 
 }  // namespace lorentz

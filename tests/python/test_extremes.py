@@ -295,6 +295,8 @@ REFUSED = [
     ("persistence", {"observation-time": 1e300}, "--observation-time"),
     ("persistence", {"temperature": 1e301}, "--temperature"),
     ("persistence", {"temperature": 1e-301}, "--temperature"),
+    ("ageing", {"decades": 1, "fit-decades": 1.5}, "--fit-decades"),
+    ("displacement", {"decades": 2, "fit-decades": 3}, "--fit-decades"),
     ("displacement", {"decades": 15, "observation-time": 1e-3, "relaxation-time": 100}, "--decades"),
     ("displacement", {"cell-length": 1e100, "observation-time": 1e100}, "displacement at the first time"),
     ("conductivity", {"relaxation-time": 1e5, "observation-time": 1e-6}, "--observation-time"),
