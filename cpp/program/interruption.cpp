@@ -25,6 +25,7 @@ extern "C" void end_process(int) { ::_exit(static_cast<int>(ExitStatus::interrup
 void handle(int number, void (*handler)(int)) {
   struct sigaction action{};
   action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;  // a file that is being saved is saved to its end
   sigemptyset(&action.sa_mask);
   sigaction(number, &action, nullptr);
 }
@@ -38,6 +39,10 @@ void watch_for_signals() {
 }
 
 int received_signal() { return received.load(std::memory_order_relaxed); }
+
+void stop_after_signal() {
+  if (const int signal = received_signal()) throw Interrupted(signal);
+}
 
 NothingToSave::NothingToSave() { nothing_to_save.store(true); }
 

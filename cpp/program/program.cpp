@@ -175,7 +175,9 @@ int Program::run(int argc, char** argv, const Describe& describe, const Compute&
     complain("numerical failure", error.what());
     return static_cast<int>(ExitStatus::numerical_failure);
   } catch (const std::exception& error) {
-    complain("internal error", fmt::format("{}. Please report it with the command line.", error.what()));
+    complain(
+        "internal error",
+        fmt::format("{}. The program is at fault: please report it with the command line.", error.what()));
     return static_cast<int>(ExitStatus::internal_error);
   }
 }

@@ -77,7 +77,7 @@ class Team {
     while (begin_next(index)) {
       const auto heartbeat = [this, &fraction](double part) {
         fraction.store(part, std::memory_order_relaxed);
-        if (const int signal = received_signal()) throw Interrupted(signal);
+        stop_after_signal();
         if (failed_.load(std::memory_order_relaxed)) throw Interrupted(0);
       };
       try {
