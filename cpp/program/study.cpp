@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <new>
 #include <thread>
 #include <utility>
 
@@ -97,7 +98,7 @@ class StudyRun {
         deadline_(parameters.time_limit > 0 ? later(parameters.time_limit) : Clock::time_point::max()),
         rule_{.batch = parameters.replicas, .most = parameters.max_replicas} {}
 
-  Outcome run() {
+  Outcome run() try {
     if (parameters_.resume)
       finished_ = checkpoint_.load([this](const std::string& line) { progress_.warn(line); });
     resumed_ = finished_.size();
@@ -117,6 +118,12 @@ class StudyRun {
       };
       return outcome;
     }
+  } catch (const Interrupted&) {
+    keep(checkpoint_, finished_, progress_, "interrupted");
+    throw;
+  } catch (const std::bad_alloc&) {
+    keep(checkpoint_, finished_, progress_, "out of memory");
+    throw;
   }
 
  private:
@@ -129,7 +136,7 @@ class StudyRun {
                              checkpoint.path()));
   } catch (const UsageError& error) {
     progress.warn(
-        fmt::format("{} after {} replicas, which are lost: {}", why, finished.size(), error.what()));
+        fmt::format("{} after {} replicas, which are not saved: {}", why, finished.size(), error.what()));
   }
 
   void measure(std::uint64_t wanted) {
@@ -149,13 +156,8 @@ class StudyRun {
       keep(checkpoint_, so_far, progress_, "interrupted");
       std::_Exit(static_cast<int>(ExitStatus::interrupted) + signal);
     };
-    try {
-      run_replicas({parameters_.seed, wanted, parameters_.threads, deadline_, report, warn, abandon},
-                   measure_one, finished_);
-    } catch (const Interrupted&) {
-      keep(checkpoint_, finished_, progress_, "interrupted");
-      throw;
-    }
+    run_replicas({parameters_.seed, wanted, parameters_.threads, deadline_, report, warn, abandon},
+                 measure_one, finished_);
   }
 
   /// The results matter more than a checkpoint, so the run goes on without one, and says so once.

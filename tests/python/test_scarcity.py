@@ -78,7 +78,7 @@ def test_a_result_beyond_the_space_leaves_the_former_one(tmp_path: Path, progres
     result = limited(tmp_path, {resource.RLIMIT_FSIZE: 300_000}, options, "momentum_flux")
     assert result.returncode == 2
     assert "error: 'out.h5' cannot be written: " in result.stderr
-    assert "4 replicas, which are lost: 'out.h5.checkpoint' cannot be written: " in result.stderr
+    assert "4 replicas, which are not saved: 'out.h5.checkpoint' cannot be written: " in result.stderr
     assert (tmp_path / "out.h5").read_bytes() == b"former"
     assert [path.name for path in tmp_path.iterdir()] == ["out.h5"]
 
@@ -133,7 +133,10 @@ def test_a_signal_during_a_long_setup(tmp_path: Path, name: str, number: signal.
     time.sleep(0.7)
     process.send_signal(number)
     begin = time.monotonic()
-    process.communicate(timeout=60)
+    try:
+        process.communicate(timeout=60)
+    finally:
+        process.kill()
     assert process.returncode == 128 + number
     assert time.monotonic() - begin < 4
     assert list(tmp_path.iterdir()) == []

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <new>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -88,11 +89,22 @@ TEST(Study, KeepsTheReplicasOfResultsThatCannotBeWritten) {
   EXPECT_EQ(content_of(folder / "a.h5"), content_of(folder / "b.h5"));
 }
 
+TEST(Study, KeepsTheReplicasIfMemoryRunsOut) {
+  const TemporaryFolder folder;
+  const auto greedy = [](const Replica& replica) {
+    if (replica.key.replica == 5) throw std::bad_alloc();
+    return measure(replica);
+  };
+  EXPECT_EQ(run({"--output", folder / "a.h5", "--threads", "1"}, greedy), 2);
+  EXPECT_EQ(complaints.find('\n'), complaints.size() - 1) << complaints;
+  EXPECT_EQ(Hdf5Reader(folder / "a.h5.checkpoint").counts("/replicas/index").size(), 5U);
+}
+
 TEST(Study, LosesNoReplicaInSilence) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "a.h5.checkpoint");
   EXPECT_EQ(run({"--output", folder / "a.h5"}, interrupted_at(5)), 128 + SIGINT);
-  EXPECT_NE(complaints.find("which are lost: "), std::string::npos) << complaints;
+  EXPECT_NE(complaints.find("which are not saved: "), std::string::npos) << complaints;
   EXPECT_EQ(run({"--output", folder / "b.h5", "--progress", "log", "--threads", "1"}, interrupted_at(0)),
             128 + SIGINT);
   EXPECT_EQ(complaints, "example: interrupted before the first replica was finished\n");
