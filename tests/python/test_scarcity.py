@@ -95,13 +95,13 @@ def test_a_checkpoint_beyond_the_space_costs_no_result(program: Program, tmp_pat
     assert (tmp_path / "out.h5").read_bytes() == (tmp_path / "whole.h5").read_bytes()
 
 
-# The stack of a thread takes address space, so that three threads besides the first one fit, or none does.
-@pytest.mark.parametrize(("stack", "threads"), [(400 << 20, "3"), (2000 << 20, "1")])
+# The stack of a thread takes address space, so that three threads fit besides the first one, or none does.
+@pytest.mark.parametrize(("stack", "threads"), [(1000 << 20, "3"), (4000 << 20, "1")])
 def test_threads_that_are_not_to_be_had(
     persistence: Program, tmp_path: Path, stack: int, threads: str
 ) -> None:
     assert persistence(output="whole.h5").returncode == 0
-    limits = {resource.RLIMIT_STACK: stack, resource.RLIMIT_AS: 1500 << 20}
+    limits = {resource.RLIMIT_STACK: stack, resource.RLIMIT_AS: 3700 << 20}
     result = limited(tmp_path, limits, {"threads": 4, "progress": "none"}, "persistence")
     assert result.returncode == 0
     assert result.stderr.startswith(f"persistence: the run goes on with {threads} of 4 threads: ")
