@@ -84,6 +84,12 @@ def test_output_that_cannot_be_written(persistence: Program, tmp_path: Path, tar
     assert [path.name for path in tmp_path.iterdir()] == ["folder"]
 
 
+def test_cost_file_that_cannot_be_written(persistence: Program, tmp_path: Path) -> None:
+    (tmp_path / "out.cost.json").mkdir()
+    refused(persistence(), "out.cost.json", "Name a file")
+    assert [path.name for path in tmp_path.iterdir()] == ["out.cost.json"]
+
+
 def limit_file_size() -> None:
     """Simulates a full disk without special rights: the size of a file is limited to 1000 bytes."""
     resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
