@@ -118,6 +118,7 @@ Estimator energies(const Parameters& parameters, const Tallies& tallies) {
 
 Study ageing(const Parameters& parameters) {
   validate(parameters);
+  validate(parameters.log_times);
   const Tallies tallies(parameters);
   return closed_study(parameters, tallies, std::bind_front(observe, parameters, tallies),
                       {energies(parameters, tallies)}, "log_slope");

@@ -127,12 +127,11 @@ Results results(const KineticParameters& parameters, const RefinedSolution& solu
   return results;
 }
 
-Outcome solve(const KineticParameters& parameters, Progress& progress) {
+Outcome solve(const KineticParameters& parameters, Progress& progress) try {
+  const NothingToSave nothing_to_save;
   const double target = parameters.target_error;
   const RefinedSolution solution =
-      refine(parameters.problem(), target, static_cast<int>(parameters.coarsening), [] {
-        if (const int signal = received_signal(); signal != 0) throw Interrupted(signal);
-      });
+      refine(parameters.problem(), target, static_cast<int>(parameters.coarsening), stop_after_signal);
   const bool reached = solution.error <= target;
   if (!reached)
     progress.say(fmt::format("target not reached: the currents are known to {:.1e}, not to {:.1e}",
@@ -144,6 +143,8 @@ Outcome solve(const KineticParameters& parameters, Progress& progress) {
           .target_error = target,
           .achieved_error = solution.error,
           .convergence = reached ? Convergence::reached : Convergence::not_reached};
+} catch (const ConvergenceError& error) {
+  throw NumericalError(error.what());
 }
 
 }  // namespace

@@ -133,6 +133,7 @@ void require_resolved(const Parameters& parameters) {
 
 Study displacement(const Parameters& parameters) {
   validate(parameters);
+  validate(parameters.log_times);
   require_resolved(parameters);
   const Tallies tallies(parameters.times());
   return closed_study(parameters, tallies, std::bind_front(observe, parameters, tallies),

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 #include "program/errors.hpp"
 
@@ -46,13 +47,19 @@ class TemporaryFile {
     if (error != 0) fail(std::strerror(error), "Free space or choose another disk");
   }
 
-  void commit() {
+  void flush() {
     const bool flushed = ::fsync(descriptor_) == 0;
     const bool closed = ::close(descriptor_) == 0;
     descriptor_ = -1;
-    if (!flushed || !closed || std::rename(temporary_.c_str(), path_.c_str()) != 0)
+    if (!flushed || !closed) fail(std::strerror(errno), "Free space or choose another disk");
+  }
+
+  /// Call flush() before.
+  void commit() {
+    if (std::rename(temporary_.c_str(), path_.c_str()) != 0)
       fail(std::strerror(errno), "Free space or choose another disk");
     committed_ = true;
+    flush_folder();
   }
 
  private:
@@ -62,6 +69,15 @@ class TemporaryFile {
     descriptor_ = -1;
     ::unlink(temporary_.c_str());  // the destructor does not run when the constructor throws
     throw UsageError(message);
+  }
+
+  /// Makes the new name last through a power failure, where the file system can.
+  void flush_folder() const {
+    const std::string folder = std::filesystem::path(path_).parent_path();
+    const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    ::fsync(descriptor);
+    ::close(descriptor);
   }
 
   std::string path_, temporary_;
@@ -74,11 +90,21 @@ class TemporaryFile {
 void write_atomically(const std::string& path, std::span<const std::byte> content) {
   TemporaryFile file(path);
   file.write(content);
+  file.flush();
   file.commit();
 }
 
 void write_atomically(const std::string& path, const std::string& content) {
   write_atomically(path, std::as_bytes(std::span(content)));
+}
+
+void replace_atomically(const std::string& path, const std::string& former,
+                        std::span<const std::byte> content) {
+  TemporaryFile file(path);
+  file.write(content);
+  file.flush();
+  std::rename(path.c_str(), former.c_str());  // there may be none
+  file.commit();
 }
 
 void require_writable(const std::string& path, std::size_t size) { TemporaryFile(path).reserve(size); }

@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -13,14 +14,22 @@
 namespace lorentz {
 namespace {
 
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+  throw UsageError(
+      fmt::format("--config: '{}' cannot be read: {}. Name a TOML file that can be.", path, why));
+}
+
 std::string content_of(const std::string& path) try {
+  std::error_code missing;
+  const auto status = std::filesystem::status(path, missing);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    refuse(path, "it is not a regular file");
   std::ifstream file;
   file.exceptions(std::ios::failbit);
   file.open(path);
   return {std::istreambuf_iterator<char>(file), {}};
 } catch (const std::ios::failure&) {
-  throw UsageError(fmt::format("--config: '{}' cannot be read: {}. Name a TOML file that can be.", path,
-                               std::strerror(errno)));
+  refuse(path, std::strerror(errno));
 }
 
 ConfigEntry entry(const toml::node& node) {

@@ -11,6 +11,7 @@ enum class ExitStatus : int {
   usage = 2,
   numerical_failure = 3,
   not_converged = 4,
+  internal_error = 5,
   interrupted = 128,
 };
 

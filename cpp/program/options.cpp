@@ -5,12 +5,15 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
-#include <iostream>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <span>
 #include <sstream>
+#include <utility>
 
 #include "program/config_file.hpp"
 #include "program/errors.hpp"
+#include "program/standard_streams.hpp"
 
 namespace lorentz {
 
@@ -86,6 +89,18 @@ Option number_or_word(std::optional<Number>& value, Range<Number> range, const s
   return option;
 }
 
+/// Least number of letters to insert, delete or replace to make one word of the other (Levenshtein).
+std::size_t distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);  // of the letters of a so far from the beginnings of b
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j)
+      diagonal = std::exchange(row[j + 1], std::min({row[j] + 1, row[j + 1] + 1, diagonal + (a[i] != b[j])}));
+  }
+  return row.back();
+}
+
 std::string as_text(const AttributeValue& value) {
   return std::visit([](const auto& each) { return fmt::format("{}", each); }, value);
 }
@@ -101,9 +116,12 @@ const std::string& text_for(const std::string& type, const ConfigEntry& entry) {
 
 Options::Options(std::string program, const std::string& description)
     : program_(std::move(program)), app_(std::make_unique<CLI::App>(description, program_)) {
-  app_->add_option("--config", "Read options from a TOML file (keys without the dashes)")->type_name("");
+  app_->add_option("--config", "Read options from a TOML file (keys without the dashes)")
+      ->type_name("")
+      ->take_all();  // parse() refuses an option given twice
   app_->set_version_flag("--version", std::string{}, "Print version and build id, then exit");
   app_->get_formatter()->column_width(36);
+  app_->allow_extras();  // parse() refuses them, with the name that is nearest
 }
 
 Options::~Options() = default;
@@ -123,7 +141,7 @@ void Options::add(const std::string& name, const std::string& help, Role role, O
   if (option.description["type"] == "flag")
     app_->add_flag(name, help);
   else
-    app_->add_option(name, CLI::callback_t{}, text)->type_name("");
+    app_->add_option(name, CLI::callback_t{}, text)->type_name("")->take_all();
   options_.push_back(std::move(option));
 }
 
@@ -226,6 +244,20 @@ void Options::refuse(const std::string& why) const {
   throw UsageError(fmt::format("{}. Correct it; '{} --help' lists every option.", why, program_));
 }
 
+std::string Options::nearest(const std::string& name) const {
+  const auto closer = [&](const Option& a, const Option& b) {
+    return distance(a.name, "--" + name) < distance(b.name, "--" + name);
+  };
+  return std::ranges::min_element(options_, closer)->name;
+}
+
+void Options::refuse_unknown(const std::string& word) const {
+  if (!word.starts_with('-')) refuse(fmt::format("'{}' is no option and belongs to none", word));
+  const std::string name = word.substr(0, word.find('='));
+  refuse(fmt::format("no option has the name {}; the nearest one is {}", name,
+                     nearest(name.substr(std::min(name.size(), name.find_first_not_of('-'))))));
+}
+
 void Options::read(Option& option, const std::string& text, const std::string& place) {
   option.given = option.read(text);
   if (!option.given)
@@ -239,7 +271,8 @@ void Options::read_file(const std::string& path) {
       return each.description["name"] == entry.key;
     });
     if (option == options_.end())
-      refuse(fmt::format("{}: no option has the name '{}'", entry.place, entry.key));
+      refuse(fmt::format("{}: no option has the name '{}'; the nearest one is '{}'", entry.place, entry.key,
+                         nearest(entry.key).substr(2)));
     if (option->description["type"] == "text" && entry.form != ConfigEntry::Form::string)
       refuse(fmt::format("{}: {}: '{}' cannot be used: it must be a string", entry.place, option->name,
                          entry.literal));
@@ -247,21 +280,34 @@ void Options::read_file(const std::string& path) {
   }
 }
 
+const std::string* Options::argument(const std::string& name) const {
+  const std::vector<std::string>& values = app_->get_option(name)->results();
+  if (values.size() > 1) refuse(name + " is given more than once");
+  return values.empty() ? nullptr : &values.front();
+}
+
 bool Options::parse(int argc, const char* const* argv, const std::string& version_text) {
+  for (const std::string word : std::span(argv, static_cast<std::size_t>(argc)))
+    if (word.starts_with("--") && word.find('=') + 1 == word.size())  // CLI11 would take the next word
+      refuse(fmt::format("{} is followed by nothing", word));
   try {
     app_->parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    std::cout << app_->help();
+    print(app_->help());
     return false;
   } catch (const CLI::CallForVersion&) {
-    std::cout << version_text << '\n';
+    print(version_text + '\n');
     return false;
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string what = error.what();
+    refuse(what.substr(0, what.find(':')) + " needs a value");
   } catch (const CLI::ParseError& error) {
     refuse(error.what());
   }
-  if (app_->count("--config") > 0) read_file(app_->get_option("--config")->results().back());
+  for (const std::string& extra : app_->remaining()) refuse_unknown(extra);
+  if (const std::string* path = argument("--config")) read_file(*path);
   for (Option& option : options_)
-    if (app_->count(option.name) > 0) read(option, app_->get_option(option.name)->results().back(), "");
+    if (const std::string* text = argument(option.name)) read(option, *text, "");
   return true;
 }
 

@@ -110,6 +110,13 @@ class Options {
   void read(Option& option, const std::string& text, const std::string& place);
   void read_file(const std::string& path);
   [[noreturn]] void refuse(const std::string& why) const;
+  [[noreturn]] void refuse_unknown(const std::string& word) const;
+
+  /// Value on the command line; none without one. Throws UsageError if there are several.
+  const std::string* argument(const std::string& name) const;
+
+  /// Name of the option whose name, without the dashes, is nearest.
+  std::string nearest(const std::string& name) const;
 
   std::string program_;
   std::unique_ptr<CLI::App> app_;

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <cctype>
 #include <chrono>
-#include <cstdio>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -13,6 +14,7 @@
 #include "program/build_info.hpp"
 #include "program/interruption.hpp"
 #include "program/results.hpp"
+#include "program/standard_streams.hpp"
 
 namespace lorentz {
 namespace {
@@ -83,14 +85,14 @@ void Program::print_description(const std::vector<Description>& quantities) cons
     described.push_back(
         {{"name", what.name}, {"units", what.units}, {"description", what.description}, {"axes", axes}});
   }
-  fmt::print("{}\n", json{{"program", options_.program()},
-                          {"description", description_},
-                          {"options", options_.describe()},
-                          {"quantities", described}}
-                         .dump(2));
+  const json all = {{"program", options_.program()},
+                    {"description", description_},
+                    {"options", options_.describe()},
+                    {"quantities", described}};
+  print(all.dump(2) + '\n');
 }
 
-void Program::write_output(const Outcome& outcome) const {
+void Program::write_result(const Outcome& outcome) const {
   Hdf5Writer file;
   file.group("/parameters");
   for (const Parameter& parameter : options_.parameters())
@@ -120,6 +122,15 @@ void Program::write_output(const Outcome& outcome) const {
   write_atomically(output_, file.image());
 }
 
+void Program::write_output(const Outcome& outcome, const std::string& cost) const try {
+  write_result(outcome);
+  write_atomically(cost_path(output_), cost);
+  outcome.after_writing(true);
+} catch (...) {
+  outcome.after_writing(false);
+  throw;
+}
+
 ExitStatus Program::run_or_throw(int argc, char** argv, const Describe& describe, const Compute& compute) {
   const Clock::time_point start = Clock::now();
   if (!options_.parse(argc, argv, version_text(options_.program()))) return ExitStatus::done;
@@ -130,19 +141,21 @@ ExitStatus Program::run_or_throw(int argc, char** argv, const Describe& describe
   if (output_.empty())
     throw UsageError("--output is missing: the results need a file. Add --output FILE.h5.");
   require_writable(output_, space_asked_for);
+  require_writable(cost_path(output_), space_asked_for);
   watch_for_signals();
 
   Progress progress(options_.program(), progress_);
   const Outcome outcome = compute(progress);
-  write_output(outcome);
-  write_atomically(cost_path(output_), cost(start, outcome.events));
+  write_output(outcome, cost(start, outcome.events));
   return outcome.convergence == Convergence::not_reached ? ExitStatus::not_converged : ExitStatus::done;
 }
 
 int Program::run(int argc, char** argv, const Describe& describe, const Compute& compute) {
-  const auto complain = [this](const char* kind, const char* what) {
-    fmt::print(stderr, "{}: {}: {}\n", options_.program(), kind, what);
+  const auto complain = [this](const char* kind, std::string what) {
+    std::ranges::replace_if(what, [](unsigned char c) { return std::iscntrl(c); }, ' ');  // one line
+    print_error(fmt::format("{}: {}: {}\n", options_.program(), kind, what));
   };
+  secure_standard_streams();
   try {
     return static_cast<int>(run_or_throw(argc, argv, describe, compute));
   } catch (const UsageError& error) {
@@ -158,9 +171,14 @@ int Program::run(int argc, char** argv, const Describe& describe, const Compute&
              "an array would exceed the largest possible size. Choose a smaller system, fewer bins or fewer "
              "times.");
     return static_cast<int>(ExitStatus::usage);
-  } catch (const std::exception& error) {
+  } catch (const NumericalError& error) {
     complain("numerical failure", error.what());
     return static_cast<int>(ExitStatus::numerical_failure);
+  } catch (const std::exception& error) {
+    complain(
+        "internal error",
+        fmt::format("{}. The program is at fault: please report it with the command line.", error.what()));
+    return static_cast<int>(ExitStatus::internal_error);
   }
 }
 

@@ -25,6 +25,9 @@ struct Outcome {
   double achieved_error = 0;  // relative, or absolute if the target was
   Convergence convergence = Convergence::not_reached;
   std::size_t replicas = 0;  // used for the results
+
+  /// Called at the end with whether the results were written.
+  std::function<void(bool)> after_writing = [](bool) {};
 };
 
 /// Common part of every executable: options, one computation, one HDF5 file written atomically, a cost file
@@ -47,7 +50,8 @@ class Program {
  private:
   ExitStatus run_or_throw(int argc, char** argv, const Describe& describe, const Compute& compute);
   void print_description(const std::vector<Description>& quantities) const;
-  void write_output(const Outcome& outcome) const;
+  void write_result(const Outcome& outcome) const;
+  void write_output(const Outcome& outcome, const std::string& cost) const;
 
   Options options_;
   std::string description_;

@@ -4,8 +4,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
+
+#include "program/standard_streams.hpp"
 
 namespace lorentz {
 namespace {
@@ -45,24 +46,27 @@ void Progress::show(double done, double wanted, double resumed) {
   const std::string remaining =
       fresh > 0 ? as_time(elapsed * (wanted - done) / fresh) + " left" : std::string("time left unknown");
   if (style_ == Style::log) {
-    fmt::print(stderr, "{}: {:.1f} of {:.0f} replicas, {}\n", program_, done, wanted, remaining);
+    print_error(fmt::format("{}: {:.1f} of {:.0f} replicas, {}\n", program_, done, wanted, remaining));
     return;
   }
   constexpr int width = 30;
   const int filled = std::clamp(static_cast<int>(width * done / wanted), 0, width);
-  fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {:.1f}/{:.0f} replicas, {}\x1b[K", program_, "", filled, "",
-             width - filled, done, wanted, remaining);
+  print_error(fmt::format("\r{} [{:#<{}}{:.<{}}] {:.1f}/{:.0f} replicas, {}\x1b[K", program_, "", filled, "",
+                          width - filled, done, wanted, remaining));
   bar_drawn_ = true;
 }
 
 void Progress::say(const std::string& line) {
-  if (style_ == Style::none) return;
+  if (style_ != Style::none) warn(line);
+}
+
+void Progress::warn(const std::string& line) {
   clear_bar();
-  fmt::print(stderr, "{}: {}\n", program_, line);
+  print_error(fmt::format("{}: {}\n", program_, line));
 }
 
 void Progress::clear_bar() {
-  if (std::exchange(bar_drawn_, false)) fmt::print(stderr, "\r\x1b[K");
+  if (std::exchange(bar_drawn_, false)) print_error("\r\x1b[K");
 }
 
 }  // namespace lorentz

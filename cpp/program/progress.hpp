@@ -24,6 +24,9 @@ class Progress {
   /// Prints a line: a result, or why the run stops.
   void say(const std::string& line);
 
+  /// Prints a line in every style: something is wrong, and the run goes on.
+  void warn(const std::string& line);
+
  private:
   using Clock = std::chrono::steady_clock;
 

@@ -1,10 +1,13 @@
 #include "program/replicas.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 #include "program/errors.hpp"
@@ -26,16 +29,32 @@ class Team {
   void run() {
     {
       std::vector<std::jthread> workers;
-      const auto needed = std::min<std::size_t>(run_.threads, todo_.size());
-      active_ = needed;
-      for (std::size_t worker = 0; worker < needed; ++worker)
-        workers.emplace_back([this, worker] { work(fractions_[worker]); });
+      start(workers);
+      alone_ = workers.empty() && !todo_.empty();
+      if (alone_) work(fractions_[0]);
       report_until_done();
     }
     if (failure_) std::rethrow_exception(failure_);
   }
 
  private:
+  /// Starts as many threads as are needed and can be had.
+  void start(std::vector<std::jthread>& workers) {
+    const auto needed = std::min<std::size_t>(run_.threads, todo_.size());
+    workers.reserve(needed);
+    active_ = needed;
+    try {
+      while (workers.size() < needed)
+        workers.emplace_back([this, worker = workers.size()] { work(fractions_[worker]); });
+    } catch (const std::system_error& error) {
+      const auto used = std::max<std::size_t>(workers.size(), 1);
+      run_.warn(
+          fmt::format("the run goes on with {} of {} threads: {}", used, needed, error.code().message()));
+      const std::lock_guard lock(mutex_);
+      active_ -= needed - used;
+    }
+  }
+
   /// Takes the index of the next replica. False if there is none, after a failure, and after the deadline
   /// except for the first two replicas.
   bool begin_next(std::uint64_t& index) {
@@ -58,7 +77,7 @@ class Team {
     while (begin_next(index)) {
       const auto heartbeat = [this, &fraction](double part) {
         fraction.store(part, std::memory_order_relaxed);
-        if (const int signal = received_signal()) throw Interrupted(signal);
+        stop_after_signal();
         if (failed_.load(std::memory_order_relaxed)) throw Interrupted(0);
       };
       try {
@@ -67,6 +86,7 @@ class Team {
         const std::lock_guard lock(mutex_);
         finished_.emplace(index, std::move(record));
         fraction.store(0, std::memory_order_relaxed);
+        if (alone_) report();
       } catch (...) {
         const std::lock_guard lock(mutex_);
         fail(std::current_exception());
@@ -77,17 +97,26 @@ class Team {
     changed_.notify_one();
   }
 
+  /// The caller holds the mutex.
+  void report() {
+    auto done = static_cast<double>(finished_.size());
+    for (const auto& fraction : fractions_) done += fraction.load(std::memory_order_relaxed);
+    try {
+      run_.report(done, finished_);
+    } catch (...) {
+      fail(std::current_exception());
+    }
+  }
+
   void report_until_done() {
     constexpr std::chrono::milliseconds interval(100);
+    constexpr int longest_patience = 10;  // intervals
+    int patience = 0;                     // intervals since a signal
     std::unique_lock lock(mutex_);
     while (!changed_.wait_for(lock, interval, [this] { return active_ == 0; })) {
-      auto done = static_cast<double>(finished_.size());
-      for (const auto& fraction : fractions_) done += fraction.load(std::memory_order_relaxed);
-      try {
-        run_.report(done, finished_);
-      } catch (...) {
-        fail(std::current_exception());
-      }
+      report();
+      if (const int signal = received_signal(); signal != 0 && ++patience > longest_patience)
+        run_.abandon(signal, finished_);
     }
   }
 
@@ -99,6 +128,7 @@ class Team {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::size_t active_ = 0;
+  bool alone_ = false;  // no thread could be started, so the calling one measures, and reports in between
   std::exception_ptr failure_;
   std::atomic<bool> failed_{false};
 };

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <new>
 #include <thread>
+#include <utility>
 
 #include "numerics/random.hpp"
 #include "program/build_info.hpp"
@@ -95,8 +98,9 @@ class StudyRun {
         deadline_(parameters.time_limit > 0 ? later(parameters.time_limit) : Clock::time_point::max()),
         rule_{.batch = parameters.replicas, .most = parameters.max_replicas} {}
 
-  Outcome run() {
-    if (parameters_.resume) finished_ = checkpoint_.load();
+  Outcome run() try {
+    if (parameters_.resume)
+      finished_ = checkpoint_.load([this](const std::string& line) { progress_.warn(line); });
     resumed_ = finished_.size();
     next_checkpoint_ = later(parameters_.checkpoint_interval);
     needed_ = target_ > 0 ? rule_.next_look(0) : parameters_.replicas;
@@ -105,12 +109,36 @@ class StudyRun {
       Outcome outcome = outcome_of(wanted);
       if (!is_last(outcome, wanted)) continue;
       warn_of_few(outcome.replicas, progress_);
-      checkpoint_.remove();
+      outcome.after_writing = [checkpoint = checkpoint_, finished = std::move(finished_),
+                               &progress = progress_](bool written) {
+        if (written)
+          checkpoint.remove();
+        else
+          keep(checkpoint, finished, progress, "the results cannot be written");
+      };
       return outcome;
     }
+  } catch (const Interrupted&) {
+    keep(checkpoint_, finished_, progress_, "interrupted");
+    throw;
+  } catch (const std::bad_alloc&) {
+    keep(checkpoint_, finished_, progress_, "out of memory");
+    throw;
   }
 
  private:
+  /// Saves the replicas when the run ends early, and says why it ends and what becomes of them.
+  static void keep(const Checkpoint& checkpoint, const FinishedReplicas& finished, Progress& progress,
+                   const std::string& why) try {
+    checkpoint.save(finished);
+    if (finished.empty()) return progress.say(why + " before the first replica was finished");
+    progress.say(fmt::format("{} after {} replicas; --resume continues from '{}'", why, finished.size(),
+                             checkpoint.path()));
+  } catch (const UsageError& error) {
+    progress.warn(
+        fmt::format("{} after {} replicas, which are not saved: {}", why, finished.size(), error.what()));
+  }
+
   void measure(std::uint64_t wanted) {
     const auto measure_one = [this](const Replica& replica) {
       Record record(study_.tallies);
@@ -120,18 +148,24 @@ class StudyRun {
     const auto report = [this](double done, const FinishedReplicas& so_far) {
       progress_.show(done, static_cast<double>(needed_), static_cast<double>(resumed_));
       if (Clock::now() < next_checkpoint_) return;
-      checkpoint_.save(so_far);
+      save_on_the_way(so_far);
       next_checkpoint_ = later(parameters_.checkpoint_interval);
     };
-    try {
-      run_replicas({parameters_.seed, wanted, parameters_.threads, deadline_, report}, measure_one,
-                   finished_);
-    } catch (const Interrupted&) {
-      checkpoint_.save(finished_);
-      progress_.say(fmt::format("interrupted after {} replicas; --resume continues from '{}'",
-                                finished_.size(), checkpoint_.path()));
-      throw;
-    }
+    const auto warn = [this](const std::string& line) { progress_.warn(line); };
+    const auto abandon = [this](int signal, const FinishedReplicas& so_far) {
+      keep(checkpoint_, so_far, progress_, "interrupted");
+      std::_Exit(static_cast<int>(ExitStatus::interrupted) + signal);
+    };
+    run_replicas({parameters_.seed, wanted, parameters_.threads, deadline_, report, warn, abandon},
+                 measure_one, finished_);
+  }
+
+  /// The results matter more than a checkpoint, so the run goes on without one, and says so once.
+  void save_on_the_way(const FinishedReplicas& so_far) try {
+    checkpoint_.save(so_far);
+  } catch (const UsageError& error) {
+    if (!std::exchange(warned_, true))
+      progress_.warn(fmt::format("the run goes on without a checkpoint: {}", error.what()));
   }
 
   Outcome outcome_of(std::uint64_t wanted) const {
@@ -183,6 +217,7 @@ class StudyRun {
   FinishedReplicas finished_;
   std::size_t resumed_ = 0;
   std::uint64_t needed_ = 0;  // predicted number of replicas in all
+  bool warned_ = false;       // of a checkpoint that cannot be written
 };
 
 }  // namespace
@@ -216,6 +251,13 @@ Outcome run_study(const Study& study, const ReplicaParameters& parameters, const
     throw UsageError(
         "--target-error and --target-absolute are both given: a run has one target. Leave out one of the "
         "two.");
+  const bool has_target = parameters.target_error > 0 || parameters.target_absolute > 0;
+  if ((has_target || program.options().given("--max-replicas")) &&
+      parameters.max_replicas < parameters.replicas)
+    throw UsageError(fmt::format(
+        "--max-replicas {} is below --replicas {}: not even one batch would be allowed. Choose a smaller "
+        "batch or a larger maximum.",
+        parameters.max_replicas, parameters.replicas));
   return StudyRun(study, parameters, program, progress).run();
 }
 

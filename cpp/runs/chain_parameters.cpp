@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "program/errors.hpp"
+
 namespace lorentz {
 
 double ScatteringParameters::mean_scatterings() const {
@@ -13,6 +15,12 @@ void declare(Options& options, ScatteringParameters& parameters, Range<double> g
   options.real("--sigma", parameters.sigma, {-1, 1}, "1", "Mass ratio (M-m)/(M+m)");
   options.real_or_word("--gamma", parameters.gamma, gamma_range, "N", "1",
                        "Mean number of scatterings in N cells; N: every scatterer scatters");
+}
+
+void require_probability(std::optional<double> gamma, std::uint32_t cells) {
+  if (gamma && *gamma > cells)
+    throw UsageError(
+        "--gamma exceeds --cells: gamma/N is a probability. Choose more cells or a smaller gamma.");
 }
 
 void declare(Options& options, Reservoir& left, Reservoir& right) {

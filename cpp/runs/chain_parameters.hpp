@@ -21,6 +21,9 @@ struct ScatteringParameters {
 /// Declares --cells, --sigma and --gamma.
 void declare(Options& options, ScatteringParameters& parameters, Range<double> gamma_range);
 
+/// Throws UsageError if particles would have to scatter more than once per cell; gamma none: N.
+void require_probability(std::optional<double> gamma, std::uint32_t cells);
+
 /// Declares --nu-left, --nu-right, --temperature-left and --temperature-right.
 void declare(Options& options, Reservoir& left, Reservoir& right);
 

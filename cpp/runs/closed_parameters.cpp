@@ -53,6 +53,7 @@ void declare_random_direction(Options& options, ClosedParameters& parameters) {
 }
 
 void validate(const ClosedParameters& parameters) {
+  require_probability(parameters.ring.scattering.gamma, parameters.ring.scattering.cells);
   require_possible(parameters.chain(), parameters.hottest(), parameters.end_time(), flights_of_a_year,
                    "--temperature, --scatterer-temperature", "--relaxation-time plus --observation-time");
 }

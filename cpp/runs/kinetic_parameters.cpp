@@ -62,9 +62,7 @@ void validate(const KineticParameters& parameters, bool positions_given) {
     throw UsageError(
         "--gamma N is given without --cells: the continuum has no number of cells. Give --cells, or gamma as "
         "a number.");
-  if (parameters.cells && parameters.gamma && *parameters.gamma > *parameters.cells)
-    throw UsageError(
-        "--gamma exceeds --cells: gamma/N is a probability. Choose more cells or a smaller gamma.");
+  if (parameters.cells) require_probability(parameters.gamma, *parameters.cells);
   if (parameters.cells && positions_given)
     throw UsageError(
         "--positions and --cells are both given: the positions of a chain are its bonds. Leave out one of "

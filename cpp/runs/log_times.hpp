@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "numerics/elementary.hpp"
+#include "program/errors.hpp"
 #include "program/options.hpp"
 #include "statistics/log_grid.hpp"
 
@@ -35,6 +36,14 @@ inline void declare(Options& options, LogTimeParameters& parameters) {
                "Decades of time that the grid spans, up to the observation time");
   options.real("--fit-decades", parameters.fit_decades, {0.25, 15}, "1",
                "Number of last decades of time that are fitted");
+}
+
+/// Throws UsageError if the fit would begin before the grid does.
+inline void validate(const LogTimeParameters& parameters) {
+  if (parameters.fit_decades > parameters.decades)
+    throw UsageError(
+        "--fit-decades exceeds --decades: the fit would begin before the first time. Choose fewer decades of "
+        "the fit, or more of the grid.");
 }
 
 }  // namespace lorentz

@@ -43,6 +43,7 @@ void declare(Options& options, WindowParameters& parameters) {
 }
 
 void validate(const OpenParameters& parameters, double end, const std::string& times) {
+  require_probability(parameters.scattering.gamma, parameters.scattering.cells);
   constexpr double most_particles = 1e9;
   const OpenChain chain = parameters.chain();
   const auto [cold, hot] = std::minmax(chain.left.temperature, chain.right.temperature);

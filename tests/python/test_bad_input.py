@@ -2,7 +2,6 @@
 
 import os
 import resource
-import signal
 import subprocess
 from pathlib import Path
 
@@ -61,13 +60,16 @@ def test_value_outside_its_range(
 
 
 def test_unknown_option(persistence: Program, tmp_path: Path) -> None:
-    refused(persistence(sigmma="0.5"), "--sigmma", "--help")
+    refused(persistence(sigmma="0.5"), "--sigmma; the nearest one is --sigma.", "--help")
     assert list(tmp_path.iterdir()) == []
 
 
 def test_options_that_exclude_each_other(persistence: Program, tmp_path: Path) -> None:
     refused(persistence(target_error=0.1, target_absolute=0.1), "--target-error", "--target-absolute")
     refused(persistence(cells=100_000_000, particles_per_cell=100_000_000), "--cells", "smaller chain")
+    refused(
+        persistence(replicas=100, max_replicas=99, target_error=0.1), "--max-replicas 99", "smaller batch"
+    )
     assert list(tmp_path.iterdir()) == []
 
 
@@ -82,9 +84,14 @@ def test_output_that_cannot_be_written(persistence: Program, tmp_path: Path, tar
     assert [path.name for path in tmp_path.iterdir()] == ["folder"]
 
 
+def test_cost_file_that_cannot_be_written(persistence: Program, tmp_path: Path) -> None:
+    (tmp_path / "out.cost.json").mkdir()
+    refused(persistence(), "out.cost.json", "Name a file")
+    assert [path.name for path in tmp_path.iterdir()] == ["out.cost.json"]
+
+
 def limit_file_size() -> None:
     """Simulates a full disk without special rights: the size of a file is limited to 1000 bytes."""
-    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
 
 
@@ -108,6 +115,6 @@ def test_no_space_is_noticed_before_the_run(tmp_path: Path) -> None:
 def test_configuration_file(persistence: Program, tmp_path: Path) -> None:
     refused(persistence(config="none.toml"), "none.toml")
     (tmp_path / "bad.toml").write_text("sigmma = 0.5\n")
-    refused(persistence(config="bad.toml"), "sigmma")
+    refused(persistence(config="bad.toml"), "'sigmma'; the nearest one is 'sigma'")
     (tmp_path / "range.toml").write_text("sigma = 3\n")
     refused(persistence(config="range.toml", sigma=None), "sigma", "[-1, 1]")

@@ -127,22 +127,47 @@ def test_interrupted_and_resumed_run_gives_the_same_bytes(
         assert "--resume" in message
     assert checkpoint.exists()
     assert not (tmp_path / "out.h5").exists()
+    with h5py.File(checkpoint) as file:
+        replicas = len(file["replicas/index"])
+        for tally in file["tallies"].values():
+            assert tally.shape[0] == replicas
+            assert tally.attrs["units"]
+            assert tally.attrs["description"]
 
     other = program(name, **{**keywords, "sigma": 0.1}, resume=True)
     assert other.returncode == 2
     assert "other parameters" in other.stderr
     assert program(name, **keywords, resume=True).returncode == 0
     assert (tmp_path / "out.h5").read_bytes() == (tmp_path / "whole.h5").read_bytes()
-    assert not checkpoint.exists()
+    assert not list(tmp_path.glob("*checkpoint*"))
 
 
-def test_damaged_checkpoint_is_refused(persistence: Program, tmp_path: Path) -> None:
-    (tmp_path / "out.h5.checkpoint").write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(100))
-    result = persistence(resume=True)
-    assert result.returncode == 2
-    assert "out.h5.checkpoint" in result.stderr
-    assert "Remove it" in result.stderr
-    assert not (tmp_path / "out.h5").exists()
+@pytest.mark.parametrize("damaged", [["checkpoint"], ["checkpoint", "checkpoint.old"]])
+def test_damaged_checkpoint_changes_no_result(
+    persistence: Program, tmp_path: Path, damaged: list[str]
+) -> None:
+    options = {"replicas": 300, "observation-time": 2000, "checkpoint-interval": 0.1, "threads": 1}
+    keywords = {key.replace("-", "_"): value for key, value in options.items()}
+    assert persistence(**keywords, output="whole.h5").returncode == 0
+    process = subprocess.Popen(command_line("persistence", {**options, "output": "out.h5"}), cwd=tmp_path,
+                               stderr=subprocess.DEVNULL)  # fmt: skip
+    deadline = time.monotonic() + 30
+    while not (tmp_path / "out.h5.checkpoint.old").exists() and time.monotonic() < deadline:
+        time.sleep(0.01)
+    process.terminate()
+    assert process.wait(timeout=10) == 128 + signal.SIGTERM
+    for ending in damaged:
+        path = tmp_path / f"out.h5.{ending}"
+        content = bytearray(path.read_bytes())
+        with h5py.File(path) as file:  # one bit of a number, of which HDF5 says nothing
+            content[file["tallies/energy_drift"].id.get_offset()] ^= 1
+        path.write_bytes(content)
+    result = persistence(**keywords, resume=True)
+    assert result.returncode == 0
+    assert result.stderr.count("\n") == 1
+    assert ("starts anew" if len(damaged) == 2 else "resumes from 'out.h5.checkpoint.old'") in result.stderr
+    assert (tmp_path / "out.h5").read_bytes() == (tmp_path / "whole.h5").read_bytes()
+    assert not list(tmp_path.glob("*checkpoint*"))
 
 
 def test_target_error_is_reached_in_whole_batches(persistence: Program, tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ command:ninja          ninja-build        ninja-build      ninja
 header:Eigen/Dense     libeigen3-dev      eigen3-devel     eigen
 header:gsl/gsl_math.h  libgsl-dev         gsl-devel        gsl
 header:hdf5.h          libhdf5-dev        hdf5-devel       hdf5
+header:zlib.h          zlib1g-dev         zlib-devel       zlib
 header:CLI/CLI.hpp     libcli11-dev       cli11-devel      cli11
 header:toml++/toml.h   libtomlplusplus-dev tomlplusplus-devel tomlplusplus
 header:nlohmann/json.hpp nlohmann-json3-dev json-devel nlohmann-json

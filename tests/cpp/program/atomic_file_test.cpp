@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <set>
+#include <span>
 #include <string>
 
 #include "program/errors.hpp"
@@ -42,6 +43,24 @@ TEST(AtomicFile, WritesAndReplaces) {
     EXPECT_EQ(content_of(folder / "file"), content);
     EXPECT_EQ(folder.names(), Names{"file"});
   }
+}
+
+TEST(AtomicFile, KeepsTheFormerFileUnderAnotherName) {
+  const TemporaryFolder folder;
+  for (const char* content : {"first", "second", "third"})
+    replace_atomically(folder / "file", folder / "former", std::as_bytes(std::span(content, 5)));
+  EXPECT_EQ(content_of(folder / "file"), "third");
+  EXPECT_EQ(content_of(folder / "former"), "secon");
+  EXPECT_EQ(folder.names(), (Names{"file", "former"}));
+}
+
+TEST(AtomicFile, TakesThePlaceOfALinkToNothing) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("nowhere", folder / "file");
+  require_writable(folder / "file", 100);
+  write_atomically(folder / "file", std::string("content"));
+  EXPECT_TRUE(std::filesystem::is_regular_file(std::filesystem::symlink_status(folder / "file")));
+  EXPECT_EQ(folder.names(), Names{"file"});
 }
 
 TEST(AtomicFile, AskingLeavesNothingBehindAndTouchesNothing) {
@@ -93,6 +112,8 @@ TEST(AtomicFile, RefusesWhatIsNotARegularFile) {
   std::filesystem::create_directory(folder / "folder");
   expect_refused(folder / "folder");
   EXPECT_EQ(folder.names(), Names{"folder"});
+  ASSERT_EQ(::mkfifo((folder / "fifo").c_str(), 0600), 0);
+  expect_refused(folder / "fifo");
   expect_refused("/dev/full");
 }
 

@@ -1,11 +1,21 @@
 #include "program/checkpoint.hpp"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <set>
 #include <string>
+#include <thread>
 
 #include "program/errors.hpp"
+#include "support/refusal.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace {
@@ -18,10 +28,18 @@ const std::string identity = "sigma = 0.5\nbuild_id = abc\n";
 
 /// A number and a pair, as in some_replicas().
 const std::vector<Description> tallies{{"a", "1", "A number"},
-                                       {"b", "1", "A pair", {{"i", "1", "", {0, 1}}}}};
+                                       {"b", "momentum", "A pair", {{"i", "1", "", {0, 1}}}}};
 
 FinishedReplicas some_replicas() {
   return {{0, {{0.1, -0.0, 5e-324}, 3}}, {1, {{1e308, 2, 3}, 0}}, {1ULL << 40, {{-1, 1.0 / 3, 7}, ~0ULL}}};
+}
+
+/// Warning of the last load().
+std::string said;
+
+FinishedReplicas load(const Checkpoint& checkpoint) {
+  said.clear();
+  return checkpoint.load([](const std::string& line) { said += line; });
 }
 
 TEST(Checkpoint, GivesBackWhatWasSaved) {
@@ -30,7 +48,7 @@ TEST(Checkpoint, GivesBackWhatWasSaved) {
   EXPECT_EQ(checkpoint.path(), folder / "a.h5.checkpoint");
   checkpoint.save({{5, {{1.0, 2.0, 3.0}, 1}}});
   checkpoint.save(some_replicas());  // replaces the first
-  const FinishedReplicas loaded = checkpoint.load();
+  const FinishedReplicas loaded = load(checkpoint);
   const FinishedReplicas saved = some_replicas();
   ASSERT_EQ(loaded.size(), saved.size());
   for (const auto& [index, record] : saved) {
@@ -44,7 +62,7 @@ TEST(Checkpoint, GivesBackWhatWasSaved) {
 TEST(Checkpoint, IsEmptyWithoutAFile) {
   const TemporaryFolder folder;
   const Checkpoint checkpoint(folder / "a.h5", identity, tallies);
-  EXPECT_TRUE(checkpoint.load().empty());
+  EXPECT_TRUE(load(checkpoint).empty());
   checkpoint.save({});  // no finished replica, no file
   EXPECT_TRUE(folder.names().empty());
   EXPECT_NO_THROW(checkpoint.remove());
@@ -59,39 +77,133 @@ TEST(Checkpoint, IsRemoved) {
   EXPECT_TRUE(folder.names().empty());
 }
 
-/// Loading fails with a message that names the file and states what to do.
-void expect_refused(const Checkpoint& checkpoint, const std::string& case_name) {
-  try {
-    (void)checkpoint.load();
-    ADD_FAILURE() << case_name << " was accepted";
-  } catch (const UsageError& error) {
-    const std::string message = error.what();
-    EXPECT_NE(message.find(checkpoint.path()), std::string::npos) << message;
-    EXPECT_NE(message.find("Remove it"), std::string::npos) << message;
-  }
+TEST(Checkpoint, SaysWhatItsTalliesAre) {
+  const TemporaryFolder folder;
+  const Checkpoint checkpoint(folder / "a.h5", identity, tallies);
+  checkpoint.save(some_replicas());
+  const Hdf5Reader file(checkpoint.path());
+  EXPECT_EQ(file.text_attribute("/tallies/b", "units"), "momentum");
+  EXPECT_EQ(file.text_attribute("/tallies/b", "description"), "A pair");
 }
 
 TEST(Checkpoint, OfAnotherIdentityIsRefused) {
   const TemporaryFolder folder;
   Checkpoint(folder / "a.h5", identity, tallies).save(some_replicas());
   for (const std::string& other : {std::string("sigma = 0.4\nbuild_id = abc\n"), identity + " ",
-                                   identity.substr(0, identity.size() - 1), std::string()})
-    expect_refused(Checkpoint(folder / "a.h5", other, tallies), other);
+                                   identity.substr(0, identity.size() - 1), std::string()}) {
+    const std::string message = support::refusal([&] { load({folder / "a.h5", other, tallies}); });
+    EXPECT_NE(message.find(folder / "a.h5.checkpoint"), std::string::npos) << other;
+    EXPECT_NE(message.find("Remove it"), std::string::npos) << message;
+  }
 }
 
-TEST(Checkpoint, TruncatedFilesAreRefused) {
+TEST(Checkpoint, EveryFlippedBitIsFound) {
+  const TemporaryFolder folder;
+  const Checkpoint checkpoint(folder / "a.h5", identity, tallies);
+  checkpoint.save(some_replicas());
+  std::string content = content_of(checkpoint.path());
+  for (std::size_t byte = 0; byte < content.size(); ++byte) {
+    const char right = content[byte];
+    content[byte] = static_cast<char>(right ^ (1 << byte % 8));
+    support::write_file(checkpoint.path(), content);
+    ASSERT_TRUE(load(checkpoint).empty()) << byte;
+    ASSERT_NE(said.find("starts anew"), std::string::npos) << byte;
+    content[byte] = right;
+  }
+  support::write_file(checkpoint.path(), content);
+  EXPECT_EQ(load(checkpoint).size(), 3U);
+  EXPECT_EQ(said, "");
+}
+
+TEST(Checkpoint, TruncatedAndForeignFilesArePassedOver) {
   const TemporaryFolder folder;
   const Checkpoint checkpoint(folder / "a.h5", identity, tallies);
   checkpoint.save(some_replicas());
   const std::string whole = content_of(checkpoint.path());
   for (std::size_t size = 0; size < whole.size(); size += size < 64 ? 1 : 97) {
     support::write_file(checkpoint.path(), whole.substr(0, size));
-    expect_refused(checkpoint, std::to_string(size) + " bytes");
+    EXPECT_TRUE(load(checkpoint).empty()) << size;
   }
-  support::write_file(checkpoint.path(), whole.substr(0, whole.size() - 1));
-  expect_refused(checkpoint, "one byte short");
-  support::write_file(checkpoint.path(), whole);
-  EXPECT_EQ(checkpoint.load().size(), 3U);
+  for (const std::string& content :
+       {whole.substr(0, whole.size() - 1), whole + " ", std::string(5000, '\0')}) {
+    support::write_file(checkpoint.path(), content);
+    EXPECT_TRUE(load(checkpoint).empty());
+  }
+  std::filesystem::remove(checkpoint.path());
+  ASSERT_EQ(::mkfifo(checkpoint.path().c_str(), 0600), 0);  // opening it would wait for ever
+  EXPECT_TRUE(load(checkpoint).empty());
+  EXPECT_NE(said.find("'" + checkpoint.path() + "'"), std::string::npos) << said;
+}
+
+/// A folder with two generations, of one replica and of three.
+struct TwoGenerations : testing::Test {
+  TemporaryFolder folder;
+  Checkpoint checkpoint{folder / "a.h5", identity, tallies};
+  std::string newest = checkpoint.path(), former = newest + ".old";
+
+  TwoGenerations() {
+    checkpoint.save({{5, {{1.0, 2.0, 3.0}, 1}}});
+    checkpoint.save(some_replicas());
+  }
+  static void damage(const std::string& path) { support::write_file(path, content_of(path) + "x"); }
+};
+
+TEST_F(TwoGenerations, AreKeptAndRemovedTogether) {
+  EXPECT_EQ(folder.names(), (std::set<std::string>{"a.h5.checkpoint", "a.h5.checkpoint.old"}));
+  EXPECT_EQ(load(checkpoint).size(), 3U);
+  checkpoint.remove();
+  EXPECT_TRUE(folder.names().empty());
+}
+
+TEST_F(TwoGenerations, TheFormerTakesThePlaceOfADamagedOne) {
+  damage(newest);
+  EXPECT_TRUE(load(checkpoint).contains(5));
+  EXPECT_EQ(said, "'" + newest + "' is damaged; the run resumes from '" + former + "'");
+  std::filesystem::remove(newest);  // as after a kill between the two renamings
+  EXPECT_TRUE(load(checkpoint).contains(5));
+  EXPECT_EQ(said, "");
+}
+
+TEST_F(TwoGenerations, BothDamagedAreABeginning) {
+  damage(newest);
+  damage(former);
+  EXPECT_TRUE(load(checkpoint).empty());
+  EXPECT_EQ(said, "nothing can be resumed from '" + newest + "', '" + former +
+                      "': damaged, or of another run; the run starts anew");
+}
+
+TEST_F(TwoGenerations, TheFormerOfAnotherRunIsNotResumed) {
+  const Checkpoint other(folder / "a.h5", "sigma = 0.4\n", tallies);
+  other.save({{7, {{1.0, 2.0, 3.0}, 1}}});
+  damage(newest);
+  EXPECT_TRUE(load(other).empty());
+}
+
+TEST_F(TwoGenerations, BothStayIfTheNextCannotBeWritten) {
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  const auto handler = ::signal(SIGXFSZ, SIG_IGN);
+  const rlimit limit{100, before.rlim_max};
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  EXPECT_THROW(checkpoint.save({{9, {{1.0, 2.0, 3.0}, 1}}}), UsageError);
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  ::signal(SIGXFSZ, handler);
+  EXPECT_EQ(load(checkpoint).size(), 3U);
+  std::filesystem::remove(newest);
+  EXPECT_TRUE(load(checkpoint).contains(5));
+}
+
+TEST_F(TwoGenerations, SurviveAKillAtAnyMoment) {
+  for (int round = 0; round < 30; ++round) {
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    for (std::uint64_t index = 0; child == 0; ++index) checkpoint.save({{index, {{1.0, 2.0, 3.0}, 1}}});
+    std::this_thread::sleep_for(std::chrono::microseconds(3000 + 700 * round));
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    EXPECT_FALSE(load(checkpoint).empty()) << round;
+    EXPECT_EQ(said, "") << round;
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "program/options.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -104,10 +105,17 @@ TEST(Options, RefuseBadWholeNumbersWithNameValueAndRange) {
 }
 
 TEST(Options, RefuseWhatIsNotThere) {
-  expect_refused({"--sgima", "0.5"}, {"--sgima"});
-  expect_refused({"extra"}, {"extra"});
-  expect_refused({"--sigma"}, {"--sigma"});
-  expect_refused({"--sigma", "0.5", "--sigma", "0.3"}, {"--sigma"});
+  for (const char* word : {"--sgima", "--sgima=0.5", "-sgima", "--sigm"})
+    expect_refused({word, "0.5"}, {"no option has the name ", "; the nearest one is --sigma."});
+  expect_refused({"--cell", "4"}, {"--cell; the nearest one is --cells."});
+  expect_refused({"-s", "4"}, {"no option has the name -s; "});
+  expect_refused({"extra"}, {"'extra' is no option and belongs to none"});
+  expect_refused({"--sigma"}, {"--sigma needs a value"});
+  for (const Arguments& empty : {Arguments{"--sigma="}, {"--sigma=", "0.5"}, {"--cells=", "--sigma", "0.5"}})
+    expect_refused(empty, {"= is followed by nothing"});
+  expect_refused({"--sigma", "0.5", "--sigma", "0.3"}, {"--sigma is given more than once"});
+  expect_refused({"--zero-total-momentum", "--zero-total-momentum"},
+                 {"--zero-total-momentum is given more than once"});
   expect_refused({"--start", "hot"}, {"--start", "'hot'", "empty, warm"});
 }
 
@@ -326,7 +334,8 @@ TEST_F(ConfigFile, MayBeEmpty) {
 }
 
 TEST_F(ConfigFile, IsRefusedForWhatIsNoOption) {
-  expect_file_refused("sigma = 0.5\nsgima = 0.5\n", {path + ", line 2: no option has the name 'sgima'"});
+  expect_file_refused("sigma = 0.5\nsgima = 0.5\n",
+                      {path + ", line 2: no option has the name 'sgima'; the nearest one is 'sigma'"});
   expect_file_refused("[section]\nsigma = 0.5\n", {path + ", line 1: no option has the name 'section'"});
   expect_file_refused("config = \"other.toml\"\n", {path + ", line 1: no option has the name 'config'"});
   expect_file_refused("--sigma = 0.5\n", {path + ", line 1: no option has the name '--sigma'"});
@@ -384,12 +393,14 @@ TEST_F(ConfigFile, IsRefusedIfItCannotBeRead) {
               "--config: '" + name + "' cannot be read: " + why + ". Name a TOML file that can be.");
   };
   unreadable(folder / "absent.toml", "No such file or directory");
-  unreadable(folder / "", "Is a directory");
+  unreadable(folder / "", "it is not a regular file");
+  ASSERT_EQ(::mkfifo((folder / "fifo").c_str(), 0600), 0);  // opening it would wait for ever
+  unreadable(folder / "fifo", "it is not a regular file");
   unreadable("", "No such file or directory");
   write("");
   unreadable(path + "/run.toml", "Not a directory");
-  expect_refused({"--config"}, {"--config"});
-  expect_refused({"--config", path, "--config", path}, {"--config"});
+  expect_refused({"--config"}, {"--config needs a value"});
+  expect_refused({"--config", path, "--config", path}, {"--config is given more than once"});
 }
 
 TEST(Options, HelpListsEveryOptionWithRangeAndDefault) {

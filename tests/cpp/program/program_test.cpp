@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "program/interruption.hpp"
 #include "support/study.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -35,6 +38,10 @@ TEST(Program, ErrorsLeaveNothingBehind) {
   expect_one_line("absent/a.h5");
   EXPECT_EQ(run({"--output", folder / "a.h5"}, failing), 3);
   expect_one_line("numerical failure: overflow");
+  EXPECT_EQ(run({"--output", folder / "a.h5"}, never), 5);
+  expect_one_line("internal error: measured");
+  EXPECT_EQ(run({"--output", folder / "a.h5", "--seed", "1\n2"}, never), 2);
+  expect_one_line("'1 2'");
   EXPECT_EQ(folder.names(), Names{});
 }
 
@@ -53,6 +60,36 @@ TEST(ProgramDeathTest, SignalsEndTheRunWithACheckpoint) {
     EXPECT_EQ(Hdf5Reader(folder / "a.h5.checkpoint").counts("/replicas/index"),
               (std::vector<std::uint64_t>{0, 1, 2}));
   }
+}
+
+TEST(ProgramDeathTest, SignalsEndAReplicaThatDoesNotAsk) {
+  const TemporaryFolder folder;
+  const auto setting_up = [](const Replica& replica) {
+    if (replica.key.replica == 3) {
+      ::raise(SIGINT);
+      std::this_thread::sleep_for(std::chrono::minutes(5));
+    }
+    return measure(replica);
+  };
+  EXPECT_EXIT(std::_Exit(run_program({"--output", folder / "a.h5", "--threads", "1"}, setting_up)),
+              testing::ExitedWithCode(128 + SIGINT), "");
+  EXPECT_EQ(Hdf5Reader(folder / "a.h5.checkpoint").counts("/replicas/index"),
+            (std::vector<std::uint64_t>{0, 1, 2}));
+}
+
+TEST(InterruptionDeathTest, WithNothingToSaveEndsWhateverIsDone) {
+  const auto work = [](bool ends) {
+    watch_for_signals();
+    {
+      const NothingToSave nothing_to_save;
+      ::raise(SIGTERM);
+      if (ends) std::this_thread::sleep_for(std::chrono::minutes(5));
+    }
+    for (int i = 0; i < 20; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    std::_Exit(0);
+  };
+  EXPECT_EXIT(work(true), testing::ExitedWithCode(128 + SIGTERM), "");
+  EXPECT_EXIT(work(false), testing::ExitedWithCode(0), "");
 }
 
 TEST(ProgramDeathTest, SignalsAreNoticedBetweenReplicasTooShortToAsk) {

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -19,7 +20,13 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 ReplicaRun run_of(std::uint64_t wanted, unsigned threads) {
-  return {1, wanted, threads, Clock::time_point::max(), [](double, const FinishedReplicas&) {}};
+  return {1,
+          wanted,
+          threads,
+          Clock::time_point::max(),
+          [](double, const FinishedReplicas&) {},
+          [](const std::string& line) { ADD_FAILURE() << line; },
+          [](int, const FinishedReplicas&) { ADD_FAILURE() << "abandoned"; }};
 }
 
 ReplicaRecord record_of(std::uint64_t index) {

@@ -4,8 +4,11 @@
 #include <signal.h>
 
 #include <chrono>
+#include <filesystem>
+#include <new>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -54,6 +57,57 @@ TEST(Study, WritesCheckpointsOnTheWay) {
             0);
   EXPECT_TRUE(seen);
   EXPECT_EQ(folder.names(), (Names{"a.h5", "a.cost.json"}));
+}
+
+TEST(Study, GoesOnWithoutACheckpointAndSaysSoOnce) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "a.h5.checkpoint");
+  const auto slow = [](const Replica& replica) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    return measure(replica);
+  };
+  EXPECT_EQ(run({"--output", folder / "a.h5", "--threads", "1", "--checkpoint-interval", "0.01"}, slow), 0);
+  EXPECT_TRUE(complaints.starts_with("example: the run goes on without a checkpoint: ")) << complaints;
+  EXPECT_EQ(complaints.find('\n'), complaints.size() - 1) << complaints;
+  EXPECT_EQ(replicas_in(folder / "a.h5"), 16U);
+}
+
+TEST(Study, KeepsTheReplicasOfResultsThatCannotBeWritten) {
+  const TemporaryFolder folder;
+  const auto obstruct = [&](const Replica& replica) {
+    if (replica.key.replica == 15) std::filesystem::create_directory(folder / "a.h5");
+    return measure(replica);
+  };
+  EXPECT_EQ(run({"--output", folder / "a.h5", "--progress", "log"}, obstruct), 2);
+  EXPECT_NE(complaints.find("--resume continues from"), std::string::npos) << complaints;
+  EXPECT_EQ(folder.names(), (Names{"a.h5", "a.h5.checkpoint"}));
+  std::filesystem::remove(folder / "a.h5");
+  EXPECT_EQ(run({"--output", folder / "a.h5", "--resume"},
+                [](const Replica&) -> double { throw std::logic_error("measured again"); }),
+            0);
+  EXPECT_EQ(run({"--output", folder / "b.h5"}), 0);
+  EXPECT_EQ(content_of(folder / "a.h5"), content_of(folder / "b.h5"));
+}
+
+TEST(Study, KeepsTheReplicasIfMemoryRunsOut) {
+  const TemporaryFolder folder;
+  const auto greedy = [](const Replica& replica) {
+    if (replica.key.replica == 5) throw std::bad_alloc();
+    return measure(replica);
+  };
+  EXPECT_EQ(run({"--output", folder / "a.h5", "--threads", "1"}, greedy), 2);
+  EXPECT_EQ(complaints.find('\n'), complaints.size() - 1) << complaints;
+  EXPECT_EQ(Hdf5Reader(folder / "a.h5.checkpoint").counts("/replicas/index").size(), 5U);
+}
+
+TEST(Study, LosesNoReplicaInSilence) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "a.h5.checkpoint");
+  EXPECT_EQ(run({"--output", folder / "a.h5"}, interrupted_at(5)), 128 + SIGINT);
+  EXPECT_NE(complaints.find("which are not saved: "), std::string::npos) << complaints;
+  EXPECT_EQ(run({"--output", folder / "b.h5", "--progress", "log", "--threads", "1"}, interrupted_at(0)),
+            128 + SIGINT);
+  EXPECT_EQ(complaints, "example: interrupted before the first replica was finished\n");
 }
 
 TEST(Study, ResumesToEqualBytes) {
@@ -122,6 +176,10 @@ TEST(Study, StopsAtTheTargetErrorOnABatchBoundary) {
   EXPECT_EQ(with({"--target-error", "1e-6", "--time-limit", "1e-9"}), 4);
   EXPECT_EQ(replicas_in(folder / "a.h5"), 2U);
   EXPECT_EQ(with({"--target-error", "0.1", "--target-absolute", "0.1"}), 2);
+  for (const char* target : {"--target-error", "--target-absolute"})
+    EXPECT_EQ(with({target, "0.1", "--max-replicas", "7"}), 2);
+  EXPECT_EQ(with({"--max-replicas", "7"}), 2);
+  EXPECT_NE(complaints.find("--max-replicas 7 is below --replicas 8"), std::string::npos) << complaints;
 }
 
 TEST(Study, SaysWhereTheRunEnds) {
@@ -207,7 +265,7 @@ TEST(Study, WithoutItsTargetIsRefused) {
     study.target = "vale";
     return study;
   });
-  EXPECT_EQ(status, 3);
+  EXPECT_EQ(status, 5);
   EXPECT_NE(testing::internal::GetCapturedStderr().find("vale"), std::string::npos);
   EXPECT_FALSE(measured);
 }

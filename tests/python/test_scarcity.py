@@ -1,0 +1,142 @@
+"""Streams that are closed or full, disks without space, threads that are not to be had: the result is not lost."""
+
+import os
+import resource
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.python.conftest import Program, command_line
+
+FILES = ["out.cost.json", "out.h5"]
+KINDS = [{"progress": kind} for kind in ("log", "bar", "none")]
+
+
+def shell(
+    folder: Path, redirection: str, options: dict, name: str = "persistence"
+) -> subprocess.CompletedProcess:
+    command = subprocess.list2cmdline(command_line(name, options))
+    return subprocess.run(["sh", "-c", f"exec {command} {redirection}"], cwd=folder, capture_output=True,
+                          text=True, timeout=120, check=False)  # fmt: skip
+
+
+def limited(folder: Path, limits: dict[int, int], options: dict, name: str) -> subprocess.CompletedProcess:
+    """Runs a program with limits of its resources, and with the signals that go with them."""
+
+    def limit() -> None:
+        for kind, size in limits.items():
+            resource.setrlimit(kind, (size, size))
+
+    return subprocess.run(command_line(name, {"output": "out.h5", **options}), cwd=folder, capture_output=True,
+                          env={"PATH": os.defpath}, text=True, timeout=120, check=False, preexec_fn=limit)  # fmt: skip
+
+
+@pytest.mark.parametrize("redirection", ["2>&-", "2>/dev/full", "<&- >&- 2>&-"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_no_result_is_lost_with_standard_error(
+    persistence: Program, tmp_path: Path, kind: dict, redirection: str
+) -> None:
+    assert persistence(output="whole.h5").returncode == 0
+    assert shell(tmp_path, redirection, {"output": "out.h5", **kind}).returncode == 0
+    assert (tmp_path / "out.h5").read_bytes() == (tmp_path / "whole.h5").read_bytes()
+
+
+def test_no_result_is_lost_with_a_reader_of_standard_error(tmp_path: Path) -> None:
+    options = {"output": "out.h5", "progress": "bar", "observation-time": 30_000}
+    process = subprocess.Popen(command_line("persistence", options), cwd=tmp_path, stderr=subprocess.PIPE)
+    process.stderr.close()
+    assert process.wait(timeout=60) == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == FILES
+
+
+@pytest.mark.parametrize("option", ["help", "version", "describe"])
+@pytest.mark.parametrize("redirection", [">/dev/full", ">&-"])
+def test_text_that_standard_output_does_not_take(tmp_path: Path, option: str, redirection: str) -> None:
+    result = shell(tmp_path, redirection, {option: True})
+    assert result.returncode == 2
+    assert result.stderr.startswith("persistence: error: standard output cannot be written: ")
+    assert result.stderr.count("\n") == 1
+
+
+# More than is asked for before the run, less than the result: the failure comes at the end.
+LARGE = {
+    "cells": 5,
+    "momentum-bins": 20_000,
+    "observation-time": 0.1,
+    "relaxation-time": 0,
+    "particles-per-cell": None,
+}
+
+
+@pytest.mark.parametrize("progress", ["log", "none"])
+def test_a_result_beyond_the_space_leaves_the_former_one(tmp_path: Path, progress: str) -> None:
+    (tmp_path / "out.h5").write_bytes(b"former")
+    options = {**LARGE, "progress": progress}
+    result = limited(tmp_path, {resource.RLIMIT_FSIZE: 300_000}, options, "momentum_flux")
+    assert result.returncode == 2
+    assert "error: 'out.h5' cannot be written: " in result.stderr
+    assert "4 replicas, which are not saved: 'out.h5.checkpoint' cannot be written: " in result.stderr
+    assert (tmp_path / "out.h5").read_bytes() == b"former"
+    assert [path.name for path in tmp_path.iterdir()] == ["out.h5"]
+
+
+def test_a_checkpoint_beyond_the_space_costs_no_result(program: Program, tmp_path: Path) -> None:
+    options = {"decades": 11, "replicas": 2000, "checkpoint-interval": 0.05, "observation-time": 1, "threads": 1,
+               "relaxation-time": 0, "progress": "none"}  # fmt: skip
+    result = limited(tmp_path, {resource.RLIMIT_FSIZE: 300_000}, options, "displacement")
+    assert result.returncode == 0
+    assert result.stderr.startswith("displacement: the run goes on without a checkpoint: ")
+    assert result.stderr.count("\n") == 1
+    assert program("displacement", **{key.replace("-", "_"): value for key, value in options.items()},
+                   output="whole.h5").returncode == 0  # fmt: skip
+    assert (tmp_path / "out.h5").read_bytes() == (tmp_path / "whole.h5").read_bytes()
+
+
+# The stack of a thread takes address space, so that three threads fit besides the first one, or none does.
+@pytest.mark.parametrize(("stack", "threads"), [(1000 << 20, "3"), (4000 << 20, "1")])
+def test_threads_that_are_not_to_be_had(
+    persistence: Program, tmp_path: Path, stack: int, threads: str
+) -> None:
+    assert persistence(output="whole.h5").returncode == 0
+    limits = {resource.RLIMIT_STACK: stack, resource.RLIMIT_AS: 3700 << 20}
+    result = limited(tmp_path, limits, {"threads": 4, "progress": "none"}, "persistence")
+    assert result.returncode == 0
+    assert result.stderr.startswith(f"persistence: the run goes on with {threads} of 4 threads: ")
+    assert result.stderr.count("\n") == 1
+    assert (tmp_path / "out.h5").read_bytes() == (tmp_path / "whole.h5").read_bytes()
+
+
+def test_a_folder_that_has_vanished(tmp_path: Path) -> None:
+    (tmp_path / "gone").mkdir()
+    command = subprocess.list2cmdline(command_line("persistence", {"output": "out.h5"}))
+    result = subprocess.run(["sh", "-c", f"cd gone && rmdir ../gone && exec {command}"], cwd=tmp_path,
+                            capture_output=True, text=True, timeout=60, check=False)  # fmt: skip
+    assert result.returncode == 2
+    assert "'out.h5' cannot be written" in result.stderr
+
+
+BIG = {
+    "persistence": {"cells": 3_000_000, "particles-per-cell": 4, "threads": 1},
+    "boltzmann": {"cells": 300, "momentum-bins": 100_000, "coarsening": 4, "target-error": 1, "gamma": "N",
+                  "particles-per-cell": None, "relaxation-time": None, "observation-time": None, "replicas": None},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", BIG)
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_during_a_long_setup(tmp_path: Path, name: str, number: signal.Signals) -> None:
+    command = command_line(name, {**BIG[name], "output": "out.h5"})
+    process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE)
+    time.sleep(0.7)
+    process.send_signal(number)
+    begin = time.monotonic()
+    try:
+        process.communicate(timeout=60)
+    finally:
+        process.kill()
+    assert process.returncode == 128 + number
+    assert time.monotonic() - begin < 4
+    assert list(tmp_path.iterdir()) == []
