@@ -107,9 +107,14 @@ FinishedReplicas Checkpoint::replicas_in(const Hdf5Reader& file) const {
   FinishedReplicas finished;
   const std::vector<std::uint64_t> indices = file.counts("/replicas/index");
   const std::vector<std::uint64_t> events = file.counts("/replicas/events");
+  const auto require = [](bool fits) {
+    if (!fits) throw UsageError("a checkpoint has arrays of other sizes than this program writes. Remove it.");
+  };
+  require(!indices.empty() && events.size() == indices.size());
   for (std::size_t row = 0; row < indices.size(); ++row) finished[indices[row]].events = events[row];
   for (const Description& tally : tallies_) {
     const std::vector<double> values = file.doubles("/tallies/" + tally.name);
+    require(values.size() == indices.size() * tally.size());
     auto first = values.begin();
     for (const std::uint64_t index : indices) {
       std::vector<double>& record = finished[index].values;

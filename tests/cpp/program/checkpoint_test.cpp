@@ -97,6 +97,13 @@ TEST(Checkpoint, OfAnotherIdentityIsRefused) {
   }
 }
 
+TEST(Checkpoint, WithArraysOfOtherSizesIsRefused) {
+  const TemporaryFolder folder;
+  Checkpoint(folder / "a.h5", identity, {tallies[0], {"b", "1", "A number"}}).save({{0, {{1.0, 2.0}, 3}}});
+  const std::string reason = support::refusal([&] { load(Checkpoint(folder / "a.h5", identity, tallies)); });
+  EXPECT_NE(reason.find("other sizes"), std::string::npos);
+}
+
 TEST(Checkpoint, EveryFlippedBitIsFound) {
   const TemporaryFolder folder;
   const Checkpoint checkpoint(folder / "a.h5", identity, tallies);
