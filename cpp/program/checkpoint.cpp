@@ -108,7 +108,8 @@ FinishedReplicas Checkpoint::replicas_in(const Hdf5Reader& file) const {
   const std::vector<std::uint64_t> indices = file.counts("/replicas/index");
   const std::vector<std::uint64_t> events = file.counts("/replicas/events");
   const auto require = [](bool fits) {
-    if (!fits) throw UsageError("a checkpoint has arrays of other sizes than this program writes. Remove it.");
+    if (!fits)
+      throw UsageError("a checkpoint has arrays of other sizes than this program writes. Remove it.");
   };
   require(!indices.empty() && events.size() == indices.size());
   for (std::size_t row = 0; row < indices.size(); ++row) finished[indices[row]].events = events[row];
