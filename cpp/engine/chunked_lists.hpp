@@ -24,12 +24,17 @@ class ChunkedLists {
     const std::uintptr_t begin = reinterpret_cast<std::uintptr_t>(flights_.data()) & ~std::uintptr_t{4095};
     madvise(reinterpret_cast<void*>(begin), flights_.capacity() * sizeof(Flight), MADV_HUGEPAGE);
 #endif
+    next_.clear();
     previous_.clear();
     free_.clear();
   }
 
   const Flight& operator[](std::uint32_t place) const { return flights_[place]; }
-  std::size_t places() const { return flights_.size(); }  // every place is below
+  std::size_t places() const { return flights_.size(); }
+
+  /// For links from place to place, whatever list they are in.
+  std::uint32_t& next(std::uint32_t place) { return next_[place]; }
+  std::uint32_t next(std::uint32_t place) const { return next_[place]; }
 
   /// Member by member: a block copy fails store-to-load forwarding from stores of single members.
   void write(std::uint32_t place, const Flight& flight) {
@@ -67,6 +72,7 @@ class ChunkedLists {
       free_.push_back(static_cast<std::uint32_t>(previous_.size()));
       previous_.push_back(0);
       flights_.resize(flights_.size() + chunk);
+      next_.resize(flights_.size());
     }
     const std::uint32_t index = free_.back();
     free_.pop_back();
@@ -75,6 +81,7 @@ class ChunkedLists {
   }
 
   std::vector<Flight> flights_;
+  std::vector<std::uint32_t> next_;
   std::vector<List> previous_;       // of a chunk: the list without it and those behind it
   std::vector<std::uint32_t> free_;  // chunks
 };

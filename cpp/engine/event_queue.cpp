@@ -33,7 +33,6 @@ void EventQueue::rebuild(const std::vector<Flight>& flights, double rate, double
   later_.assign(power_of_two(reach * particles / events, 16), 0);
   current_ = frozen_ = 0;
   lists_.reset(flights.size(), later_.size());
-  next_.clear();
   // The clock itself resolves no more than 2^52 ticks.
   ticks_per_time_ = std::clamp(rate / events_per_bucket, 1 / end_time_, 0x1p52 / end_time_);
   const std::uint64_t first = tick_of(now);
@@ -51,7 +50,7 @@ std::vector<Flight> EventQueue::flights() const {
   lists_.for_each(frozen_, add);
   for (const ChunkedLists::List list : later_) lists_.for_each(list, add);
   for (const std::uint32_t head : buckets_)
-    for (std::uint32_t place = head; place != none; place = next_[place]) add(place);
+    for (std::uint32_t place = head; place != none; place = lists_.next(place)) add(place);
   std::ranges::sort(all, {}, &Flight::particle);
   return all;
 }
@@ -66,12 +65,12 @@ void EventQueue::shift(double origin) {
 /// The first flight's place, or none if it does not arrive before `until`.
 std::uint32_t EventQueue::take_first_of(std::size_t bucket, double until) {
   std::uint32_t* first = &buckets_[bucket];
-  for (std::uint32_t* link = &next_[*first]; *link != none; link = &next_[*link]) {
+  for (std::uint32_t* link = &lists_.next(*first); *link != none; link = &lists_.next(*link)) {
     const Flight &a = lists_[*link], &b = lists_[*first];
     if (a.time < b.time || (a.time == b.time && a.particle < b.particle)) first = link;
   }
   if (!(lists_[*first].time < until)) return none;
-  return std::exchange(*first, next_[*first]);
+  return std::exchange(*first, lists_.next(*first));
 }
 
 /// False if the next revolution begins after `until` or after the end. Rebuilds the wheel if the rate of
@@ -94,7 +93,6 @@ bool EventQueue::begin_revolution(double until) {
   vacant_ = none;
   lists_.clear(current_);
   current_ = std::exchange(due, 0);
-  next_.resize(std::max(next_.size(), lists_.places()));
   lists_.for_each(current_, [&](std::uint32_t place) {
     const std::uint64_t tick = tick_of(lists_[place].time);
     if (tick < revolution_end_) {

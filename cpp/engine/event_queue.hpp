@@ -34,7 +34,7 @@ class EventQueue {
     }
     const std::size_t bucket = (word_ << 6) + static_cast<std::size_t>(std::countr_zero(word_bits_));
     const std::uint32_t head = buckets_[bucket];
-    if (next_[head] == none) {
+    if (lists_.next(head) == none) {
       if (!(lists_[head].time < until)) return false;
       buckets_[bucket] = none;
       word_bits_ &= word_bits_ - 1;
@@ -81,14 +81,10 @@ class EventQueue {
 
   /// The place of the flight that was taken last serves again.
   [[gnu::always_inline]] std::uint32_t place_in_revolution(const Flight& flight) {
-    std::uint32_t place = std::exchange(vacant_, none);
-    if (place == none) [[unlikely]] {
-      place = lists_.append(current_, flight);
-      if (next_.size() < lists_.places()) [[unlikely]]
-        next_.resize(lists_.places());
-    } else {
-      lists_.write(place, flight);
-    }
+    const std::uint32_t place = std::exchange(vacant_, none);
+    if (place == none) [[unlikely]]
+      return lists_.append(current_, flight);
+    lists_.write(place, flight);
     return place;
   }
 
@@ -96,7 +92,7 @@ class EventQueue {
   /// the last store to it.
   [[gnu::always_inline]] void link(std::uint32_t place, std::uint64_t tick) {
     const std::uint64_t bucket = tick & bucket_mask_, bit = std::uint64_t{1} << (tick & 63);
-    next_[place] = std::exchange(buckets_[bucket], place);
+    lists_.next(place) = std::exchange(buckets_[bucket], place);
     if (bucket >> 6 > word_) [[likely]] {
       occupied_[bucket >> 6] |= bit;
     } else {
@@ -116,7 +112,6 @@ class EventQueue {
   std::vector<ChunkedLists::List> later_;        // by revolution, modulo their number, a power of two
   ChunkedLists::List current_ = 0, frozen_ = 0;  // the current revolution's, with vacant places
   std::vector<std::uint32_t> buckets_;           // first place of each, or none
-  std::vector<std::uint32_t> next_;              // place in the same bucket, or none; by place
   std::vector<std::uint64_t> occupied_;          // one bit per bucket
   std::uint64_t word_ = 0;                       // of occupied_; those before it are 0
   std::uint64_t word_bits_ = 0;                  // bits of that word, which is itself 0
