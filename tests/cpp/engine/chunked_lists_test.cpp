@@ -10,7 +10,7 @@ namespace {
 using lorentz::ChunkedLists;
 using lorentz::Flight;
 
-std::vector<std::uint32_t> particles_in(const ChunkedLists& lists, std::size_t list) {
+std::vector<std::uint32_t> particles_in(const ChunkedLists& lists, ChunkedLists::List list) {
   std::vector<std::uint32_t> particles;
   lists.for_each(list, [&](std::uint32_t place) { particles.push_back(lists[place].particle); });
   std::ranges::sort(particles);
@@ -23,7 +23,7 @@ std::vector<std::uint32_t> numbers(std::uint32_t begin, std::uint32_t end) {
   return all;
 }
 
-void append(ChunkedLists& lists, std::size_t list, std::uint32_t begin, std::uint32_t end) {
+void append(ChunkedLists& lists, ChunkedLists::List& list, std::uint32_t begin, std::uint32_t end) {
   for (; begin < end; ++begin) lists.append(list, {1.5 * begin, -2.0 * begin, begin + 1, begin, begin + 2});
 }
 
@@ -31,19 +31,22 @@ void append(ChunkedLists& lists, std::size_t list, std::uint32_t begin, std::uin
 TEST(ChunkedLists, HoldEveryFlightOnce) {
   for (const std::uint32_t count : {0U, 1U, 255U, 256U, 257U, 511U, 512U, 513U, 2000U}) {
     ChunkedLists lists;
-    lists.reset(3, 10);
-    append(lists, 0, 0, count);
-    append(lists, 2, count, 2 * count);
-    EXPECT_EQ(particles_in(lists, 0), numbers(0, count));
-    EXPECT_TRUE(particles_in(lists, 1).empty());
-    EXPECT_EQ(particles_in(lists, 2), numbers(count, 2 * count));
+    lists.reset(10, 2);
+    ChunkedLists::List one = 0, other = 0;
+    for (std::uint32_t number = 0; number < count; ++number) {  // by turns, so that their chunks alternate
+      append(lists, one, number, number + 1);
+      append(lists, other, count + number, count + number + 1);
+    }
+    EXPECT_EQ(particles_in(lists, one), numbers(0, count));
+    EXPECT_EQ(particles_in(lists, other), numbers(count, 2 * count));
   }
 }
 
 TEST(ChunkedLists, KeepEveryMemberOfAFlight) {
   ChunkedLists lists;
   lists.reset(1, 1);
-  const Flight& kept = lists[lists.append(0, {1, -2, 3, 4, 5})];
+  ChunkedLists::List list = 0;
+  const Flight& kept = lists[lists.append(list, {1, -2, 3, 4, 5})];
   EXPECT_EQ(kept.time, 1);
   EXPECT_EQ(kept.velocity, -2);
   EXPECT_EQ(kept.target, 3U);
@@ -51,29 +54,29 @@ TEST(ChunkedLists, KeepEveryMemberOfAFlight) {
   EXPECT_EQ(kept.draws, 5U);
 }
 
-TEST(ChunkedLists, PlacesStayWhenAListIsMoved) {
+TEST(ChunkedLists, PlacesStayAsTheListGrows) {
   ChunkedLists lists;
-  lists.reset(2, 1);
-  append(lists, 0, 0, 300);
-  const std::uint32_t place = lists.append(0, {0, 0, 0, 300});
-  lists.move(0, 1);
-  EXPECT_TRUE(particles_in(lists, 0).empty());
-  EXPECT_EQ(particles_in(lists, 1), numbers(0, 301));
+  lists.reset(1, 1);
+  ChunkedLists::List list = 0;
+  const std::uint32_t place = lists.append(list, {0, 0, 0, 300});
+  append(lists, list, 0, 300);
+  EXPECT_EQ(particles_in(lists, list), numbers(0, 301));
   EXPECT_EQ(lists[place].particle, 300U);
 }
 
 TEST(ChunkedLists, MemoryOfAClearedListServesAgain) {
   ChunkedLists lists;
-  lists.reset(2, 1);
-  append(lists, 0, 0, 1000);
-  append(lists, 1, 0, 300);
+  lists.reset(1, 2);
+  ChunkedLists::List one = 0, other = 0;
+  append(lists, one, 0, 1000);
+  append(lists, other, 0, 300);
   const std::size_t places = lists.places();
   for (int round = 0; round < 3; ++round) {
-    lists.clear(0);
-    EXPECT_TRUE(particles_in(lists, 0).empty());
-    append(lists, 0, 500, 1500);
-    EXPECT_EQ(particles_in(lists, 0), numbers(500, 1500));
-    EXPECT_EQ(particles_in(lists, 1), numbers(0, 300));
+    lists.clear(one);
+    EXPECT_TRUE(particles_in(lists, one).empty());
+    append(lists, one, 500, 1500);
+    EXPECT_EQ(particles_in(lists, one), numbers(500, 1500));
+    EXPECT_EQ(particles_in(lists, other), numbers(0, 300));
   }
   EXPECT_EQ(lists.places(), places);
 }
