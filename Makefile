@@ -97,8 +97,8 @@ format: dev  ## Format every source in place
 describe: build runtime  ## State the programs' options and quantities in schema.yaml and docs/format.*
 	$(PYTHON) workflow.config.describe
 
-audit: runtime  ## Check every link from the sources to the figures; PANEL=fig05 draws only that again
-	$(PYTHON) workflow.provenance.audit --quality $(EFFORT) $(ONLY_PANEL)
+audit: runtime  ## Check every link from the sources to the figures; PANEL=fig05 draws only that again; CRATE=FILE compares
+	$(PYTHON) workflow.provenance.audit --quality $(EFFORT) $(ONLY_PANEL) $(if $(CRATE),--crate $(CRATE))
 
 verify: runtime  ## Make a sample of the products again and compare; SAMPLE=0.1 PANEL=fig05
 	$(PYTHON) workflow.provenance.verify --quality $(EFFORT) --sample $(SAMPLE) $(ONLY_PANEL)
