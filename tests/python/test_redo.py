@@ -2,12 +2,15 @@
 
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import pytest
 
 from tests.python.conftest import Program
+from workflow.lib import style
 from workflow.provenance import redo
+from workflow.provenance.likeness import alike
 from workflow.provenance.lock import Job
-from workflow.provenance.redo import disagreement, redrawn, same_bytes, tables_agree
+from workflow.provenance.redo import RedoError, disagreement, redrawn, same_bytes
 from workflow.provenance.repository import machine
 from workflow.provenance.verify import SIGNIFICANCE
 
@@ -44,30 +47,108 @@ def test_another_layout_is_no_match(persistence: Program, program: Program, tmp_
 
 @pytest.mark.parametrize(
     ("text", "agrees"),
-    [("a,b\n1,2.0000000001\n", True), ("a,b\n1,2.00001\n", False), ("a,c\n1,2\n", False), ("a,b\n", False)],
+    [
+        ("# title\na,b\n1,2.0000000001\n", True),
+        ("# title\na,b\n1,2.00001\n", False),
+        ("# title\na,c\n1,2\n", False),
+        ("# title\na,b\n", False),
+        ("# other\na,b\n1,2.0\n", False),
+        ("# title\na,b\n1,2.0 # remark\n", False),
+        ("# title\na,b\n1,2,3,4\n1\n", False),
+        ("\0", False),
+    ],
 )
 def test_tables_agree_but_for_rounding(tmp_path: Path, text: str, agrees: bool) -> None:
     one, other = tmp_path / "one.csv", tmp_path / "other.csv"
     one.write_text("# title\na,b\n1,2.0\n")
-    other.write_text(f"# title\n{text}")
-    assert tables_agree(one, other) is agrees
+    other.write_text(text)
+    assert alike(one, other) is agrees
+
+
+def picture(stem: Path, title: str = "title", y: tuple[float, ...] = (1, 2, 3), label: str = "x") -> None:
+    figure, axes = plt.subplots(figsize=(style.COLUMN, style.HEIGHT))
+    axes.errorbar([1, 2, 3], y, 0.1, marker="o", **style.POINTS)
+    axes.set_xlabel(label)
+    for kind, day in (("pdf", {"CreationDate": None}), ("svg", {"Date": None}), ("png", {})):
+        figure.savefig(stem.with_suffix(f".{kind}"), metadata={"Title": title, **day})
+    plt.close(figure)
+
+
+@pytest.mark.parametrize("kind", ["pdf", "svg", "png"])
+@pytest.mark.parametrize(
+    ("changes", "agrees"),
+    [
+        ({"y": (1, 2.0000000001, 3)}, True),
+        ({"y": (1, 2.05, 3)}, False),
+        ({"label": "t"}, False),
+        ({"title": "other"}, False),
+    ],
+)
+def test_pictures_agree_but_for_rounding(tmp_path: Path, kind: str, changes: dict, agrees: bool) -> None:
+    style.apply()
+    picture(tmp_path / "one")
+    picture(tmp_path / "other", **changes)
+    assert alike(tmp_path / f"one.{kind}", tmp_path / f"other.{kind}") is agrees
+
+
+@pytest.mark.parametrize("kind", ["pdf", "svg", "png"])
+def test_what_is_no_picture_agrees_with_none(tmp_path: Path, kind: str) -> None:
+    style.apply()
+    picture(tmp_path / "one")
+    whole = tmp_path / f"one.{kind}"
+    for name, content in {"empty": b"", "half": whole.read_bytes()[: whole.stat().st_size // 2]}.items():
+        broken = tmp_path / f"{name}.{kind}"
+        broken.write_bytes(content)
+        assert not alike(whole, broken)
+
+
+def test_a_word_of_a_style_sheet_is_no_rounding(tmp_path: Path) -> None:
+    style.apply()
+    picture(tmp_path / "one")
+    text = (tmp_path / "one.svg").read_text()
+    (tmp_path / "other.svg").write_text(text.replace("<!DOCTYPE", '<?xml-stylesheet href="x.css"?><!DOCTYPE'))
+    assert not alike(tmp_path / "one.svg", tmp_path / "other.svg")
 
 
 @pytest.mark.parametrize(
     ("place", "number", "differing"),
     [
-        (machine(), "2.0000000001", {"a.csv": False, "a.png": False}),
-        ("elsewhere", "2.0000000001", {"a.csv": True, "a.png": True}),
-        ("elsewhere", "2.00001", {"a.csv": False, "a.png": True}),
+        (machine(), "2.0000000001", {"a.csv": False}),
+        ("elsewhere", "2.0000000001", {"a.csv": True}),
+        ("elsewhere", "2.00001", {"a.csv": False}),
     ],
 )
 def test_rounding_explains_other_bytes_elsewhere_only(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, place: str, number: str, differing: dict[str, bool]
 ) -> None:
-    files = {"a.csv": ("a\n2.0\n", f"a\n{number}\n"), "a.png": ("old", "new"), "a.svg": ("same", "same")}
+    files = {"a.csv": ("a\n2.0\n", f"a\n{number}\n"), "a.svg": ("same", "same")}
     for name, (old, new) in files.items():
         (tmp_path / name).write_text(old)
         (tmp_path / f"again_{name}").write_text(new)
     monkeypatch.setattr(redo, "ROOT", tmp_path)
     monkeypatch.setattr(redo, "draw", lambda *_: {name: tmp_path / f"again_{name}" for name in files})
-    assert redrawn(Job("", {}, {}, {}, None, None, place, 0), tmp_path) == differing
+    assert redrawn(Job("", {}, {}, {}, None, None, place, 0, {}), tmp_path) == differing
+
+
+@pytest.mark.parametrize(
+    ("tool", "inputs", "words"),
+    [
+        ("workflow/lib/plan.py", {"workflow/lib/plan.py": ""}, "is no script of a figure"),
+        ("workflow/figures/fig05.py", {}, "is no script of a figure"),
+        ("workflow/figures/fig05.py", {"workflow/figures/fig05.py": "0"}, "is not what it was drawn from"),
+        (
+            "workflow/figures/fig05.py",
+            {"../secret": "0", "workflow/figures/fig05.py": "0"},
+            "is no path below the project",
+        ),
+        (
+            "workflow/figures/fig05.py",
+            {"data/none.h5": "0", "workflow/figures/fig05.py": "0"},
+            "data/none.h5 is missing",
+        ),
+    ],
+)
+def test_only_what_the_lock_names_is_drawn(tmp_path: Path, tool: str, inputs: dict, words: str) -> None:
+    job = Job(tool, {"configuration": ""}, {}, {}, None, None, "", 0, {}, inputs=inputs)
+    with pytest.raises(RedoError, match=words):
+        redrawn(job, tmp_path)

@@ -1,22 +1,68 @@
 """Every tampering is found, and the first broken link is named; a clean run has none."""
 
-import json
+import os
+import py_compile
+import socket
 import subprocess
-from collections.abc import Callable
+import sys
 from pathlib import Path
 
 import h5py
 import pytest
 
-from tests.workflow.conftest import Clone, Edit, append, copy, delete, replace
+from tests.workflow.conftest import Clone, append, copy, delete, replace
+from tests.workflow.tampering import (
+    LOCK,
+    PICTURE,
+    PROGRAM,
+    both,
+    in_place_of,
+    other_machine,
+    paint_red,
+    relock,
+    run_module,
+    state_executable,
+    tampered,
+)
 from workflow.lib.parents import file_hash
+from workflow.lib.plan import load_plan
 from workflow.provenance import repository
-from workflow.provenance.lock import checksum_of
 from workflow.provenance.repository import signature
 
 DATA = "data/smoke/fig03/paper.h5"
 TABLE = "figures/smoke/fig03.csv"
-LOCK = "data/smoke/lock.json"
+MORE = "data/smoke/fig03/more.h5"  # which no job makes
+
+
+def bind(path: Path) -> None:
+    """A socket; its name is short, as the length of such an address is limited."""
+    before = Path.cwd()
+    os.chdir(path.parent)
+    try:
+        socket.socket(socket.AF_UNIX).bind(path.name)
+    finally:
+        os.chdir(before)
+
+
+def other_executable(content: dict) -> None:
+    content["jobs"]["fig03/equal"]["executable"] = "0" * 64
+
+
+def other_shape(content: dict) -> None:
+    content["jobs"]["fig03"]["inputs"] = []
+
+
+def no_commit(content: dict) -> None:
+    for job in content["jobs"].values():
+        job |= {"commit": None, "dirty": None}
+
+
+def uncommitted(content: dict) -> None:
+    content["jobs"]["fig03"]["dirty"] = True
+
+
+def untracked(content: dict) -> None:
+    content["jobs"]["fig03"]["pipeline"]["build/system-packages"] = file_hash(Path(os.devnull))
 
 
 def flip_bit(clone: Clone) -> None:
@@ -35,21 +81,6 @@ def forge_value(clone: Clone) -> None:
         file["results/energy_current/mean"][()] *= 1.001
 
 
-def relock(change: Callable[[dict], None] = lambda _: None) -> Edit:
-    """A lock that fits what is there, with its checksum: only the links between the products can tell."""
-
-    def edit(clone: Clone) -> None:
-        content = json.loads((clone.folder / LOCK).read_text())
-        del content["checksum"]
-        for job in content["jobs"].values():
-            job["outputs"] = {path: file_hash(clone.folder / path) for path in job["outputs"]}
-        change(content)
-        content["checksum"] = checksum_of(content)
-        (clone.folder / LOCK).write_text(json.dumps(content))
-
-    return edit
-
-
 def other_commit(content: dict) -> None:
     content["jobs"]["fig03"]["commit"] = "0" * 40
 
@@ -63,13 +94,7 @@ def other_quality(content: dict) -> None:
     content["quality"] = "paper"
 
 
-def both(first: Edit, second: Edit) -> Edit:
-    def edit(clone: Clone) -> None:
-        first(clone)
-        second(clone)
-
-    return edit
-
+__all__ = ["tampered"]  # a fixture
 
 TAMPERINGS = {
     "bit flipped": (flip_bit, DATA),
@@ -116,6 +141,48 @@ TAMPERINGS = {
     "lock of another quality": (relock(other_quality), LOCK),
     "commit forged": (relock(other_commit), "commit 000000000000"),
     "flags forged": (relock(other_flags), "build "),
+    "lock of another shape": (relock(other_shape), LOCK),
+    "script spoilt": (append("workflow/figures/fig03.py", "def (\n"), "workflow/figures/fig03.py"),
+    "program edited": (append(PROGRAM, "x"), PROGRAM),
+    "program edited, its hash too": (both(append(PROGRAM, "x"), state_executable), PROGRAM),
+    "program of another build": (
+        replace("build/id/boltzmann.json", '"build_id": "', '"build_id": "0'),
+        PROGRAM,
+    ),
+    "record of the build spoilt": (append("build/id/boltzmann.json", "}"), PROGRAM),
+    "two programs of one build": (relock(other_executable), PROGRAM),
+    "queue among the data": (in_place_of(MORE, os.mkfifo), MORE),
+    "socket among the data": (in_place_of("data/smoke/x", bind), "data/smoke/x"),
+    "link among the data": (in_place_of(MORE, lambda path: path.symlink_to("paper.h5")), MORE),
+    "link to nowhere": (in_place_of(MORE, lambda path: path.symlink_to("nowhere")), MORE),
+    "link to a folder": (
+        in_place_of("figures/smoke/more", lambda path: path.symlink_to("..")),
+        "figures/smoke/more",
+    ),
+    "queue in place of data": (in_place_of(DATA, os.mkfifo), DATA),
+    "queue in place of a picture": (in_place_of(PICTURE, os.mkfifo), PICTURE),
+    "queue in place of a script": (
+        in_place_of("workflow/figures/fig03.py", os.mkfifo),
+        "workflow/figures/fig03.py",
+    ),
+    "folder in place of a module": (in_place_of("workflow/lib/fit.py", Path.mkdir), "workflow/lib/fit.py"),
+    "queue in place of C++": (in_place_of("cpp/numerics/gmres.cpp", os.mkfifo), "cpp/numerics/gmres.cpp"),
+    "queue in place of the configuration": (
+        in_place_of("workflow/config/paper.yaml", os.mkfifo),
+        "workflow/config/paper.yaml",
+    ),
+    "red picture, as if drawn elsewhere": (both(paint_red, relock(other_machine)), PICTURE),
+}
+
+UNCHECKED = {
+    "Makefile changed": (append("Makefile", "# x\n"), "Makefile (has changed since"),
+    "programs not built": (delete(PROGRAM), f"{PROGRAM} (is not built here)"),
+    "no commit": (relock(no_commit), "sources against their commits ("),
+    "uncommitted changes": (
+        relock(uncommitted),
+        "sources against their commits (1 jobs were done with uncommitted changes)",
+    ),
+    "a file of no commit": (relock(untracked), "build/system-packages (is not in commit "),
 }
 
 
@@ -131,17 +198,94 @@ def test_what_is_not_asked_for_any_more_leaves_no_trace(kept: Clone) -> None:
     assert "fig06/all_sigma=0 is not asked for any more: moved to build/replaced" in made.stdout
     assert (kept.folder / "build/replaced/data/smoke/fig06/all_sigma=0.h5").is_file()
     audited = kept.make("audit", "QUALITY=smoke", "PANEL=fig06")
-    assert "Every link holds" in audited.stdout
+    assert "Nothing is broken" in audited.stdout
+    assert "with uncommitted changes" in audited.stdout
 
 
 @pytest.mark.parametrize("tampering", TAMPERINGS)
-def test_tampering_is_found_and_named(kept: Clone, tampering: str) -> None:
+def test_tampering_is_found_and_named(tampered: Clone, tampering: str) -> None:
     edit, first = TAMPERINGS[tampering]
-    edit(kept)
-    audited = kept.make("audit", "QUALITY=smoke", "PANEL=fig03")
-    assert audited.returncode != 0
+    edit(tampered)
+    audited = audit(tampered)
+    assert audited.returncode == 1
     assert "Traceback" not in audited.stdout
     assert f"the first is {first}" in audited.stdout
+
+
+@pytest.mark.parametrize("case", UNCHECKED)
+def test_what_cannot_be_checked_is_said(tampered: Clone, case: str) -> None:
+    edit, words = UNCHECKED[case]
+    edit(tampered)
+    assert_unchecked(tampered, words)
+
+
+@pytest.mark.parametrize("shallow", [True, False])
+def test_without_history_commits_are_not_checked(clean: Clone, shallow: bool) -> None:
+    git, hidden = clean.folder / ".git", clean.folder / "build/git"
+    if shallow:
+        (git / "shallow").write_bytes(subprocess.check_output(["git", "rev-parse", "HEAD"], cwd=clean.folder))
+    else:
+        git.rename(hidden)
+    try:
+        reason = "the repository is shallow" if shallow else "this is no repository that git reads"
+        assert_unchecked(clean, f"sources against their commits ({reason})")
+    finally:
+        if shallow:
+            (git / "shallow").unlink()
+        else:
+            hidden.rename(git)
+
+
+def audit(clone: Clone, *options: str) -> subprocess.CompletedProcess:
+    return run_module(clone, "audit", *(options or ("--panel", "fig03")))
+
+
+def assert_unchecked(clone: Clone, words: str) -> None:
+    audited = audit(clone)
+    assert audited.returncode == 3, audited.stdout
+    assert f"not checked: {words}" in audited.stdout
+    assert audited.stdout.endswith("Nothing is broken, but not every link could be checked\n")
+
+
+def test_a_foreign_package_is_found(clean: Clone) -> None:
+    folder = next((clean.folder / ".venv/lib").glob("python*/site-packages"))
+    (folder / "numpy.pth").write_text("")
+    try:
+        audited = audit(clean)
+    finally:
+        (folder / "numpy.pth").unlink()
+    assert audited.returncode == 1
+    assert f"the first is {(folder / 'numpy.pth').relative_to(clean.folder)}" in audited.stdout
+
+
+def test_byte_compiled_modules_of_the_project_are_not_used_to_draw(tampered: Clone, tmp_path: Path) -> None:
+    false = tmp_path / "style.py"
+    false.write_text("raise SystemExit(5)\n")
+    compiled = tampered.folder / f"workflow/lib/__pycache__/style.{sys.implementation.cache_tag}.pyc"
+    compiled.parent.mkdir(exist_ok=True)
+    py_compile.compile(
+        str(false), str(compiled), invalidation_mode=py_compile.PycInvalidationMode.UNCHECKED_HASH
+    )
+    audited = audit(tampered)
+    assert audited.returncode == 0, audited.stdout
+
+
+def test_the_summary_says_how_much_was_drawn_again(clean: Clone) -> None:
+    panels = len(load_plan("smoke"))
+    assert f"drew 1 of {panels} panels again" in audit(clean).stdout
+
+
+def test_an_unknown_panel_is_refused_with_the_nearest(clean: Clone) -> None:
+    refused = audit(clean, "--panel", "figg03")
+    assert refused.returncode == 2
+    assert refused.stdout.count("\n") == 1
+    assert "fig03" in refused.stdout
+
+
+def test_an_unknown_quality_is_refused(clean: Clone) -> None:
+    refused = run_module(clean, "audit", quality="../smoke")
+    assert refused.returncode == 2
+    assert "QUALITY=../smoke is not known" in refused.stdout
 
 
 SIGNER = r"""#!/bin/bash

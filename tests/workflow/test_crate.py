@@ -4,11 +4,14 @@ import hashlib
 import json
 import os
 import shutil
+import subprocess
 import zipfile
+from pathlib import Path
 
 import pytest
 
 from tests.workflow.conftest import CHEAP, Clone
+from tests.workflow.tampering import run_module
 
 FOLDER = "build/crate/standard"
 ARCHIVE = "build/crate/lorentz-gas-standard.zip"
@@ -125,6 +128,63 @@ def test_without_a_repository_the_day_is_that_of_the_makefile(packed: Clone) -> 
     said = entities(packed)
     assert said["./"]["datePublished"] == "2009-01-01"  # SOURCE_DATE_EPOCH
     assert "cpp/model/collision.hpp" in said
+
+
+def audit(clone: Clone, crate: str) -> subprocess.CompletedProcess:
+    return run_module(clone, "audit", "--panel", "fig03", "--crate", crate, quality="standard")
+
+
+@pytest.mark.parametrize("place", [FOLDER, ARCHIVE])
+def test_what_was_packed_is_what_is_here(packed: Clone, place: str) -> None:
+    assert packed.make("crate", *CHEAP).returncode == 0
+    audited = audit(packed, place)
+    assert audited.returncode == 0, audited.stdout
+
+
+def test_a_consistent_forgery_is_found_against_the_crate(packed: Clone, tmp_path: Path) -> None:
+    """Sources changed, committed, and everything made again from them: nothing here contradicts anything else."""
+    assert packed.make("crate", *CHEAP).returncode == 0
+    deposited = shutil.copyfile(packed.folder / ARCHIVE, tmp_path / "deposited.zip")
+    script = packed.folder / "workflow/figures/fig03.py"
+    text = script.read_text()
+    try:
+        script.write_text(text.replace("COLUMN", "HEIGHT", 1))
+        packed.commit()
+        assert packed.make("panel", *CHEAP).returncode == 0
+        assert run_module(packed, "audit", "--panel", "fig03", quality="standard").returncode == 0
+        audited = audit(packed, str(deposited))
+    finally:
+        script.write_text(text)
+        packed.commit()
+        assert packed.make("panel", *CHEAP).returncode == 0
+    assert audited.returncode == 1
+    for path in ("workflow/figures/fig03.py", "figures/standard/fig03.pdf"):
+        assert f"{path}: is not what the crate holds" in audited.stdout
+    assert "data/standard/lock.json: names other " in audited.stdout
+
+
+@pytest.mark.parametrize(
+    ("place", "words"),
+    [
+        ("none.zip", "there is no such file"),
+        ("README.md", "is no crate of this project"),
+        ("docs", "is no crate of this project"),
+    ],
+)
+def test_what_is_no_crate_is_refused(packed: Clone, place: str, words: str) -> None:
+    audited = audit(packed, place)
+    assert audited.returncode == 2
+    assert words in audited.stdout
+    assert audited.stdout.count("\n") == 1
+
+
+def test_a_damaged_crate_is_told(packed: Clone, tmp_path: Path) -> None:
+    assert packed.make("crate", *CHEAP).returncode == 0
+    folder = shutil.copytree(packed.folder / FOLDER, tmp_path / "crate")
+    (folder / "LICENSE").write_text("none\n")
+    audited = audit(packed, str(folder))
+    assert audited.returncode == 1
+    assert "LICENSE: is damaged or missing in the crate itself" in audited.stdout
 
 
 def assert_refused(clone: Clone, arguments: tuple[str, ...], words: list[str]) -> None:

@@ -5,27 +5,27 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import yaml
 from jsonschema import Draft202012Validator
 
 from workflow.lib.options import Options, admissible, admits
+from workflow.lib.strict_yaml import ConfigurationError, Document, nearest, read
 
-
-class ConfigurationError(ValueError):
-    """The configuration cannot be used; the message names file, key, value and what is allowed."""
+__all__ = ["Admissible", "ConfigurationError", "load_checked", "nearest", "paper_schema", "quality_schema"]
 
 
 @dataclass(frozen=True)
 class Admissible:
-    """Options that the configuration may give, by program."""
+    """Options that the configuration may give, by program. A place is `paper.yaml: panels.fig05.common`."""
 
     programs: dict[str, dict[str, dict]]
     effort: tuple[str, ...]
     not_physics: tuple[str, ...]
+    folder: Path
 
     @classmethod
     def of(cls, folder: Path) -> "Admissible":
-        return cls(**yaml.safe_load((folder / "schema.yaml").read_text()))
+        """Raises ConfigurationError."""
+        return cls(**load_checked(folder / "schema.yaml", admissible_schema()), folder=folder)
 
     def check_physics(self, program: str, options: Options, place: str) -> None:
         names = [name for name in self.programs[program] if name not in self.not_physics]
@@ -40,23 +40,23 @@ class Admissible:
     def check_program(self, program: str | None, place: str) -> None:
         if program not in self.programs:
             missing = "program is missing" if program is None else f"there is no program {program}"
+            hint = "" if program is None else nearest(program, self.programs)
             allowed = ", ".join(self.programs)
-            raise ConfigurationError(
-                f"{place}: {missing} (allowed: {allowed}; `make describe` adds new ones)"
-            )
+            text = f"{missing}{hint} (allowed: {allowed}; `make describe` adds new ones)"
+            raise self._complaint(place, text)
 
     def _check(self, program: str, options: Options, names: list[str], place: str) -> None:
         for name, given in options.items():
             here = f"{place}.{name}"
             if name not in names:
-                raise ConfigurationError(
-                    f"{here}: {program} has no such option here (allowed: {', '.join(names)})"
+                text = (
+                    f"{program} has no such option here{nearest(name, names)} (allowed: {', '.join(names)})"
                 )
+                raise self._complaint(here, text, given)
             if isinstance(given, list):
                 if not given or any(given.count(value) > 1 for value in given):
-                    raise ConfigurationError(
-                        f"{here}: the list is empty or repeats a value (allowed: different ones)"
-                    )
+                    text = "the list is empty or repeats a value (allowed: different ones)"
+                    raise self._complaint(here, text, given)
                 for i, value in enumerate(given):
                     self._check_value(program, name, value, f"{here}.{i}")
             else:
@@ -65,41 +65,62 @@ class Admissible:
     def _check_value(self, program: str, name: str, value: object, place: str) -> None:
         option = self.programs[program][name]
         if not admits(option, value):
-            raise ConfigurationError(
-                f"{place} = {json.dumps(value, default=str)}: {program} does not accept it "
-                f"(allowed: {admissible(option)})"
-            )
+            text = f"{program} does not accept it (allowed: {admissible(option)})"
+            raise self._complaint(place, text, value)
+
+    def _complaint(self, place: str, text: str, value: object = None) -> ConfigurationError:
+        """With line and column, for which the file is read once more."""
+        name, _, keys = place.partition(": ")
+        path = self.folder / name if name == "paper.yaml" else self.folder / "quality" / name
+        return read(path).complaint(keys.split("."), text, "" if value is None else json.dumps(value))
 
 
 def load_checked(path: Path, schema: dict) -> dict:
     """Raises ConfigurationError."""
-    try:
-        content = yaml.safe_load(path.read_text())
-    except FileNotFoundError as error:
-        raise ConfigurationError(f"{path.name} is missing") from error
-    except yaml.YAMLError as error:
-        raise ConfigurationError(f"{path.name} is not valid YAML: {error}") from error
+    document = read(path)
     errors = sorted(
-        Draft202012Validator(schema).iter_errors(content), key=lambda error: len(error.absolute_path)
+        Draft202012Validator(schema).iter_errors(document.content),
+        key=lambda error: len(error.absolute_path),
     )
     if errors:
         deepest = errors[-1]
         while deepest.context:  # of the alternatives, the last is a list of values
             deepest = max(deepest.context, key=lambda error: len(error.absolute_path))
-        raise ConfigurationError(_complaint(path, deepest))
-    return content
+        raise _complaint(document, deepest)
+    return document.content
 
 
-def _complaint(path: Path, error: Any) -> str:
-    key = ".".join(str(part) for part in error.absolute_path) or "the whole file"
+def _complaint(document: Document, error: Any) -> ConfigurationError:
+    keys = [str(part) for part in error.absolute_path]
+    if error.validator == "additionalProperties":
+        known = [*error.schema["properties"]]
+        name = next(name for name in error.instance if name not in known)
+        text = f"there is no such key here{nearest(name, known)} (allowed: {', '.join(known)})"
+        return document.complaint([*keys, name], text)
     limits = {
         name: error.schema[name]
         for name in ("type", "minimum", "exclusiveMinimum", "maximum", "enum", "const", "pattern")
         if isinstance(error.schema, dict) and name in error.schema
     }
     allowed = ", ".join(f"{name} {value}" for name, value in limits.items())
-    value = f" = {json.dumps(error.instance)}" if not isinstance(error.instance, (dict, list)) else ""
-    return f"{path.name}: {key}{value}: {error.message}" + (f" (allowed: {allowed})" if allowed else "")
+    plain = not isinstance(error.instance, (dict, list))
+    text = error.message + (f" (allowed: {allowed})" if allowed else "")
+    return document.complaint(keys, text, json.dumps(error.instance) if plain else "")
+
+
+def admissible_schema() -> dict:
+    """Of schema.yaml itself."""
+    number, text = {"type": "number"}, {"type": "string"}
+    texts = {"type": "array", "items": text}
+    option = _object(
+        {name: number for name in ("minimum", "exclusive_minimum", "maximum")}
+        | {"type": text, "word": text, "units": text, "choices": texts},
+        required=("type",),
+    )
+    options = {"type": "object", "additionalProperties": option}
+    properties = {"effort": texts, "not_physics": texts}
+    properties["programs"] = {"type": "object", "additionalProperties": options}
+    return _object(properties, required=tuple(properties))
 
 
 def paper_schema() -> dict:

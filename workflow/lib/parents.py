@@ -2,12 +2,15 @@
 
 import hashlib
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 PACKAGES = "requirements.lock"
 PARENTS_LINE = "# parents: "  # of a CSV
+DATA = {"sha256": str, "build_id": str, "seed": int}
+BUILD = {"program": str, "source_hash": str, "compiler": str, "flags": str, "libraries": str}
 
 
 class ArtefactError(ValueError):
@@ -38,16 +41,44 @@ class Parents:
     @staticmethod
     def of(path: Path) -> "Parents":
         """Raises ArtefactError if the file is missing, damaged, or names no parents."""
+        if not path.is_file():
+            raise ArtefactError(
+                f"{path} names no parents: {'not a file' if path.exists() else 'No such file'}"
+            )
         try:
-            return Parents(**json.loads(_described(path)))
-        except TypeError as error:
-            raise ArtefactError(f"{path} names no parents as this version does: draw it again") from error
-        except (OSError, ValueError, KeyError, SyntaxError) as error:  # the last one: XML
-            raise ArtefactError(f"{path} names no parents: {error}") from error
+            content = json.loads(_described(path))
+        except Exception as error:  # a hostile file may raise anything in the libraries that read pictures
+            first = (str(error).splitlines() or [type(error).__name__])[0]
+            raise ArtefactError(f"{path} names no parents: {first}") from error
+        if not _is_complete(content):
+            raise ArtefactError(f"{path} names no parents as this version does: draw it again")
+        return Parents(**content)
 
 
 def file_hash(path: Path) -> str:
     return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def _is_complete(content: Any) -> bool:
+    """Whether it has every field of Parents, each of its type, and a build for all data."""
+    if not isinstance(content, dict) or content.keys() != {field.name for field in fields(Parents)}:
+        return False
+    words = ("panel", "quality", "packages", "python", "configuration")
+    kinds = [(content["data"], DATA), (content["builds"], BUILD)]
+    return (
+        all(isinstance(content[name], str) for name in words)
+        and isinstance(content["sources"], dict)
+        and all(isinstance(digest, str) for digest in content["sources"].values())
+        and all(
+            isinstance(every, dict) and all(_has(one, kind) for one in every.values())
+            for every, kind in kinds
+        )
+        and all(one["build_id"] in content["builds"] for one in content["data"].values())
+    )
+
+
+def _has(one: Any, kind: dict[str, type]) -> bool:
+    return isinstance(one, dict) and {name: type(value) for name, value in one.items()} == kind
 
 
 def _described(path: Path) -> str:
@@ -78,15 +109,11 @@ def _of_svg(path: Path) -> str:
 def _of_png(path: Path) -> str:
     from PIL import Image  # noqa: PLC0415
 
-    with Image.open(path) as picture:
+    with Image.open(path, formats=["PNG"]) as picture:
         return picture.info["Description"]
 
 
 def _of_pdf(path: Path) -> str:
     from pypdf import PdfReader  # noqa: PLC0415
-    from pypdf.errors import PdfReadError  # noqa: PLC0415
 
-    try:
-        return PdfReader(path).metadata.subject
-    except (PdfReadError, AttributeError) as error:
-        raise ValueError(str(error)) from error
+    return PdfReader(path).metadata.subject

@@ -15,9 +15,13 @@ BUILT = ("program", "source_hash", "compiler", "flags", "libraries")
 
 def run_fault(path: str, job: Job, lock: Lock) -> str | None:
     """Of a result file: the first contradiction with the documented layout or with the lock."""
-    if found := faults(ROOT / path):
+    try:
+        found = faults(ROOT / path)
+        result = None if found else load(ROOT / path)
+    except Exception as error:  # a forged file may raise anything in the library that reads it
+        return f"is not a result file: {error}"
+    if result is None:
         return found[0].removeprefix(f"{ROOT / path}: ")
-    result = load(ROOT / path)
     wanted = {name: lock.builds[job.build_id][name] for name in BUILT} | {"build_id": job.build_id}
     for name, value in wanted.items():
         if result.provenance[name] != value:

@@ -1,67 +1,100 @@
 """Makes a product again in another folder, as its record in the lock says."""
 
+import shutil
 import subprocess
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 from scipy.special import stdtr  # scipy.stats takes half a second to import
 
 from workflow.lib.load import Quantity, load
-from workflow.lib.parents import PACKAGES
-from workflow.provenance.execute import ENVIRONMENT, UNCONVERGED, program_command, script_command
+from workflow.lib.options import arguments
+from workflow.lib.parents import PACKAGES, file_hash
+from workflow.provenance.execute import ENVIRONMENT, LAUNCH, UNCONVERGED, script_command
+from workflow.provenance.likeness import alike
 from workflow.provenance.lock import Job
 from workflow.provenance.repository import ROOT, machine
 
-ROUNDING = 1e-9  # relative: what another processor's vector units may change in a table
 MANY = 1000  # replicas
+SCHEMA = "workflow/config/schema.yaml"  # the units of options, which the scripts read
 
 
 class RedoError(RuntimeError):
-    """The program or script failed."""
+    """The program or script failed, or what it is to be made from is not there."""
 
 
-def simulate(job: Job, folder: Path) -> Path:
-    """Runs the program; returns the file that it wrote."""
+@contextmanager
+def workplace() -> Iterator[Path]:
+    """A folder for a series of drawings, with a matplotlib of its own: no setting, font list or byte-compiled file
+    that lies in the project is read."""
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "matplotlib").mkdir()
+        yield Path(folder)
+
+
+def simulate(job: Job, programs: Path, folder: Path) -> Path:
+    """Runs the program of that folder; returns the file that it wrote. Raises RedoError."""
     output = folder / "again.h5"
-    _run([*program_command(job.tool, job.options, output), "--progress", "none"], (0, UNCONVERGED))
+    command = [
+        str(programs / job.tool),
+        *arguments(job.options),
+        "--output",
+        str(output),
+        "--progress",
+        "none",
+    ]
+    _run(command, folder, ENVIRONMENT, (0, UNCONVERGED))
     return output
 
 
 def draw(job: Job, folder: Path) -> dict[str, Path]:
-    """Draws the panel into the folder; returns the new file for each recorded one."""
-    stem = (folder / min(job.outputs)).with_suffix("")
+    """Draws the panel into the folder, from copies of the sources and data that the lock names, and of what starts a
+    script; returns the new file for each recorded one. Raises RedoError."""
     sources = [path for path in job.sources if path != PACKAGES]
-    _run(script_command(job.tool, job.options["configuration"], sources, job.data, stem))
+    if job.tool not in sources or Path(job.tool).parent != Path("workflow/figures"):
+        raise RedoError(f"{job.tool} is no script of a figure")
+    for path, digest in job.inputs.items():
+        _copy(path, folder)
+        if file_hash(folder / path) != digest:
+            raise RedoError(f"{path} is not what it was drawn from")
+    for path in (LAUNCH, SCHEMA):
+        _copy(path, folder)
+    stem = Path(min(job.outputs)).with_suffix("")
+    command = script_command(job.tool, job.options["configuration"], sources, job.data, stem)
+    settings = ENVIRONMENT | {"MPLCONFIGDIR": str(folder.parent / "matplotlib")}
+    _run(command, folder, settings)
     return {path: folder / path for path in job.outputs}
+
+
+def _copy(path: str, folder: Path) -> None:
+    target = folder / path
+    if not target.resolve().is_relative_to(folder.resolve()):
+        raise RedoError(f"{path} is no path below the project")
+    if not (ROOT / path).is_file():
+        raise RedoError(f"{path} is missing")
+    target.parent.mkdir(parents=True, exist_ok=True)
+    shutil.copyfile(ROOT / path, target)
 
 
 def redrawn(job: Job, folder: Path) -> dict[str, bool]:
     """Draws the panel again: the files that get other bytes, each with whether rounding explains it, as it can on
-    another kind of machine: that of any picture, and of a table whose numbers agree. Raises RedoError."""
+    another kind of machine. Raises RedoError."""
     elsewhere = job.machine != machine()
     return {
-        path: elsewhere and (not path.endswith(".csv") or tables_agree(ROOT / path, new))
+        path: elsewhere and alike(ROOT / path, new)
         for path, new in draw(job, folder).items()
         if not same_bytes(ROOT / path, new)
     }
 
 
-def _run(command: list[str], allowed: tuple[int, ...] = (0,)) -> None:
-    done = subprocess.run(command, cwd=ROOT, env=ENVIRONMENT, capture_output=True, text=True, check=False)
+def _run(command: list[str], folder: Path, settings: dict[str, str], allowed: tuple[int, ...] = (0,)) -> None:
+    done = subprocess.run(command, cwd=folder, env=settings, capture_output=True, text=True, check=False)
     if done.returncode not in allowed:
         last = (done.stderr.strip().splitlines() or ["no message"])[-1]
         raise RedoError(f"{Path(command[0]).name} ended with status {done.returncode}: {last}")
-
-
-def tables_agree(one: Path, other: Path) -> bool:
-    """Whether two tables are equal but for rounding."""
-    first, second = (pd.read_csv(path, comment="#") for path in (one, other))
-    try:
-        pd.testing.assert_frame_equal(first, second, rtol=ROUNDING, atol=0)
-    except AssertionError:
-        return False
-    return True
 
 
 def disagreement(one: Path, other: Path) -> tuple[float, float]:

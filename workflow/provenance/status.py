@@ -74,7 +74,10 @@ def main() -> None:
     try:
         Console(width=None if sys.stdout.isatty() else WIDE).print(table(quality))
     except ConfigurationError as error:
-        sys.exit(f"make status: {error}")
+        print(f"make status: {error}", file=sys.stderr)
+        sys.exit(2)
+    except (OSError, SyntaxError, UnicodeDecodeError) as error:
+        sys.exit(f"make status: a source cannot be read: {error}")
 
 
 if __name__ == "__main__":

@@ -1,14 +1,15 @@
-"""Prints what a product was made from, down to sources, seeds and locked packages.
+"""Prints whether a file is what a job here wrote, and what it was made from, down to sources, seeds and packages.
 
-Works on a copy anywhere: the file names its parents by hash, and the repository is asked where they are, in the
-working tree, in data/ or in a commit.
+Works on a copy anywhere: a lock in data/ knows the file by its hash, the file names its parents by theirs, and the
+repository is asked where these are, in the working tree, in data/ or in a commit. Status 0 if a job wrote this file,
+1 if none did.
 """
 
 import argparse
 import re
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TypeVar
 
@@ -16,81 +17,123 @@ from rich.console import Console
 from rich.markup import escape
 from rich.tree import Tree
 
-from workflow.lib.load import FormatError, Result, load
-from workflow.lib.parents import PACKAGES, ArtefactError, Parents, file_hash
+from workflow.lib.load import Result, load
+from workflow.lib.parents import PACKAGES, Parents, file_hash
 from workflow.lib.plan import ConfigurationError, Panel, load_plan
 from workflow.provenance.build_id import content_hashes, include_closure, source_hash
+from workflow.provenance.lock import Lock, LockError
 from workflow.provenance.repository import ROOT, commits, files_at
 
 SHORT = 16  # digits of a hash that are shown
+FEW = 2  # entries of a list that are shown where not all are asked for
 UNLIMITED = 100_000  # columns, where nobody reads them on a screen
 HERE = "as in the working tree"
 LOST = "not found in the repository"
 CONFIGURATION = "workflow/config"
+BAD_INPUT = 2  # exit status
 
 Found = TypeVar("Found")
 
 
-def product_tree(path: Path) -> Tree:
-    """Raises ArtefactError or FormatError if the file does not say what it was made from."""
-    title = f"{path.name}  {short(file_hash(path))}" if path.is_file() else path.name
-    if path.suffix == ".h5":
-        tree, result = Tree(escape(title)), load(path)
-        add_parameters(tree, result)
-        add_build(tree, result.provenance["build_id"], result.provenance)
+def makers(digest: str) -> tuple[list[str], list[str]]:
+    """The jobs that wrote a file of this hash, in words; and the locks that cannot be read."""
+    found, damaged = [], []
+    for path in sorted((ROOT / "data").glob("*/lock.json")):
+        quality = path.parent.name
+        try:
+            jobs = Lock.read(quality).jobs
+            for name, job in jobs.items():
+                if digest in job.outputs.values():
+                    state = {True: "uncommitted changes", False: "clean", None: "no repository"}[job.dirty]
+                    found.append(
+                        f"job {name} of quality {quality} wrote (commit {short(str(job.commit))}, {state})"
+                    )
+        except (LockError, RecursionError, AttributeError, KeyError, TypeError) as error:
+            damaged.append(f"skipped data/{quality}/lock.json: {error}")
+    return found, damaged
+
+
+class Ancestry:
+    """Writes the tree, whole or with the first entries of every list only."""
+
+    def __init__(self, full: bool) -> None:
+        self.full = full
+        self.shown: set[str] = set()  # builds
+
+    def product(self, path: Path) -> Tree:
+        """Raises ArtefactError or FormatError if the file does not say what it was made from."""
+        title = f"{path.name}  {short(file_hash(path))}"
+        if path.suffix == ".h5":
+            result = load(path)
+            tree = Tree(plain(title))
+            add_parameters(tree, result)
+            self.add_build(tree, result.provenance["build_id"], result.provenance)
+            return tree
+        parents = Parents.of(path)
+        tree = Tree(plain(f"{title}  panel {parents.panel} at quality {parents.quality}"))
+        found = search(CONFIGURATION, lambda root: asks_for(root, parents))[0]
+        tree.add(plain(f"configuration  {short(parents.configuration)}  {found}"))
+        found, locked = search(PACKAGES, lambda root: holding(root / PACKAGES, parents.packages))
+        names = re.findall(r"^([\w.-]+==[^ ;\\]+)", (locked or b"").decode(errors="replace"), re.MULTILINE)
+        node = tree.add(plain(f"{PACKAGES}  {short(parents.packages)}  {found}; Python {parents.python}"))
+        if self.full and names:
+            node.add(plain(", ".join(names)))
+        self.add_scripts(tree.add("scripts"), parents.sources)
+        for name, data in self.first(tree, parents.data.items(), "files of data"):
+            self.add_data(tree, name, data, parents.builds[data["build_id"]])
         return tree
-    parents = Parents.of(path)
-    tree = Tree(escape(f"{title}  panel {parents.panel} at quality {parents.quality}"))
-    found = search(CONFIGURATION, lambda root: asks_for(root, parents))[0]
-    tree.add(escape(f"configuration  {short(parents.configuration)}  {found}"))
-    found, locked = search(PACKAGES, lambda root: holding(root / PACKAGES, parents.packages))
-    node = tree.add(escape(f"{PACKAGES}  {short(parents.packages)}  {found}; Python {parents.python}"))
-    if names := re.findall(r"^([\w.-]+==[^ ;\\]+)", (locked or b"").decode(), re.MULTILINE):
-        node.add(escape(", ".join(names)))
-    scripts = tree.add("scripts")
-    for name, digest in parents.sources.items():
-        found = search(name, lambda root, name=name, digest=digest: holding(root / name, digest))[0]
-        scripts.add(escape(f"{name}  {short(digest)}  {found}"))
-    shown: set[str] = set()
-    for name, data in parents.data.items():
-        add_data(tree, name, data, parents.builds[data["build_id"]], data["build_id"] in shown)
-        shown.add(data["build_id"])
-    return tree
 
+    def first(self, node: Tree, entries: Iterable[Found], what: str) -> Iterable[Found]:
+        """Those to show; what is left out is counted once they have been shown."""
+        entries = [*entries]
+        few = entries if self.full else entries[:FEW]
+        yield from few
+        if len(few) < len(entries):
+            node.add(f"and {len(entries) - len(few)} more {what}; FULL=yes shows them")
 
-def add_data(tree: Tree, name: str, data: dict, build: dict, shown: bool) -> None:
-    here = holding(ROOT / name, data["sha256"]) is not None
-    other = (
-        "is here with other bytes"
-        if (ROOT / name).is_file()
-        else "is not here: `make figures` makes it again"
-    )
-    node = tree.add(escape(f"{name}  {short(data['sha256'])}  {'is here' if here else other}"))
-    if here:
-        add_parameters(node, load(ROOT / name))
-    else:
-        node.add(f"seed {data['seed']}")
-    add_build(node, data["build_id"], build, shown)
+    def add_scripts(self, node: Tree, sources: dict[str, str]) -> None:
+        for name, digest in self.first(node, sources.items(), "scripts"):
+            found = search(name, lambda root, name=name, digest=digest: holding(root / name, digest))[0]
+            node.add(plain(f"{name}  {short(digest)}  {found}"))
+
+    def add_data(self, tree: Tree, name: str, data: dict, build: dict) -> None:
+        here = holding(ROOT / name, data["sha256"]) is not None
+        other = (
+            "is here with other bytes"
+            if (ROOT / name).is_file()
+            else "is not here: `make figures` makes it again"
+        )
+        node = tree.add(plain(f"{name}  {short(data['sha256'])}  {'is here' if here else other}"))
+        if here:
+            add_parameters(node, load(ROOT / name))
+        else:
+            node.add(f"seed {data['seed']}")
+        self.add_build(node, data["build_id"], build)
+
+    def add_build(self, node: Tree, identifier: str, build: dict) -> None:
+        above = identifier in self.shown
+        self.shown.add(identifier)
+        text = f"program {build['program']}  build {short(identifier)}{'  as above' if above else ''}"
+        program = node.add(plain(text))
+        if above:
+            return
+        program.add(plain(f"{build['compiler']}, {build['flags']}"))
+        program.add(plain(f"libraries  {build['libraries']}"))
+        found, contents = search("cpp", lambda root: closure(root / "cpp", build))
+        sources = program.add(plain(f"sources  {short(build['source_hash'])}  {found}"))
+        for name, digest in self.first(sources, (contents or {}).items(), "sources"):
+            sources.add(plain(f"cpp/{name}  {short(digest)}"))
 
 
 def add_parameters(node: Tree, result: Result) -> None:
     values = ", ".join(f"{name} {value}" for name, value in result.parameters.items() if name != "seed")
-    node.add(f"seed {result.provenance['seed']}, streams {result.provenance['streams']}")
-    node.add(escape(f"parameters  {values}"))
+    node.add(plain(f"seed {result.provenance['seed']}, streams {result.provenance['streams']}"))
+    node.add(plain(f"parameters  {values}"))
 
 
-def add_build(node: Tree, identifier: str, build: dict, shown: bool = False) -> None:
-    program = node.add(
-        escape(f"program {build['program']}  build {short(identifier)}{'  as above' if shown else ''}")
-    )
-    if shown:
-        return
-    program.add(escape(f"{build['compiler']}, {build['flags']}"))
-    program.add(escape(f"libraries  {build['libraries']}"))
-    found, contents = search("cpp", lambda root: closure(root / "cpp", build))
-    sources = program.add(escape(f"sources  {short(build['source_hash'])}  {found}"))
-    for name, digest in (contents or {}).items():
-        sources.add(escape(f"cpp/{name}  {short(digest)}"))
+def plain(text: str) -> str:
+    """Without markup, and without characters by which a hostile file would command the terminal."""
+    return escape("".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text))
 
 
 def holding(path: Path, digest: str) -> bytes | None:
@@ -141,12 +184,30 @@ def short(digest: str) -> str:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("file", type=Path)
-    path = parser.parse_args().file
+    parser.add_argument("--full", action="store_true", help="every source, package and file of data")
+    options = parser.parse_args()
+    if not options.file.is_file():
+        reason = "is not a file" if options.file.exists() else "No such file"
+        print(f"make provenance: {options.file}: {reason}", file=sys.stderr)
+        sys.exit(BAD_INPUT)
+    found, damaged = makers(file_hash(options.file))
+    console = Console(highlight=False, width=None if sys.stdout.isatty() else UNLIMITED)
+    name = plain(options.file.name)
+    if found:
+        console.print(f"{name} is what {found[0]}")
+    else:
+        console.print(f"{name} is not what any job here wrote: edited, damaged or made elsewhere")
+    for line in damaged:
+        console.print(plain(line))
     try:
-        tree = product_tree(path)
-    except (ArtefactError, FormatError) as error:
+        tree = Ancestry(options.full).product(options.file)
+    except (ValueError, KeyError, AttributeError, OSError) as error:  # a forged file may hold anything
         sys.exit(f"make provenance: {error}")
-    Console(highlight=False, width=None if sys.stdout.isatty() else UNLIMITED).print(tree)
+    console.print(
+        "What it was made from:" if found else "What it says of itself, which nothing here confirms:"
+    )
+    console.print(tree)
+    sys.exit(0 if found else 1)
 
 
 if __name__ == "__main__":

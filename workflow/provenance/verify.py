@@ -1,5 +1,8 @@
-"""Makes a sample of the products again and compares: the same bytes on the same kind of machine, within errors
-on another. The verdicts are kept in data/<quality>/verification.json; what has none is sampled first.
+"""Makes a sample of the products again and compares.
+
+Programs are built afresh from the sources. Equal builds have to give the same bytes; another compiler or library
+results within errors, another kind of machine pictures that are equal but for rounding. The verdicts are kept in
+data/<quality>/verification.json; what has none is sampled first.
 """
 
 import argparse
@@ -8,42 +11,48 @@ import json
 import math
 import sys
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path
 
+from workflow.lib.load import FormatError
+from workflow.lib.plan import ConfigurationError, data_path, drawings_of, load_plan, panel_named
+from workflow.provenance.fresh_build import BuildError, FreshBuild
 from workflow.provenance.lock import Job, Lock, LockError
-from workflow.provenance.redo import RedoError, disagreement, redrawn, same_bytes, simulate
+from workflow.provenance.redo import RedoError, disagreement, redrawn, same_bytes, simulate, workplace
 from workflow.provenance.repository import ROOT, machine
 
 SIGNIFICANCE = 1e-3  # of a deviation of independent random numbers
+BAD_INPUT = 2  # exit status
+
+Verdict = tuple[bool, str]  # whether the same is made again, and in what sense
 
 
-def verdict(job: Job, folder: Path) -> tuple[bool, str]:
-    """Whether the job makes again what it made, and in what sense. Raises RedoError."""
-    return (
-        drawing_verdict(job, redrawn(job, folder))
-        if job.is_drawing
-        else run_verdict(job, simulate(job, folder))
-    )
-
-
-def drawing_verdict(job: Job, differing: dict[str, bool]) -> tuple[bool, str]:
+def drawing_verdict(job: Job, differing: dict[str, bool]) -> Verdict:
     if wrong := [path for path, rounded in differing.items() if not rounded]:
-        return False, f"other {'bytes' if job.machine == machine() else 'numbers'} in {', '.join(wrong)}"
-    return True, "the same table but for rounding" if differing else "the same bytes"
+        return False, f"other bytes in {', '.join(wrong)}"
+    return True, "the same but for rounding" if differing else "the same bytes"
 
 
-def run_verdict(job: Job, again: Path) -> tuple[bool, str]:
+def run_verdict(job: Job, fresh: FreshBuild, recorded: dict, folder: Path) -> Verdict:
+    """Raises RedoError or FormatError."""
+    if fault := fresh.fault(job, recorded):
+        return False, fault
     (path,) = job.outputs
+    again = simulate(job, fresh.programs, folder)
     if same_bytes(ROOT / path, again):
         return True, "the same bytes"
-    if job.machine == machine():
+    if fresh.identity(job.tool)["build_id"] == job.build_id:
         return False, f"other bytes in {path}"
     largest, probability = disagreement(ROOT / path, again)
     within = probability > SIGNIFICANCE
-    return (
-        within,
-        f"{'' if within else 'not '}within errors: largest |z| {largest:.2g}, p = {probability:.2g}",
-    )
+    words = f"{'' if within else 'not '}within errors: largest |z| {largest:.2g}, p = {probability:.2g}"
+    return within, f"{words}, by another compiler or other libraries"
+
+
+def stated_outputs(quality: str, name: str) -> set[str]:
+    """What a job of this name makes."""
+    panel, _, run = name.partition("/")
+    return {data_path(quality, panel, run)} if run else {*drawings_of(quality, panel)}
 
 
 def sample(lock: Lock, names: list[str], share: float, verdicts: dict) -> list[str]:
@@ -56,26 +65,56 @@ def sample(lock: Lock, names: list[str], share: float, verdicts: dict) -> list[s
     return sorted(names, key=order)[: math.ceil(share * len(names))]
 
 
-def verify(quality: str, share: float, only: str | None) -> bool:
-    """Prints a line per job; true if none differs. Raises LockError."""
-    lock = Lock.read(quality)
-    record = Lock.path(quality).with_name("verification.json")
-    verdicts = json.loads(record.read_text()) if record.is_file() else {}
-    names = [name for name in lock.jobs if only in (None, name.split("/")[0])]
-    names = sample(lock, names, share, verdicts)
-    if not names:
-        raise LockError(f"nothing of {only or quality} has been made yet")
-    for name in names:
-        job = lock.jobs[name]
-        with tempfile.TemporaryDirectory() as folder:
-            try:
-                same, words = verdict(job, Path(folder))
-            except (RedoError, OSError) as error:
-                same, words = False, str(error)
-        verdicts[name] = {"outputs": job.outputs, "same": same, "verdict": words, "machine": machine()}
-        record.write_text(json.dumps(verdicts, indent=1, sort_keys=True) + "\n")
-        print(f"{name}: {words}", flush=True)
-    return all(verdicts[name]["same"] for name in names)
+class Verdicts(dict[str, dict]):
+    """By job; kept beside the lock where that can be written."""
+
+    def __init__(self, quality: str) -> None:
+        self.path = Lock.path(quality).with_name("verification.json")
+        self.unwritten: str | None = None
+        try:
+            read = json.loads(self.path.read_text()) if self.path.is_file() else {}
+            super().__init__({name: one for name, one in read.items() if isinstance(one, dict)})
+        except (OSError, ValueError, AttributeError):
+            super().__init__()
+
+    def keep(self, name: str, job: Job, verdict: Verdict) -> None:
+        self[name] = {"outputs": job.outputs, "same": verdict[0], "verdict": verdict[1], "machine": machine()}
+        unfinished = self.path.with_suffix(".tmp")
+        try:
+            unfinished.write_text(json.dumps(self, indent=1, sort_keys=True) + "\n")
+            unfinished.replace(self.path)
+        except OSError as error:
+            self.unwritten = f"The verdicts are not kept: {self.path.relative_to(ROOT)}: {error.strerror}"
+
+
+def verify(lock: Lock, names: Iterable[str], verdicts: Verdicts) -> bool:
+    """Prints a line per job; true if none differs. Raises BuildError."""
+    jobs = {name: lock.jobs[name] for name in names}
+    programs = {job.tool for job in jobs.values() if not job.is_drawing}
+    same = True
+    with workplace() as place:
+        fresh = FreshBuild.of(programs, place / "build") if programs else FreshBuild(place / "build")
+        for name, job in jobs.items():
+            with tempfile.TemporaryDirectory(dir=place) as folder:
+                verdict = verdict_on(lock, name, fresh, Path(folder))
+            verdicts.keep(name, job, verdict)
+            print(f"{name}: {verdict[1]}", flush=True)
+            same = same and verdict[0]
+    return same
+
+
+def verdict_on(lock: Lock, name: str, fresh: FreshBuild, folder: Path) -> Verdict:
+    job = lock.jobs[name]
+    try:
+        if {*job.outputs} != stated_outputs(lock.quality, name):
+            return False, f"the lock names other products of it: {', '.join(job.outputs)}"
+        if lacking := [path for path in job.outputs if not (ROOT / path).is_file()]:
+            return False, f"{lacking[0]} is missing or not a file"
+        if job.is_drawing:
+            return drawing_verdict(job, redrawn(job, folder))
+        return run_verdict(job, fresh, lock.builds.get(job.build_id, {}), folder)
+    except (RedoError, FormatError, AttributeError, OSError) as error:  # of a forged file, too
+        return False, str(error)
 
 
 def main() -> None:
@@ -87,9 +126,26 @@ def main() -> None:
     if not 0 < options.sample <= 1:
         parser.error(f"SAMPLE={options.sample} is not a share: choose a number above 0 and up to 1")
     try:
-        same = verify(options.quality, options.sample, options.panel)
-    except LockError as error:
+        plan = load_plan(options.quality)
+        if options.panel:
+            panel_named(plan, options.panel)
+        lock = Lock.read(options.quality)
+        if lock.quality != options.quality:
+            raise LockError(f"data/{options.quality}/lock.json is the lock of quality {lock.quality}")
+        names = [name for name in lock.jobs if options.panel in (None, name.split("/")[0])]
+        if not names:
+            raise LockError(f"nothing of {options.panel or options.quality} has been made yet")
+        verdicts = Verdicts(options.quality)
+        chosen = sample(lock, names, options.sample, verdicts)
+        same = verify(lock, chosen, verdicts)
+    except ConfigurationError as error:
+        print(f"make verify: {error}", file=sys.stderr)
+        sys.exit(BAD_INPUT)
+    except (LockError, BuildError) as error:
         sys.exit(f"make verify: {error}")
+    print(f"Looked at {len(chosen)} of {len(lock.jobs)} jobs")
+    if verdicts.unwritten:
+        print(verdicts.unwritten)
     sys.exit(0 if same else "make verify: some products cannot be made again as they are")
 
 
