@@ -53,7 +53,7 @@ ONLY_PANEL := $(if $(PANEL),--panel $(PANEL))
 COMPARE = $(if $(SEED)$(REPLICAS)$(filter $(YES),$(FRESH)),$(PYTHON) workflow.provenance.compare --quality $(EFFORT))
 
 .PHONY: help figures panel build test check format describe reference lock audit verify provenance status \
-  crate bench tradeoff clean system-packages runtime dev
+  crate bench tradeoff clean system-packages installed runtime dev
 help:  ## This list
 	sed -nE 's/^([a-z]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 16
 	echo 'Options: QUALITY=smoke|standard|paper|deep  PANEL=fig05  FRESH=yes  SEED=7  REPLICAS=200  JOBS=2'
@@ -97,17 +97,17 @@ format: dev  ## Format every source in place
 describe: build runtime  ## State the programs' options and quantities in schema.yaml and docs/format.*
 	$(PYTHON) workflow.config.describe
 
-audit: runtime  ## Check every link from the sources to the figures; PANEL=fig05 draws only that again; CRATE=FILE compares
+audit: installed  ## Check every link from the sources to the figures; PANEL=fig05 draws only that again; CRATE=FILE compares
 	$(PYTHON) workflow.provenance.audit --quality $(EFFORT) $(ONLY_PANEL) $(if $(CRATE),--crate $(CRATE))
 
-verify: runtime  ## Make a sample of the products again and compare; SAMPLE=0.1 PANEL=fig05
+verify: installed  ## Make a sample of the products again and compare; SAMPLE=0.1 PANEL=fig05
 	$(PYTHON) workflow.provenance.verify --quality $(EFFORT) --sample $(SAMPLE) $(ONLY_PANEL)
 
-provenance: runtime  ## What a product was made from, FILE=figures/standard/fig05.pdf or a copy of it
+provenance: installed  ## What a product was made from, FILE=figures/standard/fig05.pdf or a copy of it
 	$(if $(FILE),,echo 'make provenance: FILE is missing; try make provenance FILE=figures/standard/fig05.pdf'; exit 2)
 	$(PYTHON) workflow.provenance.tree $(if $(filter $(YES),$(FULL)),--full) -- $(FILE)
 
-status: runtime  ## Which panels are fresh, their errors and what they cost
+status: installed  ## Which panels are fresh, their errors and what they cost
 	$(PYTHON) workflow.provenance.status --quality $(EFFORT)
 
 bench: build runtime  ## Cost of an event: engine, reference and floor side by side; programs and bare loops
@@ -146,6 +146,10 @@ system-packages:
 	cmp -s workflow/environment/system_packages.sh build/system-packages || \
 	  { bash workflow/environment/system_packages.sh && { mkdir -p build && \
 	    cp workflow/environment/system_packages.sh build/system-packages; } || test ! -w .; }
+
+# For what looks and changes nothing: packages are installed where there are none, and not repaired.
+installed:
+	test -x .venv/bin/python || python3 -I workflow/environment/packages.py requirements.lock
 
 runtime: system-packages
 	python3 -I workflow/environment/packages.py requirements.lock

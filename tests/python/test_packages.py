@@ -50,6 +50,7 @@ EDITS = {
     "byte code": (write("lib/package/__pycache__/module.pyc"), "lib/package/__pycache__/module.pyc"),
     "foreign": (write("lib/sitecustomize.py"), "lib/sitecustomize.py"),
     "foreign folder": (write("lib/json/__init__.py"), "lib/json/__init__.py"),
+    "link to a folder": (lambda folder: (folder / "lib/link").symlink_to("/usr/lib"), "lib/link"),
     "missing": (lambda folder: (folder / MODULE).unlink(), MODULE),
     "interpreter": (relink, "bin/python"),
     "pipe": (lambda folder: os.mkfifo(folder / "lib/pipe"), "lib/pipe"),

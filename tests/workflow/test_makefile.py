@@ -167,7 +167,7 @@ def test_logs_and_costs_carry_the_names_of_the_products(clean: Clone) -> None:
         (("figures", "JOBS=0"), ["JOBS='0'", "at least 1"]),
         (("-e", "figures"), ["make -e is not admitted"]),
         (("panel", "QUALITY=smoke"), ["PANEL is missing", "make panel PANEL=fig05"]),
-        (("panel", "PANEL=fig5", "QUALITY=smoke"), ["PANEL=fig5 is not known: did you mean fig05?"]),
+        (("panel", "PANEL=fig5", "QUALITY=smoke"), ["PANEL=fig5 is not known; the nearest is fig05"]),
     ],
 )
 def test_refusals(clean: Clone, arguments: tuple[str, ...], words: list[str]) -> None:

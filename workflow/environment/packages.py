@@ -25,8 +25,11 @@ State = dict[str, list]  # path below .venv: [sha256 or target of a link, inode,
 
 def state(known: State) -> State:
     """Of every file; what is not read again is taken from `known`."""
-    names = [os.path.join(folder, name) for folder, _, files in os.walk(FOLDER) for name in files]
-    paths = sorted(os.path.relpath(name, FOLDER) for name in names if name != str(RECORD))
+    names = [
+        os.path.join(folder, name) for folder, folders, files in os.walk(FOLDER) for name in folders + files
+    ]
+    leaves = (name for name in names if os.path.islink(name) or not os.path.isdir(name))
+    paths = sorted(os.path.relpath(name, FOLDER) for name in leaves if name != str(RECORD))
 
     def of(path: str) -> list:
         status = os.lstat(FOLDER / path)

@@ -1,6 +1,5 @@
 """The plan that the configuration defines: panels, and the runs of programs that each panel needs."""
 
-import difflib
 import hashlib
 import itertools
 import json
@@ -16,6 +15,7 @@ from workflow.lib.configuration import (
     quality_schema,
 )
 from workflow.lib.options import Options
+from workflow.lib.strict_yaml import nearest, read
 
 FOLDER = Path(__file__).parents[1] / "config"
 KINDS = ("pdf", "png", "svg", "csv")
@@ -91,9 +91,11 @@ def load_plan(name: str, folder: Path = FOLDER) -> dict[str, Panel]:
         _check(panel_name, panel, efforts, f"{quality.base}.yaml", admissible)
     panels = {name: _panel(name, panel, efforts, quality) for name, panel in paper["panels"].items()}
     for panel in panels.values():
-        for used in panel.uses:
+        for number, used in enumerate(panel.uses):
             if used not in panels or not panels[used].runs:
-                raise ConfigurationError(f"paper.yaml: panels.{panel.name}.uses: {used} has no runs")
+                keys = ("panels", panel.name, "uses", str(number))
+                text = f"{used} has no runs{nearest(used, {*panels} - {panel.name})}"
+                raise read(folder / "paper.yaml").complaint(keys, text)
     return panels
 
 
@@ -101,9 +103,8 @@ def panel_named(plan: dict[str, Panel], name: str) -> Panel:
     """Raises ConfigurationError, with the nearest name."""
     if name in plan:
         return plan[name]
-    near = difflib.get_close_matches(name, plan, 1)
-    known = f"did you mean {near[0]}?" if near else f"choose one of {', '.join(plan)}"
-    raise ConfigurationError(f"PANEL={name} is not known: {known}")
+    known = nearest(name, plan) or f"; choose one of {', '.join(plan)}"
+    raise ConfigurationError(f"PANEL={name} is not known{known}")
 
 
 def with_used(plan: dict[str, Panel], name: str) -> list[Panel]:

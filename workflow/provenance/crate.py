@@ -11,7 +11,7 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from rocrate.rocrate import ROCrate
 
-from workflow.lib.plan import ConfigurationError, Panel, load_plan, with_used
+from workflow.lib.plan import ConfigurationError, Panel, load_plan, panel_named, with_used
 from workflow.provenance.chain import Chain
 from workflow.provenance.crate_graph import crate_of
 from workflow.provenance.lock import Job, Lock, LockError, builds_of
@@ -91,8 +91,8 @@ def pack(quality: str, panel: str | None) -> Path:
         raise CrateError(
             f"QUALITY={DRAFT} makes drafts, which are not packed: choose standard, paper or deep"
         )
-    if panel and panel not in plan:
-        raise CrateError(f"PANEL={panel} is not known: choose one of {', '.join(plan)}")
+    if panel:
+        panel_named(plan, panel)
     remedy = f"make {f'panel PANEL={panel}' if panel else 'figures'} QUALITY={quality}"
     try:
         lock = Lock.read(quality)
@@ -112,7 +112,8 @@ def main() -> None:
     try:
         archive = pack(options.quality, options.panel)
     except (CrateError, ConfigurationError) as error:
-        sys.exit(f"make crate: {error}")
+        print(f"make crate: {error}", file=sys.stderr)
+        sys.exit(2)
     print(f"The crate is {archive.relative_to(ROOT)}, unpacked in build/crate/{options.quality}")
 
 

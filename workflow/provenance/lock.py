@@ -21,9 +21,12 @@ PIPELINE = (  # what runs the jobs, beside the programs and the scripts
     "Snakefile",
     "cpp/CMakeLists.txt",
     "profiles/*/*",
+    "workflow/config/schema.yaml",
     "workflow/environment/launch.py",
+    "workflow/lib/configuration.py",
     "workflow/lib/options.py",
     "workflow/lib/plan.py",
+    "workflow/lib/strict_yaml.py",
     "workflow/provenance/execute.py",
     "workflow/rules/*",
 )
@@ -94,7 +97,7 @@ class Lock:
             lock = cls(content["quality"], jobs, content["builds"])
         except LockError:
             raise
-        except (ValueError, KeyError, TypeError, AttributeError) as error:
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
             raise LockError(f"{name} is damaged: {error}") from error
         if checksum != checksum_of(content):
             raise LockError(f"{name} is damaged or edited: its checksum does not fit")

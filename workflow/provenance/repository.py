@@ -20,8 +20,11 @@ class FileHashes(dict[str, str | None]):
 
 
 def git(*arguments: str) -> bytes | None:
-    """What git prints, or nothing where it fails: outside a repository, or for an unknown commit."""
-    done = subprocess.run(["git", *arguments], cwd=ROOT, capture_output=True, check=False)
+    """What git prints, or nothing where it fails: not installed, outside a repository, or an unknown commit."""
+    try:
+        done = subprocess.run(["git", *arguments], cwd=ROOT, capture_output=True, check=False)
+    except FileNotFoundError:
+        return None
     return done.stdout if done.returncode == 0 else None
 
 

@@ -21,6 +21,8 @@ def sources_of(script: str) -> list[str]:
 
 def _imported(path: Path) -> list[str]:
     """Modules named in `import workflow.a.b`, `from workflow.a.b import c` and `from workflow.a import b`."""
+    if not path.is_file():
+        raise FileNotFoundError(f"{path.relative_to(ROOT)} is missing or not a file")
     names = []
     for node in ast.walk(ast.parse(path.read_text(), path.name)):
         if isinstance(node, ast.Import):
