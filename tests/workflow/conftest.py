@@ -51,14 +51,14 @@ class Clone:
         }
 
 
-def clone_into(folder: Path) -> Clone:
+def clone_into(folder: Path, source: Path = ROOT) -> Clone:
     tracked = subprocess.check_output(
-        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT, text=True
+        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=source, text=True
     )
     for name in filter(None, tracked.split("\0")):
-        if (ROOT / name).is_file():
+        if (source / name).is_file():
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(ROOT / name, folder / name)
+            shutil.copyfile(source / name, folder / name)
     shutil.copytree(ROOT / ".venv", folder / ".venv", copy_function=os.link, symlinks=True)
     share_objects(folder)
     return Clone(folder)
@@ -103,7 +103,7 @@ def clean(tmp_path_factory: pytest.TempPathFactory) -> Clone:
             made = clone.make("figures", "QUALITY=smoke")
             assert made.returncode == 0, made.stdout
             clone.folder.rename(drawn.folder)
-    clone = clone_into(tmp_path_factory.mktemp("clean"))
+    clone = clone_into(tmp_path_factory.mktemp("clean"), drawn.folder)
     for place in (".git", "data", "figures", "build/logs", "build/costs", "build/benchmarks"):
         shutil.copytree(drawn.folder / place, clone.folder / place, dirs_exist_ok=True)
     assert clone.make("build").returncode == 0

@@ -7,6 +7,7 @@ products: product_links.py.
 import hashlib
 import json
 import os
+import shutil
 from collections import Counter, defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -37,10 +38,9 @@ def unchecked(path: str, why: str) -> Link:
 
 def no_history() -> str | None:
     """Why nothing can be compared with commits; none if it can."""
-    try:
-        shallow = git("rev-parse", "--is-shallow-repository")
-    except FileNotFoundError:
+    if shutil.which("git") is None:
         return "git is not installed"
+    shallow = git("rev-parse", "--is-shallow-repository")
     if shallow is None:
         return "this is no repository that git reads"
     return "the repository is shallow" if shallow == b"true\n" else None
