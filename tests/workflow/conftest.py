@@ -59,7 +59,8 @@ def clone_into(folder: Path, source: Path = ROOT) -> Clone:
         if (source / name).is_file():
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(source / name, folder / name)
-    shutil.copytree(ROOT / ".venv", folder / ".venv", copy_function=os.link, symlinks=True)
+    # Copies, as every hard link would change the time of change by which changed packages are noticed.
+    shutil.copytree(ROOT / ".venv", folder / ".venv", symlinks=True)
     share_objects(folder)
     return Clone(folder)
 
