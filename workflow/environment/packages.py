@@ -31,15 +31,17 @@ def state(known: State) -> State:
     leaves = (name for name in names if os.path.islink(name) or not os.path.isdir(name))
     paths = sorted(os.path.relpath(name, FOLDER) for name in leaves if name != str(RECORD))
 
-    def of(path: str) -> list:
-        status = os.lstat(FOLDER / path)
-        stamp = [status.st_ino, status.st_size, status.st_ctime_ns]
-        if path in known and known[path][1:] == stamp:
-            return known[path]
-        return [digest(FOLDER / path), *stamp]
-
+    stamps = {path: stamp(os.path.join(FOLDER, path)) for path in paths}
+    to_read = [path for path in paths if known.get(path, [])[1:] != stamps[path]]
     with ThreadPoolExecutor() as threads:
-        return dict(zip(paths, threads.map(of, paths), strict=True))
+        digests = dict(zip(to_read, threads.map(lambda path: digest(FOLDER / path), to_read), strict=True))
+    return {path: [digests[path], *stamps[path]] if path in digests else known[path] for path in paths}
+
+
+def stamp(path: str) -> list[int]:
+    """What changes with the content."""
+    status = os.lstat(path)
+    return [status.st_ino, status.st_size, status.st_ctime_ns]
 
 
 def digest(path: Path) -> str:

@@ -10,7 +10,7 @@ import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from workflow.lib.plan import ConfigurationError, Quality, load_plan, panel_named
+from workflow.lib.plan import ConfigurationError, Quality, load_plan, panel_named, with_used
 from workflow.provenance import links, product_links
 from workflow.provenance.chain import Chain
 from workflow.provenance.crate_check import CrateError, Deposit
@@ -28,8 +28,6 @@ CHECKS = (
     links.executables,
     product_links.products,
     product_links.strangers,
-    product_links.runs,
-    product_links.drawings,
     links.commits,
     links.pipeline,
 )
@@ -59,7 +57,7 @@ class Findings:
 
 
 def audit(quality: str, only: str | None = None, deposit: Deposit | None = None) -> Findings:
-    """If a panel is given, only that one is drawn again. Raises ConfigurationError for an unknown quality or panel."""
+    """If a panel is given, only its files are read and only it is drawn again; all are hashed. Raises ConfigurationError for an unknown quality or panel."""
     Quality.of(quality)
     findings = Findings()
     try:
@@ -75,27 +73,38 @@ def audit(quality: str, only: str | None = None, deposit: Deposit | None = None)
     if only:
         panel_named(plan, only)
     chain = Chain(quality, plan, lock)
+    names = jobs_of(chain, only)
     try:
         for check in CHECKS:
             findings.add([*check(chain)])
+        findings.add([*product_links.runs(chain, names), *product_links.drawings(chain, names)])
     except (AttributeError, KeyError, TypeError, ValueError) as error:  # a forged lock may hold anything
         findings.add(
             [Link(f"data/{quality}/lock.json", f"does not have the documented structure: {error!r}")]
         )
     if deposit:
         findings.add([*deposit.differences(chain)])
-    names = [name for name in lock.drawings() if name == only or not only]
-    drawn = names_to_draw(chain, names, findings.broken)
+    drawn = names_to_draw(chain, [name for name in lock.drawings() if name in names], findings.broken)
     findings.add(not_following(chain, drawn))
-    findings.looked_at = summary(chain, len(drawn))
+    findings.looked_at = summary(chain, names, len(drawn))
     return findings
 
 
-def summary(chain: Chain, drawn: int) -> str:
+def jobs_of(chain: Chain, only: str | None) -> set[str]:
+    """Those whose files are read: all, or a panel and the runs that it shows."""
+    if only is None:
+        return {*chain.lock.jobs}
+    return {
+        only,
+        *(f"{panel.name}/{run.name}" for panel in with_used(chain.plan, only) for run in panel.runs),
+    }
+
+
+def summary(chain: Chain, names: set[str], drawn: int) -> str:
     lock = chain.lock
-    panels = len(lock.drawings())
-    text = f"{len(lock.runs())} runs, {panels} panels, {len(lock.outputs())} files"
-    text += f"; drew {drawn} of {panels} panels again"
+    runs, panels = lock.runs(), len(lock.drawings())
+    text = f"{len(runs)} runs, {panels} panels, {len(lock.outputs())} files"
+    text += f"; read {len(runs.keys() & names)} of {len(runs)} runs, drew {drawn} of {panels} panels again"
     named = sorted({job.commit for job in lock.jobs.values() if job.commit and not no_history()})
     compared = [f"{commit[:12]} ({signature(commit)})" for commit in named]
     text += f"; compared with commit {', '.join(compared)}" if compared else "; compared with no commit"

@@ -39,8 +39,11 @@ def strangers(chain: Chain) -> Iterator[Link]:
                     yield Link(path, "is neither a file nor a folder", path)
 
 
-def runs(chain: Chain) -> Iterator[Link]:
+def runs(chain: Chain, names: set[str]) -> Iterator[Link]:
+    """What the result files of the named runs say of themselves."""
     for name, job in chain.lock.runs().items():
+        if name not in names:
+            continue
         for path in intact(chain, job):
             if job.build_id not in chain.lock.builds:
                 yield Link(path, "the lock does not say what its build was made from", name)
@@ -48,10 +51,11 @@ def runs(chain: Chain) -> Iterator[Link]:
                 yield Link(path, fault, name)
 
 
-def drawings(chain: Chain) -> Iterator[Link]:
+def drawings(chain: Chain, names: set[str]) -> Iterator[Link]:
+    """Which data every drawing shows, and what the files of the named ones say of themselves."""
     made = chain.lock.outputs()
     for name, job in chain.lock.drawings().items():
-        for path in intact(chain, job):
+        for path in intact(chain, job) if name in names else ():
             if fault := drawing_fault(path, job, chain.lock):
                 yield Link(path, fault, name)
         picture = f"figures/{chain.quality}/{name}.pdf"
