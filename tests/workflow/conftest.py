@@ -105,7 +105,7 @@ def clean(tmp_path_factory: pytest.TempPathFactory) -> Clone:
             assert made.returncode == 0, made.stdout
             clone.folder.rename(drawn.folder)
     clone = clone_into(tmp_path_factory.mktemp("clean"), drawn.folder)
-    for place in (".git", "data", "figures", "build/logs", "build/costs", "build/benchmarks"):
+    for place in (".git", ".snakemake", "data", "figures", "build/logs", "build/costs", "build/benchmarks"):
         shutil.copytree(drawn.folder / place, clone.folder / place, dirs_exist_ok=True)
     assert clone.make("build").returncode == 0
     return clone

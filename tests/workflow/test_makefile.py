@@ -1,8 +1,8 @@
 """The two front doors, from outside: no environment in front, nothing done twice, clear refusals."""
 
 import os
+import resource
 import shutil
-import time
 from pathlib import Path
 
 import pytest
@@ -57,11 +57,17 @@ def test_hostile_environment_and_path_with_spaces(clean: Clone, tmp_path: Path) 
     assert "Nothing to be done" in made.stdout
 
 
+def seconds_of_children() -> float:
+    """Computing time, which other processes do not change."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def test_second_time_there_is_nothing_to_do(clean: Clone) -> None:
     before = {path: path.stat().st_mtime_ns for path in (clean.folder / "data").rglob("*.h5")}
-    start = time.monotonic()
+    start = seconds_of_children()
     made = clean.make("figures", "QUALITY=smoke")
-    assert time.monotonic() - start < 5
+    assert seconds_of_children() - start < 5
     assert made.returncode == 0
     assert "Nothing to be done" in made.stdout
     assert before == {path: path.stat().st_mtime_ns for path in before}

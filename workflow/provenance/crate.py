@@ -11,7 +11,7 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from rocrate.rocrate import ROCrate
 
-from workflow.lib.plan import ConfigurationError, Panel, load_plan, panel_named, with_used
+from workflow.lib.plan import ConfigurationError, Panel, Quality, load_plan, panel_named, with_used
 from workflow.provenance.chain import Chain
 from workflow.provenance.crate_graph import crate_of
 from workflow.provenance.lock import Job, Lock, LockError, builds_of
@@ -87,7 +87,7 @@ def write(crate: ROCrate, folder: Path, archive: Path) -> None:
 def pack(quality: str, panel: str | None) -> Path:
     """The archive. Raises CrateError, LockError or ConfigurationError."""
     plan = load_plan(quality)
-    if quality == DRAFT:
+    if Quality.of(quality).base == DRAFT:
         raise CrateError(
             f"QUALITY={DRAFT} makes drafts, which are not packed: choose standard, paper or deep"
         )
