@@ -4,7 +4,8 @@
 # named there, so no variable of the caller's shell changes a result. Options are arguments of make; they are
 # checked before anything else happens, and are text, in which neither make nor the shell expands anything.
 
-GIVEN := $(foreach name,$(.VARIABLES),$(if $(filter command,$(origin $(name))),$(name)))
+$(if $(wildcard workflow/environment/arguments.py),,$(error run make in the project's folder, or make -C FOLDER))
+override GIVEN := $(foreach name,$(.VARIABLES),$(if $(filter command,$(origin $(name))),$(name)))
 $(foreach name,$(GIVEN),$(eval override $(name) := $$(value $(name))))
 
 QUALITY := standard
@@ -18,7 +19,7 @@ SEED :=
 REPLICAS :=
 SAMPLE := 0.1
 
-quote = '$(subst ','\'',$1)'
+override quote = '$(subst ','\'',$1)'
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
@@ -37,16 +38,22 @@ override .SHELLFLAGS := -i HOME=$(call quote,$(value HOME)) PATH=/opt/homebrew/b
   XDG_CACHE_HOME=.cache $(foreach name,$(NETWORK),$(if $(value $(name)),$(name)=$(call quote,$(value $(name))))) \
   /bin/bash -euo pipefail -c
 
-CHECK := $(if $(GIVEN),python3 -I workflow/environment/arguments.py $(foreach name,$(GIVEN),$(call quote,$(name)=$(value $(name)))))
-FAULT := $(if $(findstring e,$(filter-out -%,$(firstword $(MAKEFLAGS)))),make -e is not admitted: \
-  variables of the environment would change results,$(if $(CHECK),$(shell $(CHECK))))
+# What would change results or hide failures without a word.
+override FLAGS := $(filter-out -%,$(firstword $(MAKEFLAGS)))
+$(if $(findstring e,$(FLAGS)),$(error make -e is not admitted: variables of the environment would change results))
+$(if $(findstring i,$(FLAGS)),$(error make -i is not admitted: it would hide failures))
+$(if $(findstring --eval,$(MAKEFLAGS))$(MAKEFILES),$(error make --eval and MAKEFILES are not admitted: they would change results))
+override CHECK := python3 -I workflow/environment/arguments.py $(foreach goal,$(MAKECMDGOALS),$(call quote,$(goal))) \
+  $(foreach name,$(GIVEN),$(call quote,$(name)=$(value $(name))))
+override FAULT := $(if $(GIVEN),$(shell $(CHECK)))
 $(if $(FAULT),$(error $(FAULT)))
+$(if $(and $(GIVEN),$(filter-out 0,$(.SHELLSTATUS))),$(error the arguments cannot be checked: python3 is needed))
 
-PYTHON := .venv/bin/python -P workflow/environment/launch.py
+override PYTHON := .venv/bin/python -P workflow/environment/launch.py
 YES := yes 1
 EFFORT := $(call quote,$(QUALITY)$(if $(SEED),_seed=$(SEED))$(if $(REPLICAS),_replicas=$(REPLICAS)))
 $(foreach name,JOBS PANEL FILE CRATE SAMPLE,$(if $($(name)),$(eval override $(name) := $$(call quote,$$($(name))))))
-SNAKEMAKE := $(PYTHON) snakemake --cores $(or $(JOBS),$(shell env -u OMP_NUM_THREADS nproc 2>/dev/null || sysctl -n hw.ncpu)) \
+override SNAKEMAKE := $(PYTHON) workflow.environment.alone --cores $(or $(JOBS),$(shell env -u OMP_NUM_THREADS nproc 2>/dev/null || sysctl -n hw.ncpu)) \
   --config quality=$(EFFORT) $(if $(PANEL),panel=$(PANEL)) $(if $(filter $(YES),$(FRESH)),fresh=yes)
 SNAKEFMT := .venv/bin/snakefmt --no-format-shell --line-length 110
 ONLY_PANEL := $(if $(PANEL),--panel $(PANEL))

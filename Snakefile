@@ -14,9 +14,20 @@ from snakemake.logging import logger
 sys.path.append(workflow.basedir)  # last, so that no file here takes the place of a package
 from workflow.lib.plan import ConfigurationError, data_of, drawings_of, load_plan, panel_named
 from workflow.provenance.chain import Chain
-from workflow.provenance.stale import REPLACED, forget_partial, replace, retire, set_damaged_lock_aside, unasked
+from workflow.provenance.stale import (
+    REPLACED,
+    forget_partial,
+    replace,
+    retire,
+    set_damaged_lock_aside,
+    unasked,
+)
 
-QUALITY, PANEL = config.get("quality", "standard"), config.get("panel")
+if unknown := {*config} - {"quality", "panel", "fresh"}:
+    sys.exit(f"--config {min(unknown)}=… is not known: choose from quality, panel, fresh")
+if config.get("fresh", "yes") not in (True, False, "yes", "no"):
+    sys.exit("--config fresh=… must be yes or no")
+QUALITY, PANEL = str(config.get("quality", "standard")), str(config.get("panel") or "")
 FRESH = config.get("fresh") in (True, "yes")
 try:
     PANELS = load_plan(QUALITY)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from workflow.environment.arguments import fault
+from workflow.environment.arguments import fault, unused
 
 
 @pytest.mark.parametrize(
@@ -35,7 +35,9 @@ def test_admitted(argument: str) -> None:
         ("FRESH=maybe", "yes or no"),
         ("SEED=-1", "whole number"),
         ("SEED=1e3", "whole number"),
-        ("REPLICAS=0", "at least 1"),
+        ("REPLICAS=0", "from 1 to 100000000"),
+        ("REPLICAS=100000001", "from 1 to 100000000"),
+        ("SEED=007", "whole number"),
         ("SAMPLE=0", "a share"),
         ("SAMPLE=0.0", "a share"),
         ("SAMPLE=1.1", "a share"),
@@ -48,3 +50,23 @@ def test_refused(argument: str, words: str) -> None:
     assert said is not None
     assert words in said
     assert "\n" not in said
+
+
+@pytest.mark.parametrize(
+    ("goals", "argument"),
+    [
+        ([], "QUALITY=smoke"),
+        (["figures"], "QUALITY=smoke"),
+        (["build", "panel"], "PANEL=fig05"),
+        (["clean"], "QUALITY=smoke"),
+        (["figures"], "PANEL=fig05"),
+        (["status"], "FRESH=yes"),
+        (["audit"], "SAMPLE=1"),
+    ],
+)
+def test_no_goal_ignores_an_argument(goals: list[str], argument: str) -> None:
+    said = unused(goals, argument)
+    admitted = (goals, argument) in [([], "QUALITY=smoke"), (["figures"], "QUALITY=smoke")]
+    assert (said is None) == admitted
+    if said:
+        assert f"does not use {argument.partition('=')[0]}" in said

@@ -1,12 +1,17 @@
 """The lock file contains exactly the files that its jobs name."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from workflow.provenance import repository, stale
+from workflow.provenance import lock_types, repository, stale
 from workflow.provenance.chain import difference_of
-from workflow.provenance.lock import Job, Lock, LockError, changing
+from workflow.provenance.lock import Job, Lock, LockError, changing, configuration_files
+
+KEPT = "a" * 64
+STATED = {"configuration": configuration_files("smoke"), "pipeline": ["Makefile", "Snakefile"]}
+BUILD = dict.fromkeys(lock_types.STATED, "") | {"sources": {}}
 
 
 @pytest.fixture
@@ -19,14 +24,16 @@ def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture
 def job() -> Job:
     options = {"sigma": 0.1, "cells": 11, "zero-total-momentum": True, "gamma": "N"}
-    return Job("persistence", options, {}, {}, None, None, "", 0, {}, build_id="kept")
+    hashes = {name: dict.fromkeys(paths, KEPT) for name, paths in STATED.items()}
+    return Job("persistence", options, {}, **hashes, commit=None, dirty=None, machine="", exit=0, build_id=KEPT,
+               executable=KEPT)  # fmt: skip
 
 
 def test_a_build_leaves_with_the_last_run_of_it(root: Path, job: Job) -> None:
     with changing("smoke") as lock:
-        lock.builds = {"kept": {}, "replaced": {}}
+        lock.builds = {KEPT: BUILD, "0" * 64: BUILD}
         lock.jobs["fig05/all"] = job
-    assert Lock.read("smoke").builds == {"kept": {}}
+    assert Lock.read("smoke").builds == {KEPT: BUILD}
     stale.retire("smoke", stale.unasked("smoke", {}))
     assert Lock.read("smoke").builds == {}
 
@@ -58,4 +65,23 @@ def test_another_lock_is_refused(root: Path, job: Job, old: str, new: str, words
     assert old in text
     Lock.path("smoke").write_text(text.replace(old, new))
     with pytest.raises(LockError, match=words):
+        Lock.read("smoke")
+
+
+@pytest.mark.parametrize(
+    ("part", "value"),
+    [
+        ("tool", []), ("machine", None), ("exit", 1), ("exit", False), ("exit", "0"), ("commit", ""), ("commit", 5),
+        ("commit", "a" * 40), ("dirty", False), ("options", None), ("outputs", ["x"]), ("outputs", {"x": "y"}),
+        ("outputs", {"a\0": KEPT}), ("outputs", {"\ud800": KEPT}), ("configuration", {}), ("pipeline", {}),
+        ("inputs", 5), ("inputs", {"x": KEPT}), ("python", "3.11"), ("build_id", "x"), ("executable", None),
+    ],
+)  # fmt: skip
+def test_a_forged_entry_is_refused(root: Path, job: Job, part: str, value: object) -> None:
+    with changing("smoke") as lock:
+        lock.jobs["fig05/all"] = job
+    Lock.read("smoke")
+    with changing("smoke") as lock:
+        lock.jobs["fig05/all"] = replace(job, **{part: value})
+    with pytest.raises(LockError, match="is damaged"):
         Lock.read("smoke")

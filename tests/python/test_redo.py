@@ -1,8 +1,11 @@
 """Criteria for equal products of a job: the same bytes, equality up to rounding, or agreement within errors."""
 
+from collections.abc import Callable
 from pathlib import Path
 
+import h5py
 import matplotlib.pyplot as plt
+import numpy as np
 import pytest
 
 from tests.python.conftest import Program
@@ -43,6 +46,29 @@ def test_another_layout_is_no_match(persistence: Program, program: Program, tmp_
     persistence(output=tmp_path / "one.h5")
     program("waiting_time", output=tmp_path / "other.h5")
     assert disagreement(tmp_path / "one.h5", tmp_path / "other.h5")[1] == 0
+
+
+def scaled_error(mu: h5py.Group) -> None:
+    mu["mean"][...] *= 50
+    mu["standard_error"][...] = 1e9
+
+
+@pytest.mark.parametrize(
+    "forge",
+    [
+        scaled_error,
+        lambda mu: mu["mean"].write_direct(np.array(np.nan)),
+        lambda mu: mu["mean"].attrs.create("units", np.bytes_(b"length")),
+    ],
+)
+def test_what_is_no_such_quantity_does_not(persistence: Program, tmp_path: Path, forge: Callable) -> None:
+    paths = [tmp_path / "one.h5", tmp_path / "other.h5"]
+    for seed, path in enumerate(paths):
+        persistence(seed=seed, output=path, **ENOUGH)
+    assert disagreement(*paths)[1] > SIGNIFICANCE
+    with h5py.File(paths[1], "r+") as file:
+        forge(file["results/mu"])
+    assert disagreement(*paths)[1] == 0
 
 
 @pytest.mark.parametrize(

@@ -14,12 +14,37 @@ ADMITTED = {  # name: pattern of the whole value, what it may be, an example
     "JOBS": (r"[1-9][0-9]{0,3}", "a number of processes, at least 1", "JOBS=2"),
     "FRESH": (r"yes|no|1|0|", "yes or no", "FRESH=yes"),
     "FULL": (r"yes|no|1|0|", "yes or no", "FULL=yes"),
-    "SEED": (r"[0-9]{1,18}", "a whole number of at most 18 digits", "SEED=7"),
-    "REPLICAS": (r"[1-9][0-9]{0,8}", "a number of replicas, at least 1", "REPLICAS=200"),
+    "SEED": (r"0|[1-9][0-9]{0,17}", "a whole number of at most 18 digits", "SEED=7"),
+    "REPLICAS": (r"[1-9][0-9]{0,7}|100000000", "a number of replicas, from 1 to 100000000", "REPLICAS=200"),
     "SAMPLE": (r"0?\.[0-9]*[1-9][0-9]*|1(\.0*)?", "a share, above 0 and at most 1", "SAMPLE=0.1"),
     "FILE": (r"[^\n]+", "the path of a file", "FILE=figures/standard/fig05.pdf"),
     "CRATE": (r"[^\n]+", "the path of a crate", "CRATE=crate.zip"),
 }
+
+
+EFFORT = ("QUALITY", "SEED", "REPLICAS")
+USED = {  # by the goals that use any
+    "figures": (*EFFORT, "JOBS", "FRESH"),
+    "panel": (*EFFORT, "JOBS", "FRESH", "PANEL"),
+    "crate": (*EFFORT, "PANEL"),
+    "audit": (*EFFORT, "PANEL", "CRATE"),
+    "verify": (*EFFORT, "PANEL", "SAMPLE"),
+    "status": EFFORT,
+    "provenance": ("FILE", "FULL"),
+    "check": (*EFFORT, "JOBS"),
+    "tradeoff": ("QUALITY",),
+    "help": ADMITTED,
+}
+
+
+def unused(goals: list[str], argument: str) -> str | None:
+    """Whether a goal would ignore NAME=VALUE, in one line."""
+    name = argument.partition("=")[0]
+    for goal in goals or ["help"]:
+        used = USED.get(goal, ())
+        if name not in used:
+            return f"make {goal} does not use {name}; it uses {', '.join(used) or 'no arguments'}"
+    return None
 
 
 def fault(argument: str) -> str | None:
@@ -38,8 +63,9 @@ def fault(argument: str) -> str | None:
 
 
 def main() -> None:
-    for argument in sys.argv[1:]:
-        if found := fault(argument):
+    goals = [word for word in sys.argv[1:] if "=" not in word]
+    for argument in (word for word in sys.argv[1:] if "=" in word):
+        if found := fault(argument) or unused(goals, argument):
             print(found)
             break
 

@@ -7,6 +7,7 @@ library only: this runs before anything is installed.
 import hashlib
 import json
 import os
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -29,7 +30,7 @@ def present() -> dict[str, str]:
 
 def recorded() -> dict[str, str]:
     try:
-        return dict(json.loads(RECORD.read_text()))
+        return dict(json.loads(RECORD.read_text())) if RECORD.is_file() else {}
     except (OSError, ValueError, TypeError):
         return {}
 
@@ -48,8 +49,14 @@ def remove_edited_executables() -> None:
     """Those that are not as the linker wrote them, by the hash that stands in build/id."""
     for executable in (BUILD / "bin").glob("*"):
         stated = BUILD / "id" / f"{executable.name}.sha256"
-        if (BUILD / "id" / f"{executable.name}.json").is_file() and (
-            not stated.is_file() or stated.read_text().split()[:1] != [hash_of(executable)]
+        if not (BUILD / "id" / f"{executable.name}.json").is_file():
+            continue
+        if executable.is_dir() and not executable.is_symlink():
+            shutil.rmtree(executable)
+        elif (
+            not executable.is_file()
+            or not stated.is_file()
+            or stated.read_text().split()[:1] != [hash_of(executable)]
         ):
             executable.unlink()
 
@@ -59,7 +66,11 @@ def main() -> None:
     if (BUILD / "build.ninja").is_file():
         renew(recorded(), now)
         remove_edited_executables()
-    RECORD.write_text(json.dumps(now))
+    if RECORD.is_dir():
+        shutil.rmtree(RECORD)
+    unfinished = RECORD.with_suffix(".tmp")
+    unfinished.write_text(json.dumps(now))
+    unfinished.replace(RECORD)
 
 
 if __name__ == "__main__":

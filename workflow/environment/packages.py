@@ -56,7 +56,7 @@ def digest(path: Path) -> str:
 def record() -> dict:
     """Empty if there is none that can be read."""
     try:
-        read = json.loads(RECORD.read_text())
+        read = json.loads(RECORD.read_text()) if RECORD.is_file() else {}
         return read if isinstance(read["locks"], dict) and isinstance(read["files"], dict) else {}
     except (OSError, ValueError, KeyError, TypeError):
         return {}

@@ -131,7 +131,7 @@ def paper_schema() -> dict:
         {
             "program": program,
             "script": {"type": "string", "pattern": "^[a-z0-9_]+$"},
-            "uses": {"type": "array", "items": {"type": "string"}, "minItems": 1},
+            "uses": {"type": "array", "items": {"type": "string"}, "minItems": 1, "uniqueItems": True},
             "common": {"type": "object"},
             "series": _named(series),
         }

@@ -14,9 +14,16 @@ ROOT = Path(__file__).parents[2]
 
 
 def cost_file(quality: str, panel: str, run: str) -> dict | None:
-    """What the last execution of the run cost, as its sidecar says."""
-    path = ROOT / f"build/costs/{quality}/{panel}/{run}.json"
-    return json.loads(path.read_text()) if path.is_file() else None
+    """What the last execution of the run cost, as its sidecar says; none if there is none that says it."""
+    return read_cost(ROOT / f"build/costs/{quality}/{panel}/{run}.json")
+
+
+def read_cost(path: Path) -> dict | None:
+    try:
+        cost = json.loads(path.read_text()) if path.is_file() else None
+        return cost if isinstance(cost["cpu_seconds"], float) else None
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
 
 
 def effort(options: Options) -> float:
@@ -60,5 +67,5 @@ def expected_cost(panel: str, run: Run, start: float) -> tuple[float, float]:
 
 def cheapest() -> float:
     """CPU seconds of the cheapest execution: no start of a program costs more."""
-    costs = (json.loads(path.read_text())["cpu_seconds"] for path in (ROOT / "build/costs").rglob("*.json"))
-    return min(costs, default=0)
+    costs = map(read_cost, (ROOT / "build/costs").rglob("*.json"))
+    return min((cost["cpu_seconds"] for cost in costs if cost), default=0)

@@ -103,12 +103,15 @@ class Chain:
             if before.get(path) != after.get(path):
                 return f"cpp/{path} changed"
         identity = ROOT / f"build/id/{job.tool}.json"
-        build = json.loads(identity.read_text()) if identity.is_file() else None
-        if build is None or build["build_id"] == job.build_id:
-            return None
-        for part in ("compiler", "flags", "libraries", "version"):
-            if old.get(part) != build[part]:
-                return f"{part} of {job.tool} changed: {old.get(part)} to {build[part]}"
+        try:
+            build = json.loads(identity.read_text()) if identity.is_file() else None
+            if build is None or build["build_id"] == job.build_id:
+                return None
+            for part in ("compiler", "flags", "libraries", "version"):
+                if old.get(part) != build[part]:
+                    return f"{part} of {job.tool} changed: {old.get(part)} to {build[part]}"
+        except (ValueError, KeyError, TypeError):
+            return f"build/id/{job.tool}.json does not say what was built"
         return f"{job.tool} changed"
 
     def _shown(self, name: str) -> Iterator[tuple[str, Run]]:

@@ -161,7 +161,7 @@ def executable_fault(chain: Chain, path: str, identifier: str) -> Link | None:
     try:
         if json.loads(identity.read_text())["build_id"] != identifier:
             return Link(path, f"is not the build {identifier[:12]} that made the data")
-        if stated.read_text().split()[:1] != [chain.hashes[path]]:
+        if not stated.is_file() or stated.read_text().split()[:1] != [chain.hashes[path]]:
             return Link(path, "is not what the linker wrote: edited or replaced")
     except (OSError, ValueError, KeyError, TypeError):
         return Link(path, f"{stem}.json and .sha256 do not say what it was built from")

@@ -14,6 +14,7 @@ from pathlib import Path
 
 from workflow.lib.options import Options
 from workflow.provenance import repository
+from workflow.provenance.lock_types import check_build, check_job
 
 FORMAT = {"format": "lorentz-gas-lock", "version": 3}
 PIPELINE = (  # what runs the jobs, beside the programs and the scripts
@@ -94,9 +95,15 @@ class Lock:
             if {key: content[key] for key in FORMAT} != FORMAT:
                 raise LockError(f"{name} is of version {content['version']}, not {FORMAT['version']}")
             jobs = {name: Job(**job) for name, job in content["jobs"].items()}
+            for job_name, job in jobs.items():
+                check_job(job_name, job, configuration_files(quality))
+            for identifier, build in content["builds"].items():
+                check_build(identifier, build)
             lock = cls(content["quality"], jobs, content["builds"])
         except LockError:
             raise
+        except OSError as error:
+            raise LockError(f"{name} cannot be read: {error.strerror}") from error
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
             raise LockError(f"{name} is damaged: {error}") from error
         if checksum != checksum_of(content):

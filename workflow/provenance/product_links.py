@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from workflow.lib.plan import data_of
 from workflow.provenance.chain import Chain
-from workflow.provenance.links import Link
+from workflow.provenance.links import Link, unchecked
 from workflow.provenance.lock import Job
 from workflow.provenance.metadata import drawing_fault, run_fault
 from workflow.provenance.repository import ROOT
@@ -28,8 +28,11 @@ def products(chain: Chain) -> Iterator[Link]:
 def strangers(chain: Chain) -> Iterator[Link]:
     """What lies among the products and is none."""
     known = chain.lock.outputs().keys() | {f"data/{chain.quality}/{name}" for name in RECORDS}
+    unreadable: list[OSError] = []
     for place in ("data", "figures"):
-        for folder, folders, files in os.walk(ROOT / place / chain.quality):
+        if (ROOT / place / chain.quality).is_symlink():
+            yield Link(f"{place}/{chain.quality}", "is a link")
+        for folder, folders, files in os.walk(ROOT / place / chain.quality, onerror=unreadable.append):
             for name in sorted([*folders, *files]):
                 path = os.path.relpath(os.path.join(folder, name), ROOT)
                 mode = os.lstat(ROOT / path).st_mode
@@ -37,6 +40,12 @@ def strangers(chain: Chain) -> Iterator[Link]:
                     yield Link(path, "has no parents: no job in the lock made it", path)
                 elif not stat.S_ISREG(mode) and not stat.S_ISDIR(mode):
                     yield Link(path, "is neither a file nor a folder", path)
+    for error in unreadable:
+        if (path := os.path.relpath(error.filename, ROOT)) not in (
+            f"data/{chain.quality}",
+            f"figures/{chain.quality}",
+        ):
+            yield unchecked(path, f"cannot be read: {error.strerror}")
 
 
 def runs(chain: Chain, names: set[str]) -> Iterator[Link]:

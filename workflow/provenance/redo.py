@@ -19,6 +19,8 @@ from workflow.provenance.lock import Job
 from workflow.provenance.repository import ROOT, machine
 
 MANY = 1000  # replicas
+SAME_PLACE = 1e-9  # relative
+WELL_KNOWN, UNLIKE = 8, 30  # from so many replicas on, errors of one magnitude do not differ by such a factor
 SCHEMA = "workflow/config/schema.yaml"  # the units of options, which the scripts read
 
 
@@ -101,7 +103,7 @@ def disagreement(one: Path, other: Path) -> tuple[float, float]:
     """Of two results of one run: the largest difference in standard errors, and the probability of one as
     large among so many values, from Student's distribution. (inf, 0) if they are not comparable."""
     first, second = load(one).quantities, load(other).quantities
-    if first.keys() != second.keys():
+    if first.keys() != second.keys() or not all(_comparable(first[name], second[name]) for name in first):
         return np.inf, 0
     pairs = [_deviations(first[name], second[name]) for name in first]
     deviations, freedom = (np.concatenate(part) for part in zip(*pairs, strict=True))
@@ -111,11 +113,31 @@ def disagreement(one: Path, other: Path) -> tuple[float, float]:
     return float(deviations.max()), min(1, deviations.size * rarest)
 
 
+def _comparable(a: Quantity, b: Quantity) -> bool:
+    """Whether both are the same quantity at the same places, known at the same ones, with errors of one magnitude."""
+    if a.mean.shape != b.mean.shape or (a.units, a.axis_units) != (b.units, b.axis_units):
+        return False
+    if (a.standard_error is None) != (b.standard_error is None):
+        return False
+    if not all(np.allclose(a.axes[name], b.axes[name], rtol=SAME_PLACE, atol=0) for name in a.axes):
+        return False
+    if a.standard_error is None:
+        return np.array_equal(np.isnan(a.mean), np.isnan(b.mean))
+    enough = np.minimum(a.count, b.count) >= WELL_KNOWN
+    known = [np.isfinite(q.mean) & (q.standard_error > 0) for q in (a, b)]
+    scales = [q.standard_error * np.sqrt(q.count) for q in (a, b)]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        far = np.abs(np.log(scales[0] / scales[1])) > np.log(UNLIKE)
+    lost, either = (
+        enough & (known[0] != known[1]),
+        known[0] | known[1],
+    )  # rare values are known in one run only
+    return bool(2 * np.sum(lost) <= np.sum(either)) and not np.any(enough & known[0] & known[1] & far)
+
+
 def _deviations(a: Quantity, b: Quantity) -> tuple[np.ndarray, np.ndarray]:
     """Differences in standard errors, and their degrees of freedom; a discretisation error counts as the
     standard error of many replicas."""
-    if a.mean.shape != b.mean.shape:
-        return np.array([np.inf]), np.array([1.0])
     computed = a.standard_error is None
     errors = [q.discretisation_error if computed else q.standard_error for q in (a, b)]
     error = np.atleast_1d(np.hypot(*errors))

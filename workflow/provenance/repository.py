@@ -1,28 +1,42 @@
 """The repository around the products: its commit, its files, and whether they have been changed since."""
 
 import io
+import os
 import platform
 import subprocess
-import tarfile
 from pathlib import Path
 
 from workflow.lib.parents import file_hash
 
 ROOT = Path(__file__).parents[2]
+PLACES = (".", "data", "figures")
+# Nothing that is configured may show git another history than the one whose hashes it names.
+PLAIN = {"GIT_NO_REPLACE_OBJECTS": "1", "GIT_GRAFT_FILE": os.devnull}
 
 
 class FileHashes(dict[str, str | None]):
-    """sha256 of the project's files by relative path, none where there is no file; each is read only once."""
+    """sha256 of the project's files by relative path, none where there is no file; each is read only once. A link is no
+    file of the project, and what lies behind one is none; `data` and `figures` themselves may be links."""
 
     def __missing__(self, path: str) -> str | None:
-        self[path] = file_hash(ROOT / path) if (ROOT / path).is_file() else None
+        linked = any(
+            (ROOT / part).is_symlink() for part in (path, *map(str, Path(path).parents)) if part not in PLACES
+        )
+        self[path] = file_hash(ROOT / path) if not linked and (ROOT / path).is_file() else None
         return self[path]
 
 
-def git(*arguments: str) -> bytes | None:
+def git(*arguments: str, given: bytes = b"") -> bytes | None:
     """What git prints, or nothing where it fails: not installed, outside a repository, or an unknown commit."""
     try:
-        done = subprocess.run(["git", *arguments], cwd=ROOT, capture_output=True, check=False)
+        done = subprocess.run(
+            ["git", *arguments],
+            cwd=ROOT,
+            env=os.environ | PLAIN,
+            input=given,
+            capture_output=True,
+            check=False,
+        )
     except FileNotFoundError:
         return None
     return done.stdout if done.returncode == 0 else None
@@ -34,16 +48,28 @@ def state() -> dict:
     if commit is None or not (ROOT / ".git").exists():
         return {"commit": None, "dirty": None}
     changed = git("status", "--porcelain", "--untracked-files=no")
-    return {"commit": commit.decode().strip(), "dirty": bool(changed)}
+    listed = (git("ls-files", "-v") or b"").splitlines()
+    unseen = any(line[:1] == b"S" or line[:1].islower() for line in listed)  # assume-unchanged, skip-worktree
+    return {"commit": commit.decode().strip(), "dirty": bool(changed) or unseen}
 
 
 def files_at(commit: str, *folders: str) -> dict[str, bytes] | None:
-    """Contents by path at a commit; nothing if the repository does not have it."""
-    packed = git("archive", "--format=tar", commit, "--", *folders)
+    """Contents by path at a commit; nothing if the repository does not have it, or if an object is not what its name
+    says. Read as they are stored, without the filters that a checkout applies."""
+    listed = git("ls-tree", "-r", "-z", "--full-tree", commit, "--", *folders)
+    if listed is None or git("fsck", "--no-dangling", "--no-progress", commit) is None:
+        return None
+    entries = [entry.split(b"\t", 1) for entry in listed.split(b"\0") if entry]
+    names = [(mode_type_name.split()[2], path.decode()) for mode_type_name, path in entries]
+    packed = git("cat-file", "--batch", given=b"".join(name + b"\n" for name, _ in names))
     if packed is None:
         return None
-    with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
-        return {member.name: archive.extractfile(member).read() for member in archive if member.isfile()}
+    contents, stream = {}, io.BytesIO(packed)
+    for _, path in names:
+        size = int(stream.readline().split()[2])
+        contents[path] = stream.read(size)
+        stream.readline()
+    return contents
 
 
 def commits(*paths: str) -> list[str]:

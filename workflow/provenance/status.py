@@ -24,9 +24,9 @@ def worst_error(quality: str, panel: Panel) -> str:
     for run in panel.runs:
         try:
             provenance = load(ROOT / data_path(quality, panel.name, run.name)).provenance
-        except FormatError:
+            achieved, target = (float(provenance[name]) for name in ("achieved_error", "target_error"))
+        except (FormatError, KeyError, TypeError, ValueError):
             continue
-        achieved, target = (float(provenance[name]) for name in ("achieved_error", "target_error"))
         if target > 0:
             aimed.append((achieved / target, f"{achieved:.1e} of {target:.0e}"))
         elif not math.isnan(achieved):
