@@ -96,6 +96,13 @@ def other_quality(content: dict) -> None:
 
 __all__ = ["tampered"]  # a fixture
 
+
+def link_to_what_was_there(path: Path) -> None:
+    text = subprocess.check_output(["git", "show", f"HEAD:./{path.name}"], cwd=path.parent)
+    (path.parent / "copy").write_bytes(text)
+    path.symlink_to("copy")
+
+
 TAMPERINGS = {
     "bit flipped": (flip_bit, DATA),
     "table edited": (replace(TABLE, ",", ", "), TABLE),
@@ -161,6 +168,10 @@ TAMPERINGS = {
     ),
     "queue in place of data": (in_place_of(DATA, os.mkfifo), DATA),
     "queue in place of a picture": (in_place_of(PICTURE, os.mkfifo), PICTURE),
+    "link in place of a script": (
+        in_place_of("workflow/figures/fig03.py", link_to_what_was_there),
+        "workflow/figures/fig03.py",
+    ),
     "queue in place of a script": (
         in_place_of("workflow/figures/fig03.py", os.mkfifo),
         "workflow/figures/fig03.py",
@@ -305,6 +316,33 @@ def test_the_commit_that_is_compared_is_named(clean: Clone) -> None:
     )
     told = clean.make("audit", "QUALITY=smoke", "PANEL=fig03").stdout
     assert f"compared with commit {commit[:12]} (not signed)" in told
+
+
+AUTHOR = ("-c", "user.name=Nobody", "-c", "user.email=nobody@example.org")
+
+
+def git_says(clone: Clone, *arguments: str) -> str:
+    return subprocess.check_output(["git", *arguments], cwd=clone.folder, text=True).strip()
+
+
+def test_a_replaced_commit_is_not_believed(tampered: Clone) -> None:
+    """git would show the audit the commit as if it held the edited script."""
+    script, head = "workflow/figures/fig03.py", git_says(tampered, "rev-parse", "HEAD")
+    append(script, "# edited\n")(tampered)
+    edited = git_says(tampered, "hash-object", "-w", script)
+    tampered.git("update-index", "--cacheinfo", f"100644,{edited},{script}")
+    forged = git_says(tampered, *AUTHOR, "commit-tree", git_says(tampered, "write-tree"), "-m", "forged")
+    try:
+        tampered.git("replace", head, forged)
+        assert git_says(tampered, "status", "--porcelain", "--untracked-files=no") == ""
+        assert tampered.make("panel", "PANEL=fig03", "QUALITY=smoke").returncode == 0
+        relock(lambda content: content["jobs"]["fig03"].update(dirty=False))(tampered)
+        audited = audit(tampered)
+    finally:
+        tampered.git("replace", "-d", head)
+        tampered.git("reset", "--quiet")
+    assert audited.returncode == 1
+    assert f"commit {head[:12]}: does not hold the {script} that fig03 was made from" in audited.stdout
 
 
 def test_signatures_are_told_apart(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

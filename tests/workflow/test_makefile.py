@@ -3,6 +3,9 @@
 import os
 import resource
 import shutil
+import signal
+import subprocess
+import time
 from pathlib import Path
 
 import pytest
@@ -96,6 +99,25 @@ def test_fresh_panel_resumes_nothing_and_says_what_differs(kept: Clone) -> None:
     assert not any(leftover.exists() for leftover in partial_of(kept))
 
 
+def test_a_killed_make_is_followed_by_the_next_and_a_running_one_is_not(kept: Clone) -> None:
+    products = kept.products()
+    command = ["/usr/bin/make", "panel", "PANEL=fig05", "QUALITY=smoke", "FRESH=yes", "JOBS=1"]
+    first = subprocess.Popen(command, cwd=kept.folder, env={"PATH": os.defpath}, stdout=subprocess.DEVNULL,
+                             stderr=subprocess.DEVNULL, start_new_session=True)  # fmt: skip
+    deadline = time.monotonic() + 60
+    while kept.products().keys() == products.keys():  # until the first product is set aside
+        assert time.monotonic() < deadline
+    other = kept.make("panel", "PANEL=fig03", "QUALITY=smoke")
+    os.killpg(first.pid, signal.SIGKILL)
+    first.wait()
+    assert other.returncode != 0
+    assert "Another make is running here" in other.stdout
+    assert list((kept.folder / ".snakemake/locks").iterdir())
+    made = kept.make("panel", "PANEL=fig05", "QUALITY=smoke")
+    assert made.returncode == 0, made.stdout
+    assert kept.products() == products
+
+
 def partial_of(clone: Clone) -> list[Path]:
     """Under names that a run of another build would use; none may stay."""
     folder = clone.folder / "build/partial/smoke/fig05"
@@ -172,6 +194,10 @@ def test_logs_and_costs_carry_the_names_of_the_products(clean: Clone) -> None:
         (("figures", "quality=smoke"), ["did you mean QUALITY"]),
         (("figures", "JOBS=0"), ["JOBS='0'", "at least 1"]),
         (("-e", "figures"), ["make -e is not admitted"]),
+        (("-i", "audit"), ["make -i is not admitted"]),
+        (("--eval=QUALITY:=smoke", "status"), ["make --eval and MAKEFILES are not admitted"]),
+        (("status", "GIVEN=", "QUALITY=$(shell touch x)"), ["'GIVEN' is not an argument"]),
+        (("clean", "PANEL=fig03"), ["make clean does not use PANEL"]),
         (("panel", "QUALITY=smoke"), ["PANEL is missing", "make panel PANEL=fig05"]),
         (("panel", "PANEL=fig5", "QUALITY=smoke"), ["PANEL=fig5 is not known; the nearest is fig05"]),
     ],
