@@ -8,6 +8,7 @@ build/replaced; a dry run only names them.
 import json
 import re
 import sys
+from pathlib import Path
 
 from snakemake.logging import logger
 
@@ -35,6 +36,11 @@ try:
     CHAIN = Chain(QUALITY, PANELS)
 except ConfigurationError as error:
     sys.exit(str(error))
+for panel in PANELS.values():
+    if not Path(f"workflow/figures/{panel.script}.py").is_file():
+        sys.exit(
+            f"paper.yaml: panels.{panel.name}: workflow/figures/{panel.script}.py, which draws it, is missing"
+        )
 
 
 include: "workflow/rules/common.smk"

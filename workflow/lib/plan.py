@@ -18,7 +18,6 @@ from workflow.lib.options import Options
 from workflow.lib.strict_yaml import nearest, read
 
 FOLDER = Path(__file__).parents[1] / "config"
-SCRIPTS = Path(__file__).parents[1] / "figures"
 KINDS = ("pdf", "png", "svg", "csv")
 QUALITIES = ("smoke", "standard", "paper", "deep")
 STOPPING = ("target-error", "target-absolute", "max-replicas")  # options that add replicas to a run
@@ -92,12 +91,6 @@ def load_plan(name: str, folder: Path = FOLDER) -> dict[str, Panel]:
         _check(panel_name, panel, efforts, f"{quality.base}.yaml", admissible)
     panels = {name: _panel(name, panel, efforts, quality) for name, panel in paper["panels"].items()}
     for panel in panels.values():
-        if not (SCRIPTS / f"{panel.script}.py").is_file():
-            named = "script" if "script" in paper["panels"][panel.name] else ""
-            keys = ("panels", panel.name, *filter(None, [named]))
-            raise read(folder / "paper.yaml").complaint(
-                keys, f"workflow/figures/{panel.script}.py is missing"
-            )
         if not panel.runs and not panel.uses:
             raise read(folder / "paper.yaml").complaint(
                 ("panels", panel.name), f"has no runs at quality {name}"
