@@ -8,39 +8,21 @@ build/replaced; a dry run only names them.
 import json
 import re
 import sys
-from pathlib import Path
 
 from snakemake.logging import logger
 
 sys.path.append(workflow.basedir)  # last, so that no file here takes the place of a package
-from workflow.lib.plan import ConfigurationError, data_of, drawings_of, load_plan, panel_named
+from workflow.lib.plan import ConfigurationError, data_of, drawings_of
 from workflow.provenance.chain import Chain
-from workflow.provenance.stale import (
-    REPLACED,
-    forget_partial,
-    replace,
-    retire,
-    set_damaged_lock_aside,
-    unasked,
-)
+from workflow.provenance.request import Request
+from workflow.provenance.stale import REPLACED, prepare, retire, unasked
 
-if unknown := {*config} - {"quality", "panel", "fresh"}:
-    sys.exit(f"--config {min(unknown)}=… is not known: choose from quality, panel, fresh")
-if config.get("fresh", "yes") not in (True, False, "yes", "no"):
-    sys.exit("--config fresh=… must be yes or no")
-QUALITY, PANEL = str(config.get("quality", "standard")), str(config.get("panel") or "")
-FRESH = config.get("fresh") in (True, "yes")
 try:
-    PANELS = load_plan(QUALITY)
-    ASKED = [panel_named(PANELS, PANEL).name] if PANEL else []
-    CHAIN = Chain(QUALITY, PANELS)
+    REQUEST = Request.of(config)
 except ConfigurationError as error:
     sys.exit(str(error))
-for panel in PANELS.values():
-    if not Path(f"workflow/figures/{panel.script}.py").is_file():
-        sys.exit(
-            f"paper.yaml: panels.{panel.name}: workflow/figures/{panel.script}.py, which draws it, is missing"
-        )
+QUALITY, PANELS = REQUEST.quality, REQUEST.panels
+CHAIN = Chain(QUALITY, PANELS)
 
 
 include: "workflow/rules/common.smk"
@@ -59,7 +41,7 @@ rule figures:
 
 rule panel:
     input:
-        [path for name in ASKED for path in drawings_of(QUALITY, name)],
+        [path for name in REQUEST.asked for path in drawings_of(QUALITY, name)],
 
 
 include: "workflow/rules/simulate.smk"

@@ -7,6 +7,7 @@ import glob
 from collections.abc import Iterable
 
 from workflow.lib.plan import Panel
+from workflow.provenance.chain import Chain
 from workflow.provenance.lock import Lock, LockError, changing
 from workflow.provenance.repository import ROOT
 
@@ -38,6 +39,17 @@ def set_damaged_lock_aside(quality: str) -> str | None:
         replace([str(path.relative_to(ROOT))])
         return str(error)
     return None
+
+
+def prepare(chain: Chain, jobs: Iterable[str], fresh: bool) -> str | None:
+    """Sets aside a damaged lock and the products of jobs that are going to run; returns what is wrong with the lock.
+    A fresh run resumes nothing."""
+    reason = set_damaged_lock_aside(chain.quality)
+    for job in jobs:
+        replace(chain.outputs(job))
+        if fresh:
+            forget_partial(chain.quality, job)
+    return reason
 
 
 def unasked(quality: str, plan: dict[str, Panel]) -> list[str]:

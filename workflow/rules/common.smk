@@ -12,7 +12,7 @@ def force_if_stale(job):
 
 
 def made_anew(job):
-    return "everything is asked for anew" if FRESH else CHAIN.reason(job)
+    return "everything is asked for anew" if REQUEST.fresh else CHAIN.reason(job)
 
 
 def run_of(wildcards):
@@ -44,9 +44,5 @@ def all_figures(wildcards):
 
 onstart:
     if workflow.is_main_process and not workflow.touch:
-        if reason := set_damaged_lock_aside(QUALITY):
+        if reason := prepare(CHAIN, STALE, REQUEST.fresh):
             logger.info(f"{reason}: moved to {REPLACED}, and all is made again")
-        for job in STALE:
-            replace(CHAIN.outputs(job))
-            if FRESH:
-                forget_partial(QUALITY, job)

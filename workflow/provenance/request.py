@@ -1,0 +1,33 @@
+"""What Snakemake is asked for by --config: a quality, a panel, and whether all is made anew."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from workflow.lib.plan import ConfigurationError, Panel, load_plan, panel_named
+from workflow.provenance.repository import ROOT
+
+
+@dataclass(frozen=True)
+class Request:
+    quality: str
+    panels: dict[str, Panel]  # the plan
+    asked: list[str]  # the panel of the rule of that name, if there is one
+    fresh: bool
+
+    @classmethod
+    def of(cls, config: Mapping[str, Any]) -> "Request":
+        """Raises ConfigurationError."""
+        if unknown := {*config} - {"quality", "panel", "fresh"}:
+            raise ConfigurationError(f"--config {min(unknown)}: choose from quality, panel, fresh")
+        fresh = config.get("fresh", False)
+        if fresh not in (True, False, "yes", "no"):
+            raise ConfigurationError(f"--config fresh={fresh}: it must be yes or no")
+        quality = str(config.get("quality", "standard"))
+        plan = load_plan(quality)
+        for panel in plan.values():
+            script = f"workflow/figures/{panel.script}.py"
+            if not (ROOT / script).is_file():
+                raise ConfigurationError(f"paper.yaml: panels.{panel.name}: its script {script} is missing")
+        asked = [panel_named(plan, str(config["panel"])).name] if "panel" in config else []
+        return cls(quality, plan, asked, fresh in (True, "yes"))
