@@ -38,13 +38,13 @@ USED = {  # by the goals that use any
 
 
 def unused(goals: list[str], argument: str) -> str | None:
-    """Whether a goal would ignore NAME=VALUE, in one line."""
+    """Whether all goals would ignore NAME=VALUE, in one line. Who limits `clean` does not want all of it."""
     name = argument.partition("=")[0]
-    for goal in goals or ["help"]:
-        used = USED.get(goal, ())
-        if name not in used:
-            return f"make {goal} does not use {name}; it uses {', '.join(used) or 'no arguments'}"
-    return None
+    asked = ["clean"] if "clean" in goals else goals or ["help"]
+    used = dict.fromkeys(one for goal in asked for one in USED.get(goal, ()))
+    if name in used:
+        return None
+    return f"make {' '.join(asked)} does not use {name}; it uses {', '.join(used) or 'no arguments'}"
 
 
 def fault(argument: str) -> str | None:

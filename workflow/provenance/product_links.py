@@ -20,7 +20,7 @@ def products(chain: Chain) -> Iterator[Link]:
             yield Link(path, f"is not among what the lock says {name} made, or only there", name)
         for path, digest in job.outputs.items():
             if chain.hashes[path] is None:
-                yield Link(path, "is missing or not a file", name)
+                yield Link(path, "is missing, not a file, or cannot be read", name)
             elif chain.hashes[path] != digest:
                 yield Link(path, "is not what the job wrote: damaged, edited or replaced", name)
 

@@ -15,14 +15,17 @@ PLAIN = {"GIT_NO_REPLACE_OBJECTS": "1", "GIT_GRAFT_FILE": os.devnull}
 
 
 class FileHashes(dict[str, str | None]):
-    """sha256 of the project's files by relative path, none where there is no file; each is read only once. A link is no
+    """sha256 of the project's files by relative path, none where there is no file that can be read; each is read only once. A link is no
     file of the project, and what lies behind one is none; `data` and `figures` themselves may be links."""
 
     def __missing__(self, path: str) -> str | None:
         linked = any(
             (ROOT / part).is_symlink() for part in (path, *map(str, Path(path).parents)) if part not in PLACES
         )
-        self[path] = file_hash(ROOT / path) if not linked and (ROOT / path).is_file() else None
+        try:
+            self[path] = file_hash(ROOT / path) if not linked and (ROOT / path).is_file() else None
+        except PermissionError:
+            self[path] = None
         return self[path]
 
 

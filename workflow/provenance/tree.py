@@ -190,7 +190,11 @@ def main() -> None:
         reason = "is not a file" if options.file.exists() else "No such file"
         print(f"make provenance: {options.file}: {reason}", file=sys.stderr)
         sys.exit(BAD_INPUT)
-    found, damaged = makers(file_hash(options.file))
+    try:
+        found, damaged = makers(file_hash(options.file))
+    except PermissionError:
+        print(f"make provenance: {options.file}: cannot be read", file=sys.stderr)
+        sys.exit(BAD_INPUT)
     console = Console(highlight=False, width=None if sys.stdout.isatty() else UNLIMITED)
     name = plain(options.file.name)
     if found:
