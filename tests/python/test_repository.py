@@ -1,0 +1,73 @@
+"""What git is asked is what its commit holds, whatever is configured or put in the place of its objects."""
+
+import subprocess
+import zlib
+from pathlib import Path
+
+import pytest
+
+from workflow.provenance import repository
+from workflow.provenance.repository import FileHashes, files_at, state
+
+TRUE, FALSE = "true\n", "false\n"
+
+
+@pytest.fixture
+def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A repository with one commit that holds `a`."""
+    monkeypatch.setattr(repository, "ROOT", tmp_path)
+    run(tmp_path, "init", "--quiet")
+    (tmp_path / "a").write_text(TRUE)
+    run(tmp_path, "add", "a")
+    run(tmp_path, "commit", "--quiet", "--message", "true")
+    assert files_at("HEAD", "a") == {"a": TRUE.encode()}
+    return tmp_path
+
+
+def run(root: Path, *arguments: str, given: str = "") -> str:
+    author = ["-c", "user.name=Nobody", "-c", "user.email=nobody@example.org"]
+    command = ["git", *author, *arguments]
+    return subprocess.run(
+        command, cwd=root, input=given, stdout=subprocess.PIPE, text=True, check=True
+    ).stdout.strip()
+
+
+def test_a_replacement_is_not_followed(root: Path) -> None:
+    forged = run(root, "hash-object", "-w", "--stdin", given=FALSE)
+    run(root, "replace", run(root, "rev-parse", "HEAD:a"), forged)
+    assert run(root, "show", "HEAD:a") == FALSE.strip()
+    assert files_at("HEAD", "a") == {"a": TRUE.encode()}
+
+
+def test_a_filter_is_not_applied(root: Path) -> None:
+    run(root, "config", "filter.forge.smudge", "echo false")
+    (root / ".git/info/attributes").write_text("a filter=forge\n")
+    assert files_at("HEAD", "a") == {"a": TRUE.encode()}
+
+
+def test_an_object_that_is_not_what_its_name_says_is_none(root: Path) -> None:
+    name = run(root, "rev-parse", "HEAD:a")
+    place = root / ".git/objects" / name[:2] / name[2:]
+    place.chmod(0o644)
+    place.write_bytes(zlib.compress(f"blob {len(FALSE)}\0{FALSE}".encode()))
+    assert files_at("HEAD", "a") is None
+
+
+@pytest.mark.parametrize("mark", ["--assume-unchanged", "--skip-worktree"])
+def test_a_file_that_git_is_told_not_to_look_at_may_have_changed(root: Path, mark: str) -> None:
+    assert state()["dirty"] is False
+    run(root, "update-index", mark, "a")
+    (root / "a").write_text(FALSE)
+    assert run(root, "status", "--porcelain") == ""
+    assert state()["dirty"] is True
+
+
+def test_what_lies_behind_a_link_is_no_file_of_the_project(root: Path) -> None:
+    (root / "elsewhere").mkdir()
+    (root / "elsewhere/b").write_text(TRUE)
+    (root / "link").symlink_to("a")
+    (root / "folder").symlink_to("elsewhere")
+    (root / "data").symlink_to("elsewhere")  # a larger disk
+    hashes = FileHashes()
+    assert hashes["a"] == hashes["elsewhere/b"] == hashes["data/b"]
+    assert [hashes[path] for path in ("link", "folder/b", "none", "elsewhere")] == [None] * 4
