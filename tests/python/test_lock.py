@@ -5,13 +5,14 @@ from pathlib import Path
 
 import pytest
 
-from workflow.provenance import lock_types, repository, stale
+from workflow.provenance import repository, stale
+from workflow.provenance.build_id import IDENTITY
 from workflow.provenance.chain import difference_of
 from workflow.provenance.lock import Job, Lock, LockError, changing, configuration_files
 
 KEPT = "a" * 64
 STATED = {"configuration": configuration_files("smoke"), "pipeline": ["Makefile", "Snakefile"]}
-BUILD = dict.fromkeys(lock_types.STATED, "") | {"sources": {}}
+BUILD = dict.fromkeys(IDENTITY, "") | {"sources": {}}
 
 
 @pytest.fixture

@@ -13,9 +13,8 @@ from workflow.lib import style
 from workflow.provenance import redo
 from workflow.provenance.likeness import alike
 from workflow.provenance.lock import Job
-from workflow.provenance.redo import RedoError, disagreement, redrawn, same_bytes
+from workflow.provenance.redo import SIGNIFICANCE, RedoError, disagreement, redrawn, same_bytes
 from workflow.provenance.repository import machine
-from workflow.provenance.verify import SIGNIFICANCE
 
 ENOUGH = {"replicas": 16, "observation_time": 50, "relaxation_time": 20}
 

@@ -129,6 +129,12 @@ def drawings_of(quality: str, panel: str) -> list[str]:
     return [f"figures/{quality}/{panel}.{kind}" for kind in KINDS]
 
 
+def outputs_of(quality: str, job: str) -> list[str]:
+    """Paths of what a job makes: a run, `panel/run`, or the drawing of a panel, `panel`."""
+    panel, _, run = job.partition("/")
+    return [data_path(quality, panel, run)] if run else drawings_of(quality, panel)
+
+
 def _check(name: str, panel: dict, efforts: dict, quality: str, admissible: Admissible) -> None:
     """Every option that a run of the panel is given is one that its program has, with a value that it accepts."""
     place = f"paper.yaml: panels.{name}"

@@ -62,7 +62,7 @@ def audit(quality: str, only: str | None = None, deposit: Deposit | None = None)
     findings = Findings()
     try:
         lock = Lock.read(quality)
-    except (LockError, RecursionError) as error:
+    except LockError as error:
         findings.add([Link(f"data/{quality}/lock.json", str(error))])
         return findings
     try:

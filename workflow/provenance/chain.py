@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 
 from workflow.lib.options import Options
 from workflow.lib.parents import PACKAGES
-from workflow.lib.plan import Panel, Run, data_of, data_path, drawings_of, with_used
+from workflow.lib.plan import Panel, Run, data_of, data_path, outputs_of, with_used
 from workflow.provenance.build_id import include_closure
 from workflow.provenance.lock import Job, Lock, LockError
 from workflow.provenance.repository import ROOT, FileHashes
@@ -59,8 +59,7 @@ class Chain:
         return next((one for one in runs if one.name == run), None)
 
     def outputs(self, name: str) -> list[str]:
-        panel, _, run = name.partition("/")
-        return [data_path(self.quality, panel, run)] if run else drawings_of(self.quality, panel)
+        return outputs_of(self.quality, name)
 
     def sources(self, name: str) -> list[str]:
         """The script that draws the panel, and what it imports."""

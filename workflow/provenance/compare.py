@@ -9,11 +9,9 @@ from pathlib import Path
 
 from workflow.lib.load import FormatError
 from workflow.lib.plan import Quality, data_path, load_plan, with_used
-from workflow.provenance.redo import disagreement, same_bytes
+from workflow.provenance.redo import agreement, same_bytes
 from workflow.provenance.repository import ROOT
 from workflow.provenance.stale import REPLACED
-
-SIGNIFICANCE = 1e-3  # of the largest of many deviations
 
 
 def verdict(one: Path, other: Path) -> tuple[bool, str]:
@@ -23,12 +21,10 @@ def verdict(one: Path, other: Path) -> tuple[bool, str]:
     if same_bytes(one, other):
         return True, "the same bytes"
     try:
-        largest, probability = disagreement(one, other)
+        within, words = agreement(one, other)
     except FormatError as error:
         return False, f"cannot be compared: {error}"
-    within = probability > SIGNIFICANCE
-    words = "within errors" if within else "not within errors"
-    return within, f"other bytes, {words}: largest |z| {largest:.2g}, p = {probability:.2g}"
+    return within, f"other bytes, {words}"
 
 
 def main() -> None:

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 from workflow.environment.packages import faults
 from workflow.lib.parents import PACKAGES
-from workflow.provenance.build_id import build_id, include_closure, source_hash
+from workflow.provenance.build_id import build_id, source_hash
 from workflow.provenance.chain import Chain
 from workflow.provenance.lock import Job, configuration_files
 from workflow.provenance.repository import ROOT, files_at, git
@@ -73,21 +73,17 @@ def sources(chain: Chain) -> Iterator[Link]:
     """Files that have changed since something was made from them."""
     for build in chain.lock.builds.values():
         before = {f"cpp/{path}": digest for path, digest in build["sources"].items()}
-        now = {*before, *closure(chain, f"observables/{build['program']}.cpp")}
+        now = {*before, *compiled(chain, build["program"])}
         yield from changed(chain, before, now, f"{build['program']} was built")
     for name, job in chain.lock.drawings().items():
         now = {*imported(chain, name), PACKAGES} if name in chain.plan else set()
         yield from changed(chain, job.sources, now or {*job.sources}, f"{name} was drawn")
 
 
-def closure(chain: Chain, root: str) -> list[str]:
+def compiled(chain: Chain, program: str) -> list[str]:
     """Sources of a program now; none where one of them cannot be read."""
     try:
-        return (
-            [f"cpp/{path}" for path in include_closure(ROOT / "cpp", root)]
-            if chain.hashes[f"cpp/{root}"]
-            else []
-        )
+        return [f"cpp/{path}" for path in chain.program_sources(program)]
     except (OSError, UnicodeDecodeError):
         return []
 

@@ -118,9 +118,7 @@ class Lock:
         content["builds"] = {name: build for name, build in sorted(self.builds.items()) if name in named}
         content["jobs"] = {name: asdict(job) for name, job in sorted(self.jobs.items())}
         content["checksum"] = checksum_of(content)
-        unfinished = path.with_suffix(".tmp")
-        unfinished.write_text(json.dumps(content, indent=1) + "\n")
-        unfinished.replace(path)
+        repository.write_whole(path, json.dumps(content, indent=1) + "\n")
 
     def runs(self) -> dict[str, Job]:
         return {name: job for name, job in self.jobs.items() if not job.is_drawing}

@@ -3,9 +3,10 @@
 import re
 from typing import Any
 
+from workflow.provenance.build_id import IDENTITY
+
 SHA256, COMMIT = re.compile(r"[0-9a-f]{64}"), re.compile(r"[0-9a-f]{40}|[0-9a-f]{64}")
 PATH = re.compile(r"[^\0\ud800-\udfff]+")
-STATED = ("program", "version", "source_hash", "compiler", "flags", "libraries")  # of a build
 
 
 def require(holds: bool, what: str) -> None:
@@ -47,5 +48,5 @@ def check_job(name: str, job: Any, configuration: list[str]) -> None:
 def check_build(identifier: str, build: Any) -> None:
     """Raises TypeError."""
     require(matches(SHA256, identifier) and isinstance(build, dict), f"build {identifier}")
-    require(all(isinstance(build.get(part), str) for part in STATED), f"build {identifier}")
+    require(all(isinstance(build.get(part), str) for part in IDENTITY), f"build {identifier}")
     require(are_hashes(build.get("sources")), f"sources of build {identifier}")

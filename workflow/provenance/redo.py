@@ -20,6 +20,7 @@ from workflow.provenance.repository import ROOT, machine
 
 MANY = 1000  # replicas
 SAME_PLACE = 1e-9  # relative
+SIGNIFICANCE = 1e-3  # of the largest of many deviations of independent random numbers
 WELL_KNOWN, UNLIKE = 8, 30  # from so many replicas on, errors of one magnitude do not differ by such a factor
 SCHEMA = "workflow/config/schema.yaml"  # the units of options, which the scripts read
 
@@ -99,6 +100,14 @@ def _run(command: list[str], folder: Path, settings: dict[str, str], allowed: tu
         raise RedoError(f"{Path(command[0]).name} ended with status {done.returncode}: {last}")
 
 
+def agreement(one: Path, other: Path) -> tuple[bool, str]:
+    """Whether two results of one run agree within errors, and in words. Raises FormatError."""
+    largest, probability = disagreement(one, other)
+    within = probability > SIGNIFICANCE
+    words = "within errors" if within else "not within errors"
+    return within, f"{words}: largest |z| {largest:.2g}, p = {probability:.2g}"
+
+
 def disagreement(one: Path, other: Path) -> tuple[float, float]:
     """Of two results of one run: the largest difference in standard errors, and the probability of one as
     large among so many values, from Student's distribution. (inf, 0) if they are not comparable."""
@@ -128,11 +137,9 @@ def _comparable(a: Quantity, b: Quantity) -> bool:
     scales = [q.standard_error * np.sqrt(q.count) for q in (a, b)]
     with np.errstate(divide="ignore", invalid="ignore"):
         far = np.abs(np.log(scales[0] / scales[1])) > np.log(UNLIKE)
-    lost, either = (
-        enough & (known[0] != known[1]),
-        known[0] | known[1],
-    )  # rare values are known in one run only
-    return bool(2 * np.sum(lost) <= np.sum(either)) and not np.any(enough & known[0] & known[1] & far)
+    lost, either, both = enough & (known[0] != known[1]), known[0] | known[1], known[0] & known[1]
+    # Rare values may be known in one run only, but not most of them.
+    return bool(2 * np.sum(lost) <= np.sum(either)) and not np.any(enough & both & far)
 
 
 def _deviations(a: Quantity, b: Quantity) -> tuple[np.ndarray, np.ndarray]:

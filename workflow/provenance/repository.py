@@ -29,6 +29,13 @@ class FileHashes(dict[str, str | None]):
         return self[path]
 
 
+def write_whole(path: Path, text: str) -> None:
+    """So that the file is never there by half."""
+    unfinished = path.with_suffix(".tmp")
+    unfinished.write_text(text)
+    unfinished.replace(path)
+
+
 def git(*arguments: str, given: bytes = b"") -> bytes | None:
     """What git prints, or nothing where it fails: not installed, outside a repository, or an unknown commit."""
     try:

@@ -48,7 +48,7 @@ def makers(digest: str) -> tuple[list[str], list[str]]:
                     found.append(
                         f"job {name} of quality {quality} wrote (commit {short(str(job.commit))}, {state})"
                     )
-        except (LockError, RecursionError, AttributeError, KeyError, TypeError) as error:
+        except LockError as error:
             damaged.append(f"skipped data/{quality}/lock.json: {error}")
     return found, damaged
 

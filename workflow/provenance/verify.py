@@ -15,13 +15,12 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from workflow.lib.load import FormatError
-from workflow.lib.plan import ConfigurationError, data_path, drawings_of, load_plan, panel_named
+from workflow.lib.plan import ConfigurationError, load_plan, outputs_of, panel_named
 from workflow.provenance.fresh_build import BuildError, FreshBuild
 from workflow.provenance.lock import Job, Lock, LockError
-from workflow.provenance.redo import RedoError, disagreement, redrawn, same_bytes, simulate, workplace
-from workflow.provenance.repository import ROOT, machine
+from workflow.provenance.redo import RedoError, agreement, redrawn, same_bytes, simulate, workplace
+from workflow.provenance.repository import ROOT, machine, write_whole
 
-SIGNIFICANCE = 1e-3  # of a deviation of independent random numbers
 BAD_INPUT = 2  # exit status
 
 Verdict = tuple[bool, str]  # whether the same is made again, and in what sense
@@ -43,16 +42,8 @@ def run_verdict(job: Job, fresh: FreshBuild, recorded: dict, folder: Path) -> Ve
         return True, "the same bytes"
     if fresh.identity(job.tool)["build_id"] == job.build_id:
         return False, f"other bytes in {path}"
-    largest, probability = disagreement(ROOT / path, again)
-    within = probability > SIGNIFICANCE
-    words = f"{'' if within else 'not '}within errors: largest |z| {largest:.2g}, p = {probability:.2g}"
+    within, words = agreement(ROOT / path, again)
     return within, f"{words}, by another compiler or other libraries"
-
-
-def stated_outputs(quality: str, name: str) -> set[str]:
-    """What a job of this name makes."""
-    panel, _, run = name.partition("/")
-    return {data_path(quality, panel, run)} if run else {*drawings_of(quality, panel)}
 
 
 def sample(lock: Lock, names: list[str], share: float, verdicts: dict) -> list[str]:
@@ -79,10 +70,8 @@ class Verdicts(dict[str, dict]):
 
     def keep(self, name: str, job: Job, verdict: Verdict) -> None:
         self[name] = {"outputs": job.outputs, "same": verdict[0], "verdict": verdict[1], "machine": machine()}
-        unfinished = self.path.with_suffix(".tmp")
         try:
-            unfinished.write_text(json.dumps(self, indent=1, sort_keys=True) + "\n")
-            unfinished.replace(self.path)
+            write_whole(self.path, json.dumps(self, indent=1, sort_keys=True) + "\n")
         except OSError as error:
             self.unwritten = f"The verdicts are not kept: {self.path.relative_to(ROOT)}: {error.strerror}"
 
@@ -106,7 +95,7 @@ def verify(lock: Lock, names: Iterable[str], verdicts: Verdicts) -> bool:
 def verdict_on(lock: Lock, name: str, fresh: FreshBuild, folder: Path) -> Verdict:
     job = lock.jobs[name]
     try:
-        if {*job.outputs} != stated_outputs(lock.quality, name):
+        if {*job.outputs} != {*outputs_of(lock.quality, name)}:
             return False, f"the lock names other products of it: {', '.join(job.outputs)}"
         if lacking := [path for path in job.outputs if not (ROOT / path).is_file()]:
             return False, f"{lacking[0]} is missing or not a file"
