@@ -26,7 +26,7 @@ namespace {
 using namespace lorentz;
 
 struct Parameters : OpenParameters {
-  WindowParameters times{.relaxation_time = {0.05, true}, .observation_time = {400}};
+  WindowParameters times{.relaxation_time = {{0, 0.05, 0}}, .observation_time = {{400, 0, 0}}};
 };
 
 const WindowTallies of_window;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -40,12 +41,11 @@ struct Range {
 inline constexpr Range<double> positive{0, std::numeric_limits<double>::max(), true};
 inline constexpr Range<double> non_negative{0};
 
-/// A number, or a multiple of a size of the system.
+/// A polynomial of the second degree in a size of the system, most often a number.
 struct Scaled {
-  double factor;
-  bool of_size = false;
+  std::array<double, 3> coefficients;  // of size^0, size^1, size^2
 
-  double at(double size) const { return of_size ? factor * size : factor; }
+  double at(double size) const { return coefficients[0] + size * (coefficients[1] + size * coefficients[2]); }
 };
 
 /// The options of one executable. One declaration of each serves the command line, the configuration file,
@@ -78,8 +78,8 @@ class Options {
   void integer_or_word(const std::string& name, std::optional<std::uint32_t>& value,
                        Range<std::uint32_t> range, const std::string& word, const std::string& help,
                        Role role = Role::result);
-  /// A number, or one that is followed by the symbol of a size for a multiple of it: 0.05N with the symbol
-  /// 'N'.
+  /// A number, or a sum of a number and multiples of a size and its square: 0.05N or 50+0.0004N^2 with the
+  /// symbol 'N'.
   void scaled(const std::string& name, Scaled& value, Range<double> range, char symbol,
               const std::string& units, const std::string& help, Role role = Role::result);
   /// Increasing numbers, separated by commas.

@@ -18,7 +18,10 @@ OpenChain OpenParameters::chain() const {
 }
 
 PhasePoint OpenParameters::start_point(double age, const StreamKey& key) const {
-  return start == "empty" ? empty_start(chain()) : local_equilibrium_start(chain(), left, right, age, key);
+  if (start == "empty") return empty_start(chain());
+  if (start == "warm") return local_equilibrium_start(chain(), left, right, age, key);
+  const Reservoir& everywhere = (start == "hot") == (left.temperature > right.temperature) ? left : right;
+  return local_equilibrium_start(chain(), everywhere, everywhere, age, key);
 }
 
 Window WindowParameters::window(std::uint32_t cells) const {
@@ -31,8 +34,9 @@ void declare(Options& options, OpenParameters& parameters) {
   options.real_or_word("--cell-length", parameters.cell_length, positive, "1/N", "length",
                        "Distance between scatterers");
   declare(options, parameters.left, parameters.right);
-  options.choice("--start", parameters.start, {"empty", "warm"},
-                 "empty: no particles, scatterers at rest; warm: near the stationary state");
+  options.choice("--start", parameters.start, {"empty", "warm", "cold", "hot"},
+                 "empty: no particles, scatterers at rest; warm: near the stationary state; cold, hot: as in "
+                 "equilibrium with the colder, hotter reservoir");
 }
 
 void declare(Options& options, WindowParameters& parameters) {

@@ -23,15 +23,15 @@ struct OpenParameters {
 
   OpenChain chain() const;
 
-  /// State of a replica at time 0. A warm start is the state after particles have entered for the time `age`
-  /// [eq. 12].
+  /// State of a replica at time 0; where it has particles, the state after they have entered for the time
+  /// `age` [eq. 12].
   PhasePoint start_point(double age, const StreamKey& key) const;
 };
 
 /// Parameters of the window of a stationary measurement.
 struct WindowParameters {
-  Scaled relaxation_time{100};
-  Scaled observation_time{1000};
+  Scaled relaxation_time{{100, 0, 0}};
+  Scaled observation_time{{1000, 0, 0}};
 
   Window window(std::uint32_t cells) const;
 };

@@ -275,7 +275,7 @@ def test_extremes(program: Program, tmp_path: Path, name: str, options: dict) ->
 @pytest.mark.parametrize(
     ("name", "options", "words"),
     [
-        ("conductivity", {"observation_time": "0N"}, ["--observation-time", "followed by N"]),
+        ("conductivity", {"observation_time": "0N"}, ["--observation-time", "followed by N or N^2"]),
         ("conductivity", {"cell_length": "2/N"}, ["--cell-length", "1/N"]),
         ("conductivity", {"nu_left": -1}, ["--nu-left", "at least 0"]),
         ("conductivity", {"temperature_left": 0}, ["--temperature-left", "greater than 0"]),

@@ -127,7 +127,10 @@ def test_arguments() -> None:
         (
             ("panels", "fig08", "series", "rare", "observation-time"),
             "-1N",
-            ["series.rare.observation-time", "number above 0, or such a number followed by N"],
+            [
+                "series.rare.observation-time",
+                "number above 0, or a sum of such, each alone or followed by N or N^2",
+            ],
         ),
         (
             ("panels", "fig07_inset", "series", "zero-momentum", "zero-total-momentum"),

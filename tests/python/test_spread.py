@@ -1,7 +1,6 @@
 """Short versions of every series of the standard figures, with as many replicas, over 40 seeds: the spread over
 seeds agrees with the errors for that number of replicas."""
 
-import re
 import subprocess
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from tests.python.conftest import ROOT
 from workflow.lib.load import load
 from workflow.lib.options import arguments
 from workflow.lib.plan import Run, load_plan
+from workflow.tradeoff.measure import shortened
 
 SEEDS = 40
 FACTORS = {"particle_count": 2e-3}  # factor of all times
@@ -43,16 +43,11 @@ def series() -> dict[str, Run]:
     return {name: runs[len(runs) // 2] for name, runs in found.items()}
 
 
-def shorter(value: object, factor: float) -> object:
-    """Multiplies a time, a list of times or a multiple of N by a factor."""
-    return re.sub(r"[0-9.]+(e-?[0-9]+)?", lambda number: f"{factor * float(number[0]):.6g}", str(value))
-
-
 def in_small(run: Run) -> dict[str, object]:
     factor = FACTORS.get(run.program, OTHERS)
-    times = {name: shorter(run.options[name], factor) for name in run.options if name.endswith("-time")}
+    times = {name: shortened(run.options[name], factor) for name in run.options if name.endswith("-time")}
     if run.program == "particle_count":
-        times["times"] = shorter(run.options["times"], factor)
+        times["times"] = shortened(run.options["times"], factor)
     options = {**run.options, **times}
     return options | PULSE if run.program == "energy_pulse" else options
 

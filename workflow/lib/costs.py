@@ -7,7 +7,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from workflow.lib.load import FormatError, load
-from workflow.lib.options import Options
+from workflow.lib.options import Options, at_size
 from workflow.lib.plan import QUALITIES, Run, data_path
 
 ROOT = Path(__file__).parents[2]
@@ -28,13 +28,10 @@ def read_cost(path: Path) -> dict | None:
 
 def effort(options: Options) -> float:
     """Replicas, with their pairs, times the simulated time: what cost is proportional to, but for the start."""
-
-    def simulated(time: str) -> float:
-        return float(time.rstrip("N")) * (float(options["cells"]) if time.endswith("N") else 1)
-
     replicas = float(options.get("replicas", 1)) * float(options.get("pairs-per-replica", 1))
     last = str(options.get("times", "")).rsplit(",", maxsplit=1)[-1] or options.get("observation-time", 1)
-    return replicas * sum(simulated(str(time)) for time in (last, options.get("relaxation-time", 0)))
+    cells = float(options.get("cells", 1))
+    return replicas * sum(at_size(time, cells) for time in (last, options.get("relaxation-time", 0)))
 
 
 def executions(panel: str, run: str) -> Iterator[tuple[Options, float]]:

@@ -35,8 +35,7 @@ def admits(option: dict[str, Any], value: object) -> bool:
         return all(_in_range(option, number) for number in numbers) and numbers == sorted(set(numbers))
     if isinstance(value, str):
         symbol = _symbol(kind)
-        multiple = symbol and value.endswith(symbol) and _in_range(option, _number(value[: -len(symbol)]))
-        return value == option.get("word") or bool(multiple)
+        return value == option.get("word") or bool(symbol and _polynomial_in_range(option, value, symbol))
     whole = kind.startswith("integer")
     return (
         not isinstance(value, bool)
@@ -56,14 +55,31 @@ def admissible(option: dict[str, Any]) -> str:
     text = " ".join([noun, " and ".join(parts)]).strip()
     if noun == "numbers":
         return f"{text}, ascending, separated by commas"
-    return text + (
-        f", or {option.get('word') or f'such a number followed by {_symbol(kind)}'}" if other else ""
-    )
+    symbol = _symbol(kind)
+    polynomial = f"a sum of such, each alone or followed by {symbol} or {symbol}^2"
+    return text + (f", or {option.get('word') or polynomial}" if other else "")
+
+
+def at_size(value: object, size: float, symbol: str = "N") -> float:
+    """The value of a number or of a polynomial in a size, such as 50+0.0004N^2; nan if it is neither."""
+    return sum(coefficient * size**power for coefficient, power in _terms(str(value), symbol))
+
+
+def _terms(polynomial: str, symbol: str) -> list[tuple[float, int]]:
+    """Coefficients and powers; nan for what is not a number."""
+    parts = [re.fullmatch(rf"(.*?)({symbol}(\^2)?)?", term) for term in re.split(r"(?<!e)\+", polynomial)]
+    return [(_number(part[1]), 0 if not part[2] else 2 if part[3] else 1) for part in parts if part]
+
+
+def _polynomial_in_range(option: dict[str, Any], text: str, symbol: str) -> bool:
+    terms = _terms(text, symbol)
+    powers = [power for _, power in terms]
+    return all(_in_range(option, coefficient) for coefficient, _ in terms) and len(powers) == len(set(powers))
 
 
 def _symbol(kind: str) -> str:
-    """Of the size whose multiples an option of this type admits."""
-    return kind.partition("multiple of ")[2]
+    """Of the size in which an option of this type admits a polynomial."""
+    return kind.partition("polynomial in ")[2]
 
 
 def _number(text: str) -> float:

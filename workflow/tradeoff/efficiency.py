@@ -13,6 +13,7 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib.load import Result
+from workflow.lib.options import at_size
 from workflow.lib.plan import Run
 from workflow.tradeoff import frame, reference
 from workflow.tradeoff.measure import execute, planned, shortened
@@ -76,7 +77,7 @@ def conductivity(programs: Path, run: Run, cells: int, replicas: tuple[int, int]
     """Engine and reference simulator, both from an empty start, with so many cells."""
     times = [shortened(run.options[name], SHARE if name.startswith("obs") else 1)
              for name in ("relaxation-time", "observation-time")]  # fmt: skip
-    times = [str(float(time.rstrip("N")) * (cells if time.endswith("N") else 1)) for time in times]
+    times = [str(at_size(time, cells)) for time in times]
     sample, slow = reference.open_chain(programs, run.options, cells, tuple(times), replicas[0])
     result, fast = execute(programs, run, cells=cells, start="empty", replicas=replicas[1],
                            relaxation_time=times[0], observation_time=times[1])  # fmt: skip

@@ -1,6 +1,7 @@
 """Runs programs at the settings of panels and says what they found and what they cost."""
 
 import json
+import re
 import subprocess
 import tempfile
 from dataclasses import dataclass
@@ -18,9 +19,10 @@ def planned(panel: str, run: str) -> Run:
 
 
 def shortened(times: float | str, share: float) -> str:
-    """A part of a time, or of each of a list; what is given in units of N stays so."""
-    parts = str(times).split(",")
-    return ",".join(f"{float(part.rstrip('N')) * share:g}{'N' * part.endswith('N')}" for part in parts)
+    """A part of a time, of each of a list, or of every term of a polynomial in N."""
+    return re.sub(
+        r"(?<!\^)\d+\.?\d*(e[+-]?\d+)?", lambda number: f"{share * float(number[0]):.6g}", str(times)
+    )
 
 
 @dataclass(frozen=True)

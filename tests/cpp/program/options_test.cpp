@@ -190,11 +190,18 @@ TEST(Options, ScaleWithTheNumberOfCells) {
   EXPECT_EQ(example.window.at(40), 2);
   EXPECT_TRUE(example.parse({"--window", "10"}));
   EXPECT_EQ(example.window.at(40), 10);
+  EXPECT_TRUE(example.parse({"--window", "1e+1+2e-1N+0.5N^2"}));
+  EXPECT_EQ(example.window.at(40), 818);
+  EXPECT_TRUE(example.parse({"--window", "0.5N^2+10"}));
+  EXPECT_EQ(example.window.at(40), 810);
   for (const std::string value :
-       {"N", "1M", "-1N", "1NN", "0N", "0", "", "nanN", "infN", "+-1N", "0x1N", "1 N"})
-    expect_refused({"--window", value},
-                   {"--window: '" + value +
-                    "' cannot be used: it must be a number greater than 0, or such a number followed by N"});
+       {"N",    "1M",  "-1N", "1NN",   "0N",  "0",     "",     "nanN", "infN",  "+-1N",
+        "0x1N", "1 N", "1+",  "1++1N", "1+2", "1N+2N", "1N^3", "1N^",  "1+-1N", "0+1N"})
+    expect_refused(
+        {"--window", value},
+        {"--window: '" + value +
+         "' cannot be used: it must be a number greater than 0, or a sum of such, each alone or followed by "
+         "N or N^2"});
 }
 
 TEST(Options, RecordWhatDeterminesTheResultSortedByName) {
@@ -237,7 +244,7 @@ TEST(Options, DescribeThemselves) {
      "description": "Scatterings", "affects_results": true},
     {"name": "sites", "type": "integer or word", "minimum": 1, "maximum": 300, "word": "continuum", "default": 4,
      "units": "1", "description": "Sites", "affects_results": true},
-    {"name": "window", "type": "number or multiple of N", "exclusive_minimum": 0, "default": "0.5N",
+    {"name": "window", "type": "number or polynomial in N", "exclusive_minimum": 0, "default": "0.5N",
      "units": "time", "description": "Window", "affects_results": true},
     {"name": "times", "type": "numbers", "minimum": 0, "maximum": 10, "default": "1,2", "units": "time",
      "description": "Times", "affects_results": true},
