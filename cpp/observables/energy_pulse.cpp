@@ -12,6 +12,7 @@
 #include <functional>
 
 #include "program/study.hpp"
+#include "runs/peak_quantities.hpp"
 #include "runs/pulse_run.hpp"
 #include "statistics/moving_peak.hpp"
 
@@ -57,27 +58,10 @@ std::uint64_t measure(const PulseParameters& parameters, const Tallies& tallies,
   return events;
 }
 
-/// Axes of the times between neighbouring times of the output.
-struct Between {
-  Axis middle{"middle", "time", "Middle of two neighbouring times", {}};
-  Axis geometric{"middle", "time", "Geometric middle of two neighbouring times", {}};
-
-  explicit Between(const std::vector<double>& times) {
-    for (std::size_t k = 0; k + 1 < times.size(); ++k) {
-      middle.values.push_back(0.5 * (times[k] + times[k + 1]));
-      geometric.values.push_back(std::sqrt(times[k]) * std::sqrt(times[k + 1]));
-    }
-  }
-};
-
 /// Formulas of all quantities, given the windows of the peak fits.
 Formulas<MovingPeak> formulas(const Tallies& tallies, const PeakWindows& windows) {
-  const std::vector<double>& times = tallies.time.values;
   const std::size_t cells = tallies.cell.values.size();
-  const std::vector<Axis> time{tallies.time};
   const Axis distance = numbered_axis("distance", "Cells from the central one", (cells - 1) / 2, 1);
-  const Axis from{"from", "time", "First time of the fit", {times.begin(), times.end() - 1}};
-  const Between between(times);
   using std::mem_fn;
 
   Formulas<MovingPeak> pulse([=](RecordView mean) {
@@ -91,30 +75,12 @@ Formulas<MovingPeak> formulas(const Tallies& tallies, const PeakWindows& windows
   pulse.quantity("sum_error", "1",
                  "Largest |sum over cells - injected energy| / total energy, mean over pairs",
                  [=](const MovingPeak& peak) { return peak.mean()[tallies.sum_error]; });
-  pulse.quantity("peak_position", time, "1", "Distance of the moving peak from the centre, in cells",
-                 mem_fn(&MovingPeak::positions));
-  pulse.quantity("peak", time, "energy", "Height of the moving peak, by a fit of exp(cubic) above half of it",
-                 mem_fn(&MovingPeak::heights));
-  pulse.quantity("peak_raw", time, "energy",
-                 "Largest value of the folded profile, biased upwards by the noise",
-                 mem_fn(&MovingPeak::raw_heights));
+  add_peak_quantities(pulse, tallies.time, "energy");
   pulse.quantity(
-      "centre_share", time, "1", "Part of the injected energy in the central five cells",
+      "centre_share", {tallies.time}, "1", "Part of the injected energy in the central five cells",
       [=](const MovingPeak& peak) { return peak.centre_shares(peak.mean()[tallies.injected_energy]); });
   pulse.quantity("odd_part", {tallies.time, distance}, "energy",
                  "Half of right minus left side: 0 by mirror symmetry", mem_fn(&MovingPeak::odd_parts));
-  pulse.quantity("peak_speed", {between.middle}, "1/time",
-                 "Cells per time by which peak_position moves between two times",
-                 mem_fn(&MovingPeak::speeds));
-  pulse.quantity("local_damping_exponent", {between.geometric}, "1", "-d ln peak / d ln t between two times",
-                 mem_fn(&MovingPeak::damping_exponents));
-  pulse.quantity("damping_exponent_from", {from}, "1",
-                 "Minus the slope of ln peak against ln t from a time on",
-                 mem_fn(&MovingPeak::exponents_from));
-  pulse.quantity("damping_exponent", "1", "The same over all times that have a peak",
-                 mem_fn(&MovingPeak::exponent));
-  pulse.quantity("peak_collapse", "1", "Exponent xi that makes t^xi Delta E a function of (x - peak)/t^xi",
-                 mem_fn(&MovingPeak::collapse));
   return pulse;
 }
 

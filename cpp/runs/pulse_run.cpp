@@ -7,14 +7,11 @@
 #include "engine/closed_dynamics.hpp"
 #include "engine/closed_start.hpp"
 #include "program/errors.hpp"
+#include "runs/conserved_fields.hpp"
 #include "runs/limits.hpp"
 
 namespace lorentz {
 namespace {
-
-std::uint32_t cell_of(const Particle& particle, const ClosedChain& chain) {
-  return std::min(static_cast<std::uint32_t>(particle.position / chain.cell_length), chain.cells - 1);
-}
 
 double energy(double velocity) { return 0.5 * velocity * velocity; }
 

@@ -1,0 +1,191 @@
+/// Correlations in space and time of the conserved densities, energy e and momentum g of a cell (its
+/// scatterer and the particles inside), in a closed chain that has relaxed from a Gaussian start [eq. 54]:
+///
+///   C_e(r, t) = <e_0(0) e_r(t)> - <e>^2,     C_g(r, t) = <g_0(0) g_r(t)>,
+///
+/// means over cells, over origins of time one first time of --times apart, and over replicas. No second
+/// trajectory is needed, and the linear response to a small pulse follows from them. Of a fluid with three
+/// conserved fields, sound spreads about +-ct and heat about 0 (Spohn, J. Stat. Phys. 154, 1191, 2014; for
+/// hard-point chains Mendl and Spohn, Phys. Rev. E 90, 012147, 2014). C_g has the sound peaks alone; `peak`
+/// and its exponents are theirs.
+///
+/// Sums over r are conserved and known: the variance of the total over the number of cells, from the start.
+/// So the measured total of a replica replaces the mean, and its known variance is put back [eq. 55].
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "program/errors.hpp"
+#include "runs/closed_study.hpp"
+#include "runs/conserved_fields.hpp"
+#include "runs/peak_quantities.hpp"
+#include "statistics/fit.hpp"
+#include "statistics/moving_peak.hpp"
+#include "statistics/ring_correlation.hpp"
+
+namespace {
+
+using namespace lorentz;
+
+struct Parameters : ClosedParameters {
+  std::vector<double> times{0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1};
+
+  Parameters() {
+    ring.scattering.cells = 1001;
+    ring.particles_per_cell = 50;
+    temperature = scatterer_temperature = 10'000;
+    relaxation_time = 1;
+    observation_time = 2;
+  }
+
+  /// The times in units of the first, which is the interval between snapshots. Throws UsageError.
+  std::vector<std::size_t> lags() const {
+    std::vector<std::size_t> lags;
+    for (const double time : times) {
+      const double lag = time / times.front();
+      if (lag > 1e6 || std::abs(lag - std::round(lag)) > 1e-6 * lag)
+        throw UsageError(
+            "--times: every time must be a whole multiple of the first, at most 1e6 times it, because "
+            "snapshots are "
+            "that far apart. Choose others.");
+      lags.push_back(static_cast<std::size_t>(std::lround(lag)));
+    }
+    return lags;
+  }
+};
+
+struct Tallies : ClosedTallies {
+  Axis time, cell;
+  std::array<Tally, 3> fields{
+      // by Conserved
+      tally("number", {time, cell}, "1", "Covariance of the numbers of particles in two cells"),
+      tally("energy", {time, cell}, "energy^2", "Covariance of the energies of two cells"),
+      tally("momentum", {time, cell}, "momentum^2", "Covariance of the momenta of two cells")};
+
+  explicit Tallies(const Parameters& parameters)
+      : time{"time", "time", "Time between the two", parameters.times},
+        cell(numbered_axis("cell", "Number of the cell; the other is in the middle of the ring",
+                           parameters.ring.scattering.cells)) {}
+};
+
+/// Sums over r of the correlations in an infinite chain, conserved: variances of the totals per cell [eq.
+/// 55].
+std::array<double, 3> sum_rules(const Parameters& parameters) {
+  const ClosedChain chain = parameters.chain();
+  const double particles = chain.particles_per_cell, cells = chain.cells;
+  const double energies =
+      particles * std::pow(parameters.temperature, 2) + std::pow(parameters.scatterer_temperature, 2);
+  return {particles, 0.5 * energies, parameters.mean_square_momentum() / cells};
+}
+
+/// The field minus its mean over the ring.
+std::vector<double> fluctuation(std::vector<double> field) {
+  double mean = 0;
+  for (const double value : field) mean += value / static_cast<double>(field.size());
+  for (double& value : field) value -= mean;
+  return field;
+}
+
+/// Records the correlations with distance 0 in the middle of the ring.
+void record_ring(const RingCorrelation& correlation, std::size_t times, double sum,
+                 std::span<double> record) {
+  const std::size_t cells = record.size() / times;
+  for (std::size_t k = 0; k < times; ++k) {
+    const std::vector<double> profile = correlation.at(k);
+    for (std::size_t r = 0; r < cells; ++r)
+      record[k * cells + (r + cells / 2) % cells] = profile[r] + sum / static_cast<double>(cells);
+  }
+}
+
+void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& run, Record& record) {
+  const ClosedChain chain = parameters.chain();
+  const double interval = parameters.times.front();
+  const auto snapshots = static_cast<std::size_t>(parameters.observation_time / interval * (1 + 1e-9)) + 1;
+  std::vector<RingCorrelation> correlations;
+  for (std::size_t field = 0; field < tallies.fields.size(); ++field)
+    correlations.emplace_back(chain.cells, parameters.lags());
+  NoObserver nobody;
+  for (std::size_t j = 0; j < snapshots; ++j) {
+    const double time = parameters.relaxation_time + static_cast<double>(j) * interval;
+    run.observe_until(time, nobody);
+    ConservedFields fields = conserved_fields(run.chain().phase_point(run.clock(time)), chain);
+    for (std::size_t field = 0; field < fields.size(); ++field)
+      correlations[field].add(fluctuation(std::move(fields[field])));
+  }
+  const std::array<double, 3> sums = sum_rules(parameters);
+  for (std::size_t field = 0; field < correlations.size(); ++field)
+    record_ring(correlations[field], parameters.times.size(), sums[field], record[tallies.fields[field]]);
+}
+
+Estimator profiles(const Tallies& tallies) {
+  const std::size_t cells = tallies.cell.values.size(), times = tallies.time.values.size();
+  const auto centre = [=](RecordView mean) {
+    std::vector<double> values;
+    for (std::size_t k = 0; k < times; ++k)
+      values.push_back(mean[tallies.fields[Conserved::number]][k * cells + cells / 2]);
+    return values;
+  };
+  Formulas formulas;
+  formulas.quantity("number_correlation", {tallies.time, tallies.cell}, "1",
+                    "C_n(r, t): covariance of the numbers of particles in two cells",
+                    mean_of(tallies.fields[Conserved::number]));
+  formulas.quantity("energy_correlation", {tallies.time, tallies.cell}, "energy^2",
+                    "C_e(r, t): covariance of the energies of two cells",
+                    mean_of(tallies.fields[Conserved::energy]));
+  formulas.quantity("momentum_correlation", {tallies.time, tallies.cell}, "momentum^2",
+                    "C_g(r, t): covariance of the momenta of two cells",
+                    mean_of(tallies.fields[Conserved::momentum]));
+  formulas.quantity("centre", {tallies.time}, "1", "C_n(0, t), the height of the heat peak", centre);
+  formulas.quantity("local_centre_exponent", {geometric_middles(tallies.time.values)}, "1",
+                    "-d ln centre / d ln t between two times", [=](RecordView mean) {
+                      std::vector<double> values = local_exponents(tallies.time.values, centre(mean));
+                      for (double& value : values) value = -value;
+                      return values;
+                    });
+  return formulas.estimator();
+}
+
+Formulas<MovingPeak> sound(const Tallies& tallies, const PeakWindows& windows) {
+  Formulas<MovingPeak> formulas([=](RecordView mean) {
+    return MovingPeak(mean[tallies.fields[Conserved::momentum]], mean, tallies.time.values, windows);
+  });
+  add_peak_quantities(formulas, tallies.time, "momentum^2");
+  return formulas;
+}
+
+Estimator sound_peak(const Tallies& tallies) {
+  const std::size_t times = tallies.time.values.size();
+  return {sound(tallies, PeakWindows(times)).descriptions(), [=](const Records& records) {
+            return sound(tallies,
+                         peak_windows(records, columns_of({tallies.fields[Conserved::momentum]}), times))
+                .estimator()
+                .estimate(records);
+          }};
+}
+
+Study correlation(const Parameters& parameters) {
+  if (parameters.zero_total_momentum)
+    throw UsageError(
+        "--zero-total-momentum: the variance of the total energy is not known then. Leave it out.");
+  if (parameters.times.size() < 2)
+    throw UsageError("--times has one time: the damping exponent needs two. Add another.");
+  if (parameters.times.back() > parameters.observation_time)
+    throw UsageError("--times goes beyond --observation-time. Choose a longer one, or earlier times.");
+  if (parameters.chain().cells < 7)
+    throw UsageError("--cells is less than 7: a ring so short has no moving peak. Choose more cells.");
+  parameters.lags();
+  const Tallies tallies(parameters);
+  return closed_study(parameters, tallies, std::bind_front(observe, parameters, tallies),
+                      {profiles(tallies), sound_peak(tallies)}, "damping_exponent");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  StudyProgram program("correlation", "Space-time correlations of energy and momentum in a closed chain");
+  Parameters parameters;
+  declare(program.options(), parameters);
+  program.options().ascending_list("--times", parameters.times, positive, "time",
+                                   "Times between the two, multiples of the first");
+  return program.run(argc, argv, [&] { return correlation(parameters); });
+}
