@@ -28,6 +28,7 @@ CHECKS = (
     links.executables,
     product_links.products,
     product_links.strangers,
+    product_links.of_no_quality,
     links.commits,
     links.pipeline,
 )
