@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <span>
 #include <sstream>
 #include <utility>
 
 #include "program/config_file.hpp"
 #include "program/errors.hpp"
+#include "program/nearest_name.hpp"
 #include "program/standard_streams.hpp"
 
 namespace lorentz {
@@ -87,18 +87,6 @@ Option number_or_word(std::optional<Number>& value, Range<Number> range, const s
   Option option{numeric(type, range, units), number_in(range) + ", or " + word, read, recorded};
   option.description["word"] = word;
   return option;
-}
-
-/// Least number of letters to insert, delete or replace to make one word of the other (Levenshtein).
-std::size_t distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);  // of the letters of a so far from the beginnings of b
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j)
-      diagonal = std::exchange(row[j + 1], std::min({row[j] + 1, row[j + 1] + 1, diagonal + (a[i] != b[j])}));
-  }
-  return row.back();
 }
 
 std::string as_text(const AttributeValue& value) {
@@ -245,10 +233,9 @@ void Options::refuse(const std::string& why) const {
 }
 
 std::string Options::nearest(const std::string& name) const {
-  const auto closer = [&](const Option& a, const Option& b) {
-    return distance(a.name, "--" + name) < distance(b.name, "--" + name);
-  };
-  return std::ranges::min_element(options_, closer)->name;
+  std::vector<std::string> names;
+  for (const Option& option : options_) names.push_back(option.name);
+  return nearest_name("--" + name, names);
 }
 
 void Options::refuse_unknown(const std::string& word) const {
