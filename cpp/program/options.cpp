@@ -5,9 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 #include "program/config_file.hpp"
@@ -296,6 +298,15 @@ bool Options::parse(int argc, const char* const* argv, const std::string& versio
   for (Option& option : options_)
     if (const std::string* text = argument(option.name)) read(option, *text, "");
   return true;
+}
+
+void Options::require_not_configuration(const std::string& path) const {
+  const std::string* configuration = argument("--config");
+  std::error_code unknown;  // there may be no file of that name yet
+  if (configuration && std::filesystem::equivalent(*configuration, path, unknown))
+    throw UsageError(fmt::format(
+        "'{}' is the configuration file, which the run would replace or remove. Choose another --output.",
+        path));
 }
 
 std::vector<Parameter> Options::parameters() const {
