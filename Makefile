@@ -49,6 +49,13 @@ override FAULT := $(if $(GIVEN),$(shell $(CHECK)))
 $(if $(FAULT),$(error $(FAULT)))
 $(if $(and $(GIVEN),$(filter-out 0,$(.SHELLSTATUS))),$(error the arguments cannot be checked: python3 is needed))
 
+# Who may not write here is told so before anything is tried.
+WRITING := $(filter-out help audit verify provenance status,$(MAKECMDGOALS))
+PLACES := . build data figures .venv .snakemake .cache
+override CLOSED := $(if $(WRITING),$(shell for each in $(PLACES); do test ! -e $$each || test -w $$each || echo $$each; done))
+$(if $(CLOSED),$(error you may not write in $(CURDIR) ($(CLOSED)): copy the project to a folder of your own; \
+  make audit, verify, provenance and status need no write access))
+
 override PYTHON := .venv/bin/python -P workflow/environment/launch.py
 YES := yes 1
 EFFORT := $(call quote,$(QUALITY)$(if $(SEED),_seed=$(SEED))$(if $(REPLICAS),_replicas=$(REPLICAS)))
@@ -151,8 +158,8 @@ clean:  ## Remove what can be made again, results included
 
 system-packages:
 	cmp -s workflow/environment/system_packages.sh build/system-packages || \
-	  { bash workflow/environment/system_packages.sh && { mkdir -p build && \
-	    cp workflow/environment/system_packages.sh build/system-packages; } || test ! -w .; }
+	  { bash workflow/environment/system_packages.sh && mkdir -p build && \
+	    cp workflow/environment/system_packages.sh build/system-packages; }
 
 # For what looks and changes nothing: packages are installed where there are none, and not repaired.
 installed:

@@ -80,7 +80,7 @@ void Checkpoint::save(const FinishedReplicas& finished) const {
 
 FinishedReplicas Checkpoint::load(const std::function<void(const std::string&)>& warn) const {
   std::string damaged;
-  for (const std::string& path : {path_, former_}) {
+  for (const std::string& path : paths()) {
     if (!exists(path)) continue;
     if (is_whole(path)) {
       const Hdf5Reader file(path);
@@ -127,7 +127,7 @@ FinishedReplicas Checkpoint::replicas_in(const Hdf5Reader& file) const {
 }
 
 void Checkpoint::remove() const {
-  for (const std::string& path : {path_, former_}) ::unlink(path.c_str());
+  for (const std::string& path : paths()) ::unlink(path.c_str());
 }
 
 }  // namespace lorentz

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ class Checkpoint {
   Checkpoint(const std::string& output, std::string identity, std::vector<Description> tallies);
 
   const std::string& path() const { return path_; }
+  std::array<std::string, 2> paths() const { return {path_, former_}; }  // the newest first
 
   /// Throws UsageError if the file cannot be written; the two before it then stay.
   void save(const FinishedReplicas& finished) const;

@@ -6,14 +6,16 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <filesystem>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <span>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 #include "program/config_file.hpp"
 #include "program/errors.hpp"
+#include "program/nearest_name.hpp"
 #include "program/standard_streams.hpp"
 
 namespace lorentz {
@@ -118,18 +120,6 @@ bool read_polynomial(const std::string& text, const Range<double>& range, char s
   }
   value = sum;
   return true;
-}
-
-/// Least number of letters to insert, delete or replace to make one word of the other (Levenshtein).
-std::size_t distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);  // of the letters of a so far from the beginnings of b
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j)
-      diagonal = std::exchange(row[j + 1], std::min({row[j] + 1, row[j + 1] + 1, diagonal + (a[i] != b[j])}));
-  }
-  return row.back();
 }
 
 std::string as_text(const AttributeValue& value) {
@@ -281,10 +271,9 @@ void Options::refuse(const std::string& why) const {
 }
 
 std::string Options::nearest(const std::string& name) const {
-  const auto closer = [&](const Option& a, const Option& b) {
-    return distance(a.name, "--" + name) < distance(b.name, "--" + name);
-  };
-  return std::ranges::min_element(options_, closer)->name;
+  std::vector<std::string> names;
+  for (const Option& option : options_) names.push_back(option.name);
+  return nearest_name("--" + name, names);
 }
 
 void Options::refuse_unknown(const std::string& word) const {
@@ -345,6 +334,15 @@ bool Options::parse(int argc, const char* const* argv, const std::string& versio
   for (Option& option : options_)
     if (const std::string* text = argument(option.name)) read(option, *text, "");
   return true;
+}
+
+void Options::require_not_configuration(const std::string& path) const {
+  const std::string* configuration = argument("--config");
+  std::error_code unknown;  // there may be no file of that name yet
+  if (configuration && std::filesystem::equivalent(*configuration, path, unknown))
+    throw UsageError(fmt::format(
+        "'{}' is the configuration file, which the run would replace or remove. Choose another --output.",
+        path));
 }
 
 std::vector<Parameter> Options::parameters() const {

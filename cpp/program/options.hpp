@@ -99,6 +99,9 @@ class Options {
   /// standard output. Throws UsageError.
   bool parse(int argc, const char* const* argv, const std::string& version_text);
 
+  /// Throws UsageError if a file that is to be written is the configuration file, under whatever name.
+  void require_not_configuration(const std::string& path) const;
+
   /// Values of all options that determine the result, sorted by name.
   std::vector<Parameter> parameters() const;
 

@@ -140,8 +140,10 @@ ExitStatus Program::run_or_throw(int argc, char** argv, const Describe& describe
   }
   if (output_.empty())
     throw UsageError("--output is missing: the results need a file. Add --output FILE.h5.");
-  require_writable(output_, space_asked_for);
-  require_writable(cost_path(output_), space_asked_for);
+  for (const std::string& path : {output_, cost_path(output_)}) {
+    options_.require_not_configuration(path);
+    require_writable(path, space_asked_for);
+  }
   watch_for_signals();
 
   Progress progress(options_.program(), progress_);

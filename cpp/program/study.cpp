@@ -96,7 +96,9 @@ class StudyRun {
         absolute_(parameters.target_absolute > 0),
         target_(absolute_ ? parameters.target_absolute : parameters.target_error),
         deadline_(parameters.time_limit > 0 ? later(parameters.time_limit) : Clock::time_point::max()),
-        rule_{.batch = parameters.replicas, .most = parameters.max_replicas} {}
+        rule_{.batch = parameters.replicas, .most = parameters.max_replicas} {
+    for (const std::string& path : checkpoint_.paths()) program.options().require_not_configuration(path);
+  }
 
   Outcome run() try {
     if (parameters_.resume)

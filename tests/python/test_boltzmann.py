@@ -153,6 +153,12 @@ def test_interrupted_run_writes_nothing(tmp_path: Path) -> None:
         ({"sigma": 1}, ["--sigma", "[-0.99, 0.99]"]),
         ({"gamma": -1}, ["--gamma", "[0, 1000]"]),
         ({"gamma": 1001}, ["--gamma", "[0, 1000]"]),
+        ({"momentum_max": "1e308"}, ["--momentum-max", "the width of a bin"]),
+        ({"momentum_max": "1e-320"}, ["--momentum-max", "the width of a bin"]),
+        (
+            {"momentum_max": "1e-12"},
+            ["--momentum-max", "the hotter reservoir's thermal momentum", "[1e-12, "],
+        ),
         ({"cells": 0}, ["--cells", "or continuum"]),
         ({"cells": 2.5}, ["--cells", "whole number"]),
         ({"cells": 4, "gamma": 5}, ["--gamma", "--cells", "probability"]),

@@ -4,16 +4,12 @@ from pathlib import Path
 
 import pytest
 
-from workflow.provenance import audit
+from workflow.lib.plan import Panel, Run
+from workflow.provenance import audit, product_links
 from workflow.provenance.audit import Findings
-from workflow.provenance.links import Link, no_history, unchecked
-
-
-def test_where_git_is_not_installed_nothing_is_compared_with_commits(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("PATH", str(tmp_path))
-    assert no_history() == "git is not installed"
+from workflow.provenance.chain import Chain
+from workflow.provenance.links import Link, unchecked
+from workflow.provenance.lock import Lock
 
 
 def test_what_is_broken_counts_more_than_what_is_not_checked() -> None:
@@ -21,6 +17,26 @@ def test_what_is_broken_counts_more_than_what_is_not_checked() -> None:
     findings.add([unchecked("a", "first"), Link("b", "second"), Link("a", "third"), Link("b", "fourth")])
     assert [link.message for link in findings.broken] == ["third", "second"]
     assert findings.unchecked == []
+
+
+def test_what_no_job_made_is_named_also_where_it_is_empty(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(product_links, "ROOT", tmp_path)
+    made, strange = "data/smoke/fig03/paper.h5", "data/smoke/fig03/more.h5"
+    empty, begun = "figures/smoke/empty", "data/smoke/fig05"
+    others = ["data/standard_seed=7_replicas=5", "data/deep", "figures/tradeoff"]
+    unknown = ["data/smoke_seed=x", "data/x", "figures/best"]
+    for folder in ("data/smoke/fig03", empty, begun, *others, unknown[0], unknown[2]):
+        (tmp_path / folder).mkdir(parents=True)
+    for file in (made, strange, unknown[1], "data/README.md", "figures/README.md", "figures/tradeoff/a.csv"):
+        (tmp_path / file).write_text("")
+    fig05 = Panel("fig05", "fig05", (Run("all", "persistence", {}),))
+    lock = Lock("smoke")
+    lock.outputs = {made: ""}.copy
+    chain = Chain("smoke", {"fig05": fig05}, lock)
+    assert {link.path for link in product_links.strangers(chain)} == {strange, empty}
+    assert [link.path for link in product_links.of_no_quality(chain)] == unknown
 
 
 @pytest.mark.parametrize(

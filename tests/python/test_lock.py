@@ -39,6 +39,20 @@ def test_a_build_leaves_with_the_last_run_of_it(root: Path, job: Job) -> None:
     assert Lock.read("smoke").builds == {}
 
 
+def test_an_emptied_folder_leaves_with_its_last_product(root: Path, job: Job) -> None:
+    paths = [f"data/smoke/{name}.h5" for name in ("fig05/all", "fig06/all", "fig06/other")]
+    for path in paths:
+        (root / path).parent.mkdir(parents=True, exist_ok=True)
+        (root / path).write_text("")
+    with changing("smoke") as lock:
+        for path in paths[:2]:
+            name = path.removeprefix("data/smoke/").removesuffix(".h5")
+            lock.jobs[name] = replace(job, outputs={path: KEPT})
+    stale.retire("smoke", ["fig05/all", "fig06/all"])
+    assert not (root / "data/smoke/fig05").exists()
+    assert [path.name for path in (root / "data/smoke/fig06").iterdir()] == ["other.h5"]
+
+
 def test_options_keep_their_types(root: Path, job: Job) -> None:
     with changing("smoke") as lock:
         lock.jobs["fig05/all"] = job

@@ -282,6 +282,27 @@ def test_extremes(program: Program, tmp_path: Path, name: str, options: dict) ->
         ("conductivity", {"start": "hot"}, ["--start", "empty", "warm"]),
         ("momentum_flux", {"momentum_bins": 21}, ["--momentum-bins", "odd", "even number"]),
         ("steady_profile", {"momentum_max": 0}, ["--momentum-max"]),
+        *(
+            (name, {"momentum_max": value}, ["--momentum-max", "the width of a bin", "Choose other values"])
+            for name in ("momentum_flux", "steady_profile", "particle_count")
+            for value in ("1e308", "1e-320")
+        ),
+        (
+            "particle_count",
+            {
+                "nu_left": 0,
+                "nu_right": 0,
+                "temperature_left": 1e-280,
+                "temperature_right": 1e-280,
+                "cell_length": 1e-145,
+                "times": "0.1,1",
+                "momentum_max": 1e200,
+            },
+            [
+                "--momentum-max, --times, --cell-length",
+                "the number of cells that the fastest particle passes",
+            ],
+        ),
         ("particle_count", {"times": "10"}, ["--times", "later times"]),
         (
             "conductivity",

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from workflow.provenance import repository
-from workflow.provenance.repository import FileHashes, files_at, state
+from workflow.provenance.repository import FileHashes, files_at, no_history, state
 
 TRUE, FALSE = "true\n", "false\n"
 
@@ -60,6 +60,22 @@ def test_a_file_that_git_is_told_not_to_look_at_may_have_changed(root: Path, mar
     (root / "a").write_text(FALSE)
     assert run(root, "status", "--porcelain") == ""
     assert state()["dirty"] is True
+
+
+def test_what_keeps_git_from_reading_is_told_apart(
+    root: Path, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert no_history() is None
+    with monkeypatch.context() as other_user:
+        other_user.setenv("GIT_TEST_ASSUME_DIFFERENT_OWNER", "1")
+        remedy = f"git config --global --add safe.directory {root}"
+        assert no_history() == f"the repository is another user's, which git reads after: {remedy}"
+    (root / ".git/shallow").write_text(run(root, "rev-parse", "HEAD"))
+    assert no_history() == "the repository is shallow"
+    monkeypatch.setattr(repository, "ROOT", tmp_path_factory.mktemp("empty"))
+    assert no_history() == "this is no repository that git reads"
+    monkeypatch.setenv("PATH", str(root))
+    assert no_history() == "git is not installed"
 
 
 def test_what_lies_behind_a_link_is_no_file_of_the_project(root: Path) -> None:

@@ -18,7 +18,8 @@ from workflow.provenance.lock import checksum_of
 LOCK = "data/smoke/lock.json"
 PICTURE = "figures/smoke/fig03.png"
 PROGRAM = "build/bin/boltzmann"
-FOLDERS = ("workflow/lib/fit.py", "workflow/lib/__pycache__")  # that edits make
+EMPTY, UNKNOWN = ("data/smoke/fig03/empty", "figures/smoke/empty"), ("data/best", "figures/best")
+FOLDERS = ("workflow/lib/fit.py", "workflow/lib/__pycache__", *EMPTY, *UNKNOWN)  # that edits make
 
 
 @pytest.fixture

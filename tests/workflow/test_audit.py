@@ -12,9 +12,11 @@ import pytest
 
 from tests.workflow.conftest import Clone, append, copy, delete, replace
 from tests.workflow.tampering import (
+    EMPTY,
     LOCK,
     PICTURE,
     PROGRAM,
+    UNKNOWN,
     both,
     in_place_of,
     other_machine,
@@ -165,6 +167,13 @@ TAMPERINGS = {
     "link to a folder": (
         in_place_of("figures/smoke/more", lambda path: path.symlink_to("..")),
         "figures/smoke/more",
+    ),
+    "empty folder among the data": (in_place_of(EMPTY[0], Path.mkdir), EMPTY[0]),
+    "empty folder among the figures": (in_place_of(EMPTY[1], Path.mkdir), EMPTY[1]),
+    "empty folder of no quality": (in_place_of(UNKNOWN[0], Path.mkdir), UNKNOWN[0]),
+    "figure of no quality": (
+        both(in_place_of(UNKNOWN[1], Path.mkdir), copy(PICTURE, f"{UNKNOWN[1]}/fig03.png")),
+        UNKNOWN[1],
     ),
     "queue in place of data": (in_place_of(DATA, os.mkfifo), DATA),
     "queue in place of a picture": (in_place_of(PICTURE, os.mkfifo), PICTURE),

@@ -5,6 +5,7 @@ import resource
 import shutil
 import signal
 import subprocess
+import tempfile
 import time
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from tests.workflow.conftest import ROOT, Clone, clone_into
 from workflow.lib.load import load
 from workflow.lib.plan import load_plan
 
+NOBODY = 65534  # a user who owns nothing
 SIGMA = "data/smoke/fig05/dense_sigma="
 HOSTILE = {
     "LC_ALL": "de_DE.UTF-8",
@@ -233,6 +235,35 @@ def test_options_are_text(clean: Clone, tmp_path: Path, target: str, option: str
     made = clean.make(target, *(f"{name}={value}" for name, value in options.items()))
     assert not (tmp_path / "x").exists(), made.stdout
     assert made.returncode != 0
+
+
+@pytest.mark.parametrize("closed", [".", "build"])
+def test_who_may_not_write_is_told_in_one_line(closed: str) -> None:
+    with tempfile.TemporaryDirectory() as name:  # where others than the owner may look
+        folder = Path(name)
+        folder.chmod(0o777)
+        (folder / "build").mkdir()
+        (folder / "workflow/environment").mkdir(parents=True)
+        for file in ("Makefile", "workflow/environment/arguments.py"):
+            shutil.copyfile(ROOT / file, folder / file)
+        (folder / closed).chmod(0o555)
+        made = subprocess.run(
+            ["/usr/bin/make", "panel", "PANEL=fig05"],
+            cwd=folder,
+            env={"PATH": os.defpath},
+            user=None if os.getuid() else NOBODY,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            check=False,
+        )
+        looked = [*folder.rglob("*")]
+        (folder / closed).chmod(0o755)
+    assert made.returncode == 2
+    assert made.stdout.count("\n") == 1
+    assert f"you may not write in {folder} ({closed}" in made.stdout
+    assert "copy the project to a folder of your own; make audit, verify" in made.stdout
+    assert len(looked) == 5
 
 
 def test_bad_configuration_is_refused_before_anything_runs(clean: Clone) -> None:

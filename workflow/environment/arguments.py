@@ -1,5 +1,7 @@
 """Checks the arguments of make, before anything else happens. Prints what is wrong with the first one that is.
 
+Of an argument that is given more than once make keeps the last value alone, also in MAKEFLAGS and MAKEOVERRIDES (GNU make
+4.3), so that it cannot be refused here.
 Standard library only: this runs before anything is installed.
 """
 

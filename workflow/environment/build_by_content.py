@@ -18,7 +18,8 @@ SOURCES = ("cpp/**/*.[ch]pp", "cpp/**/CMakeLists.txt", "tests/cpp/**/*", "workfl
 
 
 def hash_of(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def present() -> dict[str, str]:

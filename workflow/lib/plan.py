@@ -81,6 +81,14 @@ class Quality:
         }
 
 
+def is_quality(name: str) -> bool:
+    try:
+        Quality.of(name)
+    except ConfigurationError:
+        return False
+    return True
+
+
 def load_plan(name: str, folder: Path = FOLDER) -> dict[str, Panel]:
     """All panels at one quality, by name. Raises ConfigurationError."""
     quality = Quality.of(name)

@@ -14,10 +14,10 @@ from workflow.lib.plan import ConfigurationError, Quality, load_plan, panel_name
 from workflow.provenance import links, product_links
 from workflow.provenance.chain import Chain
 from workflow.provenance.crate_check import CrateError, Deposit
-from workflow.provenance.links import Link, no_history
+from workflow.provenance.links import Link
 from workflow.provenance.lock import Lock, LockError
 from workflow.provenance.redo import RedoError, redrawn, workplace
-from workflow.provenance.repository import FileHashes, signature
+from workflow.provenance.repository import FileHashes, no_history, signature
 
 CHECKS = (
     links.records,
@@ -28,6 +28,7 @@ CHECKS = (
     links.executables,
     product_links.products,
     product_links.strangers,
+    product_links.of_no_quality,
     links.commits,
     links.pipeline,
 )

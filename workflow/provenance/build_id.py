@@ -35,8 +35,13 @@ def include_closure(root: Path, source: str) -> list[str]:
     return sorted(closure)
 
 
+def content_hash(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
 def content_hashes(root: Path, closure: list[str]) -> dict[str, str]:
-    return {name: hashlib.sha256((root / name).read_bytes()).hexdigest() for name in closure}
+    return {name: content_hash(root / name) for name in closure}
 
 
 def source_hash(contents: dict[str, str]) -> str:

@@ -7,7 +7,6 @@ products: product_links.py.
 import hashlib
 import json
 import os
-import shutil
 from collections import Counter, defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -17,7 +16,7 @@ from workflow.lib.parents import PACKAGES
 from workflow.provenance.build_id import build_id, source_hash
 from workflow.provenance.chain import Chain
 from workflow.provenance.lock import Job, configuration_files
-from workflow.provenance.repository import ROOT, files_at, git
+from workflow.provenance.repository import ROOT, files_at, no_history
 
 NAMED = 5  # files of packages that are named where many are wrong
 
@@ -34,16 +33,6 @@ class Link:
 
 def unchecked(path: str, why: str) -> Link:
     return Link(path, why, broken=False)
-
-
-def no_history() -> str | None:
-    """Why nothing can be compared with commits; none if it can."""
-    if shutil.which("git") is None:
-        return "git is not installed"
-    shallow = git("rev-parse", "--is-shallow-repository")
-    if shallow is None:
-        return "this is no repository that git reads"
-    return "the repository is shallow" if shallow == b"true\n" else None
 
 
 def records(chain: Chain) -> Iterator[Link]:

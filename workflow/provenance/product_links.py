@@ -4,13 +4,14 @@ import os
 import stat
 from collections.abc import Iterator
 
-from workflow.lib.plan import data_of
+from workflow.lib.plan import data_of, is_quality
 from workflow.provenance.chain import Chain
 from workflow.provenance.links import Link, unchecked
 from workflow.provenance.lock import Job
 from workflow.provenance.metadata import drawing_fault, run_fault
 from workflow.provenance.repository import ROOT
 
+BESIDE = {"data": {"README.md"}, "figures": {"README.md", "tradeoff"}}  # the qualities' folders
 RECORDS = ("lock.json", "verification.json")  # in data/<quality>, which no job makes
 
 
@@ -28,11 +29,15 @@ def products(chain: Chain) -> Iterator[Link]:
 def strangers(chain: Chain) -> Iterator[Link]:
     """What lies among the products and is none."""
     known = chain.lock.outputs().keys() | {f"data/{chain.quality}/{name}" for name in RECORDS}
+    in_use = folders_of_jobs(chain)
     unreadable: list[OSError] = []
     for place in ("data", "figures"):
         if (ROOT / place / chain.quality).is_symlink():
             yield Link(f"{place}/{chain.quality}", "is a link")
         for folder, folders, files in os.walk(ROOT / place / chain.quality, onerror=unreadable.append):
+            path = os.path.relpath(folder, ROOT)
+            if not folders and not files and path not in in_use:
+                yield Link(path, "is an empty folder: no job in the lock made it", path)
             for name in sorted([*folders, *files]):
                 path = os.path.relpath(os.path.join(folder, name), ROOT)
                 mode = os.lstat(ROOT / path).st_mode
@@ -46,6 +51,23 @@ def strangers(chain: Chain) -> Iterator[Link]:
             f"figures/{chain.quality}",
         ):
             yield unchecked(path, f"cannot be read: {error.strerror}")
+
+
+def folders_of_jobs(chain: Chain) -> set[str]:
+    """Where products lie or will lie; an interrupted run leaves such a folder empty."""
+    planned = [path for name in chain.plan for path in data_of(chain.plan, name, chain.quality)]
+    drawn = [path for name in chain.plan for path in chain.outputs(name)]
+    return {os.path.dirname(path) for path in [*chain.lock.outputs(), *planned, *drawn]}
+
+
+def of_no_quality(_: Chain) -> Iterator[Link]:
+    """What lies beside the qualities' folders, where jobs make nothing."""
+    for place, others in BESIDE.items():
+        names = os.listdir(ROOT / place) if (ROOT / place).is_dir() else []
+        for name in sorted({*names} - others):
+            if not (is_quality(name) and (ROOT / place / name).is_dir()):
+                path = f"{place}/{name}"
+                yield Link(path, "is no folder of a known quality: no job made it", path)
 
 
 def runs(chain: Chain, names: set[str]) -> Iterator[Link]:

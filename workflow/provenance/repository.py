@@ -36,10 +36,10 @@ def write_whole(path: Path, text: str) -> None:
     unfinished.replace(path)
 
 
-def git(*arguments: str, given: bytes = b"") -> bytes | None:
-    """What git prints, or nothing where it fails: not installed, outside a repository, or an unknown commit."""
+def run_git(*arguments: str, given: bytes = b"") -> subprocess.CompletedProcess | None:
+    """None where git is not installed."""
     try:
-        done = subprocess.run(
+        return subprocess.run(
             ["git", *arguments],
             cwd=ROOT,
             env=os.environ | PLAIN,
@@ -49,7 +49,25 @@ def git(*arguments: str, given: bytes = b"") -> bytes | None:
         )
     except FileNotFoundError:
         return None
-    return done.stdout if done.returncode == 0 else None
+
+
+def git(*arguments: str, given: bytes = b"") -> bytes | None:
+    """What git prints, or nothing where it fails: not installed, outside a repository, or an unknown commit."""
+    done = run_git(*arguments, given=given)
+    return done.stdout if done and done.returncode == 0 else None
+
+
+def no_history() -> str | None:
+    """Why nothing can be compared with commits; none if it can."""
+    done = run_git("rev-parse", "--is-shallow-repository")
+    if done is None:
+        return "git is not installed"
+    for line in done.stderr.decode(errors="replace").splitlines():
+        if "git config" in line and "safe.directory" in line:  # what git says to another user than the owner
+            return f"the repository is another user's, which git reads after: {line.strip()}"
+    if done.returncode:
+        return "this is no repository that git reads"
+    return "the repository is shallow" if done.stdout == b"true\n" else None
 
 
 def state() -> dict:

@@ -3,6 +3,7 @@
 Run by Snakemake itself when it starts (Snakefile).
 """
 
+import contextlib
 import glob
 from collections.abc import Iterable
 
@@ -62,7 +63,11 @@ def unasked(quality: str, plan: dict[str, Panel]) -> list[str]:
 
 
 def retire(quality: str, names: Iterable[str]) -> None:
-    """The jobs leave the lock, and their products the data and the figures."""
+    """The jobs leave the lock, and their products the data and the figures, with the folders of their own."""
     with changing(quality) as lock:
         for name in names:
-            replace(lock.jobs.pop(name).outputs)
+            outputs = lock.jobs.pop(name).outputs
+            replace(outputs)
+            for folder in {(ROOT / path).parent for path in outputs}:
+                with contextlib.suppress(OSError):  # others' products lie there too
+                    folder.rmdir()
