@@ -29,7 +29,7 @@ PARENTS = Parents(
 @pytest.fixture
 def stem(tmp_path: Path) -> Path:
     figure, _ = plt.subplots()
-    save(figure, as_csv(pd.DataFrame({"a": [1.0]}), {"a": "1"}), tmp_path / "a", "title", PARENTS)
+    save(figure, as_csv(pd.DataFrame({"a": [1.0]}), {"a": "1"}), tmp_path / "a", "title", "caption", PARENTS)
     plt.close(figure)
     return tmp_path / "a"
 

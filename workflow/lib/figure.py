@@ -18,7 +18,7 @@ from workflow.lib.load import Result, load
 from workflow.lib.parents import Parents, file_hash
 from workflow.lib.save import save
 
-Draw = Callable[[Sequence[Result]], tuple[Figure, pd.DataFrame]]
+Draw = Callable[[Sequence[Result]], tuple[Figure, pd.DataFrame, str]]
 
 
 def described(result: Result) -> dict:
@@ -35,7 +35,8 @@ def build(result: Result) -> dict[str, str]:
 
 
 def run(draw: Draw, title: str, **units: str) -> None:
-    """draw gets the panel's results and returns the figure and the table of what it shows."""
+    """draw gets the panel's results and returns the figure, the table of what it shows, and its caption: a paragraph of
+    plain text that says what is shown and what is to be seen, with numbers from the data."""
     parser = argparse.ArgumentParser(description=title)
     parser.add_argument("--data", type=Path, nargs="+", required=True, help="result files of the panel")
     parser.add_argument(
@@ -48,7 +49,7 @@ def run(draw: Draw, title: str, **units: str) -> None:
 
     results = [load(path) for path in options.data]
     style.apply()
-    figure, table = draw(results)
+    figure, table, *caption = draw(results)
     parents = Parents(
         panel=options.output.name,
         quality=options.output.parent.name,
@@ -59,4 +60,5 @@ def run(draw: Draw, title: str, **units: str) -> None:
         python=f"{sys.version_info.major}.{sys.version_info.minor}",
         configuration=options.configuration,
     )
-    save(figure, as_csv(table, inherited(results) | units), options.output, title, parents)
+    saved = as_csv(table, inherited(results) | units)
+    save(figure, saved, options.output, title, " ".join("".join(caption).split()), parents)

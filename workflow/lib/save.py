@@ -13,8 +13,11 @@ from workflow.lib.parents import PARENTS_LINE, Parents
 CREATOR = "lorentz-gas"
 
 
-def save(figure: Figure, table: str, stem: Path, title: str, parents: Parents) -> None:
-    """Writes stem.pdf, .png, .svg and .csv, all or none. The table is that of columns.as_csv()."""
+CAPTION_LINE = "# caption: "
+
+
+def save(figure: Figure, table: str, stem: Path, title: str, caption: str, parents: Parents) -> None:
+    """Writes stem.pdf, .png, .svg and .csv, all or none. The table is that of columns.as_csv(), the caption one line."""
     described = parents.as_json()
     pictures = {
         "pdf": {
@@ -22,13 +25,17 @@ def save(figure: Figure, table: str, stem: Path, title: str, parents: Parents) -
             "Creator": CREATOR,
             "Producer": CREATOR,
             "Subject": described,
+            "Keywords": caption,
             "CreationDate": None,
         },
-        "png": {"Title": title, "Software": CREATOR, "Description": described},
+        "png": {"Title": title, "Software": CREATOR, "Description": described, "Comment": caption},
         "svg": {"Title": title, "Creator": CREATOR, "Description": described, "Date": None},
     }
     contents = {kind: _picture(figure, kind, metadata) for kind, metadata in pictures.items()}
-    contents["csv"] = f"# {title}\n{PARENTS_LINE}{described}\n{table}".encode()
+    units, numbers = table.split("\n", maxsplit=1)
+    contents["csv"] = "\n".join(
+        [f"# {title}", PARENTS_LINE + described, units, CAPTION_LINE + caption, numbers]
+    ).encode()
     stem.parent.mkdir(parents=True, exist_ok=True)
     unfinished = {kind: stem.with_suffix(f".{kind}.tmp") for kind in contents}
     for kind, path in unfinished.items():
