@@ -10,7 +10,7 @@ import pytest
 
 from workflow.lib.columns import as_csv
 from workflow.lib.parents import ArtefactError, Parents
-from workflow.lib.save import save
+from workflow.lib.save import Text, save
 
 KINDS = ("pdf", "png", "svg", "csv")
 BUILD = {name: "" for name in ("program", "source_hash", "compiler", "flags", "libraries")}
@@ -29,7 +29,13 @@ PARENTS = Parents(
 @pytest.fixture
 def stem(tmp_path: Path) -> Path:
     figure, _ = plt.subplots()
-    save(figure, as_csv(pd.DataFrame({"a": [1.0]}), {"a": "1"}), tmp_path / "a", "title", "caption", PARENTS)
+    save(
+        figure,
+        as_csv(pd.DataFrame({"a": [1.0]}), {"a": "1"}),
+        tmp_path / "a",
+        Text("title", "caption"),
+        PARENTS,
+    )
     plt.close(figure)
     return tmp_path / "a"
 

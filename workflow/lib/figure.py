@@ -16,7 +16,7 @@ from workflow.lib import style
 from workflow.lib.columns import as_csv, inherited
 from workflow.lib.load import Result, load
 from workflow.lib.parents import Parents, file_hash
-from workflow.lib.save import save
+from workflow.lib.save import Text, save
 
 Draw = Callable[[Sequence[Result]], tuple[Figure, pd.DataFrame, str]]
 
@@ -61,4 +61,4 @@ def run(draw: Draw, title: str, **units: str) -> None:
         configuration=options.configuration,
     )
     saved = as_csv(table, inherited(results) | units)
-    save(figure, saved, options.output, title, " ".join("".join(caption).split()), parents)
+    save(figure, saved, options.output, Text(title, " ".join("".join(caption).split())), parents)

@@ -4,6 +4,7 @@ Equal inputs give equal bytes: no file holds a time, a host, a user or an absolu
 """
 
 import io
+from dataclasses import dataclass
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -16,25 +17,31 @@ CREATOR = "lorentz-gas"
 CAPTION_LINE = "# caption: "
 
 
-def save(figure: Figure, table: str, stem: Path, title: str, caption: str, parents: Parents) -> None:
-    """Writes stem.pdf, .png, .svg and .csv, all or none. The table is that of columns.as_csv(), the caption one line."""
+@dataclass(frozen=True)
+class Text:
+    title: str
+    caption: str  # one line
+
+
+def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -> None:
+    """Writes stem.pdf, .png, .svg and .csv, all or none. The table is that of columns.as_csv()."""
     described = parents.as_json()
     pictures = {
         "pdf": {
-            "Title": title,
+            "Title": text.title,
             "Creator": CREATOR,
             "Producer": CREATOR,
             "Subject": described,
-            "Keywords": caption,
+            "Keywords": text.caption,
             "CreationDate": None,
         },
-        "png": {"Title": title, "Software": CREATOR, "Description": described, "Comment": caption},
-        "svg": {"Title": title, "Creator": CREATOR, "Description": described, "Date": None},
+        "png": {"Title": text.title, "Software": CREATOR, "Description": described, "Comment": text.caption},
+        "svg": {"Title": text.title, "Creator": CREATOR, "Description": described, "Date": None},
     }
     contents = {kind: _picture(figure, kind, metadata) for kind, metadata in pictures.items()}
     units, numbers = table.split("\n", maxsplit=1)
     contents["csv"] = "\n".join(
-        [f"# {title}", PARENTS_LINE + described, units, CAPTION_LINE + caption, numbers]
+        [f"# {text.title}", PARENTS_LINE + described, units, CAPTION_LINE + text.caption, numbers]
     ).encode()
     stem.parent.mkdir(parents=True, exist_ok=True)
     unfinished = {kind: stem.with_suffix(f".{kind}.tmp") for kind in contents}
