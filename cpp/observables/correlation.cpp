@@ -70,8 +70,9 @@ struct Tallies : ClosedTallies {
 };
 
 /// Sums over r of the correlations in an infinite chain, conserved: variances of the totals per cell, by
-/// Conserved [eq. 55]. The shift to zero total momentum takes one degree of freedom from the particles and
-/// turns that of the scatterers' total momentum into (1 + M/n).
+/// Conserved [eq. 55]. That of the number is 0, because every cell starts with as many particles. The shift
+/// to zero total momentum takes one degree of freedom from the particles and turns that of the scatterers'
+/// total momentum into (1 + M/n).
 std::array<double, 3> sum_rules(const Parameters& parameters) {
   const ClosedChain chain = parameters.chain();
   const double n = chain.particles_per_cell, cells = chain.cells;
@@ -82,7 +83,7 @@ std::array<double, 3> sum_rules(const Parameters& parameters) {
     const double mass = std::pow(CollisionRule(chain.sigma).root_mass(), 2);
     energies += of_scatterer * (std::pow(1 + mass / n, 2) - 1) - of_particle;
   }
-  return {n, energies / cells, parameters.mean_square_momentum() / cells};
+  return {0, energies / cells, parameters.mean_square_momentum() / cells};
 }
 
 /// The field minus its mean over the ring.

@@ -34,7 +34,7 @@ TEST(OpenParameters, Starts) {
 
 // Mutant: the observation counted from 0.
 TEST(OpenParameters, WindowFollowsTheRelaxation) {
-  const Window window = WindowParameters{.relaxation_time = {2, true}, .observation_time = {3}}.window(5);
+  const Window window = WindowParameters{.relaxation_time = {{0, 2, 0}}, .observation_time = {{3, 0, 0}}}.window(5);
   EXPECT_EQ(window.begin, 10);
   EXPECT_EQ(window.end, 13);
 }
