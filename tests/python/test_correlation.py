@@ -151,7 +151,9 @@ def test_sums_over_the_ring_are_known(correlation: Callable[..., Result]) -> Non
     totals = {"number": 0, "energy": (PARTICLES * TEMPERATURE**2 + SCATTERERS**2) / 2,
               "momentum": PARTICLES * TEMPERATURE + MASS * SCATTERERS}  # fmt: skip
     for name, total in totals.items():
-        np.testing.assert_allclose(result[f"{name}_correlation"].mean.sum(axis=1), total, rtol=1e-9, atol=1e-9)
+        np.testing.assert_allclose(
+            result[f"{name}_correlation"].mean.sum(axis=1), total, rtol=1e-9, atol=1e-9
+        )
     still = correlation(**run, zero_total_momentum=True)
     np.testing.assert_allclose(
         still["momentum_correlation"].mean.sum(axis=1), 0, atol=1e-9 * totals["momentum"]
