@@ -131,7 +131,7 @@ def test_arguments() -> None:
             "200,100",
             ['times = "200,100"', "ascending, separated by commas"],
         ),
-        (("panels", "fig01", "common", "start"), "hot", ['start = "hot"', "empty or warm"]),
+        (("panels", "fig01", "common", "start"), "tepid", ['start = "tepid"', "empty or warm"]),
         (
             ("panels", "fig08", "series", "rare", "observation-time"),
             "-1N",

@@ -49,6 +49,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     axes.axhline(1 / 3, **style.GUIDE)
     axes.annotate("1/3", (1.01, 1 / 3), xycoords=("axes fraction", "data"), va="center", size=8)
     axes.set(xscale="log", xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, None))
+    style.label_sizes(axes.xaxis)
     axes.legend(loc="upper right")
     caption = (
         "Local exponent of the heat conductivity between neighbouring sizes, from the runs of ext. 9 at gamma = N. At the "

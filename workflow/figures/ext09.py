@@ -97,6 +97,8 @@ def draw_powers(axes: Axes, table: pd.DataFrame) -> None:
     axes.text(size[1], 0.86 * guide[1], "$N^{1/3}$", size=8, ha="right", va="top")
     axes.set(xscale="log", yscale="log", xlabel="number of cells $N$")
     axes.set(ylabel=rf"conductivity $\kappa$ ({style.UNITS})", title="(a)")
+    style.label_sizes(axes.xaxis)
+    style.label_within_decades(axes.yaxis)
     axes.legend(loc="upper left")
 
 

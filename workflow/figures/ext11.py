@@ -115,6 +115,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         axes.plot(size, guide, **style.GUIDE)
         axes.text(size[1], 0.85 * guide[1], text, size=8, ha="right", va="top")
         axes.set(xscale="log", yscale="log", xlabel="number of cells $N$")
+        style.label_sizes(axes.xaxis)
+        style.label_within_decades(axes.yaxis)
     left.set(ylabel="$L_{nn}$", title="(a)")
     right.set(ylabel=rf"$\kappa_0$ at $J_n = 0$ ({style.UNITS})", title="(b)")
     left.legend(loc="upper left")
