@@ -120,7 +120,9 @@ def found(table: pd.DataFrame, gamma: str | int) -> str:
     """What the points of one gamma say of a power law."""
     part = table[table.gamma == gamma]
     law, local = exponent(part), local_exponents(part)
-    first, last = (with_error(*local[["exponent_to_next", "exponent_to_next_error"]].iloc[k]) for k in (0, -1))
+    first, last = (
+        with_error(*local[["exponent_to_next", "exponent_to_next_error"]].iloc[k]) for k in (0, -1)
+    )
     goodness = f"χ² = {law.chi_square:.0f} for {law.freedom} degrees of freedom"
     said = f"exponent {law.text}" if not law.rejected else "no single power of N"
     return f"γ = {gamma}: {said} ({goodness}); the local exponent goes from {first} at the smallest sizes to {last} at the largest"

@@ -10,7 +10,6 @@ from scipy.stats import chi2
 LEVEL = 1e-2
 
 
-
 @dataclass(frozen=True)
 class Line:
     """y = intercept + slope x; error is that of the slope. chi_square and freedom (degrees of freedom) tell how good the fit is."""
@@ -54,11 +53,11 @@ def rejected(chi_square: float, freedom: int) -> bool:
 def with_error(value: float, error: float) -> str:
     """A number with two digits of its error: in units of the last one, as 1.8620(54), or with a point, as 745.0(8.2)."""
     if not (np.isfinite(error) and error > 0):
-        return f"{value:.4g}"
+        return f"{value:.4g}".replace("-", "−")
     error = float(f"{error:.1e}")
     digits = max(0, 1 - int(np.floor(np.log10(error))))
     shown = f"{error:.{digits}f}" if error >= 1 else f"{round(error * 10**digits)}"
-    return f"{value:.{digits}f}({shown})"
+    return f"{value:.{digits}f}({shown})".replace("-", "−")
 
 
 def mean_of(value: ArrayLike, error: ArrayLike) -> tuple[float, float, float]:
