@@ -76,7 +76,7 @@ def draw_distribution(axes: Axes, table: pd.DataFrame, reach: float) -> None:
     """F over its bins at both ends; faint where the rates are equal, black without correlations."""
     for (_, place), part in table.groupby(["nu_left", "x"], sort=False):
         _, color, dashes, _ = ENDS[place]
-        equal = (part.nu_left == part.nu_right).all()
+        equal = bool((part.nu_left == part.nu_right).all())
         label = f"${place}$" + EQUAL * equal
         for half in halves(part[part.momentum.abs() < reach]):
             look = {"color": color, "linestyle": dashes, "alpha": 0.45 if equal else 1}
