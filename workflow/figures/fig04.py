@@ -97,7 +97,7 @@ def draw_residuals(axes: Axes, table: pd.DataFrame) -> None:
             axes.errorbar(half.momentum, residual, half.flux_error / unit, linestyle=dashes, **look)
     axes.axhline(0, color=style.BLACK, linewidth=0.6)
     axes.axvline(0, **style.GUIDE)
-    axes.set(xlabel="momentum $p$", ylabel="minus without\ncorrelations / % of max", xlim=(-SHOWN, SHOWN))
+    axes.set(xlabel="momentum $p$", ylabel=r"$F_N - F$ / % of max $F$", xlim=(-SHOWN, SHOWN))
 
 
 def cases(table: pd.DataFrame) -> list[tuple[str, bool, pd.DataFrame]]:
@@ -125,6 +125,7 @@ def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
     names = [rf"$\gamma = {gamma}$" + EQUAL * equal for gamma, equal, _ in chains]
     axes.set_yticks([-row for row in range(len(chains))], names)
     axes.tick_params(axis="y", length=0)
+    axes.margins(x=0.25)
 
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
@@ -139,8 +140,8 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     return f"""
         Flux distribution F_N(p, x) of the particles behind the first scatterer (solid, circles) and the last (dashed,
         squares) of an open chain; {parameters(main, *CHAIN, *BATHS, *WINDOW)}, {replicas(runs)}. Black: without
-        correlations. {faint} (a) F_N, (b) the same about the momentum zero, (c) what is left when the uncorrelated one is subtracted,
-        in per cent of its maximum, (d) jump at momentum zero; black bars without correlations. Jumps at {"; ".join(said)}.
+        correlations. {faint} (a) F_N, (b) the same about the momentum zero, (c) the same minus the uncorrelated F, in per cent of its
+        maximum, (d) jump at momentum zero; black bars without correlations. Jumps at {"; ".join(said)}.
         {ERRORS}. The paper has the curves of γ = 1 on top of the kinetic equation, and says that
         at γ = N the jump comes from unequal rates alone; with equal rates it would vanish."""
 
