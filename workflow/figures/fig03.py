@@ -12,14 +12,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.caption import listed, number, parameters
+from workflow.lib.caption import BATHS, listed, number, parameters
 from workflow.lib.figure import run
 from workflow.lib.load import Result
 
 ENDS = [(0, "x = 0", style.BLUE, "solid"), (-1, "x = 1", style.VERMILLION, (0, (4, 1.5)))]
 PAPER, EQUAL = "as in the paper", "equal temperatures"
 SHOWN = 45
-BATHS = ("nu-left", "nu-right", "temperature-left", "temperature-right")
 
 
 def baths(result: Result) -> str:
@@ -68,8 +67,8 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         Flux distribution F(p, x) of the particles at the left (solid) and the right end (dashed) of the system by the kinetic equation,
         {parameters(paper, "sigma", "gamma", *BATHS)}. (a) F; it jumps at momentum zero by {listed(jumps)}. (b) Each half over the Gaussian
         half of its own rate and second moment: what a bath injects is Gaussian, what leaves is not, with kurtoses <p⁴>/<p²>² up to
-        {number(own.kurtosis.max())} (a Gaussian has three). Dotted: the same for baths with
-        {parameters(equal, *BATHS)}, with kurtoses up to {number(others.kurtosis.max())}. Numerical errors, below
+        {number(own["kurtosis"].max())} (a Gaussian has three). Dotted: the same for baths with
+        {parameters(equal, *BATHS)}, with kurtoses up to {number(others["kurtosis"].max())}. Numerical errors, below
         {paper[0].provenance["achieved_error"]:.0e} of the currents, are thinner than a line. The paper has the same two properties."""
 
 
@@ -78,6 +77,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     figure, (above, below) = plt.subplots(
         2, 1, sharex=True, figsize=(style.COLUMN, 1.5 * style.HEIGHT), height_ratios=[2, 1]
     )
+    departure = 100 * (table.flux / table.gaussian - 1)
+    often = departure[table.flux > table.flux.max() / 100]
     for _, place, color, dashes in ENDS:
         ends = table[table.x == place]
         for name, look in (
@@ -87,10 +88,11 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
             part = ends[ends.baths == name]
             if name == PAPER:
                 draw_halves(above, part, part.flux, color=color, label=f"${place}$", **look)
-            draw_halves(below, part, 100 * (part.flux / part.gaussian - 1), color=color, **look)
+            draw_halves(below, part, departure[part.index], color=color, **look)
     for axes in (above, below):
         axes.axvline(0, **style.GUIDE)
     above.set(ylabel="$F(p, x)$", xlim=(-SHOWN, SHOWN), ylim=(0, None))
+    below.set_ylim(1.3 * often.min(), 1.3 * often.max())
     below.plot([], [], color="grey", linestyle="dotted", label="$T_L = T_R$")
     below.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel="$F$ over Gaussian,\nminus 1 / %")
     above.legend(loc="upper right")
