@@ -36,7 +36,10 @@ def number(value: float) -> str:
     """With a minus sign, and as a fraction where that is shorter."""
     fraction = Fraction(value).limit_denominator(10)
     exact = fraction.denominator > 1 and abs(fraction - Fraction(value)) < 1e-12
-    text = str(fraction) if exact and fraction.denominator in (2, 3) else f"{value:.4g}"
+    if exact and fraction.denominator in (2, 3):
+        text = str(fraction)
+    else:
+        text = f"{value:.0f}" if abs(value) >= 1e4 else f"{value:.4g}"
     return text.replace("-", "−")
 
 
