@@ -97,7 +97,7 @@ def caption(tables: Sequence[pd.DataFrame], results: Sequence[Result]) -> str:
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     figure, (above, below) = plt.subplots(
-        2, 1, sharex=True, figsize=(style.COLUMN, 1.4 * style.HEIGHT), height_ratios=[1.7, 1]
+        2, 1, sharex=True, figsize=(style.COLUMN, 1.6 * style.HEIGHT), height_ratios=[1.7, 1]
     )
     tables = [tabulate(result) for result in results]
     for result, table in zip(results, tables, strict=True):
@@ -113,7 +113,9 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     below.set(xlabel="time $t$", ylabel=r"$-d\ln\,\mathrm{peak}/d\ln t$")
     for axis in (above.yaxis, below.xaxis):
         style.label_within_decades(axis)
-    above.legend(loc="upper right", title=rf"$\gamma = {style.gamma(results[0])}$")
+    place = {"transform": above.transAxes, "ha": "right", "va": "top"}
+    above.text(0.95, 0.95, rf"$\gamma = {style.gamma(results[0])}$", **place)
+    figure.legend(*above.get_legend_handles_labels(), loc="outside upper left", ncols=1)
     style.letter(above, below)
     figure.align_ylabels()
     return figure, pd.concat(tables), caption(tables, results)
