@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from workflow.lib import style
 from workflow.lib.caption import BATHS, ERRORS, WINDOW, parameters, replicas
 from workflow.lib.figure import run
-from workflow.lib.fit import fit_line, with_error
+from workflow.lib.fit import fit_line
 from workflow.lib.load import Result
 
 
@@ -26,15 +26,11 @@ def tabulate(result: Result) -> pd.DataFrame:
     return table
 
 
-def excess(table: pd.DataFrame, k: int) -> str:
-    row = table.iloc[k]
-    return with_error(100 * (row.relative - 1), 100 * row.relative_error)
-
-
-def caption(tables: Sequence[pd.DataFrame], results: Sequence[Result]) -> str:
+def caption(results: Sequence[Result]) -> str:
+    excess = [[style.with_error(result["density_excess"], k, 100) for k in (0, -1)] for result in results]
     said = [
-        f"at γ = {table.gamma.iloc[0]} {excess(table, 0)} % in the first and {excess(table, -1)} % in the last cell"
-        for table in tables
+        f"at γ = {style.gamma(result)} {first} % in the first and {last} % in the last cell"
+        for result, (first, last) in zip(results, excess, strict=True)
     ]
     return f"""
         Particles per cell of an open chain, {parameters(results, "cells", "cell-length", "sigma", *BATHS, *WINDOW)},
@@ -64,7 +60,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     above.legend(loc="upper right")
     style.letter(above, below)
     figure.align_ylabels()
-    return figure, pd.concat(tables), caption(tables, results)
+    return figure, pd.concat(tables), caption(results)
 
 
 if __name__ == "__main__":
