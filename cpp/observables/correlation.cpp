@@ -15,6 +15,7 @@
 #include <cmath>
 #include <functional>
 
+#include "model/collision.hpp"
 #include "program/errors.hpp"
 #include "runs/closed_study.hpp"
 #include "runs/conserved_fields.hpp"
@@ -68,14 +69,21 @@ struct Tallies : ClosedTallies {
                            parameters.ring.scattering.cells)) {}
 };
 
-/// Sums over r of the correlations in an infinite chain, conserved: variances of the totals per cell [eq.
-/// 55].
+/// Sums over r of the correlations in an infinite chain, conserved: variances of the totals per cell, by
+/// Conserved [eq. 55]. That of the number is 0, because every cell starts with as many particles. The shift
+/// to zero total momentum takes one degree of freedom from the particles and turns that of the scatterers'
+/// total momentum into (1 + M/n).
 std::array<double, 3> sum_rules(const Parameters& parameters) {
   const ClosedChain chain = parameters.chain();
-  const double particles = chain.particles_per_cell, cells = chain.cells;
-  const double energies =
-      particles * std::pow(parameters.temperature, 2) + std::pow(parameters.scatterer_temperature, 2);
-  return {particles, 0.5 * energies, parameters.mean_square_momentum() / cells};
+  const double n = chain.particles_per_cell, cells = chain.cells;
+  const double of_particle = 0.5 * std::pow(parameters.temperature, 2);
+  const double of_scatterer = 0.5 * std::pow(parameters.scatterer_temperature, 2);
+  double energies = cells * (n * of_particle + of_scatterer);
+  if (parameters.zero_total_momentum) {
+    const double mass = std::pow(CollisionRule(chain.sigma).root_mass(), 2);
+    energies += of_scatterer * (std::pow(1 + mass / n, 2) - 1) - of_particle;
+  }
+  return {0, energies / cells, parameters.mean_square_momentum() / cells};
 }
 
 /// The field minus its mean over the ring.
@@ -164,9 +172,6 @@ Estimator sound_peak(const Tallies& tallies) {
 }
 
 Study correlation(const Parameters& parameters) {
-  if (parameters.zero_total_momentum)
-    throw UsageError(
-        "--zero-total-momentum: the variance of the total energy is not known then. Leave it out.");
   if (parameters.times.size() < 2)
     throw UsageError("--times has one time: the damping exponent needs two. Add another.");
   if (parameters.times.back() > parameters.observation_time)

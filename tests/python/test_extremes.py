@@ -81,6 +81,13 @@ def pulsed(draw: st.DrawFn) -> dict[str, object]:
 
 
 @st.composite
+def correlated(draw: st.DrawFn) -> dict[str, object]:
+    options = draw(closed()) | {"cells": draw(st.integers(7, 9))}
+    mantissa, exponent = str(options["observation-time"]).split("e")
+    return options | {"times": f"{mantissa}e{int(exponent) - 1},{options['observation-time']}"}
+
+
+@st.composite
 def opened(draw: st.DrawFn) -> dict[str, object]:
     cells = draw(st.integers(1, 4))
     temperature, length = draw(st.floats(-292, 292)), draw(st.floats(-100, 100) | st.floats(-300, 300))
@@ -147,6 +154,7 @@ PROGRAMS = {
     "displacement": displaced(),
     "ageing": aged(),
     "energy_pulse": pulsed(),
+    "correlation": correlated(),
     "steady_profile": binned(),
     "momentum_flux": binned(),
     "conductivity": opened(),
@@ -177,6 +185,8 @@ def execute(name: str, options: dict[str, object]) -> tuple[int, str, Result | N
 
 # NaN if there is nothing to measure, as documented in docs/format.md.
 MAY_BE_NAN = {
+    "current_correlation",  # of currents that do not vary
+    "local_centre_exponent",  # of correlations that are not positive
     "alpha_relative", "alpha_difference", "density_slope", "density_excess", "temperature_difference",
     "rate_right_deviation", "rate_left_deviation", "drift_p_value", "exponent_by_cut", "exponent_spread", "front", "front_exponent", "kurtosis", "local_slope",
     "logarithmic_power", "momentum_drift", "plateau", "square", "temperature_particle", "peak", "peak_position",

@@ -14,6 +14,15 @@ SHORT = {  # options specific to a program
     "waiting_time": {},
     "displacement": {"decades": 2},
     "ageing": {"decades": 2},
+    "correlation": {
+        "cells": 101,
+        "temperature": 1e4,
+        "scatterer-temperature": 8e4,
+        "particles-per-cell": 20,
+        "relaxation-time": 0.1,
+        "observation-time": 1,
+        "times": "0.01,0.02,0.04",
+    },
     "energy_pulse": {
         "cells": 21,
         "particles-per-cell": 20,
@@ -24,6 +33,11 @@ SHORT = {  # options specific to a program
     },
 }
 QUANTITIES = {
+    "correlation": {"number_correlation": ["time", "cell"], "energy_correlation": ["time", "cell"],
+                    "momentum_correlation": ["time", "cell"], "centre": ["time"], "local_centre_exponent": ["middle"],
+                    "peak": ["time"], "peak_position": ["time"], "peak_raw": ["time"], "peak_speed": ["middle"],
+                    "local_damping_exponent": ["middle"], "damping_exponent": [], "damping_exponent_from": ["from"],
+                    "peak_collapse": []},
     "waiting_time": {"density": ["tau"], "exponent": [], "exponent_by_cut": ["cut"], "exponent_spread": []},
     "displacement": {"variance": ["time"], "absolute_moment": ["time"], "fourth_moment": ["time"], "alpha": [],
                      "centre_of_mass": ["time"], "mean_displacement": ["time"], "local_slope": ["time"], "alpha_relative": [], "alpha_difference": [],

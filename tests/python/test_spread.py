@@ -17,7 +17,10 @@ from workflow.tradeoff.measure import shortened
 SEEDS = 40
 FACTORS = {"particle_count": 2e-3}  # factor of all times
 OTHERS = 5e-3
-PULSE = {"pairs-per-replica": 1, "relaxation-time": 0}
+IN_PLACE = {  # of the options of a program
+    "energy_pulse": {"pairs-per-replica": 1, "relaxation-time": 0},
+    "correlation": {"cells": 101, "relaxation-time": 0.1, "observation-time": 0.4, "times": "0.025,0.05,0.1"},
+}
 
 # The quantities of a program on which figures and claims rely; of an array, the last element.
 NUMBERS = {
@@ -25,6 +28,7 @@ NUMBERS = {
     "waiting_time": ("exponent",),
     "displacement": ("variance", "alpha"),
     "ageing": ("scatterer_energy_mean", "log_slope"),
+    "correlation": ("energy_correlation", "momentum_correlation", "peak"),
     "conductivity": ("energy_current", "temperature_first", "temperature_last"),
     "steady_profile": ("energy_current_mean", "density", "temperature_difference"),
     "momentum_flux": ("crossings", "square", "jump"),
@@ -49,7 +53,7 @@ def in_small(run: Run) -> dict[str, object]:
     if run.program == "particle_count":
         times["times"] = shortened(run.options["times"], factor)
     options = {**run.options, **times}
-    return options | PULSE if run.program == "energy_pulse" else options
+    return options | IN_PLACE.get(run.program, {})
 
 
 def values(run: Run, folder: Path) -> dict[str, np.ndarray]:

@@ -1,8 +1,7 @@
-"""Ext. 3: the moving peak of the pulse rescaled in (x - x_p)/t^xi, with the best xi; gamma = N and gamma = 1.
+"""Ext. 3: how sound is damped: correlations of the momenta of two cells, and the pulses of fig. 9a.
 
-The centre does not scale, so no xi is given for it: its local exponent -d ln Delta E / d ln t is not constant.
-In the central cell it rises from 0.2 at t = 0.01 to 2 at t = 0.06 for gamma = N, where it is lost in the noise soon
-after, and from -0.8 at t = 0.005 to 1.1 at t = 0.05 for gamma = 1, where Delta E of the cells beside changes sign.
+In a chain that conserves number, energy and momentum, sound peaks widen as t^(2/3) (Spohn, J. Stat. Phys. 154, 1191,
+2014); where only their width diffuses, as t^(1/2).
 """
 
 from collections.abc import Sequence
@@ -12,62 +11,134 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
+from scipy.stats import chi2
 
 from workflow.figures.fig09 import gaussian_start
 from workflow.lib import style
 from workflow.lib.figure import run
-from workflow.lib.load import Result
+from workflow.lib.fit import fit_power, with_error
+from workflow.lib.load import Quantity, Result
+
+SOUND, DIFFUSION = 2 / 3, 1 / 2
 
 
-def fold(profile: np.ndarray) -> np.ndarray:
+def folded(profile: np.ndarray) -> np.ndarray:
     """Mean of both sides, by distance from the centre."""
     centre = len(profile) // 2
     return 0.5 * (profile[centre:] + profile[centre::-1])
 
 
-def collapse(axes: Axes, result: Result) -> pd.DataFrame:
-    difference, xi, positions = (
-        result["energy_difference"],
-        result["peak_collapse"],
-        result["peak_position"].mean,
-    )
-    times, exponent = difference.axes["time"], float(xi.mean)
-    stretch = (times / times[-1]) ** exponent
-    known = np.flatnonzero(np.isfinite(positions))
-    reach = 0.5 * positions[known[-1]] if len(known) else 0
-    shown = (
-        known[np.linspace(min(1, len(known) - 1), len(known) - 1, 5).round().astype(int)]
-        if len(known)
-        else []
-    )
+def draw_collapse(axes: Axes, result: Result) -> pd.DataFrame:
+    """The peak at several times, rescaled with the exponent of sound."""
+    correlation, positions = result["momentum_correlation"], result["peak_position"].mean
     parts = []
+    shown = [k for k in range(len(positions)) if np.isfinite(positions[k])][1:]
     for k, color, dashes in zip(shown, style.SEQUENCE, style.DASHES, strict=False):
-        profile = fold(difference.mean[k])
-        x = (np.arange(len(profile)) - positions[k]) / stretch[k]
-        y = profile * stretch[k]
-        near = np.abs(x) <= reach
-        axes.plot(x[near], y[near] / 1e3, color=color, linestyle=dashes, label=f"$t = {times[k]:g}$")
-        parts.append(pd.DataFrame({"time": times[k], "x": x[near], "y": y[near]}))
+        time = correlation.axes["time"][k]
+        profile = folded(correlation.mean[k])
+        x = (np.arange(len(profile)) - positions[k]) / time**SOUND
+        near = np.abs(x) < 80
+        y = profile * time**SOUND / 1e3
+        axes.plot(x[near], y[near], color=color, linestyle=dashes, label=f"$t = {time:g}$")
+        parts.append(pd.DataFrame({"time": time, "x": x[near], "y": y[near]}))
     axes.axhline(0, **style.GUIDE)
-    axes.set(
-        xlabel=r"$(x - x_p)\,(t_1/t)^\xi / \lambda$",
-        title=rf"$\gamma = {style.gamma(result)}$, $\xi = {style.with_error(xi)}$",
+    axes.set(xlabel=r"$(r - ct)\,/\,t^{2/3}$", title="(a)", xlim=(-80, 80))
+    axes.set(ylabel=rf"$t^{{2/3}}\,C_g(r, t)\,/\,10^3$ ({style.UNITS})")
+    axes.legend(loc="upper left", fontsize=7, handlelength=2.4)
+    return pd.concat(parts)
+
+
+def draw_exponents(axes: Axes, fluctuations: Result, pulse: Result) -> pd.DataFrame:
+    parts = []
+    for result, marker, color, text in (
+        (fluctuations, "o", style.BLUE, "correlations"),
+        (pulse, "s", style.VERMILLION, "pulse, $N = 101$"),
+    ):
+        local = result["local_damping_exponent"]
+        time = local.axes["middle"]
+        known = local.standard_error < 0.1
+        axes.errorbar(
+            time[known],
+            local.mean[known],
+            local.standard_error[known],
+            marker=marker,
+            color=color,
+            label=text,
+            **style.POINTS,
+        )
+        columns = {"time": time, "exponent": local.mean, "exponent_error": local.standard_error}
+        parts.append(pd.DataFrame({"source": text, **columns}))
+    for value, text in ((SOUND, "2/3"), (DIFFUSION, "1/2")):
+        axes.axhline(value, **style.GUIDE)
+        axes.annotate(text, (1.01, value), xycoords=("axes fraction", "data"), va="center", size=8)
+    axes.set(xscale="log", xlabel="time $t$", ylabel="local damping exponent", ylim=(0.3, 1), title="(b)")
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.legend(loc="upper left")
+    return pd.concat(parts)
+
+
+def draw_heat(axes: Axes, centre: Quantity) -> pd.DataFrame:
+    time = centre.axes["time"]
+    axes.errorbar(time, centre.mean, centre.standard_error, marker="o", color=style.BLACK, **style.POINTS)
+    axes.set(xscale="log", xlabel="time $t$", ylabel="$C_n(0, t)$", ylim=(0, None), title="(c)")
+    return pd.DataFrame({"time": time, "centre": centre.mean, "centre_error": centre.standard_error})
+
+
+def deviation(local: Quantity, expected: float) -> tuple[float, int]:
+    """chi^2 of the local exponents against one value, with their number. Neighbours share a time and its error with
+    opposite signs: their correlation is taken as -1/2."""
+    known = local.standard_error < 0.1
+    pull = (local.mean[known] - expected) / local.standard_error[known]
+    size = int(known.sum())
+    covariance = np.eye(size) - 0.5 * (np.eye(size, k=1) + np.eye(size, k=-1))
+    return float(pull @ np.linalg.solve(covariance, pull)), size
+
+
+def words(result: Result) -> str:
+    peak, local, speed = result["peak"], result["local_damping_exponent"], result["peak_speed"]
+    known = np.isfinite(peak.mean)
+    law = fit_power(peak.axes["time"][known], peak.mean[known], peak.standard_error[known])
+    tests = []
+    for expected, name in ((SOUND, "2/3"), (DIFFUSION, "1/2")):
+        value, size = deviation(local, expected)
+        tests.append(f"{name}: chi^2 = {value:.1f} for {size} (p = {chi2.sf(value, size):.2g})")
+    slowest, fastest = np.nanmin(speed.mean), np.nanmax(speed.mean)
+    return (
+        f"The height of the peak falls as t^-{with_error(-law.exponent, law.error)} over all times shown; the local "
+        f"exponents against {tests[0]}; against {tests[1]}. The peak moves at {slowest:.0f} to {fastest:.0f} cells per "
+        "unit time, without a trend."
     )
-    table = pd.concat(parts) if parts else pd.DataFrame(columns=["time", "x", "y"])
-    table.insert(0, "gamma", style.gamma(result))
-    return table.assign(xi=exponent, xi_error=float(xi.standard_error))
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
-    figure, row = plt.subplots(1, 2, figsize=(1.9 * style.COLUMN, style.HEIGHT))
-    tables = []
-    for axes, gamma in zip(row, ("N", 1), strict=True):
-        result = gaussian_start([one for one in results if one.parameters["gamma"] == gamma])
-        tables.append(collapse(axes, result))
-        axes.legend(loc="lower center", fontsize=7, **style.OPAQUE)
-    row[0].set(ylabel=rf"moving peak: $(t/t_1)^\xi\,\Delta E\,/\,10^3$ ({style.UNITS})")
-    return figure, pd.concat(tables)
+def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+    rings = [one for one in results if one.provenance["program"] == "correlation"]
+    largest = max(rings, key=lambda one: one.parameters["cells"])
+    pulse = gaussian_start([one for one in results if one.provenance["program"] == "energy_pulse"])
+    figure, row = plt.subplots(1, 3, figsize=(2.1 * style.COLUMN, style.HEIGHT), width_ratios=[1.2, 1, 0.8])
+    tables = [
+        draw_collapse(row[0], largest),
+        draw_exponents(row[1], largest, pulse),
+        draw_heat(row[2], largest["centre"]),
+    ]
+    parameters = largest.parameters
+    caption = (
+        f"Sound in a ring of N = {parameters['cells']} cells with {parameters['particles-per-cell']} particles each, from "
+        "equilibrium fluctuations. (a) Covariance of the momenta of two cells at distance r and times t apart, about the "
+        "moving peak, rescaled with the exponent 2/3. (b) Local exponents of the peak's height between times a factor of "
+        f"two apart, beside those of the energy pulse of fig. 9a. {words(largest)} (c) Covariance of the numbers of "
+        "particles in one cell at two times: where heat would make a peak that falls as a power, slow particles that have "
+        "not left their cell make one that falls as the logarithm of t. Error bars: standard errors over replicas."
+    )
+    return figure, pd.concat(tables), caption
 
 
 if __name__ == "__main__":
-    run(draw, "Collapse of the moving peak of an energy pulse", x="1", y="energy", xi="1", xi_error="1")
+    run(
+        draw,
+        "Sound and heat in the fluctuations of a ring",
+        x="1",
+        y="momentum^2",
+        exponent="1",
+        exponent_error="1",
+    )

@@ -178,11 +178,16 @@ def _panel(name: str, panel: dict, efforts: dict, quality: Quality) -> Panel:
         listed = [key for key, value in options.items() if isinstance(value, list)]
         for values in itertools.product(*(options[key] for key in listed)):
             chosen = dict(zip(listed, values, strict=True))
-            run = "_".join([series, *(f"{key}={value}" for key, value in chosen.items())])
+            run = "_".join([series, *(f"{key}={_in_name(value)}" for key, value in chosen.items())])
             given = {**options, **chosen}
             completed = quality.complete(name, run, given) if replicated else given
             runs.append(Run(run, program, completed, replicated))
     return Panel(name, panel.get("script", name), tuple(runs), tuple(panel.get("uses", ())))
+
+
+def _in_name(value: object) -> str:
+    """A value as it stands in the name of a file: 1/N as 1perN."""
+    return str(value).replace("/", "per")
 
 
 def _seed(names: str) -> int:

@@ -52,20 +52,28 @@ class HeapSimulator {
 
   Real scatterer_mass() const { return (1 + sigma_) / (1 - sigma_); }
 
-  /// Energy of every cell, its scatterer and the particles inside, at a time between the last event and the
-  /// next one.
-  std::vector<Real> cell_energies(Real time) const {
-    std::vector<Real> energies;
-    for (const Real P : P_) energies.push_back(P * P / (2 * scatterer_mass()));
+  /// Of every cell, at a time between the last event and the next one: the number of the particles inside,
+  /// and energy and momentum of these and the scatterer.
+  struct Totals {
+    std::vector<Real> number, energy, momentum;
+  };
+  Totals totals(Real time) const {
+    Totals cells{std::vector<Real>(P_.size(), 0), {}, P_};
+    for (const Real P : P_) cells.energy.push_back(P * P / (2 * scatterer_mass()));
     const Real length = cell_length_ * static_cast<Real>(P_.size());
     for (auto pending = pending_; !pending.empty(); pending.pop()) {
       const Pending& next = pending.top();
       Real x = centre(static_cast<long>(next.scatterer)) - next.p * (next.time - time);
       x -= length * std::floor(x / length);
-      energies[static_cast<std::size_t>(x / cell_length_) % P_.size()] += next.p * next.p / 2;
+      const std::size_t cell = static_cast<std::size_t>(x / cell_length_) % P_.size();
+      cells.number[cell] += 1;
+      cells.energy[cell] += next.p * next.p / 2;
+      cells.momentum[cell] += next.p;
     }
-    return energies;
+    return cells;
   }
+
+  std::vector<Real> cell_energies(Real time) const { return totals(time).energy; }
 
   /// Processes crossings up to the next collision before `until`; false if there is none.
   bool step(Real until, Event& event) {

@@ -32,9 +32,28 @@ TEST(OpenParameters, Starts) {
   EXPECT_EQ(empty.scatterers, std::vector<double>(5, 0));
 }
 
+// Mutants: cold and hot exchanged; the left reservoir for both.
+TEST(OpenParameters, StartsFromEquilibriumWithOneReservoir) {
+  const auto temperature = [](const OpenParameters& parameters) {
+    double sum = 0;
+    for (const double U : parameters.start_point(10, {1, 0}).scatterers) sum += U * U;
+    return sum / parameters.scattering.cells;
+  };
+  OpenParameters parameters{.scattering = {.cells = 20'000}, .cell_length = 1e-4};
+  constexpr double error = 0.01;  // sqrt(2/cells), relative
+  for (const bool mirrored : {false, true}) {
+    parameters.left.temperature = mirrored ? 900 : 100;
+    parameters.right.temperature = mirrored ? 100 : 900;
+    parameters.start = "cold";
+    EXPECT_NEAR(temperature(parameters), 100, 100 * 4 * error);
+    parameters.start = "hot";
+    EXPECT_NEAR(temperature(parameters), 900, 900 * 4 * error);
+  }
+}
+
 // Mutant: the observation counted from 0.
 TEST(OpenParameters, WindowFollowsTheRelaxation) {
-  const Window window = WindowParameters{.relaxation_time = {2, true}, .observation_time = {3}}.window(5);
+  const Window window = WindowParameters{.relaxation_time = {{0, 2, 0}}, .observation_time = {{3, 0, 0}}}.window(5);
   EXPECT_EQ(window.begin, 10);
   EXPECT_EQ(window.end, 13);
 }

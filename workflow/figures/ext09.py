@@ -1,0 +1,155 @@
+"""Ext. 9: heat conductivity against the number of cells at the paper's spacing 1/N and at fixed spacings.
+
+At 1/N the gas thins out as the chain grows; at a fixed spacing the particles per cell are the same for every N, so
+that N goes to infinity in the thermodynamic limit.
+"""
+
+from collections.abc import Sequence
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from workflow.lib import style
+from workflow.lib.figure import run
+from workflow.lib.fit import with_error
+from workflow.lib.growth import LAWS, POWER, Growth, fits
+from workflow.lib.load import NOT_REACHED, Result
+
+SPACINGS = {"1/N": ("o", style.BLACK), "0.025": ("s", style.VERMILLION), "0.1": ("^", style.BLUE)}
+LEVEL = 0.01  # p-value below which a law is rejected
+CUBE_ROOT = "N^(1/3)"
+
+
+def tabulate(results: Sequence[Result]) -> pd.DataFrame:
+    """One row per run, sorted by N; spacing is written as in the configuration."""
+    rows = []
+    for result in results:
+        row = {"spacing": style.spacing(result)[1], "cells": int(result.parameters["cells"])}
+        for name in ("kappa", "kappa_particle", "energy_current", "particle_current"):
+            row[name], row[f"{name}_error"] = float(result[name].mean), float(result[name].standard_error)
+        row["sound"] = result.converged != NOT_REACHED and result["stationary"].mean == 1
+        rows.append(row)
+    return pd.DataFrame(rows).sort_values("cells", ignore_index=True)
+
+
+def laws(part: pd.DataFrame) -> pd.DataFrame:
+    """Every law fitted to the sizes of one spacing from every size on that leaves a degree of freedom."""
+    found = [
+        one for first in part.cells for one in fits(part.cells, part.kappa, part.kappa_error, float(first))
+    ]
+    return pd.DataFrame([vars(one) | {"p_value": one.p_value, "criterion": one.criterion} for one in found])
+
+
+def range_of(part: pd.DataFrame, law: str) -> Growth | None:
+    """The law over the widest range of sizes, up to the largest, in which it is not rejected; at least two degrees of
+    freedom."""
+    for first in part.cells:
+        for one in fits(part.cells, part.kappa, part.kappa_error, float(first)):
+            if one.law == law and one.freedom > 1 and one.p_value > LEVEL:
+                return one
+    return None
+
+
+def sentence(spacing: str, part: pd.DataFrame) -> str:
+    """What the fits say about one spacing, in words."""
+    held = {law: one for law in (*LAWS, POWER) if (one := range_of(part, law))}
+    if not held:
+        whole = [one for one in fits(part.cells, part.kappa, part.kappa_error, 0) if one.law == POWER]
+        rejected = "; ".join(f"power law: chi^2/f = {one.chi_square:.0f}/{one.freedom}" for one in whole)
+        return f"Spacing {spacing}: no law holds over three sizes or more ({rejected})."
+    widest = min(one.first for one in held.values())
+    best = min((one for one in held.values() if one.first == widest), key=lambda one: one.criterion)
+    text = (
+        f"Spacing {spacing}: {name(best)} from N = {best.first:.0f} on "
+        f"(chi^2/f = {best.chi_square:.1f}/{best.freedom})"
+    )
+    rivals = [
+        one
+        for one in fits(part.cells, part.kappa, part.kappa_error, best.first)
+        if one.law != best.law and one.parameters <= best.parameters
+    ]
+    against = [f"{name(one)} {one.chi_square:.1f}" for one in rivals]
+    return f"{text}; over the same sizes chi^2 is, for {', '.join(against)}." if against else f"{text}."
+
+
+def name(growth: Growth) -> str:
+    words = {
+        "constant": "a + b N^(-1/3)",
+        "logarithm": "a + b ln N",
+        CUBE_ROOT: "a + b N^(1/3)",
+    }
+    return words.get(growth.law) or f"N^{with_error(growth.exponent, growth.exponent_error)}"
+
+
+def draw_powers(axes: Axes, table: pd.DataFrame) -> None:
+    for spacing, part in table.groupby("spacing", sort=False):
+        marker, color = SPACINGS[spacing]
+        label = rf"$\lambda = {spacing}$"
+        look = {"marker": marker, "color": color, **style.POINTS}
+        axes.errorbar(part.cells, part.kappa, part.kappa_error, label=label, **look)
+        style.cross_out(axes, part.cells.to_numpy(), part.kappa.to_numpy(), ~part.sound.to_numpy())
+    size = np.array([table.cells.min(), table.cells.max()], dtype=float)
+    guide = 0.75 * table.kappa.min() * (size / size[0]) ** (1 / 3)
+    axes.plot(size, guide, **style.GUIDE)
+    axes.text(size[1], 0.86 * guide[1], "$N^{1/3}$", size=8, ha="right", va="top")
+    axes.set(xscale="log", yscale="log", xlabel="number of cells $N$")
+    axes.set(ylabel=rf"conductivity $\kappa$ ({style.UNITS})", title="(a)")
+    axes.legend(loc="upper left")
+
+
+def draw_cube_roots(axes: Axes, table: pd.DataFrame) -> None:
+    """kappa against N^(1/3): straight where it grows as N^(1/3) beside a constant."""
+    for spacing, part in table.groupby("spacing", sort=False):
+        marker, color = SPACINGS[spacing]
+        axes.errorbar(
+            np.cbrt(part.cells), part.kappa, part.kappa_error, marker=marker, color=color, **style.POINTS
+        )
+        if held := range_of(part, CUBE_ROOT):
+            size = part.cells[part.cells >= held.first]
+            axes.plot(np.cbrt(size), held.predicted, color=color, linestyle=style.DASHES[1])
+    above = axes.secondary_xaxis("top", functions=(lambda x: x**3, np.cbrt))
+    above.set_xticks([size for size in (64, 256, 512, 1024, 2048, 8192) if size <= table.cells.max()])
+    axes.tick_params(axis="x", which="both", top=False)
+    axes.set(xlabel="$N^{1/3}$", ylim=(0, None), title="(b)")
+
+
+def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+    table = tabulate(results)
+    figure, row = plt.subplots(1, 2, figsize=(1.9 * style.COLUMN, style.HEIGHT))
+    draw_powers(row[0], table)
+    draw_cube_roots(row[1], table)
+    sentences, tables = [], []
+    for spacing, part in table.groupby("spacing", sort=False):
+        sentences.append(sentence(spacing, part))
+        tables.append(laws(part).drop(columns="predicted").assign(spacing=spacing))
+    fitted = pd.concat(tables).rename(columns={"first": "fitted_from"})
+    parameters = results[0].parameters
+    caption = (
+        f"Heat conductivity kappa = -J_U N/(T_N - T_1) at gamma = N, sigma = {parameters['sigma']:g}, between baths of "
+        f"temperatures {parameters['temperature-left']:g} and {parameters['temperature-right']:g} that press equally "
+        "hard, at the spacing 1/N, which thins the gas out as the chain grows, and at fixed spacings, where the "
+        "number of particles per cell is the same for every N. (a) Logarithmic axes. (b) Against the cube root of N: "
+        "a straight line is growth as N^(1/3) beside a constant; broken lines are such fits over the sizes for which "
+        f"they are not rejected at {LEVEL:.0%}. {' '.join(sentences)} Error bars: standard errors over replicas."
+    )
+    return figure, pd.concat([table, fitted]), caption
+
+
+if __name__ == "__main__":
+    pure = dict.fromkeys(
+        (
+            "fitted_from",
+            "chi_square",
+            "freedom",
+            "parameters",
+            "exponent",
+            "exponent_error",
+            "p_value",
+            "criterion",
+        ),
+        "1",
+    )
+    run(draw, "Heat conductivity at fixed spacing and at the spacing 1/N", **pure)

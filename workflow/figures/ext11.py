@@ -1,0 +1,140 @@
+"""Ext. 11: linear response of the currents of energy and particles, and heat conductivity without a particle current.
+
+J_i = sum_k L_ik X_k / N with X_u = 1/T_R - 1/T_L and X_n = (mu/T)_L - (mu/T)_R, where mu/T = ln(nu/sqrt(T)) + const for
+half-Gaussian baths [eq. 29]. What is called heat conductivity elsewhere has no current of particles,
+kappa_0 = (L_uu - L_un^2/L_nn)/T^2.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from workflow.lib import style
+from workflow.lib.figure import run
+from workflow.lib.fit import fit_power, with_error
+from workflow.lib.load import Result
+
+DRAWN = 4000  # samples of the currents, for errors good to 1 %
+COEFFICIENTS = ("L_uu", "L_un", "L_nu", "L_nn")
+SPACINGS = {"1/N": ("o", style.BLACK), "0.1": ("^", style.BLUE)}
+
+
+@dataclass(frozen=True)
+class Response:
+    """Currents of a run and the forces that drive them."""
+
+    cells: int
+    forces: np.ndarray  # X_u, X_n
+    currents: np.ndarray  # J_u, J_n
+    covariance: np.ndarray
+    temperature: float  # geometric mean of the baths'
+
+    @classmethod
+    def of(cls, result: Result) -> "Response":
+        rates, temperatures = (
+            np.array([float(result.parameters[f"{name}-{side}"]) for side in ("left", "right")])
+            for name in ("nu", "temperature")
+        )
+        potentials = np.log(rates / np.sqrt(temperatures))
+        quantities = [result[name] for name in ("energy_current", "particle_current")]
+        errors = np.array([float(quantity.standard_error) for quantity in quantities])
+        correlation = float(result["current_correlation"].mean)
+        return cls(
+            int(result.parameters["cells"]),
+            np.array([np.diff(1 / temperatures)[0], -np.diff(potentials)[0]]),
+            np.array([float(quantity.mean) for quantity in quantities]),
+            np.outer(errors, errors) * np.array([[1, correlation], [correlation, 1]]),
+            float(np.sqrt(np.prod(temperatures))),
+        )
+
+
+def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
+    """L from a run at equal pressure and one at equal temperature. The errors are those of currents that are drawn anew
+    from normal distributions with the runs' covariances."""
+    runs = (temperature, pressure)
+    inverse = np.linalg.inv(np.stack([run.forces for run in runs], axis=1)) * temperature.cells
+    currents = np.stack([run.currents for run in runs], axis=1)
+    random = np.random.default_rng(0)
+    drawn = np.stack(
+        [random.multivariate_normal(run.currents, run.covariance, DRAWN) for run in runs], axis=2
+    )
+    matrix, spread = currents @ inverse, drawn @ inverse
+    row = {}
+    for index, name in enumerate(COEFFICIENTS):
+        place = divmod(index, 2)
+        row[name], row[f"{name}_error"] = matrix[place], spread[:, *place].std()
+
+    def heat(found: np.ndarray) -> np.ndarray:
+        convected = found[..., 0, 1] * found[..., 1, 0] / found[..., 1, 1]
+        return (found[..., 0, 0] - convected) / pressure.temperature**2
+
+    row["kappa_0"], row["kappa_0_error"] = float(heat(matrix)), float(heat(spread).std())
+    asymmetry = spread[:, 0, 1] - spread[:, 1, 0]
+    row["asymmetry"], row["asymmetry_error"] = matrix[0, 1] - matrix[1, 0], asymmetry.std()
+    return row
+
+
+def tabulate(results: Sequence[Result]) -> pd.DataFrame:
+    """One row per spacing and size."""
+    runs: dict[tuple[str, int], dict[bool, Response]] = {}
+    for result in results:
+        response = Response.of(result)
+        key = style.spacing(result)[1], response.cells
+        runs.setdefault(key, {})[bool(response.forces[0])] = response
+    rows = [
+        {"spacing": key[0], "cells": key[1]} | onsager(pair[True], pair[False]) for key, pair in runs.items()
+    ]
+    return pd.DataFrame(rows).sort_values("cells", ignore_index=True)
+
+
+def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+    table = tabulate(results)
+    figure, (left, right) = plt.subplots(1, 2, figsize=(1.9 * style.COLUMN, style.HEIGHT))
+    said = []
+    for spacing, part in table.groupby("spacing", sort=False):
+        marker, color = SPACINGS[spacing]
+        look = {"marker": marker, "color": color, **style.POINTS}
+        left.errorbar(part.cells, part.L_nn, part.L_nn_error, label=rf"$\lambda = {spacing}$", **look)
+        right.errorbar(part.cells, part.kappa_0, part.kappa_0_error, **look)
+        ballistic = fit_power(part.cells, part.L_nn, part.L_nn_error)
+        heat = fit_power(part.cells, part.kappa_0, part.kappa_0_error)
+        said.append(
+            f"at spacing {spacing} L_nn grows as N^{with_error(ballistic.exponent, ballistic.error)} and kappa_0 as "
+            f"N^{with_error(heat.exponent, heat.error)}"
+        )
+    size = np.array([table.cells.min(), table.cells.max()], dtype=float)
+    for axes, slope, values, text in (
+        (left, 1, table.L_nn, "$N$"),
+        (right, 1 / 3, table.kappa_0, "$N^{1/3}$"),
+    ):
+        guide = 0.6 * values.min() * (size / size[0]) ** slope
+        axes.plot(size, guide, **style.GUIDE)
+        axes.text(size[1], 0.85 * guide[1], text, size=8, ha="right", va="top")
+        axes.set(xscale="log", yscale="log", xlabel="number of cells $N$")
+    left.set(ylabel="$L_{nn}$", title="(a)")
+    right.set(ylabel=rf"$\kappa_0$ at $J_n = 0$ ({style.UNITS})", title="(b)")
+    left.legend(loc="upper left")
+    pulls = table.asymmetry / table.asymmetry_error
+    caption = (
+        "Linear response at gamma = N about equal baths, from a difference of temperature at equal pressure and a difference "
+        "of pressure at equal temperature. (a) Coefficient of the particle current: it grows in proportion to N where "
+        "momentum is conserved and particles drift without friction in the bulk. (b) Heat conductivity without a current of "
+        f"particles, kappa_0 = (L_uu - L_un L_nu / L_nn)/T^2. Over all sizes, {'; '.join(said)}. Onsager's symmetry "
+        f"L_un = L_nu: chi^2 = {np.sum(pulls**2):.1f} for {len(pulls)} pairs. Error bars: standard errors over replicas."
+    )
+    return figure, table, caption
+
+
+if __name__ == "__main__":
+    units = {"L_uu": "energy^2/time", "L_un": "energy/time", "L_nu": "energy/time", "L_nn": "1/time"}
+    units |= {"kappa_0": "energy/(time temperature)", "asymmetry": "energy/time"}
+    run(
+        draw,
+        "Linear response of energy and particle currents",
+        **units,
+        **{f"{k}_error": v for k, v in units.items()},
+    )

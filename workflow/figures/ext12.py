@@ -1,0 +1,132 @@
+"""Ext. 12: what the exponents of ext. 9 must not depend on: how strongly the chain is driven, and from which state it
+starts."""
+
+from collections.abc import Sequence
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from scipy.stats import chi2
+
+from workflow.figures.ext09 import SPACINGS, tabulate
+from workflow.lib import style
+from workflow.lib.figure import run
+from workflow.lib.growth import local_exponents
+from workflow.lib.load import Result
+
+FACES = {1: "white", 2: "0.7", 3: None}  # of the markers, from the weakest drive to the strongest
+STARTS = {"cold": "v", "hot": "^", "empty": "o"}
+
+
+def read(results: Sequence[Result]) -> pd.DataFrame:
+    """One row per run, with its start and its drive, the ratio of the baths' temperatures."""
+    rows = []
+    for result in results:
+        low, high = (float(result.parameters[f"temperature-{side}"]) for side in ("left", "right"))
+        row = tabulate([result]).iloc[0].to_dict()
+        rows.append(row | {"start": result.parameters["start"], "drive": round(high / low, 2)})
+    return pd.DataFrame(rows).sort_values("cells", ignore_index=True)
+
+
+def exponents(table: pd.DataFrame) -> pd.DataFrame:
+    """Local exponents of every drive between the sizes that all drives have."""
+    parts = []
+    warm = table[table.start == "warm"]
+    for spacing, part in warm.groupby("spacing", sort=False):
+        common = set.intersection(*(set(one.cells) for _, one in part.groupby("drive")))
+        for drive, one in part[part.cells.isin(common)].groupby("drive"):
+            size, slope, error = local_exponents(one.cells, one.kappa, one.kappa_error)
+            columns = {"size": size, "exponent": slope, "exponent_error": error}
+            parts.append(pd.DataFrame({"spacing": spacing, "drive": drive, **columns}))
+    return pd.concat(parts, ignore_index=True)
+
+
+def deviations(table: pd.DataFrame) -> pd.DataFrame:
+    """kappa from other starts over that from the warm start, minus 1, at the drive that has them."""
+    others = table[table.start != "warm"]
+    warm = table[(table.start == "warm") & table.drive.isin(others.drive)]
+    both = others.merge(warm, on=["spacing", "cells"], suffixes=("", "_warm"))
+    ratio = both.kappa / both.kappa_warm
+    error = ratio * np.hypot(both.kappa_error / both.kappa, both.kappa_error_warm / both.kappa_warm)
+    columns = both[["spacing", "cells", "start"]]
+    return columns.assign(deviation=ratio - 1, deviation_error=error)
+
+
+def scatter(found: pd.DataFrame) -> tuple[float, int]:
+    """chi^2 of the drives' local exponents about their weighted mean at each size and spacing, with its degrees of
+    freedom. Neighbouring sizes share an error, so that the p-value is not exact."""
+    total, freedom = 0.0, 0
+    for _, one in found.groupby(["spacing", "size"]):
+        weight = one.exponent_error**-2
+        mean = np.average(one.exponent, weights=weight)
+        total += float(np.sum(weight * (one.exponent - mean) ** 2))
+        freedom += len(one) - 1
+    return total, freedom
+
+
+def draw_exponents(axes: Axes, found: pd.DataFrame) -> None:
+    drives = sorted(found.drive.unique())
+    for spacing, (marker, color) in SPACINGS.items():
+        for number, drive in enumerate(drives):
+            one = found[(found.spacing == spacing) & (found.drive == drive)]
+            face = FACES[number + 1] or color
+            axes.errorbar(
+                one["size"] * 1.06 ** (number - 1),
+                one.exponent,
+                one.exponent_error,
+                marker=marker,
+                color=color,
+                markerfacecolor=face,
+                label=rf"$\lambda = {spacing}$" if drive == drives[-1] else None,
+                **style.POINTS,
+            )
+    axes.set(
+        xscale="log", xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$", title="(a)", ylim=(0, 0.8)
+    )
+    axes.legend(loc="upper left", ncols=3, columnspacing=0.8, handletextpad=0.2)
+
+
+def draw_starts(axes: Axes, found: pd.DataFrame) -> None:
+    places = {key: index for index, key in enumerate(found.groupby(["cells", "spacing"], sort=True).groups)}
+    for number, (start, marker) in enumerate(STARTS.items()):
+        one = found[found.start == start]
+        place = [
+            places[cells, spacing] + 0.2 * (number - 1)
+            for cells, spacing in zip(one.cells, one.spacing, strict=True)
+        ]
+        color = [style.BLUE, style.VERMILLION, style.BLACK][number]
+        axes.errorbar(place, 100 * one.deviation, 100 * one.deviation_error, marker=marker, color=color, label=start,
+                      **style.POINTS)  # fmt: skip
+    axes.axhline(0, **style.GUIDE)
+    labels = [f"{cells}\n{spacing}" for cells, spacing in places]
+    axes.set_xticks(range(len(places)), labels, fontsize=7)
+    axes.tick_params(axis="x", which="both", length=0)
+    axes.set(xlabel=r"$N$, $\lambda$", ylabel=r"$\kappa$ relative to the warm start $-\,1$ (%)", title="(b)")
+    axes.legend(loc="upper left", ncols=3, columnspacing=0.8, handletextpad=0.2)
+
+
+def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+    table = read(results)
+    slopes, starts = exponents(table), deviations(table)
+    figure, (left, right) = plt.subplots(1, 2, figsize=(1.9 * style.COLUMN, style.HEIGHT))
+    draw_exponents(left, slopes)
+    draw_starts(right, starts)
+    spread, freedom = scatter(slopes)
+    pulls = starts.deviation / starts.deviation_error
+    drives = ", ".join(f"{drive:g}" for drive in sorted(slopes.drive.unique()))
+    caption = (
+        f"(a) Local exponent of kappa for ratios of the baths' temperatures of {drives} (white, grey and full markers), at "
+        f"equal pressures: chi^2 = {spread:.1f} for {freedom} degrees of freedom (p = {chi2.sf(spread, freedom):.2g}) "
+        "about a common value at every size and spacing. (b) kappa from other starts relative to that from the warm start: "
+        "from equilibrium with the colder or hotter bath, and from an empty chain; "
+        f"chi^2 = {np.sum(pulls**2):.1f} for {len(pulls)} (p = {chi2.sf(np.sum(pulls**2), len(pulls)):.2g}), the largest "
+        f"deviation {100 * starts.deviation.abs().max():.1f} %. Error bars: standard errors over replicas."
+    )
+    return figure, pd.concat([slopes, starts]), caption
+
+
+if __name__ == "__main__":
+    pure = ("size", "exponent", "exponent_error", "drive", "deviation", "deviation_error")
+    run(draw, "What the growth of the conductivity does not depend on", **dict.fromkeys(pure, "1"))

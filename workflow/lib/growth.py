@@ -1,0 +1,85 @@
+"""How a quantity grows with the size of the system: laws fitted by weighted least squares and compared."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.optimize import minimize_scalar
+from scipy.stats import chi2
+
+Basis = Callable[[np.ndarray], list[np.ndarray]]  # functions of the size that are combined linearly
+
+# Leading term and first correction. A sound peak that spreads as t^(2/3) makes corrections of relative order N^(-1/3).
+LAWS: dict[str, Basis] = {
+    "constant": lambda n: [n**0, n ** (-1 / 3)],
+    "logarithm": lambda n: [n**0, np.log(n)],
+    "N^(1/3)": lambda n: [n ** (1 / 3), n**0],
+}
+POWER = "power"  # a N^b
+
+
+@dataclass(frozen=True)
+class Growth:
+    """A law fitted to the sizes from `first` on. exponent and its error are those of the power law, nan for others."""
+
+    law: str
+    first: float
+    chi_square: float
+    freedom: int
+    parameters: int
+    exponent: float = np.nan
+    exponent_error: float = np.nan
+    predicted: tuple[float, ...] = ()  # at the sizes fitted
+
+    @property
+    def p_value(self) -> float:
+        return float(chi2.sf(self.chi_square, self.freedom))
+
+    @property
+    def criterion(self) -> float:
+        """Akaike's, chi^2 + 2 parameters: the smaller by 10, the better beyond doubt."""
+        return self.chi_square + 2 * self.parameters
+
+
+def fits(size: ArrayLike, value: ArrayLike, error: ArrayLike, first: float) -> list[Growth]:
+    """Every law, to the sizes from the first on; none to fewer than three, which leave no degree of freedom."""
+    size, value, error = (np.asarray(array, dtype=float) for array in (size, value, error))
+    used = size >= first
+    if used.sum() < 3:
+        return []
+    points = size[used], value[used], error[used]
+    return [*(_linear(name, basis, points) for name, basis in LAWS.items()), _power(points)]
+
+
+def _linear(law: str, basis: Basis, points: Sequence[np.ndarray]) -> Growth:
+    size, value, error = points
+    design = np.stack(basis(size), axis=1)
+    solution, *_ = np.linalg.lstsq(design / error[:, None], value / error, rcond=None)
+    predicted = design @ solution
+    chi_square = float(np.sum(((value - predicted) / error) ** 2))
+    parameters = design.shape[1]
+    return Growth(law, size[0], chi_square, len(size) - parameters, parameters, predicted=tuple(predicted))
+
+
+def _power(points: Sequence[np.ndarray]) -> Growth:
+    """The error of the exponent is the change that raises chi^2 by 1, the factor being fitted anew."""
+    size = points[0]
+
+    def with_exponent(exponent: float) -> Growth:
+        return _linear(POWER, lambda n: [n**exponent], points)
+
+    best = minimize_scalar(lambda exponent: with_exponent(exponent).chi_square, bracket=(0, 0.5)).x
+    step = 1e-3
+    around = [with_exponent(best + shift).chi_square for shift in (-step, 0, step)]
+    error = step * np.sqrt(2 / (around[0] - 2 * around[1] + around[2]))
+    fit = with_exponent(best)
+    return Growth(POWER, size[0], fit.chi_square, len(size) - 2, 2, float(best), float(error), fit.predicted)
+
+
+def local_exponents(size: ArrayLike, value: ArrayLike, error: ArrayLike) -> tuple[np.ndarray, ...]:
+    """Between neighbouring sizes: their geometric middles, d ln value / d ln size, and its errors."""
+    size, value, error = (np.asarray(array, dtype=float) for array in (size, value, error))
+    step, relative = np.diff(np.log(size)), error / value
+    slope = np.diff(np.log(value)) / step
+    return np.sqrt(size[1:] * size[:-1]), slope, np.hypot(relative[1:], relative[:-1]) / step
