@@ -8,7 +8,6 @@ Points whose window is not stationary, or whose run stopped before its target, a
 from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
-import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -17,6 +16,7 @@ from workflow.lib import style
 from workflow.lib.caption import BATHS, ERRORS, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import PowerLaw, fit_power, with_error
+from workflow.lib.growth import local_exponents
 from workflow.lib.load import NOT_REACHED, Result
 
 GUIDES = {"N": (1 / 3, r"$N^{1/3}$"), 1: (1, "$N$")}  # the paper's exponents, by gamma
@@ -58,17 +58,12 @@ def exponent(table: pd.DataFrame) -> PowerLaw:
     return fit_power(sound.cells, sound.kappa, sound.kappa_error)
 
 
-def local_exponents(table: pd.DataFrame) -> pd.DataFrame:
+def exponents(table: pd.DataFrame) -> pd.DataFrame:
     """From every sound size of one gamma to the next. Neighbours share a point."""
     sound = table[table.sound]
-    size, kappa = np.log(sound.cells.to_numpy(dtype=float)), np.log(sound.kappa.to_numpy())
-    relative, step = (sound.kappa_error / sound.kappa).to_numpy(), np.diff(size)
+    middle, slope, error = local_exponents(sound.cells, sound.kappa, sound.kappa_error)
     local = sound[["gamma", "cells"]].iloc[:-1]
-    return local.assign(
-        between=np.exp((size[1:] + size[:-1]) / 2),
-        exponent_to_next=np.diff(kappa) / step,
-        exponent_to_next_error=np.hypot(relative[1:], relative[:-1]) / step,
-    )
+    return local.assign(between=middle, exponent_to_next=slope, exponent_to_next_error=error)
 
 
 def draw_sizes(axes: Axes, table: pd.DataFrame, theory: pd.DataFrame) -> None:
@@ -109,7 +104,7 @@ def draw_compensated(axes: Axes, table: pd.DataFrame, theory: pd.DataFrame, gamm
 
 def draw_local(axes: Axes, table: pd.DataFrame) -> None:
     for gamma, (marker, color) in style.BY_GAMMA.items():
-        local = local_exponents(table[table.gamma == gamma])
+        local = exponents(table[table.gamma == gamma])
         look = {"marker": marker, "color": color, **style.POINTS}
         axes.errorbar(local.between, local.exponent_to_next, local.exponent_to_next_error, **look)
         axes.axhline(GUIDES[gamma][0], **style.GUIDE)
@@ -119,7 +114,7 @@ def draw_local(axes: Axes, table: pd.DataFrame) -> None:
 def found(table: pd.DataFrame, gamma: str | int) -> str:
     """What the points of one gamma say of a power law."""
     part = table[table.gamma == gamma]
-    law, local = exponent(part), local_exponents(part)
+    law, local = exponent(part), exponents(part)
     first, last = (
         with_error(*local[["exponent_to_next", "exponent_to_next_error"]].iloc[k]) for k in (0, -1)
     )
@@ -157,7 +152,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         panels[name].set_xlabel("number of cells $N$")
     style.letter(*panels.values())
     figure.align_ylabels([panels[name] for name in ("rare", "deterministic", "local")])
-    local = pd.concat([local_exponents(table[table.gamma == gamma]) for gamma in style.BY_GAMMA])
+    local = pd.concat([exponents(table[table.gamma == gamma]) for gamma in style.BY_GAMMA])
     for added in (theory, local.drop(columns="between")):
         table = table.merge(added, how="left", on=["gamma", "cells"])
     return figure, table, caption(table, results)
@@ -165,5 +160,5 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 if __name__ == "__main__":
     kappa = "energy/(time temperature)"
-    exponents = {"exponent_to_next": "1", "exponent_to_next_error": "1"}
-    run(draw, "Heat conductivity against the size of the chain", mean_field_kappa=kappa, **exponents)
+    local = {"exponent_to_next": "1", "exponent_to_next_error": "1"}
+    run(draw, "Heat conductivity against the size of the chain", mean_field_kappa=kappa, **local)

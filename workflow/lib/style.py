@@ -43,8 +43,12 @@ GUIDE = {"color": "0.55", "linestyle": (0, (4, 2)), "linewidth": 0.8, "zorder": 
 
 POINTS = {"linestyle": "none", "capsize": 1.5, "elinewidth": 0.8, "capthick": 0.8, "markeredgewidth": 0.8}
 
+# The first is used here; the text of an SVG is text, for which a viewer without it takes the next.
+FONTS = ("STIXGeneral", "STIX Two Text", "Times New Roman", "serif")
+
 _SETTINGS = {
-    "font.family": "STIXGeneral",
+    "font.family": "serif",
+    "font.serif": list(FONTS),
     "font.size": 9,
     "mathtext.fontset": "stix",
     "axes.linewidth": 0.6,
@@ -67,7 +71,7 @@ _SETTINGS = {
     "figure.constrained_layout.use": True,
     "savefig.dpi": 300,
     "pdf.fonttype": 42,
-    "svg.fonttype": "path",
+    "svg.fonttype": "none",
     "svg.hashsalt": "lorentz-gas",
 }
 
