@@ -1,8 +1,7 @@
 """Ext. 1: spreading with the paper's random total momentum and with none; ext. 4: with random directions.
 
-Above, local slopes of <x^2>(t): 2 is ballistic, 1 diffusive, and t/ln t approaches 1 from below. Below, what
-decides between the laws for the runs that have no drift of all particles: alpha of t^alpha, and the power b of
-t ln(t/tau)^b, which is 0 for t and -1 for t/ln t.
+Above, local slopes of <x^2>(t): 2 is ballistic, 1 diffusive. Below, the exponent alpha of every run. The table has also the
+power b of t ln(t/tau)^b, which is 0 for t and -1 for t/ln t, for the runs that have no drift of all particles.
 """
 
 from collections.abc import Sequence
@@ -12,15 +11,26 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from workflow.lib import style
+from workflow.lib.caption import ERRORS, listed, number, parameters, replicas
 from workflow.lib.figure import run
+from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
-COLORS = [style.BLUE, style.VERMILLION]  # by total momentum: free, zero
-MARKERS = {20: "o", 80: "s"}
-FILLS = ["full", "none"]  # by relaxation time: short, long
+LOOKS = {
+    "random total momentum, as in the paper": {"marker": "o", "color": style.BLUE},
+    "zero total momentum": {"marker": "s", "color": style.VERMILLION, "markerfacecolor": "white"},
+    "random directions": {"marker": "D", "color": style.GREEN, "markerfacecolor": "white"},
+}
+PAPER, *CONTROLS = LOOKS
+LABELS = ("sigma", "particles-per-cell", "relaxation-time", "zero-total-momentum", "random-direction")
+
+
+def kind(result: Result) -> str:
+    if result.parameters["random-direction"]:
+        return CONTROLS[1]
+    return CONTROLS[0] if result.parameters["zero-total-momentum"] else PAPER
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
@@ -29,14 +39,8 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     for result in results:
         slope = result["local_slope"]
         columns = {"time": slope.axes["time"], "slope": slope.mean, "slope_error": slope.standard_error}
-        part = pd.DataFrame(columns)
-        for name in (
-            "sigma",
-            "particles-per-cell",
-            "relaxation-time",
-            "zero-total-momentum",
-            "random-direction",
-        ):
+        part = pd.DataFrame(columns).assign(kind=kind(result))
+        for name in LABELS:
             part[name.replace("-", "_")] = result.parameters[name]
         for name in ("alpha", "logarithmic_power", "momentum_drift"):
             if name not in result.quantities or np.isnan(result[name].mean):
@@ -47,72 +51,89 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     return pd.concat(parts, ignore_index=True)
 
 
-def verdict(axes: Axes, table: pd.DataFrame, relaxations: list[float]) -> None:
-    """alpha - 1 and b of every run without drift, one row per run: what decides between t, t/ln t, t^alpha."""
-    free_of_drift = table[table.zero_total_momentum | table.random_direction]
-    runs = free_of_drift.drop_duplicates(["particles_per_cell", "relaxation_time"])
-    for row, run_row in enumerate(runs.itertuples()):
-        look = {
-            "marker": MARKERS[run_row.particles_per_cell],
-            "fillstyle": FILLS[relaxations.index(run_row.relaxation_time)],
-            **style.POINTS,
-        }
-        axes.errorbar(run_row.alpha - 1, row, xerr=run_row.alpha_error, color=style.BLACK, **look)
-        error = run_row.logarithmic_power_error
-        axes.errorbar(run_row.logarithmic_power, row, xerr=error, color=style.GREEN, **look)
-    for value, law in ((0, "$t$"), (-1, r"$t/\ln t$")):
-        axes.axvline(value, **style.GUIDE)
-        axes.text(value, 1.02, law, transform=axes.get_xaxis_transform(), ha="center", va="bottom", size=8)
-    axes.set(xlim=(-1.6, 1.1), ylim=(-0.7, len(runs) - 0.3), yticks=[])
-    axes.set_xlabel(r"$\alpha - 1$ (black), $b$ (green)")
+def shown(table: pd.DataFrame) -> pd.DataFrame:
+    """The paper's ensemble and one control: the drawn directions where there are any."""
+    return table[table.kind.isin([PAPER, CONTROLS[int(table.random_direction.any())]])]
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
-    table = tabulate(results)
-    sigmas = sorted(table.sigma.unique())
-    relaxations = sorted(table.relaxation_time.unique())
-    figure, (rows, verdicts) = plt.subplots(
+def like_the_paper(table: pd.DataFrame) -> pd.DataFrame:
+    """Of every kind the run with the paper's number of particles, the smallest, that has relaxed longest."""
+    few = table[table.particles_per_cell == table.particles_per_cell.min()]
+    return few[few.relaxation_time == few.groupby("kind").relaxation_time.transform("max")]
+
+
+def draw_slopes(axes: Axes, table: pd.DataFrame) -> None:
+    """Every third time, as neighbours share a time."""
+    for name, part in table.groupby("kind"):
+        every = part.iloc[::3]
+        look = {**style.POINTS, "linestyle": "-", **LOOKS[name]}
+        axes.errorbar(every.time, every.slope, every.slope_error, **look)
+    axes.set(xscale="log", xlabel="time $t$")
+
+
+def draw_exponents(axes: Axes, table: pd.DataFrame) -> None:
+    """alpha of all runs, one column per number of particles and relaxation time."""
+    runs = table.drop_duplicates(["kind", "particles_per_cell", "relaxation_time"])
+    places = sorted(set(zip(runs.particles_per_cell, runs.relaxation_time, strict=True)))
+    for name, part in runs.groupby("kind"):
+        pairs = zip(part.particles_per_cell, part.relaxation_time, strict=True)
+        x = [places.index(pair) for pair in pairs]
+        axes.errorbar(x, part.alpha, part.alpha_error, label=name, **LOOKS[name], **style.POINTS)
+    names = [f"$n = {n}$\n$t_r = {relaxed:g}$" for n, relaxed in places]
+    axes.set_xticks(range(len(places)), names)
+    axes.tick_params(axis="x", length=0)
+    axes.margins(x=0.25)
+
+
+def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
+    used = [result for result in results if kind(result) in set(table.kind)]
+    fitted = used[0].parameters["observation-time"] / 10 ** used[0].parameters["fit-decades"]
+    said = []
+    for sigma, part in like_the_paper(table).groupby("sigma"):
+        runs = part.drop_duplicates("kind").sort_values("kind", key=lambda names: names != PAPER)
+        alphas = [with_error(one.alpha, one.alpha_error) for one in runs.itertuples()]
+        said.append(f"{listed(alphas)} at σ = {number(sigma)}")
+    (control,) = set(table.kind) - {PAPER}
+    conserved, power = table.momentum_drift.max(), table.logarithmic_power
+    return f"""
+        Spreading of a tagged particle in a closed chain, {parameters(used, "cells", "cell-length", "temperature", "gamma")},
+        n particles per cell, relaxed for t_r, {replicas(used)}. Above, local slopes of ln ⟨x²⟩ against ln t for the paper's
+        number of particles and the longest relaxation; below, the exponent α of all runs, fitted in the shaded decade, from
+        t = {fitted:g} on. Guides: ballistic and diffusive. {ERRORS}. α with {PAPER}, and with {control}: {"; ".join(said)}. The total momentum of particles
+        and scatterers is conserved to {conserved:.0e} of the sum of all momenta; the superdiffusion that the paper reads from
+        its ensemble of random total momentum is the drift of it, and is gone where there is none, or where directions are
+        drawn. Without drift, a fit of t times a power of its logarithm gives powers from {number(power.min())} to
+        {number(power.max())}."""
+
+
+def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+    table = shown(tabulate(results))
+    sigmas = sorted(table[table.kind != PAPER].sigma.unique())
+    table = table[table.sigma.isin(sigmas)].reset_index(drop=True)
+    figure, rows = plt.subplots(
         2,
         len(sigmas),
         sharey="row",
-        figsize=(style.COLUMN * (0.4 + 0.6 * len(sigmas)), 1.45 * style.HEIGHT),
-        height_ratios=[2, 1],
+        figsize=(style.COLUMN * max(2, 0.4 + 0.6 * len(sigmas)), 1.6 * style.HEIGHT),
+        height_ratios=[1.4, 1],
     )
-    runs = ["sigma", "particles_per_cell", "relaxation_time", "zero_total_momentum"]
-    for (sigma, particles, relaxation, zero), run_table in table.groupby(runs):
-        axes = rows[sigmas.index(sigma)]
-        look = {
-            "marker": MARKERS[particles],
-            "color": COLORS[int(zero)],
-            "fillstyle": FILLS[relaxations.index(relaxation)],
-        }
-        every = run_table.iloc[::3]
-        axes.errorbar(
-            every.time, every.slope, every.slope_error, **look, **{**style.POINTS, "linestyle": "-"}
-        )
-        axes.set(xscale="log", xlabel="time $t$", title=rf"$\sigma = {sigma:g}$")
-    for sigma, axes in zip(sigmas, verdicts, strict=True):
-        verdict(axes, table[table.sigma == sigma], relaxations)
-    rows[0].set_xlabel(f"time $t$ ({style.UNITS})")
-    for axes in rows:
-        for value in (1, 2):
+    options = results[0].parameters
+    until = options["observation-time"]
+    for sigma, (above, below) in zip(sigmas, rows.T, strict=True):
+        part = table[table.sigma == sigma]
+        draw_slopes(above, like_the_paper(part))
+        draw_exponents(below, part)
+        above.axvspan(until / 10 ** options["fit-decades"], until, **style.WINDOW)
+        above.text(0.05, 0.92, rf"$\sigma = {sigma:g}$", transform=above.transAxes, va="top")
+        for axes, value in ((axes, value) for axes in (above, below) for value in (1, 2)):
             axes.axhline(value, **style.GUIDE)
-    rows[0].set(ylabel=r"$d\ln\langle x^2\rangle/d\ln t$", ylim=(0, 2.6))
-    verdicts[0].set_ylabel("runs without drift")
-    plain = {"color": "grey", "linestyle": "none"}
-    handles = [Line2D([], [], marker=MARKERS[n], label=f"$n = {n}$", **plain) for n in MARKERS]
-    if len(relaxations) > 1:
-        handles += [
-            Line2D([], [], marker="o", fillstyle=fill, label=f"relaxed for {relaxation:g}", **plain)
-            for fill, relaxation in zip(FILLS, relaxations, strict=True)
-        ]
-    if table.zero_total_momentum.nunique() > 1:
-        names = ("random total momentum", "zero total momentum")
-        handles += [
-            Line2D([], [], color=color, label=name) for color, name in zip(COLORS, names, strict=True)
-        ]
-    figure.legend(handles=handles, loc="outside upper center", ncols=3)
-    return figure, table
+    rows[0, 0].set(
+        xlabel=f"time $t$ ({style.UNITS})", ylabel=r"$d\ln\langle x^2\rangle/d\ln t$", ylim=(0.6, 2.4)
+    )
+    rows[1, 0].set(ylabel=r"$\alpha$ of $\langle x^2\rangle \sim t^\alpha$", ylim=(0.6, 2.4))
+    style.letter(*rows.flat)
+    figure.legend(*rows[1, 0].get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    return figure, table, caption(table, results)
 
 
 if __name__ == "__main__":

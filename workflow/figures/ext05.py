@@ -9,80 +9,131 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
+from workflow.lib.caption import BATHS, ERRORS, WINDOW, listed, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import fit_line, with_error
 from workflow.lib.load import Result
+
+FITTED = 20  # cells of the smallest chain in the fit of the excess
 
 # Deviation of a quantity from a straight line or from the mean over the bonds, with an error of its own.
 SIDES = {"rate_right": ">", "rate_left": "<"}
 CURRENTS = {"particle_current": "o", "energy_current": "s"}
 
 
+def look_of(result: Result, marker: str, index: int) -> dict:
+    """Large at gamma = N, small at gamma = 1; the second of two curves is open."""
+    gamma = result.parameters["gamma"]
+    _, color = style.BY_GAMMA[gamma]
+    face = "white" if index else color
+    size = 4 if gamma == "N" else 2
+    return {"marker": marker, "color": color, "markerfacecolor": face, "markersize": size, **style.POINTS}
+
+
 def plot_deviations(axes: Axes, result: Result, curves: dict[str, str]) -> list[pd.DataFrame]:
     """In percent of the mean."""
     tables = []
     cells = int(result.parameters["cells"])
-    color = style.BY_GAMMA[result.parameters["gamma"]][1]
     for index, (name, marker) in enumerate(curves.items()):
         whole, deviation = result[name], result[f"{name}_deviation"]
         (axis,) = whole.axes
         x = (whole.axes[axis] + (0.5 if axis == "cell" else 0)) / cells
         scale = 100 / np.abs(whole.mean).mean()
-        look = {"marker": marker, "color": color, "markerfacecolor": "white" if index else color}
+        look = look_of(result, marker, index)
         label = rf"{name.replace('_', ' ')}, $\gamma = {style.gamma(result)}$"
         percent, error = scale * deviation.mean, scale * deviation.standard_error
-        axes.errorbar(x, percent, error, label=label, **look, **style.POINTS)
+        axes.errorbar(x, percent, error, label=label, **look)
         table = pd.DataFrame({"quantity": name, "x": x, "value": whole.mean, "error": whole.standard_error})
         table["deviation_percent"], table["deviation_percent_error"] = percent, error
         tables.append(table.assign(units=whole.units, gamma=style.gamma(result), cells=cells))
     return tables
 
 
+def plot_rates(axes: Axes, result: Result) -> None:
+    """As they are, with the straight line that the deviations are from."""
+    for index, (name, marker) in enumerate(SIDES.items()):
+        rate, deviation = result[name], result[f"{name}_deviation"]
+        x = (rate.axes["cell"] + 0.5) / int(result.parameters["cells"])
+        look = look_of(result, marker, index)
+        axes.errorbar(x, rate.mean, rate.standard_error, **look)
+        axes.plot(x, rate.mean - deviation.mean, color=look["color"], linewidth=0.6, zorder=1)
+
+
 def plot_excess(axes: Axes, results: Sequence[Result]) -> pd.DataFrame:
-    """Excess density of both end cells against the size, with a + b ln N through the chains of 20 cells or more."""
+    """Excess density of both end cells against the size, with a + b ln N through the longer chains."""
     cells = np.array([int(result.parameters["cells"]) for result in results])
     tables = []
-    for end, (name, marker, color) in enumerate(
-        (("left", "o", style.BLUE), ("right", "s", style.VERMILLION))
+    for end, (name, marker, color, dashes) in enumerate(
+        (("left", "o", style.BLUE, "solid"), ("right", "s", style.VERMILLION, "dashed"))
     ):
         excess = np.array([result["density_excess"].mean[end] for result in results])
         error = np.array([result["density_excess"].standard_error[end] for result in results])
-        fitted = cells >= 20
+        fitted = cells >= FITTED
         line = fit_line(np.log(cells[fitted]), excess[fitted], error[fitted])
-        label = (
-            rf"{name}: slope {with_error(line.slope, line.error)} per $\ln N$, "
-            rf"$\chi^2 = {line.chi_square:.1f}$ of {line.freedom}"
-        )
         look = {"marker": marker, "color": color, "markerfacecolor": "white", **style.POINTS}
-        axes.errorbar(cells, excess, error, label=label, **look)
-        axes.plot(cells[fitted], line.at(np.log(cells[fitted])), color=color)
+        axes.errorbar(cells, excess, error, label=f"{name} end", **look)
+        axes.plot(cells[fitted], line.at(np.log(cells[fitted])), color=color, linestyle=dashes)
         table = pd.DataFrame({"quantity": f"density_excess {name}", "cells": cells, "value": excess})
+        table["fitted"] = np.where(fitted, line.at(np.log(cells)), np.nan)
+        table["slope"], table["slope_error"], table["chi_square"] = line.slope, line.error, line.chi_square
         tables.append(table.assign(error=error, units="1", gamma=style.gamma(results[0])))
     return pd.concat(tables)
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
+def caption(table: pd.DataFrame, profiles: Sequence[Result], sizes: Sequence[Result]) -> str:
+    said = []
+    for row in table.dropna(subset="slope").drop_duplicates("quantity").itertuples():
+        freedom = int((table.quantity == row.quantity)[table.fitted.notna()].sum()) - 2
+        said.append(
+            f"{row.quantity.split()[-1]} {with_error(row.slope, row.slope_error)} per unit of ln N "
+            f"(χ² = {row.chi_square:.1f} for {freedom} degrees of freedom)"
+        )
+    bent = []
+    for result in profiles:
+        rows = table[(table.gamma == style.gamma(result)) & table.quantity.isin(SIDES)]
+        far = rows.loc[rows.deviation_percent.abs().idxmax()]
+        bent.append(
+            f"{with_error(far.deviation_percent, far.deviation_percent_error)} % at γ = {style.gamma(result)}"
+        )
+    return f"""
+        Rates, currents and accumulation in an open chain, {parameters(profiles, "sigma", "cell-length", *BATHS, *WINDOW)},
+        {replicas([*profiles, *sizes])}; (a) to (c) {parameters(profiles, "cells")}, large symbols at γ = N and small ones at γ = 1. (a) Arrivals at a scatterer per unit
+        time, to the right (full) and to the left (open), with straight lines through them; (b) the same minus the lines, in per cent, whose
+        errors are those of the deviations; (c) currents of particles (circles) and energy (squares) minus their mean over the
+        bonds; the openings of the chain, where particles are injected, have the largest errors. (d) Density of an end cell over a line
+        through the bulk, minus one, at γ = 1 against N, with lines fitted from {FITTED} cells on: {"; ".join(said)}. {ERRORS}. The
+        paper states linear rates and uniform currents: the rates deviate by at most {listed(bent)}; and an accumulation that turns singular
+        as N grows."""
+
+
+def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     profiles = [result for result in results if result.parameters["cells"] == 30]
     sizes = [result for result in results if style.gamma(result) == "1"]
     sizes.sort(key=lambda result: result.parameters["cells"])
-    figure, (rates, currents, excess) = plt.subplots(3, 1, figsize=(style.COLUMN, 2.6 * style.HEIGHT))
+    figure, panels = plt.subplots(2, 2, figsize=(2 * style.COLUMN, 1.9 * style.HEIGHT))
+    raw, rates, currents, excess = panels.flat
     tables = []
     for result in profiles:
+        plot_rates(raw, result)
         tables += plot_deviations(rates, result, SIDES)
         tables += plot_deviations(currents, result, CURRENTS)
     tables.append(plot_excess(excess, sizes))
-    rates.set(xlabel="$x$", ylabel="rates minus line / %")
-    currents.set(xlabel="$x$", ylabel="currents minus mean / %")
+    table = pd.concat(tables)
+    inside = table[table.quantity.isin(CURRENTS) & (table.x > 0) & (table.x < 1)]
+    reach = 2 * (inside.deviation_percent.abs() + inside.deviation_percent_error).max()
+    raw.set(xlabel="$x$", ylabel=f"rate at a scatterer ({style.UNITS})")
+    rates.set(xlabel="$x$", ylabel="rates minus lines / %")
+    currents.set(xlabel="$x$", ylabel="currents minus mean / %", ylim=(-reach, reach))
     excess.set(xscale="log", xlabel="number of cells $N$", ylabel="excess density of an end cell")
-    excess.legend(loc="upper left", fontsize=7, title=r"$\gamma = 1$")
-    low, high = excess.get_ylim()
-    excess.set_ylim(min(0, low), high + 0.5 * (high - low))
+    excess.legend(loc="upper left", title=r"$\gamma = 1$")
+    excess.set_ylim(bottom=0)
     for axes in (rates, currents):
         axes.axhline(0, **style.GUIDE)
-        low, high = axes.get_ylim()
-        axes.set_ylim(low, high + 0.55 * (high - low))
-        axes.legend(loc="upper center", ncols=2, fontsize=6.5)
-    return figure, pd.concat(tables)
+    (points, names), (more, others) = (axes.get_legend_handles_labels() for axes in (rates, currents))
+    figure.legend([*points, *more], [*names, *others], loc="outside upper center", ncols=4)
+    style.letter(*panels.flat)
+    table = table.reset_index(drop=True)
+    return figure, table, caption(table, profiles, sizes)
 
 
 if __name__ == "__main__":
@@ -93,5 +144,9 @@ if __name__ == "__main__":
         x="1",
         deviation_percent="1",
         deviation_percent_error="1",
+        fitted="1",
+        slope="1",
+        slope_error="1",
+        chi_square="1",
         **by_row,
     )

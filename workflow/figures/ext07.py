@@ -1,4 +1,7 @@
-"""Ext. 7: ageing. Energies against the logarithm of time; what moves with the relaxation time."""
+"""Ext. 7: ageing. Energies against the logarithm of time; what moves with the relaxation time.
+
+Of the quantities that depend on the relaxation time those are drawn whose trend is resolved; the table has all.
+"""
 
 from collections.abc import Sequence
 
@@ -9,62 +12,107 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
+from workflow.lib.caption import CHAIN, ERRORS, GAS, parameters, replicas
 from workflow.lib.figure import run
+from workflow.lib.fit import Line, fit_line, with_error
 from workflow.lib.load import Result
 
+RESOLVED = 3  # standard errors of a trend that is not chance
+
+# Program, quantity, label, what it is for an infinite chain at equilibrium, and name.
 AGED = [
-    ("persistence", "mu", r"persistence $\mu$", lambda sigma: np.arccos(sigma) / np.pi),
-    ("waiting_time", "exponent", r"exponent of $\Psi$", lambda _: -2),
-    ("displacement", "alpha", r"exponent $\alpha$, zero momentum", lambda _: 1),
+    ("persistence", "mu", r"persistence $\mu$", lambda sigma: np.arccos(sigma) / np.pi, "μ"),
+    ("waiting_time", "exponent", r"exponent of $\Psi$", lambda _: -2, "the exponent of Ψ"),
+    ("displacement", "alpha", r"exponent $\alpha$, zero momentum", lambda _: 1, "α"),
 ]
 
 
 def plot_energies(axes: Axes, result: Result) -> list[pd.DataFrame]:
-    """Mean energies, of a scatterer over windows of time, of a particle at their ends; the slopes of each decade."""
+    """Mean energies, of a scatterer over windows of time, of a particle at their ends."""
     tables = []
     looks = {
-        "scatterer_energy_mean": ("o", style.BLUE, "scatterer"),
-        "particle_energy": ("s", style.VERMILLION, "particle"),
+        "scatterer_energy_mean": ("o", style.BLUE, style.BLUE, "scatterer"),
+        "particle_energy": ("s", style.VERMILLION, "white", "particle"),
     }
-    for name, (marker, color, label) in looks.items():
+    for name, (marker, color, face, label) in looks.items():
         energy = result[name]
         (time,) = energy.axes.values()
-        look = {"marker": marker, "color": color, "label": label, **style.POINTS}
-        axes.errorbar(time, energy.mean, energy.standard_error, **look)
+        look = {"marker": marker, "color": color, "markerfacecolor": face, **style.POINTS}
+        axes.errorbar(time, energy.mean, energy.standard_error, label=label, **look)
         columns = {"quantity": name, "time": time, "value": energy.mean}
         tables.append(pd.DataFrame({**columns, "error": energy.standard_error, "units": energy.units}))
-    slope = result["decade_slope"]
-    height = result["scatterer_energy_mean"].mean.max()
-    for k, first in enumerate(slope.axes["decade"]):
-        place = (first * np.sqrt(10), 1.12 * height)
-        axes.text(*place, style.with_error(slope, k), ha="center", fontsize=7)
-    columns = {"quantity": "decade_slope", "time": slope.axes["decade"], "value": slope.mean}
-    tables.append(pd.DataFrame({**columns, "error": slope.standard_error, "units": slope.units}))
-    axes.set(xscale="log", xlabel="time from the start", ylabel=f"mean energy ({style.UNITS})")
-    axes.set(ylim=(0, 1.25 * height), title="slope of the scatterers' against $\\ln t$, by decade:")
-    axes.title.set_fontsize(8)
-    axes.legend(loc="center left")
+    axes.set(xscale="log", ylabel=f"mean energy ({style.UNITS})", ylim=(0, None))
+    axes.legend(loc="upper left")
     return tables
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
-    figure, rows = plt.subplots(2, 2, figsize=(1.9 * style.COLUMN, 1.7 * style.HEIGHT))
+def plot_slopes(axes: Axes, result: Result) -> pd.DataFrame:
+    """Of the scatterers' energy against ln t, by decade."""
+    slope = result["decade_slope"]
+    middle = slope.axes["decade"] * np.sqrt(10)
+    axes.errorbar(middle, slope.mean, slope.standard_error, marker="o", color=style.BLUE, **style.POINTS)
+    axes.set(xlabel="time from the start", ylabel=r"$dE/d\ln t$ of a scatterer", ylim=(0, None))
+    columns = {"quantity": "decade_slope", "time": slope.axes["decade"], "value": slope.mean}
+    return pd.DataFrame({**columns, "error": slope.standard_error, "units": slope.units})
+
+
+def aged(results: Sequence[Result], program: str, name: str) -> tuple[pd.DataFrame, Line]:
+    """A quantity by relaxation time, and its trend with the logarithm of it."""
+    runs = [result for result in results if result.provenance["program"] == program]
+    runs.sort(key=lambda result: result.parameters["relaxation-time"])
+    time = [result.parameters["relaxation-time"] for result in runs]
+    table = pd.DataFrame({"quantity": name, "time": time})
+    table["value"] = [float(result[name].mean) for result in runs]
+    table["error"] = [float(result[name].standard_error) for result in runs]
+    trend = fit_line(np.log(time), table["value"], table.error)
+    return table.assign(units=runs[0][name].units, fitted=trend.at(np.log(time))), trend
+
+
+def resolved(trend: Line) -> bool:
+    return abs(trend.slope) > RESOLVED * trend.error
+
+
+def plot_aged(axes: Axes, table: pd.DataFrame, label: str, expected: float) -> None:
+    axes.errorbar(table.time, table["value"], table.error, marker="o", color=style.BLUE, **style.POINTS)
+    axes.plot(table.time, table.fitted, color=style.BLACK, linestyle="dotted")
+    axes.axhline(expected, **style.GUIDE)
+    axes.set(xscale="log", xlabel="relaxation time", ylabel=label)
+
+
+def caption(longest: Result, trends: dict[str, Line], results: Sequence[Result]) -> str:
+    first, last = (style.with_error(longest["decade_slope"], k) for k in (1, -1))
+    said = [
+        f"{with_error(trend.slope, trend.error)} of {name}{'' if resolved(trend) else ', which is not resolved'}"
+        for name, trend in trends.items()
+    ]
+    return f"""
+        Ageing of a closed chain, {parameters([longest], *CHAIN, *GAS)}, {replicas(results)}, that starts with scatterers at rest. (a) Mean
+        kinetic energy of a scatterer (circles) and of a particle (squares) against the time from the start; (b) slope of the scatterers'
+        energy against ln t, decade by decade: {first} in the second and {last} in the last. The paper has a logarithmic growth that
+        saturates; the slope falls, and is not zero at the end. The other panel, where there is one: quantities that move with the
+        relaxation time, with a line fitted in its logarithm (dotted) and the value expected at equilibrium (dashed). Change per unit of
+        the logarithm of the relaxation time: {"; ".join(said)}. {ERRORS}; a trend is resolved beyond {RESOLVED} of them."""
+
+
+def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     ageing = [result for result in results if result.provenance["program"] == "ageing"]
     longest = max(ageing, key=lambda result: result.parameters["observation-time"])
-    tables = plot_energies(rows[0, 0], longest)
-    for axes, (program, name, label, expected) in zip(rows.flat[1:], AGED, strict=True):
-        runs = [result for result in results if result.provenance["program"] == program]
-        runs.sort(key=lambda result: result.parameters["relaxation-time"])
-        time = [result.parameters["relaxation-time"] for result in runs]
-        value = [float(result[name].mean) for result in runs]
-        error = [float(result[name].standard_error) for result in runs]
-        axes.errorbar(time, value, error, marker="o", color=style.BLUE, **style.POINTS)
-        axes.axhline(expected(runs[0].parameters["sigma"]), **style.GUIDE)
-        axes.set(xscale="log", xlabel="relaxation time", ylabel=label)
-        columns = {"quantity": name, "time": time, "value": value, "error": error}
-        tables.append(pd.DataFrame({**columns, "units": runs[0][name].units}))
-    return figure, pd.concat(tables)
+    found = {name: aged(results, program, name) for program, name, *_ in AGED}
+    shown = [entry for entry in AGED if resolved(found[entry[1]][1])]
+    figure = plt.figure(figsize=((1 + 0.9 * len(shown)) * style.COLUMN, 1.5 * style.HEIGHT))
+    grid = figure.add_gridspec(2, 1 + len(shown), height_ratios=[1.7, 1])
+    above = figure.add_subplot(grid[0, 0])
+    below = figure.add_subplot(grid[1, 0], sharex=above)
+    others = [figure.add_subplot(grid[:, 1 + k]) for k in range(len(shown))]
+    tables = [*plot_energies(above, longest), plot_slopes(below, longest)]
+    for axes, (_, name, label, expected, _) in zip(others, shown, strict=True):
+        plot_aged(axes, found[name][0], label, expected(longest.parameters["sigma"]))
+    tables += [table for table, _ in found.values()]
+    style.letter(above, below, *others)
+    trends = {spoken: found[name][1] for _, name, *_, spoken in AGED}
+    return figure, pd.concat(tables), caption(longest, trends, results)
 
 
 if __name__ == "__main__":
-    run(draw, "Ageing of the closed chain", value="column units", error="column units")
+    by_row = dict.fromkeys(("value", "error", "fitted"), "column units")
+    run(draw, "Ageing of the closed chain", **by_row)

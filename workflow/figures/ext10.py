@@ -2,7 +2,7 @@
 Gaussian at the temperature of the baths.
 
 Left the flux F_N that leaves at both ends, right the density g of the end scatterers' P/sqrt(M), both over the exact one, bin by
-bin, minus 1. The legends give chi^2 over the bins that hold more than 1e-4 of all, and the distance of Kolmogorov and Smirnov.
+bin, minus 1. The table has chi^2 over the bins shown, and the distance of Kolmogorov and Smirnov.
 """
 
 from collections.abc import Sequence
@@ -15,10 +15,12 @@ from matplotlib.figure import Figure
 from scipy.special import erf
 
 from workflow.lib import style
+from workflow.lib.caption import BATHS, ERRORS, WINDOW, number, parameters, replicas
 from workflow.lib.figure import run
+from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
-SEEN = 1e-4  # probability of the rarest bins that are shown
+SEEN = 1e-3  # probability of the rarest bins that are shown
 
 
 def gaussian(momentum: np.ndarray, temperature: float) -> np.ndarray:
@@ -67,18 +69,33 @@ def plot(axes: Axes, result: Result, curve: tuple, units: str, shift: float) -> 
     distance, distance_error = largest_distance(found, error, exact)
     marker, color = style.BY_GAMMA[result.parameters["gamma"]]
     look = {"marker": marker, "color": color, "markerfacecolor": "white", "markersize": 2.5, **style.POINTS}
-    label = (
-        rf"$\gamma = {style.gamma(result)}$: $\chi^2 = {chi_square:.0f}$ of {len(found)}, "
-        rf"$D = {1e4 * distance:.1f}({1e4 * distance_error:.1f})\cdot 10^{{-4}}$"
-    )
+    label = rf"$\gamma = {style.gamma(result)}$"
     axes.errorbar(momentum + shift, 100 * (found / exact - 1), 100 * error / exact, label=label, **look)
     table = pd.DataFrame({"momentum": momentum, "found": found, "found_error": error, "exact": exact})
     table.insert(0, "gamma", style.gamma(result))
     return table.assign(units=units, chi_square=chi_square, distance=distance, distance_error=distance_error)
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
-    figure, columns = plt.subplots(1, 2, figsize=(2 * style.COLUMN, 1.1 * style.HEIGHT), sharey=True)
+def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
+    said = []
+    for row in table.drop_duplicates(["quantity", "gamma"]).itertuples():
+        bins = int(((table.quantity == row.quantity) & (table.gamma == row.gamma)).sum())
+        name = "flux" if row.quantity == "flux" else "scatterers"
+        distance = with_error(100 * row.distance, 100 * row.distance_error)
+        said.append(
+            f"{name} at γ = {row.gamma} χ² = {row.chi_square:.0f} over {bins} bins, largest distance {distance} %"
+        )
+    chain = ("cells", "cell-length", "sigma")
+    return f"""
+        Equilibrium: an open chain between equal baths, {parameters(results, *chain, *BATHS, *WINDOW)}, {replicas(results)}, at γ = N
+        (circles) and γ = 1 (squares). (a) Flux of the particles that leave at both ends, (b) density of the momenta of the scatterers in
+        the end cells, both over the Gaussian at the temperature of the baths and at their rate, minus one, in the bins that hold more
+        than {number(100 * SEEN)} % of all; nothing is fitted. {ERRORS}. Against the Gaussian, with the largest distance of the
+        distribution functions (Kolmogorov and Smirnov): {"; ".join(said)}. As the paper states, both are Gaussian."""
+
+
+def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+    figure, columns = plt.subplots(1, 2, figsize=(2 * style.COLUMN, 1.1 * style.HEIGHT))
     kinds = {
         "momentum_flux": (columns[0], outgoing_flux, "flux"),
         "steady_profile": (columns[1], end_scatterers, "scatterer_density"),
@@ -90,13 +107,16 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         table = plot(axes, result, curve(result), result[name].units, shift)
         table.insert(0, "quantity", name)
         tables.append(table)
-    columns[0].set(xlabel="momentum $p$", ylabel="found over exact, minus 1 / %", ylim=(-20, 20))
-    columns[1].set(xlabel=r"momentum $P/\sqrt{M}$")
-    for axes, title in zip(columns, ("flux of the particles that leave", "end scatterers"), strict=True):
+    columns[0].set(
+        xlabel=f"momentum $p$ ({style.UNITS})", ylabel="flux that leaves over Gaussian, minus 1 / %"
+    )
+    columns[1].set(xlabel=r"momentum $P/\sqrt{M}$", ylabel="end scatterers over Gaussian, minus 1 / %")
+    for axes in columns:
         axes.axhline(0, **style.GUIDE)
-        axes.set_title(title, fontsize=9)
-        axes.legend(loc="upper center", fontsize=7)
-    return figure, pd.concat(tables)
+    figure.legend(*columns[0].get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    style.letter(*columns)
+    table = pd.concat(tables)
+    return figure, table, caption(table, results)
 
 
 if __name__ == "__main__":

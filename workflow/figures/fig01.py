@@ -1,55 +1,125 @@
 """Fig. 1: momentum distribution of the particles in an empty chain that fills, times |p|, at several times.
 
-With three distances between scatterers, as the paper states none; below on logarithmic bins, with the fronts p_0(t).
+With three distances between scatterers, as the paper states none. Below on logarithmic bins, with the fronts p_0(t), and
+the fronts over lambda/2t, which they are expected to follow.
 """
 
 from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
+import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
+from workflow.lib.caption import BATHS, ERRORS, number, parameters, replicas
 from workflow.lib.figure import run
-from workflow.lib.load import Quantity, Result
+from workflow.lib.fit import fit_power
+from workflow.lib.load import Result
+
+FRONT = {"marker": "o", "color": style.BLACK, "markerfacecolor": "white", **style.POINTS}
 
 
-def plot_times(axes: Axes, density: Quantity, axis: str) -> list[pd.DataFrame]:
-    """One curve with its error band per time; returns their tables."""
-    x, parts = density.axes[axis], []
-    curves = zip(density.axes["time"], density.mean, density.standard_error, strict=True)
-    for (time, mean, error), color, dashes in zip(curves, style.SEQUENCE, style.DASHES, strict=True):
-        axes.plot(x, mean, color=color, linestyle=dashes, label=f"$t = {time:g}$")
-        axes.fill_between(x, mean - error, mean + error, color=color, alpha=0.3, linewidth=0)
-        columns = {"bins": axis, "time": time, "momentum": x, "weighted_density": mean}
-        parts.append(pd.DataFrame({**columns, "error": error}))
-    return parts
+def by_momentum(result: Result) -> pd.DataFrame:
+    """One row per time and bin."""
+    frame = result["weighted_momentum_density"].to_frame().rename(columns={"p": "momentum"})
+    return frame.assign(bins="momentum")
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
-    figure, rows = plt.subplots(2, len(results), figsize=(3 * style.COLUMN, 2 * style.HEIGHT), sharex="row")
-    tables = []
-    for (above, below), result in zip(rows.T, results, strict=True):
-        length, spacing = style.spacing(result)
-        linear = plot_times(above, result["weighted_momentum_density"], "p")
-        logarithmic = plot_times(below, result["weighted_speed_density"], "speed")
-        front, plateau = result["front"], result["plateau"]
-        look = {"marker": "o", "color": style.BLACK, "markerfacecolor": "white", **style.POINTS}
-        below.errorbar(front.mean, plateau.mean / 2, xerr=front.standard_error, **look, label="$p_0(t)$")
-        label = rf"$p_0 \sim t^{{{style.with_error(result['front_exponent'])}}}$"
-        below.text(0.04, 0.9, label, transform=below.transAxes)
-        above.set(
-            title=rf"$\lambda = {spacing}$", xlabel=f"momentum $p$ ({style.UNITS})", ylabel=r"$|p|\,n_t(p)$"
+def by_speed(result: Result) -> pd.DataFrame:
+    """The same on logarithmic bins, each two of the file's, whose counts are nearly independent."""
+    frame = result["weighted_speed_density"].to_frame().rename(columns={"speed": "momentum"})
+    pair = frame.groupby("time").cumcount() // 2
+    pairs = frame.groupby([frame.time, pair])
+    joined = pairs[["mean"]].mean()
+    joined["momentum"] = np.exp(np.log(frame.momentum).groupby([frame.time, pair]).mean())
+    squares = (frame.standard_error**2).groupby([frame.time, pair])
+    joined["standard_error"] = np.sqrt(squares.sum()) / squares.count()
+    return joined.reset_index().assign(bins="speed")
+
+
+def tabulate(result: Result) -> pd.DataFrame:
+    """Both, with the front and the height above it at every time."""
+    columns = {"mean": "weighted_density", "standard_error": "error"}
+    table = pd.concat([by_momentum(result), by_speed(result)]).rename(columns=columns)
+    table = table[["bins", "time", "momentum", "weighted_density", "error"]]
+    for name in ("front", "plateau"):
+        quantity = result[name]
+        for column, values in ((name, quantity.mean), (f"{name}_error", quantity.standard_error)):
+            table[column] = table.time.map(dict(zip(quantity.axes["time"], values, strict=True)))
+    table.insert(0, "cell_length", style.spacing(result)[0])
+    return table
+
+
+def plot_times(axes: Axes, table: pd.DataFrame) -> None:
+    """One curve with its error band per time."""
+    curves = zip(table.groupby("time"), style.SEQUENCE, style.DASHES, strict=True)
+    for (time, part), color, dashes in curves:
+        axes.plot(
+            part.momentum, part.weighted_density, color=color, linestyle=dashes, label=f"$t = {time:g}$"
         )
-        below.set(xscale="log", xlabel=r"$|p|$", ylabel=r"$|p|\,n_t(|p|)$")
-        for axes in (above, below):
-            axes.set_ylim(bottom=0)
-        for part in (*linear, *logarithmic):
-            part.insert(0, "cell_length", length)
-            tables.append(part)
+        low, high = (part.weighted_density + sign * part.error for sign in (-1, 1))
+        axes.fill_between(part.momentum, low, high, color=color, alpha=0.3, linewidth=0)
+    axes.set_ylim(bottom=0)
+
+
+def fronts(table: pd.DataFrame) -> pd.DataFrame:
+    """One row per time, with the front over lambda/2t."""
+    rows = table.drop_duplicates("time")
+    expected = rows.cell_length / (2 * rows.time)
+    return rows.assign(ratio=rows.front / expected, ratio_error=rows.front_error / expected)
+
+
+def said_of_front(result: Result, table: pd.DataFrame) -> str:
+    """Exponent of p_0 over all times, and without the first."""
+    late = fronts(table).iloc[1:]
+    without = fit_power(late.time, late.front, late.front_error)
+    return (
+        f"{style.with_error(result['front_exponent'])} at λ = {style.spacing(result)[1]} ({without.text} "
+        "without the first time)"
+    )
+
+
+def caption(tables: Sequence[pd.DataFrame], results: Sequence[Result]) -> str:
+    exponents = [said_of_front(result, table) for result, table in zip(results, tables, strict=True)]
+    ratios = pd.concat([fronts(table) for table in tables]).ratio
+    return f"""
+        Filling of an empty chain: number n_t(p) of particles with momentum p inside, per unit momentum, times |p|, at five times t;
+        {parameters(results, "cells", "sigma", "gamma", *BATHS)}, {replicas(results)}. The paper does not state the distance λ
+        between scatterers; each column has another. Above against p, as in the paper; in the middle both signs together against
+        |p| on logarithmic bins, with circles at the front p_0(t), where the density has fallen to half of its height
+        above; below p_0 over λ/2t, which a particle's time of flight to the next scatterer suggests: it is between
+        {number(ratios.min())} and {number(ratios.max())}. {ERRORS}, as bands and bars. Exponents of p_0 ~ t^a:
+        {"; ".join(exponents)}; what the first time changes is their systematic error. The paper says that p_0 falls logarithmically.
+        Above p_0 the density is stationary where the chain has filled."""
+
+
+def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+    figure, rows = plt.subplots(
+        3,
+        len(results),
+        figsize=(3 * style.COLUMN, 2.3 * style.HEIGHT),
+        sharex="row",
+        height_ratios=[2, 2, 1],
+    )
+    tables = [tabulate(result) for result in results]
+    for (above, middle, below), result, table in zip(rows.T, results, tables, strict=True):
+        plot_times(above, table[table.bins == "momentum"])
+        plot_times(middle, table[table.bins == "speed"])
+        front = fronts(table)
+        middle.errorbar(front.front, front.plateau / 2, xerr=front.front_error, **FRONT, label="$p_0(t)$")
+        below.errorbar(front.time, front.ratio, front.ratio_error, **FRONT)
+        below.axhline(1, **style.GUIDE)
+        above.text(0.04, 0.9, rf"$\lambda = {style.spacing(result)[1]}$", transform=above.transAxes, va="top")
+        above.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel=r"$|p|\,n_t(p)$", xlim=(-40, 40))
+        middle.set(xscale="log", xlabel=r"$|p|$", ylabel=r"$|p|\,n_t(|p|)$")
+        below.set(
+            xlabel="time $t$", ylabel=r"$p_0\,/\,(\lambda/2t)$", ylim=(0, 1.3 * max(1, front.ratio.max()))
+        )
+    style.letter(*rows.flat)
     figure.legend(*rows[1, 0].get_legend_handles_labels(), loc="outside upper center", ncols=6)
-    return figure, pd.concat(tables)
+    return figure, pd.concat(tables), caption(tables, results)
 
 
 if __name__ == "__main__":

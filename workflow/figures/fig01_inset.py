@@ -1,53 +1,113 @@
-"""Fig. 1, inset: number of particles inside against the logarithm of time."""
+"""Fig. 1, inset: number of particles inside against the logarithm of time.
+
+Below, its slope dn/d ln t, which is the height of |p| n_t(p) above the front where the chain has filled.
+"""
 
 from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
+from workflow.lib.caption import BATHS, ERRORS, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.load import Result
 
+SURE = 3  # standard errors of a curvature that is not chance
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
-    figure, columns = plt.subplots(1, len(results), figsize=(3 * style.COLUMN, style.HEIGHT))
-    tables = []
-    for axes, result in zip(columns, results, strict=True):
-        number, plateau = result["total_number"], result["plateau"]
-        time, (length, spacing) = number.axes["time"], style.spacing(result)
-        axes.errorbar(
-            time,
-            number.mean,
-            number.standard_error,
-            marker="o",
-            color=style.BLUE,
-            **style.POINTS,
-            label="$n(t)$",
+
+def fitted(result: Result) -> pd.DataFrame:
+    """Numbers and slopes at the times of the file; from the first of --times on the fitted straight line."""
+    count, slope = result["total_number"], result["number_slope"]
+    time = count.axes["time"]
+    late = time >= result["plateau"].axes["time"][0] * (1 - 1e-9)
+    x = np.log(time)
+    line = count.mean[late].mean() + float(result["log_slope"].mean) * (x - x[late].mean())
+    table = pd.DataFrame({"time": time, "number": count.mean, "number_error": count.standard_error})
+    table["number_fitted"] = np.where(late, line, np.nan)
+    table["slope_to_next"], table["slope_to_next_error"] = (
+        np.append(values, np.nan) for values in (slope.mean, slope.standard_error)
+    )
+    table.insert(0, "cell_length", style.spacing(result)[0])
+    return table
+
+
+def straight(result: Result) -> bool:
+    curvature = result["log_curvature"]
+    return not abs(float(curvature.mean)) > SURE * float(curvature.standard_error)
+
+
+def draw_number(axes: Axes, table: pd.DataFrame, result: Result) -> None:
+    axes.errorbar(
+        table.time,
+        table.number,
+        table.number_error,
+        marker="o",
+        color=style.BLUE,
+        **style.POINTS,
+        label="$n(t)$",
+    )
+    dashes = "solid" if straight(result) else "dotted"
+    axes.plot(table.time, table.number_fitted, color=style.BLACK, linestyle=dashes, zorder=3)
+    axes.text(0.05, 0.95, rf"$\lambda = {style.spacing(result)[1]}$", transform=axes.transAxes, va="top")
+    axes.set(xscale="log", ylabel="particles inside $n(t)$", ylim=(0, None))
+
+
+def draw_slopes(axes: Axes, table: pd.DataFrame, result: Result) -> None:
+    between = np.sqrt(table.time * table.time.shift(-1))
+    axes.errorbar(
+        between, table.slope_to_next, table.slope_to_next_error, marker="o", color=style.BLUE, **style.POINTS
+    )
+    plateau = result["plateau"]
+    look = {"marker": "s", "color": style.VERMILLION, "markerfacecolor": "white", **style.POINTS}
+    axes.errorbar(plateau.axes["time"], plateau.mean, plateau.standard_error, **look)
+    axes.set(xlabel=f"time $t$ ({style.UNITS})", ylabel=r"$dn/d\ln t$")
+
+
+def caption(results: Sequence[Result]) -> str:
+    said = []
+    for result in results:
+        slope, curvature, height = (
+            style.with_error(result["log_slope"]),
+            style.with_error(result["log_curvature"]),
+            style.with_error(result["plateau"], -1),
         )
-        late = time >= plateau.axes["time"][0]
-        slope = float(plateau.mean[-1])
-        expected = number.mean[-1] + slope * np.log(time[late] / time[-1])
-        label = rf"slope $|p|\,n_t(p)$ above $p_0$: {style.with_error(plateau, -1)}"
-        axes.plot(time[late], expected, color=style.VERMILLION, label=label)
-        fitted = f"fitted slope {style.with_error(result['log_slope'])}"
-        curvature = f"its change with $\\ln t$: {style.with_error(result['log_curvature'])}"
-        axes.legend(
-            loc="upper left", title=f"$\\lambda = {spacing}$\n{fitted}\n{curvature}", alignment="left"
+        verdict = "straight" if straight(result) else "not straight"
+        said.append(
+            f"at λ = {style.spacing(result)[1]} slope {slope}, whose change with ln t is {curvature}, so {verdict}, and "
+            f"height {height}"
         )
-        axes.set(
-            xscale="log",
-            xlabel=f"time $t$ ({style.UNITS})",
-            ylabel="particles inside",
-            ylim=(0, 1.5 * number.mean[-1]),
-        )
-        table = pd.DataFrame({"time": time, "number": number.mean, "number_error": number.standard_error})
-        table.insert(0, "cell_length", length)
-        tables.append(table)
-    return figure, pd.concat(tables)
+    first, last = results[0]["plateau"].axes["time"][[0, -1]]
+    return f"""
+        Number n(t) of particles in a chain that starts empty, against the logarithm of time, at the distances λ between
+        scatterers of fig. 1; {parameters(results, "cells", "sigma", "gamma", *BATHS)}, {replicas(results)}. Above n(t)
+        with the straight line fitted in the shaded window from t = {first:g} to {last:g}, dotted where n is not straight in ln t there;
+        below its slope dn/d ln t from each time to the next (circles), and the height of |p| n_t(p) above the front
+        (squares), which it should be once the chain has filled. {ERRORS}. Fits: {"; ".join(said)}. The paper states logarithmic
+        growth; where the line is not straight the chain still fills, and the fitted slope is no property of the gas."""
+
+
+def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+    figure, rows = plt.subplots(
+        2,
+        len(results),
+        sharex="col",
+        figsize=(3 * style.COLUMN, 1.5 * style.HEIGHT),
+        height_ratios=[2, 1],
+    )
+    tables = [fitted(result) for result in results]
+    for (above, below), result, table in zip(rows.T, results, tables, strict=True):
+        draw_number(above, table, result)
+        draw_slopes(below, table, result)
+        for axes in (above, below):
+            axes.axvspan(*result["plateau"].axes["time"][[0, -1]], **style.WINDOW)
+    style.letter(*rows.flat)
+    return figure, pd.concat(tables), caption(results)
 
 
 if __name__ == "__main__":
-    run(draw, "Number of particles in an open chain", number="1", number_error="1")
+    names = ("number", "number_error", "number_fitted", "slope_to_next", "slope_to_next_error")
+    run(draw, "Number of particles in an open chain", **dict.fromkeys(names, "1"))

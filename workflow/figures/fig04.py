@@ -1,10 +1,12 @@
 """Fig. 4: momentum distribution of the particles at both ends of an open chain; a: gamma = 1, b: gamma = N.
 
-Below, the surroundings of p = 0, where the distribution jumps; in b also with equal rates at both ends. Black: without
-correlations, that is, the kinetic equation in a, as many scatterers of it in b.
+Beside it the surroundings of p = 0, where the distribution jumps, and the jumps of all cases; in b also with equal rates
+at both ends and with gamma = 1. Without correlations means the kinetic equation at gamma = 1, and as many scatterers of it
+at gamma = N.
 """
 
 from collections.abc import Sequence
+from itertools import product
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -13,71 +15,160 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
+from workflow.lib.caption import BATHS, CHAIN, ERRORS, WINDOW, listed, parameters, replicas
 from workflow.lib.figure import run
+from workflow.lib.fit import with_error
 from workflow.lib.load import Quantity, Result
 
-NEAR = 12  # momenta shown in the lower panel
+EQUAL = r", $\nu_L = \nu_R$"
+NEAR = 12  # momenta shown about the jump
+SHOWN = 45
+
+# By place: first and last bond behind a scatterer.
+ENDS = {"x = 1/N": (1, style.BLUE, "solid", "o"), "x = 1": (-1, style.VERMILLION, (0, (4, 1.5)), "s")}
 
 
-def plot_bond(axes: Axes, result: Result, bond: int, **look: object) -> None:
-    """F over its bins, in the middle, with errors; the halves are not joined."""
-    flux = result["flux"]
-    momentum = flux.axes["momentum"]
-    label = look.pop("label", None)
-    for half in (momentum < 0, momentum > 0):
-        mean, error = flux.mean[bond][half], flux.standard_error[bond][half]
-        axes.errorbar(momentum[half], mean, error, elinewidth=0.8, label=label, **look)
-        label = None
+def measured(results: Sequence[Result]) -> list[Result]:
+    return [result for result in results if result.provenance["program"] == "momentum_flux"]
 
 
-def row_at(flux: Quantity, x: float) -> np.ndarray:
-    """F of the kinetic equation at a place."""
-    return flux.mean[np.abs(flux.axes["x"] - x).argmin()]
+def rates(result: Result) -> tuple[float, float]:
+    return result.parameters["nu-left"], result.parameters["nu-right"]
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
-    (kinetic,) = (result for result in results if result.provenance["program"] == "boltzmann")
-    results = [result for result in results if result is not kinetic]
-    figure, (above, below) = plt.subplots(2, 1, figsize=(style.COLUMN, 1.8 * style.HEIGHT))
-    tables = []
-    fills = [{}, {"alpha": 0.45}]
-    for result, fill in zip(results, fills, strict=False):
-        flux, jump = result["flux"], result["jump"]
-        last = flux.mean.shape[0] - 1
-        momentum = flux.axes["momentum"]
-        rates = ", ".join(f"{result.parameters[f'nu-{end}']:g}" for end in ("left", "right"))
-        ends = [(1, style.BLUE, "solid", "x = 1/N"), (last, style.VERMILLION, (0, (4, 1.5)), "x = 1")]
-        for bond, color, dashes, place in ends:
-            look = {"color": color, "linestyle": dashes, **fill}
-            label = rf"${place}$: jump {style.with_error(jump, bond)}"
-            if not fill:
-                plot_bond(above, result, bond, **look, label=f"${place}$")
-            plot_bond(below, result, bond, **look, label=rf"$\nu = {rates}$, {label}")
-            table = pd.DataFrame({"x": place, "momentum": momentum, "flux": flux.mean[bond]})
-            table["flux_error"] = flux.standard_error[bond]
-            expected = row_at(kinetic["flux"], bond / last)
-            if not fill:
-                table["kinetic"] = expected
-                for half in (momentum < 0, momentum > 0):
-                    for axes in (above, below):
-                        axes.plot(momentum[half], expected[half], color=style.BLACK, linewidth=0.6, zorder=1)
-            table["jump"], table["jump_error"] = jump.mean[bond], jump.standard_error[bond]
-            table["nu_left"], table["nu_right"] = (
-                result.parameters[f"nu-{end}"] for end in ("left", "right")
-            )
-            tables.append(table)
-    main = results[0]["flux"].mean[[1, -1]]
-    near = np.abs(results[0]["flux"].axes["momentum"]) < NEAR
-    low, high = main[:, near].min(), main.max()
-    below.set(xlim=(-NEAR, NEAR), ylim=(low, high + 0.45 * (high - low) * len(results)))
-    for axes in (above, below):
-        axes.axvline(0, **style.GUIDE)
-        axes.set(xlabel="momentum $p$", ylabel="$F_N(p, x)$")
-    below.set_xlabel(f"momentum $p$ ({style.UNITS})")
-    above.legend(loc="upper right", title=rf"$\gamma = {style.gamma(results[0])}$")
-    below.legend(loc="upper center", fontsize=6.5, **style.OPAQUE)
-    return figure, pd.concat(tables)
+def uncorrelated(results: Sequence[Result], like: Result) -> Result | None:
+    """The solution of the kinetic equation for the same chain."""
+    for result in results:
+        same = (result.parameters["gamma"], *rates(result)) == (like.parameters["gamma"], *rates(like))
+        if same and result.provenance["program"] == "boltzmann":
+            return result
+    return None
+
+
+def at(quantity: Quantity, x: float) -> np.ndarray:
+    """Of the kinetic equation, at a place."""
+    return quantity.mean[np.abs(quantity.axes["x"] - x).argmin()]
+
+
+def tabulate(results: Sequence[Result]) -> pd.DataFrame:
+    """One row per chain, end and bin."""
+    parts = []
+    for result, (place, (bond, *_)) in product(measured(results), ENDS.items()):
+        flux, jump, expected = result["flux"], result["jump"], uncorrelated(results, result)
+        part = pd.DataFrame({"x": place, "momentum": flux.axes["momentum"], "flux": flux.mean[bond]})
+        part["flux_error"] = flux.standard_error[bond]
+        part["jump"], part["jump_error"] = jump.mean[bond], jump.standard_error[bond]
+        if expected:
+            where = flux.axes["bond"][bond] / flux.axes["bond"][-1]
+            part["kinetic"], part["kinetic_jump"] = at(expected["flux"], where), at(expected["jump"], where)
+        part["nu_left"], part["nu_right"] = rates(result)
+        part.insert(0, "gamma", style.gamma(result))
+        parts.append(part)
+    return pd.concat(parts, ignore_index=True)
+
+
+def halves(part: pd.DataFrame) -> list[pd.DataFrame]:
+    """Not joined across the jump."""
+    return [part[part.momentum < 0], part[part.momentum > 0]]
+
+
+def draw_distribution(axes: Axes, table: pd.DataFrame, reach: float) -> None:
+    """F over its bins at both ends; faint where the rates are equal, black without correlations."""
+    for (_, place), part in table.groupby(["nu_left", "x"], sort=False):
+        _, color, dashes, _ = ENDS[place]
+        equal = bool((part.nu_left == part.nu_right).all())
+        label = f"${place}$" + EQUAL * equal
+        for half in halves(part[part.momentum.abs() < reach]):
+            look = {"color": color, "linestyle": dashes, "alpha": 0.45 if equal else 1}
+            axes.errorbar(half.momentum, half.flux, half.flux_error, elinewidth=0.8, label=label, **look)
+            axes.plot(half.momentum, half.kinetic, color=style.BLACK, linewidth=0.6, zorder=1)
+            label = None
+    axes.axvline(0, **style.GUIDE)
+    axes.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel="$F_N(p, x)$", xlim=(-reach, reach))
+
+
+def draw_residuals(axes: Axes, table: pd.DataFrame) -> None:
+    for place, part in table.groupby("x", sort=False):
+        _, color, dashes, marker = ENDS[place]
+        for half in halves(part[part.momentum.abs() < SHOWN]):
+            unit = table.kinetic.max() / 100
+            look = {"marker": marker, "color": color, "markersize": 2, "elinewidth": 0.6, "linewidth": 0.6}
+            residual = (half.flux - half.kinetic) / unit
+            axes.errorbar(half.momentum, residual, half.flux_error / unit, linestyle=dashes, **look)
+    axes.axhline(0, color=style.BLACK, linewidth=0.6)
+    axes.axvline(0, **style.GUIDE)
+    axes.set(xlabel="momentum $p$", ylabel=r"$F_N - F$ / % of max $F$", xlim=(-SHOWN, SHOWN))
+
+
+def cases(table: pd.DataFrame) -> list[tuple[str, bool, pd.DataFrame]]:
+    """gamma, whether the rates are equal, and both ends of every chain."""
+    ends = table.drop_duplicates(["gamma", "nu_left", "x"])
+    chains = ends.groupby(["gamma", "nu_left"], sort=False)
+    return [(gamma, bool((part.nu_right == left).all()), part) for (gamma, left), part in chains]
+
+
+def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
+    """One row per chain; both ends, and without correlations."""
+    chains = cases(table)
+    for row, (_, _, part) in enumerate(chains):
+        for shift, end in zip((0.17, -0.17), part.itertuples(), strict=True):
+            _, color, _, marker = ENDS[end.x]
+            look = {"marker": marker, "color": color, **style.POINTS}
+            axes.errorbar(end.jump, -row + shift, xerr=end.jump_error, **look)
+            axes.plot(end.kinetic_jump, -row + shift, "|", color=style.BLACK, markersize=8, zorder=1)
+            left = not 0 < end.jump < table.jump.max() / 2
+            place = {"xytext": (-8 if left else 8, 0), "ha": "right" if left else "left", "va": "center"}
+            text = with_error(end.jump, end.jump_error)
+            axes.annotate(text, (end.jump, -row + shift), textcoords="offset points", size=8, **place)
+    axes.axvline(0, **style.GUIDE)
+    axes.set(xlabel=r"jump $F_N(0^+, x) - F_N(0^-, x)$", ylim=(0.5 - len(chains), 0.5))
+    names = [rf"$\gamma = {gamma}$" + EQUAL * equal for gamma, equal, _ in chains]
+    axes.set_yticks([-row for row in range(len(chains))], names)
+    axes.tick_params(axis="y", length=0)
+    axes.margins(x=0.25)
+
+
+def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
+    runs = measured(results)
+    last = table.gamma.iloc[-1]
+    main = [result for result in runs if style.gamma(result) == last and len(set(rates(result))) > 1]
+    said = []
+    for gamma, equal, part in cases(table):
+        jumps = [f"{with_error(end.jump, end.jump_error)} at {end.x}" for end in part.itertuples()]
+        said.append(f"γ = {gamma}{' with equal rates' * equal}: {listed(jumps)}")
+    faint = "Faint: with the rates of both baths equal." if last == "N" else ""
+    return f"""
+        Flux distribution F_N(p, x) of the particles behind the first scatterer (solid, circles) and the last (dashed,
+        squares) of an open chain; {parameters(main, *CHAIN, *BATHS, *WINDOW)}, {replicas(runs)}. Black: without
+        correlations. {faint} (a) F_N, (b) the same about the momentum zero, (c) the same minus the uncorrelated F, in per cent of its
+        maximum, (d) jump at momentum zero; black bars without correlations. Jumps at {"; ".join(said)}.
+        {ERRORS}. The paper has the curves of γ = 1 on top of the kinetic equation, and says that
+        at γ = N the jump comes from unequal rates alone; with equal rates it would vanish."""
+
+
+def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+    table = tabulate(results)
+    main = table[table.gamma == table.gamma.iloc[-1]]
+    unequal = main[main.nu_left != main.nu_right]
+    figure, panels = plt.subplot_mosaic(
+        [["main", "near"], ["residual", "jump"]],
+        figsize=(2 * style.COLUMN, 1.6 * style.HEIGHT),
+        height_ratios=[1.7, 1],
+    )
+    draw_distribution(panels["main"], unequal, SHOWN)
+    draw_distribution(panels["near"], main, NEAR)
+    draw_residuals(panels["residual"], unequal)
+    draw_jumps(panels["jump"], table)
+    panels["main"].text(
+        0.95, 0.9, rf"$\gamma = {main.gamma.iloc[0]}$", transform=panels["main"].transAxes, ha="right"
+    )
+    panels["near"].plot([], [], color=style.BLACK, linewidth=0.6, label="without correlations")
+    handles = panels["near"].get_legend_handles_labels()
+    figure.legend(*handles, loc="outside upper center", ncols=5)
+    style.letter(*panels.values())
+    return figure, table, caption(table, results)
 
 
 if __name__ == "__main__":
-    run(draw, "Momentum distribution of the particles at both ends", kinetic="1/(time momentum)")
+    kinetic = dict.fromkeys(("kinetic", "kinetic_jump"), "1/(time momentum)")
+    run(draw, "Momentum distribution of the particles at both ends", **kinetic)

@@ -1,7 +1,7 @@
 """Fig. 6: density of waiting times for sigma = 0 and 1/2, with power laws of the fitted exponents.
 
-At sigma = 0 momenta are only exchanged, so the density follows the start: the paper's Gaussian one gives
-tau^-3 at long times, times exp(-lambda^2 / (2 T tau^2)) at all times.
+Below, the density times the power of tau that the paper states. At sigma = 0 momenta are only exchanged, so the density follows
+the start: the paper's Gaussian one gives tau^-3 at long times, times exp(-lambda^2 / (2 T tau^2)) at all times.
 """
 
 from collections.abc import Sequence
@@ -9,13 +9,17 @@ from collections.abc import Sequence
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
+from workflow.lib.caption import CHAIN, ERRORS, GAS, WINDOW, number, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.load import Result
 
 MARKS = {0.0: ("o", style.BLUE, "dashed"), 0.5: ("s", style.VERMILLION, "dotted")}
+POWERS = {0.0: 3, 0.5: 2}  # the paper's exponents, times -1
+UNSURE = 0.5  # relative error above which a bin is a limit from above
 
 
 def gaussian_start(tau: np.ndarray, temperature: float, cell_length: float) -> np.ndarray:
@@ -24,54 +28,95 @@ def gaussian_start(tau: np.ndarray, temperature: float, cell_length: float) -> n
     return square / tau**3 * np.exp(-square / (2 * tau**2))
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
-    figure, axes = plt.subplots(figsize=(style.COLUMN, style.HEIGHT))
-    tables = []
-    for result in sorted(results, key=lambda result: result.parameters["sigma"]):
-        sigma = float(result.parameters["sigma"])
-        marker, color, dashes = MARKS[sigma]
-        density, exponent = result["density"], result["exponent"]
-        tau = density.axes["tau"]
-        known = (density.mean > 0) & (density.standard_error < 0.5 * density.mean)
-        start = "Gaussian start, " if sigma == 0 else ""
-        label = rf"$\sigma = {sigma:g}$: {start}$\tau^{{{style.with_error(exponent)}}}$"
-        axes.errorbar(
-            tau[known],
-            density.mean[known],
-            density.standard_error[known],
-            marker=marker,
-            color=color,
-            markersize=2.5,
-            label=label,
-            **{**style.POINTS, "capsize": 0},
-        )
-        thermal = result.parameters["cell-length"] / np.sqrt(result.parameters["temperature"])
-        from_cut = tau[known & (tau > result.parameters["tail-from"] * thermal)]
-        anchor = np.searchsorted(tau, from_cut[0])
-        law = density.mean[anchor] * (from_cut / tau[anchor]) ** float(exponent.mean)
-        axes.plot(from_cut, law, color=style.BLACK, linestyle=dashes, zorder=5)
-        columns = {
-            "sigma": sigma,
-            "tau": tau,
-            "density": density.mean,
-            "density_error": density.standard_error,
-        }
-        tables.append(pd.DataFrame(columns)[known])
-        if sigma == 0:
-            exact = gaussian_start(tau, result.parameters["temperature"], result.parameters["cell-length"])
-            seen = known & (exact > 1e-9)
-            axes.plot(
-                tau[seen], exact[seen], color=style.SKY, zorder=0, label=r"$\sigma = 0$, $n \to \infty$"
-            )
-    axes.set(
-        xscale="log",
-        yscale="log",
-        xlabel=rf"waiting time $\tau$ ({style.UNITS})",
-        ylabel=r"density $\Psi(\tau)$",
+def tabulate(result: Result) -> pd.DataFrame:
+    """One row per bin that holds anything, with the fitted law from the cut on, and what the Gaussian start gives."""
+    density, options = result["density"], result.parameters
+    sigma, tau = float(options["sigma"]), density.axes["tau"]
+    table = pd.DataFrame({"tau": tau, "density": density.mean, "density_error": density.standard_error})
+    table = table[table.density > 0].assign(unsure=lambda rows: ~(rows.density_error < UNSURE * rows.density))
+    cut = options["tail-from"] * options["cell-length"] / np.sqrt(options["temperature"])
+    tail = table[(table.tau > cut) & ~table.unsure]
+    shape = tail.tau ** float(result["exponent"].mean)
+    amplitude = np.average(tail.density / shape, weights=(shape / tail.density_error) ** 2)
+    table["fitted"] = amplitude * shape
+    if sigma == 0:
+        table["gaussian_start"] = gaussian_start(table.tau, options["temperature"], options["cell-length"])
+    table.insert(0, "sigma", sigma)
+    return table.reset_index(drop=True)
+
+
+def draw_density(axes: Axes, table: pd.DataFrame, power: float = 0, label: str = "") -> None:
+    """Bins with errors; open with an arrow down to zero where the error is too large. Times tau^power."""
+    sigma = float(table.sigma.iloc[0])
+    marker, color, dashes = MARKS[sigma]
+    scale = table.tau**power
+    for part, look in (
+        (~table.unsure, {"label": label}),
+        (table.unsure, {"markerfacecolor": "white", "uplims": True}),
+    ):
+        y, error = (scale * table.density)[part], (scale * table.density_error)[part]
+        top = y + error if "uplims" in look else y
+        length = 0.5 * top if "uplims" in look else error
+        common = {"marker": marker, "color": color, "markersize": 2.5, **style.POINTS, "capsize": 0}
+        axes.errorbar(table.tau[part], top, length, **common | look)
+    axes.plot(table.tau, scale * table.fitted, color=style.BLACK, linestyle=dashes, zorder=5)
+
+
+def caption(tables: Sequence[pd.DataFrame], results: Sequence[Result]) -> str:
+    said = [
+        f"{style.with_error(result['exponent'])} at σ = {number(result.parameters['sigma'])} "
+        f"(for cuts within a factor of three it differs by at most {style.with_error(result['exponent_spread'])})"
+        for result in results
+    ]
+    unsure = sum(int(table.unsure.sum()) for table in tables)
+    chain = [name for name in CHAIN if name != "sigma"]
+    options = results[0].parameters
+    return f"""
+        Probability density Ψ(τ) of the time between two scatterings of a particle in a closed chain, for equal masses (circles) and
+        σ = {number(max(result.parameters["sigma"] for result in results))} (squares); {parameters(results, *chain, *GAS, *WINDOW)},
+        {replicas(results)}. (a) Ψ; the line through the circles is exact for many particles that start from a Gaussian. (b), (c) Ψ times
+        the powers of τ that the paper states. Broken: power laws of the exponents fitted by maximum likelihood in the shaded tail, from
+        {number(options["tail-from"])} thermal flights on: {"; ".join(said)}. {ERRORS}; {unsure} bins known to worse than
+        {number(100 * UNSURE)} % are open, with arrows from one error above. The paper gives the inverse cube for equal masses and the
+        inverse square otherwise. For equal masses momenta are only exchanged, and Ψ is a property of the Gaussian start."""
+
+
+def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+    results = sorted(results, key=lambda result: result.parameters["sigma"])
+    tables = [tabulate(result) for result in results]
+    figure, (above, *strips) = plt.subplots(
+        3, 1, sharex=True, figsize=(style.COLUMN, 1.8 * style.HEIGHT), height_ratios=[2.4, 1, 1]
     )
-    axes.legend(loc="lower left")
-    return figure, pd.concat(tables)
+    for strip, result, table in zip(strips, results, tables, strict=True):
+        sigma = float(result.parameters["sigma"])
+        draw_density(
+            above, table, label=rf"$\sigma = {sigma:g}$: $\tau^{{{style.with_error(result['exponent'])}}}$"
+        )
+        draw_density(strip, table, POWERS[sigma])
+        if sigma == 0:
+            seen = table[table.gaussian_start > table.density.min()]
+            above.plot(
+                seen.tau,
+                seen.gaussian_start,
+                color=style.SKY,
+                zorder=0,
+                label=r"$\sigma = 0$, $n \to \infty$",
+            )
+            strip.plot(table.tau, table.tau**3 * table.gaussian_start, color=style.SKY, zorder=0)
+        typical = (table.tau ** POWERS[sigma] * table.fitted).median()
+        strip.set(ylim=(0, 2 * typical), ylabel=rf"$\tau^{POWERS[sigma]}\,\Psi$, $\sigma = {sigma:g}$")
+    options = results[0].parameters
+    cut = options["tail-from"] * options["cell-length"] / np.sqrt(options["temperature"])
+    above.set(xscale="log", yscale="log", ylabel=r"density $\Psi(\tau)$")
+    for axes in (above, *strips):
+        axes.axvspan(cut, max(table.tau.max() for table in tables), **style.WINDOW)
+    strips[-1].set_xlabel(rf"waiting time $\tau$ ({style.UNITS})")
+    above.legend(loc="lower left")
+    style.letter(above, *strips)
+    figure.align_ylabels()
+    return figure, pd.concat(tables), caption(tables, results)
 
 
 if __name__ == "__main__":
-    run(draw, "Density of waiting times; at sigma = 0 it follows the start, which is Gaussian here")
+    laws = {"fitted": "1/time", "gaussian_start": "1/time"}
+    run(draw, "Density of waiting times; at sigma = 0 it follows the start, which is Gaussian here", **laws)

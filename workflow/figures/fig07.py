@@ -3,34 +3,75 @@
 from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
+import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
 from workflow.lib import style
+from workflow.lib.caption import CHAIN, ERRORS, GAS, number, parameters, replicas
 from workflow.lib.figure import run
+from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
-    (result,) = results
-    variance, drift = result["variance"], result["centre_of_mass"]
-    time = variance.axes["time"]
-    figure, axes = plt.subplots(figsize=(style.COLUMN, style.HEIGHT))
-    total = {"marker": "o", "color": style.BLUE, "label": r"$\langle x^2\rangle$"}
-    part = {"marker": "s", "color": style.VERMILLION, "markerfacecolor": "white", "label": "centre of mass"}
-    axes.errorbar(time, variance.mean, variance.standard_error, **total, **style.POINTS)
-    axes.errorbar(time, drift.mean, drift.standard_error, **part, **style.POINTS)
-    late = time > time[-1] / 100
-    axes.plot(time[late], 2 * variance.mean[-1] * (time[late] / time[-1]) ** 2, **style.GUIDE, label=r"$t^2$")
-    axes.set(
-        xscale="log", yscale="log", xlabel=f"time $t$ ({style.UNITS})", ylabel=r"mean square displacement"
-    )
-    alpha = rf"$\alpha = {style.with_error(result['alpha'])}$"
-    axes.legend(loc="upper left", title=rf"$\sigma = {result.parameters['sigma']:g}$, {alpha}")
-    table = pd.DataFrame({"time": time, "variance": variance.mean, "variance_error": variance.standard_error})
+def tabulate(result: Result) -> pd.DataFrame:
+    """One row per time. The error of the share neglects that both parts vary together: it is an upper bound."""
+    variance, drift, slope = result["variance"], result["centre_of_mass"], result["local_slope"]
+    table = pd.DataFrame({"time": variance.axes["time"]})
+    table["variance"], table["variance_error"] = variance.mean, variance.standard_error
     table["centre_of_mass"], table["centre_of_mass_error"] = drift.mean, drift.standard_error
-    return figure, table
+    table["share"] = drift.mean / variance.mean
+    relative = np.hypot(drift.standard_error / drift.mean, variance.standard_error / variance.mean)
+    table["share_error"] = table["share"] * relative
+    table["slope_to_next"], table["slope_to_next_error"] = (
+        np.append(values, np.nan) for values in (slope.mean, slope.standard_error)
+    )
+    return table
+
+
+def caption(table: pd.DataFrame, result: Result, window: tuple[float, float]) -> str:
+    last = table.iloc[-1]
+    return f"""
+        Mean square displacement of a tagged particle (circles) and of the centre of mass of all particles (squares) in a closed chain,
+        {parameters([result], *CHAIN, *GAS, "relaxation-time")}, {replicas([result])}. (a) Both, with the paper's square of t through the
+        last point; (b) the share of the centre of mass; its error is an upper bound, as both vary together; (c) local slope between neighbouring
+        times, with guides for ballistic and diffusive spreading. {ERRORS}. Fitted in the shaded window from t = {number(window[0])} to
+        {number(window[1])}: α = {style.with_error(result["alpha"])}, slightly below the square as in the paper. But at the last
+        time {with_error(100 * last.share, 100 * last.share_error)} % of it is the drift of all particles together, which the
+        conserved total momentum keeps going."""
+
+
+def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+    (result,) = results
+    table = tabulate(result)
+    time = table.time
+    last = float(time.iloc[-1])
+    window = (last / 10 ** result.parameters["fit-decades"], last)
+    figure, (above, middle, below) = plt.subplots(
+        3, 1, sharex=True, figsize=(style.COLUMN, 1.8 * style.HEIGHT), height_ratios=[2.4, 1, 1]
+    )
+    tagged = {"marker": "o", "color": style.BLUE, **style.POINTS}
+    drift = {"marker": "s", "color": style.VERMILLION, "markerfacecolor": "white", **style.POINTS}
+    above.errorbar(time, table.variance, table.variance_error, label=r"$\langle x^2\rangle$", **tagged)
+    above.errorbar(time, table.centre_of_mass, table.centre_of_mass_error, label="centre of mass", **drift)
+    late = time > last / 1000
+    guide = table.variance.iloc[-1] * (time[late] / last) ** 2
+    above.plot(time[late], guide, **style.GUIDE, label=r"$t^2$")
+    middle.errorbar(time, table["share"], table.share_error, **drift)
+    below.errorbar(np.sqrt(time * time.shift(-1)), table.slope_to_next, table.slope_to_next_error, **tagged)
+    for value in (1, 2):
+        below.axhline(value, **style.GUIDE)
+    for axes in (above, below):
+        axes.axvspan(*window, **style.WINDOW)
+    above.set(xscale="log", yscale="log", ylabel="mean square displacement")
+    middle.set(ylabel="share of the\ncentre of mass", ylim=(0, 1.05))
+    below.set(xlabel=f"time $t$ ({style.UNITS})", ylabel=r"$d\ln\langle x^2\rangle/d\ln t$", ylim=(0.5, 2.2))
+    above.legend(loc="upper left", title=rf"$\sigma = {result.parameters['sigma']:g}$")
+    style.letter(above, middle, below)
+    figure.align_ylabels()
+    return figure, table, caption(table, result, window)
 
 
 if __name__ == "__main__":
-    run(draw, "Mean square displacement of a tagged particle")
+    names = ("share", "share_error", "slope_to_next", "slope_to_next_error")
+    run(draw, "Mean square displacement of a tagged particle", **dict.fromkeys(names, "1"))

@@ -9,14 +9,25 @@ from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
+from workflow.lib.caption import CHAIN, ERRORS, GAS, WINDOW, number, parameters, replicas
 from workflow.lib.figure import run
+from workflow.lib.fit import with_error
 from workflow.lib.load import NOT_REACHED, Result
 
+# By zero total momentum and column: label, marker, colour, face.
+CURVES = {
+    (False, "alpha"): ("random total momentum, as in the paper", "o", style.BLUE, style.BLUE),
+    (False, "alpha_relative"): ("the same minus the centre of mass", "^", style.SKY, "white"),
+    (True, "alpha"): ("zero total momentum", "s", style.VERMILLION, "white"),
+}
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
+
+def tabulate(results: Sequence[Result]) -> pd.DataFrame:
+    """One row per run."""
     rows = [
         {
             "sigma": float(result.parameters["sigma"]),
@@ -29,23 +40,56 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
         }
         for result in results
     ]
-    table = pd.DataFrame(rows).sort_values(["zero_total_momentum", "sigma"], ignore_index=True)
-    figure, axes = plt.subplots(figsize=(style.COLUMN, style.HEIGHT))
+    return pd.DataFrame(rows).sort_values(["zero_total_momentum", "sigma"], ignore_index=True)
+
+
+def draw_curve(axes: Axes, table: pd.DataFrame, zero: bool, name: str) -> None:
+    label, marker, color, face = CURVES[zero, name]
+    part = table[table.zero_total_momentum == zero]
+    look = {"marker": marker, "color": color, "markerfacecolor": face, **style.POINTS}
+    axes.errorbar(part.sigma, part[name], part[f"{name}_error"], label=label, **look)
+
+
+def extremes(table: pd.DataFrame) -> str:
+    """Smallest and largest alpha, away from sigma = 0, where momenta are only exchanged."""
+    generic = table[table.sigma != 0].sort_values("alpha")
+    low, high = (with_error(*generic[["alpha", "alpha_error"]].iloc[k]) for k in (0, -1))
+    return f"from {low} to {high}"
+
+
+def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     free, zero = table[~table.zero_total_momentum], table[table.zero_total_momentum]
-    curves = [
-        (free, "alpha", "random total momentum, as in the paper", "o", style.BLUE, style.BLUE),
-        (free, "alpha_relative", "the same minus the centre of mass", "^", style.SKY, "white"),
-        (zero, "alpha", "zero total momentum", "s", style.VERMILLION, "white"),
-    ]
-    for part, name, label, marker, color, face in curves:
-        look = {"marker": marker, "color": color, "markerfacecolor": face, **style.POINTS}
-        axes.errorbar(part.sigma, part[name], part[f"{name}_error"], label=label, **look)
-    style.cross_out(axes, table.sigma, table.alpha, table.converged == NOT_REACHED)
-    for value in (1, 2):
+    at_zero = [with_error(*part[part.sigma == 0][["alpha", "alpha_error"]].iloc[0]) for part in (free, zero)]
+    chain = [name for name in CHAIN if name != "sigma"]
+    options = results[0].parameters
+    first = options["observation-time"] / 10 ** options["fit-decades"]
+    return f"""
+        Exponent α of the mean square displacement of a tagged particle against the mass ratio σ in a closed chain,
+        {parameters(results, *chain, *GAS, *WINDOW)}, {replicas(results)} per point, fitted from t = {number(first)} on. (a) The
+        paper's ensemble of random total momentum (circles), the same minus the motion of the centre of mass (triangles), and
+        zero total momentum (squares); guides: ballistic and diffusive. (b) The squares alone. {ERRORS}. α is {extremes(free)} with random
+        and {extremes(zero)} with zero total momentum; without mass difference it is {at_zero[0]} and {at_zero[1]}. The paper
+        reads superdiffusion for all other σ from the first ensemble; without the drift of the conserved total momentum none is left. The
+        subtraction of the centre of mass does not remove it, as particles collide at different rates."""
+
+
+def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+    table = tabulate(results)
+    figure, (above, below) = plt.subplots(
+        2, 1, sharex=True, figsize=(style.COLUMN, 1.6 * style.HEIGHT), height_ratios=[2, 1]
+    )
+    for zero, name in CURVES:
+        draw_curve(above, table, zero, name)
+    draw_curve(below, table, True, "alpha")
+    style.cross_out(above, table.sigma, table.alpha, table.converged == NOT_REACHED)
+    for axes, value in ((above, 1), (above, 2), (below, 1)):
         axes.axhline(value, **style.GUIDE)
-    axes.set(xlabel=r"mass ratio $\sigma$", ylabel=r"exponent $\alpha$", xlim=(-1, 1), ylim=(0.8, 2.6))
-    axes.legend(loc="upper left")
-    return figure, table
+    above.set(ylabel=r"exponent $\alpha$", xlim=(-1, 1), ylim=(0.8, 2.2))
+    below.set(xlabel=r"mass ratio $\sigma$", ylabel=r"exponent $\alpha$")
+    figure.legend(*above.get_legend_handles_labels(), loc="outside upper left")
+    style.letter(above, below)
+    figure.align_ylabels()
+    return figure, table, caption(table, results)
 
 
 if __name__ == "__main__":

@@ -1,22 +1,26 @@
 """Fig. 8: heat conductivity against the number of cells.
 
-Lines: the chain of as many scatterers without correlations (mean field); its distance from the points is what
-correlations do. Points whose window is not stationary, or whose run stopped before its target, are crossed out and not fitted.
+Beside it kappa over the power of N that the paper states, and local exponents d ln kappa / d ln N between neighbouring sizes,
+which are constant where a power law holds. The mean field is the chain of as many scatterers without correlations.
+Points whose window is not stationary, or whose run stopped before its target, are crossed out and not used.
 """
 
 from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
-import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
+from workflow.lib.caption import BATHS, ERRORS, parameters, replicas
 from workflow.lib.figure import run
-from workflow.lib.fit import PowerLaw, fit_power
+from workflow.lib.fit import PowerLaw, fit_power, with_error
+from workflow.lib.growth import local_exponents
 from workflow.lib.load import NOT_REACHED, Result
 
 GUIDES = {"N": (1 / 3, r"$N^{1/3}$"), 1: (1, "$N$")}  # the paper's exponents, by gamma
+FACES = {"kappa": None, "kappa_particle": "white"}  # by whose temperature is used
 
 
 def measured(results: Sequence[Result]) -> list[Result]:
@@ -54,39 +58,107 @@ def exponent(table: pd.DataFrame) -> PowerLaw:
     return fit_power(sound.cells, sound.kappa, sound.kappa_error)
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
-    table = tabulate(results)
-    figure, axes = plt.subplots(figsize=(style.COLUMN, 1.2 * style.HEIGHT))
+def exponents(table: pd.DataFrame) -> pd.DataFrame:
+    """From every sound size of one gamma to the next. Neighbours share a point."""
+    sound = table[table.sound]
+    middle, slope, error = local_exponents(sound.cells, sound.kappa, sound.kappa_error)
+    local = sound[["gamma", "cells"]].iloc[:-1]
+    return local.assign(between=middle, exponent_to_next=slope, exponent_to_next_error=error)
+
+
+def draw_sizes(axes: Axes, table: pd.DataFrame, theory: pd.DataFrame) -> None:
+    """kappa against N, with the paper's power laws through the point in the middle."""
     for gamma, (marker, color) in style.BY_GAMMA.items():
         part = table[table.gamma == gamma]
-        law = exponent(part)
-        fitted = rf"$\kappa \sim N^{{{law.text}}}$, $\chi^2/f = {law.chi_square:.1f}/{law.freedom}$"
-        label = rf"$\gamma = {gamma}$: {fitted}"
-        look = {"color": color, **style.POINTS}
-        axes.errorbar(part.cells, part.kappa, part.kappa_error, marker=marker, label=label, **look)
-        axes.errorbar(
-            part.cells, part.kappa_particle, part.kappa_particle_error, marker="|", **{**look, "alpha": 0.5}
-        )
+        look = {"marker": marker, "color": color, **style.POINTS}
+        axes.errorbar(part.cells, part.kappa, part.kappa_error, label=rf"$\gamma = {gamma}$", **look)
         slope, name = GUIDES[gamma]
-        size = np.array([part.cells.min(), part.cells.max()])
-        axes.plot(size, 0.6 * part.kappa.iloc[0] * (size / size[0]) ** slope, **style.GUIDE)
-        below = 0.48 * part.kappa.iloc[0] * (size[1] / size[0]) ** slope
-        axes.text(size[1], below, name, size=8, ha="center", va="top")
+        middle = part.iloc[len(part) // 2]
+        guide = middle.kappa * (part.cells / middle.cells) ** slope
+        axes.plot(part.cells, guide, **style.GUIDE)
+        end = (part.cells.iloc[-1], guide.iloc[-1])
+        axes.annotate(name, end, (-4, -6), textcoords="offset points", size=8, ha="right", va="top")
         style.cross_out(axes, part.cells.to_numpy(), part.kappa.to_numpy(), ~part.sound.to_numpy())
-    theory = mean_field(results)
     color = style.BY_GAMMA["N"][1]
-    axes.plot(theory.cells, theory.mean_field_kappa, color=color, label=r"$\gamma = N$, mean field")
-    axes.set(
-        xscale="log",
-        yscale="log",
-        xlabel="number of cells $N$",
-        ylabel=rf"conductivity $\kappa$ ({style.UNITS})",
+    (line,) = axes.plot(theory.cells, theory.mean_field_kappa, color=color, linestyle="dashed")
+    axes.set(xscale="log", yscale="log")
+    axes.set_ylabel(rf"$\kappa = -J_U N/(T_N - T_1)$  ({style.UNITS})")
+    points, names = axes.get_legend_handles_labels()
+    axes.legend([*points, line], [*names, r"$\gamma = N$, mean field"], loc="upper left")
+
+
+def draw_compensated(axes: Axes, table: pd.DataFrame, theory: pd.DataFrame, gamma: str | int) -> None:
+    """kappa over the paper's power of N, by the temperatures of scatterers (full) and of particles (open)."""
+    marker, color = style.BY_GAMMA[gamma]
+    slope, name = GUIDES[gamma]
+    part = table[table.gamma == gamma]
+    power = part.cells**slope
+    for column, face in FACES.items():
+        look = {"marker": marker, "color": color, "markerfacecolor": face or color, **style.POINTS}
+        axes.errorbar(part.cells, part[column] / power, part[f"{column}_error"] / power, **look)
+    if gamma == "N":
+        expected = theory.mean_field_kappa / theory.cells**slope
+        axes.plot(theory.cells, expected, color=color, linestyle="dashed")
+    axes.set(xscale="log", ylabel=rf"$\kappa\,/$ {name}")
+
+
+def draw_local(axes: Axes, table: pd.DataFrame) -> None:
+    for gamma, (marker, color) in style.BY_GAMMA.items():
+        local = exponents(table[table.gamma == gamma])
+        look = {"marker": marker, "color": color, **style.POINTS}
+        axes.errorbar(local.between, local.exponent_to_next, local.exponent_to_next_error, **look)
+        axes.axhline(GUIDES[gamma][0], **style.GUIDE)
+    axes.set(ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, None))
+
+
+def found(table: pd.DataFrame, gamma: str | int) -> str:
+    """What the points of one gamma say of a power law."""
+    part = table[table.gamma == gamma]
+    law, local = exponent(part), exponents(part)
+    first, last = (
+        with_error(*local[["exponent_to_next", "exponent_to_next_error"]].iloc[k]) for k in (0, -1)
     )
-    axes.legend(loc="upper left", title="bars: from the particles' temperature", title_fontsize=7)
-    axes.set_ylim(top=60 * table.kappa.max())
-    return figure, table.merge(theory, how="left", on=["gamma", "cells"])
+    goodness = f"χ² = {law.chi_square:.0f} for {law.freedom} degrees of freedom"
+    said = f"exponent {law.text}" if not law.rejected else "no single power of N"
+    return f"γ = {gamma}: {said} ({goodness}); the local exponent goes from {first} at the smallest sizes to {last} at the largest"
+
+
+def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
+    runs = measured(results)
+    crossed = int((~table.sound).sum())
+    return f"""
+        Heat conductivity κ = −J_U N/(T_N − T_1) of an open chain against its number of cells N, for γ = N (circles) and
+        γ = 1 (squares); {parameters(runs, "sigma", *BATHS)}, λ = {runs[0].parameters["cell-length"]}, {replicas(runs)}
+        per point. (a) κ, dashed grey the paper's powers of N through the data, dashed blue the chain without correlations
+        (mean field). (b), (c) κ over these powers, with the temperatures of the scatterers (full) and of the arriving particles
+        (open). (d) Local exponents between neighbouring sizes, which share a point; dashed the paper's. {ERRORS}; crosses,
+        {crossed or "none"} here, mark points that are not stationary. {found(table, 1)}. {found(table, "N")}. The paper reads
+        N and the cube root of N from these points. Without correlations there is no growth at γ = N."""
+
+
+def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+    table, theory = tabulate(results), mean_field(results)
+    figure, panels = plt.subplot_mosaic(
+        [["main", "rare"], ["main", "deterministic"], ["main", "local"]],
+        figsize=(2 * style.COLUMN, 1.3 * style.HEIGHT),
+        width_ratios=[1.15, 1],
+        sharex=True,
+    )
+    draw_sizes(panels["main"], table, theory)
+    draw_compensated(panels["rare"], table, theory, 1)
+    draw_compensated(panels["deterministic"], table, theory, "N")
+    draw_local(panels["local"], table)
+    for name in ("main", "local"):
+        panels[name].set_xlabel("number of cells $N$")
+    style.letter(*panels.values())
+    figure.align_ylabels([panels[name] for name in ("rare", "deterministic", "local")])
+    local = pd.concat([exponents(table[table.gamma == gamma]) for gamma in style.BY_GAMMA])
+    for added in (theory, local.drop(columns="between")):
+        table = table.merge(added, how="left", on=["gamma", "cells"])
+    return figure, table, caption(table, results)
 
 
 if __name__ == "__main__":
     kappa = "energy/(time temperature)"
-    run(draw, "Heat conductivity against the size of the chain", mean_field_kappa=kappa)
+    local = {"exponent_to_next": "1", "exponent_to_next_error": "1"}
+    run(draw, "Heat conductivity against the size of the chain", mean_field_kappa=kappa, **local)

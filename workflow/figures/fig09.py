@@ -1,45 +1,144 @@
-"""Fig. 9: energy difference after a pulse, at several times; a: gamma = N, b: gamma = 1."""
+"""Fig. 9: energy difference after a pulse, at several times; a: gamma = N, b: gamma = 1.
+
+From the paper's start, in which scatterers at rest have relaxed, beside one in which all momenta are Gaussian; and the position
+and the speed of the moving peak. Faint: times at which the ring has closed.
+"""
 
 from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
+from workflow.lib.caption import CHAIN, ERRORS, listed, number, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.load import Result
+
+CLOSED = 0.02  # of the peak's height, at the cell opposite to the pulse
+FAINT = 0.45
+
+# Marker, colour and face by what scatterers start from.
+STARTS = {
+    0: ("s", style.VERMILLION, "white", "scatterers from rest"),
+    "particles": ("o", style.BLUE, style.BLUE, "Gaussian start"),
+}
+
+
+def start(result: Result) -> str | float:
+    return result.parameters["scatterer-temperature"]
 
 
 def gaussian_start(results: Sequence[Result]) -> Result:
     """The run whose scatterers start at the temperature of the particles."""
-    return next(result for result in results if result.parameters["scatterer-temperature"] == "particles")
+    return next(result for result in results if start(result) == "particles")
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
-    result = gaussian_start(results)
+def ring_closed(result: Result) -> np.ndarray:
+    """At every time, whether the two sides of the pulse overlap where they meet, opposite to it."""
+    difference = result["energy_difference"].mean
+    opposite = difference[:, [0, 1, -2, -1]].mean(axis=1)
+    return opposite > CLOSED * difference.max(axis=1)
+
+
+def look_of(result: Result) -> dict:
+    marker, color, face, _ = STARTS[start(result)]
+    return {"marker": marker, "color": color, "markerfacecolor": face, **style.POINTS}
+
+
+def draw_marked(axes: Axes, time: np.ndarray, values: tuple, closed: np.ndarray, **look: object) -> None:
+    """Values with errors; faint where the ring has closed."""
+    for part, alpha in ((~closed, 1), (closed, FAINT)):
+        axes.errorbar(time[part], values[0][part], values[1][part], alpha=alpha, **look)
+        look.pop("label", None)
+
+
+def draw_profiles(axes: Axes, result: Result) -> pd.DataFrame:
     difference = result["energy_difference"]
     times = difference.axes["time"]
     distance = difference.axes["cell"] - len(difference.axes["cell"]) // 2
-    figure, axes = plt.subplots(figsize=(style.COLUMN, style.HEIGHT))
-    shown = np.linspace(1, len(times) - 1, 5).round().astype(int)
+    closed = ring_closed(result)
     parts = []
+    shown = np.linspace(1, len(times) - 1, 5).round().astype(int)
     for k, color, dashes in zip(shown, style.SEQUENCE, style.DASHES, strict=True):
         mean, error = difference.mean[k] / 1e3, difference.standard_error[k] / 1e3
-        axes.plot(distance, mean, color=color, linestyle=dashes, label=f"$t = {times[k]:g}$")
+        alpha = FAINT if closed[k] else 1
+        label = f"$t = {times[k]:g}$"
+        axes.plot(distance, mean, color=color, linestyle=dashes, label=label, alpha=alpha)
         axes.fill_between(distance, mean - error, mean + error, color=color, alpha=0.3, linewidth=0)
         columns = {"time": times[k], "distance": distance, "energy_difference": difference.mean[k]}
-        parts.append(pd.DataFrame({**columns, "energy_difference_error": difference.standard_error[k]}))
-    axes.set(
-        xlabel=r"distance from the central cell, $x/\lambda$",
-        ylabel=rf"$\Delta E(x,t)\,/\,10^3$ ({style.UNITS})",
+        part = pd.DataFrame({**columns, "energy_difference_error": difference.standard_error[k]})
+        parts.append(part.assign(ring_closed=closed[k]))
+    axes.set_xlabel(r"distance from the central cell, $x/\lambda$")
+    axes.legend(loc="upper right", title=STARTS[start(result)][3])
+    return pd.concat(parts).assign(scatterer_temperature=str(start(result)))
+
+
+def draw_position(axes: Axes, result: Result) -> None:
+    """With the way of a peak that keeps the speed from the pulse to its first position."""
+    position, closed = result["peak_position"], ring_closed(result)
+    time = position.axes["time"]
+    label = STARTS[start(result)][3]
+    values = (position.mean, position.standard_error)
+    draw_marked(axes, time, values, closed, label=label, **look_of(result))
+    axes.plot(time, position.mean[0] * time / time[0], **style.GUIDE)
+
+
+def draw_speed(axes: Axes, result: Result) -> None:
+    speed = result["peak_speed"]
+    closed = ring_closed(result)[1:]
+    draw_marked(axes, speed.axes["middle"], (speed.mean, speed.standard_error), closed, **look_of(result))
+
+
+def caption(results: Sequence[Result]) -> str:
+    speeds = []
+    for result in results:
+        known = np.flatnonzero(np.isfinite(result["peak_speed"].mean))
+        first, last = (
+            style.with_error(result["peak_speed"], k) for k in (known[[0, -1]] if len(known) else (0, -1))
+        )
+        closed = result["peak"].axes["time"][ring_closed(result)]
+        end = f"the ring has closed at t = {closed[0]:g}" if len(closed) else "the ring has not closed"
+        speeds.append(f"{STARTS[start(result)][3]}: from {first} to {last}; {end}")
+    names = ("particles-per-cell", "energy", "pulse-energy")
+    rest = [result for result in results if start(result) == 0]
+    relaxed = listed(number(result.parameters["relaxation-time"]) for result in rest)
+    return f"""
+        Energy per cell of a ring with a pulse in the central cell minus that of the same ring without, ΔE(x, t), at several times t;
+        {parameters(results, *CHAIN, *names)} per degree of freedom, {replicas(results)} of up to
+        {max(int(result.parameters["pairs-per-replica"]) for result in results)} pairs of trajectories. (a) The paper's start: scatterers at rest,
+        relaxed for t = {relaxed}; (b) all momenta Gaussian. Bands are errors. (c) Position of the moving peak, with the constant speed of
+        its first position dashed; (d) its speed between neighbouring times, in cells: {"; ".join(speeds)}. Faint: times at which ΔE
+        opposite to the pulse exceeds {number(100 * CLOSED)} % of its largest value. {ERRORS}. As in the paper two peaks move away symmetrically
+        and little energy stays in the centre."""
+
+
+def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+    results = sorted(results, key=lambda result: list(STARTS).index(start(result)))
+    figure, panels = plt.subplot_mosaic(
+        [[0, "particles", "position"], [0, "particles", "speed"]],
+        figsize=(3 * style.COLUMN, 1.2 * style.HEIGHT),
+        width_ratios=[1.15, 1.15, 1],
+        height_ratios=[1.4, 1],
     )
-    axes.legend(
-        loc="upper right",
-        title=rf"$\gamma = {style.gamma(result)}$, $\varepsilon^0 = {result.parameters['energy']:g}$",
+    panels["particles"].sharey(panels[0])
+    panels["speed"].sharex(panels["position"])
+    tables = []
+    for result in results:
+        tables.append(draw_profiles(panels[start(result)], result))
+        draw_position(panels["position"], result)
+        draw_speed(panels["speed"], result)
+    panels[0].set_ylabel(rf"$\Delta E(x,t)\,/\,10^3$ ({style.UNITS})")
+    panels[0].text(
+        0.04, 0.95, rf"$\gamma = {style.gamma(results[0])}$", transform=panels[0].transAxes, va="top"
     )
-    return figure, pd.concat(parts)
+    panels["position"].set(ylabel=r"peak $x_p/\lambda$", xlim=(0, None), ylim=(0, None))
+    panels["speed"].set(xlabel="time $t$", ylabel=r"$dx_p/dt\,/\,\lambda$")
+    panels["position"].legend(loc="lower right")
+    style.letter(*panels.values())
+    return figure, pd.concat(tables), caption(results)
 
 
 if __name__ == "__main__":

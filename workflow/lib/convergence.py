@@ -16,10 +16,10 @@ def distance_from_finest(table: pd.DataFrame) -> pd.Series:
 
 def draw_errors(axes: Axes, table: pd.DataFrame, abscissa: str) -> None:
     """The program's own estimate as lines, the distance from the finest as points."""
-    looks = [("o", style.BLUE), ("s", style.VERMILLION)]
-    for (gamma, part), (marker, color) in zip(table.groupby("gamma"), looks, strict=True):
+    looks = [("o", style.BLUE, "solid"), ("s", style.VERMILLION, "dashed")]
+    for (gamma, part), (marker, color, dashes) in zip(table.groupby("gamma"), looks, strict=True):
         label = rf"$\gamma = {gamma:g}$"
-        axes.plot(part[abscissa], part.estimate, color=color, label=f"{label}, estimate")
+        axes.plot(part[abscissa], part.estimate, color=color, linestyle=dashes, label=f"{label}, estimate")
         seen = part[part.distance > 0]
         axes.plot(
             seen[abscissa], seen.distance, marker, color=color, label=f"{label}, distance from the finest"

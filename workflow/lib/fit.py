@@ -4,6 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.stats import chi2
+
+# A law is rejected if chi^2 exceeds what it does in one of so many cases by chance.
+LEVEL = 1e-2
 
 
 @dataclass(frozen=True)
@@ -22,8 +26,9 @@ class Line:
 
 @dataclass(frozen=True)
 class PowerLaw:
-    """y ~ x^exponent."""
+    """y = amplitude x^exponent; error is that of the exponent."""
 
+    amplitude: float
     exponent: float
     error: float
     chi_square: float
@@ -33,13 +38,33 @@ class PowerLaw:
     def text(self) -> str:
         return with_error(self.exponent, self.error)
 
+    @property
+    def rejected(self) -> bool:
+        return rejected(self.chi_square, self.freedom)
+
+    def at(self, x: ArrayLike) -> np.ndarray:
+        return self.amplitude * np.asarray(x, dtype=float) ** self.exponent
+
+
+def rejected(chi_square: float, freedom: int) -> bool:
+    return bool(chi2.sf(chi_square, freedom) < LEVEL)
+
 
 def with_error(value: float, error: float) -> str:
-    """A number with its error in units of the last digit, as 1.862(5)."""
+    """A number with two digits of its error: in units of the last one, as 1.8620(54), or with a point, as 745.0(8.2)."""
     if not (np.isfinite(error) and error > 0):
-        return f"{value:.4g}"
-    digits = max(0, -int(np.floor(np.log10(error))))
-    return f"{value:.{digits}f}({round(error * 10**digits)})"
+        return f"{value:.4g}".replace("-", "−")
+    error = float(f"{error:.1e}")
+    digits = max(0, 1 - int(np.floor(np.log10(error))))
+    shown = f"{error:.{digits}f}" if error >= 1 else f"{round(error * 10**digits)}"
+    return f"{value:.{digits}f}({shown})".replace("-", "−")
+
+
+def mean_of(value: ArrayLike, error: ArrayLike) -> tuple[float, float, float]:
+    """Of independent values of one quantity: weighted mean, its error, chi^2 about it."""
+    value, error = (np.asarray(values, dtype=float) for values in (value, error))
+    mean = float(np.average(value, weights=error**-2))
+    return mean, float(np.sum(error**-2) ** -0.5), float(np.sum(((value - mean) / error) ** 2))
 
 
 def fit_line(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> Line:
@@ -58,4 +83,4 @@ def fit_power(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> PowerLaw:
     """Straight line through ln y against ln x."""
     y = np.asarray(y, dtype=float)
     line = fit_line(np.log(np.asarray(x, dtype=float)), np.log(y), np.asarray(error, dtype=float) / y)
-    return PowerLaw(line.slope, line.error, line.chi_square, line.freedom)
+    return PowerLaw(float(np.exp(line.intercept)), line.slope, line.error, line.chi_square, line.freedom)

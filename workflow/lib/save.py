@@ -10,6 +10,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from workflow.lib.parents import PARENTS_LINE, Parents
+from workflow.lib.style import FONTS
 
 CREATOR = "lorentz-gas"
 
@@ -54,4 +55,11 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
 def _picture(figure: Figure, kind: str, metadata: dict) -> bytes:
     buffer = io.BytesIO()
     figure.savefig(buffer, format=kind, metadata=metadata)
-    return buffer.getvalue()
+    return _with_fallbacks(buffer.getvalue()) if kind == "svg" else buffer.getvalue()
+
+
+def _with_fallbacks(picture: bytes) -> bytes:
+    """matplotlib names one font only for the letters of a formula."""
+    first, *others = (name if name == "serif" else f"'{name}'" for name in FONTS)
+    one = f"font-family: {first}"
+    return picture.replace(f'{one}"'.encode(), f'{", ".join([one, *others])}"'.encode())

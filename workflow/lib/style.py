@@ -1,5 +1,7 @@
 """How every figure looks: sizes, fonts, colours that differ also for the colour-blind and in grey."""
 
+from string import ascii_lowercase
+
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
@@ -34,16 +36,25 @@ BY_GAMMA = {"N": ("o", BLUE), 1: ("s", VERMILLION)}
 # A legend that hides the lines behind it.
 OPAQUE = {"frameon": True, "framealpha": 1, "edgecolor": "none"}
 
+# Where a law was fitted.
+WINDOW = {"color": "0.92", "linewidth": 0, "zorder": -1}
+
 GUIDE = {"color": "0.55", "linestyle": (0, (4, 2)), "linewidth": 0.8, "zorder": 0}
 
 POINTS = {"linestyle": "none", "capsize": 1.5, "elinewidth": 0.8, "capthick": 0.8, "markeredgewidth": 0.8}
 
+# The first is used here; the text of an SVG is text, for which a viewer without it takes the next.
+FONTS = ("STIXGeneral", "STIX Two Text", "Times New Roman", "serif")
+
 _SETTINGS = {
-    "font.family": "STIXGeneral",
+    "font.family": "serif",
+    "font.serif": list(FONTS),
     "font.size": 9,
     "mathtext.fontset": "stix",
     "axes.linewidth": 0.6,
     "axes.labelsize": 9,
+    "axes.titlesize": 9,
+    "legend.title_fontsize": 8,
     "legend.fontsize": 8,
     "legend.frameon": False,
     "legend.handlelength": 1.6,
@@ -60,7 +71,7 @@ _SETTINGS = {
     "figure.constrained_layout.use": True,
     "savefig.dpi": 300,
     "pdf.fonttype": 42,
-    "svg.fonttype": "path",
+    "svg.fonttype": "none",
     "svg.hashsalt": "lorentz-gas",
 }
 
@@ -69,6 +80,12 @@ def apply() -> None:
     """From now on figures are drawn in this style, whatever matplotlibrc says."""
     mpl.rcdefaults()
     mpl.rcParams.update(_SETTINGS)
+
+
+def letter(*panels: Axes) -> None:
+    """(a), (b), ... above the upper left corner of each."""
+    for character, axes in zip(ascii_lowercase, panels, strict=False):
+        axes.set_title(f"({character})", loc="left")
 
 
 def label_within_decades(axis: Axis) -> None:
@@ -91,7 +108,7 @@ def cross_out(axes: Axes, x: np.ndarray, y: np.ndarray, where: np.ndarray) -> No
 
 
 def with_error(quantity: Quantity, index: int | tuple = (), unit: float = 1) -> str:
-    """A number, or one of an array, with its error in units of the last digits, as 1.862(5)."""
+    """A number, or one of an array, with its error in units of the last digits, as 1.8620(54)."""
     mean, error = unit * float(quantity.mean[index]), unit * float(quantity.standard_error[index])
     return fit.with_error(mean, error)
 

@@ -1,0 +1,72 @@
+"""Words that captions share. Every number in a caption comes from the files."""
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+
+import numpy as np
+
+from workflow.lib.load import Result
+
+SYMBOLS = {
+    "cells": "N = {} cells",
+    "particles-per-cell": "n = {} particles per cell",
+    "cell-length": "λ = {}",
+    "sigma": "σ = {}",
+    "gamma": "γ = {}",
+    "temperature": "T = {}",
+    "nu-left": "ν_L = {}",
+    "nu-right": "ν_R = {}",
+    "temperature-left": "T_L = {}",
+    "temperature-right": "T_R = {}",
+    "energy": "ε⁰ = {}",
+    "pulse-energy": "ε̃ = {}",
+    "start": "start {}",
+    "relaxation-time": "relaxed for t = {}",
+    "observation-time": "observed for t = {}",
+}
+CHAIN = ("cells", "cell-length", "sigma", "gamma")
+GAS = ("particles-per-cell", "temperature")
+BATHS = ("nu-left", "nu-right", "temperature-left", "temperature-right")
+WINDOW = ("relaxation-time", "observation-time")
+
+ERRORS = "Errors are one standard deviation of the mean over independent replicas"
+
+
+def number(value: float) -> str:
+    """With a minus sign, and as a fraction where that is shorter."""
+    fraction = Fraction(value).limit_denominator(10)
+    exact = fraction.denominator > 1 and abs(fraction - Fraction(value)) < 1e-12
+    if exact and fraction.denominator in (2, 3):
+        text = str(fraction)
+    else:
+        text = f"{value:.0f}" if abs(value) >= 1e4 else f"{value:.4g}"
+    return text.replace("-", "−")
+
+
+def listed(texts: Iterable[str]) -> str:
+    """a, b and c."""
+    *most, last = texts
+    return f"{', '.join(most)} and {last}" if most else last
+
+
+def parameters(results: Sequence[Result], *names: str) -> str:
+    """Those that the results have, with every value that occurs: N = 11 cells, σ = −1/2 and 1/2."""
+    said = []
+    for name in names:
+        values = {result.parameters[name] for result in results if name in result.parameters}
+        numbers = sorted(value for value in values if not isinstance(value, str))
+        words = sorted(value for value in values if isinstance(value, str))
+        if values:
+            said.append(SYMBOLS[name].format(listed([*map(number, numbers), *words])))
+    return ", ".join(said)
+
+
+def replicas(results: Sequence[Result]) -> str:
+    """How many there were: 64 replicas, or 32 to 64 replicas."""
+    counts = [
+        int(max(np.max(quantity.count) for quantity in result.quantities.values()))
+        for result in results
+        if "replicas" in result.parameters
+    ]
+    low, high = min(counts), max(counts)
+    return f"{low} replicas" if low == high else f"{low} to {high} replicas"
