@@ -13,8 +13,14 @@ from workflow.lib.load import Result
 ENDS = [(0, "x = 0", style.BLUE, "solid"), (-1, "x = 1", style.VERMILLION, (0, (4, 1.5)))]
 
 
-def equal_temperatures(result: Result) -> bool:
-    return result.parameters["temperature-left"] == result.parameters["temperature-right"]
+PAPER = "as in the paper"  # the case that is drawn; the table has all
+
+
+def case(result: Result) -> str:
+    if result.parameters["sigma"] == 0:
+        return "sigma = 0"
+    equal = result.parameters["temperature-left"] == result.parameters["temperature-right"]
+    return "equal temperatures" if equal else PAPER
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
@@ -27,11 +33,9 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame]:
             table = pd.DataFrame({"x": place, "momentum": momentum, "flux": density.mean[index]})
             table["kurtosis"] = [kurtosis.mean[index][int(p > 0)] for p in momentum]
             table["jump"] = jump.mean[index]
-            table.insert(
-                0, "baths", "equal temperatures" if equal_temperatures(result) else "as in the paper"
-            )
+            table.insert(0, "case", case(result))
             tables.append(table)
-            if equal_temperatures(result):
+            if case(result) != PAPER:
                 continue
             label = rf"${place}$: jump {jump.mean[index]:.4f}"
             for half in (momentum < 0, momentum > 0):  # not joined across the jump
