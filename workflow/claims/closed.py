@@ -11,11 +11,11 @@ from workflow.figures.fig05 import law
 from workflow.lib.load import Result
 
 
-def _named(results: list[Result], quantity: str) -> list[Number]:
-    """One number of each run, labelled by its mass ratio and, where they differ, its particles per cell."""
+def _named(results: list[Result], quantity: str, name: str) -> list[Number]:
+    """One number of each run, labelled by name and mass ratio and, where they differ, its particles per cell."""
     dense = len({one.parameters["particles-per-cell"] for one in results}) > 1
     labels = [
-        f"σ = {one.parameters['sigma']:g}"
+        f"{name}, σ = {one.parameters['sigma']:g}"
         + (f", n = {one.parameters['particles-per-cell']}" if dense else "")
         for one in results
     ]
@@ -64,7 +64,7 @@ def _waiting(data: Data, sigma: float) -> Number:
 def spreading_half(data: Data) -> Evidence:
     """The relaxation time's influence counts as systematic."""
     aged = _relaxed(data, 0.5)
-    zero = _named(data.of("ext01", sigma=0.5, zero_total_momentum=True), "alpha")
+    zero = _named(data.of("ext01", sigma=0.5, zero_total_momentum=True), "alpha", "α at zero total momentum")
     return Evidence(
         [with_systematic(number(data.of("fig07")[0], "alpha", label="α, σ = 0.5"), aged)],
         other=zero,
@@ -78,7 +78,7 @@ def spreading_zero(data: Data) -> Evidence:
     dense = data.of("ext01", sigma=0, zero_total_momentum=False, particles_per_cell=80)
     return Evidence(
         [with_systematic(number(result, "alpha", label="α, σ = 0"), aged)],
-        other=_named(dense, "alpha"),
+        other=_named(dense, "alpha", "α, n = 80"),
         caveat="The other reading is a chain of 80 particles per cell over the same time.",
     )
 
@@ -94,18 +94,16 @@ def _without_drift(zero: list[Number]) -> str:
 
 def superdiffusive(data: Data) -> Evidence:
     """alpha for every sigma but 0, with the paper's random total momentum; in substance without."""
+    runs = [one for one in data.of("fig07_inset") if one.parameters["sigma"]]
     free, zero = (
-        _named(
-            [one for one in data.of("fig07_inset", zero_total_momentum=given) if one.parameters["sigma"]],
-            "alpha",
-        )
-        for given in (False, True)
+        _named([one for one in runs if one.parameters["zero-total-momentum"] == given], "alpha", name)
+        for given, name in ((False, "α"), (True, "α at zero total momentum"))
     )
     return Evidence(free, zero, caveat=_without_drift(zero))
 
 
 def diffusion_recovered(data: Data) -> Evidence:
-    found = _named(data.of("ext04"), "alpha")
+    found = _named(data.of("ext04"), "alpha", "α")
     return Evidence(
         found, found, caveat="Waits of τ⁻² make t/ln t, whose exponent approaches 1 from below (ext04)."
     )
@@ -115,11 +113,11 @@ def only_energy(data: Data) -> Evidence:
     """Change of the total momentum over a run, relative to the sum of all |momenta|, as a power of ten."""
     runs = [one for one in data.of("fig07_inset") if one.parameters["sigma"]]
     found = []
-    for one in _named(runs, "momentum_drift"):
+    for one in _named(runs, "momentum_drift", "log₁₀ of the relative change of Σp + ΣP"):
         error = one.error / (one.value * math.log(10))
         found.append(
             Number(
-                f"log₁₀ of the relative change of Σp + ΣP, {one.label}",
+                one.label,
                 math.log10(one.value),
                 error,
                 one.freedom,
