@@ -66,7 +66,7 @@ SNAKEFMT := .venv/bin/snakefmt --no-format-shell --line-length 110
 ONLY_PANEL := $(if $(PANEL),--panel $(PANEL))
 COMPARE = $(if $(SEED)$(REPLICAS)$(filter $(YES),$(FRESH)),$(PYTHON) workflow.provenance.compare --quality $(EFFORT))
 
-.PHONY: help figures panel build test check format describe reference lock audit verify provenance status \
+.PHONY: help figures panel report build test check format describe reference lock audit verify provenance status \
   crate bench tradeoff clean system-packages installed runtime dev
 help:  ## This list
 	sed -nE 's/^([a-z]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 16
@@ -82,6 +82,10 @@ panel: build runtime  ## The same for one panel, PANEL=fig05; FRESH=yes simulate
 	$(SNAKEMAKE) -- panel
 	$(if $(COMPARE),$(COMPARE) $(ONLY_PANEL))
 	echo The panel is figures/$(EFFORT)/$(PANEL).pdf, .png, .svg and .csv
+
+report: figures  ## The report that judges the paper's claims: figures/QUALITY/report.html and .md
+	$(PYTHON) workflow.report.write --quality $(EFFORT)
+	echo The report is figures/$(EFFORT)/report.html
 
 crate: build runtime  ## Figures, data, code and runs as an RO-Crate in build/crate; PANEL=fig05 packs one panel
 	$(PYTHON) workflow.provenance.crate --quality $(EFFORT) $(ONLY_PANEL)

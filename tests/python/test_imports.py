@@ -15,6 +15,8 @@ ALLOWED = {
     "figures": {"lib"},
     "tradeoff": {"lib"},
     "provenance": {"lib", "environment"},
+    "claims": {"lib", "figures"},
+    "report": {"lib", "claims", "provenance"},
     "environment": set(),
 }
 

@@ -47,7 +47,7 @@ class Clone:
         return {
             str(path.relative_to(self.folder)): path.read_bytes()
             for path in files
-            if path.is_file() and path.name not in ("lock.json", "README.md")
+            if path.is_file() and path.name not in ("lock.json", "README.md", "claims.csv")
         }
 
 

@@ -28,6 +28,7 @@ EFFORT = ("QUALITY", "SEED", "REPLICAS")
 USED = {  # by the goals that use any
     "figures": (*EFFORT, "JOBS", "FRESH"),
     "panel": (*EFFORT, "JOBS", "FRESH", "PANEL"),
+    "report": (*EFFORT, "JOBS"),
     "crate": (*EFFORT, "PANEL"),
     "audit": (*EFFORT, "PANEL", "CRATE"),
     "verify": (*EFFORT, "PANEL", "SAMPLE"),

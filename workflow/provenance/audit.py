@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from workflow.lib.plan import ConfigurationError, Quality, load_plan, panel_named, with_used
-from workflow.provenance import links, product_links
+from workflow.provenance import links, product_links, report_links
 from workflow.provenance.chain import Chain
 from workflow.provenance.crate_check import CrateError, Deposit
 from workflow.provenance.links import Link
@@ -87,6 +87,7 @@ def audit(quality: str, only: str | None = None, deposit: Deposit | None = None)
         findings.add([*deposit.differences(chain)])
     drawn = names_to_draw(chain, [name for name in lock.drawings() if name in names], findings.broken)
     findings.add(not_following(chain, drawn))
+    findings.add([*report_links.report(chain)])
     findings.looked_at = summary(chain, names, len(drawn))
     return findings
 

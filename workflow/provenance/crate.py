@@ -30,6 +30,7 @@ PAPERS = (
     "LICENSE",
     ".gitignore",
     "data/README.md",
+    "data/claims.csv",
     "figures/README.md",
 )
 

@@ -5,13 +5,14 @@ import stat
 from collections.abc import Iterator
 
 from workflow.lib.plan import data_of, is_quality
+from workflow.provenance import report_links
 from workflow.provenance.chain import Chain
 from workflow.provenance.links import Link, unchecked
 from workflow.provenance.lock import Job
 from workflow.provenance.metadata import drawing_fault, run_fault
 from workflow.provenance.repository import ROOT
 
-BESIDE = {"data": {"README.md"}, "figures": {"README.md", "tradeoff"}}  # the qualities' folders
+BESIDE = {"data": {"README.md", "claims.csv"}, "figures": {"README.md", "tradeoff"}}  # the qualities' folders
 RECORDS = ("lock.json", "verification.json")  # in data/<quality>, which no job makes
 
 
@@ -28,7 +29,11 @@ def products(chain: Chain) -> Iterator[Link]:
 
 def strangers(chain: Chain) -> Iterator[Link]:
     """What lies among the products and is none."""
-    known = chain.lock.outputs().keys() | {f"data/{chain.quality}/{name}" for name in RECORDS}
+    known = {
+        *chain.lock.outputs(),
+        *(f"data/{chain.quality}/{name}" for name in RECORDS),
+        *report_links.paths(chain.quality),
+    }
     in_use = folders_of_jobs(chain)
     unreadable: list[OSError] = []
     for place in ("data", "figures"):

@@ -1,0 +1,96 @@
+"""The table of claims, what is told of them, and how a claim is judged."""
+
+from pathlib import Path
+
+import h5py
+import pytest
+import yaml
+
+from tests.python.conftest import ROOT
+from workflow.claims import judge
+from workflow.claims.data import Data, MissingError, combination, ratio
+from workflow.claims.evidence import Evidence
+from workflow.claims.verdict import Band, Number, Outcome
+from workflow.lib.plan import data_of, load_plan
+from workflow.report.misprints import NUMBERS
+
+CLAIMS = judge.read_claims(ROOT)
+READINGS = ("literal", "substance", "other")
+CLAIM = {"id": "C01", "literal": "-1 to 1", "substance": "-2 to 2", "other": ""}
+
+
+def test_every_claim_is_there_once_and_has_a_judge() -> None:
+    assert [claim["id"] for claim in CLAIMS] == [f"C{number:02}" for number in range(1, 35)]
+    assert judge.FUNCTIONS.keys() == {claim["id"] for claim in CLAIMS}
+    assert sum(len(module.CLAIMS) for module in judge.MODULES) == len(CLAIMS)
+
+
+@pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim["id"])
+def test_rows_are_complete(claim: dict[str, str]) -> None:
+    assert all(claim[name] for name in ("panel", "place", "quantity", "paper", "criterion", "literal"))
+    assert claim["panel"] in load_plan("standard")
+    for name in READINGS:
+        if claim[name]:
+            Band.of(claim[name])
+
+
+def test_findings_and_misprints_name_what_there_is() -> None:
+    rows = {claim["id"]: claim for claim in CLAIMS}
+    for finding in yaml.safe_load((ROOT / "workflow/report/findings.yaml").read_text()):
+        assert rows[finding["claim"]][finding["reading"]]
+        assert finding["outcome"] in {one.value for one in Outcome}
+        assert "{number}" in finding["text"]
+    misprints = yaml.safe_load((ROOT / "workflow/report/misprints.yaml").read_text())
+    assert len(misprints) == 18
+    assert {row["claim"] for row in misprints if "claim" in row} <= rows.keys()
+    assert {row["number"] for row in misprints if "number" in row} == NUMBERS.keys()
+
+
+def judged(monkeypatch: pytest.MonkeyPatch, evidence: Evidence | Exception) -> judge.Judgement:
+    def claim(_: Data) -> Evidence:
+        if isinstance(evidence, Exception):
+            raise evidence
+        return evidence
+
+    monkeypatch.setitem(judge.FUNCTIONS, "C01", claim)
+    return judge.judge(CLAIM, Data("smoke", ROOT), 0.05)
+
+
+def test_what_is_missing_is_not_testable(monkeypatch: pytest.MonkeyPatch) -> None:
+    judgement = judged(monkeypatch, MissingError("there are no runs"))
+    assert (judgement.outcome, judgement.caveat) == (Outcome.NOT_TESTABLE, "there are no runs.")
+    assert judgement.deciding is None
+
+
+def test_readings_share_the_level_and_the_other_one_does_not_count(monkeypatch: pytest.MonkeyPatch) -> None:
+    number = Number("", 1.5, 0.1)
+    both = judged(monkeypatch, Evidence([number], [number]))
+    assert both.outcome is Outcome.IN_SUBSTANCE
+    assert both.deciding is both.substance
+    assert both.literal.level == both.substance.level == 0.025
+    alone = judged(monkeypatch, Evidence([number]))
+    assert (alone.outcome, alone.literal.level) == (Outcome.CONTRADICTED, 0.05)
+
+
+def test_damaged_results_are_missing(tmp_path: Path) -> None:
+    with pytest.raises(MissingError, match="there is no panel"):
+        Data("smoke", tmp_path).of("fig00")
+    path = tmp_path / data_of(load_plan("smoke"), "fig05", "smoke")[0]
+    path.parent.mkdir(parents=True)
+    with h5py.File(path, "w"):
+        pass
+    with pytest.raises(MissingError, match="missing or damaged"):
+        Data("smoke", tmp_path).of("fig05")
+
+
+def test_errors_of_ratios_and_sums() -> None:
+    one, other = Number("", 4.0, 0.3, 7, 0.1), Number("", 2.0, 0.2, 9, 0.0)
+    found = ratio(one, other, "r")
+    assert (found.value, found.freedom) == (2, 7)
+    assert found.error == pytest.approx(2 * (0.075**2 + 0.1**2) ** 0.5)
+    assert found.systematic == pytest.approx(0.05)
+    total = combination([one, other], [1, -2], "d", 1)
+    assert (total.value, total.freedom, total.systematic) == (-1, 7, 0.1)
+    assert total.error == pytest.approx(0.5)
+    scaled = one.over(-2, 1)
+    assert (scaled.value, scaled.error, scaled.systematic) == (-3, 0.15, 0.05)

@@ -1,0 +1,129 @@
+"""The rules of the verdicts, on numbers whose truth is known: how often each verdict is wrong, and what it can see."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.stats import binom
+
+from workflow.claims.verdict import (
+    Band,
+    Number,
+    Outcome,
+    Reading,
+    combined,
+    critical,
+    level_of_each,
+    with_systematic,
+)
+
+BAND = Band(-1, 1)
+LEVEL = 0.1
+TRIALS, REPLICAS = 20000, 12
+
+
+def measured(truth: float, spread: float, numbers: int = 1) -> list[Reading]:
+    """From normal replicas, their error estimated from them; one reading per trial."""
+    replicas = np.random.default_rng(1).normal(truth, spread, (TRIALS, numbers, REPLICAS))
+    mean, error = replicas.mean(axis=2), replicas.std(axis=2, ddof=1) / math.sqrt(REPLICAS)
+    return [
+        Reading(BAND, tuple(Number("", *one, REPLICAS - 1) for one in zip(*pair, strict=True)), LEVEL)
+        for pair in zip(mean, error, strict=True)
+    ]
+
+
+def share(readings: list[Reading], outcome: Outcome) -> int:
+    return sum(reading.outcome is outcome for reading in readings)
+
+
+def within(count: int, probability: float) -> bool:
+    low, high = binom.interval(1 - 1e-6, TRIALS, probability)
+    return low <= count <= high
+
+
+@pytest.mark.parametrize("wrong", [Outcome.CONTRADICTED, Outcome.REPRODUCED])
+def test_wrong_verdicts_at_the_edge_are_as_frequent_as_the_level(wrong: Outcome) -> None:
+    """A true value on the edge is in the band and beside it: each verdict is wrong with half the two-sided level."""
+    assert within(share(measured(1, 0.2), wrong), LEVEL / 2)
+
+
+def test_many_numbers_share_the_level() -> None:
+    each = LEVEL / 5 / 2
+    assert within(share(measured(1, 0.2, 5), Outcome.CONTRADICTED), 1 - (1 - each) ** 5)
+
+
+def test_what_lies_deep_inside_or_far_outside_is_seen() -> None:
+    assert share(measured(0, 0.2), Outcome.REPRODUCED) == TRIALS
+    assert share(measured(3, 0.2), Outcome.CONTRADICTED) == TRIALS
+    assert share(measured(0, 5), Outcome.UNDECIDED) > 0.95 * TRIALS
+
+
+def test_a_detectable_deviation_is_detected() -> None:
+    """With the error known, as with many replicas, in 95 of 100 cases."""
+    number = Number("", 0, 0.3, math.inf)
+    beyond = 1 + number.detectable(LEVEL)
+    values = np.random.default_rng(2).normal(beyond, 0.3, TRIALS)
+    found = [Reading(BAND, (Number("", value, 0.3),), LEVEL) for value in values]
+    assert within(share(found, Outcome.CONTRADICTED), 0.95)
+
+
+@pytest.mark.parametrize(
+    ("number", "outcome"),
+    [
+        (Number("exact and inside", 1.0, 0.0), Outcome.REPRODUCED),
+        (Number("exact and outside", 1.001, 0.0), Outcome.CONTRADICTED),
+        (Number("its bound crosses the edge", 0.99, 0.0, systematic=0.02), Outcome.UNDECIDED),
+        (Number("its bound takes it back", 1.1, 0.01, systematic=0.2), Outcome.UNDECIDED),
+        (Number("beyond its bound", 1.5, 0.01, systematic=0.2), Outcome.CONTRADICTED),
+        (Number("error unknown", 5.0, math.nan, 9), Outcome.UNDECIDED),
+        (Number("value unknown", math.nan, 0.1, 9), Outcome.UNDECIDED),
+        (Number("one replica", 5.0, 0.1, 0), Outcome.UNDECIDED),
+        (Number("two replicas", 4.0, 0.5, 1), Outcome.UNDECIDED),
+        (Number("many replicas", 5.0, 0.5, 1000), Outcome.CONTRADICTED),
+    ],
+    ids=lambda value: getattr(value, "label", ""),
+)
+def test_each_case(number: Number, outcome: Outcome) -> None:
+    reading = Reading(BAND, (number,), LEVEL)
+    assert reading.outcome is outcome
+    assert (reading.p_value < LEVEL) == (outcome is Outcome.CONTRADICTED)
+
+
+def test_one_contradiction_outweighs_what_is_open_and_what_agrees() -> None:
+    inside, open_, outside = Number("a", 0, 0.01), Number("b", 1, 0.5), Number("c", 2, 0.01)
+    assert Reading(BAND, (inside, open_), LEVEL).outcome is Outcome.UNDECIDED
+    reading = Reading(BAND, (inside, open_, outside), LEVEL)
+    assert reading.outcome is Outcome.CONTRADICTED
+    assert reading.worst is outside
+    assert Reading(BAND, (inside, Number("unknown", 0, math.nan, 3)), LEVEL).worst.label == "unknown"
+
+
+def test_a_reading_without_numbers_cannot_be_tested() -> None:
+    assert Reading(BAND, (), LEVEL).outcome is Outcome.NOT_TESTABLE
+
+
+R, S, C, U, N = Outcome
+
+
+@pytest.mark.parametrize(
+    ("literal", "substance", "outcome"),
+    [(R, None, R), (C, None, C), (U, N, U), (R, R, R), (R, U, R), (R, C, C), (C, R, S), (U, R, S), (C, C, C), (C, U, U), (U, U, U), (U, C, C)],
+)  # fmt: skip
+def test_words_and_substance(literal: Outcome, substance: Outcome | None, outcome: Outcome) -> None:
+    assert combined(literal, substance) is outcome
+
+
+def test_bands_as_they_are_written() -> None:
+    assert Band.of("-0.5 to 1e-3") == Band(-0.5, 0.001)
+    assert Band.of("above 0") == Band(0, math.inf)
+    assert Band.of("below -2") == Band(-math.inf, -2)
+    for text in ("", "1", "2 to 1", "over 3", "nan to 1"):
+        with pytest.raises(ValueError, match=r"is no band|could not convert"):
+            Band.of(text)
+
+
+def test_level_and_bound() -> None:
+    assert 34 * level_of_each(34) == pytest.approx(0.05)
+    assert critical(0.05, math.inf) == pytest.approx(1.959964)
+    moved = with_systematic(Number("", 1.0, 0.1, systematic=0.5), [0.7, 1.1, math.nan])
+    assert moved.systematic == pytest.approx(0.8)

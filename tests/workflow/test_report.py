@@ -1,0 +1,116 @@
+"""The report: complete, the same again, whole without a network, noticed when it is changed, usable on narrow screens."""
+
+import re
+import shutil
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from tests.workflow.conftest import Clone, append, delete, replace
+from tests.workflow.tampering import run_module
+from tests.workflow.webpage import Page
+from workflow.lib.plan import load_plan
+
+HTML, MARKDOWN = "figures/smoke/report.html", "figures/smoke/report.md"
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+
+
+@pytest.fixture(scope="module")
+def clone(clean: Clone) -> Clone:
+    made = clean.make("report", "QUALITY=smoke")
+    assert made.returncode == 0, made.stdout
+    yield clean
+    for path in (HTML, MARKDOWN):
+        (clean.folder / path).unlink(missing_ok=True)
+
+
+@pytest.fixture
+def page(clone: Clone) -> Page:
+    return Page.of(clone.folder / HTML)
+
+
+def test_it_is_written_again_with_the_same_bytes(clone: Clone) -> None:
+    before = [(clone.folder / path).read_bytes() for path in (HTML, MARKDOWN)]
+    assert clone.make("report", "QUALITY=smoke").returncode == 0
+    assert [(clone.folder / path).read_bytes() for path in (HTML, MARKDOWN)] == before
+    assert str(clone.folder).encode() not in b"".join(before)
+
+
+def test_it_is_well_formed(page: Page) -> None:
+    assert page.faults == []
+    assert len(page.ids) == len({*page.ids})
+
+
+def test_it_loads_nothing_and_runs_nothing(clone: Clone, page: Page) -> None:
+    assert page.loaded
+    assert all(address.startswith("data:image/svg+xml;base64,") for address in page.loaded)
+    assert page.scripts == 0
+    text = (clone.folder / HTML).read_text()
+    assert "default-src 'none'" in text
+    assert re.findall(r"@import|url\(|javascript:", text) == []
+
+
+def test_every_link_leads_somewhere(clone: Clone, page: Page) -> None:
+    folder = (clone.folder / HTML).parent
+    assert page.links
+    for link in page.links:
+        assert link[1:] in page.ids if link.startswith("#") else (folder / link).is_file(), link
+    for link in re.findall(r"\]\(([^)]*)\)", (clone.folder / MARKDOWN).read_text()):
+        assert (folder / link).is_file(), link
+
+
+def test_every_claim_and_panel_is_there(clone: Clone, page: Page) -> None:
+    claims = [f"C{number:02}" for number in range(1, 35)]
+    assert {*claims, *load_plan("smoke")} <= {*page.ids}
+    table = (clone.folder / MARKDOWN).read_text()
+    assert [name for name in claims if f"| {name} |" not in table] == []
+
+
+def test_pictures_are_described(page: Page) -> None:
+    assert len(page.pictures) > len(load_plan("smoke"))
+    assert all(picture.get("alt") or picture.get("aria-label") for picture in page.pictures)
+
+
+@pytest.mark.parametrize(
+    ("edit", "message"),
+    [
+        (replace(HTML, "</h1>", "!</h1>"), f"{HTML}: does not follow from"),
+        (replace(HTML, '"fig05/', '"fig00/'), f"{HTML}: does not follow from"),
+        (append(MARKDOWN, "more\n"), f"{MARKDOWN}: does not follow from"),
+        (delete(MARKDOWN), f"{MARKDOWN}: is missing beside"),
+        (append("data/claims.csv", "\n"), f"{HTML}: does not follow from"),
+        (append("figures/smoke/fig05.csv", "0"), f"{HTML}: cannot be written again: make report: figures/smoke/fig05.csv"),
+    ],
+    ids=["page", "costs", "table", "missing", "claims", "panel"],
+)  # fmt: skip
+def test_an_audit_notices_changes(clone: Clone, kept: Clone, edit: Callable, message: str) -> None:
+    edit(clone)
+    audited = run_module(clone, "audit")
+    assert audited.returncode == 1, audited.stdout
+    assert message in audited.stdout
+
+
+def test_an_audit_of_a_new_report_finds_nothing(clone: Clone) -> None:
+    audited = run_module(clone, "audit")
+    assert audited.returncode == 0, audited.stdout
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium")
+@pytest.mark.parametrize("width", [360, 800, 1400])
+def test_nothing_is_wider_than_the_screen(clone: Clone, tmp_path: Path, width: int) -> None:
+    """Measured in a frame of that width, as windows cannot be as narrow as a telephone."""
+    measure = f"""<iframe width={width} height=900 style="border:0" src="{(clone.folder / HTML).as_uri()}"
+      onload="document.title = [...this.contentDocument.querySelectorAll('body, body *')].map(
+        one => Math.round(one.getBoundingClientRect().right)).reduce((a, b) => Math.max(a, b))"></iframe>"""
+    (tmp_path / "frame.html").write_text(measure)
+    command = [CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--allow-file-access-from-files"]
+    command += [f"--user-data-dir={tmp_path / 'chromium'}", "--virtual-time-budget=10000", "--dump-dom"]
+    address = (tmp_path / "frame.html").as_uri()
+    shown = subprocess.run(
+        [*command, address], capture_output=True, text=True, timeout=120, check=True
+    ).stdout
+    widest = re.search(r"<title>(\d+)</title>", shown)
+    assert widest, shown
+    assert width / 2 < int(widest[1]) <= width

@@ -1,0 +1,164 @@
+"""Claims on the closed chain: persistence, waiting times, spreading, conservation, ageing (figs. 5 to 7, section 5)."""
+
+import math
+
+import numpy as np
+
+from workflow.claims.data import Data, number
+from workflow.claims.evidence import Claim, Evidence
+from workflow.claims.verdict import Number, with_systematic
+from workflow.figures.fig05 import law
+from workflow.lib.load import Result
+
+
+def _named(results: list[Result], quantity: str, name: str) -> list[Number]:
+    """One number of each run, labelled by name and mass ratio and, where they differ, its particles per cell."""
+    dense = len({one.parameters["particles-per-cell"] for one in results}) > 1
+    labels = [
+        f"{name}, σ = {one.parameters['sigma']:g}"
+        + (f", n = {one.parameters['particles-per-cell']}" if dense else "")
+        for one in results
+    ]
+    return [number(one, quantity, label=label) for one, label in zip(results, labels, strict=True)]
+
+
+def persistence(data: Data) -> Evidence:
+    """mu at -1, 0 and 1; the law arccos(sigma)/pi at every sigma, in a dense chain and in the paper's."""
+    paper = data.of("fig05", particles_per_cell=20)
+    limits = [one for one in paper if one.parameters["sigma"] in (-1, 0, 1)]
+    dense = data.of("fig05", particles_per_cell=320)
+    return Evidence(*([_from_law(one) for one in runs] for runs in (limits, dense, paper)))
+
+
+def _from_law(result: Result) -> Number:
+    sigma = result.parameters["sigma"]
+    return number(result, "mu", label=f"μ - arccos(σ)/π, σ = {sigma:g}").over(1, float(law(sigma)))
+
+
+def waiting_half(data: Data) -> Evidence:
+    aged = [
+        float(one["exponent"].mean)
+        for one in data.of("ext07", "waiting_time")
+        if one.parameters["relaxation-time"] >= 10
+    ]
+    return Evidence([with_systematic(_waiting(data, 0.5), aged)])
+
+
+def waiting_zero(data: Data) -> Evidence:
+    return Evidence(
+        [_waiting(data, 0)],
+        caveat="A property of the Gaussian start: at σ = 0 the momenta are only exchanged.",
+    )
+
+
+def _waiting(data: Data, sigma: float) -> Number:
+    """The spread over cuts within a factor of three counts as systematic."""
+    (result,) = data.of("fig06", sigma=sigma)
+    exponent, spread = (
+        number(result, "exponent", label="exponent of Ψ(τ)"),
+        float(result["exponent_spread"].mean),
+    )
+    return with_systematic(exponent, [exponent.value + spread])
+
+
+def spreading_half(data: Data) -> Evidence:
+    """The relaxation time's influence counts as systematic."""
+    aged = _relaxed(data, 0.5)
+    zero = _named(data.of("ext01", sigma=0.5, zero_total_momentum=True), "alpha", "α at zero total momentum")
+    return Evidence(
+        [with_systematic(number(data.of("fig07")[0], "alpha", label="α, σ = 0.5"), aged)],
+        other=zero,
+        caveat=_without_drift(zero),
+    )
+
+
+def spreading_zero(data: Data) -> Evidence:
+    aged = _relaxed(data, 0)
+    (result,) = data.of("fig07_inset", sigma=0, zero_total_momentum=False)
+    dense = data.of("ext01", sigma=0, zero_total_momentum=False, particles_per_cell=80)
+    return Evidence(
+        [with_systematic(number(result, "alpha", label="α, σ = 0"), aged)],
+        other=_named(dense, "alpha", "α, n = 80"),
+        caveat="The other reading is a chain of 80 particles per cell over the same time.",
+    )
+
+
+def _relaxed(data: Data, sigma: float) -> list[float]:
+    runs = data.of("ext01", sigma=sigma, zero_total_momentum=False, particles_per_cell=20)
+    return [float(one["alpha"].mean) for one in runs]
+
+
+def _without_drift(zero: list[Number]) -> str:
+    return f"At zero total momentum α lies between {min(one.value for one in zero):.3f} and {max(one.value for one in zero):.3f}."
+
+
+def superdiffusive(data: Data) -> Evidence:
+    """alpha for every sigma but 0, with the paper's random total momentum; in substance without."""
+    runs = [one for one in data.of("fig07_inset") if one.parameters["sigma"]]
+    free, zero = (
+        _named([one for one in runs if one.parameters["zero-total-momentum"] == given], "alpha", name)
+        for given, name in ((False, "α"), (True, "α at zero total momentum"))
+    )
+    return Evidence(free, zero, caveat=_without_drift(zero))
+
+
+def diffusion_recovered(data: Data) -> Evidence:
+    found = _named(data.of("ext04"), "alpha", "α")
+    return Evidence(
+        found, found, caveat="Waits of τ⁻² make t/ln t, whose exponent approaches 1 from below (ext04)."
+    )
+
+
+def only_energy(data: Data) -> Evidence:
+    """Change of the total momentum over a run, relative to the sum of all |momenta|, as a power of ten."""
+    runs = [one for one in data.of("fig07_inset") if one.parameters["sigma"]]
+    found = []
+    for one in _named(runs, "momentum_drift", "log₁₀ of the relative change of Σp + ΣP"):
+        error = one.error / (one.value * math.log(10))
+        found.append(
+            Number(
+                one.label,
+                math.log10(one.value),
+                error,
+                one.freedom,
+            )
+        )
+    largest = max(float(one["momentum_drift"].mean) for one in runs)
+    return Evidence(
+        found, caveat=f"The largest change is {largest:.1e}, rounding; every collision conserves p + P."
+    )
+
+
+def ageing(data: Data) -> Evidence:
+    """Slopes against ln t decade by decade, over their mean from t = 1 on; the last one over the largest."""
+    result = max(data.of("ext07", "ageing"), key=lambda one: one.parameters["observation-time"])
+    slope = result["decade_slope"]
+    late = np.flatnonzero(slope.axes["decade"] >= 1)
+    mean = float(slope.mean[late].mean())
+    steady = [
+        number(
+            result, "decade_slope", k, f"slope from t = {slope.axes['decade'][k]:g} over the mean, minus 1"
+        ).over(mean, 1)
+        for k in late
+    ]
+    last = number(result, "decade_slope", -1, "slope of the last decade over the largest").over(
+        float(slope.mean.max())
+    )
+    return Evidence(
+        steady,
+        other=[last],
+        caveat=f"Observed up to t = {10 * slope.axes['decade'][-1]:g}; the paper does not say when it saturates.",
+    )
+
+
+CLAIMS: dict[str, Claim] = {
+    "C15": persistence,
+    "C16": waiting_half,
+    "C17": waiting_zero,
+    "C18": spreading_half,
+    "C19": spreading_zero,
+    "C20": superdiffusive,
+    "C21": diffusion_recovered,
+    "C22": only_energy,
+    "C29": ageing,
+}

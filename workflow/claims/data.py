@@ -1,0 +1,100 @@
+"""What the claims are judged by: the result files of the panels, and numbers taken from them."""
+
+from collections.abc import Sequence
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from workflow.claims.verdict import Number
+from workflow.lib.fit import PowerLaw, fit_power
+from workflow.lib.load import FormatError, Result, load
+from workflow.lib.plan import data_path, load_plan
+
+
+class MissingError(LookupError):
+    """There is no result that a claim could be judged by."""
+
+
+class Data:
+    def __init__(self, quality: str, root: Path) -> None:
+        self.quality, self.root = quality, root
+        self.read: dict[str, Result] = {}  # by path, in the order of reading
+
+    @cached_property
+    def plan(self) -> dict:
+        return load_plan(self.quality)
+
+    def of(self, panel: str, program: str | None = None, **parameters: object) -> list[Result]:
+        """The panel's own runs with these parameters (underscores for dashes). Raises MissingError if there is none."""
+        results = [self._load(panel, run.name) for run in self._runs(panel) if program in (None, run.program)]
+        wanted = {name.replace("_", "-"): value for name, value in parameters.items()}
+        found = [
+            one for one in results if all(one.parameters.get(name) == value for name, value in wanted.items())
+        ]
+        if not found:
+            raise MissingError(f"{panel} has no runs with {wanted or 'results'} at quality {self.quality}")
+        return found
+
+    def one(self, panel: str, run: str) -> Result:
+        if run not in {each.name for each in self._runs(panel)}:
+            raise MissingError(f"{panel} has no run {run} at quality {self.quality}")
+        return self._load(panel, run)
+
+    def _runs(self, panel: str) -> Sequence:
+        if panel not in self.plan:
+            raise MissingError(f"there is no panel {panel}")
+        return self.plan[panel].runs
+
+    def _load(self, panel: str, run: str) -> Result:
+        path = data_path(self.quality, panel, run)
+        if path not in self.read:
+            try:
+                self.read[path] = load(self.root / path)
+            except FormatError as error:
+                raise MissingError(f"{path} is missing or damaged") from error
+        return self.read[path]
+
+
+def freedom(*results: Result) -> float:
+    """Degrees of freedom of the error of what is made from these runs: those of the one with the fewest replicas."""
+    return min(int(result.parameters["replicas"]) for result in results) - 1
+
+
+def number(result: Result, name: str, index: int | tuple = (), label: str = "") -> Number:
+    """A quantity of a run, or one of an array."""
+    quantity = result[name]
+    value = float(quantity.mean[index])
+    if quantity.standard_error is None:
+        return Number(label, value, 0.0, systematic=float(quantity.discretisation_error[index]))
+    return Number(label, value, float(quantity.standard_error[index]), freedom(result))
+
+
+def ratio(above: Number, below: Number, label: str) -> Number:
+    """Of two independent numbers."""
+    value = above.value / below.value
+    error = abs(value) * np.hypot(above.error / above.value, below.error / below.value)
+    systematic = abs(value) * (above.systematic / abs(above.value) + below.systematic / abs(below.value))
+    return Number(label, value, float(error), min(above.freedom, below.freedom), systematic)
+
+
+def combination(numbers: Sequence[Number], weights: Sequence[float], label: str, minus: float = 0) -> Number:
+    """Weighted sum of independent numbers, minus what is expected."""
+    terms = [*zip(weights, numbers, strict=True)]
+    return Number(
+        label,
+        sum(weight * one.value for weight, one in terms) - minus,
+        float(np.sqrt(sum((weight * one.error) ** 2 for weight, one in terms))),
+        min(one.freedom for one in numbers),
+        sum(abs(weight) * one.systematic for weight, one in terms),
+    )
+
+
+def power(
+    results: Sequence[Result], size: Sequence[float], values: Sequence[Number], label: str
+) -> tuple[Number, PowerLaw]:
+    """Exponent of a power law through independent numbers. Its systematic error is the change without the first of them."""
+    x, y, error = np.asarray(size, float), [one.value for one in values], [one.error for one in values]
+    law = fit_power(x, y, error)
+    later = fit_power(x[1:], y[1:], error[1:]).exponent if len(x) > 2 else law.exponent
+    return Number(label, law.exponent, law.error, freedom(*results), abs(later - law.exponent)), law

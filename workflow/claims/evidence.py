@@ -1,0 +1,21 @@
+"""What a claim's function returns: its numbers, by reading."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from workflow.claims.data import Data
+from workflow.claims.verdict import Number
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """literal: numbers for the words as they stand. substance: for what they mean. other: for another reading, which is told
+    and does not count. Each has its band in data/claims.csv."""
+
+    literal: Sequence[Number]
+    substance: Sequence[Number] = ()
+    other: Sequence[Number] = ()
+    caveat: str = ""
+
+
+Claim = Callable[[Data], Evidence]

@@ -1,0 +1,75 @@
+"""Claims on the chain that fills (fig. 1), at the spacing 1/N of the paper's other open chains; it states none here."""
+
+import math
+
+import numpy as np
+
+from workflow.claims.data import Data, combination, number, ratio
+from workflow.claims.evidence import Claim, Evidence
+from workflow.claims.verdict import Number
+from workflow.lib.fit import with_error
+from workflow.lib.load import Result
+
+SPACINGS = {"paper": "1", "short": "0.05"}  # the other two
+
+
+def stationary_above_front(data: Data) -> Evidence:
+    """Relative changes of |p| n_t(p) above p_0 from each time to the next."""
+    changes = [_rise(data.one("fig01", run), 0, -1) for run in SPACINGS]
+    told = [
+        f"λ = {name}: {with_error(one.value, one.error)}"
+        for name, one in zip(SPACINGS.values(), changes, strict=True)
+    ]
+    result = data.one("fig01", "unit-chain")
+    later = range(1, len(result["plateau"].mean))
+    return Evidence(
+        [_rise(result, k - 1, k) for k in later],
+        other=changes,
+        caveat=f"The paper states no spacing; judged at 1/N. From the first time to the last it rises at {' and at '.join(told)}.",
+    )
+
+
+def grows_as_logarithm(data: Data) -> Evidence:
+    """dn/d ln t is constant, and equal to |p| n_t(p) above p_0."""
+    result = data.one("fig01", "unit-chain")
+    slope, plateau = number(result, "log_slope"), number(result, "plateau", -1)
+    curvature = ratio(
+        number(result, "log_curvature"), slope, "change of the slope per unit of ln t, relative"
+    )
+    agreement = ratio(slope, plateau, "slope over |p| n(p), minus 1").over(1, 1)
+    times = result["plateau"].axes["time"]
+    steps = math.log(times[-1] / times[0])
+    rise = combination([_rise(result, 0, -1)], [1 / steps], "change of |p| n(p) per unit of ln t, relative")
+    return Evidence([curvature, agreement], [rise], caveat="At the spacing 1/N.")
+
+
+def front_falls(data: Data) -> Evidence:
+    """Exponent of p_0(t); 1/ln t has -1/ln t."""
+    result = data.one("fig01", "unit-chain")
+    others = [
+        number(data.one("fig01", run), "front_exponent", label=f"at λ = {name}")
+        for run, name in SPACINGS.items()
+    ]
+    time, front = result["front"].axes["time"], result["front"]
+    misfits = [_misfit(front.mean, front.standard_error, law) for law in (1 / time, 1 / np.log(time))]
+    return Evidence(
+        [number(result, "front_exponent", label="d ln p₀ / d ln t")],
+        others,
+        caveat=f"χ² of the five fronts: {misfits[0]:.0f} for p₀ ~ 1/t, {misfits[1]:.0f} for p₀ ~ 1/ln t, with 4 degrees of freedom.",
+    )
+
+
+def _rise(result: Result, first: int, last: int) -> Number:
+    plateau = result["plateau"]
+    times = plateau.axes["time"]
+    label = f"change from t = {times[first]:g} to {times[last]:g}"
+    return ratio(number(result, "plateau", last), number(result, "plateau", first), label).over(1, 1)
+
+
+def _misfit(value: np.ndarray, error: np.ndarray, law: np.ndarray) -> float:
+    """Chi square of value = a law."""
+    factor = np.sum(value * law / error**2) / np.sum(law**2 / error**2)
+    return float(np.sum(((value - factor * law) / error) ** 2))
+
+
+CLAIMS: dict[str, Claim] = {"C01": stationary_above_front, "C02": grows_as_logarithm, "C03": front_falls}

@@ -1,0 +1,197 @@
+"""Claims on the momentum distribution of the particles (figs. 3 and 4, section 4), and on equilibrium."""
+
+import numpy as np
+import pandas as pd
+
+from workflow.claims.data import Data, combination, freedom, number, power, ratio
+from workflow.claims.evidence import Claim, Evidence
+from workflow.claims.verdict import Number
+from workflow.figures import ext10, fig03_inset
+from workflow.figures.fig04 import row_at
+from workflow.lib.load import Result
+
+REACH = (
+    40  # nearly four thermal momenta of the hotter bath; beyond, a bin holds less than 1e-4 of the particles
+)
+OUTGOING = ((0, 0, "p < 0 at x = 0"), (-1, 1, "p > 0 at x = 1"))  # place, half, name
+
+
+def equilibrium(data: Data) -> Evidence:
+    """Moments of the flux that leaves, of the end scatterers, and the largest distance of the distributions."""
+    found = []
+    for gamma in (1, "N"):
+        flux, profile = (
+            data.of("ext10", program, gamma=gamma)[0] for program in ("momentum_flux", "steady_profile")
+        )
+        temperature = flux.parameters["temperature-left"]
+        for place, half, name in OUTGOING:
+            told = f"{name}, γ = {gamma}"
+            found.append(number(flux, "square", (place, half), f"⟨p²⟩/T - 1, {told}").over(temperature, 1))
+            found.append(number(flux, "kurtosis", (place, half), f"⟨p⁴⟩/(3⟨p²⟩²) - 1, {told}").over(3, 1))
+            found.append(
+                number(
+                    profile, "temperature_scatterer", place, f"⟨P²⟩/MT - 1 at x = {half}, γ = {gamma}"
+                ).over(temperature, 1)
+            )
+        for result, curve, name in ((flux, ext10.outgoing_flux, "F"), (profile, ext10.end_scatterers, "g")):
+            distance, error = ext10.largest_distance(*curve(result)[1:])
+            found.append(
+                Number(f"Kolmogorov's distance of {name}, γ = {gamma}", distance, error, freedom(result))
+            )
+    return Evidence(found)
+
+
+def jump_and_halves(data: Data) -> Evidence:
+    result = data.one("fig03", "paper")
+    largest = float(result["flux_density"].mean.max())
+    jumps = [
+        number(result, "jump", place, f"jump over max F, x = {half}").over(largest)
+        for place, half, _ in OUTGOING
+    ]
+    return Evidence([*jumps, *_departures(result)])
+
+
+def _departures(result: Result, name: str = "") -> list[Number]:
+    """|<p^4>/<p^2>^2 - 3| of the outgoing halves."""
+    both = [
+        number(result, "kurtosis", (place, half), f"{told}{name}").over(1, 3)
+        for place, half, told in OUTGOING
+    ]
+    return [combination([one], [np.sign(one.value)], f"|⟨p⁴⟩/⟨p²⟩² - 3|, {one.label}") for one in both]
+
+
+def gaussian_only_if(data: Data) -> Evidence:
+    """Only if: unequal temperatures make halves that are not Gaussian. If: equal ones make Gaussian halves."""
+    unequal, equal, exchange = (data.one("fig03", run) for run in ("paper", "equal", "exchange"))
+    return Evidence(
+        [*_departures(unequal, ", σ = 1/2"), *_departures(exchange, ", σ = 0")],
+        _departures(unequal, ", σ = 1/2"),
+        _departures(equal, ", equal T"),
+        caveat="`Only if` is judged; `if` is the other reading, at equal temperatures and unequal rates.",
+    )
+
+
+def _deviations(data: Data) -> tuple[pd.DataFrame, float]:
+    """Of the finite chains from the continuum, by N and bin; degrees of freedom."""
+    return fig03_inset.tabulate(data.of("fig03_inset")), freedom(*data.of("fig03_inset", "momentum_flux"))
+
+
+def _bins(table: pd.DataFrame, known: float, printed: bool) -> list[Number]:
+    """Those that enough fell into for their errors to be known."""
+    scale = (table.absolute_as_printed / table.deviation).median() if printed else 1.0
+    rows = table[(table.kind == "simulation") & (table.momentum.abs() < REACH)].itertuples()
+    return [
+        Number(f"N = {row.cells}, p = {row.momentum:g}", scale * row.deviation, scale * row.error, known)
+        for row in rows
+    ]
+
+
+def deviations_small(data: Data) -> Evidence:
+    table, known = _deviations(data)
+    return Evidence(
+        _bins(table, known, True),
+        other=_bins(table, known, False),
+        caveat="In the normalisation printed, where half of F integrates to 1/2; relative to max F in the other reading. "
+        "Means over bins.",
+    )
+
+
+def deviations_at_16(data: Data) -> Evidence:
+    table, known = _deviations(data)
+    table = table[table.cells == 16]
+    theory = table[table.kind == "mean field"].absolute_as_printed.abs().max()
+    return Evidence(
+        _bins(table, known, True),
+        other=_bins(table, known, False),
+        caveat=f"Without correlations the largest deviation is {theory:.2e} as printed.",
+    )
+
+
+def deviations_vanish(data: Data) -> Evidence:
+    """The part of the deviation that has the shape of the one without correlations at N = 2, against N."""
+    table, _ = _deviations(data)
+    shape = table[(table.kind == "mean field") & (table.cells == 2)].deviation.to_numpy()
+    results = sorted(data.of("fig03_inset", "momentum_flux"), key=lambda one: one.parameters["cells"])
+    sizes, amplitudes = [], []
+    for result in results:
+        part = table[(table.kind == "simulation") & (table.cells == result.parameters["cells"])]
+        error = float(np.sqrt(np.sum((shape * part.error) ** 2)) / (shape @ shape))
+        sizes.append(result.parameters["cells"])
+        amplitudes.append(Number("", float(shape @ part.deviation / (shape @ shape)), error))
+    exponent, law = power(results, sizes, amplitudes, "d ln |F_N - F| / d ln N")
+    return Evidence(
+        [exponent], caveat=f"χ² of the power law {law.chi_square:.1f} with {law.freedom} degrees of freedom."
+    )
+
+
+def deviations_central(data: Data) -> Evidence:
+    """At N = 2, where they are largest: central bins against those beyond the thermal momentum; odd part against even part."""
+    table, known = _deviations(data)
+    temperature = np.mean(
+        [
+            data.one("fig03_inset", "simulation_cells=2").parameters[f"temperature-{end}"]
+            for end in ("left", "right")
+        ]
+    )
+    part = table[(table.kind == "simulation") & (table.cells == 2)].sort_values("momentum")
+    momentum, value, error = (part[name].to_numpy() for name in ("momentum", "deviation", "error"))
+    middle = len(momentum) // 2
+    left, right = (Number("", value[k], error[k], known) for k in (middle - 1, middle))
+    centre = combination([left, right], [np.sign(left.value) / 2, np.sign(right.value) / 2], "")
+    outer = np.flatnonzero((np.abs(momentum) > np.sqrt(temperature)) & (np.abs(momentum) < REACH))
+    less = [
+        combination(
+            [centre, Number("", abs(value[k]), error[k], known)],
+            [1 / centre.value, -1 / centre.value],
+            f"1 - |deviation at p = {momentum[k]:g}| over that at p = 0",
+        )
+        for k in outer
+    ]
+    odd = combination(
+        [left, right], [0.5 / abs(centre.value), -0.5 / abs(centre.value)], "odd part over the whole at p = 0"
+    )
+    return Evidence([*less, combination([odd], [np.sign(odd.value)], odd.label)])
+
+
+def on_top_of_kinetic(data: Data) -> Evidence:
+    simulated, kinetic = data.one("fig04a", "rare"), data.one("fig04a", "kinetic")["flux"]
+    flux = simulated["flux"]
+    last, scale = len(flux.mean) - 1, float(kinetic.mean.max())
+    return Evidence([
+        number(simulated, "flux", (bond, k), f"deviation over max F, {name}, p = {p:g}").over(scale, row_at(kinetic, bond / last)[k] / scale)
+        for bond, name in ((1, "x = 1/N"), (last, "x = 1"))
+        for k, p in enumerate(flux.axes["momentum"])
+        if abs(p) < REACH
+    ])  # fmt: skip
+
+
+def jump_smaller(data: Data) -> Evidence:
+    rare, deterministic = data.one("fig04a", "rare"), data.one("fig04b", "deterministic")
+    return Evidence([
+        ratio(number(deterministic, "jump", bond), number(rare, "jump", bond), f"jump(γ = N)/jump(γ = 1), {name}")
+        for bond, name in ((1, "x = 1/N"), (-1, "x = 1"))
+    ])  # fmt: skip
+
+
+def jump_from_rates_only(data: Data) -> Evidence:
+    """Jump at equal rates, unequal temperatures and gamma = N, over max F."""
+    equal = data.one("fig04b", "equal")
+    scale = float(equal["flux"].mean.max())
+    return Evidence([
+        number(equal, "jump", bond, f"jump over max F at ν_L = ν_R, {name}").over(scale)
+        for bond, name in ((1, "x = 1/N"), (-1, "x = 1"))
+    ])  # fmt: skip
+
+
+CLAIMS: dict[str, Claim] = {
+    "C04": equilibrium,
+    "C09": jump_and_halves,
+    "C10": deviations_small,
+    "C11": deviations_at_16,
+    "C12": deviations_vanish,
+    "C13": on_top_of_kinetic,
+    "C14": jump_smaller,
+    "C31": jump_from_rates_only,
+    "C32": deviations_central,
+    "C33": gaussian_only_if,
+}

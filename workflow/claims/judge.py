@@ -1,0 +1,65 @@
+"""Judges every claim of data/claims.csv by the results at one quality."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import pandas as pd
+
+from workflow.claims import closed, filling, fluxes, growth, profiles, pulse
+from workflow.claims.data import Data, MissingError
+from workflow.claims.evidence import Claim, Evidence
+from workflow.claims.verdict import Band, Outcome, Reading, combined, level_of_each
+from workflow.lib.load import NOT_REACHED
+
+CLAIMS_FILE = "data/claims.csv"
+MODULES = (filling, profiles, fluxes, closed, growth, pulse)
+FUNCTIONS: dict[str, Claim] = {name: claim for module in MODULES for name, claim in module.CLAIMS.items()}
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """A claim with its verdict. claim is its row in the table; literal is None where there is nothing to judge by."""
+
+    claim: Mapping[str, str]
+    outcome: Outcome
+    literal: Reading | None = None
+    substance: Reading | None = None
+    other: Reading | None = None
+    caveat: str = ""
+    data: tuple[str, ...] = ()  # paths of the result files that it rests on
+
+    @property
+    def deciding(self) -> Reading | None:
+        """The reading that the verdict follows from."""
+        by_words = self.substance is None or self.literal is None or self.outcome is self.literal.outcome
+        return self.literal if by_words else self.substance
+
+
+def read_claims(root: Path) -> list[dict[str, str]]:
+    return pd.read_csv(root / CLAIMS_FILE, dtype=str, keep_default_na=False).to_dict("records")
+
+
+def judge_all(quality: str, root: Path) -> list[Judgement]:
+    claims = read_claims(root)
+    return [judge(claim, Data(quality, root), level_of_each(len(claims))) for claim in claims]
+
+
+def judge(claim: Mapping[str, str], data: Data, level: float) -> Judgement:
+    try:
+        evidence = FUNCTIONS[claim["id"]](data)
+    except MissingError as error:
+        return Judgement(claim, Outcome.NOT_TESTABLE, caveat=f"{error}.")
+    judged = level / (2 if evidence.substance else 1)
+    literal, substance = (_reading(claim, evidence, name, judged) for name in ("literal", "substance"))
+    other = _reading(claim, evidence, "other", level)
+    outcome = combined(literal.outcome, substance.outcome if substance else None)
+    short = [path for path, result in data.read.items() if result.converged == NOT_REACHED]
+    unconverged = [f"{len(short)} runs stopped before their target error."] if short else []
+    caveat = " ".join([evidence.caveat, *unconverged]).strip()
+    return Judgement(claim, outcome, literal, substance, other, caveat, tuple(data.read))
+
+
+def _reading(claim: Mapping[str, str], evidence: Evidence, name: str, level: float) -> Reading | None:
+    numbers = tuple(getattr(evidence, name))
+    return Reading(Band.of(claim[name]), numbers, level) if numbers else None

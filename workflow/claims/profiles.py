@@ -1,0 +1,116 @@
+"""Claims on the profiles of an open chain (fig. 2, section 3)."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from workflow.claims.data import Data, combination, freedom, number, ratio
+from workflow.claims.evidence import Claim, Evidence
+from workflow.claims.verdict import Number
+from workflow.lib.fit import fit_line
+from workflow.lib.load import Result
+
+RUNS = {"deterministic": "γ = N", "rare": "γ = 1"}
+FROM_SIZE = 20  # smaller chains have no bulk
+
+
+def _both(data: Data) -> list[tuple[Result, str]]:
+    return [(data.one("fig02_upper", run), name) for run, name in RUNS.items()]
+
+
+def temperatures_mismatch(data: Data) -> Evidence:
+    """The end cells' temperatures lie between those of the baths, and the profile is less steep at gamma = 1."""
+    jumps = []
+    for result, name in _both(data):
+        low, high = (result.parameters[f"temperature-{end}"] for end in ("left", "right"))
+        scale = high - low
+        jumps += [
+            number(result, "temperature_scatterer", 0, f"(T₁ - T_L)/(T_R - T_L), {name}").over(
+                scale, low / scale
+            ),
+            number(result, "temperature_scatterer", -1, f"(T_R - T_N)/(T_R - T_L), {name}").over(
+                -scale, -high / scale
+            ),
+        ]
+    steeper = combination(jumps, [-1, -1, 1, 1], "(T_N - T₁)/(T_R - T_L), γ = N minus γ = 1")
+    return Evidence([*jumps, steeper])
+
+
+def temperatures_coincide(data: Data) -> Evidence:
+    """T of the scatterer minus T of the particles in every cell, relative."""
+    found = []
+    for result, name in _both(data):
+        scale = float(result["temperature_particle"].mean.mean())
+        cells = range(len(result["temperature_difference"].mean))
+        found += [
+            number(result, "temperature_difference", k, f"cell {k + 1}, {name}").over(scale) for k in cells
+        ]
+    return Evidence(
+        found, found, caveat="Exact only where the mean momentum vanishes (docs/model.md, eq. 39)."
+    )
+
+
+def density_profiles(data: Data) -> Evidence:
+    """At gamma = 1 less steep in the bulk, and more particles than the bulk's line gives in both end cells."""
+    both = [result for result, _ in _both(data)]
+    slope = ratio(*(number(one, "density_slope") for one in reversed(both)), "")
+    less = replace(slope.over(-1, -1), label="1 - slope(γ = 1)/slope(γ = N)")
+    ends = {0: "first", 1: "last"}
+    excess = [
+        combination(
+            [number(one, "density_excess", end) for one in both],
+            [-1, 1],
+            f"excess of the {name} cell, γ = 1 minus γ = N",
+        )
+        for end, name in ends.items()
+    ]
+    return Evidence([less, *excess])
+
+
+def linear_rates(data: Data) -> Evidence:
+    """Deviations of the rates from a straight line and of the current from its mean, over the mean rate."""
+    found = []
+    for result, name in _both(data):
+        scale = float(result["rate_right"].mean.mean())
+        for quantity in ("rate_right_deviation", "rate_left_deviation", "particle_current_deviation"):
+            places = range(len(result[quantity].mean))
+            word = quantity.removesuffix("_deviation").replace("_", " ")
+            found += [number(result, quantity, k, f"{word} at {k}, {name}").over(scale) for k in places]
+    return Evidence(found, found)
+
+
+def boundary_grows(data: Data) -> Evidence:
+    """Excess density of the end cells against ln N at gamma = 1."""
+    results = [*data.of("ext05"), data.one("fig02_upper", "rare")]
+    results = sorted(
+        (one for one in results if one.parameters["cells"] >= FROM_SIZE),
+        key=lambda one: one.parameters["cells"],
+    )
+    return Evidence(
+        [_slope(results, end, name) for end, name in enumerate(("first", "last"))],
+        caveat="Growth up to the largest N; that it goes on without limit cannot be seen in finite chains.",
+    )
+
+
+def _slope(results: Sequence[Result], end: int, name: str) -> Number:
+    size = np.log([one.parameters["cells"] for one in results])
+    points = [number(one, "density_excess", end) for one in results]
+    value, error = [one.value for one in points], [one.error for one in points]
+    line, later = fit_line(size, value, error), fit_line(size[1:], value[1:], error[1:])
+    return Number(
+        f"excess of the {name} cell per unit of ln N",
+        line.slope,
+        line.error,
+        freedom(*results),
+        abs(later.slope - line.slope),
+    )
+
+
+CLAIMS: dict[str, Claim] = {
+    "C05": temperatures_mismatch,
+    "C06": temperatures_coincide,
+    "C07": density_profiles,
+    "C08": linear_rates,
+    "C34": boundary_grows,
+}

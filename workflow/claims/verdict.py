@@ -1,0 +1,152 @@
+"""Rules by which numbers decide a claim. Pure functions: data come in as numbers, verdicts go out.
+
+A claim admits a band of values. What is measured is an interval: the value, plus and minus the systematic error and as
+many standard errors as the level asks for. The claim is reproduced if the interval lies inside the band, contradicted
+if it lies outside, and undecided if it reaches across an edge. So neither verdict is wrong more often than the level.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+from scipy.stats import t as student
+
+FAMILY_LEVEL = 0.05  # probability that any of the claims gets a wrong verdict by chance
+POWER = 0.95  # with which the deviation that is stated would have been seen
+
+
+class Outcome(StrEnum):
+    REPRODUCED = "reproduced"
+    IN_SUBSTANCE = "reproduced in substance"
+    CONTRADICTED = "contradicted"
+    UNDECIDED = "undecided at this precision"
+    NOT_TESTABLE = "not testable"
+
+
+@dataclass(frozen=True)
+class Number:
+    """error is the standard error, known with so many degrees of freedom; systematic bounds what chance does not explain."""
+
+    label: str
+    value: float
+    error: float
+    freedom: float = math.inf
+    systematic: float = 0.0
+
+    def over(self, unit: float, minus: float = 0) -> "Number":
+        """value/unit - minus."""
+        size = abs(unit)
+        return replace(
+            self, value=self.value / unit - minus, error=self.error / size, systematic=self.systematic / size
+        )
+
+    def interval(self, level: float) -> tuple[float, float]:
+        """Contains the true value but for the given probability."""
+        half = critical(level, self.freedom) * self.error + self.systematic if self.error else self.systematic
+        return self.value - half, self.value + half
+
+    def p_value(self, band: "Band") -> float:
+        """Two-sided, of the band being true: below the level exactly if the interval lies outside the band."""
+        beyond = max(band.low - self.value, self.value - band.high) - self.systematic
+        if not beyond > 0:
+            return math.nan if math.isnan(beyond) else 1.0
+        return float(2 * student.sf(beyond / self.error, self.freedom)) if self.error else 0.0
+
+    def detectable(self, level: float) -> float:
+        """Distance beyond the band that would have been found a contradiction with the probability POWER."""
+        spread = critical(level, self.freedom) + float(student.isf(1 - POWER, self.freedom))
+        return spread * self.error + self.systematic if self.error else self.systematic
+
+
+@dataclass(frozen=True)
+class Band:
+    """Values that a claim admits."""
+
+    low: float
+    high: float
+
+    @classmethod
+    def of(cls, text: str) -> "Band":
+        """As written in the table of claims: `0.95 to 1.05`, `above 0`, `below -0.5`."""
+        match text.split():
+            case ["above", low]:
+                return cls(float(low), math.inf)
+            case ["below", high]:
+                return cls(-math.inf, float(high))
+            case [low, "to", high] if float(low) < float(high):
+                return cls(float(low), float(high))
+        raise ValueError(f"'{text}' is no band: write '0.95 to 1.05', 'above 0' or 'below 1'")
+
+    def outcome(self, interval: tuple[float, float]) -> Outcome:
+        low, high = interval
+        if self.low <= low and high <= self.high:
+            return Outcome.REPRODUCED
+        return Outcome.CONTRADICTED if high < self.low or low > self.high else Outcome.UNDECIDED
+
+
+@dataclass(frozen=True)
+class Reading:
+    """One way to read a claim: all its numbers lie in the band. A reading without numbers cannot be tested."""
+
+    band: Band
+    numbers: tuple[Number, ...]
+    level: float  # of the reading; each number is tested at its share
+
+    @property
+    def share(self) -> float:
+        return self.level / max(1, len(self.numbers))
+
+    @property
+    def outcome(self) -> Outcome:
+        outcomes = {self.band.outcome(number.interval(self.share)) for number in self.numbers}
+        order = (Outcome.CONTRADICTED, Outcome.UNDECIDED, Outcome.REPRODUCED)
+        return next((one for one in order if one in outcomes), Outcome.NOT_TESTABLE)
+
+    @property
+    def p_value(self) -> float:
+        """By Bonferroni over the numbers."""
+        return min(
+            (min(1.0, len(self.numbers) * one.p_value(self.band)) for one in self.numbers), default=math.nan
+        )
+
+    @property
+    def worst(self) -> Number:
+        """The number that decides: the one whose interval reaches farthest out of the band, or nearest to its edge."""
+
+        def reach(number: Number) -> float:
+            low, high = number.interval(self.share)
+            width = max(high - low, 1e-300)
+            far = max(self.band.low - low, high - self.band.high) / width
+            return math.inf if math.isnan(far) else far
+
+        return max(self.numbers, key=lambda one: (one.p_value(self.band) < self.share, reach(one)))
+
+    @property
+    def detectable(self) -> float:
+        return max(number.detectable(self.share) for number in self.numbers)
+
+
+def combined(literal: Outcome, substance: Outcome | None) -> Outcome:
+    """Of the words as they stand and of what they mean, where the two differ. What the words get right but the substance
+    does not is contradicted: a number may come out for another reason than the one claimed."""
+    if substance in (None, Outcome.NOT_TESTABLE):
+        return literal
+    if literal is Outcome.REPRODUCED and substance is not Outcome.CONTRADICTED:
+        return literal
+    return Outcome.IN_SUBSTANCE if substance is Outcome.REPRODUCED else substance
+
+
+def level_of_each(claims: int) -> float:
+    """Bonferroni's share of a claim, so that the look at many claims makes no wrong verdict likely."""
+    return FAMILY_LEVEL / claims
+
+
+def critical(level: float, freedom: float) -> float:
+    return float(student.isf(level / 2, freedom))
+
+
+def with_systematic(number: Number, others: Sequence[float]) -> Number:
+    """The largest distance from what other settings give is added as a bound."""
+    differences = [abs(other - number.value) for other in others if math.isfinite(other)]
+    return replace(number, systematic=number.systematic + max(differences, default=0.0))

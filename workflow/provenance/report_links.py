@@ -1,0 +1,42 @@
+"""Links from products to the report that an audit checks: it is written again, with the costs that it states, and compared."""
+
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+from workflow.provenance.chain import Chain
+from workflow.provenance.execute import ENVIRONMENT, LAUNCH
+from workflow.provenance.links import Link
+from workflow.provenance.repository import ROOT
+
+JOB = "report"
+WRITER = "workflow.report.write"
+
+
+def paths(quality: str) -> list[str]:
+    """The page first: it names what both were written from."""
+    return [f"figures/{quality}/report.html", f"figures/{quality}/report.md"]
+
+
+def report(chain: Chain) -> Iterator[Link]:
+    """What is wrong with the report, if there is one."""
+    there = [path for path in paths(chain.quality) if chain.hashes[path]]
+    if not there:
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        command = [sys.executable, "-P", LAUNCH, WRITER, "--quality", chain.quality, "--output", folder]
+        command += ["--costs-of", str(ROOT / paths(chain.quality)[0])]
+        done = subprocess.run(command, cwd=ROOT, env=ENVIRONMENT, capture_output=True, text=True, check=False)
+        for path in paths(chain.quality):
+            again = Path(folder, Path(path).name)
+            if done.returncode:
+                reason = (done.stderr.strip().splitlines() or ["no reason given"])[-1]
+                yield Link(path, f"cannot be written again: {reason}", JOB)
+            elif path not in there:
+                yield Link(path, "is missing beside the other part of the report", JOB)
+            elif again.read_bytes() != (ROOT / path).read_bytes():
+                yield Link(
+                    path, "does not follow from the products and sources that are there: run make report", JOB
+                )

@@ -1,0 +1,144 @@
+"""What the report says, from verdicts, products and the lock; how it looks is up to the templates."""
+
+import base64
+import json
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import yaml
+
+from workflow.claims.data import Data, MissingError
+from workflow.claims.judge import Judgement
+from workflow.claims.verdict import FAMILY_LEVEL, Outcome
+from workflow.lib.plan import Panel, drawings_of
+from workflow.lib.save import CAPTION_LINE
+from workflow.provenance.lock import Lock
+from workflow.provenance.status import worst_error
+from workflow.report import words
+from workflow.report.misprints import NUMBERS
+from workflow.report.sources import CITATION, Costs, Products, total
+from workflow.report.strip import strip_of
+
+HERE = Path(__file__).parent
+READINGS = ("literal", "substance", "other")
+
+
+def claim(judgement: Judgement, costs: Costs) -> dict:
+    readings = {name: getattr(judgement, name) for name in READINGS if getattr(judgement, name)}
+    deciding = judgement.deciding
+    runs = [path.removesuffix(".h5").split("/", 2)[2] for path in judgement.data]
+    return judgement.claim | {
+        "outcome": judgement.outcome.value,
+        "sign": words.SIGNS[judgement.outcome],
+        "ours": words.result(deciding) if deciding else "no data",
+        "short": words.value(deciding.worst) if deciding else "no data",
+        "readings": [
+            {
+                "name": words.READINGS[name],
+                "band": judgement.claim[name],
+                "outcome": reading.outcome.value,
+                "result": words.result(reading),
+                "p": words.p_value(reading.p_value),
+            }
+            for name, reading in readings.items()
+        ],
+        "p": words.p_value(deciding.p_value) if deciding else "",
+        "caveat": judgement.caveat,
+        "consequence": words.consequence(judgement),
+        "strip": strip_of(deciding) if deciding else None,
+        "cost": total(costs, runs) if runs else None,
+    }
+
+
+def panel(quality: str, panel: Panel, products: Products, costs: Costs) -> dict:
+    """A panel as it was drawn. Raises ReportError."""
+    *_, svg, csv = [products.file(path) for path in drawings_of(quality, panel.name)]
+    title, _, _, caption, _ = csv.read_text().split("\n", 4)
+    job = products.lock.jobs[panel.name]
+    return {
+        "name": panel.name,
+        "title": title.removeprefix("# "),
+        "caption": caption.removeprefix(CAPTION_LINE.strip()).strip(),
+        "picture": base64.b64encode(svg.read_bytes()).decode(),
+        "uses": panel.uses,
+        "runs": len(panel.runs),
+        "cost": total(costs, [f"{panel.name}/{run.name}" for run in panel.runs]) if panel.runs else None,
+        "error": worst_error(quality, panel),
+        "parents": job.inputs,
+        "outputs": job.outputs,
+    }
+
+
+def answer(judgements: Sequence[Judgement], quality: str) -> list[str]:
+    """Five sentences."""
+    by_id = {one.claim["id"]: one for one in judgements}
+    counts = Counter(one.outcome for one in judgements)
+    listed = ", ".join(f"{counts[outcome]} {outcome.value}" for outcome in Outcome)
+    against = [
+        f"{one.claim['id']} ({one.claim['quantity']})"
+        for one in judgements
+        if one.outcome is Outcome.CONTRADICTED
+    ]
+    return [
+        f"Of {len(judgements)} claims, at quality {quality}: {listed}; the probability of any wrong verdict by chance is at most {FAMILY_LEVEL:.0%}.",
+        f"Contradicted: {'; '.join(against)}." if against else "At this quality no claim is contradicted.",
+        f"Heat: κ ∼ N at γ = 1 is {_said(by_id['C23'])}; κ ∼ N^(1/3) at γ = N is {_said(by_id['C24'])}.",
+        f"Conservation: that only energy is conserved is {_said(by_id['C22'])}; that the tagged particle is superdiffusive for σ ≠ 0 is {_said(by_id['C20'])}.",
+        f"Kinetic equation: that finite chains tend to it is {_said(by_id['C12'])}; that they differ by less than 0.1 % is {_said(by_id['C10'])}.",
+    ]
+
+
+def _said(judgement: Judgement) -> str:
+    reading = judgement.deciding
+    return f"{judgement.outcome.value} ({words.told(reading.worst)})" if reading else judgement.outcome.value
+
+
+def findings(judgements: Sequence[Judgement]) -> list[dict]:
+    """Those of findings.yaml that the data bear out."""
+    by_id = {one.claim["id"]: one for one in judgements}
+    held = []
+    for finding in yaml.safe_load((HERE / "findings.yaml").read_text()):
+        judgement = by_id[finding["claim"]]
+        reading = getattr(judgement, finding["reading"])
+        if reading and reading.outcome.value == finding["outcome"]:
+            text = finding["text"].format(number=words.told(reading.worst))
+            held.append(
+                finding
+                | {"text": text, "p": words.p_value(reading.p_value), "panel": judgement.claim["panel"]}
+            )
+    return held
+
+
+def misprints(judgements: Sequence[Judgement], data: Data) -> list[dict]:
+    by_id = {one.claim["id"]: one for one in judgements}
+    rows = yaml.safe_load((HERE / "misprints.yaml").read_text())
+    return [row | {"shown": _shown(row, by_id, data)} for row in rows]
+
+
+def _shown(row: Mapping[str, str], by_id: Mapping[str, Judgement], data: Data) -> str:
+    if "claim" in row:
+        reading = by_id[row["claim"]].literal
+        return words.told(reading.worst) if reading else "no data"
+    try:
+        return words.told(NUMBERS[row["number"]](data)) if "number" in row else ""
+    except MissingError as error:
+        return str(error)
+
+
+def environment(lock: Lock) -> dict:
+    """Versions that made the products."""
+    builds = lock.builds.values()
+    python = sorted({job.python for job in lock.drawings().values() if job.python})
+    return {
+        name: sorted({build[name] for build in builds}) for name in ("compiler", "flags", "libraries")
+    } | {"Python": python}
+
+
+def citation(root: Path) -> dict:
+    return yaml.safe_load((root / CITATION).read_text())
+
+
+def as_script(content: dict) -> str:
+    """JSON that can stand in a script element: no tag ends it."""
+    return json.dumps(content, sort_keys=True, ensure_ascii=False).replace("<", "\\u003c")

@@ -1,0 +1,93 @@
+"""Numbers and verdicts as the report writes them."""
+
+import math
+import re
+
+from markupsafe import Markup, escape
+
+from workflow.claims.judge import Judgement
+from workflow.claims.verdict import POWER, Number, Outcome, Reading
+from workflow.lib.fit import with_error
+
+SIGNS = {
+    Outcome.REPRODUCED: "✓",
+    Outcome.IN_SUBSTANCE: "≈",
+    Outcome.CONTRADICTED: "✗",
+    Outcome.UNDECIDED: "?",
+    Outcome.NOT_TESTABLE: "–",
+}
+READINGS = {"literal": "in words", "substance": "in substance", "other": "other reading, does not count"}
+SMALLEST = -12  # power of ten; p-values below are not told apart
+
+
+MINUS = "\N{MINUS SIGN}"
+
+
+def typeset(text: str) -> Markup:
+    """Indices after _, powers after ^, and minus signs."""
+    text = re.sub(r"(?<![\w)])-(?=[\d∞])|(?<=\s)-(?=\s)", MINUS, str(escape(text)))
+    text = re.sub(r"_(\w+)", r"<sub>\1</sub>", text)
+    return Markup(
+        re.sub(r"\^(?:\(([^)]*)\)|([-\d]+))", lambda found: f"<sup>{found[1] or found[2]}</sup>", text)
+    )
+
+
+def value(number: Number) -> str:
+    """With the standard error in units of the last digit, and the systematic bound apart."""
+    if abs(number.value) < 1e-3 and number.value:
+        power = math.floor(math.log10(max(abs(number.value), number.error)))
+        scale = 10.0**power
+        return f"{value(number.over(scale))}·10^{power}"
+    bound = f" ± {number.systematic:.2g} syst." if number.systematic > 0.05 * number.error else ""
+    return f"{with_error(number.value, number.error)}{bound}"
+
+
+def told(number: Number) -> str:
+    return f"{number.label}: {value(number)}"
+
+
+def p_value(p: float) -> str:
+    if math.isnan(p):
+        return "unknown"
+    if p >= 1e-3:
+        return f"{p:.2g}"
+    power = math.floor(math.log10(p)) if p else -math.inf
+    return f"< 10^{SMALLEST}" if power < SMALLEST else f"{p / 10.0**power:.0f}·10^{power}"
+
+
+def result(reading: Reading) -> str:
+    """The number that decides, and how many were looked at."""
+    several = f", the least favourable of {len(reading.numbers)}" if len(reading.numbers) > 1 else ""
+    return f"{told(reading.worst)}{several}"
+
+
+def power(reading: Reading) -> str:
+    return f"A deviation of {reading.detectable:.2g} beyond the band would have been seen with {POWER:.0%}"
+
+
+def remedy(reading: Reading) -> str:
+    """How much more would decide an open reading, if the values stay what they are."""
+    factor = max(map(lambda one: _factor(one, reading), reading.numbers), default=math.inf)
+    if not math.isfinite(factor):
+        return "The systematic error, or a value on the edge of the band, leaves it open: more replicas alone do not decide"
+    return f"About {max(2, math.ceil(factor))} times the replicas would decide, if the values stay"
+
+
+def _factor(number: Number, reading: Reading) -> float:
+    """Of the replicas; 1 where the interval lies on one side of every edge."""
+    low, high = number.interval(reading.share)
+    if reading.band.outcome((low, high)) is not Outcome.UNDECIDED:
+        return 1.0
+    room = min(abs(number.value - edge) for edge in (reading.band.low, reading.band.high)) - number.systematic
+    half = (high - low) / 2 - number.systematic
+    return (half / room) ** 2 if room > 0 else math.inf
+
+
+def consequence(judgement: Judgement) -> str:
+    """What the verdict could have missed, or what it wants."""
+    reading = judgement.deciding
+    if reading is None:
+        return ""
+    if judgement.outcome in (Outcome.REPRODUCED, Outcome.IN_SUBSTANCE):
+        return power(reading)
+    return remedy(reading) if judgement.outcome is Outcome.UNDECIDED else ""

@@ -1,0 +1,86 @@
+"""Writes figures/<quality>/report.html and report.md from the products of one quality.
+
+Reads only products that are what their jobs wrote, and names every file that it has read by hash; the CPU seconds of the
+runs are stated facts. With equal inputs the report has equal bytes, so that `make audit` writes it again and compares.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+import jinja2
+
+from workflow.claims.data import Data
+from workflow.claims.judge import judge_all
+from workflow.lib.plan import ConfigurationError, load_plan
+from workflow.provenance.lock import Lock, LockError
+from workflow.provenance.repository import ROOT, write_whole
+from workflow.report import content, words
+from workflow.report.sources import Costs, Products, ReportError, measured_costs, parents_in, source_hashes
+
+NAMES = ("report.html", "report.md")
+
+
+def pages(quality: str, costs: Costs | None = None, root: Path = ROOT) -> dict[str, str]:
+    """Text by name of the file. Without costs those that were measured here are stated. Raises ReportError."""
+    plan = load_plan(quality)
+    try:
+        lock = Lock.read(quality)
+    except LockError as error:
+        raise ReportError(f"{error}: run make figures") from error
+    costs = measured_costs(quality, plan) if costs is None else costs
+    products = Products(root, lock)
+    judgements = judge_all(quality, root)
+    for path in {path for judgement in judgements for path in judgement.data}:
+        products.file(path)
+    data = Data(quality, root)
+    context = {
+        "quality": quality,
+        "answer": content.answer(judgements, quality),
+        "claims": [content.claim(one, costs) for one in judgements],
+        "findings": content.findings(judgements),
+        "misprints": content.misprints(judgements, data),
+        "panels": [content.panel(quality, one, products, costs) for one in plan.values()],
+        "environment": content.environment(lock),
+        "citation": content.citation(root),
+        "cost": sum(costs.values()),
+    }
+    for path in data.read:
+        products.file(path)
+    parents = {"quality": quality, "products": products.used, "sources": source_hashes(root), "costs": costs}
+    context |= {"parents": parents, "parents_script": content.as_script(parents)}
+    return {name: _template(name).render(context) for name in NAMES}
+
+
+def _template(name: str) -> jinja2.Template:
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(Path(__file__).parent),
+        autoescape=name.endswith(".html"),
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    environment.filters["typeset"] = words.typeset
+    return environment.get_template(f"{name}.j2")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--quality", required=True)
+    parser.add_argument("--output", type=Path, help="folder; figures/QUALITY where none is given")
+    parser.add_argument(
+        "--costs-of", type=Path, help="state the costs that this report states, in place of those here"
+    )
+    options = parser.parse_args()
+    folder = options.output or ROOT / "figures" / options.quality
+    try:
+        costs = parents_in(options.costs_of).get("costs") if options.costs_of else None
+        for name, text in pages(options.quality, costs).items():
+            write_whole(folder / name, text)
+    except (ReportError, ConfigurationError) as error:
+        sys.exit(f"make report: {error}")
+
+
+if __name__ == "__main__":
+    main()
