@@ -14,6 +14,7 @@ from tests.workflow.conftest import Clone
 from workflow.lib import style
 from workflow.lib.columns import BY_ROW, UNITS_LINE, as_csv
 from workflow.lib.load import load
+from workflow.lib.parents import caption_of
 from workflow.lib.plan import data_of, load_plan
 from workflow.lib.units import UnitsError
 
@@ -67,6 +68,13 @@ def test_every_column_scales_as_its_units_say(clean: Clone, panel: str) -> None:
         mutant = "1" if text != "1" else "energy"
         seen = plain[name].abs().max() > 0
         assert faults(clean.folder, panel, units | {name: mutant}) == ({name} if seen else set())
+
+
+@pytest.mark.parametrize("panel", PLAN)
+def test_every_panel_has_a_caption(clean: Clone, panel: str) -> None:
+    caption = caption_of(clean.folder / f"figures/smoke/{panel}.csv")
+    assert len(caption) >= 200
+    assert caption == " ".join(caption.split())
 
 
 def test_columns_without_units_are_refused() -> None:
