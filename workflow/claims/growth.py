@@ -2,14 +2,16 @@
 
 from collections.abc import Sequence
 
-from workflow.claims.data import Data, MissingError, number, power
+from workflow.claims.data import Data, MissingError, freedom, number, power
 from workflow.claims.evidence import Claim, Evidence
 from workflow.claims.verdict import Number, with_systematic
-from workflow.lib.fit import PowerLaw, with_error
+from workflow.figures.ext11 import tabulate
+from workflow.lib.fit import PowerLaw, fit_power, with_error
 from workflow.lib.load import Result
 
 BULK = 16  # smaller chains are mostly ends
 LARGE = 16  # the largest sizes are those within this factor of the largest
+FIXED_SPACING = 0.1  # of ext11
 FIXED = ("dilute", "dense")  # series of ext09 at fixed spacing; `thinning` has the paper's 1/N
 
 
@@ -54,7 +56,8 @@ def linear(data: Data) -> Evidence:
 
 
 def cube_root(data: Data) -> Evidence:
-    """One exponent over the paper's sizes; in substance that of the largest sizes; at fixed spacing in the other reading.
+    """One exponent over the paper's sizes; in substance that of the largest sizes; of the conductivity without a particle
+    current at fixed spacing in the other reading.
     The exponents of the smaller and of the larger half of the sizes bound the systematic error."""
     runs = [one for one in sizes(data, "N") if one.parameters["cells"] >= BULK]
     found, law = exponent(runs, "d ln κ/d ln N, γ = N")
@@ -65,9 +68,22 @@ def cube_root(data: Data) -> Evidence:
     return Evidence(
         [with_systematic(found, parts)],
         [one for name, one in last.items() if name not in FIXED],
-        [one for name, one in last.items() if name in FIXED],
+        [without_particle_current(data)],
         caveat=f"{_fit(law)} Between the largest sizes: {told}. At spacing 1/N the gas thins out as N grows.",
     )
+
+
+def without_particle_current(data: Data) -> Number:
+    """Exponent of kappa_0, the conductivity at J_n = 0, at fixed spacing (ext. 11)."""
+    runs = data.of("ext11", cell_length=FIXED_SPACING)
+    table = tabulate(runs)
+    if len(table) < 2:
+        raise MissingError("fewer than two sizes")
+    law = fit_power(table.cells, table.kappa_0, table.kappa_0_error)
+    label = f"d ln κ_0/d ln N at J_n = 0 and spacing {FIXED_SPACING}, N = {table.cells.min()} to {table.cells.max()}"
+    later = table[1:] if len(table) > 2 else table
+    other = fit_power(later.cells, later.kappa_0, later.kappa_0_error).exponent
+    return with_systematic(Number(label, law.exponent, law.error, freedom(*runs)), [other])
 
 
 def _fit(law: PowerLaw) -> str:

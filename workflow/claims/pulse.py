@@ -69,8 +69,18 @@ def damping(data: Data) -> Evidence:
     return Evidence(
         [found],
         [found],
+        [_sound(data)],
         caveat=f"Fitted from t = {fitted.axes['from'][half]:g} on it is {_at(fitted, half)}.",
     )
+
+
+def _sound(data: Data) -> Number:
+    """Exponent of the sound peak in the fluctuations of the largest ring."""
+    rings = data.of("ext03", "correlation")
+    largest = max(rings, key=lambda one: one.parameters["cells"])
+    later = largest["damping_exponent_from"].mean[1:2]
+    label = f"sound peak of the fluctuations, N = {largest.parameters['cells']}"
+    return with_systematic(number(largest, "damping_exponent", label=label), [float(one) for one in later])
 
 
 def damping_exponent(data: Data, panel: str) -> Number:

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from workflow.lib import style
 from workflow.lib.figure import run
 from workflow.lib.fit import with_error
-from workflow.lib.growth import LAWS, POWER, Growth, fits
+from workflow.lib.growth import LAWS, POWER, Growth, fits, widest
 from workflow.lib.load import NOT_REACHED, Result
 
 SPACINGS = {"1/N": ("o", style.BLACK), "0.025": ("s", style.VERMILLION), "0.1": ("^", style.BLUE)}
@@ -44,13 +44,7 @@ def laws(part: pd.DataFrame) -> pd.DataFrame:
 
 
 def range_of(part: pd.DataFrame, law: str) -> Growth | None:
-    """The law over the widest range of sizes, up to the largest, in which it is not rejected; at least two degrees of
-    freedom."""
-    for first in part.cells:
-        for one in fits(part.cells, part.kappa, part.kappa_error, float(first)):
-            if one.law == law and one.freedom > 1 and one.p_value > LEVEL:
-                return one
-    return None
+    return widest(part.cells, part.kappa, part.kappa_error, law, LEVEL)
 
 
 def sentence(spacing: str, part: pd.DataFrame) -> str:

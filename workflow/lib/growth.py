@@ -52,6 +52,16 @@ def fits(size: ArrayLike, value: ArrayLike, error: ArrayLike, first: float) -> l
     return [*(_linear(name, basis, points) for name, basis in LAWS.items()), _power(points)]
 
 
+def widest(size: ArrayLike, value: ArrayLike, error: ArrayLike, law: str, level: float) -> Growth | None:
+    """The law over the widest range up to the largest size in which its p-value exceeds the level, if it does so with two
+    degrees of freedom or more."""
+    for first in np.asarray(size, dtype=float):
+        for one in fits(size, value, error, first):
+            if one.law == law and one.freedom > 1 and one.p_value > level:
+                return one
+    return None
+
+
 def _linear(law: str, basis: Basis, points: Sequence[np.ndarray]) -> Growth:
     size, value, error = points
     design = np.stack(basis(size), axis=1)
