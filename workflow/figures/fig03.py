@@ -76,9 +76,6 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
-    results = [
-        result for result in results if result.parameters["sigma"] != 0
-    ]  # there the halves stay Gaussian
     table = tabulate(results)
     figure, (above, below) = plt.subplots(
         2, 1, sharex=True, figsize=(style.COLUMN, 1.5 * style.HEIGHT), height_ratios=[2, 1]
