@@ -83,6 +83,10 @@ def test_columns_without_units_are_refused() -> None:
         as_csv(table, {})
     with pytest.raises(UnitsError, match="'second/furlong'"):
         as_csv(table, {"sigma": "1", "time": "second/furlong"})
+    partly = pd.concat([table, table[["sigma", "time"]]])  # truth values are missing in its last rows
+    assert as_csv(partly, {"sigma": "1", "time": "time"}).startswith(
+        '# units: {"sigma": "1", "time": "time"}'
+    )
     text = as_csv(table, {"sigma": "1", "time": "time", "absent": "1"})
     assert text.splitlines()[0] == '# units: {"sigma": "1", "time": "time"}'
     with pytest.raises(UnitsError, match="'a' in 'a'"):
