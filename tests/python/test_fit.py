@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
-from workflow.lib.fit import fit_power
+from workflow.lib.fit import fit_power, mean_of, rejected, with_error
 
 SIZE = np.array([4, 8, 16, 64, 256])
 
@@ -32,6 +32,26 @@ def test_error_and_goodness_over_samples() -> None:
     assert low < np.sum(chi_squares) < high
 
 
-def test_text_has_the_error_in_the_last_digit() -> None:
+def test_text_has_two_digits_of_the_error() -> None:
     law = fit_power(SIZE, SIZE**0.5, 0.01 * SIZE**0.5)
-    assert law.text == f"{0.5:.3f}({round(law.error * 1000)})"
+    assert law.text == with_error(0.5, law.error)
+    told = {(1.86204, 0.00541): "1.8620(54)", (745.03, 8.24): "745.0(8.2)", (12345.6, 123.4): "12346(120)"}
+    told |= {
+        (0.5, 0.0996): "0.50(10)",
+        (-0.322, 0.0517): "−0.322(52)",
+        (2.5, np.nan): "2.5",
+        (-2.5, 0): "−2.5",
+    }
+    assert {numbers: with_error(*numbers) for numbers in told} == told
+
+
+def test_a_fit_is_drawn_where_it_is() -> None:
+    law = fit_power(SIZE, 3 * SIZE**0.4, SIZE / 100)
+    np.testing.assert_allclose(law.at(SIZE), 3 * SIZE**0.4, rtol=1e-12)
+
+
+def test_values_that_differ_are_rejected() -> None:
+    mean, error, chi_square = mean_of([1, 3], [1, 1])
+    assert (mean, error, chi_square) == pytest.approx((2, np.sqrt(0.5), 2))
+    assert not rejected(chi_square, 1)
+    assert rejected(7, 1)

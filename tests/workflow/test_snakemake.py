@@ -1,5 +1,7 @@
 """Snakemake by itself does what make does, and its own reports work."""
 
+import html
+import json
 import os
 import shutil
 import subprocess
@@ -9,6 +11,7 @@ import pytest
 
 from tests.workflow.conftest import Clone, append, copy, delete, replace
 from tests.workflow.test_reruns import stamps
+from workflow.lib.parents import caption_of
 from workflow.lib.plan import load_plan
 
 PLAN = load_plan("smoke")
@@ -80,6 +83,8 @@ def test_the_report_shows_every_figure(clean: Clone) -> None:
     assert "missing" not in told.lower()
     report = (clean.folder / "build/report.html").read_text()
     assert all(f"figures/smoke/{panel}.png" in report for panel in PLAN)
+    captions = [caption_of(clean.folder / f"figures/smoke/{panel}.csv") for panel in PLAN]
+    assert all(json.dumps(html.escape(caption))[1:-1] in report for caption in captions)
 
 
 def test_the_summary_knows_every_file(clean: Clone) -> None:

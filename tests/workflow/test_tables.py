@@ -14,6 +14,7 @@ from tests.workflow.conftest import Clone
 from workflow.lib import style
 from workflow.lib.columns import BY_ROW, UNITS_LINE, as_csv
 from workflow.lib.load import load
+from workflow.lib.parents import caption_of
 from workflow.lib.plan import data_of, load_plan
 from workflow.lib.units import UnitsError
 
@@ -69,12 +70,23 @@ def test_every_column_scales_as_its_units_say(clean: Clone, panel: str) -> None:
         assert faults(clean.folder, panel, units | {name: mutant}) == ({name} if seen else set())
 
 
+@pytest.mark.parametrize("panel", PLAN)
+def test_every_panel_has_a_caption(clean: Clone, panel: str) -> None:
+    caption = caption_of(clean.folder / f"figures/smoke/{panel}.csv")
+    assert len(caption) >= 200
+    assert caption == " ".join(caption.split())
+
+
 def test_columns_without_units_are_refused() -> None:
     table = pd.DataFrame({"sigma": [0.5, 1], "label": ["a", 1], "sound": [True, False], "time": [1, 2]})
     with pytest.raises(UnitsError, match="the columns sigma, time have no units"):
         as_csv(table, {})
     with pytest.raises(UnitsError, match="'second/furlong'"):
         as_csv(table, {"sigma": "1", "time": "second/furlong"})
+    partly = pd.concat([table, table[["sigma", "time"]]])  # truth values are missing in its last rows
+    assert as_csv(partly, {"sigma": "1", "time": "time"}).startswith(
+        '# units: {"sigma": "1", "time": "time"}'
+    )
     text = as_csv(table, {"sigma": "1", "time": "time", "absent": "1"})
     assert text.splitlines()[0] == '# units: {"sigma": "1", "time": "time"}'
     with pytest.raises(UnitsError, match="'a' in 'a'"):

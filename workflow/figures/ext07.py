@@ -114,5 +114,4 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 
 if __name__ == "__main__":
-    by_row = dict.fromkeys(("value", "error", "fitted"), "column units")
-    run(draw, "Ageing of the closed chain", **by_row)
+    run(draw, "Ageing of the closed chain", value="column units", error="column units", fitted="1")

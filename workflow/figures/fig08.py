@@ -133,7 +133,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         (mean field). (b), (c) κ over these powers, with the temperatures of the scatterers (full) and of the arriving particles
         (open). (d) Local exponents between neighbouring sizes, which share a point; dashed the paper's. {ERRORS}; crosses,
         {crossed or "none"} here, mark points that are not stationary. {found(table, 1)}. {found(table, "N")}. The paper reads
-        N and the cube root of N from these points. Without correlations there is no growth at γ = N."""
+        N and the cube root of N from its points. Without correlations there is no growth at γ = N."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

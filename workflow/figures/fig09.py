@@ -101,7 +101,10 @@ def caption(results: Sequence[Result]) -> str:
         )
         closed = result["peak"].axes["time"][ring_closed(result)]
         end = f"the ring has closed at t = {closed[0]:g}" if len(closed) else "the ring has not closed"
-        speeds.append(f"{STARTS[start(result)][3]}: from {first} to {last}; {end}")
+        left = style.with_error(result["centre_share"], -1, 100)
+        speeds.append(
+            f"{STARTS[start(result)][3]}: from {first} to {last}, {end}, and {left} % of the energy is left about the centre at last"
+        )
     names = ("particles-per-cell", "energy", "pulse-energy")
     rest = [result for result in results if start(result) == 0]
     relaxed = listed(number(result.parameters["relaxation-time"]) for result in rest)
@@ -111,8 +114,7 @@ def caption(results: Sequence[Result]) -> str:
         {max(int(result.parameters["pairs-per-replica"]) for result in results)} pairs of trajectories. (a) The paper's start: scatterers at rest,
         relaxed for t = {relaxed}; (b) all momenta Gaussian. Bands are errors. (c) Position of the moving peak, with the constant speed of
         its first position dashed; (d) its speed between neighbouring times, in cells: {"; ".join(speeds)}. Faint: times at which ΔE
-        opposite to the pulse exceeds {number(100 * CLOSED)} % of its largest value. {ERRORS}. As in the paper two peaks move away symmetrically
-        and little energy stays in the centre."""
+        opposite to the pulse exceeds {number(100 * CLOSED)} % of its largest value. {ERRORS}. As in the paper two peaks move away symmetrically."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

@@ -53,8 +53,8 @@ def as_csv(table: pd.DataFrame, known: Mapping[str, str]) -> str:
 
 
 def _is_label(column: pd.Series) -> bool:
-    """One text among the values suffices: gamma is N or a number."""
-    return is_bool_dtype(column) or any(isinstance(value, str) for value in column)
+    """One text among the values suffices: gamma is N or a number. A truth value may be missing in some rows."""
+    return is_bool_dtype(column) or any(isinstance(value, str | bool) for value in column)
 
 
 def _units(table: pd.DataFrame, known: Mapping[str, str]) -> dict[str, str]:

@@ -49,7 +49,7 @@ def run(draw: Draw, title: str, **units: str) -> None:
 
     results = [load(path) for path in options.data]
     style.apply()
-    figure, table, *caption = draw(results)
+    figure, table, caption = draw(results)
     parents = Parents(
         panel=options.output.name,
         quality=options.output.parent.name,
@@ -61,4 +61,4 @@ def run(draw: Draw, title: str, **units: str) -> None:
         configuration=options.configuration,
     )
     saved = as_csv(table, inherited(results) | units)
-    save(figure, saved, options.output, Text(title, " ".join("".join(caption).split())), parents)
+    save(figure, saved, options.output, Text(title, " ".join(caption.split())), parents)

@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 
 PACKAGES = "requirements.lock"
 PARENTS_LINE = "# parents: "  # of a CSV
+CAPTION_LINE = "# caption: "  # of a CSV
 DATA = {"sha256": str, "build_id": str, "seed": int}
 BUILD = {"program": str, "source_hash": str, "compiler": str, "flags": str, "libraries": str}
 
@@ -53,6 +54,12 @@ class Parents:
         if not _is_complete(content):
             raise ArtefactError(f"{path} names no parents as this version does: draw it again")
         return Parents(**content)
+
+
+def caption_of(table: Path) -> str:
+    """What the CSV of a panel says of it; nothing before it is drawn."""
+    lines = table.read_text("utf-8").splitlines() if table.is_file() else []
+    return "".join(line.removeprefix(CAPTION_LINE) for line in lines if line.startswith(CAPTION_LINE))
 
 
 def file_hash(path: Path) -> str:

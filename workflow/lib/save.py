@@ -9,13 +9,10 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from workflow.lib.parents import PARENTS_LINE, Parents
+from workflow.lib.parents import CAPTION_LINE, PARENTS_LINE, Parents
 from workflow.lib.style import FONTS
 
 CREATOR = "lorentz-gas"
-
-
-CAPTION_LINE = "# caption: "
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,12 @@ rule draw:
         lock=ancient("requirements.lock"),
     output:
         pdf="figures/{quality}/{panel}.pdf",
-        png=report("figures/{quality}/{panel}.png", category="{quality}", labels={"panel": "{panel}"}),
+        png=report(
+            "figures/{quality}/{panel}.png",
+            caption="../report/caption.rst",
+            category="{quality}",
+            labels={"panel": "{panel}"},
+        ),
         svg="figures/{quality}/{panel}.svg",
         csv="figures/{quality}/{panel}.csv",
     log:
@@ -19,6 +24,8 @@ rule draw:
         "../environment/conda.yaml"
     params:
         configuration=lambda wildcards: PANELS[wildcards.panel].hash(),
+        # For the report. What depends on an output is not among the parameters whose change Snakemake looks for.
+        caption=lambda wildcards, output: caption_of(Path(output.csv)),
     shell:
         """
         .venv/bin/python -I -S workflow/environment/launch.py workflow.provenance.execute draw --log {log:q} \
