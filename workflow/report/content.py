@@ -54,7 +54,7 @@ def claim(judgement: Judgement, costs: Costs) -> dict:
 def panel(quality: str, panel: Panel, products: Products, costs: Costs) -> dict:
     """A panel as it was drawn. Raises ReportError."""
     *_, svg, csv = [products.file(path) for path in drawings_of(quality, panel.name)]
-    title, _, _, caption, _ = csv.read_text().split("\n", 4)
+    title, _, _, caption, *_ = csv.read_text().split("\n", 4)
     job = products.lock.jobs[panel.name]
     return {
         "name": panel.name,
@@ -102,7 +102,7 @@ def findings(judgements: Sequence[Judgement]) -> list[dict]:
         judgement = by_id[finding["claim"]]
         reading = getattr(judgement, finding["reading"])
         if reading and reading.outcome.value == finding["outcome"]:
-            text = finding["text"].format(number=words.told(reading.worst))
+            text = finding["text"].format(number=words.told(reading.worst), caveat=judgement.caveat)
             held.append(
                 finding
                 | {"text": text, "p": words.p_value(reading.p_value), "panel": judgement.claim["panel"]}
