@@ -11,7 +11,7 @@ import yaml
 from workflow.claims.data import Data, MissingError
 from workflow.claims.judge import Judgement
 from workflow.claims.verdict import FAMILY_LEVEL, Outcome
-from workflow.lib.plan import Panel, drawings_of
+from workflow.lib.plan import Panel, Quality, drawings_of
 from workflow.lib.save import CAPTION_LINE
 from workflow.provenance.lock import Lock
 from workflow.provenance.status import worst_error
@@ -22,6 +22,12 @@ from workflow.report.strip import strip_of
 
 HERE = Path(__file__).parent
 READINGS = ("literal", "substance", "other")
+
+
+def effort(quality: Quality) -> str:
+    """As arguments of make."""
+    given = {"QUALITY": quality.base, "SEED": quality.seed, "REPLICAS": quality.replicas}
+    return " ".join(f"{name}={value}" for name, value in given.items() if value is not None)
 
 
 def claim(judgement: Judgement, costs: Costs) -> dict:
