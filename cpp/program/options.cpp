@@ -4,8 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -56,20 +54,6 @@ std::string number_in(const Range<Number>& range) {
 }
 
 template <class Number>
-bool contains(const Range<Number>& range, Number value) {
-  return (range.open_below ? value > range.low : value >= range.low) && value <= range.high;
-}
-
-/// Sets the value to a decimal number, rounded to nearest; false if the text is not one in the range.
-template <class Number>
-bool read_number(const std::string& text, const Range<Number>& range, Number& value) {
-  const char* begin = text.data() + (text.starts_with('+') && !text.starts_with("+-") ? 1 : 0);
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  return error == std::errc{} && stop == end && contains(range, value);
-}
-
-template <class Number>
 Option number(Number& value, Range<Number> range, const std::string& units) {
   constexpr bool whole = std::is_integral_v<Number>;
   using Recorded = std::conditional_t<whole, std::uint64_t, double>;  // whole numbers in one width
@@ -94,32 +78,6 @@ Option number_or_word(std::optional<Number>& value, Range<Number> range, const s
   Option option{numeric(type, range, units), number_in(range) + ", or " + word, read, recorded};
   option.description["word"] = word;
   return option;
-}
-
-/// What follows the coefficients of size^0, size^1 and size^2.
-std::array<std::string, 3> powers_of(char symbol) { return {"", {symbol}, {symbol, '^', '2'}}; }
-
-/// Sets the value to a sum of terms, each with another power of the size and a coefficient in the range;
-/// false if the text is not one.
-bool read_polynomial(const std::string& text, const Range<double>& range, char symbol, Scaled& value) {
-  const auto powers = powers_of(symbol);
-  Scaled sum{};
-  std::array<bool, 3> given{};
-  const char* at = text.data() + text.starts_with('+');
-  const char* const end = text.data() + text.size();
-  for (;; ++at) {
-    double coefficient;
-    const auto [stop, error] = std::from_chars(at, end, coefficient);
-    const char* const next = std::find(stop, end, '+');
-    const auto power = std::find(powers.begin(), powers.end(), std::string(stop, next)) - powers.begin();
-    if (error != std::errc{} || !contains(range, coefficient) || power == 3 || given[power]) return false;
-    sum.coefficients[power] = coefficient;
-    given[power] = true;
-    at = next;
-    if (at == end) break;
-  }
-  value = sum;
-  return true;
 }
 
 std::string as_text(const AttributeValue& value) {
@@ -200,12 +158,7 @@ void Options::scaled(const std::string& name, Scaled& value, Range<double> range
   };
   const auto recorded = [&value, symbol] {
     const auto& [constant, linear, quadratic] = value.coefficients;
-    if (linear == 0 && quadratic == 0) return AttributeValue(constant);
-    std::vector<std::string> terms;
-    for (std::size_t power = 0; power < value.coefficients.size(); ++power)
-      if (value.coefficients[power] != 0)
-        terms.push_back(fmt::format("{}{}", value.coefficients[power], powers_of(symbol)[power]));
-    return AttributeValue(fmt::format("{}", fmt::join(terms, "+")));
+    return linear == 0 && quadratic == 0 ? AttributeValue(constant) : AttributeValue(as_text(value, symbol));
   };
   add(name, help, role,
       {numeric(fmt::format("number or polynomial in {}", symbol), range, units),

@@ -1,15 +1,15 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "program/number_text.hpp"
 
 namespace CLI {
 class App;
@@ -25,27 +25,6 @@ using AttributeValue = std::variant<bool, std::int64_t, std::uint64_t, double, s
 struct Parameter {
   std::string name;  // without the leading dashes
   AttributeValue value;
-};
-
-/// The admissible values of a number: [low, high], or (low, high] when the lower end is excluded.
-template <class Number>
-struct Range {
-  Number low = std::numeric_limits<Number>::lowest();
-  Number high = std::numeric_limits<Number>::max();
-  bool open_below = false;
-
-  bool bounded_below() const { return low != std::numeric_limits<Number>::lowest() || low == 0; }
-  bool bounded_above() const { return high != std::numeric_limits<Number>::max(); }
-};
-
-inline constexpr Range<double> positive{0, std::numeric_limits<double>::max(), true};
-inline constexpr Range<double> non_negative{0};
-
-/// A polynomial of the second degree in a size of the system, most often a number.
-struct Scaled {
-  std::array<double, 3> coefficients;  // of size^0, size^1, size^2
-
-  double at(double size) const { return coefficients[0] + size * (coefficients[1] + size * coefficients[2]); }
 };
 
 /// The options of one executable. One declaration of each serves the command line, the configuration file,

@@ -7,7 +7,7 @@ from workflow.claims.data import Data, combination, freedom, number, power, rati
 from workflow.claims.evidence import Claim, Evidence
 from workflow.claims.verdict import Number
 from workflow.figures import ext10, fig03_inset
-from workflow.figures.fig04 import row_at
+from workflow.figures.fig04 import at
 from workflow.lib.load import Result
 
 REACH = (
@@ -158,7 +158,7 @@ def on_top_of_kinetic(data: Data) -> Evidence:
     flux = simulated["flux"]
     last, scale = len(flux.mean) - 1, float(kinetic.mean.max())
     return Evidence([
-        number(simulated, "flux", (bond, k), f"deviation over max F, {name}, p = {p:g}").over(scale, row_at(kinetic, bond / last)[k] / scale)
+        number(simulated, "flux", (bond, k), f"deviation over max F, {name}, p = {p:g}").over(scale, at(kinetic, bond / last)[k] / scale)
         for bond, name in ((1, "x = 1/N"), (last, "x = 1"))
         for k, p in enumerate(flux.axes["momentum"])
         if abs(p) < REACH

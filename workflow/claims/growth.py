@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from workflow.claims.data import Data, MissingError, freedom, number, power
+from workflow.claims.data import Data, MissingError, freedom, number, power, where_made
 from workflow.claims.evidence import Claim, Evidence
 from workflow.claims.verdict import Number, with_systematic
 from workflow.figures.ext11 import tabulate
@@ -68,7 +68,7 @@ def cube_root(data: Data) -> Evidence:
     return Evidence(
         [with_systematic(found, parts)],
         [one for name, one in last.items() if name not in FIXED],
-        [without_particle_current(data)],
+        where_made(lambda: without_particle_current(data)),
         caveat=f"{_fit(law)} Between the largest sizes: {told}. At spacing 1/N the gas thins out as N grows.",
     )
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from workflow.claims.data import Data, MissingError, combination, number
+from workflow.claims.data import Data, MissingError, combination, number, where_made
 from workflow.claims.evidence import Claim, Evidence
 from workflow.claims.growth import exponent, largest_sizes, sizes
 from workflow.claims.verdict import Number, with_systematic
@@ -69,7 +69,7 @@ def damping(data: Data) -> Evidence:
     return Evidence(
         [found],
         [found],
-        [_sound(data)],
+        where_made(lambda: _sound(data)),
         caveat=f"Fitted from t = {fitted.axes['from'][half]:g} on it is {_at(fitted, half)}.",
     )
 

@@ -11,7 +11,7 @@ import yaml
 from workflow.claims.data import Data, MissingError
 from workflow.claims.judge import Judgement
 from workflow.claims.verdict import FAMILY_LEVEL, Outcome
-from workflow.lib.plan import Panel, drawings_of
+from workflow.lib.plan import Panel, Quality, drawings_of
 from workflow.lib.save import CAPTION_LINE
 from workflow.provenance.lock import Lock
 from workflow.provenance.status import worst_error
@@ -22,6 +22,12 @@ from workflow.report.strip import strip_of
 
 HERE = Path(__file__).parent
 READINGS = ("literal", "substance", "other")
+
+
+def effort(quality: Quality) -> str:
+    """As arguments of make."""
+    given = {"QUALITY": quality.base, "SEED": quality.seed, "REPLICAS": quality.replicas}
+    return " ".join(f"{name}={value}" for name, value in given.items() if value is not None)
 
 
 def claim(judgement: Judgement, costs: Costs) -> dict:
@@ -54,7 +60,7 @@ def claim(judgement: Judgement, costs: Costs) -> dict:
 def panel(quality: str, panel: Panel, products: Products, costs: Costs) -> dict:
     """A panel as it was drawn. Raises ReportError."""
     *_, svg, csv = [products.file(path) for path in drawings_of(quality, panel.name)]
-    title, _, _, caption, _ = csv.read_text().split("\n", 4)
+    title, _, _, caption, *_ = csv.read_text().split("\n", 4)
     job = products.lock.jobs[panel.name]
     return {
         "name": panel.name,
@@ -102,7 +108,7 @@ def findings(judgements: Sequence[Judgement]) -> list[dict]:
         judgement = by_id[finding["claim"]]
         reading = getattr(judgement, finding["reading"])
         if reading and reading.outcome.value == finding["outcome"]:
-            text = finding["text"].format(number=words.told(reading.worst))
+            text = finding["text"].format(number=words.told(reading.worst), caveat=judgement.caveat)
             held.append(
                 finding
                 | {"text": text, "p": words.p_value(reading.p_value), "panel": judgement.claim["panel"]}

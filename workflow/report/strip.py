@@ -33,12 +33,9 @@ def strip_of(reading: Reading) -> Strip | None:
     spread = (high - low) or abs(high) or 1.0
 
     def place(value: float) -> float:
-        within = (
-            (value - low) / spread
-            if math.isfinite(value)
-            else (0.0 if value < 0 else 1.0) + math.copysign(0.05, value)
-        )
-        return round(MARGIN + min(max(within, -0.04), 1.04) * (WIDTH - 2 * MARGIN), 1)
+        """What lies outside ends just beyond the frame of the numbers."""
+        within = min(max((value - low) / spread, -0.04), 1.04)
+        return round(MARGIN + within * (WIDTH - 2 * MARGIN), 1)
 
     return Strip(
         (place(reading.band.low), place(reading.band.high)),
@@ -53,6 +50,5 @@ def reach(interval: tuple[float, float, float], reading: Reading) -> float:
 def clipped(interval: tuple[float, float, float], edges: Iterable[float]) -> tuple[float, float]:
     """Ends of an interval, but no farther from its value than thrice the distance to the farthest edge: wide ones run out of the picture."""
     low, high, value = interval
-    most = 3 * max((abs(value - edge) for edge in edges), default=math.inf)
-    most = most or math.inf
+    most = 3 * max((abs(value - edge) for edge in edges), default=0) or math.inf
     return max(low, value - most), min(high, value + most)

@@ -24,12 +24,11 @@ MINUS = "\N{MINUS SIGN}"
 
 
 def typeset(text: str) -> Markup:
-    """Indices after _, powers after ^, and minus signs."""
-    text = re.sub(r"(?<![\w)])-(?=[\d∞])|(?<=\s)-(?=\s)", MINUS, str(escape(text)))
+    """Powers after ^, indices after _, and minus signs."""
+    text = str(escape(text))
+    text = re.sub(r"\^(?:\(([^)]*)\)|(-?\w+))", lambda found: f"<sup>{found[1] or found[2]}</sup>", text)
     text = re.sub(r"_(\w+)", r"<sub>\1</sub>", text)
-    return Markup(
-        re.sub(r"\^(?:\(([^)]*)\)|([-\d]+))", lambda found: f"<sup>{found[1] or found[2]}</sup>", text)
-    )
+    return Markup(re.sub(r"(?<![\w)])-(?=\d)|(?<=\s)-(?=\s)", MINUS, text))
 
 
 def value(number: Number) -> str:
@@ -38,7 +37,7 @@ def value(number: Number) -> str:
         power = math.floor(math.log10(max(abs(number.value), number.error)))
         scale = 10.0**power
         return f"{value(number.over(scale))}·10^{power}"
-    bound = f" ± {number.systematic:.2g} syst." if number.systematic > 0.05 * number.error else ""
+    bound = f" ± {number.systematic:.2g} syst" if number.systematic > 0.05 * number.error else ""
     return f"{with_error(number.value, number.error)}{bound}"
 
 

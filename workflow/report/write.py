@@ -12,7 +12,7 @@ import jinja2
 
 from workflow.claims.data import Data
 from workflow.claims.judge import judge_all
-from workflow.lib.plan import ConfigurationError, load_plan
+from workflow.lib.plan import ConfigurationError, Quality, load_plan
 from workflow.provenance.lock import Lock, LockError
 from workflow.provenance.repository import ROOT, write_whole
 from workflow.report import content, words
@@ -36,6 +36,7 @@ def pages(quality: str, costs: Costs | None = None, root: Path = ROOT) -> dict[s
     data = Data(quality, root)
     context = {
         "quality": quality,
+        "effort": content.effort(Quality.of(quality)),
         "answer": content.answer(judgements, quality),
         "claims": [content.claim(one, costs) for one in judgements],
         "findings": content.findings(judgements),

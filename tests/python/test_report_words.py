@@ -1,0 +1,77 @@
+"""How the report writes numbers, and where it draws them."""
+
+import math
+
+import pytest
+
+from workflow.claims.verdict import Band, Number, Reading
+from workflow.lib.fit import with_error
+from workflow.lib.plan import Quality
+from workflow.report import words
+from workflow.report.content import as_script, effort
+from workflow.report.strip import WIDTH, strip_of
+
+BAND = Band(-1, 1)
+
+
+@pytest.mark.parametrize(
+    ("number", "text"),
+    [
+        (Number("", 1.8515, 0.0019), with_error(1.8515, 0.0019)),
+        (Number("", 0.6397, 0.0041, systematic=0.0234), f"{with_error(0.6397, 0.0041)} ± 0.023 syst"),
+        (Number("", -0.000861, 0.0000168), f"{with_error(-8.61, 0.168)}·10^-4"),
+        (Number("", 0.0, 0.0), "0"),
+        (Number("", 0.5, math.nan), "0.5"),
+    ],
+)
+def test_numbers(number: Number, text: str) -> None:
+    assert words.value(number) == text
+
+
+def test_p_values() -> None:
+    assert [words.p_value(p) for p in (1.0, 0.0431, 6.2e-8, 1e-40, 0.0, math.nan)] == [
+        "1",
+        "0.043",
+        "6·10^-8",
+        "< 10^-12",
+        "< 10^-12",
+        "unknown",
+    ]
+
+
+def test_typesetting() -> None:
+    assert (
+        words.typeset("N^(1/3) at 10^-4 <b>") == "N<sup>1/3</sup> at 10<sup>\N{MINUS SIGN}4</sup> &lt;b&gt;"
+    )
+    assert words.typeset("T_N - T_1, x-axis, -3") == (
+        "T<sub>N</sub> \N{MINUS SIGN} T<sub>1</sub>, x-axis, \N{MINUS SIGN}3"
+    )
+
+
+def test_more_replicas_decide_what_chance_leaves_open() -> None:
+    """An interval of half width 2 about 0 has to shrink to 1, which four times the replicas do."""
+    open_ = Reading(BAND, (Number("", 0.0, 2 / 1.959964),), 0.05)
+    assert words.remedy(open_).startswith("About 4 times")
+    bound = Reading(BAND, (Number("", 0.5, 0.1, systematic=0.7),), 0.05)
+    assert "do not decide" in words.remedy(bound)
+
+
+def test_a_strip_keeps_order_and_stays_in_its_picture() -> None:
+    numbers = (Number("", 0.0, 0.1), Number("", 5.0, 0.1), Number("", 0.0, 1e9), Number("", 0.0, math.nan))
+    strip = strip_of(Reading(BAND, numbers, 0.05))
+    assert len(strip.points) == 3
+    assert strip.band[0] < strip.band[1]
+    for low, value, high in strip.points:
+        assert 0 <= low <= value <= high <= WIDTH
+    assert max(value for _, value, _ in strip.points) > strip.band[1]
+    assert strip_of(Reading(BAND, numbers[3:], 0.05)) is None
+    half = strip_of(Reading(Band(0, math.inf), numbers[:1], 0.05))
+    assert half.band[1] >= max(high for *_, high in half.points)
+
+
+def test_what_stands_in_a_script_cannot_end_it() -> None:
+    assert "<" not in as_script({"path": "</script><b>"})
+
+
+def test_arguments_of_make() -> None:
+    assert effort(Quality.of("standard_seed=7_replicas=200")) == "QUALITY=standard SEED=7 REPLICAS=200"
