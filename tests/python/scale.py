@@ -1,5 +1,6 @@
 """Conversion of options and results to other units, and comparison of results in different units."""
 
+import re
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -8,6 +9,7 @@ from workflow.lib.columns import OPTIONS
 from workflow.lib.load import Quantity, Result
 from workflow.lib.units import parse
 
+COEFFICIENT = re.compile(r"(?<![\^\d.])\d[\d.]*(?:e[-+]?\d+)?")  # not the exponent of N
 ROUNDING = 1e-9  # relative to the largest value of a dataset
 
 
@@ -23,11 +25,11 @@ class Scale:
         return self.momenta**-time * self.lengths ** (length + time)
 
     def option(self, name: str, value: object) -> object:
-        """An option of the command line: one or more numbers, each possibly times N, or a word."""
+        """An option of the command line: one or more numbers or polynomials in N, or a word."""
         if name not in OPTIONS or value in ("particles", "1/N"):
             return value
-        factor, parts = self(OPTIONS[name]), str(value).split(",")
-        return ",".join(f"{factor * float(part.rstrip('N'))!r}{'N' * part.endswith('N')}" for part in parts)
+        factor = self(OPTIONS[name])
+        return COEFFICIENT.sub(lambda found: repr(factor * float(found[0])), str(value))
 
     def result(self, result: Result) -> Result:
         """The result converted to these units."""

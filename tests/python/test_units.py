@@ -80,6 +80,7 @@ def test_scale() -> None:
     assert [lengths(each) for each in units] == [1, 1, 1, 4, 1 / 4, 4, 1 / 4]
     assert momenta.option("times", "1.0,3.0") == "0.125,0.375"
     assert lengths.option("relaxation-time", "0.25N") == "1.0N"
+    assert lengths.option("relaxation-time", "50+1e-3N^2") == "200.0+0.004N^2"
     assert lengths.option("cell-length", "1/N") == "1/N"
     assert lengths.option("sigma", 0.5) == 0.5
 
