@@ -1,7 +1,7 @@
 """What the claims are judged by: the result files of the panels, and numbers taken from them."""
 
+import copy
 from collections.abc import Callable, Sequence
-from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +9,7 @@ import numpy as np
 from workflow.claims.verdict import Number
 from workflow.lib.fit import PowerLaw, fit_power
 from workflow.lib.load import FormatError, Result, load
-from workflow.lib.plan import data_path, load_plan
+from workflow.lib.plan import Run, data_path, load_plan
 
 
 class MissingError(LookupError):
@@ -17,43 +17,54 @@ class MissingError(LookupError):
 
 
 class Data:
+    """The results at one quality. Each file is loaded once, for all that look at the data."""
+
     def __init__(self, quality: str, root: Path) -> None:
         self.quality, self.root = quality, root
-        self.read: dict[str, Result] = {}  # by path, in the order of reading
+        self.plan = load_plan(quality)
+        self.loaded: dict[str, Result] = {}  # by path
+        self.used: dict[str, Result] = {}  # of these, what was asked for
 
-    @cached_property
-    def plan(self) -> dict:
-        return load_plan(self.quality)
+    def anew(self) -> "Data":
+        """The same data, of which nothing has been used yet."""
+        other = copy.copy(self)
+        other.used = {}
+        return other
 
     def of(self, panel: str, program: str | None = None, **parameters: object) -> list[Result]:
         """The panel's own runs with these parameters (underscores for dashes). Raises MissingError if there is none."""
-        results = [self._load(panel, run.name) for run in self._runs(panel) if program in (None, run.program)]
         wanted = {name.replace("_", "-"): value for name, value in parameters.items()}
-        found = [
-            one for one in results if all(one.parameters.get(name) == value for name, value in wanted.items())
-        ]
+        runs = [run.name for run in self._runs(panel) if program in (None, run.program)]
+        found = {
+            path: result
+            for path, result in (self._load(panel, run) for run in runs)
+            if all(result.parameters.get(name) == value for name, value in wanted.items())
+        }
         if not found:
             raise MissingError(f"{panel} has no runs with {wanted or 'results'} at quality {self.quality}")
-        return found
+        self.used |= found
+        return [*found.values()]
 
     def one(self, panel: str, run: str) -> Result:
         if run not in {each.name for each in self._runs(panel)}:
             raise MissingError(f"{panel} has no run {run} at quality {self.quality}")
-        return self._load(panel, run)
+        path, result = self._load(panel, run)
+        self.used[path] = result
+        return result
 
-    def _runs(self, panel: str) -> Sequence:
+    def _runs(self, panel: str) -> Sequence[Run]:
         if panel not in self.plan:
             raise MissingError(f"there is no panel {panel}")
         return self.plan[panel].runs
 
-    def _load(self, panel: str, run: str) -> Result:
+    def _load(self, panel: str, run: str) -> tuple[str, Result]:
         path = data_path(self.quality, panel, run)
-        if path not in self.read:
+        if path not in self.loaded:
             try:
-                self.read[path] = load(self.root / path)
+                self.loaded[path] = load(self.root / path)
             except FormatError as error:
                 raise MissingError(f"{path} is missing or damaged") from error
-        return self.read[path]
+        return path, self.loaded[path]
 
 
 def where_made(find: Callable[[], Number]) -> list[Number]:

@@ -78,10 +78,16 @@ def _deviations(data: Data) -> tuple[pd.DataFrame, float]:
 
 def _bins(table: pd.DataFrame, known: float, printed: bool) -> list[Number]:
     """Those that enough fell into for their errors to be known."""
+    name = "as printed" if printed else "over max F"
     scale = (table.absolute_as_printed / table.deviation).median() if printed else 1.0
     rows = table[(table.kind == "simulation") & (table.momentum.abs() < REACH)].itertuples()
     return [
-        Number(f"N = {row.cells}, p = {row.momentum:g}", scale * row.deviation, scale * row.error, known)
+        Number(
+            f"F_N - F {name}, N = {row.cells}, p = {row.momentum:g}",
+            scale * row.deviation,
+            scale * row.error,
+            known,
+        )
         for row in rows
     ]
 

@@ -40,9 +40,9 @@ def read_claims(root: Path) -> list[dict[str, str]]:
     return pd.read_csv(root / CLAIMS_FILE, dtype=str, keep_default_na=False).to_dict("records")
 
 
-def judge_all(quality: str, root: Path) -> list[Judgement]:
-    claims = read_claims(root)
-    return [judge(claim, Data(quality, root), level_of_each(len(claims))) for claim in claims]
+def judge_all(data: Data) -> list[Judgement]:
+    claims = read_claims(data.root)
+    return [judge(claim, data.anew(), level_of_each(len(claims))) for claim in claims]
 
 
 def judge(claim: Mapping[str, str], data: Data, level: float) -> Judgement:
@@ -54,10 +54,10 @@ def judge(claim: Mapping[str, str], data: Data, level: float) -> Judgement:
     literal, substance = (_reading(claim, evidence, name, judged) for name in ("literal", "substance"))
     other = _reading(claim, evidence, "other", level)
     outcome = combined(literal.outcome, substance.outcome if substance else None)
-    short = [path for path, result in data.read.items() if result.converged == NOT_REACHED]
+    short = [path for path, result in data.used.items() if result.converged == NOT_REACHED]
     unconverged = [f"{len(short)} runs stopped before their target error."] if short else []
     caveat = " ".join([evidence.caveat, *unconverged]).strip()
-    return Judgement(claim, outcome, literal, substance, other, caveat, tuple(data.read))
+    return Judgement(claim, outcome, literal, substance, other, caveat, tuple(data.used))
 
 
 def _reading(claim: Mapping[str, str], evidence: Evidence, name: str, level: float) -> Reading | None:

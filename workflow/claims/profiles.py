@@ -44,7 +44,10 @@ def temperatures_coincide(data: Data) -> Evidence:
         scale = float(result["temperature_particle"].mean.mean())
         cells = range(len(result["temperature_difference"].mean))
         found += [
-            number(result, "temperature_difference", k, f"cell {k + 1}, {name}").over(scale) for k in cells
+            number(result, "temperature_difference", k, f"relative difference in cell {k + 1}, {name}").over(
+                scale
+            )
+            for k in cells
         ]
     return Evidence(
         found, found, caveat="Exact only where the mean momentum vanishes (docs/model.md, eq. 39)."
@@ -76,7 +79,9 @@ def linear_rates(data: Data) -> Evidence:
         for quantity in ("rate_right_deviation", "rate_left_deviation", "particle_current_deviation"):
             places = range(len(result[quantity].mean))
             word = quantity.removesuffix("_deviation").replace("_", " ")
-            found += [number(result, quantity, k, f"{word} at {k}, {name}").over(scale) for k in places]
+            found += [
+                number(result, quantity, k, f"{word} at place {k + 1}, {name}").over(scale) for k in places
+            ]
     return Evidence(found, found)
 
 

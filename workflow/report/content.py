@@ -11,8 +11,8 @@ import yaml
 from workflow.claims.data import Data, MissingError
 from workflow.claims.judge import Judgement
 from workflow.claims.verdict import FAMILY_LEVEL, Outcome
+from workflow.lib.parents import caption_of
 from workflow.lib.plan import Panel, Quality, drawings_of
-from workflow.lib.save import CAPTION_LINE
 from workflow.provenance.lock import Lock
 from workflow.provenance.status import worst_error
 from workflow.report import words
@@ -60,12 +60,12 @@ def claim(judgement: Judgement, costs: Costs) -> dict:
 def panel(quality: str, panel: Panel, products: Products, costs: Costs) -> dict:
     """A panel as it was drawn. Raises ReportError."""
     *_, svg, csv = [products.file(path) for path in drawings_of(quality, panel.name)]
-    title, _, _, caption, *_ = csv.read_text().split("\n", 4)
+    title, _ = csv.read_text().split("\n", 1)
     job = products.lock.jobs[panel.name]
     return {
         "name": panel.name,
         "title": title.removeprefix("# "),
-        "caption": caption.removeprefix(CAPTION_LINE.strip()).strip(),
+        "caption": caption_of(csv),
         "picture": base64.b64encode(svg.read_bytes()).decode(),
         "uses": panel.uses,
         "runs": len(panel.runs),

@@ -12,7 +12,7 @@ import jinja2
 
 from workflow.claims.data import Data
 from workflow.claims.judge import judge_all
-from workflow.lib.plan import ConfigurationError, Quality, load_plan
+from workflow.lib.plan import ConfigurationError, Quality
 from workflow.provenance.lock import Lock, LockError
 from workflow.provenance.repository import ROOT, write_whole
 from workflow.report import content, words
@@ -23,17 +23,16 @@ NAMES = ("report.html", "report.md")
 
 def pages(quality: str, costs: Costs | None = None, root: Path = ROOT) -> dict[str, str]:
     """Text by name of the file. Without costs those that were measured here are stated. Raises ReportError."""
-    plan = load_plan(quality)
+    data = Data(quality, root)
     try:
         lock = Lock.read(quality)
     except LockError as error:
         raise ReportError(f"{error}: run make figures") from error
-    costs = measured_costs(quality, plan) if costs is None else costs
+    costs = measured_costs(quality, data.plan) if costs is None else costs
     products = Products(root, lock)
-    judgements = judge_all(quality, root)
+    judgements = judge_all(data)
     for path in {path for judgement in judgements for path in judgement.data}:
         products.file(path)
-    data = Data(quality, root)
     context = {
         "quality": quality,
         "effort": content.effort(Quality.of(quality)),
@@ -41,12 +40,12 @@ def pages(quality: str, costs: Costs | None = None, root: Path = ROOT) -> dict[s
         "claims": [content.claim(one, costs) for one in judgements],
         "findings": content.findings(judgements),
         "misprints": content.misprints(judgements, data),
-        "panels": [content.panel(quality, one, products, costs) for one in plan.values()],
+        "panels": [content.panel(quality, one, products, costs) for one in data.plan.values()],
         "environment": content.environment(lock),
         "citation": content.citation(root),
         "cost": sum(costs.values()),
     }
-    for path in data.read:
+    for path in data.used:
         products.file(path)
     parents = {"quality": quality, "products": products.used, "sources": source_hashes(root), "costs": costs}
     context |= {"parents": parents, "parents_script": content.as_script(parents)}
