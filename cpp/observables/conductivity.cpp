@@ -10,8 +10,6 @@
 /// = N are the only randomness, and for gamma < N the scattering martingales of the end scatterers [eq. 32].
 /// Quantities named *_plain do without. Stationarity is tested by the differences between the halves of the
 /// window [eq. 51], and by blocking, for which blocks must be longer than the correlation time [eq. 50].
-#include <gsl/gsl_statistics_double.h>
-
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -21,6 +19,7 @@
 #include "runs/open_run.hpp"
 #include "runs/window_means.hpp"
 #include "statistics/blocking.hpp"
+#include "statistics/correlation_coefficient.hpp"
 #include "statistics/hotelling.hpp"
 
 namespace {
@@ -112,21 +111,6 @@ Estimator stationarity(const BlockTallies& tallies) {
           }};
 }
 
-/// Correlation over replicas of J_U and J_n as they are published. What is computed from both, as the
-/// conductivity without a particle current, needs it for its error. Its own error is that of normal records.
-Estimator current_correlation(const BlockTallies& tallies) {
-  const Description what{"current_correlation", "1", "Correlation coefficient over replicas of J_U and J_n"};
-  return {{what}, [=](const Records& records) {
-            const ReducedRecords means = reduced(window_means(records, tallies));
-            const std::size_t width = means.records.width(), count = means.records.size();
-            const double* const values = means.records.values().data();
-            const double r = gsl_stats_correlation(values + of_window.energy_current.column, width,
-                                                   values + of_window.particle_current.column, width, count);
-            const double error = (1 - r * r) / std::sqrt(static_cast<double>(count) - 1);
-            return Results{{what, {r}, {error}, {count}, means.control_variates}};
-          }};
-}
-
 Study conductivity(const Parameters& parameters) {
   validate(parameters, parameters.times);
   const OpenChain chain = parameters.chain();
@@ -147,7 +131,11 @@ Study conductivity(const Parameters& parameters) {
                }),
                conductivity_formulas(chain.cells, "_plain", ", without control variates").estimator_of(means),
                drifts().estimator([=](const Records& records) { return reduced(halves(records)); }),
-               current_correlation(tallies), stationarity(tallies)},
+               correlation_coefficient(
+                   {"current_correlation", "1", "Correlation coefficient over replicas of J_U and J_n"},
+                   of_window.energy_current, of_window.particle_current,
+                   [=](const Records& records) { return reduced(means(records)); }),
+               stationarity(tallies)},
           .target = chain.cells > 1 ? "kappa" : "energy_current"};
 }
 

@@ -11,18 +11,17 @@
 ///
 /// Sums over r are conserved and known: the variance of the total over the number of cells, from the start.
 /// So the measured total of a replica replaces the mean, and its known variance is put back [eq. 55].
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 
-#include "model/collision.hpp"
 #include "program/errors.hpp"
 #include "runs/closed_study.hpp"
-#include "runs/conserved_fields.hpp"
+#include "runs/field_correlations.hpp"
 #include "runs/peak_quantities.hpp"
 #include "statistics/fit.hpp"
 #include "statistics/moving_peak.hpp"
-#include "statistics/ring_correlation.hpp"
 
 namespace {
 
@@ -69,60 +68,21 @@ struct Tallies : ClosedTallies {
                            parameters.ring.scattering.cells)) {}
 };
 
-/// Sums over r of the correlations in an infinite chain, conserved: variances of the totals per cell, by
-/// Conserved [eq. 55]. That of the number is 0, because every cell starts with as many particles. The shift
-/// to zero total momentum takes one degree of freedom from the particles and turns that of the scatterers'
-/// total momentum into (1 + M/n).
-std::array<double, 3> sum_rules(const Parameters& parameters) {
-  const ClosedChain chain = parameters.chain();
-  const double n = chain.particles_per_cell, cells = chain.cells;
-  const double of_particle = 0.5 * std::pow(parameters.temperature, 2);
-  const double of_scatterer = 0.5 * std::pow(parameters.scatterer_temperature, 2);
-  double energies = cells * (n * of_particle + of_scatterer);
-  if (parameters.zero_total_momentum) {
-    const double mass = std::pow(CollisionRule(chain.sigma).root_mass(), 2);
-    energies += of_scatterer * (std::pow(1 + mass / n, 2) - 1) - of_particle;
-  }
-  return {0, energies / cells, parameters.mean_square_momentum() / cells};
-}
-
-/// The field minus its mean over the ring.
-std::vector<double> fluctuation(std::vector<double> field) {
-  double mean = 0;
-  for (const double value : field) mean += value / static_cast<double>(field.size());
-  for (double& value : field) value -= mean;
-  return field;
-}
-
-/// Records the correlations with distance 0 in the middle of the ring.
-void record_ring(const RingCorrelation& correlation, std::size_t times, double sum,
-                 std::span<double> record) {
-  const std::size_t cells = record.size() / times;
-  for (std::size_t k = 0; k < times; ++k) {
-    const std::vector<double> profile = correlation.at(k);
-    for (std::size_t r = 0; r < cells; ++r)
-      record[k * cells + (r + cells / 2) % cells] = profile[r] + sum / static_cast<double>(cells);
-  }
-}
-
 void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& run, Record& record) {
-  const ClosedChain chain = parameters.chain();
   const double interval = parameters.times.front();
   const auto snapshots = static_cast<std::size_t>(parameters.observation_time / interval * (1 + 1e-9)) + 1;
-  std::vector<RingCorrelation> correlations;
-  for (std::size_t field = 0; field < tallies.fields.size(); ++field)
-    correlations.emplace_back(chain.cells, parameters.lags());
+  FieldCorrelations correlations(parameters, parameters.lags());
   NoObserver nobody;
   for (std::size_t j = 0; j < snapshots; ++j) {
     const double time = parameters.relaxation_time + static_cast<double>(j) * interval;
     run.observe_until(time, nobody);
-    ConservedFields fields = conserved_fields(run.chain().phase_point(run.clock(time)), chain);
-    for (std::size_t field = 0; field < fields.size(); ++field)
-      correlations[field].add(fluctuation(std::move(fields[field])));
+    correlations.add(run.chain().phase_point(run.clock(time)));
   }
-  const std::array<double, 3> sums = sum_rules(parameters);
-  for (std::size_t field = 0; field < correlations.size(); ++field)
-    record_ring(correlations[field], parameters.times.size(), sums[field], record[tallies.fields[field]]);
+  for (std::size_t field = 0; field < tallies.fields.size(); ++field)
+    for (std::size_t k = 0; k < parameters.times.size(); ++k) {
+      const std::vector<double> profile = correlations.profile(field, k);
+      std::ranges::copy(profile, record[tallies.fields[field]].subspan(k * profile.size()).begin());
+    }
 }
 
 Estimator profiles(const Tallies& tallies) {

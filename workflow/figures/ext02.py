@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from workflow.figures.ext09 import CUBE_ROOT, SPACINGS, range_of, tabulate
+from workflow.figures.ext09 import CUBE_ROOT, LOOKS, range_of, spacings, tabulate
 from workflow.lib import style
 from workflow.lib.figure import run
 from workflow.lib.fit import with_error
@@ -34,18 +34,18 @@ def of_cube_root(part: pd.DataFrame) -> tuple[np.ndarray, np.ndarray] | None:
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     table = tabulate(results)
     figure, axes = plt.subplots(figsize=(style.COLUMN, style.HEIGHT))
-    tables, last = [], []
-    for spacing, part in table.groupby("spacing", sort=False):
-        marker, color = SPACINGS[spacing]
+    tables, last, spacing = [], [], spacings(results)
+    for name, part in table.groupby("gas", sort=False):
+        marker, color = LOOKS[name]
         found = local(part)
-        look = {"marker": marker, "color": color, "label": rf"$\lambda = {spacing}$", **style.POINTS}
+        look = {"marker": marker, "color": color, "label": rf"$\lambda = {spacing[name]}$", **style.POINTS}
         axes.errorbar(found["size"], found.exponent, found.exponent_error, **look)
         if law := of_cube_root(part):
             axes.plot(*law, color=color, linestyle=style.DASHES[1])
-        tables.append(found.assign(spacing=spacing))
+        tables.append(found.assign(gas=name))
         end = found.iloc[-1]
         value = with_error(end.exponent, end.exponent_error)
-        last.append(f"{value} at spacing {spacing} about N = {end['size']:.0f}")
+        last.append(f"{value} at spacing {spacing[name]} about N = {end['size']:.0f}")
     axes.axhline(1 / 3, **style.GUIDE)
     axes.annotate("1/3", (1.01, 1 / 3), xycoords=("axes fraction", "data"), va="center", size=8)
     axes.set(xscale="log", xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, None))

@@ -21,6 +21,7 @@ from workflow.lib.fit import fit_power, with_error
 from workflow.lib.load import Quantity, Result
 
 SOUND, DIFFUSION = 2 / 3, 1 / 2
+REACH = 0.6  # of the first peak from the centre, over which profiles are compared
 
 
 def folded(profile: np.ndarray) -> np.ndarray:
@@ -32,21 +33,22 @@ def folded(profile: np.ndarray) -> np.ndarray:
 def draw_collapse(axes: Axes, result: Result) -> pd.DataFrame:
     """The peak at several times, rescaled with the exponent of sound."""
     correlation, positions = result["momentum_correlation"], result["peak_position"].mean
-    parts = []
+    parts, times = [], correlation.axes["time"]
     shown = [k for k in range(len(positions)) if np.isfinite(positions[k])][1:]
     for k, color, dashes in zip(shown, style.SEQUENCE, style.DASHES, strict=False):
-        time = correlation.axes["time"][k]
+        stretch = (times[k] / times[shown[0]]) ** SOUND
         profile = folded(correlation.mean[k])
-        x = (np.arange(len(profile)) - positions[k]) / time**SOUND
-        near = np.abs(x) < 80
-        y = profile * time**SOUND / 1e3
-        axes.plot(x[near], y[near], color=color, linestyle=dashes, label=f"$t = {time:g}$")
-        parts.append(pd.DataFrame({"time": time, "x": x[near], "y": y[near]}))
+        x = (np.arange(len(profile)) - positions[k]) / stretch
+        near = np.abs(x) < REACH * positions[shown[0]]
+        y = profile * stretch
+        axes.plot(x[near], y[near] / 1e4, color=color, linestyle=dashes, label=f"$t = {times[k]:g}$")
+        parts.append(pd.DataFrame({"time": times[k], "x": x[near], "y": y[near]}))
     axes.axhline(0, **style.GUIDE)
-    axes.set(xlabel=r"$(r - ct)\,/\,t^{2/3}$", title="(a)", xlim=(-80, 80))
-    axes.set(ylabel=rf"$t^{{2/3}}\,C_g(r, t)\,/\,10^3$ ({style.UNITS})")
-    axes.legend(loc="upper left", fontsize=7, handlelength=2.4)
-    return pd.concat(parts)
+    axes.set(xlabel=r"$(r - ct)\,(t_1/t)^{2/3}$")
+    axes.set(ylabel=rf"$(t/t_1)^{{2/3}}\,C_g(r, t)\,/\,10^4$ ({style.UNITS})")
+    axes.set_xlim(left=2 * axes.get_xlim()[0])
+    axes.legend(loc="upper left", handlelength=2.4)
+    return pd.concat(parts) if parts else pd.DataFrame(columns=["time", "x", "y"])
 
 
 def draw_exponents(axes: Axes, fluctuations: Result, pulse: Result) -> pd.DataFrame:
@@ -72,7 +74,7 @@ def draw_exponents(axes: Axes, fluctuations: Result, pulse: Result) -> pd.DataFr
     for value, text in ((SOUND, "2/3"), (DIFFUSION, "1/2")):
         axes.axhline(value, **style.GUIDE)
         axes.annotate(text, (1.01, value), xycoords=("axes fraction", "data"), va="center", size=8)
-    axes.set(xscale="log", xlabel="time $t$", ylabel="local damping exponent", ylim=(0.3, 1), title="(b)")
+    axes.set(xscale="log", xlabel="time $t$", ylabel="local damping exponent", ylim=(0.3, 1))
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.legend(loc="upper left")
     return pd.concat(parts)
@@ -81,7 +83,7 @@ def draw_exponents(axes: Axes, fluctuations: Result, pulse: Result) -> pd.DataFr
 def draw_heat(axes: Axes, centre: Quantity) -> pd.DataFrame:
     time = centre.axes["time"]
     axes.errorbar(time, centre.mean, centre.standard_error, marker="o", color=style.BLACK, **style.POINTS)
-    axes.set(xscale="log", xlabel="time $t$", ylabel="$C_n(0, t)$", ylim=(0, None), title="(c)")
+    axes.set(xscale="log", xlabel="time $t$", ylabel="$C_n(0, t)$", ylim=(0, None))
     return pd.DataFrame({"time": time, "centre": centre.mean, "centre_error": centre.standard_error})
 
 
@@ -121,11 +123,12 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         draw_exponents(row[1], largest, pulse),
         draw_heat(row[2], largest["centre"]),
     ]
+    style.letter(*row)
     parameters = largest.parameters
     caption = (
         f"Sound in a ring of N = {parameters['cells']} cells with {parameters['particles-per-cell']} particles each, from "
         "equilibrium fluctuations. (a) Covariance of the momenta of two cells at distance r and times t apart, about the "
-        "moving peak, rescaled with the exponent 2/3. (b) Local exponents of the peak's height between times a factor of "
+        "moving peak, rescaled with the exponent 2/3 to the first time shown, t_1. (b) Local exponents of the peak's height between times a factor of "
         f"two apart, beside those of the energy pulse of fig. 9a. {words(largest)} (c) Covariance of the numbers of "
         "particles in one cell at two times: where heat would make a peak that falls as a power, slow particles that have "
         "not left their cell make one that falls as the logarithm of t. Error bars: standard errors over replicas."

@@ -4,7 +4,7 @@ At 1/N the gas thins out as the chain grows; at a fixed spacing the particles pe
 that N goes to infinity in the thermodynamic limit.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -18,16 +18,30 @@ from workflow.lib.fit import with_error
 from workflow.lib.growth import LAWS, POWER, Growth, fits, widest
 from workflow.lib.load import NOT_REACHED, Result
 
-SPACINGS = {"1/N": ("o", style.BLACK), "0.025": ("s", style.VERMILLION), "0.1": ("^", style.BLUE)}
+LOOKS = {
+    "thinning": ("o", style.BLACK),
+    "dilute": ("s", style.VERMILLION),
+    "dense": ("^", style.BLUE),
+}  # by gas
 LEVEL = 0.01  # p-value below which a law is rejected
 CUBE_ROOT = "N^(1/3)"
 
 
+def gas(result: Result) -> str:
+    """How the gas behaves as the chain grows, by the name of the run."""
+    return result.path.stem.partition("_")[0].partition("-")[0]
+
+
+def spacings(results: Sequence[Result]) -> dict[str, str]:
+    """By gas, as in the configuration."""
+    return {gas(result): style.spacing(result)[1] for result in results}
+
+
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per run, sorted by N; spacing is written as in the configuration."""
+    """One row per run, sorted by N."""
     rows = []
     for result in results:
-        row = {"spacing": style.spacing(result)[1], "cells": int(result.parameters["cells"])}
+        row = {"gas": gas(result), "cells": int(result.parameters["cells"])}
         for name in ("kappa", "kappa_particle", "energy_current", "particle_current"):
             row[name], row[f"{name}_error"] = float(result[name].mean), float(result[name].standard_error)
         row["sound"] = result.converged != NOT_REACHED and result["stationary"].mean == 1
@@ -57,7 +71,7 @@ def sentence(spacing: str, part: pd.DataFrame) -> str:
     widest = min(one.first for one in held.values())
     best = min((one for one in held.values() if one.first == widest), key=lambda one: one.criterion)
     text = (
-        f"Spacing {spacing}: {name(best)} from N = {best.first:.0f} on "
+        f"Spacing {spacing}: {written(best)} from N = {best.first:.0f} on "
         f"(chi^2/f = {best.chi_square:.1f}/{best.freedom})"
     )
     rivals = [
@@ -65,11 +79,11 @@ def sentence(spacing: str, part: pd.DataFrame) -> str:
         for one in fits(part.cells, part.kappa, part.kappa_error, best.first)
         if one.law != best.law and one.parameters <= best.parameters
     ]
-    against = [f"{name(one)} {one.chi_square:.1f}" for one in rivals]
+    against = [f"{written(one)} {one.chi_square:.1f}" for one in rivals]
     return f"{text}; over the same sizes chi^2 is, for {', '.join(against)}." if against else f"{text}."
 
 
-def name(growth: Growth) -> str:
+def written(growth: Growth) -> str:
     words = {
         "constant": "a + b N^(-1/3)",
         "logarithm": "a + b ln N",
@@ -78,10 +92,10 @@ def name(growth: Growth) -> str:
     return words.get(growth.law) or f"N^{with_error(growth.exponent, growth.exponent_error)}"
 
 
-def draw_powers(axes: Axes, table: pd.DataFrame) -> None:
-    for spacing, part in table.groupby("spacing", sort=False):
-        marker, color = SPACINGS[spacing]
-        label = rf"$\lambda = {spacing}$"
+def draw_powers(axes: Axes, table: pd.DataFrame, spacing: Mapping[str, str]) -> None:
+    for name, part in table.groupby("gas", sort=False):
+        marker, color = LOOKS[name]
+        label = rf"$\lambda = {spacing[name]}$"
         look = {"marker": marker, "color": color, **style.POINTS}
         axes.errorbar(part.cells, part.kappa, part.kappa_error, label=label, **look)
         style.cross_out(axes, part.cells.to_numpy(), part.kappa.to_numpy(), ~part.sound.to_numpy())
@@ -90,7 +104,7 @@ def draw_powers(axes: Axes, table: pd.DataFrame) -> None:
     axes.plot(size, guide, **style.GUIDE)
     axes.text(size[1], 0.86 * guide[1], "$N^{1/3}$", size=8, ha="right", va="top")
     axes.set(xscale="log", yscale="log", xlabel="number of cells $N$")
-    axes.set(ylabel=rf"conductivity $\kappa$ ({style.UNITS})", title="(a)")
+    axes.set(ylabel=rf"conductivity $\kappa$ ({style.UNITS})")
     style.label_sizes(axes.xaxis)
     style.label_within_decades(axes.yaxis)
     axes.legend(loc="upper left")
@@ -98,8 +112,8 @@ def draw_powers(axes: Axes, table: pd.DataFrame) -> None:
 
 def draw_cube_roots(axes: Axes, table: pd.DataFrame) -> None:
     """kappa against N^(1/3): straight where it grows as N^(1/3) beside a constant."""
-    for spacing, part in table.groupby("spacing", sort=False):
-        marker, color = SPACINGS[spacing]
+    for name, part in table.groupby("gas", sort=False):
+        marker, color = LOOKS[name]
         axes.errorbar(
             np.cbrt(part.cells), part.kappa, part.kappa_error, marker=marker, color=color, **style.POINTS
         )
@@ -109,18 +123,20 @@ def draw_cube_roots(axes: Axes, table: pd.DataFrame) -> None:
     above = axes.secondary_xaxis("top", functions=(lambda x: x**3, np.cbrt))
     above.set_xticks([size for size in (64, 256, 512, 1024, 2048, 8192) if size <= table.cells.max()])
     axes.tick_params(axis="x", which="both", top=False)
-    axes.set(xlabel="$N^{1/3}$", ylim=(0, None), title="(b)")
+    axes.set(xlabel="$N^{1/3}$", ylim=(0, None))
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     table = tabulate(results)
     figure, row = plt.subplots(1, 2, figsize=(1.9 * style.COLUMN, style.HEIGHT))
-    draw_powers(row[0], table)
+    spacing = spacings(results)
+    draw_powers(row[0], table, spacing)
     draw_cube_roots(row[1], table)
+    style.letter(*row)
     sentences, tables = [], []
-    for spacing, part in table.groupby("spacing", sort=False):
-        sentences.append(sentence(spacing, part))
-        tables.append(laws(part).drop(columns="predicted").assign(spacing=spacing))
+    for name, part in table.groupby("gas", sort=False):
+        sentences.append(sentence(spacing[name], part))
+        tables.append(laws(part).drop(columns="predicted").assign(gas=name))
     fitted = pd.concat(tables).rename(columns={"first": "fitted_from"})
     parameters = results[0].parameters
     caption = (

@@ -13,6 +13,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from workflow.figures.ext09 import LOOKS, gas, spacings
 from workflow.lib import style
 from workflow.lib.figure import run
 from workflow.lib.fit import fit_power, with_error
@@ -20,7 +21,6 @@ from workflow.lib.load import Result
 
 DRAWN = 4000  # samples of the currents, for errors good to 1 %
 COEFFICIENTS = ("L_uu", "L_un", "L_nu", "L_nn")
-SPACINGS = {"1/N": ("o", style.BLACK), "0.1": ("^", style.BLUE)}
 
 
 @dataclass(frozen=True)
@@ -79,31 +79,29 @@ def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per spacing and size."""
+    """One row per gas and size."""
     runs: dict[tuple[str, int], dict[bool, Response]] = {}
     for result in results:
         response = Response.of(result)
-        key = style.spacing(result)[1], response.cells
+        key = gas(result), response.cells
         runs.setdefault(key, {})[bool(response.forces[0])] = response
-    rows = [
-        {"spacing": key[0], "cells": key[1]} | onsager(pair[True], pair[False]) for key, pair in runs.items()
-    ]
+    rows = [{"gas": key[0], "cells": key[1]} | onsager(pair[True], pair[False]) for key, pair in runs.items()]
     return pd.DataFrame(rows).sort_values("cells", ignore_index=True)
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     table = tabulate(results)
     figure, (left, right) = plt.subplots(1, 2, figsize=(1.9 * style.COLUMN, style.HEIGHT))
-    said = []
-    for spacing, part in table.groupby("spacing", sort=False):
-        marker, color = SPACINGS[spacing]
+    said, spacing = [], spacings(results)
+    for name, part in table.groupby("gas", sort=False):
+        marker, color = LOOKS[name]
         look = {"marker": marker, "color": color, **style.POINTS}
-        left.errorbar(part.cells, part.L_nn, part.L_nn_error, label=rf"$\lambda = {spacing}$", **look)
+        left.errorbar(part.cells, part.L_nn, part.L_nn_error, label=rf"$\lambda = {spacing[name]}$", **look)
         right.errorbar(part.cells, part.kappa_0, part.kappa_0_error, **look)
         ballistic = fit_power(part.cells, part.L_nn, part.L_nn_error)
         heat = fit_power(part.cells, part.kappa_0, part.kappa_0_error)
         said.append(
-            f"at spacing {spacing} L_nn grows as N^{with_error(ballistic.exponent, ballistic.error)} and kappa_0 as "
+            f"at spacing {spacing[name]} L_nn grows as N^{with_error(ballistic.exponent, ballistic.error)} and kappa_0 as "
             f"N^{with_error(heat.exponent, heat.error)}"
         )
     size = np.array([table.cells.min(), table.cells.max()], dtype=float)
@@ -117,9 +115,10 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         axes.set(xscale="log", yscale="log", xlabel="number of cells $N$")
         style.label_sizes(axes.xaxis)
         style.label_within_decades(axes.yaxis)
-    left.set(ylabel="$L_{nn}$", title="(a)")
-    right.set(ylabel=rf"$\kappa_0$ at $J_n = 0$ ({style.UNITS})", title="(b)")
+    left.set(ylabel="$L_{nn}$")
+    right.set(ylabel=rf"$\kappa_0$ at $J_n = 0$ ({style.UNITS})")
     left.legend(loc="upper left")
+    style.letter(left, right)
     pulls = table.asymmetry / table.asymmetry_error
     caption = (
         "Linear response at gamma = N about equal baths, from a difference of temperature at equal pressure and a difference "

@@ -1,7 +1,7 @@
 """Ext. 12: what the exponents of ext. 9 must not depend on: how strongly the chain is driven, and from which state it
 starts."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from scipy.stats import chi2
 
-from workflow.figures.ext09 import SPACINGS, tabulate
+from workflow.figures.ext09 import LOOKS, spacings, tabulate
 from workflow.lib import style
 from workflow.lib.figure import run
 from workflow.lib.growth import local_exponents
@@ -34,12 +34,12 @@ def exponents(table: pd.DataFrame) -> pd.DataFrame:
     """Local exponents of every drive between the sizes that all drives have."""
     parts = []
     warm = table[table.start == "warm"]
-    for spacing, part in warm.groupby("spacing", sort=False):
+    for name, part in warm.groupby("gas", sort=False):
         common = set.intersection(*(set(one.cells) for _, one in part.groupby("drive")))
         for drive, one in part[part.cells.isin(common)].groupby("drive"):
             size, slope, error = local_exponents(one.cells, one.kappa, one.kappa_error)
             columns = {"size": size, "exponent": slope, "exponent_error": error}
-            parts.append(pd.DataFrame({"spacing": spacing, "drive": drive, **columns}))
+            parts.append(pd.DataFrame({"gas": name, "drive": drive, **columns}))
     return pd.concat(parts, ignore_index=True)
 
 
@@ -47,10 +47,10 @@ def deviations(table: pd.DataFrame) -> pd.DataFrame:
     """kappa from other starts over that from the warm start, minus 1, at the drive that has them."""
     others = table[table.start != "warm"]
     warm = table[(table.start == "warm") & table.drive.isin(others.drive)]
-    both = others.merge(warm, on=["spacing", "cells"], suffixes=("", "_warm"))
+    both = others.merge(warm, on=["gas", "cells"], suffixes=("", "_warm"))
     ratio = both.kappa / both.kappa_warm
     error = ratio * np.hypot(both.kappa_error / both.kappa, both.kappa_error_warm / both.kappa_warm)
-    columns = both[["spacing", "cells", "start"]]
+    columns = both[["gas", "cells", "start"]]
     return columns.assign(deviation=ratio - 1, deviation_error=error)
 
 
@@ -58,7 +58,7 @@ def scatter(found: pd.DataFrame) -> tuple[float, int]:
     """chi^2 of the drives' local exponents about their weighted mean at each size and spacing, with its degrees of
     freedom. Neighbouring sizes share an error, so that the p-value is not exact."""
     total, freedom = 0.0, 0
-    for _, one in found.groupby(["spacing", "size"]):
+    for _, one in found.groupby(["gas", "size"]):
         weight = one.exponent_error**-2
         mean = np.average(one.exponent, weights=weight)
         total += float(np.sum(weight * (one.exponent - mean) ** 2))
@@ -66,11 +66,11 @@ def scatter(found: pd.DataFrame) -> tuple[float, int]:
     return total, freedom
 
 
-def draw_exponents(axes: Axes, found: pd.DataFrame) -> None:
+def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) -> None:
     drives = sorted(found.drive.unique())
-    for spacing, (marker, color) in SPACINGS.items():
+    for name, (marker, color) in LOOKS.items():
         for number, drive in enumerate(drives):
-            one = found[(found.spacing == spacing) & (found.drive == drive)]
+            one = found[(found.gas == name) & (found.drive == drive)]
             face = FACES[number + 1] or color
             axes.errorbar(
                 one["size"] * 1.06 ** (number - 1),
@@ -79,32 +79,29 @@ def draw_exponents(axes: Axes, found: pd.DataFrame) -> None:
                 marker=marker,
                 color=color,
                 markerfacecolor=face,
-                label=rf"$\lambda = {spacing}$" if drive == drives[-1] else None,
+                label=rf"$\lambda = {spacing[name]}$" if drive == drives[-1] else None,
                 **style.POINTS,
             )
-    axes.set(
-        xscale="log", xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$", title="(a)", ylim=(0, 0.8)
-    )
+    axes.set(xscale="log", xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, 0.8))
     style.label_sizes(axes.xaxis)
     axes.legend(loc="upper left", ncols=3, columnspacing=0.8, handletextpad=0.2)
 
 
-def draw_starts(axes: Axes, found: pd.DataFrame) -> None:
-    places = {key: index for index, key in enumerate(found.groupby(["cells", "spacing"], sort=True).groups)}
+def draw_starts(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) -> None:
+    places = {key: index for index, key in enumerate(found.groupby(["cells", "gas"], sort=True).groups)}
     for number, (start, marker) in enumerate(STARTS.items()):
         one = found[found.start == start]
         place = [
-            places[cells, spacing] + 0.2 * (number - 1)
-            for cells, spacing in zip(one.cells, one.spacing, strict=True)
+            places[cells, name] + 0.2 * (number - 1) for cells, name in zip(one.cells, one.gas, strict=True)
         ]
         color = [style.BLUE, style.VERMILLION, style.BLACK][number]
         axes.errorbar(place, 100 * one.deviation, 100 * one.deviation_error, marker=marker, color=color, label=start,
                       **style.POINTS)  # fmt: skip
     axes.axhline(0, **style.GUIDE)
-    labels = [f"{cells}\n{spacing}" for cells, spacing in places]
-    axes.set_xticks(range(len(places)), labels, fontsize=7)
+    labels = [f"{cells}\n{spacing[name]}" for cells, name in places]
+    axes.set_xticks(range(len(places)), labels)
     axes.tick_params(axis="x", which="both", length=0)
-    axes.set(xlabel=r"$N$, $\lambda$", ylabel=r"$\kappa$ relative to the warm start $-\,1$ (%)", title="(b)")
+    axes.set(xlabel=r"$N$, $\lambda$", ylabel=r"$\kappa$ relative to the warm start $-\,1$ (%)")
     axes.legend(loc="upper left", ncols=3, columnspacing=0.8, handletextpad=0.2)
 
 
@@ -112,8 +109,9 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     table = read(results)
     slopes, starts = exponents(table), deviations(table)
     figure, (left, right) = plt.subplots(1, 2, figsize=(1.9 * style.COLUMN, style.HEIGHT))
-    draw_exponents(left, slopes)
-    draw_starts(right, starts)
+    draw_exponents(left, slopes, spacings(results))
+    draw_starts(right, starts, spacings(results))
+    style.letter(left, right)
     spread, freedom = scatter(slopes)
     pulls = starts.deviation / starts.deviation_error
     drives = ", ".join(f"{drive:g}" for drive in sorted(slopes.drive.unique()))
