@@ -11,7 +11,9 @@ from workflow.tradeoff.forecast import SPREAD, Forecast, between, total, wall
 from workflow.tradeoff.timings import Timings, UnknownCostError, at_size, read_timings
 
 TIMINGS = read_timings()
-SIZES = [(key, size) for key, known in TIMINGS.units.items() if len(known) > 2 for size in known]
+# The kinetic equation follows no power of its size; all the sizes that it has at any quality are in the table.
+SIMULATED = {key: known for key, known in TIMINGS.units.items() if key[1] != "mean-field"}
+SIZES = [(key, size) for key, known in SIMULATED.items() if len(known) > 2 for size in known]
 # CPU seconds of whole runs of quality standard on the machine of the table, which its short measurements do not contain.
 EXECUTED = {
     "fig05": {"dense_sigma=0.75": 1.50, "paper_sigma=0.5": 0.34},
@@ -82,7 +84,7 @@ def test_wall_time_is_not_less_than_the_longest_run() -> None:
 
 @pytest.mark.parametrize(
     ("seconds", "text"),
-    [((0.5, 0.5), "0.5 s"), ((90, 130), "90 s to 2.17 min"), ((7200, 200000), "2 h to 2.31 d")],
+    [((0.5, 0.5), "0.5 s"), ((90, 130), "90 s to 2.2 min"), ((7200, 200000), "2 h to 2.3 d")],
 )
 def test_durations(seconds: tuple[float, float], text: str) -> None:
     assert between(seconds) == text

@@ -22,7 +22,7 @@ from workflow.tradeoff.timings import Timings, UnknownCostError, read_timings, r
 
 WIDE = 100  # columns, where nobody reads them on a screen
 SPREAD = 1.5  # factor by which a series is off at most at other sizes, replicas and windows than were timed
-DRAWING = 4.0  # CPU seconds of a drawing on the machine of the table, the start of its Python included
+DRAWING = 3.6  # CPU seconds of a drawing on the machine of the table, the start of its Python included
 
 Range = tuple[float, float]  # the least and the most
 
@@ -77,8 +77,12 @@ def wall(costs: dict[tuple[str, str], Range], plan: dict[str, Panel], drawings: 
 def duration(seconds: float) -> str:
     for unit, size in (("d", 86400), ("h", 3600), ("min", 60)):
         if seconds >= 2 * size:
-            return f"{seconds / size:.3g} {unit}"
-    return f"{seconds:.2g} s"
+            return f"{_two_digits(seconds / size)} {unit}"
+    return f"{_two_digits(seconds)} s"
+
+
+def _two_digits(number: float) -> str:
+    return f"{number:.0f}" if number >= 10 else f"{number:.2g}"
 
 
 def between(one: Range) -> str:
