@@ -1,5 +1,6 @@
 """The tutorial is followed to the letter, and what it says of paper.yaml is so."""
 
+import os
 import re
 import shutil
 import subprocess
@@ -39,6 +40,7 @@ def follow(clone: Clone, block: re.Match) -> str:
     done = subprocess.run(
         command,
         cwd=clone.folder,
+        env={"PATH": os.defpath, "HOME": os.environ.get("HOME", "/")},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
