@@ -16,7 +16,7 @@ from workflow.lib.plan import FOLDER, load_plan
 
 TUTORIAL, GRAMMAR = (ROOT / "docs/tutorial.md").read_text().split("## The grammar of paper.yaml")
 BLOCK = re.compile(r"(?:`(?P<path>[\w./]+)`:\n\n)?```(?P<kind>\w+)\n(?P<text>.*?)```", re.DOTALL)
-SIGMA = [-0.8, -0.4, 0, 0.4, 0.8]
+SIGMA = [-0.9, -0.6, -0.3, 0.3, 0.6, 0.9]
 
 
 @pytest.fixture
@@ -56,10 +56,10 @@ def test_every_step(own: Clone) -> None:
     table = pd.read_csv(own.folder / "figures/standard/kappa_sigma.csv", comment="#")
     assert list(table.sigma) == SIGMA
     assert (table.kappa > 0).all()
-    row = next(line for line in said.splitlines() if re.search(r"\bkappa_sigma\b.*\b5\b.*\b5\b.* s\b", line))
+    row = next(line for line in said.splitlines() if re.search(r"\bkappa_sigma\b.*\b6\b.*\b6\b.* s\b", line))
     assert "to" in row  # the draft tells what the paper's quality would cost
     assert "Dimensions:" in said
-    assert f"kappa at 0.4: {table.kappa[3]:.6g}"[:-1] in said
+    assert f"kappa at 0.6: {table.kappa[4]:.6g}"[:-1] in said
     alone = load(own.folder / "kappa.h5")
     assert alone.converged == "reached"
     assert alone.provenance["achieved_error"] <= 0.02
