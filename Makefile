@@ -67,7 +67,7 @@ ONLY_PANEL := $(if $(PANEL),--panel $(PANEL))
 COMPARE = $(if $(SEED)$(REPLICAS)$(filter $(YES),$(FRESH)),$(PYTHON) workflow.provenance.compare --quality $(EFFORT))
 
 .PHONY: help figures panel report build test check format describe reference lock audit verify provenance status \
-  crate bench tradeoff clean system-packages installed runtime dev
+  cost crate bench timings tradeoff clean system-packages installed runtime dev
 help:  ## This list
 	sed -nE 's/^([a-z]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 16
 	echo 'Options: QUALITY=smoke|standard|paper|deep  PANEL=fig05  FRESH=yes  SEED=7  REPLICAS=200  JOBS=2'
@@ -128,12 +128,18 @@ provenance: installed  ## What a product was made from, FILE=figures/standard/fi
 status: installed  ## Which panels are fresh, their errors and what they cost
 	$(PYTHON) workflow.provenance.status --quality $(EFFORT)
 
+cost: build runtime  ## CPU and wall time of a quality on this machine, foretold without a run; PANEL=fig05
+	$(PYTHON) workflow.tradeoff.forecast --programs build/bin --quality $(EFFORT) $(ONLY_PANEL)
+
 bench: build runtime  ## Cost of an event: engine, reference and floor side by side; programs and bare loops
 	ninja -C build --quiet benchmarks
 	build/bin/benchmarks --benchmark_repetitions=3 --benchmark_enable_random_interleaving=true \
 	  --benchmark_report_aggregates_only=true --benchmark_out=build/bench.json
 	$(PYTHON) workflow.tradeoff.bench_table build/bench.json
 	$(PYTHON) workflow.tradeoff.bench_programs --programs build/bin
+
+timings: build runtime  ## Measure the timings that make cost starts from anew, if they are to be shipped
+	$(PYTHON) workflow.tradeoff.timings --programs build/bin
 
 tradeoff: build runtime  ## Speed against accuracy, measured here: figures/tradeoff
 	ninja -C build --quiet reference_pulse reference_open_chain reference_drift

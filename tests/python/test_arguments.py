@@ -54,7 +54,12 @@ def test_refused(argument: str, words: str) -> None:
 
 @pytest.mark.parametrize(
     ("goals", "argument"),
-    [([], "QUALITY=smoke"), (["figures"], "QUALITY=smoke"), (["build", "panel"], "PANEL=fig05")],
+    [
+        ([], "QUALITY=smoke"),
+        (["figures"], "QUALITY=smoke"),
+        (["build", "panel"], "PANEL=fig05"),
+        (["cost"], "PANEL=fig05"),
+    ],
 )
 def test_used(goals: list[str], argument: str) -> None:
     assert unused(goals, argument) is None
@@ -68,6 +73,7 @@ def test_used(goals: list[str], argument: str) -> None:
         (["figures"], "PANEL=fig05", "make figures does not use PANEL"),
         (["status"], "FRESH=yes", "make status does not use FRESH"),
         (["audit"], "SAMPLE=1", "make audit does not use SAMPLE; it uses QUALITY"),
+        (["cost"], "JOBS=2", "make cost does not use JOBS; it uses QUALITY, SEED, REPLICAS, PANEL"),
         (["build", "test"], "JOBS=2", "make build test does not use JOBS"),
     ],
 )

@@ -1,10 +1,14 @@
 """Records of costs are of use, and never in the way."""
 
+import math
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
-from workflow.lib.costs import read_cost
+from workflow.lib import costs
+from workflow.lib.costs import effort, expected_cost, read_cost
+from workflow.lib.plan import Run
 
 
 @pytest.mark.parametrize("text", ["{", "{}", '"text"', "[]", '{"cpu_seconds": "1"}', "\0"])
@@ -17,3 +21,26 @@ def test_a_damaged_record_is_none(tmp_path: Path, text: str) -> None:
 def test_a_record_is_read(tmp_path: Path) -> None:
     (tmp_path / "cost.json").write_text('{"cpu_seconds": 1.5, "events": 7}')
     assert read_cost(tmp_path / "cost.json") == {"cpu_seconds": 1.5, "events": 7}
+
+
+@pytest.mark.parametrize(
+    ("options", "expected"),
+    [
+        ({"cells": "continuum"}, 1),
+        ({"cells": 20, "replicas": 3, "observation-time": 10, "relaxation-time": "5+0.05N"}, 48),
+        ({"replicas": 2, "pairs-per-replica": 4, "times": "0.1,0.5", "observation-time": 9}, 4),
+    ],
+)
+def test_effort(options: dict, expected: float) -> None:
+    assert effort(options) == pytest.approx(expected)
+
+
+def test_a_run_of_another_size_foretells_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A series of one size has none in its name, and may have another at another quality."""
+    executed = {"cells": 32, "replicas": 4, "observation-time": 1}
+    monkeypatch.setattr(costs, "load", lambda _: SimpleNamespace(parameters=executed))
+    monkeypatch.setattr(costs, "cost_file", lambda *_: {"cpu_seconds": 2.0})
+    run = Run("large", "conductivity", {"cells": 32, "replicas": 8})
+    assert expected_cost("fig08", run, 0.0) == (4, 4)
+    other = Run("large", "conductivity", {"cells": 512, "replicas": 8})
+    assert all(map(math.isnan, expected_cost("fig08", other, 0.0)))

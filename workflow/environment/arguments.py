@@ -33,6 +33,7 @@ USED = {  # by the goals that use any
     "audit": (*EFFORT, "PANEL", "CRATE"),
     "verify": (*EFFORT, "PANEL", "SAMPLE"),
     "status": EFFORT,
+    "cost": (*EFFORT, "PANEL"),
     "provenance": ("FILE", "FULL"),
     "check": (*EFFORT, "JOBS"),
     "tradeoff": ("QUALITY",),

@@ -26,21 +26,27 @@ def read_cost(path: Path) -> dict | None:
         return None
 
 
+def cells(options: Options) -> float:
+    """1 where there are none, as in the continuum."""
+    number = options.get("cells", 1)
+    return 1 if number == "continuum" else float(number)
+
+
 def effort(options: Options) -> float:
     """Replicas, with their pairs, times the simulated time: what cost is proportional to, but for the start."""
     replicas = float(options.get("replicas", 1)) * float(options.get("pairs-per-replica", 1))
     last = str(options.get("times", "")).rsplit(",", maxsplit=1)[-1] or options.get("observation-time", 1)
-    cells = float(options.get("cells", 1))
-    return replicas * sum(at_size(time, cells) for time in (last, options.get("relaxation-time", 0)))
+    return replicas * sum(at_size(time, cells(options)) for time in (last, options.get("relaxation-time", 0)))
 
 
-def executions(panel: str, run: str) -> Iterator[tuple[Options, float]]:
-    """Options and CPU seconds of the last execution at every quality that has one; the plan may have changed since."""
+def executions(panel: str, run: Run) -> Iterator[tuple[Options, float]]:
+    """Options and CPU seconds of the last execution at every quality that has one of this size; the plan may have
+    changed since, and a series of one size may have another at another quality."""
     for quality in QUALITIES:
-        cost = cost_file(quality, panel, run)
+        cost = cost_file(quality, panel, run.name)
         with suppress(FormatError):
-            parameters = load(ROOT / data_path(quality, panel, run)).parameters
-            if cost is not None:
+            parameters = load(ROOT / data_path(quality, panel, run.name)).parameters
+            if cost is not None and cells(parameters) == cells(parameters | run.options):
                 yield parameters, cost["cpu_seconds"]
 
 
@@ -53,8 +59,7 @@ def scaled(cost: float, share: float, start: float) -> tuple[float, float]:
 def expected_cost(panel: str, run: Run, start: float) -> tuple[float, float]:
     """The least and the most CPU seconds, by the execution whose effort is nearest; NaN if there is none."""
     known = [
-        (effort(options | run.options) / effort(options), cost)
-        for options, cost in executions(panel, run.name)
+        (effort(options | run.options) / effort(options), cost) for options, cost in executions(panel, run)
     ]
     if not known:
         return math.nan, math.nan

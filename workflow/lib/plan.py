@@ -31,6 +31,7 @@ class Run:
     program: str
     options: Options
     replicated: bool = True  # over independent replicas; False for a deterministic program
+    series: str = ""  # of the configuration, whose values the name goes on with
 
 
 @dataclass(frozen=True)
@@ -181,7 +182,7 @@ def _panel(name: str, panel: dict, efforts: dict, quality: Quality) -> Panel:
             run = "_".join([series, *(f"{key}={_in_name(value)}" for key, value in chosen.items())])
             given = {**options, **chosen}
             completed = quality.complete(name, run, given) if replicated else given
-            runs.append(Run(run, program, completed, replicated))
+            runs.append(Run(run, program, completed, replicated, series))
     return Panel(name, panel.get("script", name), tuple(runs), tuple(panel.get("uses", ())))
 
 

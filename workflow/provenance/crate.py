@@ -27,6 +27,8 @@ PAPERS = (
     "README.md",
     "CHANGELOG.md",
     "CITATION.cff",
+    "codecheck.yml",
+    "codemeta.json",
     "LICENSE",
     ".gitignore",
     "data/README.md",

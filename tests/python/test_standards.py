@@ -1,0 +1,71 @@
+"""What other services read at the root, CODECHECK, CodeMeta and the Citation File Format, is right and agrees."""
+
+import json
+
+import pytest
+import yaml
+
+from tests.python.conftest import ROOT
+from workflow.lib.plan import load_plan
+
+CODECHECK = yaml.safe_load((ROOT / "codecheck.yml").read_text())
+CODEMETA = json.loads((ROOT / "codemeta.json").read_text())
+CITATION = yaml.safe_load((ROOT / "CITATION.cff").read_text())
+
+
+def full_name(person: dict) -> str:
+    """By CodeMeta or by the Citation File Format, of a person or of a group."""
+    given = person.get("givenName") or person.get("given-names")
+    family = person.get("familyName") or person.get("family-names")
+    return person.get("name") or f"{given} {family}"
+
+
+def names(people: list[dict]) -> list[str]:
+    return [full_name(person) for person in people]
+
+
+def test_the_manifest_lists_every_panel_once() -> None:
+    files = [item["file"] for item in CODECHECK["manifest"]]
+    assert sorted(files) == sorted(f"figures/standard/{panel}.png" for panel in load_plan("standard"))
+    assert all(item["comment"] for item in CODECHECK["manifest"])
+
+
+def test_the_manifest_is_a_codecheck_configuration() -> None:
+    """By version 2.0: an explicit document, with what its authors are to give; the rest is the codechecker's."""
+    assert "\n---\n" in (ROOT / "codecheck.yml").read_text(encoding="utf-8")
+    assert CODECHECK["version"] == "https://codecheck.org.uk/spec/config/2.0/"
+    assert CODECHECK.keys() == {"version", "paper", "manifest"}
+    assert CODECHECK["paper"].keys() == {"title", "authors", "reference"}
+    assert CODECHECK["paper"]["reference"].startswith("https://")
+
+
+def test_codemeta_is_of_version_3() -> None:
+    assert CODEMETA["@context"] == "https://w3id.org/codemeta/3.0"
+    assert CODEMETA["type"] == "SoftwareSourceCode"
+    assert (ROOT / CODEMETA["readme"]).is_file()
+
+
+@pytest.mark.parametrize(
+    ("found", "expected"),
+    [
+        (CODEMETA["name"], CITATION["title"]),
+        (names(CODEMETA["author"]), names(CITATION["authors"])),
+        (CODEMETA["license"], f"https://spdx.org/licenses/{CITATION['license']}"),
+        (CODEMETA["version"], CITATION["version"]),
+        (CODEMETA["keywords"], CITATION["keywords"]),
+    ],
+)
+def test_the_software_is_described_alike(found: object, expected: object) -> None:
+    assert found == expected
+
+
+def test_the_paper_is_described_alike() -> None:
+    (cited,), described, checked = (
+        CITATION["references"],
+        CODEMETA["referencePublication"],
+        CODECHECK["paper"],
+    )
+    assert described["name"] == checked["title"] == cited["title"]
+    assert names(described["author"]) == names(checked["authors"]) == names(cited["authors"])
+    assert described["isPartOf"]["name"] == cited["journal"]
+    assert described["datePublished"] == str(cited["year"])
