@@ -8,6 +8,13 @@ $(if $(wildcard workflow/environment/arguments.py),,$(error run make in the proj
 override GIVEN := $(foreach name,$(.VARIABLES),$(if $(filter command,$(origin $(name))),$(name)))
 $(foreach name,$(GIVEN),$(eval override $(name) := $$(value $(name))))
 
+# The shell that checks the arguments would read one of them up to its first line break only.
+override define newline
+
+
+endef
+$(if $(findstring $(newline),$(MAKECMDGOALS)$(foreach name,$(GIVEN),$(value $(name)))),$(error no argument may hold a line break))
+
 QUALITY := standard
 JOBS :=
 PANEL :=
@@ -42,6 +49,7 @@ override .SHELLFLAGS := -i HOME=$(call quote,$(value HOME)) PATH=/opt/homebrew/b
 override FLAGS := $(filter-out -%,$(firstword $(MAKEFLAGS)))
 $(if $(findstring e,$(FLAGS)),$(error make -e is not admitted: variables of the environment would change results))
 $(if $(findstring i,$(FLAGS)),$(error make -i is not admitted: it would hide failures))
+$(if $(findstring t,$(FLAGS))$(findstring q,$(FLAGS)),$(error make -t and -q are not admitted: they would do nothing, without a word))
 $(if $(findstring --eval,$(MAKEFLAGS))$(MAKEFILES),$(error make --eval and MAKEFILES are not admitted: they would change results))
 override CHECK := python3 -I workflow/environment/arguments.py $(foreach goal,$(MAKECMDGOALS),$(call quote,$(goal))) \
   $(foreach name,$(GIVEN),$(call quote,$(name)=$(value $(name))))
@@ -63,7 +71,7 @@ $(foreach name,JOBS PANEL FILE CRATE SAMPLE,$(if $($(name)),$(eval override $(na
 override SNAKEMAKE := $(PYTHON) workflow.environment.alone --cores $(or $(JOBS),$(shell env -u OMP_NUM_THREADS nproc 2>/dev/null || sysctl -n hw.ncpu)) \
   --config quality=$(EFFORT) $(if $(PANEL),panel=$(PANEL)) $(if $(filter $(YES),$(FRESH)),fresh=yes)
 SNAKEFMT := .venv/bin/snakefmt --no-format-shell --line-length 110
-ONLY_PANEL := $(if $(PANEL),--panel $(PANEL))
+ONLY_PANEL := $(if $(PANEL),--panel=$(PANEL))
 COMPARE = $(if $(SEED)$(REPLICAS)$(filter $(YES),$(FRESH)),$(PYTHON) workflow.provenance.compare --quality $(EFFORT))
 
 .PHONY: help figures panel report build test check format describe reference lock audit verify provenance status \
@@ -116,7 +124,7 @@ describe: build runtime  ## State the programs' options and quantities in schema
 	$(PYTHON) workflow.config.describe
 
 audit: installed  ## Check every link from the sources to the figures; PANEL=fig05 draws only that again; CRATE=FILE compares
-	$(PYTHON) workflow.provenance.audit --quality $(EFFORT) $(ONLY_PANEL) $(if $(CRATE),--crate $(CRATE))
+	$(PYTHON) workflow.provenance.audit --quality $(EFFORT) $(ONLY_PANEL) $(if $(CRATE),--crate=$(CRATE))
 
 verify: installed  ## Make a sample of the products again and compare; SAMPLE=0.1 PANEL=fig05
 	$(PYTHON) workflow.provenance.verify --quality $(EFFORT) --sample $(SAMPLE) $(ONLY_PANEL)
@@ -171,9 +179,11 @@ system-packages:
 	  { bash workflow/environment/system_packages.sh && mkdir -p build && \
 	    cp workflow/environment/system_packages.sh build/system-packages; }
 
-# For what looks and changes nothing: packages are installed where there are none, and not repaired.
+# For what looks and changes nothing: packages are installed where there are none, and not repaired. Nor is anything of
+# them started that is not as it was installed: it could say of itself that it is.
 installed:
 	test -x .venv/bin/python || python3 -I workflow/environment/packages.py requirements.lock
+	python3 -I workflow/environment/packages.py --check
 
 runtime: system-packages
 	python3 -I workflow/environment/packages.py requirements.lock

@@ -7,12 +7,13 @@ build/replaced; a dry run only names them.
 
 import json
 import re
+import runpy
 import sys
 from pathlib import Path
 
 from snakemake.logging import logger
 
-sys.path.append(workflow.basedir)  # last, so that no file here takes the place of a package
+runpy.run_path(f"{workflow.basedir}/workflow/environment/launch.py")  # no other file is taken for a module
 from workflow.lib.parents import caption_of
 from workflow.lib.plan import ConfigurationError, data_of, drawings_of
 from workflow.provenance.chain import Chain

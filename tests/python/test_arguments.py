@@ -1,7 +1,11 @@
 """Arguments of make are refused in one line before anything happens."""
 
+import os
+import subprocess
+
 import pytest
 
+from tests.python.conftest import ROOT
 from workflow.environment.arguments import fault, unused
 
 
@@ -50,6 +54,38 @@ def test_refused(argument: str, words: str) -> None:
     assert said is not None
     assert words in said
     assert "\n" not in said
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["help", "QUALITY=smo\nke"], "no argument may hold a line break"),
+        (["he\nlp", "QUALITY=smoke"], "no argument may hold a line break"),
+        (["--touch", "help"], "make -t and -q are not admitted"),
+        (["-sq", "help"], "make -t and -q are not admitted"),
+    ],
+)
+def test_refused_by_make_itself(arguments: list[str], words: str) -> None:
+    made = subprocess.run(
+        ["/usr/bin/make", *arguments],
+        cwd=ROOT,
+        env={"PATH": os.defpath},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert made.returncode == 2
+    assert made.stdout == ""
+    assert words in made.stderr
+
+
+@pytest.mark.parametrize("option", ["PANEL=-h", "CRATE=-x"])
+def test_a_dash_in_front_makes_no_option_of_a_value(option: str) -> None:
+    made = subprocess.check_output(
+        ["/usr/bin/make", "-n", "audit", option], cwd=ROOT, env={"PATH": os.defpath}, text=True
+    )
+    name, _, value = option.partition("=")
+    assert f"--{name.lower()}='{value}'" in made
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """The build id changes if and only if an input of the build changes."""
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -42,6 +43,15 @@ def test_closure(tree: Path) -> None:
     assert include_closure(tree / "cpp", "observables/a.cpp") == expected
 
 
+def test_a_header_beside_the_source_comes_before_that_of_the_root(tree: Path) -> None:
+    """As the compiler takes it."""
+    (tree / "cpp/engine/model").mkdir()
+    (tree / "cpp/engine/model/y.hpp").write_text("")
+    closure = include_closure(tree / "cpp", "observables/a.cpp")
+    assert "engine/model/y.hpp" in closure
+    assert "model/y.hpp" not in closure
+
+
 def test_id_follows_sources_and_flags_only(tree: Path) -> None:
     first = identify(tree)
     stamp = (tree / "out/a.json").stat().st_mtime_ns
@@ -71,3 +81,4 @@ def test_every_source_that_programs_link_is_in_a_closure():
         for path in (cpp / floor).glob("*.cpp")
     }
     assert linked - known == set()
+    assert set(re.findall(r"[a-z]+/\w+\.cpp", (cpp / "CMakeLists.txt").read_text())) == linked

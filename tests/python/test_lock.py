@@ -12,7 +12,7 @@ from workflow.provenance.lock import Job, Lock, LockError, changing, configurati
 
 KEPT = "a" * 64
 STATED = {"configuration": configuration_files("smoke"), "pipeline": ["Makefile", "Snakefile"]}
-BUILD = dict.fromkeys(IDENTITY, "") | {"sources": {}}
+BUILD = dict.fromkeys(IDENTITY, "") | {"build_id": KEPT, "sources": {}}
 
 
 @pytest.fixture
@@ -32,7 +32,7 @@ def job() -> Job:
 
 def test_a_build_leaves_with_the_last_run_of_it(root: Path, job: Job) -> None:
     with changing("smoke") as lock:
-        lock.builds = {KEPT: BUILD, "0" * 64: BUILD}
+        lock.builds = {KEPT: BUILD, "0" * 64: BUILD | {"build_id": "0" * 64}}
         lock.jobs["fig05/all"] = job
     assert Lock.read("smoke").builds == {KEPT: BUILD}
     stale.retire("smoke", stale.unasked("smoke", {}))
@@ -70,12 +70,15 @@ def test_options_keep_their_types(root: Path, job: Job) -> None:
     [
         ('"persistence"', '"conductivity"', "its checksum does not fit"),
         ('"tool"', '"tol"', "is damaged"),
+        ('"quality": "smoke"', '"quality": "smoke", "more": 1', "nobody here writes 'more' into it"),
+        ('"sources": {}', '"sources": {}, "more": 1', "entries of build"),
+        ('"build_id": "aa', '"build_id": "ab', "is damaged"),
         ('"version": 3', '"version": 2', "is of version 2, not 3"),
     ],
 )
 def test_another_lock_is_refused(root: Path, job: Job, old: str, new: str, words: str) -> None:
     with changing("smoke") as lock:
-        lock.jobs["fig05/all"] = job
+        lock.builds[KEPT], lock.jobs["fig05/all"] = BUILD, job
     text = Lock.path("smoke").read_text()
     assert old in text
     Lock.path("smoke").write_text(text.replace(old, new))

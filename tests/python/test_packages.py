@@ -66,6 +66,29 @@ def test_faults(installed: Path, edit: str) -> None:
     assert packages.faults() == [f".venv/{path}"]
 
 
+def test_a_check_repairs_nothing(installed: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(packages.sys, "argv", ["packages", "--check"])
+    with pytest.raises(SystemExit) as left:
+        packages.main()
+    assert not left.value.code
+    write("lib/a.pth")(installed)
+    with pytest.raises(SystemExit, match=r"'\.venv/lib/a\.pth' is not what was installed"):
+        packages.main()
+    assert (installed / "lib/a.pth").exists()
+
+
+def test_a_file_that_cannot_be_read_is_not_what_was_installed(
+    installed: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (installed / MODULE).write_text("edited")
+
+    def closed(*_: object) -> None:
+        raise PermissionError
+
+    monkeypatch.setattr(Path, "open", closed)
+    assert packages.digest(installed / MODULE) == "cannot be read"
+
+
 def test_a_file_is_read_again_only_if_it_may_have_changed(
     installed: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

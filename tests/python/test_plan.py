@@ -152,6 +152,11 @@ def test_arguments() -> None:
             ["fig05", "no program persistance", "nearest is persistence"],
         ),
         (("panels", "fig05", "series"), {}, ["panels.fig05.series"]),
+        (
+            ("panels", "fig05", "series", "dense", "sigma"),
+            [i / 20000 for i in range(20000)],
+            ["panels.fig05.series.dense", "has 20000 runs (allowed: at most 1000)"],
+        ),
     ],
 )
 def test_bad_paper_configuration(

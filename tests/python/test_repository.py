@@ -1,5 +1,6 @@
 """What git is asked is what its commit holds, whatever is configured or put in the place of its objects."""
 
+import os
 import subprocess
 import zlib
 from pathlib import Path
@@ -7,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from workflow.provenance import repository
-from workflow.provenance.repository import FileHashes, files_at, no_history, state
+from workflow.provenance.repository import FileHashes, files_at, no_history, state, untracked
 
 TRUE, FALSE = "true\n", "false\n"
 
@@ -62,6 +63,30 @@ def test_a_file_that_git_is_told_not_to_look_at_may_have_changed(root: Path, mar
     assert state()["dirty"] is True
 
 
+@pytest.mark.parametrize("path", ["cpp/sleef.h", "workflow/lib/plan/__init__.py", "GNUmakefile"])
+@pytest.mark.parametrize("hidden", ["not", "ignored", "staged"])
+def test_a_file_that_no_commit_has_is_named_among_the_code(root: Path, path: str, hidden: str) -> None:
+    assert untracked() == []
+    for name in (path, "notes.txt", "workflow/lib/__pycache__/plan.pyc"):
+        (root / name).parent.mkdir(parents=True, exist_ok=True)
+        (root / name).write_text(FALSE)
+    if hidden == "ignored":
+        (root / ".git/info/exclude").write_text("*\n")
+    if hidden == "staged":
+        run(root, "add", path)
+    assert untracked() == [path]
+    assert state()["dirty"] is True
+
+
+def test_a_submodule_and_a_name_that_is_no_text_are_read(root: Path) -> None:
+    name = os.fsdecode(b"\xff")
+    (root / name).write_text(TRUE)
+    run(root, "add", name)
+    run(root, "update-index", "--add", "--cacheinfo", f"160000,{run(root, 'rev-parse', 'HEAD')},sub")
+    run(root, "commit", "--quiet", "--message", "more")
+    assert files_at("HEAD") == {"a": TRUE.encode(), name: TRUE.encode()}
+
+
 def test_what_keeps_git_from_reading_is_told_apart(
     root: Path, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -86,4 +111,4 @@ def test_what_lies_behind_a_link_is_no_file_of_the_project(root: Path) -> None:
     (root / "data").symlink_to("elsewhere")  # a larger disk
     hashes = FileHashes()
     assert hashes["a"] == hashes["elsewhere/b"] == hashes["data/b"]
-    assert [hashes[path] for path in ("link", "folder/b", "none", "elsewhere")] == [None] * 4
+    assert [hashes[path] for path in ("link", "folder/b", "none", "elsewhere", "a" * 300)] == [None] * 5

@@ -83,7 +83,12 @@ def test_plain_words_mean_one_thing(path: Path, text: str, meaning: object) -> N
         ("a: 1\nb: 2\na: 3\n", "a (line 3, column 1): the key stands here twice"),
         ("a: {yes: 1}\n", "= yes (line 1, column 5)"),
         ("a: {1: 2}\n", "a key is a name"),
-        ("a: {[1]: 2}\n", "a key is a name"),
+        ("a: {[1]: 2}\n", "= a sequence (line 1, column 5): a key is a name"),
+        ("a: {{b: 1}: 2}\n", "= a mapping (line 1, column 5): a key is a name"),
+        (
+            f"a: {'1' * 5000}\n",
+            "(line 1, column 4): the number is too long (allowed: at most 100 characters)",
+        ),
         ("a: &b 1\nc: *b\n", "c = *b (line 2, column 4): only a flat mapping can be shared"),
         ("a: &b {c: {d: 1}}\ne: *b\n", "only a flat mapping can be shared"),
         ("a: &b {c: 1}\nd: {<<: [*b, *b]}\n", "only a mapping can be merged"),

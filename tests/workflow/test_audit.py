@@ -159,6 +159,7 @@ TAMPERINGS = {
         PROGRAM,
     ),
     "record of the build spoilt": (append("build/id/boltzmann.json", "}"), PROGRAM),
+    "flags of the program forged": (replace("build/id/boltzmann.json", "-O3", "-O2"), PROGRAM),
     "two programs of one build": (relock(other_executable), PROGRAM),
     "queue among the data": (in_place_of(MORE, os.mkfifo), MORE),
     "socket among the data": (in_place_of("data/smoke/x", bind), "data/smoke/x"),
@@ -201,6 +202,14 @@ UNCHECKED = {
     "uncommitted changes": (
         relock(uncommitted),
         "sources against their commits (1 jobs were done with uncommitted changes)",
+    ),
+    "a header in the place of a library's": (
+        in_place_of("cpp/sleef.h", Path.touch),
+        "cpp/sleef.h (untracked: no commit has it, and it may take the place of a file that one has)",
+    ),
+    "a source that no job names": (
+        append("workflow/lib/layout.py", "# x\n"),
+        "workflow/lib/layout.py (is not what the commit that is checked out holds)",
     ),
     "a file of no commit": (relock(untracked), "build/system-packages (is not in commit "),
 }
@@ -276,6 +285,21 @@ def test_a_foreign_package_is_found(clean: Clone) -> None:
         (folder / "numpy.pth").unlink()
     assert audited.returncode == 1
     assert f"the first is {(folder / 'numpy.pth').relative_to(clean.folder)}" in audited.stdout
+
+
+def test_packages_are_not_started_unless_they_are_as_installed(clean: Clone, tmp_path: Path) -> None:
+    """They could switch off what checks them."""
+    (place,) = (clean.folder / ".venv/lib").glob("python*/site-packages")
+    (place / "a.pth").write_text(f"import pathlib; pathlib.Path({str(tmp_path / 'started')!r}).touch()\n")
+    try:
+        made = [clean.make(goal) for goal in ("audit", "verify", "status")]
+        made.append(clean.make("provenance", f"FILE={PICTURE}"))
+    finally:
+        (place / "a.pth").unlink()
+    for one in made:
+        assert one.returncode != 0
+        assert "a.pth' is not what was installed" in one.stdout
+    assert not (tmp_path / "started").exists()
 
 
 def test_byte_compiled_modules_of_the_project_are_not_used_to_draw(tampered: Clone, tmp_path: Path) -> None:
@@ -355,6 +379,7 @@ def test_a_replaced_commit_is_not_believed(tampered: Clone) -> None:
 
 
 def test_signatures_are_told_apart(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By the settings of the user alone: the repository's own may accept any key."""
     monkeypatch.setattr(repository, "ROOT", tmp_path)
     signer = tmp_path / "signer"
     signer.write_text(SIGNER)
@@ -363,9 +388,12 @@ def test_signatures_are_told_apart(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     clone.git("init", "--quiet")
     program = ("-c", f"gpg.program={signer}", "-c", "user.signingkey=0")
     clone.git(*program, "commit", "--quiet", "--allow-empty", "--message", "plain")
-    assert signature("HEAD") == "not signed"
+    assert signature(git_says(clone, "rev-parse", "HEAD")) == "not signed"
     clone.git(*program, "commit", "--quiet", "--allow-empty", "--message", "gpgsig x", "--gpg-sign")
+    users = tmp_path / "users settings"
+    monkeypatch.setenv("GIT_CONFIG_GLOBAL", str(users))
     clone.git("config", "gpg.program", str(signer))
-    assert signature("HEAD") == "signed"
+    assert signature(git_says(clone, "rev-parse", "HEAD")) == "signed, but git cannot verify it"
     clone.git("config", "gpg.program", "/bin/false")
-    assert signature("HEAD") == "signed, but git cannot verify it"
+    clone.git("config", "--file", str(users), "gpg.program", str(signer))
+    assert signature(git_says(clone, "rev-parse", "HEAD")) == "signed by Nobody, key 0"

@@ -1,13 +1,52 @@
-"""Runs a module: python -P workflow/environment/launch.py MODULE ARGUMENTS.
+"""Runs a module of the project: python -P workflow/environment/launch.py MODULE ARGUMENTS.
 
-The project comes last on the path of imports, so that no file in it takes the place of a package.
+`workflow.a.b` is the file workflow/a/b.py and nothing else. No folder, extension module, byte code or `__init__.py`
+that lies there takes its place, and no file of the project that of a package. Standard library only.
 """
 
 import runpy
 import sys
+from collections.abc import Sequence
+from importlib.abc import MetaPathFinder
+from importlib.machinery import ModuleSpec, SourceFileLoader
+from importlib.util import spec_from_file_location
 from pathlib import Path
+from types import CodeType, ModuleType
+
+ROOT = Path(__file__).resolve().parents[2]
+FOLDERS = ("workflow", "tests")
+
+
+class FromSource(SourceFileLoader):
+    """Reads no byte code, and writes none."""
+
+    def get_code(self, fullname: str) -> CodeType:
+        path = self.get_filename(fullname)
+        return self.source_to_code(self.get_data(path), path)
+
+
+class OfTheProject(MetaPathFinder):
+    """Finds the project's modules by their names alone."""
+
+    def find_spec(
+        self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        """Raises ModuleNotFoundError, so that nobody else finds another file for it."""
+        place = ROOT.joinpath(*name.split("."))
+        if name.partition(".")[0] not in FOLDERS:
+            return None
+        source = place.with_suffix(".py")
+        if place.parent != ROOT and source.is_file():
+            return spec_from_file_location(name, source, loader=FromSource(name, str(source)))
+        if not place.is_dir():
+            raise ModuleNotFoundError(f"{source} is no file", name=name)
+        spec = ModuleSpec(name, None, is_package=True)
+        spec.submodule_search_locations = [str(place)]
+        return spec
+
+
+sys.meta_path.insert(0, OfTheProject())
 
 if __name__ == "__main__":
-    sys.path.append(str(Path(__file__).resolve().parents[2]))
     del sys.argv[0]
     runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)

@@ -49,8 +49,11 @@ def digest(path: Path) -> str:
         return f"link to {path.readlink()}"
     if not path.is_file():
         return "no regular file"
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
+    try:
+        with path.open("rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+    except PermissionError:
+        return "cannot be read"
 
 
 def record() -> dict:
@@ -127,11 +130,25 @@ def add(locks: list[str]) -> None:
         subprocess.run([*command, "-r", ROOT / lock], check=True)
 
 
+def complaint(found: list[str]) -> str | None:
+    if not found:
+        return None
+    more = f", and {len(found) - 1} more" if found[1:] else ""
+    return (
+        f"{found[0]!r} is not what was installed: changed, missing or foreign{more}; "
+        "`make runtime` installs all packages again"
+    )
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("locks", nargs="+")
+    parser.add_argument("locks", nargs="*")
+    parser.add_argument("--check", action="store_true", help="only say what is not as it was installed")
+    options = parser.parse_args()
+    if options.check:
+        sys.exit(complaint(faults()))
     try:
-        install(parser.parse_args().locks)
+        install(options.locks)
     except (OSError, subprocess.CalledProcessError) as error:
         sys.exit(f"The Python packages cannot be installed: {error}")
 

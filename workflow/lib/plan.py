@@ -3,6 +3,7 @@
 import hashlib
 import itertools
 import json
+import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,6 +21,7 @@ from workflow.lib.strict_yaml import nearest, read
 FOLDER = Path(__file__).parents[1] / "config"
 KINDS = ("pdf", "png", "svg", "csv")
 QUALITIES = ("smoke", "standard", "paper", "deep")
+MOST = 1000  # runs of a series
 STOPPING = ("target-error", "target-absolute", "max-replicas")  # options that add replicas to a run
 
 
@@ -150,6 +152,10 @@ def _check(name: str, panel: dict, efforts: dict, quality: str, admissible: Admi
     for series, own in panel.get("series", {}).items():
         program = own.get("program", panel.get("program"))
         admissible.check_program(program, f"{place}.series.{series}")
+        given = {**panel.get("common", {}), **_options(own)}.values()
+        if (runs := math.prod(len(value) for value in given if isinstance(value, list))) > MOST:
+            text = f"it has {runs} runs (allowed: at most {MOST})"
+            raise read(admissible.folder / "paper.yaml").complaint(("panels", name, "series", series), text)
         admissible.check_physics(program, panel.get("common", {}), f"{place}.common")
         admissible.check_physics(program, _options(own), f"{place}.series.{series}")
         if own.get("replicated", True):

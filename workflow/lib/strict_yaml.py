@@ -24,6 +24,7 @@ MEANINGS = {
     "merge": ("<<", "<"),
 }
 OCTAL = re.compile(r"[+-]?0[0-9_]+|0o[0-7]+")  # to some readers; others take 08 and 0o7 for text
+DIGITS = 100  # of a number; more mean a mistake, and more than 4300 Python refuses to read
 PLAIN = "a decimal number, true, false, null, or text in quotation marks"
 
 Keys = tuple[str, ...]
@@ -109,7 +110,7 @@ class _Loader(yaml.SafeLoader):
 
     def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node:
         event = self.peek_event()
-        key = index.value if isinstance(index, yaml.ScalarNode) else index
+        key = index.value if isinstance(index, yaml.ScalarNode) else getattr(index, "id", index)
         self.keys += [] if key is None else [str(key)]
         place = event.start_mark.line + 1, event.start_mark.column + 1
         self.places.setdefault(tuple(self.keys), place)
@@ -131,7 +132,14 @@ class _Loader(yaml.SafeLoader):
 
     def _check_scalar(self, event: yaml.ScalarEvent) -> None:
         text = event.value
-        if event.style or self.resolve(yaml.ScalarNode, text, (True, False)) != STRING:
+        if event.style:
+            return
+        if self.resolve(yaml.ScalarNode, text, (True, False)) != STRING:
+            if len(text) > DIGITS:
+                shown = f"{text[:DIGITS]}..."
+                self._refuse(
+                    "the number is too long", shown, f"at most {DIGITS} characters", event.start_mark
+                )
             return
         others = yaml.SafeLoader("").resolve(yaml.ScalarNode, text, (True, False))
         if others != STRING or OCTAL.fullmatch(text):
@@ -149,7 +157,7 @@ class _Loader(yaml.SafeLoader):
     def _check_keys(self, node: yaml.MappingNode) -> None:
         seen: set[str] = set()
         for key, value in node.value:
-            name = key.value
+            name = key.value if isinstance(key, yaml.ScalarNode) else f"a {key.id}"
             place = key.start_mark
             if key.tag == MERGE and not isinstance(value, yaml.MappingNode):
                 self._refuse("only a mapping can be merged", "<<", "an alias of one", place)

@@ -16,8 +16,9 @@ from workflow.provenance.chain import Chain
 from workflow.provenance.crate_check import CrateError, Deposit
 from workflow.provenance.links import Link
 from workflow.provenance.lock import Lock, LockError
+from workflow.provenance.printable import printable
 from workflow.provenance.redo import RedoError, redrawn, workplace
-from workflow.provenance.repository import FileHashes, no_history, signature
+from workflow.provenance.repository import FileHashes, machine, no_history, signature
 
 CHECKS = (
     links.records,
@@ -31,6 +32,7 @@ CHECKS = (
     product_links.of_no_quality,
     links.commits,
     links.pipeline,
+    links.uncommitted,
 )
 BROKEN, BAD_INPUT, NOT_CHECKED = 1, 2, 3  # exit statuses
 
@@ -110,6 +112,8 @@ def summary(chain: Chain, names: set[str], drawn: int) -> str:
     named = sorted({job.commit for job in lock.jobs.values() if job.commit and not no_history()})
     compared = [f"{commit[:12]} ({signature(commit)})" for commit in named]
     text += f"; compared with commit {', '.join(compared)}" if compared else "; compared with no commit"
+    if elsewhere := [job.machine for job in lock.jobs.values() if job.machine != machine()]:
+        text += f"; {len(elsewhere)} jobs were done on another kind of machine ({elsewhere[0]})"
     if missing := [name for name in chain.plan if name not in lock.jobs]:
         text += f"; not made yet: {', '.join(missing)}"
     return text
@@ -159,18 +163,18 @@ def contradictions(chain: Chain, name: str, folder: Path) -> list[Link]:
 def verdict(findings: Findings) -> int:
     """Prints what was found; returns the exit status."""
     for link in findings.broken:
-        print(f"{link.path}: {link.message}")
+        print(printable(f"{link.path}: {link.message}"))
     for link in findings.unchecked:
-        print(f"not checked: {link.path} ({link.message})")
+        print(printable(f"not checked: {link.path} ({link.message})"))
     if findings.broken:
         first = findings.broken[0].path
-        print(f"make audit: {len(findings.broken)} broken; the first is {first}", file=sys.stderr)
+        print(f"make audit: {len(findings.broken)} broken; the first is {printable(first)}", file=sys.stderr)
         return BROKEN
     if findings.unchecked:
-        print(f"Looked at {findings.looked_at}")
+        print(printable(f"Looked at {findings.looked_at}"))
         print("Nothing is broken, but not every link could be checked")
         return NOT_CHECKED
-    print(f"Every link holds: {findings.looked_at}")
+    print(printable(f"Every link holds: {findings.looked_at}"))
     return 0
 
 
@@ -184,10 +188,10 @@ def main() -> None:
         deposit = Deposit.read(options.crate) if options.crate else None
         status = verdict(audit(options.quality, options.panel, deposit))
     except (ConfigurationError, CrateError) as error:
-        print(f"make audit: {error}", file=sys.stderr)
+        print(printable(f"make audit: {error}"), file=sys.stderr)
         status = BAD_INPUT
     except OSError as error:
-        print(f"make audit: {error.filename} cannot be read: {error.strerror}", file=sys.stderr)
+        print(printable(f"make audit: {error.filename} cannot be read: {error.strerror}"), file=sys.stderr)
         status = BAD_INPUT
     sys.exit(status)
 

@@ -1,7 +1,8 @@
 """Identity of an executable: what it was built from, as a hash that names no path, host or time.
 
-The include closure of a source is the source, every file that it includes with quotes (relative to
-the root), and for each included header `x.hpp` the source `x.cpp` beside it, transitively.
+The include closure of a source is the source, every file that it includes with quotes (beside the
+file that includes it or else relative to the root, as the compiler finds it), and for each included
+header `x.hpp` the source `x.cpp` beside it, transitively.
 Writes OUTPUT.json for the pipeline and OUTPUT.cpp for the executable, each only if it changes, and
 a dependency file for the build. Standard library only: the build runs before anything is installed.
 """
@@ -9,6 +10,7 @@ a dependency file for the build. Standard library only: the build runs before an
 import argparse
 import hashlib
 import json
+import os
 import re
 from pathlib import Path
 
@@ -29,10 +31,16 @@ def include_closure(root: Path, source: str) -> list[str]:
         if name in closure:
             continue
         closure.add(name)
-        included = [i for i in INCLUDE.findall((root / name).read_text("utf-8")) if (root / i).is_file()]
+        named = INCLUDE.findall((root / name).read_text("utf-8"))
+        included = [found for one in named if (found := _included(root, name, one))]
         twins = [str(Path(i).with_suffix(".cpp")) for i in included]
         pending += included + [twin for twin in twins if (root / twin).is_file()]
     return sorted(closure)
+
+
+def _included(root: Path, source: str, name: str) -> str | None:
+    places = (os.path.normpath(Path(source).parent / name), os.path.normpath(name))
+    return next((place for place in places if (root / place).is_file()), None)
 
 
 def content_hash(path: Path) -> str:

@@ -40,13 +40,17 @@ class Deposit:
             )
             lock = json.loads(contents[lock_path])
             made = {entity["name"] for entity in graph if entity["@type"] == "CreateAction"}
-            jobs = {name: job for name, job in lock["jobs"].items() if name in made}
+            jobs = {
+                name: {key: job[key] for key in COMPARED}
+                for name, job in lock["jobs"].items()
+                if name in made
+            }
             del stated[lock_path]  # it names all jobs of the quality, packed or not
             held = {name: hashlib.sha256(content).hexdigest() for name, content in contents.items()}
             return cls(stated, held, lock["quality"], jobs)
         except OSError as error:
             raise CrateError(f"CRATE={path} cannot be read: {error.strerror}") from error
-        except (zipfile.BadZipFile, ValueError, KeyError, TypeError, RecursionError) as error:
+        except Exception as error:  # a damaged or forged crate may raise anything in what reads it
             raise CrateError(
                 f"CRATE={path} is no crate of this project: give a folder or zip that `make crate` wrote"
             ) from error
@@ -67,7 +71,7 @@ class Deposit:
                 yield Link(path, "is what the crate holds, and the lock says otherwise")
         for name, job in self.jobs.items():
             here = chain.lock.jobs.get(name)
-            differing = [key for key in COMPARED if not here or getattr(here, key) != job[key]]
+            differing = [key for key in job if not here or getattr(here, key) != job[key]]
             if differing:
                 yield Link(
                     f"data/{chain.quality}/lock.json",

@@ -16,7 +16,7 @@ from workflow.lib.parents import PACKAGES
 from workflow.provenance.build_id import build_id, source_hash
 from workflow.provenance.chain import Chain
 from workflow.provenance.lock import Job, configuration_files
-from workflow.provenance.repository import ROOT, files_at, no_history
+from workflow.provenance.repository import CODE, ROOT, files_at, no_history, untracked
 
 NAMED = 5  # files of packages that are named where many are wrong
 
@@ -110,6 +110,17 @@ def pipeline(chain: Chain) -> Iterator[Link]:
         yield unchecked(path, f"has changed since {number} jobs were run with it")
 
 
+def uncommitted(chain: Chain) -> Iterator[Link]:
+    """Files of the code that are not those of the commit that is checked out, whether a job names them or not."""
+    if no_history():
+        return
+    for path, content in (files_at("HEAD", *CODE, "Makefile", "Snakefile") or {}).items():
+        if chain.hashes[path] != hashlib.sha256(content).hexdigest():
+            yield unchecked(path, "is not what the commit that is checked out holds")
+    for path in untracked():
+        yield unchecked(path, "untracked: no commit has it, and it may take the place of a file that one has")
+
+
 def builds(chain: Chain) -> Iterator[Link]:
     programs: dict[str, str] = {}
     for identifier, build in chain.lock.builds.items():
@@ -144,7 +155,8 @@ def executable_fault(chain: Chain, path: str, identifier: str) -> Link | None:
     if not (ROOT / path).exists() or not identity.is_file():
         return unchecked(path, "is not built here")
     try:
-        if json.loads(identity.read_text())["build_id"] != identifier:
+        stated_build = json.loads(identity.read_text())
+        if not stated_build["build_id"] == build_id(stated_build) == identifier:
             return Link(path, f"is not the build {identifier[:12]} that made the data")
         if not stated.is_file() or stated.read_text().split()[:1] != [chain.hashes[path]]:
             return Link(path, "is not what the linker wrote: edited or replaced")

@@ -94,6 +94,8 @@ class Lock:
             checksum = content.pop("checksum", None)
             if {key: content[key] for key in FORMAT} != FORMAT:
                 raise LockError(f"{name} is of version {content['version']}, not {FORMAT['version']}")
+            if unknown := content.keys() - {*FORMAT, "quality", "builds", "jobs"}:
+                raise LockError(f"{name} is damaged: nobody here writes {min(unknown)!r} into it")
             jobs = {name: Job(**job) for name, job in content["jobs"].items()}
             for job_name, job in jobs.items():
                 check_job(job_name, job, configuration_files(quality))

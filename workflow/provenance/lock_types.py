@@ -49,4 +49,6 @@ def check_build(identifier: str, build: Any) -> None:
     """Raises TypeError."""
     require(matches(SHA256, identifier) and isinstance(build, dict), f"build {identifier}")
     require(all(isinstance(build.get(part), str) for part in IDENTITY), f"build {identifier}")
+    require(build.keys() == {*IDENTITY, "build_id", "sources"}, f"entries of build {identifier}")
+    require(build["build_id"] == identifier, f"name of build {identifier}")
     require(are_hashes(build.get("sources")), f"sources of build {identifier}")

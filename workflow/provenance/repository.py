@@ -4,12 +4,20 @@ import io
 import os
 import platform
 import subprocess
+import tempfile
 from pathlib import Path
 
 from workflow.lib.parents import file_hash
 
 ROOT = Path(__file__).parents[2]
 PLACES = (".", "data", "figures")
+CODE = (
+    "cpp",
+    "profiles",
+    "workflow",
+    "GNUmakefile",
+    "makefile",
+)  # make reads the last two before the Makefile
 # Nothing that is configured may show git another history than the one whose hashes it names.
 PLAIN = {"GIT_NO_REPLACE_OBJECTS": "1", "GIT_GRAFT_FILE": os.devnull}
 
@@ -19,12 +27,11 @@ class FileHashes(dict[str, str | None]):
     file of the project, and what lies behind one is none; `data` and `figures` themselves may be links."""
 
     def __missing__(self, path: str) -> str | None:
-        linked = any(
-            (ROOT / part).is_symlink() for part in (path, *map(str, Path(path).parents)) if part not in PLACES
-        )
+        parts = (part for part in (path, *map(str, Path(path).parents)) if part not in PLACES)
         try:
+            linked = any((ROOT / part).is_symlink() for part in parts)
             self[path] = file_hash(ROOT / path) if not linked and (ROOT / path).is_file() else None
-        except PermissionError:
+        except OSError:
             self[path] = None
         return self[path]
 
@@ -36,13 +43,13 @@ def write_whole(path: Path, text: str) -> None:
     unfinished.replace(path)
 
 
-def run_git(*arguments: str, given: bytes = b"") -> subprocess.CompletedProcess | None:
-    """None where git is not installed."""
+def run_git(*arguments: str, given: bytes = b"", **variables: str) -> subprocess.CompletedProcess | None:
+    """None where git is not installed. The variables are those of its environment."""
     try:
         return subprocess.run(
             ["git", *arguments],
             cwd=ROOT,
-            env=os.environ | PLAIN,
+            env=os.environ | PLAIN | variables,
             input=given,
             capture_output=True,
             check=False,
@@ -51,9 +58,9 @@ def run_git(*arguments: str, given: bytes = b"") -> subprocess.CompletedProcess 
         return None
 
 
-def git(*arguments: str, given: bytes = b"") -> bytes | None:
+def git(*arguments: str, given: bytes = b"", **variables: str) -> bytes | None:
     """What git prints, or nothing where it fails: not installed, outside a repository, or an unknown commit."""
-    done = run_git(*arguments, given=given)
+    done = run_git(*arguments, given=given, **variables)
     return done.stdout if done and done.returncode == 0 else None
 
 
@@ -71,24 +78,46 @@ def no_history() -> str | None:
 
 
 def state() -> dict:
-    """Commit and whether tracked files differ from it; the commit is null outside a repository."""
+    """Commit and whether tracked files differ from it or others lie among the code; the commit is null outside a
+    repository."""
     commit = git("rev-parse", "HEAD")
     if commit is None or not (ROOT / ".git").exists():
         return {"commit": None, "dirty": None}
     changed = git("status", "--porcelain", "--untracked-files=no")
     listed = (git("ls-files", "-v") or b"").splitlines()
     unseen = any(line[:1] == b"S" or line[:1].islower() for line in listed)  # assume-unchanged, skip-worktree
-    return {"commit": commit.decode().strip(), "dirty": bool(changed) or unseen}
+    return {"commit": commit.decode().strip(), "dirty": bool(changed) or unseen or bool(untracked())}
+
+
+def untracked() -> list[str]:
+    """Files among the code that the commit does not have, whether git is told to ignore them or not; without byte
+    code, which nothing here reads (launch.py)."""
+    there = paths_of(git("ls-files", "--cached", "--others", "-z", "--", *CODE))
+    committed = {*paths_of(git("ls-tree", "-r", "-z", "--name-only", "HEAD", "--", *CODE))}
+    return [
+        path
+        for path in sorted({*there} - committed)
+        if os.path.lexists(ROOT / path) and "__pycache__" not in Path(path).parts
+    ]
+
+
+def paths_of(listed: bytes | None) -> list[str]:
+    """What git lists with -z; a name may be no UTF-8."""
+    return [os.fsdecode(path) for path in (listed or b"").split(b"\0") if path]
 
 
 def files_at(commit: str, *folders: str) -> dict[str, bytes] | None:
     """Contents by path at a commit; nothing if the repository does not have it, or if an object is not what its name
-    says. Read as they are stored, without the filters that a checkout applies."""
+    says. Read as they are stored, without the filters that a checkout applies; a submodule has none."""
     listed = git("ls-tree", "-r", "-z", "--full-tree", commit, "--", *folders)
     if listed is None or git("fsck", "--no-dangling", "--no-progress", commit) is None:
         return None
-    entries = [entry.split(b"\t", 1) for entry in listed.split(b"\0") if entry]
-    names = [(mode_type_name.split()[2], path.decode()) for mode_type_name, path in entries]
+    entries = [
+        (*entry.split(b"\t", 1)[0].split(), entry.split(b"\t", 1)[1])
+        for entry in listed.split(b"\0")
+        if entry
+    ]
+    names = [(name, os.fsdecode(path)) for _, kind, name, path in entries if kind == b"blob"]
     packed = git("cat-file", "--batch", given=b"".join(name + b"\n" for name, _ in names))
     if packed is None:
         return None
@@ -106,9 +135,17 @@ def commits(*paths: str) -> list[str]:
 
 
 def signature(commit: str) -> str:
-    """Whether the commit is signed, and git can verify it."""
-    if git("verify-commit", commit) is not None:
-        return "signed"
+    """Whether the commit is signed, and by whom if git can verify it by the settings of its user. Those of the repository
+    are not read: who forges its history writes them too."""
+    objects = os.fsdecode(git("rev-parse", "--path-format=absolute", "--git-path", "objects") or b"").strip()
+    kind = os.fsdecode(git("rev-parse", "--show-object-format") or b"sha1").strip()
+    with tempfile.TemporaryDirectory() as folder:
+        git("init", "--quiet", "--bare", "--template=", f"--object-format={kind}", folder)
+        apart = {"GIT_DIR": folder, "GIT_OBJECT_DIRECTORY": objects}
+        if git("verify-commit", commit, **apart) is not None:
+            shown = ["show", "--no-patch", "--no-show-signature", "--format=%GS%x00%GK", commit]
+            signer, key = (git(*shown, **apart) or b"\0").decode(errors="replace").strip().split("\0")
+            return f"signed by {signer or 'nobody known'}, key {key}"
     signed = b"\ngpgsig" in (git("cat-file", "commit", commit) or b"").partition(b"\n\n")[0]
     return "signed, but git cannot verify it" if signed else "not signed"
 

@@ -13,7 +13,8 @@ from workflow.lib.costs import cheapest, cost_file, expected_cost
 from workflow.lib.load import FormatError, load
 from workflow.lib.plan import ConfigurationError, Panel, data_path, load_plan
 from workflow.provenance.chain import Chain
-from workflow.provenance.repository import ROOT
+from workflow.provenance.printable import printable
+from workflow.provenance.repository import ROOT, untracked
 
 WIDE = 150  # columns, where nobody reads them on a screen
 
@@ -73,6 +74,10 @@ def main() -> None:
     quality = parser.parse_args().quality
     try:
         Console(width=None if sys.stdout.isatty() else WIDE).print(table(quality))
+        for path in untracked():
+            print(
+                f"{printable(path)}: untracked: no commit has it, and jobs that run now are entered as such of no commit"
+            )
     except ConfigurationError as error:
         print(f"make status: {error}", file=sys.stderr)
         sys.exit(2)

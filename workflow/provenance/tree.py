@@ -2,16 +2,17 @@
 
 Works on a copy anywhere: a lock in data/ knows the file by its hash, the file names its parents by theirs, and the
 repository is asked where these are, in the working tree, in data/ or in a commit. Status 0 if a job wrote this file,
-1 if none did.
+1 if none did, 3 if none did of which a lock can be read, and others cannot.
 """
 
 import argparse
+import os
 import re
 import sys
 import tempfile
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import TypeVar
+from typing import NoReturn, TypeVar
 
 from rich.console import Console
 from rich.markup import escape
@@ -22,6 +23,7 @@ from workflow.lib.parents import PACKAGES, Parents, file_hash
 from workflow.lib.plan import ConfigurationError, Panel, load_plan
 from workflow.provenance.build_id import content_hashes, include_closure, source_hash
 from workflow.provenance.lock import Lock, LockError
+from workflow.provenance.printable import printable
 from workflow.provenance.repository import ROOT, commits, files_at
 
 SHORT = 16  # digits of a hash that are shown
@@ -30,7 +32,7 @@ UNLIMITED = 100_000  # columns, where nobody reads them on a screen
 HERE = "as in the working tree"
 LOST = "not found in the repository"
 CONFIGURATION = "workflow/config"
-BAD_INPUT = 2  # exit status
+BAD_INPUT, NOT_CHECKED = 2, 3  # exit statuses
 
 Found = TypeVar("Found")
 
@@ -38,9 +40,15 @@ Found = TypeVar("Found")
 def makers(digest: str) -> tuple[list[str], list[str]]:
     """The jobs that wrote a file of this hash, in words; and the locks that cannot be read."""
     found, damaged = [], []
-    for path in sorted((ROOT / "data").glob("*/lock.json")):
-        quality = path.parent.name
+    try:
+        qualities = sorted(os.listdir(ROOT / "data"))
+    except FileNotFoundError:
+        qualities = []
+    except OSError as error:
+        return [], [f"skipped data: {error.strerror}"]
+    for quality in qualities:
         try:
+            os.stat(ROOT / "data" / quality / "lock.json")
             jobs = Lock.read(quality).jobs
             for name, job in jobs.items():
                 if digest in job.outputs.values():
@@ -48,6 +56,10 @@ def makers(digest: str) -> tuple[list[str], list[str]]:
                     found.append(
                         f"job {name} of quality {quality} wrote (commit {short(str(job.commit))}, {state})"
                     )
+        except (FileNotFoundError, NotADirectoryError):
+            continue
+        except OSError as error:
+            damaged.append(f"skipped data/{quality}: {error.strerror}")
         except LockError as error:
             damaged.append(f"skipped data/{quality}/lock.json: {error}")
     return found, damaged
@@ -132,8 +144,8 @@ def add_parameters(node: Tree, result: Result) -> None:
 
 
 def plain(text: str) -> str:
-    """Without markup, and without characters by which a hostile file would command the terminal."""
-    return escape("".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text))
+    """Without markup of rich, and printable."""
+    return escape(printable(text))
 
 
 def holding(path: Path, digest: str) -> bytes | None:
@@ -181,24 +193,29 @@ def short(digest: str) -> str:
     return digest[:SHORT]
 
 
+def refuse(file: Path, why: str) -> NoReturn:
+    print(printable(f"make provenance: {file}: {why}"), file=sys.stderr)
+    sys.exit(BAD_INPUT)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("file", type=Path)
     parser.add_argument("--full", action="store_true", help="every source, package and file of data")
     options = parser.parse_args()
-    if not options.file.is_file():
-        reason = "is not a file" if options.file.exists() else "No such file"
-        print(f"make provenance: {options.file}: {reason}", file=sys.stderr)
-        sys.exit(BAD_INPUT)
     try:
-        found, damaged = makers(file_hash(options.file))
-    except PermissionError:
-        print(f"make provenance: {options.file}: cannot be read", file=sys.stderr)
-        sys.exit(BAD_INPUT)
+        if options.file.exists() and not options.file.is_file():
+            refuse(options.file, "is not a file")
+        digest = file_hash(options.file)
+    except OSError as error:
+        refuse(options.file, error.strerror)
+    found, damaged = makers(digest)
     console = Console(highlight=False, width=None if sys.stdout.isatty() else UNLIMITED)
     name = plain(options.file.name)
     if found:
-        console.print(f"{name} is what {found[0]}")
+        console.print(f"{name} is what {plain(found[0])}")
+    elif damaged:
+        console.print(f"{name} is not what any job wrote whose lock can be read here, and not every one can")
     else:
         console.print(f"{name} is not what any job here wrote: edited, damaged or made elsewhere")
     for line in damaged:
@@ -206,12 +223,12 @@ def main() -> None:
     try:
         tree = Ancestry(options.full).product(options.file)
     except (ValueError, KeyError, AttributeError, OSError) as error:  # a forged file may hold anything
-        sys.exit(f"make provenance: {error}")
+        sys.exit(printable(f"make provenance: {error}"))
     console.print(
         "What it was made from:" if found else "What it says of itself, which nothing here confirms:"
     )
     console.print(tree)
-    sys.exit(0 if found else 1)
+    sys.exit(0 if found else NOT_CHECKED if damaged else 1)
 
 
 if __name__ == "__main__":

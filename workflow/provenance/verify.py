@@ -18,6 +18,7 @@ from workflow.lib.load import FormatError
 from workflow.lib.plan import ConfigurationError, load_plan, outputs_of, panel_named
 from workflow.provenance.fresh_build import BuildError, FreshBuild
 from workflow.provenance.lock import Job, Lock, LockError
+from workflow.provenance.printable import printable
 from workflow.provenance.redo import RedoError, agreement, redrawn, same_bytes, simulate, workplace
 from workflow.provenance.repository import ROOT, machine, write_whole
 
@@ -87,7 +88,7 @@ def verify(lock: Lock, names: Iterable[str], verdicts: Verdicts) -> bool:
             with tempfile.TemporaryDirectory(dir=place) as folder:
                 verdict = verdict_on(lock, name, fresh, Path(folder))
             verdicts.keep(name, job, verdict)
-            print(f"{name}: {verdict[1]}", flush=True)
+            print(printable(f"{name}: {verdict[1]}"), flush=True)
             same = same and verdict[0]
     return same
 
@@ -131,7 +132,7 @@ def main() -> None:
         print(f"make verify: {error}", file=sys.stderr)
         sys.exit(BAD_INPUT)
     except (LockError, BuildError) as error:
-        sys.exit(f"make verify: {error}")
+        sys.exit(printable(f"make verify: {error}"))
     print(f"Looked at {len(chosen)} of {len(lock.jobs)} jobs")
     if verdicts.unwritten:
         print(verdicts.unwritten)

@@ -1,0 +1,63 @@
+"""A module of the project is its own source file, whatever else lies there by its name."""
+
+import os
+import py_compile
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from tests.python.conftest import ROOT
+
+LAUNCH = "workflow/environment/launch.py"
+FALSE = "raise SystemExit('another file was run')\n"
+
+
+def write(path: str) -> Callable[[Path], object]:
+    def put(root: Path) -> None:
+        (root / path).parent.mkdir(parents=True, exist_ok=True)
+        (root / path).write_text(FALSE)
+
+    return put
+
+
+def compile_falsely(root: Path) -> None:
+    """Byte code that Python believes without a look at the source."""
+    false = root / "false.py"
+    false.write_text(FALSE)
+    compiled = root / f"workflow/lib/__pycache__/part.{sys.implementation.cache_tag}.pyc"
+    mode = py_compile.PycInvalidationMode.UNCHECKED_HASH
+    py_compile.compile(str(false), str(compiled), invalidation_mode=mode)
+
+
+@pytest.mark.parametrize(
+    "put",
+    [
+        write("workflow/lib/part/__init__.py"),
+        write("workflow/lib/__init__.py"),
+        write("workflow/__init__.py"),
+        write("workflow.py"),
+        write("json.py"),
+        write(f"workflow/lib/part.{sys.implementation.cache_tag}-x86_64-linux-gnu.so"),
+        compile_falsely,
+    ],
+)
+def test_nothing_takes_the_place_of_a_module(tmp_path: Path, put: Callable[[Path], object]) -> None:
+    for folder in ("workflow/lib", "workflow/environment"):
+        (tmp_path / folder).mkdir(parents=True)
+    shutil.copyfile(ROOT / LAUNCH, tmp_path / LAUNCH)
+    (tmp_path / "workflow/lib/part.py").write_text("import json\nWORD = json.dumps('true')\n")
+    (tmp_path / "workflow/lib/whole.py").write_text("from workflow.lib import part\nprint(part.WORD)\n")
+    put(tmp_path)
+    assert run(tmp_path, "workflow.lib.whole").stdout == '"true"\n'
+    assert "workflow/lib/none.py is no file" in run(tmp_path, "workflow.lib.none").stderr
+
+
+def run(root: Path, module: str) -> subprocess.CompletedProcess:
+    command = [sys.executable, "-P", LAUNCH, module]
+    return subprocess.run(
+        command, cwd=root, env={"PATH": os.defpath}, capture_output=True, text=True, check=False
+    )
