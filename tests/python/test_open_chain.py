@@ -21,7 +21,7 @@ QUANTITIES = {
                      for name in ("energy_current", "particle_current", "temperature_first", "temperature_last",
                                   "kappa", "kappa_printed", "kappa_particle") for suffix in ("", "_plain")}
                     | {name: [] for name in ("energy_current_drift", "temperature_first_drift",
-                                             "temperature_last_drift", "particle_current_drift", "drift_p_value",
+                                             "temperature_last_drift", "particle_current_drift", "drift_p_value", "current_correlation",
                                              "stationary")}
                     | {"blocking_error": ["length"]},
     "steady_profile": {**{name: ["cell"] for name in ("temperature_scatterer", "temperature_particle", "density",
@@ -279,7 +279,7 @@ def test_extremes(program: Program, tmp_path: Path, name: str, options: dict) ->
         ("conductivity", {"cell_length": "2/N"}, ["--cell-length", "1/N"]),
         ("conductivity", {"nu_left": -1}, ["--nu-left", "at least 0"]),
         ("conductivity", {"temperature_left": 0}, ["--temperature-left", "greater than 0"]),
-        ("conductivity", {"start": "hot"}, ["--start", "empty", "warm"]),
+        ("conductivity", {"start": "tepid"}, ["--start", "empty", "warm"]),
         ("momentum_flux", {"momentum_bins": 21}, ["--momentum-bins", "odd", "even number"]),
         ("steady_profile", {"momentum_max": 0}, ["--momentum-max"]),
         *(

@@ -24,7 +24,7 @@ struct Example {
   double relaxation = 0.1;
   std::optional<double> gamma;
   std::optional<std::uint32_t> sites = 4;
-  Scaled window{0.5, true};
+  Scaled window{{0, 0.5, 0}};
   std::vector<double> times{1, 2};
   std::uint32_t cells = 11;
   std::uint64_t seed = 1;
