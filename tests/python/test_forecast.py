@@ -20,8 +20,8 @@ EXECUTED = {
     "fig07_inset": {"all_sigma=0.3": 0.78, "zero-momentum_sigma=0.75": 0.84},
     "fig08": {"deterministic_cells=16": 1.29, "deterministic_cells=128": 7.27, "large": 29.4, "rare_cells=512": 10.5},
     "ext09": {"dense_cells=64": 6.21, "dense_cells=256": 27.0, "dilute_cells=128": 11.1},
-    "ext11": {"pressure_cells=16_cell-length=0.1": 1.77, "temperature_cells=64_cell-length=1perN": 5.51},
-    "ext12": {"weak_cell-length=0.1_cells=64": 5.67, "start_start=cold_cell-length=0.025": 6.08},
+    "ext11": {"dense-pressure_cells=16": 1.77, "thinning-temperature_cells=64": 5.51},
+    "ext12": {"dense-weak_cells=64": 5.67, "thinning-start_start=cold": 6.08},
 }  # fmt: skip
 
 
