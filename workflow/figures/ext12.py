@@ -31,10 +31,11 @@ def read(results: Sequence[Result]) -> pd.DataFrame:
 
 
 def exponents(table: pd.DataFrame) -> pd.DataFrame:
-    """Local exponents of every drive between the sizes that all drives have."""
+    """Local exponents of every drive between the sizes that all drives have, where there are several."""
     parts = []
     warm = table[table.start == "warm"]
-    for name, part in warm.groupby("gas", sort=False):
+    several = warm.groupby("gas").filter(lambda part: part.drive.nunique() > 1)
+    for name, part in several.groupby("gas", sort=False):
         common = set.intersection(*(set(one.cells) for _, one in part.groupby("drive")))
         for drive, one in part[part.cells.isin(common)].groupby("drive"):
             size, slope, error = local_exponents(one.cells, one.kappa, one.kappa_error)
@@ -68,7 +69,8 @@ def scatter(found: pd.DataFrame) -> tuple[float, int]:
 
 def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) -> None:
     drives = sorted(found.drive.unique())
-    for name, (marker, color) in LOOKS.items():
+    for name in found.gas.unique():
+        marker, color = LOOKS[name]
         for number, drive in enumerate(drives):
             one = found[(found.gas == name) & (found.drive == drive)]
             face = FACES[number + 1] or color

@@ -6,7 +6,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter, NullLocator
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
 
 from workflow.lib import fit
 from workflow.lib.load import Quantity, Result
@@ -96,8 +96,8 @@ def label_within_decades(axis: Axis) -> None:
 
 
 def label_sizes(axis: Axis) -> None:
-    """Ticks at 4, 16, 64, ... in plain digits, for a logarithmic axis of numbers of cells."""
-    axis.set_major_locator(FixedLocator([4**k for k in range(1, 9)]))
+    """Ticks at powers of two in plain digits, for a logarithmic axis of numbers of cells."""
+    axis.set_major_locator(LogLocator(base=2, numticks=8))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_locator(NullLocator())
 
