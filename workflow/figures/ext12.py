@@ -85,6 +85,7 @@ def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) 
                 **style.POINTS,
             )
     axes.set(xscale="log", xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, 0.8))
+    axes.set_xlim(found["size"].min() / 1.6, found["size"].max() * 1.6)
     style.label_sizes(axes.xaxis)
     axes.legend(loc="upper left", ncols=3, columnspacing=0.8, handletextpad=0.2)
 
