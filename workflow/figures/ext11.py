@@ -51,6 +51,15 @@ class Response:
             float(np.sqrt(np.prod(temperatures))),
         )
 
+    def drawn(self, random: np.random.Generator) -> np.ndarray:
+        """Samples of the currents, by standard normal numbers that do not depend on the units."""
+        errors = np.sqrt(np.diag(self.covariance))
+        product = np.prod(errors)
+        correlation = self.covariance[0, 1] / product if product else 0.0
+        first, second = random.standard_normal((2, DRAWN))
+        both = np.stack([first, correlation * first + np.sqrt(1 - correlation**2) * second], axis=1)
+        return self.currents + errors * both
+
 
 def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
     """L from a run at equal pressure and one at equal temperature. The errors are those of currents that are drawn anew
@@ -59,9 +68,7 @@ def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
     inverse = np.linalg.inv(np.stack([run.forces for run in runs], axis=1)) * temperature.cells
     currents = np.stack([run.currents for run in runs], axis=1)
     random = np.random.default_rng(0)
-    drawn = np.stack(
-        [random.multivariate_normal(run.currents, run.covariance, DRAWN) for run in runs], axis=2
-    )
+    drawn = np.stack([run.drawn(random) for run in runs], axis=2)
     matrix, spread = currents @ inverse, drawn @ inverse
     row = {}
     for index, name in enumerate(COEFFICIENTS):
