@@ -222,11 +222,11 @@ def test_clean_run_has_no_broken_link(clean: Clone) -> None:
 
 
 def test_what_is_not_asked_for_any_more_leaves_no_trace(kept: Clone) -> None:
-    replace("workflow/config/paper.yaml", "sigma: [0, 0.5]", "sigma: [0.5]")(kept)
+    replace("workflow/config/paper.yaml", "sigma: [-0.99, -0.9, -0.75", "sigma: [-0.9, -0.75")(kept)
     made = kept.make("figures", "QUALITY=smoke")
-    assert "fig06/all_sigma=0 is not asked for any more: moved to build/replaced" in made.stdout
-    assert (kept.folder / "build/replaced/data/smoke/fig06/all_sigma=0.h5").is_file()
-    audited = kept.make("audit", "QUALITY=smoke", "PANEL=fig06")
+    assert "fig05/dense_sigma=-0.99 is not asked for any more: moved to build/replaced" in made.stdout
+    assert (kept.folder / "build/replaced/data/smoke/fig05/dense_sigma=-0.99.h5").is_file()
+    audited = kept.make("audit", "QUALITY=smoke", "PANEL=fig05")
     assert "Nothing is broken" in audited.stdout
     assert "with uncommitted changes" in audited.stdout
 

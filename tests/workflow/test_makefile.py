@@ -72,7 +72,7 @@ def test_second_time_there_is_nothing_to_do(clean: Clone) -> None:
     before = {path: path.stat().st_mtime_ns for path in (clean.folder / "data").rglob("*.h5")}
     start = seconds_of_children()
     made = clean.make("figures", "QUALITY=smoke")
-    assert seconds_of_children() - start < 5
+    assert seconds_of_children() - start < 2 + 0.02 * len(before)  # every job of the DAG takes some
     assert made.returncode == 0
     assert "Nothing to be done" in made.stdout
     assert before == {path: path.stat().st_mtime_ns for path in before}

@@ -71,7 +71,10 @@ def forget(clone: Clone) -> None:
 
 
 CHANGES: dict[str, tuple[Edit, Jobs]] = {
-    "C++ file of one program": (append("cpp/statistics/peak.hpp", "// more\n"), of_program("energy_pulse")),
+    "C++ file of one program": (
+        append("cpp/statistics/collapse.hpp", "// more\n"),
+        of_program("energy_pulse") | of_program("correlation"),
+    ),
     "script": (append("workflow/figures/fig06.py", "# more\n"), {"fig06"}),
     "shared module": (append("workflow/lib/fit.py", "# more\n"), importing("workflow/lib/fit.py")),
     "parameter": (replace("workflow/config/paper.yaml", FIG07, FIG07.replace("6", "5")), of_panel("fig07")),

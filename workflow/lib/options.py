@@ -62,19 +62,19 @@ def admissible(option: dict[str, Any]) -> str:
 
 def at_size(value: object, size: float, symbol: str = "N") -> float:
     """The value of a number or of a polynomial in a size, such as 50+0.0004N^2; nan if it is neither."""
-    return sum(coefficient * size**power for coefficient, power in _terms(str(value), symbol))
+    return sum(coefficient * size**power for coefficient, power in terms(str(value), symbol))
 
 
-def _terms(polynomial: str, symbol: str) -> list[tuple[float, int]]:
+def terms(polynomial: str, symbol: str = "N") -> list[tuple[float, int]]:
     """Coefficients and powers; nan for what is not a number."""
     parts = [re.fullmatch(rf"(.*?)({symbol}(\^2)?)?", term) for term in re.split(r"(?<!e)\+", polynomial)]
     return [(_number(part[1]), 0 if not part[2] else 2 if part[3] else 1) for part in parts if part]
 
 
 def _polynomial_in_range(option: dict[str, Any], text: str, symbol: str) -> bool:
-    terms = _terms(text, symbol)
-    powers = [power for _, power in terms]
-    return all(_in_range(option, coefficient) for coefficient, _ in terms) and len(powers) == len(set(powers))
+    found = terms(text, symbol)
+    powers = [power for _, power in found]
+    return all(_in_range(option, coefficient) for coefficient, _ in found) and len(powers) == len(set(powers))
 
 
 def _symbol(kind: str) -> str:

@@ -1,10 +1,12 @@
 """What products say of themselves (embedded metadata), against what the lock says of them."""
 
+import math
 from itertools import zip_longest
 from typing import Any
 
 from workflow.lib.layout import faults
 from workflow.lib.load import NOT_REACHED, load
+from workflow.lib.options import terms
 from workflow.lib.parents import PACKAGES, ArtefactError, Parents
 from workflow.provenance.execute import UNCONVERGED
 from workflow.provenance.lock import Job, Lock
@@ -40,13 +42,10 @@ def _agree(option: Any, stated: Any) -> bool:
     return all(_canonical(one) == _canonical(other) for one, other in pairs)
 
 
-def _canonical(text: str | None) -> tuple[float | str | None, str]:
-    """A number with its suffix N, or a word."""
-    number = text.removesuffix("N") if text else text
-    try:
-        return float(number), text[len(number) :]
-    except (TypeError, ValueError):
-        return text, ""
+def _canonical(text: str | None) -> object:
+    """The terms of a number or a polynomial in N, by power, or a word."""
+    powers = sorted(terms(text), key=lambda term: term[1]) if text else []
+    return text if not powers or any(math.isnan(coefficient) for coefficient, _ in powers) else powers
 
 
 def drawing_fault(path: str, job: Job, lock: Lock) -> str | None:
