@@ -117,7 +117,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     rings = [one for one in results if one.provenance["program"] == "correlation"]
     largest = max(rings, key=lambda one: one.parameters["cells"])
     pulse = gaussian_start([one for one in results if one.provenance["program"] == "energy_pulse"])
-    figure, row = plt.subplots(1, 3, figsize=(2.1 * style.COLUMN, style.HEIGHT), width_ratios=[1.2, 1, 0.8])
+    figure, row = plt.subplots(1, 3, figsize=(2.1 * style.COLUMN, style.HEIGHT))
     tables = [
         draw_collapse(row[0], largest),
         draw_exponents(row[1], largest, pulse),
