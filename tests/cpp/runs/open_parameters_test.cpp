@@ -53,7 +53,8 @@ TEST(OpenParameters, StartsFromEquilibriumWithOneReservoir) {
 
 // Mutant: the observation counted from 0.
 TEST(OpenParameters, WindowFollowsTheRelaxation) {
-  const Window window = WindowParameters{.relaxation_time = {{0, 2, 0}}, .observation_time = {{3, 0, 0}}}.window(5);
+  const Window window =
+      WindowParameters{.relaxation_time = {{0, 2, 0}}, .observation_time = {{3, 0, 0}}}.window(5);
   EXPECT_EQ(window.begin, 10);
   EXPECT_EQ(window.end, 13);
 }
