@@ -1,16 +1,19 @@
-/// Correlations in space and time of the conserved densities, energy e and momentum g of a cell (its
-/// scatterer and the particles inside), in a closed chain that has relaxed from a Gaussian start [eq. 54]:
+/// Correlations in space and time of the conserved densities in a closed chain that has relaxed from a
+/// Gaussian start [eq. 54]: numbers n of particles, energies e and momenta g of the cells (scatterer and the
+/// particles inside),
 ///
-///   C_e(r, t) = <e_0(0) e_r(t)> - <e>^2,     C_g(r, t) = <g_0(0) g_r(t)>,
+///   C_a(r, t) = <a_0(0) a_r(t)> - <a>^2,     a = n, e, g,
 ///
 /// means over cells, over origins of time one first time of --times apart, and over replicas. No second
 /// trajectory is needed, and the linear response to a small pulse follows from them. Of a fluid with three
 /// conserved fields, sound spreads about +-ct and heat about 0 (Spohn, J. Stat. Phys. 154, 1191, 2014; for
-/// hard-point chains Mendl and Spohn, Phys. Rev. E 90, 012147, 2014). C_g has the sound peaks alone; `peak`
-/// and its exponents are theirs.
+/// hard-point chains Mendl and Spohn, Phys. Rev. E 90, 012147, 2014). The pressure is proportional to the
+/// energy of the particles alone: heat changes n at constant pressure and is seen in C_n, whose value at r =
+/// 0 is `centre`, while C_g has the sound peaks alone, whose height and exponents are `peak` and its like.
 ///
-/// Sums over r are conserved and known: the variance of the total over the number of cells, from the start.
-/// So the measured total of a replica replaces the mean, and its known variance is put back [eq. 55].
+/// Sums over r are conserved: the variance of the total over the number of cells. So the fields are taken
+/// relative to their measured means over the ring, and the variance of the total, known from the start, is
+/// added [eq. 55].
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,6 +22,7 @@
 #include "program/errors.hpp"
 #include "runs/closed_study.hpp"
 #include "runs/field_correlations.hpp"
+#include "runs/limits.hpp"
 #include "runs/peak_quantities.hpp"
 #include "statistics/fit.hpp"
 #include "statistics/moving_peak.hpp"
@@ -45,9 +49,8 @@ struct Parameters : ClosedParameters {
       const double lag = time / times.front();
       if (lag > 1e6 || std::abs(lag - std::round(lag)) > 1e-6 * lag)
         throw UsageError(
-            "--times: every time must be a whole multiple of the first, at most 1e6 times it, because "
-            "snapshots are "
-            "that far apart. Choose others.");
+            "--times: every time must be a whole multiple of the first, which is the interval between "
+            "snapshots, and at most 1e6 times it. Choose others.");
       lags.push_back(static_cast<std::size_t>(std::lround(lag)));
     }
     return lags;
@@ -105,11 +108,8 @@ Estimator profiles(const Tallies& tallies) {
                     mean_of(tallies.fields[Conserved::momentum]));
   formulas.quantity("centre", {tallies.time}, "1", "C_n(0, t), the height of the heat peak", centre);
   formulas.quantity("local_centre_exponent", {geometric_middles(tallies.time.values)}, "1",
-                    "-d ln centre / d ln t between two times", [=](RecordView mean) {
-                      std::vector<double> values = local_exponents(tallies.time.values, centre(mean));
-                      for (double& value : values) value = -value;
-                      return values;
-                    });
+                    "-d ln centre / d ln t between two times",
+                    [=](RecordView mean) { return decay_exponents(tallies.time.values, centre(mean)); });
   return formulas.estimator();
 }
 
@@ -138,7 +138,9 @@ Study correlation(const Parameters& parameters) {
     throw UsageError("--times goes beyond --observation-time. Choose a longer one, or earlier times.");
   if (parameters.chain().cells < 7)
     throw UsageError("--cells is less than 7: a ring so short has no moving peak. Choose more cells.");
-  parameters.lags();
+  // Of every snapshot, the transforms of three fields are kept until the longest lag.
+  require_record_size(3.0 * parameters.chain().cells * static_cast<double>(parameters.lags().back() + 1),
+                      "--cells, --times");
   const Tallies tallies(parameters);
   return closed_study(parameters, tallies, std::bind_front(observe, parameters, tallies),
                       {profiles(tallies), sound_peak(tallies)}, "damping_exponent");
@@ -147,7 +149,8 @@ Study correlation(const Parameters& parameters) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  StudyProgram program("correlation", "Space-time correlations of energy and momentum in a closed chain");
+  StudyProgram program("correlation",
+                       "Space-time correlations of number, energy and momentum in a closed chain");
   Parameters parameters;
   declare(program.options(), parameters);
   program.options().ascending_list("--times", parameters.times, positive, "time",

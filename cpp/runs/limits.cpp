@@ -21,7 +21,7 @@ void require_within(double value, double low, double high, const std::string& op
 void require_record_size(double values, const std::string& options) {
   if (values > 1e8)
     throw UsageError(fmt::format(
-        "{}: a replica would record {:.3g} values, more than 1e8. Choose fewer of either.", options, values));
+        "{}: a replica would keep {:.3g} values, more than 1e8. Choose fewer of either.", options, values));
 }
 
 void require_fourth_powers(const Reservoir& left, const Reservoir& right) {

@@ -12,7 +12,7 @@ namespace lorentz {
 void require_within(double value, double low, double high, const std::string& options,
                     const std::string& what);
 
-/// Throws UsageError if the record of a replica would have more than 1e8 values (800 MB). `options` names the
+/// Throws UsageError if a replica has to keep more than 1e8 values (800 MB). `options` names the
 /// options that determine their number.
 void require_record_size(double values, const std::string& options);
 

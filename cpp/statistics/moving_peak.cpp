@@ -87,11 +87,7 @@ std::vector<double> MovingPeak::speeds() const {
   return values;
 }
 
-std::vector<double> MovingPeak::damping_exponents() const {
-  std::vector<double> values = local_exponents(times_, heights_);
-  for (double& value : values) value = -value;
-  return values;
-}
+std::vector<double> MovingPeak::damping_exponents() const { return decay_exponents(times_, heights_); }
 
 std::vector<double> MovingPeak::exponents_from() const {
   std::vector<double> values;

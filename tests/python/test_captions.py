@@ -5,10 +5,13 @@ import re
 from collections.abc import Iterator
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.lib.caption import listed, number, parameters, replicas
+from workflow.figures.ext02 import glide
+from workflow.figures.ext03 import deviation
+from workflow.lib.caption import goodness, listed, number, parameters, replicas
 from workflow.lib.load import Quantity, Result
 
 SPEAKING = [*sorted((ROOT / "workflow/figures").glob("*.py")), ROOT / "workflow/lib/caption.py"]
@@ -77,3 +80,28 @@ def test_words_of_parameters() -> None:
     ]
     assert listed(["a"]) == "a"
     assert listed(["a", "b", "c"]) == "a, b and c"
+
+
+def test_p_values_near_zero_are_bounds() -> None:
+    assert goodness(12, 4) == "chi^2 = 12.0 for 4, p = 0.017"
+    assert goodness(1e3, 4) == "chi^2 = 1000.0 for 4, p < 1e-06"
+
+
+@pytest.mark.parametrize(
+    ("last", "verb"), [(0.5, "rises"), (0.1, "falls"), (0.32, "does not change beyond errors")]
+)
+def test_a_change_is_named_beyond_three_errors(last: float, verb: str) -> None:
+    found = pd.DataFrame({"size": [16, 64], "exponent": [0.3, last], "exponent_error": [0.01, 0.01]})
+    assert glide(found).startswith(f"{verb}, from 0.300(10) about N = 16 to ")
+
+
+def test_a_wrong_exponent_of_correlated_differences_is_told() -> None:
+    """Differences of independent values: chi^2 about their mean difference is that of the values' own law."""
+    random = np.random.default_rng(5)
+    heights = np.cumsum(np.full((4000, 6), 0.7), axis=1) + random.normal(0, 0.1, (4000, 6))
+    errors = np.full(5, 0.1 * np.sqrt(2))
+    right, wrong = (
+        np.array([deviation(one, errors, expected)[0] for one in np.diff(heights)]) for expected in (0.7, 0.5)
+    )
+    assert abs(right.mean() - 5) < 4 * np.sqrt(10 / 4000)
+    assert wrong.mean() > 15

@@ -1,7 +1,7 @@
 """Ext. 3: how sound is damped: correlations of the momenta of two cells, and the pulses of fig. 9a.
 
 In a chain that conserves number, energy and momentum, sound peaks widen as t^(2/3) (Spohn, J. Stat. Phys. 154, 1191,
-2014); where only their width diffuses, as t^(1/2).
+2014); damped by diffusion, as t^(1/2).
 """
 
 from collections.abc import Sequence
@@ -12,15 +12,16 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
-from scipy.stats import chi2
 
 from workflow.figures.fig09 import gaussian_start
 from workflow.lib import style
+from workflow.lib.caption import goodness
 from workflow.lib.figure import run
-from workflow.lib.fit import fit_power, with_error
+from workflow.lib.fit import fit_power, mean_of, with_error
 from workflow.lib.load import Quantity, Result
 
 SOUND, DIFFUSION = 2 / 3, 1 / 2
+LARGEST_ERROR = 0.1  # of what is shown, absolute for exponents and relative for speeds
 REACH = 0.6  # of the first peak from the centre, over which profiles are compared
 
 
@@ -54,16 +55,16 @@ def draw_collapse(axes: Axes, result: Result) -> pd.DataFrame:
 def draw_exponents(axes: Axes, fluctuations: Result, pulse: Result) -> pd.DataFrame:
     parts = []
     for result, marker, color, text in (
-        (fluctuations, "o", style.BLUE, "correlations"),
-        (pulse, "s", style.VERMILLION, "pulse, $N = 101$"),
+        (fluctuations, "o", style.BLUE, f"correlations, $N = {fluctuations.parameters['cells']}$"),
+        (pulse, "s", style.VERMILLION, f"pulse, $N = {pulse.parameters['cells']}$"),
     ):
         local = result["local_damping_exponent"]
         time = local.axes["middle"]
-        known = local.standard_error < 0.1
+        used = local.standard_error < LARGEST_ERROR
         axes.errorbar(
-            time[known],
-            local.mean[known],
-            local.standard_error[known],
+            time[used],
+            local.mean[used],
+            local.standard_error[used],
             marker=marker,
             color=color,
             label=text,
@@ -87,30 +88,44 @@ def draw_heat(axes: Axes, centre: Quantity) -> pd.DataFrame:
     return pd.DataFrame({"time": time, "centre": centre.mean, "centre_error": centre.standard_error})
 
 
-def deviation(local: Quantity, expected: float) -> tuple[float, int]:
-    """chi^2 of the local exponents against one value, with their number. Neighbours share a time and its error with
-    opposite signs: their correlation is taken as -1/2."""
-    known = local.standard_error < 0.1
-    pull = (local.mean[known] - expected) / local.standard_error[known]
-    size = int(known.sum())
+def known(quantity: Quantity) -> tuple[np.ndarray, np.ndarray]:
+    """Values and errors where there are any and they are known well enough to be shown."""
+    used = quantity.standard_error < LARGEST_ERROR * np.maximum(1, np.abs(quantity.mean))
+    return quantity.mean[used], quantity.standard_error[used]
+
+
+def deviation(values: np.ndarray, errors: np.ndarray, expected: float) -> tuple[float, int]:
+    """chi^2 of differences between neighbouring times against one value, with their number. Neighbours share a time and
+    its error with opposite signs: their correlation is taken as -1/2."""
+    pull = (values - expected) / errors
+    size = len(values)
     covariance = np.eye(size) - 0.5 * (np.eye(size, k=1) + np.eye(size, k=-1))
     return float(pull @ np.linalg.solve(covariance, pull)), size
 
 
-def words(result: Result) -> str:
-    peak, local, speed = result["peak"], result["local_damping_exponent"], result["peak_speed"]
-    known = np.isfinite(peak.mean)
-    law = fit_power(peak.axes["time"][known], peak.mean[known], peak.standard_error[known])
+def of_peak(result: Result) -> str:
+    """What the height and the speed of the sound peak say."""
+    peak, speed = result["peak"], known(result["peak_speed"])
+    there = np.isfinite(peak.mean)
+    law = fit_power(peak.axes["time"][there], peak.mean[there], peak.standard_error[there])
     tests = []
     for expected, name in ((SOUND, "2/3"), (DIFFUSION, "1/2")):
-        value, size = deviation(local, expected)
-        tests.append(f"{name}: chi^2 = {value:.1f} for {size} (p = {chi2.sf(value, size):.2g})")
-    slowest, fastest = np.nanmin(speed.mean), np.nanmax(speed.mean)
+        found = goodness(*deviation(*known(result["local_damping_exponent"]), expected))
+        tests.append(f"{name}: {found}")
+    mean, error, _ = mean_of(*speed)
+    value, size = deviation(*speed, mean)
     return (
         f"The height of the peak falls as t^-{with_error(-law.exponent, law.error)} over all times shown; the local "
-        f"exponents against {tests[0]}; against {tests[1]}. The peak moves at {slowest:.0f} to {fastest:.0f} cells per "
-        "unit time, without a trend."
+        f"exponents against {tests[0]}; against {tests[1]}. The peak moves at {with_error(mean, error)} cells per unit "
+        f"time ({goodness(value, size - 1)}, about a constant speed)."
     )
+
+
+def of_heat(result: Result) -> str:
+    """How the local exponent of C_n(0, t) changes."""
+    values, errors = known(result["local_centre_exponent"])
+    first, last = (with_error(values[k], errors[k]) for k in (0, -1))
+    return f"The height at the centre falls with a local exponent that goes from {first} at the first times to {last} at the last"
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
@@ -128,10 +143,10 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     caption = (
         f"Sound in a ring of N = {parameters['cells']} cells with {parameters['particles-per-cell']} particles each, from "
         "equilibrium fluctuations. (a) Covariance of the momenta of two cells at distance r and times t apart, about the "
-        "moving peak, rescaled with the exponent 2/3 to the first time shown, t_1. (b) Local exponents of the peak's height between times a factor of "
-        f"two apart, beside those of the energy pulse of fig. 9a. {words(largest)} (c) Covariance of the numbers of "
-        "particles in one cell at two times: where heat would make a peak that falls as a power, slow particles that have "
-        "not left their cell make one that falls as the logarithm of t. Error bars: standard errors over replicas."
+        "moving peak, rescaled with the exponent 2/3 to the first time shown, t_1. (b) Local exponents of the peak's "
+        f"height between neighbouring times, beside those of the energy pulse of fig. 9a. {of_peak(largest)} (c) "
+        f"Covariance of the numbers of particles in one cell at two times. {of_heat(largest)}; heat would keep one exponent, and "
+        "slow particles that have not left their cell make C_n fall as the logarithm of t. Error bars: standard errors over replicas."
     )
     return figure, pd.concat(tables), caption
 

@@ -68,11 +68,12 @@ def sentence(spacing: str, part: pd.DataFrame) -> str:
         whole = [one for one in fits(part.cells, part.kappa, part.kappa_error, 0) if one.law == POWER]
         rejected = "; ".join(f"power law: chi^2/f = {one.chi_square:.0f}/{one.freedom}" for one in whole)
         return f"Spacing {spacing}: no law holds over three sizes or more ({rejected})."
-    widest = min(one.first for one in held.values())
-    best = min((one for one in held.values() if one.first == widest), key=lambda one: one.criterion)
-    text = (
-        f"Spacing {spacing}: {written(best)} from N = {best.first:.0f} on "
-        f"(chi^2/f = {best.chi_square:.1f}/{best.freedom})"
+    start = min(one.first for one in held.values())
+    best = min((one for one in held.values() if one.first == start), key=lambda one: one.criterion)
+    shown = [best, *(one for one in held.values() if one.law == CUBE_ROOT and one is not best)]
+    text = f"Spacing {spacing}: " + ", ".join(
+        f"{written(one)} from N = {one.first:.0f} on (chi^2/f = {one.chi_square:.1f}/{one.freedom})"
+        for one in shown
     )
     rivals = [
         one
@@ -80,7 +81,9 @@ def sentence(spacing: str, part: pd.DataFrame) -> str:
         if one.law != best.law and one.parameters <= best.parameters
     ]
     against = [f"{written(one)} {one.chi_square:.1f}" for one in rivals]
-    return f"{text}; over the same sizes chi^2 is, for {', '.join(against)}." if against else f"{text}."
+    return (
+        f"{text}; from N = {best.first:.0f} on chi^2 is, for {', '.join(against)}." if against else f"{text}."
+    )
 
 
 def written(growth: Growth) -> str:

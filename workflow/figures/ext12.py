@@ -8,15 +8,15 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from scipy.stats import chi2
 
 from workflow.figures.ext09 import LOOKS, spacings, tabulate
 from workflow.lib import style
+from workflow.lib.caption import goodness
 from workflow.lib.figure import run
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
-FACES = {1: "white", 2: "0.7", 3: None}  # of the markers, from the weakest drive to the strongest
+FACES = ("white", "0.7", None)  # of the markers, from the weakest drive to the strongest
 STARTS = {"cold": "v", "hot": "^", "empty": "o"}
 
 
@@ -73,7 +73,7 @@ def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) 
         marker, color = LOOKS[name]
         for number, drive in enumerate(drives):
             one = found[(found.gas == name) & (found.drive == drive)]
-            face = FACES[number + 1] or color
+            face = FACES[number] or color
             axes.errorbar(
                 one["size"] * 1.06 ** (number - 1),
                 one.exponent,
@@ -120,10 +120,10 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     drives = ", ".join(f"{drive:g}" for drive in sorted(slopes.drive.unique()))
     caption = (
         f"(a) Local exponent of kappa for ratios of the baths' temperatures of {drives} (white, grey and full markers), at "
-        f"equal pressures: chi^2 = {spread:.1f} for {freedom} degrees of freedom (p = {chi2.sf(spread, freedom):.2g}) "
+        f"equal pressures: {goodness(spread, freedom)}, "
         "about a common value at every size and spacing. (b) kappa from other starts relative to that from the warm start: "
         "from equilibrium with the colder or hotter bath, and from an empty chain; "
-        f"chi^2 = {np.sum(pulls**2):.1f} for {len(pulls)} (p = {chi2.sf(np.sum(pulls**2), len(pulls)):.2g}), the largest "
+        f"{goodness(np.sum(pulls**2), len(pulls))}, the largest "
         f"deviation {100 * starts.deviation.abs().max():.1f} %. Error bars: standard errors over replicas."
     )
     return figure, pd.concat([slopes, starts]), caption

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
 import numpy as np
+from scipy.stats import chi2
 
 from workflow.lib.load import Result
 
@@ -29,6 +30,7 @@ GAS = ("particles-per-cell", "temperature")
 BATHS = ("nu-left", "nu-right", "temperature-left", "temperature-right")
 WINDOW = ("relaxation-time", "observation-time")
 
+SMALLEST_P = 1e-6  # that is written out
 ERRORS = "Errors are one standard deviation of the mean over independent replicas"
 
 
@@ -70,3 +72,11 @@ def replicas(results: Sequence[Result]) -> str:
     ]
     low, high = min(counts), max(counts)
     return f"{low} replicas" if low == high else f"{low} to {high} replicas"
+
+
+def goodness(chi_square: float, freedom: int) -> str:
+    """chi^2 with its degrees of freedom and its p-value."""
+    p = float(chi2.sf(chi_square, freedom))
+    return (
+        f"chi^2 = {chi_square:.1f} for {freedom}, p {f'= {p:.2g}' if p > SMALLEST_P else f'< {SMALLEST_P:g}'}"
+    )

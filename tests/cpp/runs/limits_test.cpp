@@ -77,7 +77,7 @@ TEST(Limits, NameTheOptionsThatLeadBeyondThem) {
 TEST(Limits, OfTheSizeOfARecord) {
   EXPECT_NO_THROW(require_record_size(1e8, "--cells"));
   EXPECT_EQ(refusal([] { require_record_size(2e8, "--cells, --bins"); }),
-            "--cells, --bins: a replica would record 2e+08 values, more than 1e8. Choose fewer of either.");
+            "--cells, --bins: a replica would keep 2e+08 values, more than 1e8. Choose fewer of either.");
 }
 
 // Mutant: the product in 32 bits, which is 0 for 65536 times 65536.
