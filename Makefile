@@ -68,7 +68,7 @@ override PYTHON := .venv/bin/python -P workflow/environment/launch.py
 YES := yes 1
 EFFORT := $(call quote,$(QUALITY)$(if $(SEED),_seed=$(SEED))$(if $(REPLICAS),_replicas=$(REPLICAS)))
 $(foreach name,JOBS PANEL FILE CRATE SAMPLE,$(if $($(name)),$(eval override $(name) := $$(call quote,$$($(name))))))
-override SNAKEMAKE := $(PYTHON) workflow.environment.alone --cores $(or $(JOBS),$(shell env -u OMP_NUM_THREADS nproc 2>/dev/null || sysctl -n hw.ncpu)) \
+override SNAKEMAKE := $(PYTHON) workflow.execution.alone --cores $(or $(JOBS),$(shell env -u OMP_NUM_THREADS nproc 2>/dev/null || sysctl -n hw.ncpu)) \
   --config quality=$(EFFORT) $(if $(PANEL),panel=$(PANEL)) $(if $(filter $(YES),$(FRESH)),fresh=yes)
 SNAKEFMT := .venv/bin/snakefmt --no-format-shell --line-length 110
 ONLY_PANEL := $(if $(PANEL),--panel=$(PANEL))
@@ -81,13 +81,13 @@ help:  ## This list
 	echo 'Options: QUALITY=smoke|standard|paper|deep  PANEL=fig05  FRESH=yes  SEED=7  REPLICAS=200  JOBS=2'
 
 figures: build runtime  ## Build, simulate and draw every figure into figures/QUALITY
-	$(SNAKEMAKE) -- figures
+	$(SNAKEMAKE) --logger progress -- figures
 	$(COMPARE)
 	echo Figures are in figures/$(EFFORT)
 
 panel: build runtime  ## The same for one panel, PANEL=fig05; FRESH=yes simulates it anew
 	$(if $(PANEL),,echo 'make panel: PANEL is missing; try make panel PANEL=fig05'; exit 2)
-	$(SNAKEMAKE) -- panel
+	$(SNAKEMAKE) --logger progress -- panel
 	$(if $(COMPARE),$(COMPARE) $(ONLY_PANEL))
 	echo The panel is figures/$(EFFORT)/$(PANEL).pdf, .png, .svg and .csv
 

@@ -18,6 +18,7 @@ FOLDERS_HERE = {workflow.basedir, f"{workflow.basedir}/workflow", ""}  # where S
 sys.path[:] = [folder for folder in sys.path if folder not in FOLDERS_HERE]
 from workflow.lib.parents import caption_of
 from workflow.lib.plan import ConfigurationError, data_of, drawings_of
+from workflow.execution.handler import OF_PROJECT, LogHandler
 from workflow.provenance.chain import Chain
 from workflow.provenance.request import Request
 from workflow.provenance.stale import REPLACED, prepare, retire, unasked

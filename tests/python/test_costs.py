@@ -2,7 +2,6 @@
 
 import math
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
 
@@ -38,7 +37,7 @@ def test_effort(options: dict, expected: float) -> None:
 def test_a_run_of_another_size_foretells_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     """A series of one size has none in its name, and may have another at another quality."""
     executed = {"cells": 32, "replicas": 4, "observation-time": 1}
-    monkeypatch.setattr(costs, "load", lambda _: SimpleNamespace(parameters=executed))
+    monkeypatch.setattr(costs, "load_parameters", lambda _: executed)
     monkeypatch.setattr(costs, "cost_file", lambda *_: {"cpu_seconds": 2.0})
     run = Run("large", "conductivity", {"cells": 32, "replicas": 8})
     assert expected_cost("fig08", run, 0.0) == (4, 4)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
-from workflow.lib.load import FormatError, load
+from workflow.lib.load import FormatError, load_parameters
 from workflow.lib.options import Options, at_size
 from workflow.lib.plan import QUALITIES, Run, data_path
 
@@ -45,7 +45,7 @@ def executions(panel: str, run: Run) -> Iterator[tuple[Options, float]]:
     for quality in QUALITIES:
         cost = cost_file(quality, panel, run.name)
         with suppress(FormatError):
-            parameters = load(ROOT / data_path(quality, panel, run.name)).parameters
+            parameters = load_parameters(ROOT / data_path(quality, panel, run.name))
             if cost is not None and cells(parameters) == cells(parameters | run.options):
                 yield parameters, cost["cpu_seconds"]
 

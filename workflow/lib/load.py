@@ -1,5 +1,7 @@
 """Reads the files that the programs write; the layout is described in docs/format.md."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -85,6 +87,20 @@ class Result:
 
 def load(path: Path) -> Result:
     """One result file. Raises FormatError if it is not one."""
+    with _opened(path) as (file, provenance):
+        quantities = {name: _quantity(group) for name, group in file["results"].items()}
+        return Result(path, _attributes(file["parameters"]), provenance, quantities)
+
+
+def load_parameters(path: Path) -> dict[str, Any]:
+    """Of one result file, without its results. Raises FormatError."""
+    with _opened(path) as (file, _):
+        return _attributes(file["parameters"])
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
+    """The file and its provenance. Raises FormatError for all that goes wrong while it is open."""
     try:
         with h5py.File(path) as file:
             provenance = _attributes(file["provenance"])
@@ -93,8 +109,7 @@ def load(path: Path) -> Result:
                     f"the format is {provenance['format']} {provenance['format_version']}, "
                     f"not {FORMAT} {FORMAT_VERSION}; make the file again"
                 )
-            quantities = {name: _quantity(group) for name, group in file["results"].items()}
-            return Result(path, _attributes(file["parameters"]), provenance, quantities)
+            yield file, provenance
     except FormatError as error:
         raise FormatError(f"{path}: {error}") from error
     except (OSError, KeyError, TypeError, ValueError, RuntimeError) as error:

@@ -3,12 +3,16 @@
 STALE = {}  # job: reason
 
 
+def say(text):
+    logger.info(text, extra={OF_PROJECT: True})
+
+
 def force_if_stale(job):
     if workflow.is_main_process and job not in STALE and (reason := made_anew(job)):
         STALE[job] = reason
         workflow.dag.forcefiles.update(CHAIN.outputs(job))
-        if any(CHAIN.hashes[path] for path in CHAIN.outputs(job)):
-            logger.info(f"{job} is stale: {reason}")
+        if not REQUEST.fresh and any(CHAIN.hashes[path] for path in CHAIN.outputs(job)):
+            say(f"{job} is stale: {reason}")
 
 
 def made_anew(job):
@@ -36,7 +40,7 @@ def all_figures(wildcards):
     leaving = unasked(QUALITY, PANELS) if workflow.is_main_process else []
     executing = workflow.executor_plugin and not (workflow.dryrun or workflow.touch)
     for job in leaving:
-        logger.info(f"{job} is not asked for any more{f': moved to {REPLACED}' if executing else ''}")
+        say(f"{job} is not asked for any more{f': moved to {REPLACED}' if executing else ''}")
     if executing and leaving:
         retire(QUALITY, leaving)
     return [path for panel in PANELS for path in drawings_of(QUALITY, panel)]
@@ -45,4 +49,7 @@ def all_figures(wildcards):
 onstart:
     if workflow.is_main_process and not workflow.touch:
         if reason := prepare(CHAIN, STALE, REQUEST.fresh):
-            logger.info(f"{reason}: moved to {REPLACED}, and all is made again")
+            say(f"{reason}: moved to {REPLACED}, and all is made again")
+        for handler in workflow.logger_manager.get_log_handlers():
+            if isinstance(handler, LogHandler):
+                handler.begin(QUALITY, PANELS, STALE, workflow.cores)

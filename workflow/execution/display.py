@@ -1,0 +1,122 @@
+"""On a terminal a bar, the jobs that run and a line per run; elsewhere a line per panel."""
+
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from rich.console import Console, ConsoleOptions, RenderResult
+from rich.live import Live
+from rich.progress_bar import ProgressBar
+from rich.table import Table
+from rich.text import Text
+
+from workflow.execution.outcome import Outcome, last_lines
+from workflow.execution.remaining import Remaining, clock
+
+BAR = 30  # columns
+
+
+@dataclass(frozen=True)
+class Running:
+    """job: `panel/run` or `panel`. start: by the monotonic clock."""
+
+    job: str
+    start: float
+    threads: int
+    log: Path
+
+    @property
+    def elapsed(self) -> float:
+        return time.monotonic() - self.start
+
+
+class Display:
+    def __init__(self) -> None:
+        self._console = Console(file=sys.stdout, highlight=False, markup=False, emoji=False, soft_wrap=True)
+        self._live = Live(self, console=self._console, auto_refresh=True, transient=True)
+        self._remaining: Remaining | None = None
+        self._running: dict[str, Running] = {}
+        self._done = self._total = 0
+        self._ended = False
+        self._failed: list[str] = []
+        self._doubts: list[str] = []
+
+    @property
+    def failing(self) -> bool:
+        return bool(self._failed)
+
+    def say(self, text: str) -> None:
+        self._console.print(text)
+
+    def begin(self, total: int, remaining: Remaining) -> None:
+        self._total, self._remaining = total, remaining
+        if self._console.is_terminal:
+            self._live.start()
+
+    def start(self, running: Running) -> None:
+        self._running[running.job] = running
+
+    def finish_run(self, running: Running, result: Outcome) -> None:
+        self._finish(running)
+        if result.doubts:
+            self._doubts.append(f"{running.job}: {', '.join(result.doubts)}")
+        if self._console.is_terminal:
+            self.say(f"{running.job}: {result.text}{self._mark(result)}, {self.state}")
+
+    def finish_panel(self, running: Running, runs: int) -> None:
+        self._finish(running)
+        self.say(f"{running.job}: drawn{f' from {runs} runs' if runs else ''}, {self.state}")
+
+    def fail(self, running: Running, lines: Sequence[str]) -> None:
+        self._running.pop(running.job, None)
+        self._failed.append(running.job)
+        self.say(f"{running.job} failed after {clock(running.elapsed)}. {running.log} ends with:")
+        for line in lines:
+            self.say(f"  {line}")
+
+    def end(self) -> None:
+        """What is to be known when nothing runs any more."""
+        self._live.stop()
+        if self._remaining is None or self._ended:
+            return
+        self._ended = True
+        for doubt in self._doubts:
+            self.say(f"{doubt}: marked in the figure")
+        if self._failed:
+            self.say(
+                f"Failed: {', '.join(self._failed)}; {self._done} of {self._total} done. When the cause is mended, the same "
+                "command goes on with the rest."
+            )
+        elif self._done < self._total:
+            self.say(f"Stopped: {self._done} of {self._total} done. The same command goes on.")
+
+    @property
+    def state(self) -> str:
+        """12 of 37 done, about 0:20 left."""
+        assert self._remaining is not None
+        left = self._remaining.seconds(
+            {job: (one.elapsed, one.threads) for job, one in self._running.items()}
+        )
+        return f"{self._done} of {self._total} done" + (
+            f", about {clock(left)} left" if self._done < self._total else ""
+        )
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        table = Table.grid(padding=(0, 2))
+        table.add_row(ProgressBar(total=self._total, completed=self._done, width=BAR), self.state)
+        yield table
+        for one in list(self._running.values()):
+            line = " ".join(last_lines(one.log)[-1:])
+            yield Text(f"  {one.job}  {clock(one.elapsed)}  {line}", overflow="ellipsis", no_wrap=True)
+
+    def _finish(self, running: Running) -> None:
+        self._running.pop(running.job, None)
+        self._done += 1
+        assert self._remaining is not None
+        self._remaining.finish(running.job, running.elapsed * running.threads)
+
+    @staticmethod
+    def _mark(result: Outcome) -> str:
+        return f" ({', '.join(result.doubts)})" if result.doubts else ""

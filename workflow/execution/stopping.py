@@ -1,0 +1,5 @@
+"""Whether the user has asked for the end."""
+
+import threading
+
+stopping = threading.Event()
