@@ -74,7 +74,7 @@ SNAKEFMT := .venv/bin/snakefmt --no-format-shell --line-length 110
 ONLY_PANEL := $(if $(PANEL),--panel=$(PANEL))
 COMPARE = $(if $(SEED)$(REPLICAS)$(filter $(YES),$(FRESH)),$(PYTHON) workflow.provenance.compare --quality $(EFFORT))
 
-.PHONY: help figures panel report build test check format describe reference lock audit verify provenance status \
+.PHONY: help figures panel report gallery build test check format describe reference lock audit verify provenance status \
   cost crate bench timings tradeoff clean system-packages installed runtime dev
 help:  ## This list
 	sed -nE 's/^([a-z]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 16
@@ -94,6 +94,9 @@ panel: build runtime  ## The same for one panel, PANEL=fig05; FRESH=yes simulate
 report: figures  ## The report that judges the paper's claims: figures/QUALITY/report.html and .md
 	$(PYTHON) workflow.report.write --quality $(EFFORT)
 	echo The report is figures/$(EFFORT)/report.html
+
+gallery: runtime  ## docs/gallery and the answer in README.md, from the best that is here; verdicts of QUALITY
+	$(PYTHON) workflow.report.gallery --quality $(EFFORT)
 
 crate: build runtime  ## Figures, data, code and runs as an RO-Crate in build/crate; PANEL=fig05 packs one panel
 	$(PYTHON) workflow.provenance.crate --quality $(EFFORT) $(ONLY_PANEL)

@@ -114,7 +114,7 @@ def clean(tmp_path_factory: pytest.TempPathFactory) -> Clone:
 @pytest.fixture
 def kept(clean: Clone) -> Iterator[Clone]:
     """The clean clone, with sources and products as they were when the test is over."""
-    places = ("data", "figures", "workflow", "cpp", "docs", "requirements.lock")
+    places = ("data", "figures", "workflow", "cpp", "docs", "README.md", "requirements.lock")
     before = {file: file.read_bytes() for place in places for file in files_below(clean.folder / place)}
     yield clean
     for file in {file for place in places for file in files_below(clean.folder / place)} - before.keys():

@@ -11,6 +11,7 @@ import pytest
 from tests.workflow.conftest import Clone, append, delete, replace
 from tests.workflow.tampering import run_module
 from tests.workflow.webpage import Page
+from workflow.lib.parents import Parents, caption_of
 from workflow.lib.plan import load_plan
 
 HTML, MARKDOWN = "figures/smoke/report.html", "figures/smoke/report.md"
@@ -114,3 +115,26 @@ def test_nothing_is_wider_than_the_screen(clone: Clone, tmp_path: Path, width: i
     widest = re.search(r"<title>(\d+)</title>", shown)
     assert widest, shown
     assert width / 2 < int(widest[1]) <= width
+
+
+def test_the_gallery_has_every_panel_and_knows_when_it_is_old(kept: Clone) -> None:
+    made = kept.make("gallery", "QUALITY=smoke")
+    assert made.returncode == 0, made.stdout
+    folder, panels = kept.folder / "docs/gallery", load_plan("smoke")
+    assert {path.stem for path in folder.glob("*.png")} == {*panels, "summary"}
+    for panel in panels:
+        small, original = folder / f"{panel}.png", kept.folder / f"figures/smoke/{panel}.png"
+        assert Parents.of(small) == Parents.of(original)
+        assert small.stat().st_size < original.stat().st_size
+        assert caption_of(original.with_suffix(".csv")) in (folder / "README.md").read_text()
+    answer = (kept.folder / "README.md").read_text().split("<!-- answer, by make gallery -->")[1]
+    assert re.findall(r"^\d(?=\. )", answer, re.MULTILINE) == [*"12345"]
+    assert "docs/gallery" not in kept.make("status", "QUALITY=smoke").stdout
+    append("workflow/figures/fig06.py", "# more\n")(kept)
+    assert (
+        "docs/gallery: drawn by former code: fig06; make gallery"
+        in kept.make("status", "QUALITY=smoke").stdout
+    )
+    replace("README.md", "<!-- end of the answer -->", "")(kept)
+    made = kept.make("gallery", "QUALITY=smoke")
+    assert (made.returncode, "README.md has no place for the answer" in made.stdout) == (2, True)

@@ -29,6 +29,7 @@ USED = {  # by the goals that use any
     "figures": (*EFFORT, "JOBS", "FRESH"),
     "panel": (*EFFORT, "JOBS", "FRESH", "PANEL"),
     "report": (*EFFORT, "JOBS"),
+    "gallery": EFFORT,
     "crate": (*EFFORT, "PANEL"),
     "audit": (*EFFORT, "PANEL", "CRATE"),
     "verify": (*EFFORT, "PANEL", "SAMPLE"),

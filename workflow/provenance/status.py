@@ -4,6 +4,7 @@ import argparse
 import math
 import sys
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 
 from rich.console import Console
 from rich.markup import escape
@@ -11,11 +12,13 @@ from rich.table import Table
 
 from workflow.lib.costs import cheapest, cost_file, expected_cost
 from workflow.lib.load import FormatError, load
+from workflow.lib.parents import ArtefactError, Parents, file_hash
 from workflow.lib.plan import ConfigurationError, Panel, data_path, load_plan
 from workflow.provenance.chain import Chain
 from workflow.provenance.printable import printable
 from workflow.provenance.repository import ROOT, untracked
 
+GALLERY = "docs/gallery"  # small pictures of the panels
 WIDE = 150  # columns, where nobody reads them on a screen
 
 
@@ -68,6 +71,20 @@ def table(quality: str) -> Table:
     return result
 
 
+def outdated() -> list[str]:
+    """Panels of which the gallery has a picture that was drawn by code that has changed since."""
+    names = []
+    for picture in sorted((ROOT / GALLERY).glob("*.png")):
+        with suppress(ArtefactError):
+            sources = Parents.of(picture).sources
+            if any(
+                not (ROOT / path).is_file() or file_hash(ROOT / path) != digest
+                for path, digest in sources.items()
+            ):
+                names.append(picture.stem)
+    return names
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--quality", required=True)
@@ -78,6 +95,8 @@ def main() -> None:
             print(
                 f"{printable(path)}: untracked: no commit has it, and jobs that run now are entered as such of no commit"
             )
+        if names := outdated():
+            print(f"{GALLERY}: drawn by former code: {', '.join(names)}; make gallery draws them again")
     except ConfigurationError as error:
         print(f"make status: {error}", file=sys.stderr)
         sys.exit(2)
