@@ -74,10 +74,10 @@ SNAKEFMT := .venv/bin/snakefmt --no-format-shell --line-length 110
 ONLY_PANEL := $(if $(PANEL),--panel=$(PANEL))
 COMPARE = $(if $(SEED)$(REPLICAS)$(filter $(YES),$(FRESH)),$(PYTHON) workflow.provenance.compare --quality $(EFFORT))
 
-.PHONY: help figures panel report gallery build test check format describe reference lock audit verify provenance status \
+.PHONY: help figures panel report gallery build test test-long check format describe reference lock audit verify provenance status \
   cost crate bench timings tradeoff clean system-packages installed runtime dev
 help:  ## This list
-	sed -nE 's/^([a-z]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 16
+	sed -nE 's/^([a-z-]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 16
 	echo 'Options: QUALITY=smoke|standard|paper|deep  PANEL=fig05  FRESH=yes  SEED=7  REPLICAS=200  JOBS=2'
 
 figures: build runtime  ## Build, simulate and draw every figure into figures/QUALITY
@@ -111,6 +111,10 @@ build: system-packages  ## The executables in build/bin
 test: build dev  ## All tests; ends with the count
 	ninja -C build --quiet cpp_tests
 	$(PYTHON) tests.run
+
+test-long: build dev  ## The same and tests that take minutes
+	ninja -C build --quiet cpp_tests
+	$(PYTHON) tests.run --long
 
 check: build dev reference  ## Format, lint and reference
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 .venv/bin/clang-format --dry-run --Werror

@@ -1,4 +1,5 @@
-"""Runs every test, C++ and Python, and ends with `N passed, N failed` (`, N skipped` where it applies).
+"""Runs every test, C++ and Python, and ends with `N passed, N failed` (`, N skipped` where it applies); with --long also
+those that take minutes.
 
 Fails if a test fails, if a suite breaks off, or if one of the suites ran no test.
 """
@@ -15,6 +16,7 @@ SUITES = {
     "cpp": ["build/bin/cpp_tests", "--gtest_brief=1", "--gtest_output=xml:{report}"],
     "python": [*PYTEST, "-n", "2", "--dist", "loadfile", "tests", "--junitxml={report}"],
 }
+LONG, SHORT = "--long", ["-m", "not long"]
 
 
 @dataclass
@@ -68,7 +70,8 @@ def main() -> int:
     total = Count()
     for name, command in SUITES.items():
         print(f"{name} tests", flush=True)
-        total.add(run_suite(name, command))
+        chosen = SHORT if name == "python" and LONG not in sys.argv else []
+        total.add(run_suite(name, [*command, *chosen]))
     print(total)
     return 1 if total.failed else 0
 

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <regex>
 
 #include "program/errors.hpp"
 
@@ -85,6 +87,24 @@ class TemporaryFile {
   bool committed_ = false;
 };
 
+/// Whether a name is that of a temporary file, whose process runs here no more.
+bool is_leftover(const std::string& name) {
+  static const std::regex pattern(R"(.*\.(\d{1,9})\.tmp)");
+  std::smatch found;
+  return std::regex_match(name, found, pattern) && ::kill(std::stoi(found[1]), 0) != 0 && errno == ESRCH;
+}
+
+/// Removes what killed processes left of this file, and of files that have its name and a suffix.
+void remove_leftovers(const std::filesystem::path& path) {
+  const std::string start = path.filename().string() + ".";
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename();
+    if (name.starts_with(start) && is_leftover(name)) std::filesystem::remove(entry.path(), ignored);
+  }
+}
+
 }  // namespace
 
 void write_atomically(const std::string& path, std::span<const std::byte> content) {
@@ -107,6 +127,9 @@ void replace_atomically(const std::string& path, const std::string& former,
   file.commit();
 }
 
-void require_writable(const std::string& path, std::size_t size) { TemporaryFile(path).reserve(size); }
+void require_writable(const std::string& path, std::size_t size) {
+  remove_leftovers(path);
+  TemporaryFile(path).reserve(size);
+}
 
 }  // namespace lorentz

@@ -16,8 +16,9 @@ void write_atomically(const std::string& path, const std::string& content);
 void replace_atomically(const std::string& path, const std::string& former,
                         std::span<const std::byte> content);
 
-/// Throws UsageError if write_atomically(path, ...) could not write `size` bytes now; leaves no file. Called
-/// before a long run, so that the run does not fail at its end.
+/// Throws UsageError if write_atomically(path, ...) could not write `size` bytes now; leaves no file, and
+/// removes temporary ones of processes that were killed. Called before a long run, so that the run does not
+/// fail at its end.
 void require_writable(const std::string& path, std::size_t size);
 
 }  // namespace lorentz

@@ -1,5 +1,6 @@
 """The report: complete, the same again, whole without a network, noticed when it is changed, usable on narrow screens."""
 
+import json
 import re
 import shutil
 import subprocess
@@ -138,3 +139,30 @@ def test_the_gallery_has_every_panel_and_knows_when_it_is_old(kept: Clone) -> No
     replace("README.md", "<!-- end of the answer -->", "")(kept)
     made = kept.make("gallery", "QUALITY=smoke")
     assert (made.returncode, "README.md has no place for the answer" in made.stdout) == (2, True)
+
+
+PACK = """
+from workflow.provenance import crate
+crate.DRAFT = "none"  # packs the quality that is here
+try:
+    print(crate.pack("smoke", None))
+except crate.CrateError as error:
+    print(error)
+"""
+
+
+def test_the_crate_holds_the_report_if_it_follows_from_the_products(kept: Clone) -> None:
+    assert kept.make("report", "QUALITY=smoke").returncode == 0
+    (kept.folder / "workflow/pack.py").write_text(PACK)
+    pack = [".venv/bin/python", "-P", "workflow/environment/launch.py", "workflow.pack"]
+    subprocess.run(pack, cwd=kept.folder, check=True)
+    graph = json.loads((kept.folder / "build/crate/smoke/ro-crate-metadata.json").read_text())["@graph"]
+    report = next(one for one in graph if one["@id"] == "#report")
+    assert [one["@id"] for one in report["result"]] == [HTML, MARKDOWN]
+    assert {"@id": "data/claims.csv"} in report["object"]
+    assert {"@id": "figures/smoke/fig08.csv"} in report["object"]
+    for path in (HTML, MARKDOWN):
+        assert (kept.folder / "build/crate/smoke" / path).read_bytes() == (kept.folder / path).read_bytes()
+    append(MARKDOWN, "more")(kept)
+    told = subprocess.check_output(pack, cwd=kept.folder, text=True)
+    assert f"{MARKDOWN} does not follow from the products and sources that are there: run make report" in told

@@ -12,6 +12,7 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 from rocrate.rocrate import ROCrate
 
 from workflow.lib.plan import ConfigurationError, Panel, Quality, load_plan, panel_named, with_used
+from workflow.provenance import report_links
 from workflow.provenance.chain import Chain
 from workflow.provenance.crate_graph import crate_of
 from workflow.provenance.lock import Job, Lock, LockError, builds_of
@@ -54,6 +55,13 @@ def chosen_jobs(lock: Lock, plan: dict[str, Panel], panel: str | None, remedy: s
         )
     runs = [f"{one.name}/{run.name}" for name in panels for one in with_used(plan, name) for run in one.runs]
     return {name: lock.jobs[name] for name in dict.fromkeys([*runs, *panels])}
+
+
+def written_report(chain: Chain) -> list[str]:
+    """Paths of the report, none if there is none. Raises CrateError if it does not follow from the products."""
+    for link in report_links.report(chain):
+        raise CrateError(f"{link.path} {link.message}")
+    return [path for path in report_links.paths(chain.quality) if chain.hashes[path]]
 
 
 def source_files(lock: Lock, jobs: dict[str, Job]) -> set[str]:
@@ -102,8 +110,9 @@ def pack(quality: str, panel: str | None) -> Path:
     except LockError as error:
         raise CrateError(f"{error}, so nobody knows what made the products: {remedy} writes it") from error
     jobs = chosen_jobs(lock, plan, panel, remedy)
+    report = [] if panel else written_report(Chain(quality, plan, lock))
     archive = PLACE / f"lorentz-gas-{quality}.zip"
-    write(crate_of(lock, jobs, source_files(lock, jobs), remedy), PLACE / quality, archive)
+    write(crate_of(lock, jobs, source_files(lock, jobs), report, remedy), PLACE / quality, archive)
     return archive
 
 

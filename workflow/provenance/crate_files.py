@@ -19,6 +19,7 @@ PROFILES = {
 TERMS = {"sha256": "https://w3id.org/ro/terms/workflow-run#sha256"}
 TYPES = {
     ".csv": "text/csv",
+    ".html": "text/html",
     ".h5": "application/x-hdf5",
     ".json": "application/json",
     ".md": "text/markdown",

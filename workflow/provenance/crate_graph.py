@@ -18,6 +18,8 @@ from workflow.provenance.crate_files import WORKFLOW, add, add_files, compact, n
 from workflow.provenance.lock import Job, Lock, builds_of, configuration_files
 from workflow.provenance.repository import ROOT, git
 
+REPORT_SCRIPT, CLAIMS = "workflow/report/write.py", "data/claims.csv"
+
 
 @dataclass(frozen=True)
 class Action:
@@ -31,17 +33,19 @@ class Action:
     outputs: Iterable[str]
 
 
-def crate_of(lock: Lock, jobs: dict[str, Job], sources: set[str], remade_by: str) -> ROCrate:
-    """The crate of some jobs of the lock and of all sources; `remade_by` is the command that makes the same
-    products again."""
+def crate_of(
+    lock: Lock, jobs: dict[str, Job], sources: set[str], report: list[str], remade_by: str
+) -> ROCrate:
+    """The crate of some jobs of the lock, of all sources, and of the report if it has paths; `remade_by` is the command
+    that makes the same products again."""
     description = (
         f"Code, configuration, data and figures at quality {lock.quality}, and the runs that made them"
     )
     crate = new_crate(description, published(jobs))
     products = {path for job in jobs.values() for path in job.outputs}
-    scripts = {job.tool for job in jobs.values() if job.is_drawing}
+    scripts = {REPORT_SCRIPT, *(job.tool for job in jobs.values() if job.is_drawing)}
     lock_path = str(Lock.path(lock.quality).relative_to(ROOT))
-    files = add_files(crate, {*sources, *products, lock_path}, scripts)
+    files = add_files(crate, {*sources, *products, *report, lock_path}, scripts)
     used = sorted(builds_of(jobs.values()))
     programs = {build_id: _add_program(crate, lock.builds[build_id], files) for build_id in used}
 
@@ -53,6 +57,9 @@ def crate_of(lock: Lock, jobs: dict[str, Job], sources: set[str], remade_by: str
             actions.append(_drawing(name, job, files[job.tool]))
         else:
             actions.append(_run(name, job, programs[job.build_id], settings))
+    if report:
+        judged = [*sorted(products), CLAIMS, PACKAGES]
+        actions.append(Action("#report", "report", files[REPORT_SCRIPT], "Judges the claims", judged, report))
     crate.root_dataset["mentions"] = [_add_action(crate, action, files) for action in actions]
     return crate
 

@@ -5,6 +5,8 @@
 #include <sys/fsuid.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <set>
@@ -52,6 +54,20 @@ TEST(AtomicFile, KeepsTheFormerFileUnderAnotherName) {
   EXPECT_EQ(content_of(folder / "file"), "third");
   EXPECT_EQ(content_of(folder / "former"), "secon");
   EXPECT_EQ(folder.names(), (Names{"file", "former"}));
+}
+
+TEST(AtomicFile, RemovesWhatKilledProcessesLeft) {
+  const TemporaryFolder folder;
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  ::waitpid(child, nullptr, 0);
+  const std::string gone = std::to_string(child), alive = std::to_string(::getppid());
+  const Names stay{"file." + alive + ".tmp", "other." + gone + ".tmp", "file." + gone, "file.x.tmp"};
+  for (const std::string& name : stay) write_atomically(folder / name, std::string());
+  for (const char* name : {"file.", "file.checkpoint."})
+    write_atomically(folder / (name + gone + ".tmp"), std::string());
+  require_writable(folder / "file", 1);
+  EXPECT_EQ(folder.names(), stay);
 }
 
 TEST(AtomicFile, TakesThePlaceOfALinkToNothing) {
