@@ -14,7 +14,7 @@ REPORTS = Path("build/tests")
 PYTEST = [sys.executable, "-m", "pytest", "-c", "tests/pytest.ini"]
 SUITES = {
     "cpp": ["build/bin/cpp_tests", "--gtest_brief=1", "--gtest_output=xml:{report}"],
-    "python": [*PYTEST, "-n", "2", "--dist", "loadfile", "tests", "--junitxml={report}"],
+    "python": [*PYTEST, "-n", "2", "--dist", "loadfile", "--durations=25", "tests", "--junitxml={report}"],
 }
 LONG, SHORT = "--long", ["-m", "not long"]
 

@@ -1,7 +1,8 @@
-"""Short versions of every series of the standard figures, with as many replicas, over 40 seeds: the spread over
+"""Short versions of every series of the standard figures, with as many replicas, over many seeds: the spread over
 seeds agrees with the errors for that number of replicas."""
 
 import subprocess
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,9 @@ from workflow.lib.options import arguments
 from workflow.lib.plan import Run, load_plan
 from workflow.tradeoff.measure import shortened
 
-SEEDS = 40
+# Numbers of seeds, with the factors by which errors may be too small or too large that so many seeds tell for each
+# quantity, and for all of them together.
+SEEDS = {12: (3, 7, 1.3), 40: (2, 3, 1.15)}
 FACTORS = {"particle_count": 2e-3}  # factor of all times
 OTHERS = 5e-3
 IN_PLACE = {  # of the options of a program
@@ -56,10 +59,10 @@ def in_small(run: Run) -> dict[str, object]:
     return options | IN_PLACE.get(run.program, {})
 
 
-def values(run: Run, folder: Path) -> dict[str, np.ndarray]:
+def values(run: Run, folder: Path, seeds: int) -> dict[str, np.ndarray]:
     """Every quantity of a series as an array [seed, (mean, error)]."""
     found: dict[str, list] = {name: [] for name in NUMBERS[run.program]}
-    for seed in range(SEEDS):
+    for seed in range(seeds):
         options = {**in_small(run), "seed": 1000 + seed}
         command = [str(ROOT / "build/bin" / run.program), *arguments(options)]
         command += ["--threads", "1", "--progress", "none", "--output", str(folder / "out.h5")]
@@ -84,45 +87,59 @@ def plausible(ratio: float, seeds: int, replicas: int, trials: int) -> bool:
     return f.isf(1 - tail, *freedom) < ratio < f.isf(tail, *freedom)
 
 
-@pytest.fixture(scope="module")
-def ratios(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[float, int]]:
-    """spread_over_error() and the number of replicas for every quantity of every series."""
-    folder = tmp_path_factory.mktemp("spread")
-    return {
+@dataclass(frozen=True)
+class Spread:
+    """spread_over_error() and the number of replicas for every quantity of every series, over so many seeds."""
+
+    ratios: dict[str, tuple[float, int]]
+    seeds: int
+
+
+@pytest.fixture(
+    scope="module",
+    params=[min(SEEDS), pytest.param(max(SEEDS), marks=pytest.mark.long)],
+    ids=lambda seeds: f"{seeds} seeds",
+)
+def spread(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Spread:
+    folder, seeds = tmp_path_factory.mktemp("spread"), request.param
+    ratios = {
         f"{name} {number}": (spread_over_error(pairs), int(run.options["replicas"]))
         for name, run in series().items()
-        for number, pairs in values(run, folder).items()
+        for number, pairs in values(run, folder, seeds).items()
     }
+    return Spread(ratios, seeds)
 
 
 def test_no_error_comes_from_fewer_than_32_replicas() -> None:
     assert min(run.options["replicas"] for run in series().values()) >= 32
 
 
-def test_seeds_scatter_as_their_errors_say(ratios: dict[str, tuple[float, int]]) -> None:
+def test_seeds_scatter_as_their_errors_say(spread: Spread) -> None:
     def outliers(factor: float) -> list[str]:
         return [
             name
-            for name, (ratio, replicas) in ratios.items()
-            if not plausible(factor * ratio, SEEDS, replicas, len(ratios))
+            for name, (ratio, replicas) in spread.ratios.items()
+            if not plausible(factor * ratio, spread.seeds, replicas, len(spread.ratios))
         ]
 
     assert outliers(1) == []
-    # Mutants: errors too small by a factor of 2, too large by a factor of 3, the resolution of 40 seeds.
-    assert len(outliers(4)) > 0.8 * len(ratios)
-    assert len(outliers(1 / 9)) > 0.8 * len(ratios)
+    # Mutants: errors too small, and too large.
+    small, large, _ = SEEDS[spread.seeds]
+    assert len(outliers(small**2)) > 0.8 * len(spread.ratios)
+    assert len(outliers(1 / large**2)) > 0.8 * len(spread.ratios)
 
 
-def test_errors_are_right_on_the_whole(ratios: dict[str, tuple[float, int]]) -> None:
+def test_errors_are_right_on_the_whole(spread: Spread) -> None:
     """Joint test with one quantity of every series, because quantities of one series are correlated."""
-    firsts = {name.split()[0]: ratio for name, (ratio, _) in reversed(ratios.items())}
-    freedom = (SEEDS - 1) * len(firsts)
+    firsts = {name.split()[0]: ratio for name, (ratio, _) in reversed(spread.ratios.items())}
+    freedom = (spread.seeds - 1) * len(firsts)
 
     def plausible_sum(factor: float) -> bool:
-        total = factor * (SEEDS - 1) * sum(firsts.values())
+        total = factor * (spread.seeds - 1) * sum(firsts.values())
         return chi2.isf(1 - 5e-5, freedom) < total < chi2.isf(5e-5, freedom)
 
     assert plausible_sum(1)
-    # Mutants: errors 15 % too small or too large. The normalisation n instead of n - 1 would pass.
-    assert not plausible_sum(1.15**2)
-    assert not plausible_sum(1 / 1.15**2)
+    # Mutants: errors too small or too large. The normalisation n instead of n - 1 would pass.
+    factor = SEEDS[spread.seeds][2]
+    assert not plausible_sum(factor**2)
+    assert not plausible_sum(1 / factor**2)

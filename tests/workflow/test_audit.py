@@ -215,8 +215,9 @@ UNCHECKED = {
 }
 
 
-def test_clean_run_has_no_broken_link(clean: Clone) -> None:
-    audited = clean.make("audit", "QUALITY=smoke")
+@pytest.mark.parametrize("part", [["PANEL=fig08"], pytest.param([], marks=pytest.mark.long)])
+def test_clean_run_has_no_broken_link(clean: Clone, part: list[str]) -> None:
+    audited = clean.make("audit", "QUALITY=smoke", *part)
     assert audited.returncode == 0, audited.stdout
     assert "Every link holds" in audited.stdout
 

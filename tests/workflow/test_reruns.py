@@ -76,7 +76,11 @@ CHANGES: dict[str, tuple[Edit, Jobs]] = {
         of_program("energy_pulse") | of_program("correlation"),
     ),
     "script": (append("workflow/figures/fig06.py", "# more\n"), {"fig06"}),
-    "shared module": (append("workflow/lib/fit.py", "# more\n"), importing("workflow/lib/fit.py")),
+    "module of many panels": (append("workflow/lib/fit.py", "# more\n"), importing("workflow/lib/fit.py")),
+    "module of some panels": (
+        append("workflow/lib/growth.py", "# more\n"),
+        importing("workflow/lib/growth.py"),
+    ),
     "parameter": (replace("workflow/config/paper.yaml", FIG07, FIG07.replace("6", "5")), of_panel("fig07")),
     "effort": (
         replace(
@@ -97,8 +101,12 @@ CHANGES: dict[str, tuple[Edit, Jobs]] = {
     "figure deleted": (delete("figures/smoke/fig05.pdf"), {"fig05"}),
 }
 
+MANY = ("module of many panels", "lock of Python packages")  # of which each is drawn again
 
-@pytest.mark.parametrize("change", CHANGES)
+
+@pytest.mark.parametrize(
+    "change", [pytest.param(one, marks=pytest.mark.long if one in MANY else ()) for one in CHANGES]
+)
 def test_exactly_what_is_affected_runs_again(kept: Clone, change: str) -> None:
     edit, expected = CHANGES[change]
     edit(kept)
