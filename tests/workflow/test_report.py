@@ -2,10 +2,8 @@
 
 import json
 import re
-import shutil
 import subprocess
 from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 
@@ -17,7 +15,6 @@ from workflow.lib.plan import load_plan
 
 HTML, MARKDOWN = "figures/smoke/report.html", "figures/smoke/report.md"
 LITTLE = ("--panel", "fig03")  # the panel that an audit draws again, beside the report
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 
 
 @pytest.fixture(scope="module")
@@ -98,25 +95,6 @@ def test_an_audit_notices_changes(clone: Clone, kept: Clone, edit: Callable, mes
 def test_an_audit_of_a_new_report_finds_nothing(clone: Clone) -> None:
     audited = run_module(clone, "audit", *LITTLE)
     assert audited.returncode == 0, audited.stdout
-
-
-@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium")
-@pytest.mark.parametrize("width", [360, 800, 1400])
-def test_nothing_is_wider_than_the_screen(clone: Clone, tmp_path: Path, width: int) -> None:
-    """Measured in a frame of that width, as windows cannot be as narrow as a telephone."""
-    measure = f"""<iframe width={width} height=900 style="border:0" src="{(clone.folder / HTML).as_uri()}"
-      onload="document.title = [...this.contentDocument.querySelectorAll('body, body *')].map(
-        one => Math.round(one.getBoundingClientRect().right)).reduce((a, b) => Math.max(a, b))"></iframe>"""
-    (tmp_path / "frame.html").write_text(measure)
-    command = [CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--allow-file-access-from-files"]
-    command += [f"--user-data-dir={tmp_path / 'chromium'}", "--virtual-time-budget=10000", "--dump-dom"]
-    address = (tmp_path / "frame.html").as_uri()
-    shown = subprocess.run(
-        [*command, address], capture_output=True, text=True, timeout=120, check=True
-    ).stdout
-    widest = re.search(r"<title>(\d+)</title>", shown)
-    assert widest, shown
-    assert width / 2 < int(widest[1]) <= width
 
 
 def test_the_gallery_has_every_panel_and_knows_when_it_is_old(kept: Clone) -> None:
