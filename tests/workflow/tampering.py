@@ -62,6 +62,10 @@ def run_module(
     )
 
 
+def audit(clone: Clone, *options: str) -> subprocess.CompletedProcess:
+    return run_module(clone, "audit", *(options or ("--panel", "fig03")))
+
+
 def in_place_of(path: str, make: Callable[[Path], object]) -> Edit:
     """Removes the file if there is one, and puts something else there."""
 

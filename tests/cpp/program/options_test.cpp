@@ -1,80 +1,16 @@
-#include "program/options.hpp"
-
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "program/errors.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/example_options.hpp"
 
 namespace {
 
 using namespace lorentz;
-using Arguments = std::vector<std::string>;
-
-/// A program with an option of every kind.
-struct Example {
-  double sigma = 0.5;
-  double temperature = 500;
-  double relaxation = 0.1;
-  std::optional<double> gamma;
-  std::optional<std::uint32_t> sites = 4;
-  Scaled window{{0, 0.5, 0}};
-  std::vector<double> times{1, 2};
-  std::uint32_t cells = 11;
-  std::uint64_t seed = 1;
-  bool shifted = false;
-  std::string start = "empty";
-  std::string output;
-  std::uint32_t threads = 4;
-  Options options{"example", "An example"};
-
-  Example() {
-    options.real("--sigma", sigma, {-1, 1}, "1", "Mass ratio");
-    options.real("--temperature", temperature, positive, "temperature", "Temperature");
-    options.real("--relaxation-time", relaxation, non_negative, "time", "Time");
-    options.real_or_word("--gamma", gamma, non_negative, "N", "1", "Scatterings");
-    options.integer_or_word("--sites", sites, {1, 300}, "continuum", "Sites");
-    options.scaled("--window", window, positive, 'N', "time", "Window");
-    options.ascending_list("--times", times, {0, 10}, "time", "Times");
-    options.integer("--cells", cells, {1, 100}, "Cells");
-    options.integer("--seed", seed, {}, "Seed");
-    options.flag("--zero-total-momentum", shifted, "Shift");
-    options.choice("--start", start, {"empty", "warm"}, "Start");
-    options.text("--output", output, "File", Options::Role::runtime);
-    options.integer("--threads", threads, {1, 4096}, "Threads", Options::Role::runtime);
-  }
-
-  bool parse(const Arguments& arguments) {
-    std::vector<const char*> pointers = {"example"};
-    for (const std::string& argument : arguments) pointers.push_back(argument.c_str());
-    return options.parse(static_cast<int>(pointers.size()), pointers.data(), "example 1.0");
-  }
-};
-
-/// Message of the UsageError.
-std::string refusal(const Arguments& arguments) {
-  try {
-    Example().parse(arguments);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << testing::PrintToString(arguments) << " was accepted";
-  return {};
-}
-
-/// The message of the UsageError contains all parts and refers to the help.
-void expect_refused(const Arguments& arguments, const std::vector<std::string>& parts) {
-  const std::string message = refusal(arguments);
-  for (const std::string& part : parts)
-    EXPECT_NE(message.find(part), std::string::npos) << '"' << part << "\" is not in: " << message;
-  EXPECT_TRUE(message.ends_with(". Correct it; 'example --help' lists every option.")) << message;
-}
+using namespace support;
 
 const Arguments not_numbers = {"",    "nan", "-nan", "inf",  "-inf",   "1e400",   "0x10",
                                "abc", "1,5", "0.5x", " 0.5", "0.5 ",   "1/2",     "+-0.5",
@@ -262,152 +198,6 @@ TEST(Options, DescribeThemselves) {
   Example example;
   example.parse({"--sigma", "0.25", "--gamma", "7", "--start", "warm"});  // defaults are those declared
   EXPECT_EQ(example.options.describe(), expected) << example.options.describe().dump(1);
-}
-
-struct ConfigFile : testing::Test {
-  support::TemporaryFolder folder;
-  std::string path = folder / "run.toml";
-
-  void write(const std::string& content) const { support::write_file(path, content); }
-
-  void expect_file_refused(const std::string& content, const std::vector<std::string>& parts) const {
-    write(content);
-    expect_refused({"--config", path}, parts);
-  }
-};
-
-TEST_F(ConfigFile, SetsWhatTheCommandLineDoesNot) {
-  write(R"(# a comment
-sigma = -0.25
-cells = 7
-start = "warm"
-zero-total-momentum = true
-output = 'a b.h5'
-temperature = 1e3
-relaxation-time = 2
-gamma = 1.5
-sites = "continuum"
-window = "2N"
-times = [0, 0.1, 2]
-)");
-  Example example;
-  EXPECT_TRUE(example.parse({"--config", path, "--cells", "8"}));
-  EXPECT_EQ(example.sigma, -0.25);
-  EXPECT_EQ(example.cells, 8U);
-  EXPECT_EQ(example.start, "warm");
-  EXPECT_TRUE(example.shifted);
-  EXPECT_EQ(example.output, "a b.h5");
-  EXPECT_EQ(example.temperature, 1000);
-  EXPECT_EQ(example.relaxation, 2);
-  EXPECT_EQ(example.gamma, 1.5);
-  EXPECT_EQ(example.sites, std::nullopt);
-  EXPECT_EQ(example.window.at(3), 6);
-  EXPECT_EQ(example.times, (std::vector<double>{0, 0.1, 2}));
-  EXPECT_EQ(example.seed, 1U);
-  EXPECT_TRUE(example.options.given("--sigma"));
-  EXPECT_TRUE(example.options.given("--cells"));
-  EXPECT_FALSE(example.options.given("--seed"));
-}
-
-TEST_F(ConfigFile, TakesWordsNumbersAndListsAsStrings) {
-  write("gamma = \"N\"\nsites = 9\nwindow = 4\ntimes = \"1,3\"\nzero-total-momentum = false\n");
-  Example example;
-  EXPECT_TRUE(example.parse({"--gamma=2", "--config", path}));
-  EXPECT_EQ(example.gamma, 2);
-  EXPECT_EQ(example.sites, 9U);
-  EXPECT_EQ(example.window.at(3), 4);
-  EXPECT_EQ(example.times, (std::vector<double>{1, 3}));
-  EXPECT_FALSE(example.shifted);
-  Example word;
-  word.gamma = 5;
-  EXPECT_TRUE(word.parse({"--config", path}));
-  EXPECT_EQ(word.gamma, std::nullopt);
-}
-
-TEST_F(ConfigFile, ReadsNumbersAsTheCompilerDoes) {
-  write("sigma = 0.002877\ntemperature = 1e-310\nseed = 9223372036854775807\n");
-  Example example;
-  EXPECT_TRUE(example.parse({"--config", path}));
-  EXPECT_EQ(example.sigma, 0.002877);
-  EXPECT_EQ(example.temperature, 1e-310);
-  EXPECT_EQ(example.seed, 9223372036854775807U);
-}
-
-TEST_F(ConfigFile, MayBeEmpty) {
-  write("");
-  Example example;
-  EXPECT_TRUE(example.parse({"--config", path}));
-  EXPECT_EQ(example.sigma, 0.5);
-}
-
-TEST_F(ConfigFile, IsRefusedForWhatIsNoOption) {
-  expect_file_refused("sigma = 0.5\nsgima = 0.5\n",
-                      {path + ", line 2: no option has the name 'sgima'; the nearest one is 'sigma'"});
-  expect_file_refused("[section]\nsigma = 0.5\n", {path + ", line 1: no option has the name 'section'"});
-  expect_file_refused("config = \"other.toml\"\n", {path + ", line 1: no option has the name 'config'"});
-  expect_file_refused("--sigma = 0.5\n", {path + ", line 1: no option has the name '--sigma'"});
-  expect_file_refused("help = true\n", {path + ", line 1: no option has the name 'help'"});
-}
-
-TEST_F(ConfigFile, IsRefusedForWhatAnOptionCannotBe) {
-  const auto refused = [&](const std::string& name, const std::string& value, const std::string& admissible) {
-    expect_file_refused(
-        "# a comment\n" + name + " = " + value + '\n',
-        {path + ", line 2: --" + name + ": '" + value + "' cannot be used: it must be " + admissible});
-  };
-  for (const char* value : {"2", "nan", "inf", "-inf", "true", "\"0.5\"", "1979-05-27", "0x1"})
-    refused("sigma", value, "a number in [-1, 1]");
-  expect_file_refused("sigma = [0.5]\n", {"--sigma: '[0.5]'"});
-  expect_file_refused("sigma.x = 0.5\n", {"--sigma: '{...}'"});
-  for (const char* value : {"0", "0.5", "7.0", "0x10", "\"7\"", "true"})
-    refused("cells", value, "a whole number in [1, 100]");
-  expect_file_refused("gamma = \"M\"\n", {"--gamma: 'M' cannot", "or N"});
-  expect_file_refused("gamma = true\n", {"--gamma: 'true' cannot", "or N"});
-  expect_file_refused("sites = 7.0\n", {"--sites: '7.0' cannot", "or continuum"});
-  expect_file_refused("start = \"hot\"\n", {"--start: 'hot' cannot", "one of empty, warm"});
-  expect_file_refused("start = 1\n", {"--start: '1' cannot", "one of empty, warm"});
-  expect_file_refused("output = 5\n", {"--output: '5' cannot be used: it must be a string"});
-  expect_file_refused("zero-total-momentum = 1\n", {"--zero-total-momentum: '1' cannot", "true or false"});
-  expect_file_refused("zero-total-momentum = \"true\"\n", {"'\"true\"' cannot", "true or false"});
-  for (const char* value :
-       {"[]", "[2, 1]", "[1, \"2\"]", "[1, [2]]", "[1, nan]", "\"1,2,\"", "\"\"", "[1, 11]"})
-    expect_file_refused(std::string("times = ") + value + '\n',
-                        {"--times: ", "it must be numbers in [0, 10], ascending"});
-}
-
-TEST_F(ConfigFile, IsRefusedWhereItBreaksTheRulesOfToml) {
-  const auto broken = [&](const std::string& content, const std::string& place) {
-    write(content);
-    const std::string message = refusal({"--config", path});
-    EXPECT_TRUE(message.starts_with(path + ", " + place)) << message;
-    EXPECT_TRUE(message.ends_with(". Correct the file.")) << message;
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-  };
-  broken("sigma = [0.25", "line 1, column 14: ");
-  broken("cells = 7\nsigma 0.25\n", "line 2, column ");
-  broken("cells = 7\nsigma = 0.25 0.5\n", "line 2, column ");
-  broken("cells = 7\ncells = 8\n", "line 2, column ");
-  broken("sigma = half\n", "line 1, column ");
-  broken("sigma = 1e400\n", "line 1, column ");
-  broken("start = \"warm\n", "line 1, column ");
-  broken("seed = 18446744073709551615\n", "line 1, column ");
-  broken("start = \"\xff\"\n", "line 1, column ");
-}
-
-TEST_F(ConfigFile, IsRefusedIfItCannotBeRead) {
-  const auto unreadable = [](const std::string& name, const std::string& why) {
-    EXPECT_EQ(refusal({"--config", name}),
-              "--config: '" + name + "' cannot be read: " + why + ". Name a TOML file that can be.");
-  };
-  unreadable(folder / "absent.toml", "No such file or directory");
-  unreadable(folder / "", "it is not a regular file");
-  ASSERT_EQ(::mkfifo((folder / "fifo").c_str(), 0600), 0);  // opening it would wait for ever
-  unreadable(folder / "fifo", "it is not a regular file");
-  unreadable("", "No such file or directory");
-  write("");
-  unreadable(path + "/run.toml", "Not a directory");
-  expect_refused({"--config"}, {"--config needs a value"});
-  expect_refused({"--config", path, "--config", path}, {"--config is given more than once"});
 }
 
 TEST(Options, HelpListsEveryOptionWithRangeAndDefault) {
