@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from tests.workflow.conftest import Clone, append
-from tests.workflow.tampering import audit, relock
+from tests.workflow.tampering import audit, relock, tampered
 from workflow.provenance import repository
 from workflow.provenance.repository import signature
 
