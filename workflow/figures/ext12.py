@@ -9,7 +9,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from workflow.figures.ext09 import LOOKS, spacings, tabulate
+from workflow.figures.ext09 import CUBE_ROOT, LOOKS, range_of, spacings, tabulate
 from workflow.lib import style
 from workflow.lib.caption import goodness
 from workflow.lib.figure import run
@@ -18,6 +18,7 @@ from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
 FACES = ("white", "0.7", None)  # of the markers, from the weakest drive to the strongest
+PARAMETERS = 2  # of a + b N^(1/3)
 STARTS = {
     "warm": ("s", style.BLACK),
     "cold": ("v", style.BLUE),
@@ -48,6 +49,20 @@ def exponents(table: pd.DataFrame) -> pd.DataFrame:
             columns = {"size": size, "exponent": slope, "exponent_error": error}
             parts.append(pd.DataFrame({"gas": name, "drive": drive, **columns}))
     return pd.concat(parts, ignore_index=True)
+
+
+def laws(table: pd.DataFrame) -> str:
+    """From which size on kappa grows as a + b N^(1/3), for every drive at fixed spacing, in words."""
+    said = []
+    warm = table[(table.start == "warm") & (table.gas != "thinning")]
+    for (name, drive), part in warm.groupby(["gas", "drive"]):
+        if warm[warm.gas == name].drive.nunique() > 1 and len(part) > PARAMETERS + 1:
+            law = range_of(part, CUBE_ROOT)
+            found = (
+                f"from N = {law.first:.0f} on ({goodness(law.chi_square, law.freedom)})" if law else "nowhere"
+            )
+            said.append(f"at the ratio {drive:g} {found}")
+    return f" At fixed spacing a + b N^(1/3) holds {'; '.join(said)}." if said else ""
 
 
 def deviations(table: pd.DataFrame) -> pd.DataFrame:
@@ -128,7 +143,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     caption = (
         f"(a) Local exponent of kappa for ratios of the baths' temperatures of {drives} (white, grey and full markers), at "
         f"equal pressures: {goodness(spread, freedom)}, "
-        "about a common value at every size and spacing. (b) kappa from several starts relative to the mean over them: in "
+        f"about a common value at every size and spacing.{laws(table)} (b) kappa from several starts relative to the mean over them: in "
         "equilibrium with the mean of the baths (warm), with the colder or the hotter one, and empty; "
         f"{goodness(starts.chi_square.sum(), int(starts.freedom.sum()))}, about a common value at every size, the largest "
         f"deviation {100 * starts.deviation.abs().max():.1f} %. Error bars: standard errors over replicas."
