@@ -89,7 +89,7 @@ def answer(judgements: Sequence[Judgement], quality: str) -> list[str]:
     return [
         f"Of {len(judgements)} claims, at quality {quality}: {listed}; the probability of any wrong verdict by chance is at most {FAMILY_LEVEL:.0%}.",
         f"Contradicted: {'; '.join(against)}." if against else "At this quality no claim is contradicted.",
-        f"Heat: κ ∼ N at γ = 1 is {_said(by_id['C23'])}; κ ∼ N^(1/3) at γ = N is {_said(by_id['C24'])}.",
+        f"Heat: κ ∼ N at γ = 1 is {_said(by_id['C23'])}; κ ∼ N^(1/3) at γ = N is {_said(by_id['C24'])}{_at_fixed_density(by_id['C24'])}.",
         f"Conservation: that only energy is conserved is {_said(by_id['C22'])}; that the tagged particle is superdiffusive for σ ≠ 0 is {_said(by_id['C20'])}.",
         f"Kinetic equation: that finite chains tend to it is {_said(by_id['C12'])}; that they differ by less than 0.1 % is {_said(by_id['C10'])}.",
     ]
@@ -98,6 +98,14 @@ def answer(judgements: Sequence[Judgement], quality: str) -> list[str]:
 def _said(judgement: Judgement) -> str:
     reading = judgement.deciding
     return f"{judgement.outcome.value} ({words.told(reading.worst)})" if reading else judgement.outcome.value
+
+
+def _at_fixed_density(judgement: Judgement) -> str:
+    """What heat does in the thermodynamic limit, where it has been measured."""
+    if not judgement.other:
+        return ""
+    said = f"{judgement.other.outcome.value} ({words.told(judgement.other.worst)})"
+    return f", as the gas thins out while the chain grows; at fixed density and without a particle current it is {said}"
 
 
 def findings(judgements: Sequence[Judgement]) -> list[dict]:
