@@ -107,6 +107,7 @@ build: system-packages  ## The executables in build/bin
 	python3 -I workflow/environment/build_by_content.py
 	test -f build/build.ninja || cmake -S cpp -B build -G Ninja >build/cmake.log || { cat build/cmake.log; exit 1; }
 	ninja -C build --quiet
+	python3 -I workflow/environment/build_by_content.py --built
 
 test: build dev  ## All tests; ends with the count
 	ninja -C build --quiet cpp_tests

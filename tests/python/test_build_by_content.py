@@ -7,22 +7,28 @@ import pytest
 
 from workflow.environment import build_by_content
 
-SOURCE = "cpp/model/a.cpp"
+SOURCE, PROGRAM = "cpp/model/a.cpp", "cpp/observables/fake.cpp"
 
 
 @pytest.fixture
 def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    for path in (SOURCE, "cpp/CMakeLists.txt", "build/build.ninja", "build/bin/fake", "build/id/fake.json",
+    for path in (SOURCE, PROGRAM, "cpp/CMakeLists.txt", "build/build.ninja", "build/bin/fake", "build/id/fake.json",
                  "build/bin/cpp_tests"):  # fmt: skip
         (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / path).write_text(path)
         os.utime(tmp_path / path, (0, 0))
+    (tmp_path / "build/id/fake.json").write_text(
+        '{"sources": {"observables/fake.cpp": "", "model/a.hpp": ""}}'
+    )
+    (tmp_path / PROGRAM).write_text('#include "model/a.hpp"\n')
+    (tmp_path / "cpp/model/a.hpp").write_text("")
     digest = build_by_content.hash_of(tmp_path / "build/bin/fake")
     (tmp_path / "build/id/fake.sha256").write_text(f"{digest}  fake\n")
     for name, path in {"ROOT": "", "BUILD": "build", "RECORD": "build/built_from.json"}.items():
         monkeypatch.setattr(build_by_content, name, tmp_path / path)
     build_by_content.main()  # the first time all is new
-    (tmp_path / "build/build.ninja").write_text("")
+    (tmp_path / "build/build.ninja").write_text("rules")
+    build_by_content.main(["--built"])
     (tmp_path / "build/bin/fake").write_text("build/bin/fake")
     os.utime(tmp_path / SOURCE, (0, 0))
     return tmp_path
@@ -42,6 +48,29 @@ def test_another_compiler_configures_again(root: Path, monkeypatch: pytest.Monke
     monkeypatch.setattr(build_by_content, "present", lambda: now)
     build_by_content.main()
     assert not (root / "build/build.ninja").exists()
+
+
+def test_edited_rules_are_written_again(root: Path) -> None:
+    build_by_content.main()
+    assert (root / "build/build.ninja").exists()
+    build_by_content.main(["--built"])
+    (root / "build/build.ninja").write_text("other rules")
+    build_by_content.main()
+    assert not (root / "build/build.ninja").exists()
+
+
+@pytest.mark.parametrize("added", ["cpp/observables/model/a.hpp", "cpp/model/a.cpp"])
+def test_a_program_whose_includes_lead_elsewhere_is_built_again(root: Path, added: str) -> None:
+    """A header that hides another, or the source beside a header: ninja's list of prerequisites does not have it."""
+    (root / "cpp/model/a.cpp").unlink()
+    build_by_content.main(["--built"])
+    os.utime(root / PROGRAM, (0, 0))
+    build_by_content.main()
+    assert (root / PROGRAM).stat().st_mtime == 0
+    (root / added).parent.mkdir(exist_ok=True)
+    (root / added).write_text("")
+    build_by_content.main()
+    assert (root / PROGRAM).stat().st_mtime > 0
 
 
 @pytest.mark.parametrize("file", ["build/bin/fake", "build/id/fake.sha256"])

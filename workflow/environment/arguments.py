@@ -13,11 +13,15 @@ QUALITIES = ("smoke", "standard", "paper", "deep")
 ADMITTED = {  # name: pattern of the whole value, what it may be, an example
     "QUALITY": ("|".join(QUALITIES), f"one of {', '.join(QUALITIES)}", "QUALITY=smoke"),
     "PANEL": (r"[A-Za-z0-9_-]+", "the name of a panel", "PANEL=fig05"),
-    "JOBS": (r"[1-9][0-9]{0,3}", "a number of processes, at least 1", "JOBS=2"),
+    "JOBS": (r"[1-9][0-9]{0,2}", "a number of processes, from 1 to 999", "JOBS=2"),
     "FRESH": (r"yes|no|1|0|", "yes or no", "FRESH=yes"),
     "FULL": (r"yes|no|1|0|", "yes or no", "FULL=yes"),
     "SEED": (r"0|[1-9][0-9]{0,17}", "a whole number of at most 18 digits", "SEED=7"),
-    "REPLICAS": (r"[1-9][0-9]{0,7}|100000000", "a number of replicas, from 1 to 100000000", "REPLICAS=200"),
+    "REPLICAS": (
+        r"[4-9]|[1-9][0-9]{1,7}|100000000",
+        "a number of replicas, from 4, as errors need some, to 100000000",
+        "REPLICAS=200",
+    ),
     "SAMPLE": (r"0?\.[0-9]*[1-9][0-9]*|1(\.0*)?", "a share, above 0 and at most 1", "SAMPLE=0.1"),
     "FILE": (r"[^\n]+", "the path of a file", "FILE=figures/standard/fig05.pdf"),
     "CRATE": (r"[^\n]+", "the path of a crate", "CRATE=crate.zip"),

@@ -1,19 +1,25 @@
 """Makes ninja decide by content: what differs from what was built is given a new time, or removed if it was built.
 
-Time stamps say nothing of a source that was copied with its time, or of an executable that was edited. Standard
-library only: this runs before anything is installed.
+Time stamps say nothing of a source that was copied with its time, or of an executable that was edited; ninja knows
+nothing of a new file that an include finds first. Standard library only: this runs before anything is installed.
+With --built it notes, after the build, the rules that CMake wrote for ninja: edited ones are written anew.
 """
 
 import hashlib
 import json
 import os
+import runpy
 import shutil
 import subprocess
+import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build"
 RECORD = BUILD / "built_from.json"
+BUILD_ID = Path(__file__).resolve().parents[1] / "provenance/build_id.py"
+RULES = ("build.ninja", "CMakeCache.txt")
 SOURCES = ("cpp/**/*.[ch]pp", "cpp/**/CMakeLists.txt", "tests/cpp/**/*", "workflow/provenance/build_id.py")
 
 
@@ -36,14 +42,35 @@ def recorded() -> dict[str, str]:
         return {}
 
 
+def rules() -> dict[str, str]:
+    return {name: hash_of(BUILD / name) for name in RULES if (BUILD / name).is_file()}
+
+
 def renew(before: dict[str, str], now: dict[str, str]) -> None:
-    changed = [path for path in now if before.get(path) != now[path] and path != "compiler"]
-    if before and before.get("compiler") != now["compiler"]:  # CMake knows its version since it was first run
+    changed = [path for path in now if before.get(path) != now[path] and path not in ("compiler", *RULES)]
+    written = {name: before[name] for name in RULES if name in before}
+    # CMake knows the compiler's version since it was first run.
+    if before.get("compiler") != now["compiler"] or written != rules():
         changed.append("cpp/CMakeLists.txt")
-        for name in ("CMakeCache.txt", "build.ninja"):
+        for name in RULES:
             (BUILD / name).unlink(missing_ok=True)
-    for path in changed:
+    for path in [*changed, *found_anew()]:
         os.utime(ROOT / path)
+
+
+def found_anew() -> list[str]:
+    """Programs' sources whose includes lead to other files than when they were built."""
+    closure = runpy.run_path(str(BUILD_ID))["include_closure"]
+    stale = []
+    for identity in (BUILD / "id").glob("*.json"):
+        source = f"observables/{identity.stem}.cpp"
+        try:
+            before = json.loads(identity.read_text())["sources"].keys()
+            if (ROOT / "cpp" / source).is_file() and {*closure(ROOT / "cpp", source)} != {*before}:
+                stale.append(f"cpp/{source}")
+        except (OSError, ValueError, KeyError, TypeError, AttributeError):
+            identity.unlink(missing_ok=True)  # damaged: written again
+    return stale
 
 
 def remove_edited_executables() -> None:
@@ -62,9 +89,11 @@ def remove_edited_executables() -> None:
             executable.unlink()
 
 
-def main() -> None:
+def main(arguments: Sequence[str] = ()) -> None:
     now = present()
-    if (BUILD / "build.ninja").is_file():
+    if arguments == ["--built"]:
+        now |= rules()
+    elif (BUILD / "build.ninja").is_file():
         renew(recorded(), now)
         remove_edited_executables()
     if RECORD.is_dir():
@@ -75,4 +104,7 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main(sys.argv[1:])
+    except KeyboardInterrupt:
+        sys.exit("Stopped.")

@@ -4,7 +4,10 @@
 that lies there takes its place, and no file of the project that of a package. Standard library only.
 """
 
+import errno
+import os
 import runpy
+import signal
 import sys
 from collections.abc import Sequence
 from importlib.abc import MetaPathFinder
@@ -47,6 +50,24 @@ class OfTheProject(MetaPathFinder):
 
 sys.meta_path.insert(0, OfTheProject())
 
-if __name__ == "__main__":
+
+def launch() -> None:
+    """What a user does is no fault of the module: a key that stops it, a reader that goes, a full disk behind the output."""
     del sys.argv[0]
-    runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)
+    try:
+        runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)
+        sys.stdout.flush()
+    except KeyboardInterrupt:
+        sys.exit("Stopped.")
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left is written there
+        sys.exit(128 + signal.SIGPIPE)
+    except OSError as error:
+        if error.filename is not None or error.errno not in (errno.ENOSPC, errno.EIO, errno.EDQUOT):
+            raise
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(f"What was to be said cannot be written: {error.strerror}")
+
+
+if __name__ == "__main__":
+    launch()

@@ -7,12 +7,11 @@ a script makes of them it declares.
 import json
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 
 import pandas as pd
-import yaml
 from pandas.api.types import is_bool_dtype
 
+from workflow.lib.configuration import option_units
 from workflow.lib.load import Result
 from workflow.lib.units import UnitsError, parse
 
@@ -20,16 +19,6 @@ UNITS_LINE = "# units: "
 
 # Where units differ from row to row, this and the name of the column that holds them stand in their place.
 BY_ROW = "column "
-
-SCHEMA = Path(__file__).parents[1] / "config/schema.yaml"
-
-# Of the programs' options, as the programs declare them (`make describe`); all others are pure numbers.
-OPTIONS = {
-    name: option["units"]
-    for options in yaml.safe_load(SCHEMA.read_text())["programs"].values()
-    for name, option in options.items()
-    if "units" in option
-}
 
 
 def inherited(results: Sequence[Result]) -> dict[str, str]:
@@ -42,7 +31,7 @@ def inherited(results: Sequence[Result]) -> dict[str, str]:
             for axis, units in quantity.axis_units.items():
                 found[axis].add(units)
         for option in result.parameters:
-            found[option.replace("-", "_")].add(OPTIONS.get(option, "1"))
+            found[option.replace("-", "_")].add(option_units().get(option, "1"))
     return {name: units.pop() for name, units in found.items() if len(units) == 1}
 
 

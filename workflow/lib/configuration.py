@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,8 @@ from workflow.lib.options import Options, admissible, admits
 from workflow.lib.strict_yaml import ConfigurationError, Document, nearest, read
 
 __all__ = ["Admissible", "ConfigurationError", "load_checked", "nearest", "paper_schema", "quality_schema"]
+
+FOLDER = Path(__file__).parents[1] / "config"
 
 
 @dataclass(frozen=True)
@@ -73,6 +76,18 @@ class Admissible:
         name, _, keys = place.partition(": ")
         path = self.folder / name if name == "paper.yaml" else self.folder / "quality" / name
         return read(path).complaint(keys.split("."), text, "" if value is None else json.dumps(value))
+
+
+@cache
+def option_units() -> dict[str, str]:
+    """Of the programs' options, as the programs declare them (`make describe`); all others are pure numbers."""
+    programs = read(FOLDER / "schema.yaml").content["programs"]
+    return {
+        name: option["units"]
+        for options in programs.values()
+        for name, option in options.items()
+        if "units" in option
+    }
 
 
 def load_checked(path: Path, schema: dict) -> dict:

@@ -112,7 +112,7 @@ def _opened(path: Path) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
             yield file, provenance
     except FormatError as error:
         raise FormatError(f"{path}: {error}") from error
-    except (OSError, KeyError, TypeError, ValueError, RuntimeError) as error:
+    except (OSError, AttributeError, KeyError, TypeError, ValueError, RuntimeError) as error:
         raise FormatError(f"{path} is not a result file: {error}") from error
 
 

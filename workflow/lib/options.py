@@ -10,7 +10,7 @@ from typing import Any
 
 Options = dict[str, Any]  # name, without dashes: number, text, or bool for a flag
 
-NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE)
+NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
 
 
 def arguments(options: Options) -> list[str]:

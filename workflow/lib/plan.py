@@ -9,16 +9,17 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from workflow.lib.configuration import (
+    FOLDER,
     Admissible,
     ConfigurationError,
     load_checked,
+    option_units,
     paper_schema,
     quality_schema,
 )
 from workflow.lib.options import Options
 from workflow.lib.strict_yaml import nearest, read
 
-FOLDER = Path(__file__).parents[1] / "config"
 KINDS = ("pdf", "png", "svg", "csv")
 QUALITIES = ("smoke", "standard", "paper", "deep")
 MOST = 1000  # runs of a series
@@ -49,9 +50,14 @@ class Panel:
         return next(run for run in self.runs if run.name == name)
 
     def hash(self) -> str:
-        """sha256 of the complete configuration of the panel, effort included."""
+        """sha256 of the complete configuration of the panel, effort included, with the units that its table states."""
         runs = [[run.name, run.program, run.options] for run in self.runs]
-        content = [self.name, self.script, runs, self.uses]
+        units = {
+            name: unit
+            for name, unit in option_units().items()
+            if any(name in run.options for run in self.runs)
+        }
+        content = [self.name, self.script, runs, self.uses, units]
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
@@ -68,7 +74,7 @@ class Quality:
     @classmethod
     def of(cls, name: str) -> "Quality":
         """Raises ConfigurationError."""
-        parts = re.fullmatch(r"([a-z]+)(?:_seed=(0|[1-9]\d*))?(?:_replicas=([1-9]\d*))?", name)
+        parts = re.fullmatch(r"([a-z]+)(?:_seed=(0|[1-9][0-9]*))?(?:_replicas=([1-9][0-9]*))?", name)
         if not parts or parts[1] not in QUALITIES:
             raise ConfigurationError(f"QUALITY={name} is not known: choose one of {', '.join(QUALITIES)}")
         seed, replicas = (None if part is None else int(part) for part in parts.groups()[1:])

@@ -86,11 +86,12 @@ def audit(quality: str, only: str | None = None, deposit: Deposit | None = None)
             [Link(f"data/{quality}/lock.json", f"does not have the documented structure: {error!r}")]
         )
     if deposit:
-        findings.add([*deposit.differences(chain)])
+        findings.add([*deposit.differences(chain, names)])
     drawn = names_to_draw(chain, [name for name in lock.drawings() if name in names], findings.broken)
     findings.add(not_following(chain, drawn))
     findings.add([*report_links.report(chain)])
     findings.looked_at = summary(chain, names, len(drawn))
+    findings.looked_at += f"; compared with {deposit.extent}" if deposit else ""
     return findings
 
 
@@ -191,6 +192,8 @@ def main() -> None:
         print(printable(f"make audit: {error}"), file=sys.stderr)
         status = BAD_INPUT
     except OSError as error:
+        if error.filename is None:  # of the output, not of a file that is checked
+            raise
         print(printable(f"make audit: {error.filename} cannot be read: {error.strerror}"), file=sys.stderr)
         status = BAD_INPUT
     sys.exit(status)

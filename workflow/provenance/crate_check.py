@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from workflow.provenance.chain import Chain
-from workflow.provenance.links import Link
+from workflow.provenance.links import Link, unchecked
 
 METADATA = "ro-crate-metadata.json"
 # Of a job in the lock; commit, machine and executable may be others where the same is made again.
@@ -46,6 +46,8 @@ class Deposit:
                 if name in made
             }
             del stated[lock_path]  # it names all jobs of the quality, packed or not
+            if not jobs:
+                raise ValueError("no job of its lock is an action of its metadata")
             held = {name: hashlib.sha256(content).hexdigest() for name, content in contents.items()}
             return cls(stated, held, lock["quality"], jobs)
         except OSError as error:
@@ -55,8 +57,12 @@ class Deposit:
                 f"CRATE={path} is no crate of this project: give a folder or zip that `make crate` wrote"
             ) from error
 
-    def differences(self, chain: Chain) -> Iterator[Link]:
-        """Of files and of the lock's entries. Raises CrateError if the crate is of another quality."""
+    @property
+    def extent(self) -> str:
+        return f"{len(self.stated)} files and {len(self.jobs)} jobs of the crate"
+
+    def differences(self, chain: Chain, names: set[str]) -> Iterator[Link]:
+        """Of files and of the lock's entries; names: of the jobs that are looked at. Raises CrateError if the crate is of another quality."""
         if self.quality != chain.quality:
             raise CrateError(f"the crate is of quality {self.quality}: give QUALITY={self.quality}")
         made = chain.lock.outputs()
@@ -69,6 +75,9 @@ class Deposit:
                 yield Link(path, "is not what the crate holds")
             elif path in made and made[path] != digest:
                 yield Link(path, "is what the crate holds, and the lock says otherwise")
+        if missing := (names & chain.lock.jobs.keys()) - self.jobs.keys():
+            text = f"the crate has {len(missing)} of {len(names)} jobs not, such as {min(missing)}: they are not compared"
+            yield unchecked(f"CRATE of quality {self.quality}", text)
         for name, job in self.jobs.items():
             here = chain.lock.jobs.get(name)
             differing = [key for key in job if not here or getattr(here, key) != job[key]]

@@ -16,7 +16,7 @@ from workflow.lib.parents import PACKAGES
 from workflow.provenance.build_id import build_id, source_hash
 from workflow.provenance.chain import Chain
 from workflow.provenance.lock import Job, configuration_files
-from workflow.provenance.repository import CODE, ROOT, files_at, no_history, untracked
+from workflow.provenance.repository import DECIDING, ROOT, files_at, no_history, untracked
 
 NAMED = 5  # files of packages that are named where many are wrong
 
@@ -111,10 +111,10 @@ def pipeline(chain: Chain) -> Iterator[Link]:
 
 
 def uncommitted(chain: Chain) -> Iterator[Link]:
-    """Files of the code that are not those of the commit that is checked out, whether a job names them or not."""
+    """Files that decide and are not those of the commit that is checked out, whether a job names them or not."""
     if no_history():
         return
-    for path, content in (files_at("HEAD", *CODE, "Makefile", "Snakefile") or {}).items():
+    for path, content in (files_at("HEAD", *DECIDING) or {}).items():
         if chain.hashes[path] != hashlib.sha256(content).hexdigest():
             yield unchecked(path, "is not what the commit that is checked out holds")
     for path in untracked():

@@ -90,7 +90,7 @@ class Lock:
         if not path.is_file():
             raise LockError(f"{name} is missing")
         try:
-            content = json.loads(path.read_text())
+            content = json.loads(path.read_text(), object_pairs_hook=_unique)
             checksum = content.pop("checksum", None)
             if {key: content[key] for key in FORMAT} != FORMAT:
                 raise LockError(f"{name} is of version {content['version']}, not {FORMAT['version']}")
@@ -130,6 +130,15 @@ class Lock:
 
     def outputs(self) -> dict[str, str]:
         return {path: digest for job in self.jobs.values() for path, digest in job.outputs.items()}
+
+
+def _unique(pairs: list[tuple[str, object]]) -> dict:
+    """Raises ValueError for a name that stands twice, of which readers take one or the other."""
+    content = dict(pairs)
+    if len(content) < len(pairs):
+        twice = next(name for number, (name, _) in enumerate(pairs) if name in dict(pairs[:number]))
+        raise ValueError(f"{twice!r} stands twice")
+    return content
 
 
 def builds_of(jobs: Iterable[Job]) -> set[str]:

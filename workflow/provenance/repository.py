@@ -18,8 +18,18 @@ CODE = (
     "GNUmakefile",
     "makefile",
 )  # make reads the last two before the Makefile
-# Nothing that is configured may show git another history than the one whose hashes it names.
-PLAIN = {"GIT_NO_REPLACE_OBJECTS": "1", "GIT_GRAFT_FILE": os.devnull}
+# What decides beside the code: bands of the verdicts, the citation, layouts of files, packages, make and Snakemake.
+DECIDING = (
+    *CODE,
+    "Makefile",
+    "Snakefile",
+    "CITATION.cff",
+    "data/claims.csv",
+    "docs/format.schema.json",
+    "requirements.lock",
+)
+# Nothing that is configured may show git another history than the one whose hashes it names, or other files.
+PLAIN = {"GIT_NO_REPLACE_OBJECTS": "1", "GIT_GRAFT_FILE": os.devnull, "GIT_WORK_TREE": str(ROOT)}
 
 
 class FileHashes(dict[str, str | None]):
@@ -69,6 +79,8 @@ def no_history() -> str | None:
     done = run_git("rev-parse", "--is-shallow-repository")
     if done is None:
         return "git is not installed"
+    if done.returncode == 0 and git("ls-files", "-z") is None:
+        return "git does not list the files here"
     for line in done.stderr.decode(errors="replace").splitlines():
         if "git config" in line and "safe.directory" in line:  # what git says to another user than the owner
             return f"the repository is another user's, which git reads after: {line.strip()}"
@@ -84,9 +96,14 @@ def state() -> dict:
     if commit is None or not (ROOT / ".git").exists():
         return {"commit": None, "dirty": None}
     changed = git("status", "--porcelain", "--untracked-files=no")
-    listed = (git("ls-files", "-v") or b"").splitlines()
-    unseen = any(line[:1] == b"S" or line[:1].islower() for line in listed)  # assume-unchanged, skip-worktree
-    return {"commit": commit.decode().strip(), "dirty": bool(changed) or unseen or bool(untracked())}
+    listed = git("ls-files", "-v")
+    known = changed is not None and listed is not None
+    marked = (line for line in (listed or b"").splitlines() if line[:1] == b"S" or line[:1].islower())
+    unseen = any(marked)  # assume-unchanged, skip-worktree
+    return {
+        "commit": commit.decode().strip(),
+        "dirty": not known or bool(changed) or unseen or bool(untracked()),
+    }
 
 
 def untracked() -> list[str]:
@@ -140,8 +157,9 @@ def signature(commit: str) -> str:
     objects = os.fsdecode(git("rev-parse", "--path-format=absolute", "--git-path", "objects") or b"").strip()
     kind = os.fsdecode(git("rev-parse", "--show-object-format") or b"sha1").strip()
     with tempfile.TemporaryDirectory() as folder:
-        git("init", "--quiet", "--bare", "--template=", f"--object-format={kind}", folder)
-        apart = {"GIT_DIR": folder, "GIT_OBJECT_DIRECTORY": objects}
+        apart = {"GIT_DIR": folder}
+        git("init", "--quiet", "--template=", f"--object-format={kind}", **apart)
+        apart |= {"GIT_OBJECT_DIRECTORY": objects}
         if git("verify-commit", commit, **apart) is not None:
             shown = ["show", "--no-patch", "--no-show-signature", "--format=%GS%x00%GK", commit]
             signer, key = (git(*shown, **apart) or b"\0").decode(errors="replace").strip().split("\0")

@@ -101,6 +101,8 @@ def main() -> None:
         print(f"make status: {error}", file=sys.stderr)
         sys.exit(2)
     except (OSError, SyntaxError, UnicodeDecodeError) as error:
+        if isinstance(error, OSError) and error.filename is None:  # of the output
+            raise
         sys.exit(f"make status: a source cannot be read: {error}")
 
 

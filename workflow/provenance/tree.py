@@ -20,7 +20,7 @@ from rich.tree import Tree
 
 from workflow.lib.load import Result, load
 from workflow.lib.parents import PACKAGES, Parents, file_hash
-from workflow.lib.plan import ConfigurationError, Panel, load_plan
+from workflow.lib.plan import ConfigurationError, Panel, is_quality, load_plan, outputs_of
 from workflow.provenance.build_id import content_hashes, include_closure, source_hash
 from workflow.provenance.lock import Lock, LockError
 from workflow.provenance.printable import printable
@@ -46,12 +46,12 @@ def makers(digest: str) -> tuple[list[str], list[str]]:
         qualities = []
     except OSError as error:
         return [], [f"skipped data: {error.strerror}"]
-    for quality in qualities:
+    for quality in filter(is_quality, qualities):
         try:
             os.stat(ROOT / "data" / quality / "lock.json")
             jobs = Lock.read(quality).jobs
             for name, job in jobs.items():
-                if digest in job.outputs.values():
+                if any(job.outputs.get(path) == digest for path in outputs_of(quality, name)):
                     state = {True: "uncommitted changes", False: "clean", None: "no repository"}[job.dirty]
                     found.append(
                         f"job {name} of quality {quality} wrote (commit {short(str(job.commit))}, {state})"
