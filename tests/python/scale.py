@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from workflow.lib.columns import OPTIONS
+from workflow.lib.configuration import option_units
 from workflow.lib.load import Quantity, Result
 from workflow.lib.units import parse
 
@@ -26,9 +26,9 @@ class Scale:
 
     def option(self, name: str, value: object) -> object:
         """An option of the command line: one or more numbers or polynomials in N, or a word."""
-        if name not in OPTIONS or value in ("particles", "1/N"):
+        if name not in option_units() or value in ("particles", "1/N"):
             return value
-        factor = self(OPTIONS[name])
+        factor = self(option_units()[name])
         return COEFFICIENT.sub(lambda found: repr(factor * float(found[0])), str(value))
 
     def result(self, result: Result) -> Result:

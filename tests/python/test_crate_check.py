@@ -39,6 +39,8 @@ def test_what_is_whole_is_read(tmp_path: Path) -> None:
         lambda graph, lock: lock["jobs"]["fig03"].pop("options"),
         lambda graph, lock: graph[0].update({"@id": 5}),
         lambda graph, lock: graph.append(5),
+        lambda graph, lock: lock.update(jobs={}),
+        lambda graph, lock: graph.pop(),
     ],
 )
 def test_a_forged_one_is_refused(tmp_path: Path, forge: Callable[[list, dict], object]) -> None:

@@ -61,3 +61,29 @@ def run(root: Path, module: str) -> subprocess.CompletedProcess:
     return subprocess.run(
         command, cwd=root, env={"PATH": os.defpath}, capture_output=True, text=True, check=False
     )
+
+
+@pytest.mark.parametrize(
+    ("said", "status", "words"),
+    [
+        ("raise KeyboardInterrupt", 1, "Stopped.\n"),
+        ("print(1, flush=True); raise BrokenPipeError(32, 'Broken pipe')", 141, ""),
+        (
+            "raise OSError(28, 'No space left on device')",
+            1,
+            "What was to be said cannot be written: No space left on device\n",
+        ),
+    ],
+)
+def test_what_a_user_does_is_no_traceback(tmp_path: Path, said: str, status: int, words: str) -> None:
+    (tmp_path / "workflow/environment").mkdir(parents=True)
+    shutil.copy(ROOT / LAUNCH, tmp_path / LAUNCH)
+    (tmp_path / "workflow/a.py").write_text(said)
+    done = subprocess.run(
+        [sys.executable, "-P", LAUNCH, "workflow.a"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (status, words)

@@ -103,3 +103,13 @@ def test_a_forged_entry_is_refused(root: Path, job: Job, part: str, value: objec
         lock.jobs["fig05/all"] = replace(job, **{part: value})
     with pytest.raises(LockError, match="is damaged"):
         Lock.read("smoke")
+
+
+def test_a_name_that_stands_twice_is_damage(root: Path, job: Job) -> None:
+    """The checksum is that of what was read, and readers differ in which of the two they take."""
+    with changing("smoke") as lock:
+        lock.builds, lock.jobs = {KEPT: BUILD}, {"fig05/all": job}
+    path = Lock.path("smoke")
+    path.write_text(path.read_text().replace('"quality"', '"quality": "evil",\n "quality"', 1))
+    with pytest.raises(LockError, match="'quality' stands twice"):
+        Lock.read("smoke")

@@ -7,6 +7,8 @@ import pytest
 import yaml
 
 from tests.python.conftest import ROOT
+from workflow.lib import plan
+from workflow.lib.configuration import option_units
 from workflow.lib.options import arguments
 from workflow.lib.plan import FOLDER, QUALITIES, ConfigurationError, load_plan
 
@@ -199,3 +201,17 @@ def test_unknown_quality_and_broken_yaml(folder: Path) -> None:
     (folder / "paper.yaml").write_text("panels: [")
     with pytest.raises(ConfigurationError, match=r"paper\.yaml is not valid YAML"):
         load_plan("smoke", folder)
+
+
+def test_units_of_options_are_part_of_a_panels_configuration(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its table states them, and nothing else that it is drawn from does."""
+    panels = load_plan("smoke")
+    before = {name: panel.hash() for name, panel in panels.items()}
+    units = option_units() | {"cell-length": "energy"}
+    monkeypatch.setattr(plan, "option_units", lambda: units)
+    changed = {name for name, panel in panels.items() if panel.hash() != before[name]}
+    assert changed == {
+        name for name, panel in panels.items() if any("cell-length" in run.options for run in panel.runs)
+    }
+    assert "fig01" in changed
+    assert "fig05" not in changed

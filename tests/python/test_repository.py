@@ -112,3 +112,20 @@ def test_what_lies_behind_a_link_is_no_file_of_the_project(root: Path) -> None:
     hashes = FileHashes()
     assert hashes["a"] == hashes["elsewhere/b"] == hashes["data/b"]
     assert [hashes[path] for path in ("link", "folder/b", "none", "elsewhere", "a" * 300)] == [None] * 5
+
+
+@pytest.mark.parametrize(("setting", "value"), [("core.bare", "true"), ("core.worktree", "/")])
+def test_settings_do_not_hide_the_files_that_are_here(root: Path, setting: str, value: str) -> None:
+    run(root, "config", setting, value)
+    assert no_history() is None
+    assert state()["dirty"] is False
+    (root / "cpp").mkdir()
+    (root / "cpp/sleef.h").write_text("")
+    assert untracked() == ["cpp/sleef.h"]
+    assert state()["dirty"] is True
+
+
+def test_a_git_that_fails_is_no_clean_tree(root: Path) -> None:
+    (root / ".git/index").write_bytes(b"no index")
+    assert no_history() == "git does not list the files here"
+    assert state()["dirty"] is True

@@ -1,13 +1,15 @@
 """`make provenance` says what it could not read, and refuses in one line what is no file."""
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from workflow.provenance import repository, tree
-from workflow.provenance.lock import Lock
+from workflow.provenance.lock import Job, Lock, configuration_files
 
+KEPT = "a" * 64
 NAME = "a\x1b[2J.csv"
 
 
@@ -24,6 +26,30 @@ def status(monkeypatch: pytest.MonkeyPatch, file: Path) -> int | str | None:
     with pytest.raises(SystemExit) as left:
         tree.main()
     return left.value.code
+
+
+def test_only_what_a_job_of_a_quality_writes_is_its_product(root: Path) -> None:
+    """Neither a copy of a lock under another name vouches for anything, nor an output that no such job has."""
+    output, forged = "figures/smoke/fig03.pdf", "b" * 64
+    job = replace(a_drawing(), outputs={output: KEPT, "README.md": forged})
+    for quality in ("smoke", "smoke_old"):
+        Lock.path(quality).parent.mkdir(parents=True)
+        Lock(quality, {"fig03": job}).write()
+    assert tree.makers(KEPT)[0] == ["job fig03 of quality smoke wrote (commit None, no repository)"]
+    assert tree.makers(forged)[0] == []
+
+
+def a_drawing() -> Job:
+    stated = {"configuration": configuration_files("smoke"), "pipeline": ["Makefile", "Snakefile"]}
+    hashes = {name: dict.fromkeys(paths, KEPT) for name, paths in stated.items()}
+    made_by = {
+        "tool": "workflow/figures/fig03.py",
+        "options": {"configuration": KEPT},
+        "outputs": {},
+        "python": "3",
+    }
+    inputs = {"workflow/figures/fig03.py": KEPT, "requirements.lock": KEPT}
+    return Job(**made_by, **hashes, inputs=inputs, commit=None, dirty=None, machine="", exit=0)
 
 
 def test_a_lock_that_cannot_be_looked_at_is_said(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:

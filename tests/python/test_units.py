@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from tests.python.conftest import ROOT
 from tests.python.scale import ROUNDING, SCALES, Scale, agree
-from workflow.lib.columns import OPTIONS
+from workflow.lib.configuration import option_units
 from workflow.lib.load import Result
 from workflow.lib.units import WORDS, Units, UnitsError, parse
 from workflow.tradeoff.measure import call
@@ -130,7 +130,7 @@ def measured(case: str) -> tuple[Result, ...]:
     program, options = CASES[case]
     path = ROOT / "build/bin" / program
     plain = call(path, **options, progress="none").result
-    given_or_not = {name: value for name, value in plain.parameters.items() if name in OPTIONS}
+    given_or_not = {name: value for name, value in plain.parameters.items() if name in option_units()}
     scaled = [
         call(path, **options | {name: scale.option(name, value) for name, value in given_or_not.items()},
              progress="none").result

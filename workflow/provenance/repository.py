@@ -29,7 +29,7 @@ DECIDING = (
     "requirements.lock",
 )
 # Nothing that is configured may show git another history than the one whose hashes it names, or other files.
-PLAIN = {"GIT_NO_REPLACE_OBJECTS": "1", "GIT_GRAFT_FILE": os.devnull, "GIT_WORK_TREE": str(ROOT)}
+PLAIN = {"GIT_NO_REPLACE_OBJECTS": "1", "GIT_GRAFT_FILE": os.devnull}
 
 
 class FileHashes(dict[str, str | None]):
@@ -59,7 +59,7 @@ def run_git(*arguments: str, given: bytes = b"", **variables: str) -> subprocess
         return subprocess.run(
             ["git", *arguments],
             cwd=ROOT,
-            env=os.environ | PLAIN | variables,
+            env=os.environ | PLAIN | {"GIT_WORK_TREE": str(ROOT)} | variables,
             input=given,
             capture_output=True,
             check=False,
