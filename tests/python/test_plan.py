@@ -214,4 +214,4 @@ def test_units_of_options_are_part_of_a_panels_configuration(monkeypatch: pytest
         name for name, panel in panels.items() if any("cell-length" in run.options for run in panel.runs)
     }
     assert "fig01" in changed
-    assert "fig05" not in changed
+    assert "fig03" not in changed

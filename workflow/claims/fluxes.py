@@ -97,7 +97,7 @@ def deviations_small(data: Data) -> Evidence:
     return Evidence(
         _bins(table, known, True),
         other=_bins(table, known, False),
-        caveat="In the normalisation printed, where half of F integrates to 1/2; relative to max F in the other reading. "
+        caveat="In the normalisation printed, with the mean of both rates, F integrates to 1; relative to max F in the other reading. "
         "Means over bins.",
     )
 

@@ -38,14 +38,14 @@ def temperatures_mismatch(data: Data) -> Evidence:
 
 
 def temperatures_coincide(data: Data) -> Evidence:
-    """T of the scatterer minus T of the particles in every cell, relative."""
+    """T of the scatterer minus T of the particles in every cell, relative to the latter."""
     found = []
     for result, name in _both(data):
-        scale = float(result["temperature_particle"].mean.mean())
+        local = result["temperature_particle"].mean
         cells = range(len(result["temperature_difference"].mean))
         found += [
             number(result, "temperature_difference", k, f"relative difference in cell {k + 1}, {name}").over(
-                scale
+                local[k]
             )
             for k in cells
         ]

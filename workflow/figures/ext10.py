@@ -91,7 +91,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         (circles) and γ = 1 (squares). (a) Flux of the particles that leave at both ends, (b) density of the momenta of the scatterers in
         the end cells, both over the Gaussian at the temperature of the baths and at their rate, minus one, in the bins that hold more
         than {number(100 * SEEN)} % of all; nothing is fitted. {ERRORS}. Against the Gaussian, with the largest distance of the
-        distribution functions (Kolmogorov and Smirnov): {"; ".join(said)}. As the paper states, both are Gaussian."""
+        distribution functions (Kolmogorov and Smirnov): {"; ".join(said)}. The paper states that both are Gaussian."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

@@ -129,8 +129,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     pulls = table.asymmetry / table.asymmetry_error
     caption = (
         "Linear response at gamma = N about equal baths, from a difference of temperature at equal pressure and a difference "
-        "of pressure at equal temperature. (a) Coefficient of the particle current; in proportion to N, particles drift without "
-        "friction in the bulk, because momentum is conserved. (b) Heat conductivity without a current of "
+        "of pressure at equal temperature. (a) Coefficient of the particle current; without friction in the bulk, as momentum is "
+        "conserved, it would grow in proportion to N. (b) Heat conductivity without a current of "
         f"particles, kappa_0 = (L_uu - L_un L_nu / L_nn)/T^2. Over all sizes, {'; '.join(said)}. Onsager's symmetry "
         f"L_un = L_nu: chi^2 = {np.sum(pulls**2):.1f} for {len(pulls)} pairs. Error bars: standard errors over replicas."
     )

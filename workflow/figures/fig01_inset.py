@@ -75,7 +75,7 @@ def caption(results: Sequence[Result]) -> str:
             style.with_error(result["log_curvature"]),
             style.with_error(result["plateau"], -1),
         )
-        verdict = "straight" if straight(result) else "not straight"
+        verdict = "no curvature is resolved" if straight(result) else "not straight"
         said.append(
             f"at λ = {style.spacing(result)[1]} slope {slope}, whose change with ln t is {curvature}, so {verdict}, and "
             f"height {height}"

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from workflow.lib import style
 from workflow.lib.caption import BATHS, ERRORS, WINDOW, parameters, replicas
 from workflow.lib.figure import run
-from workflow.lib.fit import fit_line
+from workflow.lib.fit import fit_line, with_error
 from workflow.lib.load import Result
 
 
@@ -26,18 +26,19 @@ def tabulate(result: Result) -> pd.DataFrame:
     return table
 
 
-def caption(results: Sequence[Result]) -> str:
-    excess = [[style.with_error(result["density_excess"], k, 100) for k in (0, -1)] for result in results]
-    said = [
-        f"at γ = {style.gamma(result)} {first} % in the first and {last} % in the last cell"
-        for result, (first, last) in zip(results, excess, strict=True)
-    ]
+def caption(results: Sequence[Result], tables: Sequence[pd.DataFrame]) -> str:
+    said = []
+    for table in tables:
+        first, last = (
+            with_error(*(100 * table[["relative", "relative_error"]].iloc[k] - [100, 0])) for k in (0, -1)
+        )
+        said.append(f"at γ = {table.gamma.iloc[0]} {first} % in the first and {last} % in the last cell")
     return f"""
         Particles per cell of an open chain, {parameters(results, "cells", "cell-length", "sigma", *BATHS, *WINDOW)},
         {replicas(results)}, at γ = N (circles) and γ = 1 (squares). (a) Mean density ρ(x) over the window of observation, on which it
         depends, as slow particles gather for ever; (b) the same over a straight line through the shaded bulk, without the error of the
-        line. {ERRORS}. Excess over the line: {"; ".join(said)}. As in the paper the profile is less steep at γ = 1, and particles
-        accumulate at the ends."""
+        line. {ERRORS}. Excess over the line: {"; ".join(said)}. The paper has a profile that is less steep at γ = 1, and
+        particles that accumulate at the ends."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
@@ -60,7 +61,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     above.legend(loc="upper right")
     style.letter(above, below)
     figure.align_ylabels()
-    return figure, pd.concat(tables), caption(results)
+    return figure, pd.concat(tables), caption(results, tables)
 
 
 if __name__ == "__main__":

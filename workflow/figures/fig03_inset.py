@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, ERRORS, WINDOW, listed, number, parameters, replicas
+from workflow.lib.caption import BATHS, ERRORS, WINDOW, listed, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import PowerLaw, fit_power, with_error
 from workflow.lib.load import Result
@@ -47,7 +47,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         table.insert(0, "kind", SIMULATION if simulated else MEAN_FIELD)
         table.insert(1, "cells", int(result.parameters["cells"]))
         tables.append(table)
-    # As printed, a bath's half of F integrates to 1/2 whatever its rate.
+    # As printed, F of a chain without correlations integrates to 1.
     rates = sum(continuum.parameters[f"nu-{end}"] for end in ("left", "right"))
     table = pd.concat(tables, ignore_index=True)
     return table.assign(absolute_as_printed=table.deviation * largest / rates)
@@ -107,7 +107,7 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
     axes.set(xscale="log", yscale="log", ylim=(5e-5, 0.2))
     axes.set(xlabel="number of cells $N$", ylabel=r"largest $|F_N - F|\,/\,\max F$")
     right = axes.secondary_yaxis("right", functions=(lambda y: y * printed, lambda y: y / printed))
-    right.set_ylabel(r"$|F_N - F|$, halves of 1/2 as printed")
+    right.set_ylabel(r"$|F_N - F|$, with $\int F\,dp = 1$")
     axes.tick_params(axis="y", which="both", right=False)
     style.label_within_decades(axes.xaxis)
     axes.legend(loc="upper right")
@@ -129,8 +129,8 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         field). {ERRORS}. (b) The largest deviation over the bins: {listed(found)}; it falls as the power {law.text} of N
         (χ² = {law.chi_square:.1f} for {law.freedom} degrees of freedom). The paper states less than {LIMITS[0][1]} for all N and
         {LIMITS[1][1]} for the longest chain, without a reference: both are exceeded relative to the largest F; in its printed
-        normalisation, in which each bath's half integrates to a half whatever its rate (right axis), they are {first} for the shortest and
-        {last} for the longest. The deviations are largest about momentum zero, {number(abs(rows.momentum).max())} at most from it."""
+        normalisation, in which F integrates to one, taken at the mean of the two rates (right axis), they are {first} for the shortest and
+        {last} for the longest. The largest of noisy bins is above the true largest, by up to the error of one."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

@@ -74,7 +74,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         with {sizes} particles per cell; {replicas(results)} per point. (a) μ and the law arccos(σ)/π, which holds for Gaussian
         particles and scatterers of one temperature. (b) μ minus the law, in thousandths; broken lines: the law at the local mean
         energies of particles and scatterers, which differ in a finite chain. {ERRORS}. Deviation from the law: {"; ".join(said)}.
-        The paper has the smaller n and sees no deviation; it vanishes as n grows. The paper calls particles persistent for all unequal masses;
+        The paper has the smaller n and sees no deviation; it is smaller in the chain with the larger n. The paper calls particles persistent for all unequal masses;
         by its own law they are only where scatterers are the lighter."""
 
 

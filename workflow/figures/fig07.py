@@ -13,6 +13,8 @@ from workflow.lib.figure import run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
+ABOVE = 4  # factor by which the guide lies above the last point
+
 
 def tabulate(result: Result) -> pd.DataFrame:
     """One row per time. The error of the share neglects that both parts vary together: it is an upper bound."""
@@ -33,8 +35,7 @@ def caption(table: pd.DataFrame, result: Result, window: tuple[float, float]) ->
     last = table.iloc[-1]
     return f"""
         Mean square displacement of a tagged particle (circles) and of the centre of mass of all particles (squares) in a closed chain,
-        {parameters([result], *CHAIN, *GAS, "relaxation-time")}, {replicas([result])}. (a) Both, with the paper's square of t through the
-        last point; (b) the share of the centre of mass; its error is an upper bound, as both vary together; (c) local slope between neighbouring
+        {parameters([result], *CHAIN, *GAS, "relaxation-time")}, {replicas([result])}. (a) Both, with the paper's square of t above them; (b) the share of the centre of mass; its error is an upper bound, as both vary together; (c) local slope between neighbouring
         times, with guides for ballistic and diffusive spreading. {ERRORS}. Fitted in the shaded window from t = {number(window[0])} to
         {number(window[1])}: α = {style.with_error(result["alpha"])}, slightly below the square as in the paper. But at the last
         time {with_error(100 * last.share, 100 * last.share_error)} % of it is the drift of all particles together, which the
@@ -55,8 +56,11 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     above.errorbar(time, table.variance, table.variance_error, label=r"$\langle x^2\rangle$", **tagged)
     above.errorbar(time, table.centre_of_mass, table.centre_of_mass_error, label="centre of mass", **drift)
     late = time > last / 1000
-    guide = table.variance.iloc[-1] * (time[late] / last) ** 2
-    above.plot(time[late], guide, **style.GUIDE, label=r"$t^2$")
+    guide = ABOVE * table.variance.iloc[-1] * (time[late] / last) ** 2
+    above.plot(time[late], guide, **style.GUIDE)
+    above.annotate(
+        "$t^2$", (time[late].iloc[0], guide.iloc[0]), (-4, 4), textcoords="offset points", size=8, ha="right"
+    )
     middle.errorbar(time, table["share"], table.share_error, **drift)
     below.errorbar(np.sqrt(time * time.shift(-1)), table.slope_to_next, table.slope_to_next_error, **tagged)
     for value in (1, 2):

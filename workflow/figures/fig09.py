@@ -4,6 +4,7 @@ From the paper's start, in which scatterers at rest have relaxed, beside one in 
 and the speed of the moving peak. Faint: times at which the ring has closed.
 """
 
+import functools
 from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
@@ -55,14 +56,15 @@ def draw_marked(axes: Axes, time: np.ndarray, values: tuple, closed: np.ndarray,
         look.pop("label", None)
 
 
-def draw_profiles(axes: Axes, result: Result) -> pd.DataFrame:
+def draw_profiles(axes: Axes, result: Result, shown: np.ndarray) -> pd.DataFrame:
+    """shown: times."""
     difference = result["energy_difference"]
     times = difference.axes["time"]
     distance = difference.axes["cell"] - len(difference.axes["cell"]) // 2
     closed = ring_closed(result)
     parts = []
-    shown = np.linspace(1, len(times) - 1, 5).round().astype(int)
-    for k, color, dashes in zip(shown, style.SEQUENCE, style.DASHES, strict=True):
+    places = np.flatnonzero(np.isin(times, shown))
+    for k, color, dashes in zip(places, style.SEQUENCE, style.DASHES, strict=False):
         mean, error = difference.mean[k] / 1e3, difference.standard_error[k] / 1e3
         alpha = FAINT if closed[k] else 1
         label = f"$t = {times[k]:g}$"
@@ -83,7 +85,8 @@ def draw_position(axes: Axes, result: Result) -> None:
     label = STARTS[start(result)][3]
     values = (position.mean, position.standard_error)
     draw_marked(axes, time, values, closed, label=label, **look_of(result))
-    axes.plot(time, position.mean[0] * time / time[0], **style.GUIDE)
+    guide = style.GUIDE | {"color": STARTS[start(result)][1]}
+    axes.plot(time, position.mean[0] * time / time[0], **guide)
 
 
 def draw_speed(axes: Axes, result: Result) -> None:
@@ -112,8 +115,8 @@ def caption(results: Sequence[Result]) -> str:
         Energy per cell of a ring with a pulse in the central cell minus that of the same ring without, ΔE(x, t), at several times t;
         {parameters(results, *CHAIN, *names)} per degree of freedom, {replicas(results)} of up to
         {max(int(result.parameters["pairs-per-replica"]) for result in results)} pairs of trajectories. (a) The paper's start: scatterers at rest,
-        relaxed for t = {relaxed}; (b) all momenta Gaussian. Bands are errors. (c) Position of the moving peak, with the constant speed of
-        its first position dashed; (d) its speed between neighbouring times, in cells: {"; ".join(speeds)}. Faint: times at which ΔE
+        relaxed for t = {relaxed}; (b) all momenta Gaussian. Bands are errors. (c) Position of the moving peak, with lines from the origin
+        through the first positions; (d) its speed between neighbouring times, in cells: {"; ".join(speeds)}. Faint: times at which ΔE
         opposite to the pulse exceeds {number(100 * CLOSED)} % of its largest value. {ERRORS}. As in the paper two peaks move away symmetrically."""
 
 
@@ -128,8 +131,10 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     panels["particles"].sharey(panels[0])
     panels["speed"].sharex(panels["position"])
     tables = []
+    common = functools.reduce(np.intersect1d, (result["peak"].axes["time"] for result in results))
+    shown = common[np.linspace(min(1, len(common) - 1), len(common) - 1, 5).round().astype(int)]
     for result in results:
-        tables.append(draw_profiles(panels[start(result)], result))
+        tables.append(draw_profiles(panels[start(result)], result, shown))
         draw_position(panels["position"], result)
         draw_speed(panels["speed"], result)
     panels[0].set_ylabel(rf"$\Delta E(x,t)\,/\,10^3$ ({style.UNITS})")
@@ -138,7 +143,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     )
     panels["position"].set(ylabel=r"peak $x_p/\lambda$", xlim=(0, None), ylim=(0, None))
     panels["speed"].set(xlabel="time $t$", ylabel=r"$dx_p/dt\,/\,\lambda$")
-    panels["position"].legend(loc="lower right")
+    panels["position"].legend(loc="upper left")
+    panels["position"].set_ylim(top=1.35 * panels["position"].get_ylim()[1])
     style.letter(*panels.values())
     return figure, pd.concat(tables), caption(results)
 

@@ -2,6 +2,7 @@
 
 import base64
 import json
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -11,6 +12,7 @@ import yaml
 from workflow.claims.data import Data, MissingError
 from workflow.claims.judge import Judgement
 from workflow.claims.verdict import FAMILY_LEVEL, Outcome
+from workflow.lib import style
 from workflow.lib.parents import caption_of
 from workflow.lib.plan import Panel, Quality, drawings_of
 from workflow.provenance.lock import Lock
@@ -21,6 +23,7 @@ from workflow.report.sources import CITATION, Costs, Products, total
 from workflow.report.strip import strip_of
 
 HERE = Path(__file__).parent
+WIDE = 1.3  # columns of a journal beyond which a panel has a line of the page for itself
 READINGS = ("literal", "substance", "other")
 
 
@@ -66,6 +69,7 @@ def panel(quality: str, panel: Panel, products: Products, costs: Costs) -> dict:
         "name": panel.name,
         "title": title.removeprefix("# "),
         "caption": caption_of(csv),
+        "wide": _width(svg) > WIDE * style.COLUMN,
         "picture": base64.b64encode(svg.read_bytes()).decode(),
         "uses": panel.uses,
         "runs": len(panel.runs),
@@ -76,13 +80,18 @@ def panel(quality: str, panel: Panel, products: Products, costs: Costs) -> dict:
     }
 
 
+def _width(svg: Path) -> float:
+    """Of a drawing, in inches."""
+    return float(re.search(r'<svg [^>]*width="([0-9.]+)pt"', svg.read_text())[1]) / 72
+
+
 def answer(judgements: Sequence[Judgement], quality: str) -> list[str]:
     """Five sentences."""
     by_id = {one.claim["id"]: one for one in judgements}
     counts = Counter(one.outcome for one in judgements)
     listed = ", ".join(f"{counts[outcome]} {outcome.value}" for outcome in Outcome)
     against = [
-        f"{one.claim['id']} ({one.claim['quantity']})"
+        f"{one.claim['quantity']} ({one.claim['id']}; the paper: {one.claim['paper']})"
         for one in judgements
         if one.outcome is Outcome.CONTRADICTED
     ]
@@ -90,9 +99,15 @@ def answer(judgements: Sequence[Judgement], quality: str) -> list[str]:
         f"Of {len(judgements)} claims, at quality {quality}: {listed}; the probability of any wrong verdict by chance is at most {FAMILY_LEVEL:.0%}.",
         f"Contradicted: {'; '.join(against)}." if against else "At this quality no claim is contradicted.",
         f"Heat: κ ∼ N at γ = 1 is {_said(by_id['C23'])}; κ ∼ N^(1/3) at γ = N is {_said(by_id['C24'])}{_at_fixed_density(by_id['C24'])}.",
-        f"Conservation: that only energy is conserved is {_said(by_id['C22'])}; that the tagged particle is superdiffusive for σ ≠ 0 is {_said(by_id['C20'])}.",
+        f"Particles: the tagged particle spreads as the paper says, {_told(by_id['C20'], 'literal')}, but by drift: {_told(by_id['C20'], 'substance')}; that only energy is conserved is {by_id['C22'].outcome.value}, as total momentum is too.",
         f"Kinetic equation: that finite chains tend to it is {_said(by_id['C12'])}; that they differ by less than 0.1 % is {_said(by_id['C10'])}.",
     ]
+
+
+def _told(judgement: Judgement, reading: str) -> str:
+    """The number that decides a reading."""
+    found = getattr(judgement, reading)
+    return words.told(found.worst) if found else "not measured"
 
 
 def _said(judgement: Judgement) -> str:
@@ -105,7 +120,7 @@ def _at_fixed_density(judgement: Judgement) -> str:
     if not judgement.other:
         return ""
     said = f"{judgement.other.outcome.value} ({words.told(judgement.other.worst)})"
-    return f", as the gas thins out while the chain grows; at fixed density and without a particle current it is {said}"
+    return f", as the gas thins out while the chain grows; at fixed density and without a particle current, that the exponent is 1/3 is {said}"
 
 
 def findings(judgements: Sequence[Judgement]) -> list[dict]:

@@ -12,11 +12,15 @@ from workflow.lib import style
 from workflow.report import words
 from workflow.report.strip import WIDTH, Strip
 
-LINE, TOP = 0.21, 0.32  # inches
+LINE, TOP, BOTTOM = 0.21, 0.32, 0.3  # inches
+KEY = (
+    "Each line has its own scale. Grey: what the claim admits. Points with intervals: the numbers that were measured, at the level of "
+    "the verdict;\nthe number written is the least certain of them, and `make report` says which it is."
+)
 COLUMNS = {"quantity": 0.045, "paper": 0.315, "strip": 0.6, "short": 0.72, "verdict": 0.885}  # left ends
 COLORS = {
     Outcome.REPRODUCED: style.BLUE,
-    Outcome.IN_SUBSTANCE: style.SKY,
+    Outcome.IN_SUBSTANCE: "#2A7FA5",
     Outcome.CONTRADICTED: style.VERMILLION,
     Outcome.UNDECIDED: "0.45",
     Outcome.NOT_TESTABLE: "0.45",
@@ -41,11 +45,13 @@ def typeset(text: str) -> str:
 
 def draw(claims: Sequence[Mapping]) -> Figure:
     """claims: as content.claim() gives them."""
-    figure = plt.figure(figsize=(2.6 * style.COLUMN, TOP + LINE * len(claims)), layout="none")
+    figure = plt.figure(figsize=(2.6 * style.COLUMN, TOP + LINE * len(claims) + BOTTOM), layout="none")
     rows = len(claims)
     share = TOP / figure.get_figheight()
-    text = figure.add_axes((0, 0, 1, 1 - share))
-    strips = figure.add_axes((COLUMNS["strip"], 0, 0.115, 1 - share))
+    foot = BOTTOM / figure.get_figheight()
+    text = figure.add_axes((0, foot, 1, 1 - share - foot))
+    strips = figure.add_axes((COLUMNS["strip"], foot, 0.115, 1 - share - foot))
+    figure.text(0.01, 0.15 * foot, KEY, size=7)
     text.set(xlim=(0, 1), ylim=(-0.5, rows - 0.5))
     strips.set(xlim=(0, WIDTH), ylim=(-0.5, rows - 0.5))
     for axes in (text, strips):

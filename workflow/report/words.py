@@ -56,7 +56,7 @@ def p_value(p: float) -> str:
 
 def result(reading: Reading) -> str:
     """The number that decides, and how many were looked at."""
-    several = f", the least favourable of {len(reading.numbers)}" if len(reading.numbers) > 1 else ""
+    several = f", the least certain of {len(reading.numbers)}" if len(reading.numbers) > 1 else ""
     return f"{told(reading.worst)}{several}"
 
 
