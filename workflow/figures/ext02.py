@@ -63,7 +63,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     style.label_sizes(axes.xaxis)
     axes.legend(loc="upper right")
     caption = (
-        "Local exponent of the heat conductivity between neighbouring sizes, from the runs of ext. 9 at gamma = N: "
+        "Local exponent of the heat conductivity between neighbouring sizes, from the runs of ext. 9 at γ = N: "
         f"{'; '.join(said)}. At the spacing 1/N of the paper the gas thins out as the chain grows; at fixed spacings large "
         "N is the thermodynamic limit. Broken lines: a + b N^(1/3), fitted to the sizes for which it is not rejected, "
         "whose exponent tends to 1/3. Error bars: standard errors over replicas; neighbouring points share a size."

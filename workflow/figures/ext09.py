@@ -66,13 +66,13 @@ def sentence(spacing: str, part: pd.DataFrame) -> str:
     held = {law: one for law in (*LAWS, POWER) if (one := range_of(part, law))}
     if not held:
         whole = [one for one in fits(part.cells, part.kappa, part.kappa_error, 0) if one.law == POWER]
-        rejected = "; ".join(f"power law: chi^2/f = {one.chi_square:.0f}/{one.freedom}" for one in whole)
+        rejected = "; ".join(f"power law: χ²/f = {one.chi_square:.0f}/{one.freedom}" for one in whole)
         return f"Spacing {spacing}: no law holds over three sizes or more ({rejected})."
     start = min(one.first for one in held.values())
     best = min((one for one in held.values() if one.first == start), key=lambda one: one.criterion)
     shown = [best, *(one for one in held.values() if one.law == CUBE_ROOT and one is not best)]
     text = f"Spacing {spacing}: " + ", ".join(
-        f"{written(one)} from N = {one.first:.0f} on (chi^2/f = {one.chi_square:.1f}/{one.freedom})"
+        f"{written(one)} from N = {one.first:.0f} on (χ²/f = {one.chi_square:.1f}/{one.freedom})"
         for one in shown
     )
     rivals = [
@@ -81,9 +81,7 @@ def sentence(spacing: str, part: pd.DataFrame) -> str:
         if one.law != best.law and one.parameters <= best.parameters
     ]
     against = [f"{written(one)} {one.chi_square:.1f}" for one in rivals]
-    return (
-        f"{text}; from N = {best.first:.0f} on chi^2 is, for {', '.join(against)}." if against else f"{text}."
-    )
+    return f"{text}; from N = {best.first:.0f} on χ² is, for {', '.join(against)}." if against else f"{text}."
 
 
 def written(growth: Growth) -> str:
@@ -143,7 +141,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     fitted = pd.concat(tables).rename(columns={"first": "fitted_from"})
     parameters = results[0].parameters
     caption = (
-        f"Heat conductivity kappa = -J_U N/(T_N - T_1) at gamma = N, sigma = {parameters['sigma']:g}, between baths of "
+        f"Heat conductivity κ = −J_U N/(T_N − T_1) at γ = N, σ = {parameters['sigma']:g}, between baths of "
         f"temperatures {parameters['temperature-left']:g} and {parameters['temperature-right']:g} that press equally "
         "hard, at the spacing 1/N, which thins the gas out as the chain grows, and at fixed spacings, where the "
         "number of particles per cell is the same for every N. (a) Logarithmic axes. (b) Against the cube root of N: "

@@ -2,7 +2,7 @@
 
 J_i = sum_k L_ik X_k / N with X_u = 1/T_R - 1/T_L and X_n = (mu/T)_L - (mu/T)_R, where mu/T = ln(nu/sqrt(T)) + const for
 half-Gaussian baths [eq. 29]. What is called heat conductivity elsewhere has no current of particles,
-kappa_0 = (L_uu - L_un^2/L_nn)/T^2.
+κ_0 = (L_uu - L_un^2/L_nn)/T^2.
 """
 
 from collections.abc import Sequence
@@ -108,7 +108,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         ballistic = fit_power(part.cells, part.L_nn, part.L_nn_error)
         heat = fit_power(part.cells, part.kappa_0, part.kappa_0_error)
         said.append(
-            f"at spacing {spacing[name]} L_nn grows as N^{with_error(ballistic.exponent, ballistic.error)} and kappa_0 as "
+            f"at spacing {spacing[name]} L_nn grows as N^{with_error(ballistic.exponent, ballistic.error)} and κ_0 as "
             f"N^{with_error(heat.exponent, heat.error)}"
         )
     size = np.array([table.cells.min(), table.cells.max()], dtype=float)
@@ -128,11 +128,11 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     style.letter(left, right)
     pulls = table.asymmetry / table.asymmetry_error
     caption = (
-        "Linear response at gamma = N about equal baths, from a difference of temperature at equal pressure and a difference "
+        "Linear response at γ = N about equal baths, from a difference of temperature at equal pressure and a difference "
         "of pressure at equal temperature. (a) Coefficient of the particle current; without friction in the bulk, as momentum is "
         "conserved, it would grow in proportion to N. (b) Heat conductivity without a current of "
-        f"particles, kappa_0 = (L_uu - L_un L_nu / L_nn)/T^2. Over all sizes, {'; '.join(said)}. Onsager's symmetry "
-        f"L_un = L_nu: chi^2 = {np.sum(pulls**2):.1f} for {len(pulls)} pairs. Error bars: standard errors over replicas."
+        f"particles, κ_0 = (L_uu - L_un L_nu / L_nn)/T^2. Over all sizes, {'; '.join(said)}. Onsager's symmetry "
+        f"L_un = L_nu: χ² = {np.sum(pulls**2):.1f} for {len(pulls)} pairs. Error bars: standard errors over replicas."
     )
     return figure, table, caption
 

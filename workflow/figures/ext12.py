@@ -146,9 +146,9 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     )
     drives = ", ".join(f"{drive:g}" for drive in sorted(slopes.drive.unique()))
     caption = (
-        f"(a) Local exponent of kappa for ratios of the baths' temperatures of {drives} (white, grey and full markers), at "
+        f"(a) Local exponent of κ for ratios of the baths' temperatures of {drives} (white, grey and full markers), at "
         f"equal pressures: {goodness(spread, freedom)}, "
-        f"about a common value at every size and spacing; {ends}.{laws(table)} (b) kappa from several starts relative to the mean over them: in "
+        f"about a common value at every size and spacing; {ends}.{laws(table)} (b) κ from several starts relative to the mean over them: in "
         "equilibrium with the mean of the baths (warm), with the colder or the hotter one, and empty; "
         f"{goodness(starts.chi_square.sum(), int(starts.freedom.sum()))}, about a common value at every size, the largest "
         f"deviation {100 * starts.deviation.abs().max():.1f} %. Error bars: standard errors over replicas."

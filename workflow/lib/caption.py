@@ -77,6 +77,4 @@ def replicas(results: Sequence[Result]) -> str:
 def goodness(chi_square: float, freedom: int) -> str:
     """chi^2 with its degrees of freedom and its p-value."""
     p = float(chi2.sf(chi_square, freedom))
-    return (
-        f"chi^2 = {chi_square:.1f} for {freedom}, p {f'= {p:.2g}' if p > SMALLEST_P else f'< {SMALLEST_P:g}'}"
-    )
+    return f"χ² = {chi_square:.1f} for {freedom}, p {f'= {p:.2g}' if p > SMALLEST_P else f'< {SMALLEST_P:g}'}"
