@@ -22,6 +22,8 @@ from workflow.lib.load import Result
 
 SEEN = 1e-3  # probability of the rarest bins that are shown
 
+Curve = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]  # momenta, what was found, its error, exact
+
 
 def gaussian(momentum: np.ndarray, temperature: float) -> np.ndarray:
     """Probability density, averaged over equal bins about the given momenta."""
@@ -30,7 +32,7 @@ def gaussian(momentum: np.ndarray, temperature: float) -> np.ndarray:
     return 0.5 * (below[1] - below[0]) / (2 * half)
 
 
-def outgoing_flux(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def outgoing_flux(result: Result) -> Curve:
     """Momenta, F_N of what leaves (p < 0 at the left end, p > 0 at the right one), its error, the exact F."""
     flux, parameters = result["flux"], result.parameters
     momentum = flux.axes["momentum"]
@@ -40,7 +42,7 @@ def outgoing_flux(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray, n
     return momentum, *values, exact
 
 
-def end_scatterers(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def end_scatterers(result: Result) -> Curve:
     """Momenta, g of both end scatterers together, its error, the exact g."""
     density = result["scatterer_density"]
     momentum = density.axes["momentum"]
@@ -61,7 +63,7 @@ def largest_distance(found: np.ndarray, error: np.ndarray, exact: np.ndarray) ->
     return float(np.abs(distance[at])), float(np.sqrt(np.nansum(error[: at + 1] ** 2)) / total)
 
 
-def plot(axes: Axes, result: Result, curve: tuple, units: str, shift: float) -> pd.DataFrame:
+def plot(axes: Axes, result: Result, curve: Curve, units: str, shift: float) -> pd.DataFrame:
     momentum, found, error, exact = curve
     seen = exact * (momentum[1] - momentum[0]) > SEEN * exact.sum() * (momentum[1] - momentum[0])
     momentum, found, error, exact = (array[seen] for array in (momentum, found, error, exact))

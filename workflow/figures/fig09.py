@@ -5,6 +5,7 @@ and the speed of the moving peak. Faint: times at which the ring has closed.
 """
 
 from collections.abc import Sequence
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -43,12 +44,14 @@ def ring_closed(result: Result) -> np.ndarray:
     return opposite > CLOSED * difference.max(axis=1)
 
 
-def look_of(result: Result) -> dict:
+def look_of(result: Result) -> dict[str, Any]:
     marker, color, face, _ = STARTS[start(result)]
     return {"marker": marker, "color": color, "markerfacecolor": face, **style.POINTS}
 
 
-def draw_marked(axes: Axes, time: np.ndarray, values: tuple, closed: np.ndarray, **look: object) -> None:
+def draw_marked(
+    axes: Axes, time: np.ndarray, values: tuple[np.ndarray, np.ndarray], closed: np.ndarray, **look: Any
+) -> None:
     """Values with errors; faint where the ring has closed."""
     for part, alpha in ((~closed, 1), (closed, FAINT)):
         axes.errorbar(time[part], values[0][part], values[1][part], alpha=alpha, **look)

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, SupportsIndex
 
 import h5py
 import numpy as np
@@ -19,6 +19,8 @@ FORMAT = "lorentz-gas"
 FORMAT_VERSION = 2
 NOT_REACHED = "not reached"
 VALUES = ("mean", "standard_error", "discretisation_error", "count")  # of a quantity, besides its axes
+
+Index = SupportsIndex | tuple[SupportsIndex, ...]  # of a value among those of a quantity
 
 
 class FormatError(ValueError):

@@ -24,8 +24,8 @@ class Parents:
 
     panel: str
     quality: str
-    data: dict[str, dict]  # path: sha256, build_id, seed
-    builds: dict[str, dict]  # build id: program, source_hash, compiler, flags, libraries
+    data: dict[str, dict[str, Any]]  # path: sha256, build_id, seed
+    builds: dict[str, dict[str, Any]]  # build id: program, source_hash, compiler, flags, libraries
     sources: dict[str, str]  # script and the modules that it imports
     packages: str  # the locked Python packages
     python: str  # version, which chooses among them

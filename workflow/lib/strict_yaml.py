@@ -100,7 +100,7 @@ def _on_one_line(error: yaml.YAMLError) -> str:
 class _Loader(yaml.SafeLoader):
     """Refuses while the tree of nodes is made, where keys and places are known."""
 
-    yaml_implicit_resolvers: dict = {}  # noqa: RUF012  # PyYAML's own name and type
+    yaml_implicit_resolvers: dict[str, Any] = {}  # noqa: RUF012  # PyYAML's own name and type
 
     def __init__(self, text: str) -> None:
         super().__init__(text)

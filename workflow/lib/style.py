@@ -9,7 +9,7 @@ from matplotlib.axis import Axis
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
 
 from workflow.lib import fit
-from workflow.lib.load import Quantity, Result
+from workflow.lib.load import Index, Quantity, Result
 
 # Width of one column of a journal, and the height that goes with it, in inches.
 COLUMN = 3.4
@@ -107,7 +107,7 @@ def cross_out(axes: Axes, x: np.ndarray, y: np.ndarray, where: np.ndarray) -> No
     axes.plot(x[where], y[where], linestyle="none", marker="x", color=BLACK, markersize=6, zorder=5)
 
 
-def with_error(quantity: Quantity, index: int | tuple = (), unit: float = 1) -> str:
+def with_error(quantity: Quantity, index: Index = (), unit: float = 1) -> str:
     """A number, or one of an array, with its error in units of the last digits, as 1.8620(54)."""
     mean, error = unit * float(quantity.mean[index]), unit * float(quantity.standard_error[index])
     return fit.with_error(mean, error)

@@ -29,6 +29,8 @@ COORDINATES = {"d", "x", "y", "width", "height", "transform", "viewBox", "points
 SIZES = {"/Length", "/Length1"}  # of streams of a PDF
 IDENTITY = re.compile(r"\b[a-z][0-9a-f]{10}\b")  # of markers and clips: a hash that rounding changes
 
+Element = tuple[str, str, dict[str, str]]  # tag, text and attributes
+
 
 def alike(one: Path, other: Path) -> bool:
     """False also where one of them cannot be read."""
@@ -75,8 +77,8 @@ def _vectors(one: Path, other: Path) -> bool:
     )
 
 
-def _elements(path: Path) -> list[tuple[str, str, dict[str, str]]]:
-    """Tag, text and attributes in the order of the file; identities are numbered as they come."""
+def _elements(path: Path) -> list[Element]:
+    """In the order of the file; identities are numbered as they come."""
     order: dict[str, str] = {}
 
     def numbered(text: str | None) -> str:
@@ -92,7 +94,7 @@ def _elements(path: Path) -> list[tuple[str, str, dict[str, str]]]:
     ]
 
 
-def _same_element(one: tuple, other: tuple) -> bool:
+def _same_element(one: Element, other: Element) -> bool:
     if one[:2] != other[:2] or one[2].keys() != other[2].keys():
         return False
     return all(

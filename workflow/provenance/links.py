@@ -133,7 +133,7 @@ def builds(chain: Chain) -> Iterator[Link]:
 
 def executables(chain: Chain) -> Iterator[Link]:
     """Programs that made the runs, among one another and against those in build/bin."""
-    made: defaultdict[tuple[str, str], Counter] = defaultdict(Counter)
+    made: defaultdict[tuple[str, str], Counter[str | None]] = defaultdict(Counter)
     for job in chain.lock.runs().values():
         made[job.tool, job.build_id][job.executable] += 1
     for (program, identifier), runs in made.items():

@@ -11,6 +11,7 @@ import os
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
+from typing import Any
 
 from workflow.lib.options import Options
 from workflow.provenance import repository
@@ -76,7 +77,7 @@ class Job:
 class Lock:
     quality: str
     jobs: dict[str, Job] = field(default_factory=dict)
-    builds: dict[str, dict] = field(default_factory=dict)  # build id: what build/id/<program>.json says
+    builds: dict[str, dict[str, Any]] = field(default_factory=dict)  # build id: as build/id/<program>.json
 
     @staticmethod
     def path(quality: str) -> Path:
@@ -132,7 +133,7 @@ class Lock:
         return {path: digest for job in self.jobs.values() for path, digest in job.outputs.items()}
 
 
-def _unique(pairs: list[tuple[str, object]]) -> dict:
+def _unique(pairs: list[tuple[str, object]]) -> dict[str, object]:
     """Raises ValueError for a name that stands twice, of which readers take one or the other."""
     content = dict(pairs)
     if len(content) < len(pairs):
@@ -146,7 +147,7 @@ def builds_of(jobs: Iterable[Job]) -> set[str]:
     return {job.build_id for job in jobs if not job.is_drawing}
 
 
-def checksum_of(content: dict) -> str:
+def checksum_of(content: dict[str, Any]) -> str:
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
@@ -175,7 +176,9 @@ def changing(quality: str) -> Iterator[Lock]:
         os.close(descriptor)
 
 
-def record(quality: str, name: str, outputs: list[str], made_by: dict, build: dict | None = None) -> None:
+def record(
+    quality: str, name: str, outputs: list[str], made_by: dict[str, Any], build: dict[str, Any] | None = None
+) -> None:
     """Enters a job that has just written its outputs."""
     hashes = repository.FileHashes()
     written = {path: hashes[path] for path in outputs}

@@ -6,6 +6,7 @@ import platform
 import subprocess
 import tempfile
 from pathlib import Path
+from typing import Any
 
 from workflow.lib.parents import file_hash
 
@@ -53,7 +54,9 @@ def write_whole(path: Path, text: str) -> None:
     unfinished.replace(path)
 
 
-def run_git(*arguments: str, given: bytes = b"", **variables: str) -> subprocess.CompletedProcess | None:
+def run_git(
+    *arguments: str, given: bytes = b"", **variables: str
+) -> subprocess.CompletedProcess[bytes] | None:
     """None where git is not installed. The variables are those of its environment."""
     try:
         return subprocess.run(
@@ -89,7 +92,7 @@ def no_history() -> str | None:
     return "the repository is shallow" if done.stdout == b"true\n" else None
 
 
-def state() -> dict:
+def state() -> dict[str, Any]:
     """Commit and whether tracked files differ from it or others lie among the code; the commit is null outside a
     repository."""
     commit = git("rev-parse", "HEAD")

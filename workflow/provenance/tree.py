@@ -12,7 +12,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import NoReturn, TypeVar
+from typing import Any, NoReturn, TypeVar
 
 from rich.console import Console
 from rich.markup import escape
@@ -108,7 +108,7 @@ class Ancestry:
             found = search(name, lambda root, name=name, digest=digest: holding(root / name, digest))[0]
             node.add(plain(f"{name}  {short(digest)}  {found}"))
 
-    def add_data(self, tree: Tree, name: str, data: dict, build: dict) -> None:
+    def add_data(self, tree: Tree, name: str, data: dict[str, Any], build: dict[str, Any]) -> None:
         here = holding(ROOT / name, data["sha256"]) is not None
         other = (
             "is here with other bytes"
@@ -122,7 +122,7 @@ class Ancestry:
             node.add(f"seed {data['seed']}")
         self.add_build(node, data["build_id"], build)
 
-    def add_build(self, node: Tree, identifier: str, build: dict) -> None:
+    def add_build(self, node: Tree, identifier: str, build: dict[str, Any]) -> None:
         above = identifier in self.shown
         self.shown.add(identifier)
         text = f"program {build['program']}  build {short(identifier)}{'  as above' if above else ''}"
@@ -153,7 +153,7 @@ def holding(path: Path, digest: str) -> bytes | None:
     return path.read_bytes() if path.is_file() and file_hash(path) == digest else None
 
 
-def closure(folder: Path, build: dict) -> dict[str, str] | None:
+def closure(folder: Path, build: dict[str, Any]) -> dict[str, str] | None:
     """Hashes of the sources that the program is built from, if they are those of the build."""
     source = f"observables/{build['program']}.cpp"
     if not (folder / source).is_file():

@@ -13,6 +13,7 @@ import sys
 import tempfile
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 from workflow.lib.load import FormatError
 from workflow.lib.plan import ConfigurationError, load_plan, outputs_of, panel_named
@@ -33,7 +34,7 @@ def drawing_verdict(job: Job, differing: dict[str, bool]) -> Verdict:
     return True, "the same but for rounding" if differing else "the same bytes"
 
 
-def run_verdict(job: Job, fresh: FreshBuild, recorded: dict, folder: Path) -> Verdict:
+def run_verdict(job: Job, fresh: FreshBuild, recorded: dict[str, Any], folder: Path) -> Verdict:
     """Raises RedoError or FormatError."""
     if fault := fresh.fault(job, recorded):
         return False, fault
@@ -47,7 +48,7 @@ def run_verdict(job: Job, fresh: FreshBuild, recorded: dict, folder: Path) -> Ve
     return within, f"{words}, by another compiler or other libraries"
 
 
-def sample(lock: Lock, names: list[str], share: float, verdicts: dict) -> list[str]:
+def sample(lock: Lock, names: list[str], share: float, verdicts: dict[str, Any]) -> list[str]:
     """Those not yet verified first, in an order that only the names fix."""
 
     def order(name: str) -> tuple[bool, str]:
@@ -57,7 +58,7 @@ def sample(lock: Lock, names: list[str], share: float, verdicts: dict) -> list[s
     return sorted(names, key=order)[: math.ceil(share * len(names))]
 
 
-class Verdicts(dict[str, dict]):
+class Verdicts(dict[str, dict[str, Any]]):
     """By job; kept beside the lock where that can be written."""
 
     def __init__(self, quality: str) -> None:

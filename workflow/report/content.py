@@ -5,6 +5,7 @@ import json
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import yaml
 
@@ -30,7 +31,7 @@ def effort(quality: Quality) -> str:
     return " ".join(f"{name}={value}" for name, value in given.items() if value is not None)
 
 
-def claim(judgement: Judgement, costs: Costs) -> dict:
+def claim(judgement: Judgement, costs: Costs) -> dict[str, Any]:
     readings = {name: getattr(judgement, name) for name in READINGS if getattr(judgement, name)}
     deciding = judgement.deciding
     runs = [path.removesuffix(".h5").split("/", 2)[2] for path in judgement.data]
@@ -57,7 +58,7 @@ def claim(judgement: Judgement, costs: Costs) -> dict:
     }
 
 
-def panel(quality: str, panel: Panel, products: Products, costs: Costs) -> dict:
+def panel(quality: str, panel: Panel, products: Products, costs: Costs) -> dict[str, Any]:
     """A panel as it was drawn. Raises ReportError."""
     *_, svg, csv = [products.file(path) for path in drawings_of(quality, panel.name)]
     title, _ = csv.read_text().split("\n", 1)
@@ -108,7 +109,7 @@ def _at_fixed_density(judgement: Judgement) -> str:
     return f", as the gas thins out while the chain grows; at fixed density and without a particle current it is {said}"
 
 
-def findings(judgements: Sequence[Judgement]) -> list[dict]:
+def findings(judgements: Sequence[Judgement]) -> list[dict[str, Any]]:
     """Those of findings.yaml that the data bear out."""
     by_id = {one.claim["id"]: one for one in judgements}
     held = []
@@ -124,7 +125,7 @@ def findings(judgements: Sequence[Judgement]) -> list[dict]:
     return held
 
 
-def misprints(judgements: Sequence[Judgement], data: Data) -> list[dict]:
+def misprints(judgements: Sequence[Judgement], data: Data) -> list[dict[str, Any]]:
     by_id = {one.claim["id"]: one for one in judgements}
     rows = yaml.safe_load((HERE / "misprints.yaml").read_text())
     return [row | {"shown": _shown(row, by_id, data)} for row in rows]
@@ -140,7 +141,7 @@ def _shown(row: Mapping[str, str], by_id: Mapping[str, Judgement], data: Data) -
         return str(error)
 
 
-def environment(lock: Lock) -> dict:
+def environment(lock: Lock) -> dict[str, Any]:
     """Versions that made the products."""
     builds = lock.builds.values()
     python = sorted({job.python for job in lock.drawings().values() if job.python})
@@ -149,10 +150,10 @@ def environment(lock: Lock) -> dict:
     } | {"Python": python}
 
 
-def citation(root: Path) -> dict:
+def citation(root: Path) -> dict[str, Any]:
     return yaml.safe_load((root / CITATION).read_text())
 
 
-def as_script(content: dict) -> str:
+def as_script(content: dict[str, Any]) -> str:
     """JSON that can stand in a script element: no tag ends it."""
     return json.dumps(content, sort_keys=True, ensure_ascii=False).replace("<", "\\u003c")

@@ -12,6 +12,7 @@ import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
@@ -57,7 +58,7 @@ def best(panel: Panel, root: Path) -> tuple[str, list[Path]] | None:
     return None
 
 
-def picture_of_summary(claims: list[dict], parents: dict, place: Path) -> None:
+def picture_of_summary(claims: list[dict[str, Any]], parents: dict[str, Any], place: Path) -> None:
     style.apply()
     described = json.dumps(parents, sort_keys=True)
     summary.draw(claims).savefig(

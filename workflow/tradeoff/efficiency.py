@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -73,7 +74,7 @@ def compared(device: str, quantity: str, plain: Estimate, better: Estimate) -> d
     return row
 
 
-def conductivity(programs: Path, run: Run, cells: int, replicas: tuple[int, int]) -> Iterator[dict]:
+def conductivity(programs: Path, run: Run, cells: int, replicas: tuple[int, int]) -> Iterator[dict[str, Any]]:
     """Engine and reference simulator, both from an empty start, with so many cells."""
     times = [shortened(run.options[name], SHARE if name.startswith("obs") else 1)
              for name in ("relaxation-time", "observation-time")]  # fmt: skip
@@ -96,7 +97,7 @@ def conductivity(programs: Path, run: Run, cells: int, replicas: tuple[int, int]
         yield compared("both", f"{name}, {label}", estimate, Estimate.of(result, name, fast))
 
 
-def spreading(programs: Path, panel: str, name: str, label: str) -> Iterator[dict]:
+def spreading(programs: Path, panel: str, name: str, label: str) -> Iterator[dict[str, Any]]:
     """<x^2> from one tagged particle, from all, and with the total momentum as a control variate."""
     result, seconds = execute(programs, planned(panel, name), replicas=50)
     every, better = (
@@ -111,7 +112,7 @@ def spreading(programs: Path, panel: str, name: str, label: str) -> Iterator[dic
     yield compared("known total momentum", f"<x^2>, {label}", every, better)
 
 
-def pulse(programs: Path) -> Iterator[dict]:
+def pulse(programs: Path) -> Iterator[dict[str, Any]]:
     """Energies in the cells that the pulse has reached, at the first time and the last."""
     run = planned("fig09a", "gaussian")
     shared, cost = reference.pulse(programs, run.options, 50, "shared")

@@ -90,7 +90,7 @@ def measured(programs: Path, panel: str, run: Run) -> tuple[float, float]:
     return effort(run.options | changes), seconds
 
 
-def rows(programs: Path) -> Iterable[tuple]:
+def rows(programs: Path) -> Iterable[tuple[object, ...]]:
     """Those of a size are added up: other values than the size occur at every quality alike."""
     yield REFERENCE, "", 1, 1, statistics.median(reference_seconds(programs))
     for name, panel in load_plan(QUALITY).items():
