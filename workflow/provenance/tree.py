@@ -20,7 +20,8 @@ from rich.tree import Tree
 
 from workflow.lib.load import Result, load
 from workflow.lib.parents import PACKAGES, Parents, file_hash
-from workflow.lib.plan import ConfigurationError, Panel, is_quality, load_plan, outputs_of
+from workflow.lib.plan import Panel, is_quality, load_plan, outputs_of
+from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance.build_id import content_hashes, include_closure, source_hash
 from workflow.provenance.lock import Lock, LockError
 from workflow.provenance.printable import printable

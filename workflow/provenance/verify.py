@@ -16,7 +16,8 @@ from pathlib import Path
 from typing import Any
 
 from workflow.lib.load import FormatError
-from workflow.lib.plan import ConfigurationError, load_plan, outputs_of, panel_named
+from workflow.lib.plan import load_plan, outputs_of, panel_named
+from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance.fresh_build import BuildError, FreshBuild
 from workflow.provenance.lock import Job, Lock, LockError
 from workflow.provenance.printable import printable

@@ -21,7 +21,8 @@ from workflow.claims.data import Data
 from workflow.claims.judge import judge_all
 from workflow.lib import style
 from workflow.lib.parents import caption_of
-from workflow.lib.plan import QUALITIES, ConfigurationError, Panel, drawings_of
+from workflow.lib.plan import QUALITIES, Panel, drawings_of
+from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance.lock import Lock, LockError
 from workflow.provenance.repository import ROOT, write_whole
 from workflow.provenance.status import GALLERY

@@ -17,7 +17,8 @@ from rich.console import Console
 from rich.table import Table
 
 from workflow.lib.costs import cheapest, expected_cost
-from workflow.lib.plan import ConfigurationError, Panel, Run, load_plan, panel_named, with_used
+from workflow.lib.plan import Panel, Run, load_plan, panel_named, with_used
+from workflow.lib.strict_yaml import ConfigurationError
 from workflow.tradeoff.timings import Timings, UnknownCostError, read_timings, reference_seconds
 
 WIDE = 100  # columns, where nobody reads them on a screen

@@ -12,9 +12,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
+from workflow.lib.configuration import FOLDER
 from workflow.lib.costs import cells, effort, executions
 from workflow.lib.options import Options
-from workflow.lib.plan import FOLDER, Run, load_plan
+from workflow.lib.plan import Run, load_plan
 from workflow.tradeoff.measure import execute, planned, shortened
 
 TABLE = FOLDER / "timings.csv"
