@@ -84,9 +84,9 @@ def number(result: Result, name: str, index: Index = (), label: str = "") -> Num
     """A quantity of a run, or one of an array."""
     quantity = result[name]
     value = float(quantity.mean[index])
-    if quantity.standard_error is None:
+    if quantity.discretisation_error is not None:
         return Number(label, value, 0.0, systematic=float(quantity.discretisation_error[index]))
-    return Number(label, value, float(quantity.standard_error[index]), freedom(result))
+    return Number(label, value, float(quantity.error[index]), freedom(result))
 
 
 def ratio(above: Number, below: Number, label: str) -> Number:

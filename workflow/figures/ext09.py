@@ -43,7 +43,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     for result in results:
         row = {"gas": gas(result), "cells": int(result.parameters["cells"])}
         for name in ("kappa", "kappa_particle", "energy_current", "particle_current"):
-            row[name], row[f"{name}_error"] = float(result[name].mean), float(result[name].standard_error)
+            row[name], row[f"{name}_error"] = float(result[name].mean), float(result[name].error)
         row["sound"] = result.converged != NOT_REACHED and result["stationary"].mean == 1
         rows.append(row)
     return pd.DataFrame(rows).sort_values("cells", ignore_index=True)

@@ -37,7 +37,7 @@ def outgoing_flux(result: Result) -> Curve:
     flux, parameters = result["flux"], result.parameters
     momentum = flux.axes["momentum"]
     left = momentum < 0
-    values = [np.where(left, array[0], array[-1]) for array in (flux.mean, flux.standard_error)]
+    values = [np.where(left, array[0], array[-1]) for array in (flux.mean, flux.error)]
     exact = 2 * parameters["nu-left"] * gaussian(momentum, parameters["temperature-left"])
     return momentum, *values, exact
 
@@ -46,7 +46,7 @@ def end_scatterers(result: Result) -> Curve:
     """Momenta, g of both end scatterers together, its error, the exact g."""
     density = result["scatterer_density"]
     momentum = density.axes["momentum"]
-    error = np.hypot(*density.standard_error) / 2
+    error = np.hypot(*density.error) / 2
     return (
         momentum,
         density.mean.mean(axis=0),

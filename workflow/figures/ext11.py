@@ -41,7 +41,7 @@ class Response:
         )
         potentials = np.log(rates / np.sqrt(temperatures))
         quantities = [result[name] for name in ("energy_current", "particle_current")]
-        errors = np.array([float(quantity.standard_error) for quantity in quantities])
+        errors = np.array([float(quantity.error) for quantity in quantities])
         correlation = float(result["current_correlation"].mean)
         return cls(
             int(result.parameters["cells"]),

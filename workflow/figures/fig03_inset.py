@@ -43,7 +43,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         simulated = found.standard_error is not None
         table = pd.DataFrame({"momentum": momentum})
         table["deviation"] = (outgoing(found.mean, momentum) - exact) / largest
-        table["error"] = outgoing(found.standard_error, momentum) / largest if simulated else 0.0
+        table["error"] = outgoing(found.error, momentum) / largest if simulated else 0.0
         table.insert(0, "kind", SIMULATION if simulated else MEAN_FIELD)
         table.insert(1, "cells", int(result.parameters["cells"]))
         tables.append(table)

@@ -56,8 +56,8 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     for result, (place, (bond, *_)) in product(measured(results), ENDS.items()):
         flux, jump, expected = result["flux"], result["jump"], uncorrelated(results, result)
         part = pd.DataFrame({"x": place, "momentum": flux.axes["momentum"], "flux": flux.mean[bond]})
-        part["flux_error"] = flux.standard_error[bond]
-        part["jump"], part["jump_error"] = jump.mean[bond], jump.standard_error[bond]
+        part["flux_error"] = flux.error[bond]
+        part["jump"], part["jump_error"] = jump.mean[bond], jump.error[bond]
         if expected:
             where = flux.axes["bond"][bond] / flux.axes["bond"][-1]
             part["kinetic"], part["kinetic_jump"] = at(expected["flux"], where), at(expected["jump"], where)

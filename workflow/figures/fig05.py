@@ -39,10 +39,10 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
             "particles_per_cell": int(result.parameters["particles-per-cell"]),
             "sigma": float(result.parameters["sigma"]),
             "mu": float(result["mu"].mean),
-            "mu_error": float(result["mu"].standard_error),
+            "mu_error": float(result["mu"].error),
             "particle_energy": float(result["particle_energy"].mean),
             "scatterer_energy": float(result["scatterer_energy"].mean),
-            "replicas": int(result["mu"].count),
+            "replicas": int(result["mu"].replicas),
             "converged": result.converged,
         }
         for result in results

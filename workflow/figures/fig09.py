@@ -66,13 +66,13 @@ def draw_profiles(axes: Axes, result: Result) -> pd.DataFrame:
     parts = []
     shown = np.linspace(1, len(times) - 1, 5).round().astype(int)
     for k, color, dashes in zip(shown, style.SEQUENCE, style.DASHES, strict=True):
-        mean, error = difference.mean[k] / 1e3, difference.standard_error[k] / 1e3
+        mean, error = difference.mean[k] / 1e3, difference.error[k] / 1e3
         alpha = FAINT if closed[k] else 1
         label = f"$t = {times[k]:g}$"
         axes.plot(distance, mean, color=color, linestyle=dashes, label=label, alpha=alpha)
         axes.fill_between(distance, mean - error, mean + error, color=color, alpha=0.3, linewidth=0)
         columns = {"time": times[k], "distance": distance, "energy_difference": difference.mean[k]}
-        part = pd.DataFrame({**columns, "energy_difference_error": difference.standard_error[k]})
+        part = pd.DataFrame({**columns, "energy_difference_error": difference.error[k]})
         parts.append(part.assign(ring_closed=closed[k]))
     axes.set_xlabel(r"distance from the central cell, $x/\lambda$")
     axes.legend(loc="upper right", title=STARTS[start(result)][3])
@@ -84,7 +84,7 @@ def draw_position(axes: Axes, result: Result) -> None:
     position, closed = result["peak_position"], ring_closed(result)
     time = position.axes["time"]
     label = STARTS[start(result)][3]
-    values = (position.mean, position.standard_error)
+    values = (position.mean, position.error)
     draw_marked(axes, time, values, closed, label=label, **look_of(result))
     axes.plot(time, position.mean[0] * time / time[0], **style.GUIDE)
 
@@ -92,7 +92,7 @@ def draw_position(axes: Axes, result: Result) -> None:
 def draw_speed(axes: Axes, result: Result) -> None:
     speed = result["peak_speed"]
     closed = ring_closed(result)[1:]
-    draw_marked(axes, speed.axes["middle"], (speed.mean, speed.standard_error), closed, **look_of(result))
+    draw_marked(axes, speed.axes["middle"], (speed.mean, speed.error), closed, **look_of(result))
 
 
 def caption(results: Sequence[Result]) -> str:

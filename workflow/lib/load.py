@@ -43,6 +43,16 @@ class Quantity:
     descriptions: dict[str, str]  # of the mean, of the errors and of the axes
     control_variates: bool | None
 
+    @property
+    def error(self) -> np.ndarray:
+        """The standard error of what is measured. Raises FormatError for what is computed."""
+        return _measured(self.standard_error)
+
+    @property
+    def replicas(self) -> np.ndarray:
+        """The count of what is measured. Raises FormatError for what is computed."""
+        return _measured(self.count)
+
     def to_xarray(self) -> "xarray.Dataset":
         """mean, errors and count over the axes; units and description are attributes of each."""
         import xarray  # noqa: PLC0415  # half a second, which no figure needs
@@ -71,6 +81,12 @@ class Quantity:
         return {name: {"units": units[name], "description": text} for name, text in self.descriptions.items()}
 
 
+def _measured(array: np.ndarray | None) -> np.ndarray:
+    if array is None:
+        raise FormatError("the quantity is computed: it has no standard error and no count")
+    return array
+
+
 @dataclass(frozen=True)
 class Result:
     path: Path
@@ -84,7 +100,7 @@ class Result:
     @property
     def converged(self) -> str:
         """Of the target error: reached, not reached, or no target."""
-        return self.provenance["converged"]
+        return str(self.provenance["converged"])
 
 
 def load(path: Path) -> Result:

@@ -109,7 +109,7 @@ def cross_out(axes: Axes, x: np.ndarray, y: np.ndarray, where: np.ndarray) -> No
 
 def with_error(quantity: Quantity, index: Index = (), unit: float = 1) -> str:
     """A number, or one of an array, with its error in units of the last digits, as 1.8620(54)."""
-    mean, error = unit * float(quantity.mean[index]), unit * float(quantity.standard_error[index])
+    mean, error = unit * float(quantity.mean[index]), unit * float(quantity.error[index])
     return fit.with_error(mean, error)
 
 

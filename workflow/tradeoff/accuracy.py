@@ -75,7 +75,7 @@ def sample(programs: Path, program: str) -> pd.DataFrame:
         result, seconds = execute(programs, run, **changes, replicas=replicas)
         target = result.provenance["target_quantity"]
         found = result[target]
-        rows.append((program, target, replicas, seconds, found.mean, found.standard_error, found.units))
+        rows.append((program, target, replicas, seconds, found.mean, found.error, found.units))
     columns = ["program", "quantity", "replicas", "cpu_seconds", "mean", "error", "units"]
     table = pd.DataFrame(rows, columns=columns)
     table["error"] = (table.error / abs(table["mean"].iloc[-1])).astype(float)

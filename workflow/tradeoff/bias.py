@@ -39,7 +39,7 @@ def point(
     knob: str, setting: float, result: Result, name: str, index: tuple[int, ...] = ()
 ) -> dict[str, object]:
     quantity = result[name]
-    values = {"value": float(quantity.mean[index]), "error": float(quantity.standard_error[index])}
+    values = {"value": float(quantity.mean[index]), "error": float(quantity.error[index])}
     row = {"knob": knob, "setting": setting, "setting_units": SETTING_UNITS.get(knob, "1"), "quantity": name}
     return row | values | {"units": quantity.units}
 

@@ -40,9 +40,7 @@ class Estimate:
     @classmethod
     def of(cls, result: Result, name: str, seconds: float) -> "Estimate":
         quantity = result[name]
-        return cls(
-            quantity.mean, quantity.standard_error, seconds, int(np.max(quantity.count)), quantity.units
-        )
+        return cls(quantity.mean, quantity.error, seconds, int(np.max(quantity.replicas)), quantity.units)
 
 
 def jackknife(statistic: Callable[[np.ndarray], float], rows: np.ndarray) -> tuple[float, float]:
@@ -101,9 +99,7 @@ def spreading(programs: Path, panel: str, name: str, label: str) -> Iterator[dic
     """<x^2> from one tagged particle, from all, and with the total momentum as a control variate."""
     result, seconds = execute(programs, planned(panel, name), replicas=50)
     every, better = (
-        Estimate(
-            quantity.mean[-1], quantity.standard_error[-1], seconds, int(quantity.count[-1]), quantity.units
-        )
+        Estimate(quantity.mean[-1], quantity.error[-1], seconds, int(quantity.replicas[-1]), quantity.units)
         for quantity in (result["variance_plain"], result["variance"])
     )
     spread = np.sqrt(result["fourth_moment"].mean[-1] - better.value**2)
@@ -122,12 +118,10 @@ def pulse(programs: Path) -> Iterator[dict[str, Any]]:
     _, twice = execute(programs, run, replicas=60, separate=True)
     quantity = result["energy_difference"]
     for k, label in ((0, "energies, first time"), (-1, "energies, last time")):
-        reached = quantity.mean[k] > 5 * quantity.standard_error[k]
+        reached = quantity.mean[k] > 5 * quantity.error[k]
         plain, one_start, both_sides = (of_sample(sample[:, k, reached], spent, quantity.units) for sample, spent in
                                         ((own, cost_of_own), (shared, cost), (folded, cost)))  # fmt: skip
-        found = Estimate(
-            quantity.mean[k][reached], quantity.standard_error[k][reached], seconds, 60, quantity.units
-        )
+        found = Estimate(quantity.mean[k][reached], quantity.error[k][reached], seconds, 60, quantity.units)
         yield compared("one start for both", label, plain, one_start)
         yield compared("both sides", label, one_start, both_sides)
         yield compared("twice only where it differs", label, replace(found, seconds=twice), found)

@@ -41,7 +41,7 @@ def compare(programs: Path, program: str, excess: float) -> dict[str, object]:
     target = first.result.provenance["achieved_error"] / excess
     whole = attempt(programs, run, **changes, replicas=BATCH, target_error=target)
     least, most = foretold(whole.said)
-    needed = int(whole.result[whole.result.provenance["target_quantity"]].count)
+    needed = int(whole.result[whole.result.provenance["target_quantity"]].replicas)
     row = {"program": program, "target": target, "replicas_least": least, "replicas_most": most}
     row |= {"replicas": needed, "as_foretold": least <= needed <= most}
     seconds = {"seconds_least": least, "seconds_most": most}
