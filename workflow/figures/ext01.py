@@ -18,7 +18,7 @@ from workflow.lib.figure import run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
-LOOKS = {
+LOOKS: dict[str, style.Look] = {
     "random total momentum, as in the paper": {"marker": "o", "color": style.BLUE},
     "zero total momentum": {"marker": "s", "color": style.VERMILLION, "markerfacecolor": "white"},
     "random directions": {"marker": "D", "color": style.GREEN, "markerfacecolor": "white"},

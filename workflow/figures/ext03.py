@@ -28,7 +28,8 @@ REACH = 0.6  # of the first peak from the centre, over which profiles are compar
 def folded(profile: np.ndarray) -> np.ndarray:
     """Mean of both sides, by distance from the centre."""
     centre = len(profile) // 2
-    return 0.5 * (profile[centre:] + profile[centre::-1])
+    mean: np.ndarray = 0.5 * (profile[centre:] + profile[centre::-1])
+    return mean
 
 
 def draw_collapse(axes: Axes, result: Result) -> pd.DataFrame:

@@ -1,7 +1,6 @@
 """Ext. 5: rates and currents along an open chain, and the accumulation of particles at its ends."""
 
 from collections.abc import Sequence
-from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -22,7 +21,7 @@ SIDES = {"rate_right": ">", "rate_left": "<"}
 CURRENTS = {"particle_current": "o", "energy_current": "s"}
 
 
-def look_of(result: Result, marker: str, index: int) -> dict[str, Any]:
+def look_of(result: Result, marker: str, index: int) -> style.Look:
     """Large at gamma = N, small at gamma = 1; the second of two curves is open."""
     gamma = result.parameters["gamma"]
     _, color = style.BY_GAMMA[gamma]

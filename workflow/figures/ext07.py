@@ -3,7 +3,7 @@
 Of the quantities that depend on the relaxation time those are drawn whose trend is resolved; the table has all.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -20,7 +20,7 @@ from workflow.lib.load import Result
 RESOLVED = 3  # standard errors of a trend that is not chance
 
 # Program, quantity, label, what it is for an infinite chain at equilibrium, and name.
-AGED = [
+AGED: list[tuple[str, str, str, Callable[[float], float], str]] = [
     ("persistence", "mu", r"persistence $\mu$", lambda sigma: np.arccos(sigma) / np.pi, "μ"),
     ("waiting_time", "exponent", r"exponent of $\Psi$", lambda _: -2, "the exponent of Ψ"),
     ("displacement", "alpha", r"exponent $\alpha$, zero momentum", lambda _: 1, "α"),

@@ -123,7 +123,7 @@ def draw_cube_roots(axes: Axes, table: pd.DataFrame) -> None:
         if held := range_of(part, CUBE_ROOT):
             size = part.cells[part.cells >= held.first]
             axes.plot(np.cbrt(size), held.predicted, color=color, linestyle=style.DASHES[1])
-    above = axes.secondary_xaxis("top", functions=(lambda x: x**3, np.cbrt))
+    above = axes.secondary_xaxis("top", functions=(lambda x: np.power(x, 3), np.cbrt))
     above.set_xticks([size for size in (64, 256, 512, 1024, 2048, 8192) if size <= table.cells.max()])
     axes.tick_params(axis="x", which="both", top=False)
     axes.set(xlabel="$N^{1/3}$", ylim=(0, None))

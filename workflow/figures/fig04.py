@@ -47,7 +47,8 @@ def uncorrelated(results: Sequence[Result], like: Result) -> Result | None:
 
 def at(quantity: Quantity, x: float) -> np.ndarray:
     """Of the kinetic equation, at a place."""
-    return quantity.mean[np.abs(quantity.axes["x"] - x).argmin()]
+    values: np.ndarray = quantity.mean[np.abs(quantity.axes["x"] - x).argmin()]
+    return values
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
@@ -77,9 +78,9 @@ def draw_distribution(axes: Axes, table: pd.DataFrame, reach: float) -> None:
     for (_, place), part in table.groupby(["nu_left", "x"], sort=False):
         _, color, dashes, _ = ENDS[place]
         equal = bool((part.nu_left == part.nu_right).all())
-        label = f"${place}$" + EQUAL * equal
+        label: str | None = f"${place}$" + EQUAL * equal
         for half in halves(part[part.momentum.abs() < reach]):
-            look = {"color": color, "linestyle": dashes, "alpha": 0.45 if equal else 1}
+            look: style.Look = {"color": color, "linestyle": dashes, "alpha": 0.45 if equal else 1}
             axes.errorbar(half.momentum, half.flux, half.flux_error, elinewidth=0.8, label=label, **look)
             axes.plot(half.momentum, half.kinetic, color=style.BLACK, linewidth=0.6, zorder=1)
             label = None
@@ -92,7 +93,8 @@ def draw_residuals(axes: Axes, table: pd.DataFrame) -> None:
         _, color, dashes, marker = ENDS[place]
         for half in halves(part[part.momentum.abs() < SHOWN]):
             unit = table.kinetic.max() / 100
-            look = {"marker": marker, "color": color, "markersize": 2, "elinewidth": 0.6, "linewidth": 0.6}
+            look: style.Look = {"marker": marker, "color": color, "markersize": 2}
+            look |= {"elinewidth": 0.6, "linewidth": 0.6}
             residual = (half.flux - half.kinetic) / unit
             axes.errorbar(half.momentum, residual, half.flux_error / unit, linestyle=dashes, **look)
     axes.axhline(0, color=style.BLACK, linewidth=0.6)
@@ -117,9 +119,11 @@ def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
             axes.errorbar(end.jump, -row + shift, xerr=end.jump_error, **look)
             axes.plot(end.kinetic_jump, -row + shift, "|", color=style.BLACK, markersize=8, zorder=1)
             left = not 0 < end.jump < table.jump.max() / 2
-            place = {"xytext": (-8 if left else 8, 0), "ha": "right" if left else "left", "va": "center"}
+            place: style.Look = {"xytext": (-8 if left else 8, 0), "ha": "right" if left else "left"}
             text = with_error(end.jump, end.jump_error)
-            axes.annotate(text, (end.jump, -row + shift), textcoords="offset points", size=8, **place)
+            axes.annotate(
+                text, (end.jump, -row + shift), textcoords="offset points", size=8, va="center", **place
+            )
     axes.axvline(0, **style.GUIDE)
     axes.set(xlabel=r"jump $F_N(0^+, x) - F_N(0^-, x)$", ylim=(0.5 - len(chains), 0.5))
     names = [rf"$\gamma = {gamma}$" + EQUAL * equal for gamma, equal, _ in chains]

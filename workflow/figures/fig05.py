@@ -22,10 +22,11 @@ DASHES = ["dashed", "dotted"]
 
 def law(sigma: np.ndarray) -> np.ndarray:
     """Particle and scatterer Gaussian and independent, at one temperature."""
-    return np.arccos(sigma) / np.pi
+    share: np.ndarray = np.arccos(sigma) / np.pi
+    return share
 
 
-def law_at_local_energies(table: pd.DataFrame) -> np.ndarray:
+def law_at_local_energies(table: pd.DataFrame) -> pd.Series:
     """The same at the mean energies that particles and scatterers have when they meet."""
     c = np.sqrt((1 - table.sigma) * (1 + table.sigma))
     speeds = np.sqrt(table.particle_energy / table.scatterer_energy)

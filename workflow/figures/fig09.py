@@ -29,7 +29,8 @@ STARTS = {
 
 
 def start(result: Result) -> str | float:
-    return result.parameters["scatterer-temperature"]
+    given: str | float = result.parameters["scatterer-temperature"]
+    return given
 
 
 def gaussian_start(results: Sequence[Result]) -> Result:
@@ -41,10 +42,11 @@ def ring_closed(result: Result) -> np.ndarray:
     """At every time, whether the two sides of the pulse overlap where they meet, opposite to it."""
     difference = result["energy_difference"].mean
     opposite = difference[:, [0, 1, -2, -1]].mean(axis=1)
-    return opposite > CLOSED * difference.max(axis=1)
+    closed: np.ndarray = opposite > CLOSED * difference.max(axis=1)
+    return closed
 
 
-def look_of(result: Result) -> dict[str, Any]:
+def look_of(result: Result) -> style.Look:
     marker, color, face, _ = STARTS[start(result)]
     return {"marker": marker, "color": color, "markerfacecolor": face, **style.POINTS}
 
