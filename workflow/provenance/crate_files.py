@@ -80,7 +80,7 @@ def _author(crate: ROCrate, number: int, author: dict[str, Any]) -> Entity:
 
 
 def _file(crate: ROCrate, path: str, is_script: bool) -> Entity:
-    properties = {
+    properties: dict[str, Any] = {
         "name": path,
         "sha256": file_hash(ROOT / path),
         "encodingFormat": TYPES.get(Path(path).suffix, "text/plain"),

@@ -57,7 +57,7 @@ def crate_of(
         if job.is_drawing:
             actions.append(_drawing(name, job, files[job.tool]))
         else:
-            actions.append(_run(name, job, programs[job.build_id], settings))
+            actions.append(_run(name, job, programs[job.build], settings))
     if report:
         judged = [*sorted(products), CLAIMS, PACKAGES]
         actions.append(Action("#report", "report", files[REPORT_SCRIPT], "Judges the claims", judged, report))

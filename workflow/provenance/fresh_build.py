@@ -38,7 +38,8 @@ class FreshBuild:
 
     def identity(self, program: str) -> dict[str, Any]:
         """What it was built from."""
-        return json.loads((self.folder / f"id/{program}.json").read_text())
+        identity: dict[str, Any] = json.loads((self.folder / f"id/{program}.json").read_text())
+        return identity
 
     def fault(self, job: Job, recorded: dict[str, Any]) -> str | None:
         """What is wrong with the program that made the run, of which the lock has the record; none if the sources give

@@ -18,7 +18,7 @@ import numpy as np
 import pandas as pd
 from PIL import Image
 from pypdf import PdfReader
-from pypdf.generic import ContentStream, IndirectObject, StreamObject
+from pypdf.generic import ContentStream, DictionaryObject, IndirectObject, StreamObject
 
 ROUNDING = 1e-9  # relative, of a number in a table
 SHIFT = 1e-3  # points, of a coordinate
@@ -111,6 +111,8 @@ def _same_coordinates(one: str, other: str) -> bool:
 
 def _pages(one: Path, other: Path) -> bool:
     first, second = (PdfReader(path) for path in (one, other))
+    if first.metadata is None or second.metadata is None:
+        return False
     return _same_object(first.trailer["/Root"], second.trailer["/Root"], set()) and (
         dict(first.metadata) == dict(second.metadata)
     )
@@ -125,7 +127,7 @@ def _same_object(one: Any, other: Any, seen: set[int]) -> bool:
         return _same_object(one.get_object(), other.get_object(), seen)
     if isinstance(one, float | int) and isinstance(other, float | int):
         return abs(float(one) - float(other)) <= SHIFT
-    if isinstance(one, dict) and isinstance(other, dict):
+    if isinstance(one, DictionaryObject) and isinstance(other, DictionaryObject):
         names = one.keys() - SIZES
         same = names == other.keys() - SIZES and all(
             _same_object(one.raw_get(name), other.raw_get(name), seen) for name in names
@@ -144,5 +146,5 @@ def _same_stream(one: Any, other: Any, seen: set[int]) -> bool:
         return not isinstance(one, StreamObject) and not isinstance(other, StreamObject)
     if one.get_data() == other.get_data():
         return True
-    operations = [ContentStream(stream, None).operations for stream in (one, other)]
-    return one.get("/Subtype") in (None, "/Form") and _same_object(*operations, seen)
+    first, second = (ContentStream(stream, None).operations for stream in (one, other))
+    return one.get("/Subtype") in (None, "/Form") and _same_object(first, second, seen)

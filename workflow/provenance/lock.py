@@ -64,6 +64,11 @@ class Job:
         return self.build_id is None
 
     @property
+    def build(self) -> str:
+        """Build id of the program; empty for a drawing, which no build has."""
+        return self.build_id or ""
+
+    @property
     def sources(self) -> dict[str, str]:
         """Of a drawing: script, modules that it imports, locked packages."""
         return {path: digest for path, digest in self.inputs.items() if path not in self.data}
@@ -144,7 +149,7 @@ def _unique(pairs: list[tuple[str, object]]) -> dict[str, object]:
 
 def builds_of(jobs: Iterable[Job]) -> set[str]:
     """Build ids of the programs that made the runs among the jobs."""
-    return {job.build_id for job in jobs if not job.is_drawing}
+    return {job.build for job in jobs if not job.is_drawing}
 
 
 def checksum_of(content: dict[str, Any]) -> str:
@@ -181,9 +186,8 @@ def record(
 ) -> None:
     """Enters a job that has just written its outputs."""
     hashes = repository.FileHashes()
-    written = {path: hashes[path] for path in outputs}
-    asked = {path: hashes[path] for path in configuration_files(quality)}
-    pipeline = {path: hashes[path] for path in pipeline_files()}
+    written, asked = hashes.of(outputs), hashes.of(configuration_files(quality))
+    pipeline = hashes.of(pipeline_files())
     state = repository.state() | {"machine": repository.machine()}
     job = Job(**made_by, outputs=written, configuration=asked, pipeline=pipeline, **state)
     with changing(quality) as lock:

@@ -86,7 +86,7 @@ class Ancestry:
         tree = Tree(plain(f"{title}  panel {parents.panel} at quality {parents.quality}"))
         found = search(CONFIGURATION, lambda root: asks_for(root, parents))[0]
         tree.add(plain(f"configuration  {short(parents.configuration)}  {found}"))
-        found, locked = search(PACKAGES, lambda root: holding(root / PACKAGES, parents.packages))
+        found, locked = search(PACKAGES, held_below(PACKAGES, parents.packages))
         names = re.findall(r"^([\w.-]+==[^ ;\\]+)", (locked or b"").decode(errors="replace"), re.MULTILINE)
         node = tree.add(plain(f"{PACKAGES}  {short(parents.packages)}  {found}; Python {parents.python}"))
         if self.full and names:
@@ -106,7 +106,7 @@ class Ancestry:
 
     def add_scripts(self, node: Tree, sources: dict[str, str]) -> None:
         for name, digest in self.first(node, sources.items(), "scripts"):
-            found = search(name, lambda root, name=name, digest=digest: holding(root / name, digest))[0]
+            found = search(name, held_below(name, digest))[0]
             node.add(plain(f"{name}  {short(digest)}  {found}"))
 
     def add_data(self, tree: Tree, name: str, data: dict[str, Any], build: dict[str, Any]) -> None:
@@ -152,6 +152,11 @@ def plain(text: str) -> str:
 def holding(path: Path, digest: str) -> bytes | None:
     """What the file holds, if it has this hash."""
     return path.read_bytes() if path.is_file() and file_hash(path) == digest else None
+
+
+def held_below(name: str, digest: str) -> Callable[[Path], bytes | None]:
+    """Reads the file below a root, if it has this hash."""
+    return lambda root: holding(root / name, digest)
 
 
 def closure(folder: Path, build: dict[str, Any]) -> dict[str, str] | None:
@@ -209,7 +214,7 @@ def main() -> None:
             refuse(options.file, "is not a file")
         digest = file_hash(options.file)
     except OSError as error:
-        refuse(options.file, error.strerror)
+        refuse(options.file, error.strerror or str(error))
     found, damaged = makers(digest)
     console = Console(highlight=False, width=None if sys.stdout.isatty() else UNLIMITED)
     name = plain(options.file.name)

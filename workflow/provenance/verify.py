@@ -104,7 +104,7 @@ def verdict_on(lock: Lock, name: str, fresh: FreshBuild, folder: Path) -> Verdic
             return False, f"{lacking[0]} is missing or not a file"
         if job.is_drawing:
             return drawing_verdict(job, redrawn(job, folder))
-        return run_verdict(job, fresh, lock.builds.get(job.build_id, {}), folder)
+        return run_verdict(job, fresh, lock.builds.get(job.build, {}), folder)
     except (RedoError, FormatError, AttributeError, OSError) as error:  # of a forged file, too
         return False, str(error)
 
