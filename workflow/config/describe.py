@@ -53,9 +53,9 @@ def texts(described: dict[str, dict[str, Any]]) -> dict[Path, str]:
 
 
 def _describe(program: Path, *options: str) -> dict[str, Any]:
-    return json.loads(
-        subprocess.run([program, *options, "--describe"], check=True, capture_output=True).stdout
-    )
+    said = subprocess.run([program, *options, "--describe"], check=True, capture_output=True).stdout
+    description: dict[str, Any] = json.loads(said)
+    return description
 
 
 def _with_options(text: str, described: dict[str, dict[str, Any]]) -> str:

@@ -120,7 +120,7 @@ def install(locks: list[str]) -> None:
 def add(locks: list[str]) -> None:
     for lock in locks:
         print(f"Installing Python packages of {lock} into .venv", flush=True)
-        command = [
+        command: list[str | Path] = [
             PYTHON,
             "-P",
             "-m",

@@ -102,7 +102,8 @@ def load_checked(path: Path, schema: dict[str, Any]) -> dict[str, Any]:
         while deepest.context:  # of the alternatives, the last is a list of values
             deepest = max(deepest.context, key=lambda error: len(error.absolute_path))
         raise _complaint(document, deepest)
-    return document.content
+    content: dict[str, Any] = document.content
+    return content
 
 
 def _complaint(document: Document, error: Any) -> ConfigurationError:

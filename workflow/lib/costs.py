@@ -21,7 +21,7 @@ def cost_file(quality: str, panel: str, run: str) -> dict[str, Any] | None:
 
 def read_cost(path: Path) -> dict[str, Any] | None:
     try:
-        cost = json.loads(path.read_text()) if path.is_file() else None
+        cost: Any = json.loads(path.read_text()) if path.is_file() else None
         return cost if isinstance(cost["cpu_seconds"], float) else None
     except (OSError, ValueError, KeyError, TypeError):
         return None

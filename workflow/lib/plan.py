@@ -178,7 +178,8 @@ def _options(series: dict[str, Any]) -> dict[str, Any]:
 
 
 def _effort(efforts: dict[str, Any], panel: str, series: str) -> dict[str, Any]:
-    return efforts.get("panels", {}).get(panel, {}).get(series, {})
+    effort: dict[str, Any] = efforts.get("panels", {}).get(panel, {}).get(series, {})
+    return effort
 
 
 def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Quality) -> Panel:

@@ -25,7 +25,7 @@ class Text:
 def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -> None:
     """Writes stem.pdf, .png, .svg and .csv, all or none. The table is that of columns.as_csv()."""
     described = parents.as_json()
-    pictures = {
+    pictures: dict[str, dict[str, Any]] = {
         "pdf": {
             "Title": text.title,
             "Creator": CREATOR,
