@@ -35,7 +35,7 @@ def claim(judgement: Judgement, costs: Costs) -> dict[str, Any]:
     readings = {name: getattr(judgement, name) for name in READINGS if getattr(judgement, name)}
     deciding = judgement.deciding
     runs = [path.removesuffix(".h5").split("/", 2)[2] for path in judgement.data]
-    return judgement.claim | {
+    return dict(judgement.claim) | {
         "outcome": judgement.outcome.value,
         "sign": words.SIGNS[judgement.outcome],
         "ours": words.result(deciding) if deciding else "no data",
@@ -151,7 +151,8 @@ def environment(lock: Lock) -> dict[str, Any]:
 
 
 def citation(root: Path) -> dict[str, Any]:
-    return yaml.safe_load((root / CITATION).read_text())
+    cited: dict[str, Any] = yaml.safe_load((root / CITATION).read_text())
+    return cited
 
 
 def as_script(content: dict[str, Any]) -> str:

@@ -39,7 +39,7 @@ def small(picture: Path) -> bytes:
     with Image.open(picture, formats=["PNG"]) as original:
         texts = PngInfo()
         for name, text in original.info.items():
-            if isinstance(text, str):
+            if isinstance(name, str) and isinstance(text, str):
                 texts.add_text(name, text)
         rows = round(original.height * COLUMNS / original.width)
         scaled = original.convert("RGB").resize((COLUMNS, rows), Image.Resampling.LANCZOS)

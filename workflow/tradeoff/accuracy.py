@@ -55,7 +55,8 @@ def amplitude(seconds: np.ndarray, errors: np.ndarray, replicas: np.ndarray) -> 
 
 def uncertainty(errors: np.ndarray, replicas: np.ndarray) -> np.ndarray:
     """Standard deviation of a standard error that was estimated from so many replicas."""
-    return errors / np.sqrt(2 * (replicas - 1))
+    deviation: np.ndarray = errors / np.sqrt(2 * (replicas - 1))
+    return deviation
 
 
 def window(run: Run, share: float) -> dict[str, object]:

@@ -101,7 +101,7 @@ def draw_knob(axes: Axes, part: pd.DataFrame, look: tuple[str, str], label: str 
     percent = 100 * part[["bias", "bias_error"]]
     bars = {"color": color, "label": label, **style.POINTS}
     axes.errorbar(part.setting, percent.bias, percent.bias_error, marker=marker, **bars)
-    careful = {"marker": marker, "color": color, "markerfacecolor": "white", "zorder": 4}
+    careful: style.Look = {"marker": marker, "color": color, "markerfacecolor": "white", "zorder": 4}
     axes.plot(part.setting[part.careful], percent.bias[part.careful], **careful)
     axes.axhline(0, **style.GUIDE)
     title, quantity = KNOBS[part.knob.iloc[0]]

@@ -76,16 +76,16 @@ def conductivity(programs: Path, run: Run, cells: int, replicas: tuple[int, int]
     """Engine and reference simulator, both from an empty start, with so many cells."""
     times = [shortened(run.options[name], SHARE if name.startswith("obs") else 1)
              for name in ("relaxation-time", "observation-time")]  # fmt: skip
-    times = [str(at_size(time, cells)) for time in times]
-    sample, slow = reference.open_chain(programs, run.options, cells, tuple(times), replicas[0])
+    relaxation, observation = (str(at_size(time, cells)) for time in times)
+    sample, slow = reference.open_chain(programs, run.options, cells, (relaxation, observation), replicas[0])
     result, fast = execute(programs, run, cells=cells, start="empty", replicas=replicas[1],
-                           relaxation_time=times[0], observation_time=times[1])  # fmt: skip
+                           relaxation_time=relaxation, observation_time=observation)  # fmt: skip
     current = sample["energy_current"][:, [0, -1]].mean(axis=1)
     rows = np.stack([current, *sample["temperature_scatterer"][:, [0, -1]].T], axis=1)
-    kappa = [np.array(x) for x in jackknife(lambda row: -row[0] * cells / (row[2] - row[1]), rows)]
+    kappa, error = (np.array(x) for x in jackknife(lambda row: -row[0] * cells / (row[2] - row[1]), rows))
     label = f"N = {cells}, gamma = {run.options['gamma']}"
     plain = {
-        "kappa": Estimate(*kappa, slow, len(rows), result["kappa"].units),
+        "kappa": Estimate(kappa, error, slow, len(rows), result["kappa"].units),
         "energy_current": of_sample(current, slow, result["energy_current"].units),
     }
     for name, estimate in plain.items():

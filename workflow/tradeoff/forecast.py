@@ -100,7 +100,7 @@ def forecast_of(name: str, programs: Path) -> Forecast:
 def show(quality: str, plan: dict[str, Panel], panels: Sequence[Panel], forecast: Forecast) -> Table:
     """Raises UnknownCostError."""
     result = Table("panel", "runs", "executed here", "CPU time", title=f"Quality {quality}")
-    costs = {}
+    costs: dict[tuple[str, str], Range] = {}
     for panel in panels:
         found = {run.name: forecast.cost(panel.name, run) for run in panel.runs}
         costs |= {(panel.name, run): cost for run, (cost, _) in found.items()}

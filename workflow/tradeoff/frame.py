@@ -20,7 +20,7 @@ Draw = Callable[[pd.DataFrame], Figure]
 
 
 def whole(table: pd.DataFrame) -> str:
-    return table.to_string(index=False)
+    return str(table.to_string(index=False))
 
 
 def run(

@@ -54,7 +54,7 @@ def at_size(known: dict[float, float], size: float) -> float:
         return known[size]
     near, next_to_it = sorted(known, key=lambda one: abs(math.log(one / size)))[:2]
     power = math.log(known[next_to_it] / known[near]) / math.log(next_to_it / near)
-    return known[near] * (size / near) ** power
+    return float(known[near] * (size / near) ** power)
 
 
 def read_timings(path: Path = TABLE) -> Timings:
