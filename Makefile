@@ -117,9 +117,10 @@ test-long: build dev  ## The same and tests that take minutes
 	ninja -C build --quiet cpp_tests
 	$(PYTHON) tests.run --long
 
-check: build dev reference  ## Format, lint and reference
+check: build dev reference  ## Format, lint, types and reference
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 .venv/bin/clang-format --dry-run --Werror
 	.venv/bin/ruff check --quiet . && .venv/bin/ruff format --quiet --check .
+	.venv/bin/mypy --no-error-summary
 	$(SNAKEFMT) --check --compact-diff Snakefile workflow/rules
 	$(SNAKEMAKE) --lint
 

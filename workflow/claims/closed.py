@@ -27,7 +27,8 @@ def persistence(data: Data) -> Evidence:
     paper = data.of("fig05", particles_per_cell=20)
     limits = [one for one in paper if one.parameters["sigma"] in (-1, 0, 1)]
     dense = data.of("fig05", particles_per_cell=320)
-    return Evidence(*([_from_law(one) for one in runs] for runs in (limits, dense, paper)))
+    literal, substance, other = ([_from_law(one) for one in runs] for runs in (limits, dense, paper))
+    return Evidence(literal, substance, other)
 
 
 def _from_law(result: Result) -> Number:

@@ -8,7 +8,7 @@ import numpy as np
 
 from workflow.claims.verdict import Number
 from workflow.lib.fit import PowerLaw, fit_power
-from workflow.lib.load import FormatError, Result, load
+from workflow.lib.load import FormatError, Index, Result, load
 from workflow.lib.plan import Run, data_path, load_plan
 
 
@@ -80,13 +80,13 @@ def freedom(*results: Result) -> float:
     return min(int(result.parameters["replicas"]) for result in results) - 1
 
 
-def number(result: Result, name: str, index: int | tuple = (), label: str = "") -> Number:
+def number(result: Result, name: str, index: Index = (), label: str = "") -> Number:
     """A quantity of a run, or one of an array."""
     quantity = result[name]
     value = float(quantity.mean[index])
-    if quantity.standard_error is None:
+    if quantity.discretisation_error is not None:
         return Number(label, value, 0.0, systematic=float(quantity.discretisation_error[index]))
-    return Number(label, value, float(quantity.standard_error[index]), freedom(result))
+    return Number(label, value, float(quantity.error[index]), freedom(result))
 
 
 def ratio(above: Number, below: Number, label: str) -> Number:

@@ -51,7 +51,7 @@ def front_falls(data: Data) -> Evidence:
         for run, name in SPACINGS.items()
     ]
     time, front = result["front"].axes["time"], result["front"]
-    misfits = [_misfit(front.mean, front.standard_error, law) for law in (1 / time, 1 / np.log(time))]
+    misfits = [_misfit(front.mean, front.error, law) for law in (1 / time, 1 / np.log(time))]
     return Evidence(
         [number(result, "front_exponent", label="d ln p₀ / d ln t")],
         others,

@@ -37,7 +37,9 @@ class Judgement:
 
 
 def read_claims(root: Path) -> list[dict[str, str]]:
-    return pd.read_csv(root / CLAIMS_FILE, dtype=str, keep_default_na=False).to_dict("records")
+    table = pd.read_csv(root / CLAIMS_FILE, dtype=str, keep_default_na=False)
+    rows: list[dict[str, str]] = table.to_dict("records")
+    return rows
 
 
 def judge_all(data: Data) -> list[Judgement]:
@@ -53,7 +55,8 @@ def judge(claim: Mapping[str, str], data: Data, level: float) -> Judgement:
     judged = level / (2 if evidence.substance else 1)
     literal, substance = (_reading(claim, evidence, name, judged) for name in ("literal", "substance"))
     other = _reading(claim, evidence, "other", level)
-    outcome = combined(literal.outcome, substance.outcome if substance else None)
+    by_words = literal.outcome if literal else Outcome.NOT_TESTABLE
+    outcome = combined(by_words, substance.outcome if substance else None)
     short = [path for path, result in data.used.items() if result.converged == NOT_REACHED]
     unconverged = [f"{len(short)} runs stopped before their target error."] if short else []
     caveat = " ".join([evidence.caveat, *unconverged]).strip()

@@ -57,7 +57,8 @@ def temperatures_coincide(data: Data) -> Evidence:
 def density_profiles(data: Data) -> Evidence:
     """At gamma = 1 less steep in the bulk, and more particles than the bulk's line gives in both end cells."""
     both = [result for result, _ in _both(data)]
-    slope = ratio(*(number(one, "density_slope") for one in reversed(both)), "")
+    above, below = (number(one, "density_slope") for one in reversed(both))
+    slope = ratio(above, below, "")
     less = replace(slope.over(-1, -1), label="1 - slope(γ = 1)/slope(γ = N)")
     ends = {0: "first", 1: "last"}
     excess = [

@@ -59,7 +59,7 @@ def _speeds(result: Result) -> str:
 
 
 def _at(quantity: Quantity, k: int) -> str:
-    return with_error(float(quantity.mean[k]), float(quantity.standard_error[k]))
+    return with_error(float(quantity.mean[k]), float(quantity.error[k]))
 
 
 def ballistic(data: Data) -> Evidence:

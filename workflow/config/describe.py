@@ -53,12 +53,12 @@ def texts(described: dict[str, dict[str, Any]]) -> dict[Path, str]:
 
 
 def _describe(program: Path, *options: str) -> dict[str, Any]:
-    return json.loads(
-        subprocess.run([program, *options, "--describe"], check=True, capture_output=True).stdout
-    )
+    said = subprocess.run([program, *options, "--describe"], check=True, capture_output=True).stdout
+    description: dict[str, Any] = json.loads(said)
+    return description
 
 
-def _with_options(text: str, described: dict[str, dict]) -> str:
+def _with_options(text: str, described: dict[str, dict[str, Any]]) -> str:
     programs = {
         name: {
             option["name"]: {key: option[key] for key in LIMITS if key in option} | _dimension(option)
@@ -73,7 +73,7 @@ def _with_options(text: str, described: dict[str, dict]) -> str:
     )
 
 
-def _dimension(option: dict) -> dict[str, str]:
+def _dimension(option: dict[str, Any]) -> dict[str, str]:
     """Units, unless the option is a pure number, a word, or has those of another quantity."""
     units = option.get("units", "1")
     try:
@@ -82,7 +82,7 @@ def _dimension(option: dict) -> dict[str, str]:
         return {}
 
 
-def _with_tables(text: str, described: dict[str, dict]) -> str:
+def _with_tables(text: str, described: dict[str, dict[str, Any]]) -> str:
     for name, rows in (("options", _option_rows(described)), ("quantities", _quantity_rows(described))):
         begin, end = f"<!-- {name}, by make describe -->\n", f"<!-- end of {name} -->\n"
         before, _, rest = text.partition(begin)
@@ -96,7 +96,7 @@ def _escaped(cell: str) -> str:
     return re.sub(r"[|<]", r"\\\g<0>", cell)
 
 
-def _option_rows(described: dict[str, dict]) -> Iterator[tuple[str, ...]]:
+def _option_rows(described: dict[str, dict[str, Any]]) -> Iterator[tuple[str, ...]]:
     """What most programs share stands first, once."""
     users = Counter(json.dumps(option) for program in described.values() for option in program["options"])
     shared = [option for option, count in users.items() if count > len(described) / 2]
@@ -117,7 +117,7 @@ def _option_cells(option: dict[str, Any]) -> tuple[str, ...]:
     return f"`--{option['name']}`", admissible(option), shown, option.get("units", ""), option["description"]
 
 
-def _quantity_rows(described: dict[str, dict]) -> Iterator[tuple[str, ...]]:
+def _quantity_rows(described: dict[str, dict[str, Any]]) -> Iterator[tuple[str, ...]]:
     yield ("program", "quantity", "units", "meaning")
     yield ("---",) * 4
     for name, program in described.items():
@@ -127,7 +127,7 @@ def _quantity_rows(described: dict[str, dict]) -> Iterator[tuple[str, ...]]:
             yield ("" if i else f"`{name}`", label, quantity["units"], quantity["description"])
 
 
-def _with_quantities(text: str, described: dict[str, dict]) -> str:
+def _with_quantities(text: str, described: dict[str, dict[str, Any]]) -> str:
     rules = [
         {
             "if": {"properties": {"program": {"const": name}}},
@@ -138,7 +138,7 @@ def _with_quantities(text: str, described: dict[str, dict]) -> str:
     return _compact(json.loads(text) | {"allOf": rules}) + "\n"
 
 
-def _quantities(program: dict[str, Any]) -> dict:
+def _quantities(program: dict[str, Any]) -> dict[str, Any]:
     """By name: units and axes, as layout.py gives them."""
     properties = {
         quantity["name"]: {

@@ -14,13 +14,16 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / ".venv"
 RECORD = FOLDER / "installed.json"
 PYTHON = FOLDER / "bin/python"
 
-State = dict[str, list]  # path below .venv: [sha256 or target of a link, inode, size, time of change]
+State = dict[
+    str, list[str | int]
+]  # path below .venv: sha256 or target of a link, inode, size, time of change
 
 
 def state(known: State) -> State:
@@ -56,7 +59,7 @@ def digest(path: Path) -> str:
         return "cannot be read"
 
 
-def record() -> dict:
+def record() -> dict[str, Any]:
     """Empty if there is none that can be read."""
     try:
         read = json.loads(RECORD.read_text()) if RECORD.is_file() else {}
@@ -117,7 +120,7 @@ def install(locks: list[str]) -> None:
 def add(locks: list[str]) -> None:
     for lock in locks:
         print(f"Installing Python packages of {lock} into .venv", flush=True)
-        command = [
+        command: list[str | Path] = [
             PYTHON,
             "-P",
             "-m",

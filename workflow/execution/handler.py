@@ -4,6 +4,7 @@ import logging
 import time
 from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import Any
 
 from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
@@ -13,6 +14,8 @@ from workflow.execution.outcome import last_lines, outcome
 from workflow.execution.remaining import Remaining, foretold
 from workflow.execution.stopping import stopping
 from workflow.lib.plan import Panel, data_path
+
+Record = Any  # a logging.LogRecord with what Snakemake adds to it, which depends on the event
 
 OF_PROJECT = "of_project"  # attribute of the messages that the Snakefile writes itself
 
@@ -40,7 +43,7 @@ class LogHandler(LogHandlerBase):
         costs = foretold(plan, jobs)
         self._display.begin(len(costs), Remaining(costs, cores))
 
-    def emit(self, record: logging.LogRecord) -> None:
+    def emit(self, record: Record) -> None:
         event = getattr(record, "event", None)
         if event == LogEvent.JOB_INFO and self._begun:
             self._start(record)
@@ -58,7 +61,7 @@ class LogHandler(LogHandlerBase):
         wrong = getattr(record, "event", None) in (None, LogEvent.ERROR) and record.levelno >= logging.WARNING
         return wrong and not self._display.failing
 
-    def _start(self, record: logging.LogRecord) -> None:
+    def _start(self, record: Record) -> None:
         if record.wildcards:  # the target has none
             job = "/".join(record.wildcards[name] for name in ("panel", "run") if name in record.wildcards)
             running = Running(job, time.monotonic(), record.threads, Path(record.log[0]))
@@ -72,7 +75,7 @@ class LogHandler(LogHandlerBase):
         else:
             self._display.finish_panel(running, len(self._plan[panel].runs))
 
-    def _fail(self, record: logging.LogRecord) -> None:
+    def _fail(self, record: Record) -> None:
         running = self._running.pop(record.jobid, None)
         if running and not stopping.is_set():
             self._display.fail(running, last_lines(running.log))

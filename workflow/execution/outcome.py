@@ -35,7 +35,7 @@ def _value(result: Result) -> str:
     quantity, achieved = result.quantities.get(name), float(result.provenance["achieved_error"])
     if quantity is None or quantity.mean.size > 1:
         return f"error of {name} {achieved:.2g}"
-    error = quantity.discretisation_error if quantity.standard_error is None else quantity.standard_error
+    error = quantity.error if quantity.discretisation_error is None else quantity.discretisation_error
     return f"{name} = {with_error(float(quantity.mean), float(error))}"
 
 

@@ -18,7 +18,7 @@ from workflow.lib.figure import run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
-LOOKS = {
+LOOKS: dict[str, style.Look] = {
     "random total momentum, as in the paper": {"marker": "o", "color": style.BLUE},
     "zero total momentum": {"marker": "s", "color": style.VERMILLION, "markerfacecolor": "white"},
     "random directions": {"marker": "D", "color": style.GREEN, "markerfacecolor": "white"},
@@ -38,7 +38,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     parts = []
     for result in results:
         slope = result["local_slope"]
-        columns = {"time": slope.axes["time"], "slope": slope.mean, "slope_error": slope.standard_error}
+        columns = {"time": slope.axes["time"], "slope": slope.mean, "slope_error": slope.error}
         part = pd.DataFrame(columns).assign(kind=kind(result))
         for name in LABELS:
             part[name.replace("-", "_")] = result.parameters[name]
@@ -46,7 +46,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
             if name not in result.quantities or np.isnan(result[name].mean):
                 continue  # no logarithmic power where the chain drifts, no momentum where directions are drawn
             part[name] = float(result[name].mean)
-            part[f"{name}_error"] = float(result[name].standard_error)
+            part[f"{name}_error"] = float(result[name].error)
         parts.append(part)
     return pd.concat(parts, ignore_index=True)
 

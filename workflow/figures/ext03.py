@@ -28,7 +28,8 @@ REACH = 0.6  # of the first peak from the centre, over which profiles are compar
 def folded(profile: np.ndarray) -> np.ndarray:
     """Mean of both sides, by distance from the centre."""
     centre = len(profile) // 2
-    return 0.5 * (profile[centre:] + profile[centre::-1])
+    mean: np.ndarray = 0.5 * (profile[centre:] + profile[centre::-1])
+    return mean
 
 
 def draw_collapse(axes: Axes, result: Result) -> pd.DataFrame:
@@ -60,17 +61,17 @@ def draw_exponents(axes: Axes, fluctuations: Result, pulse: Result) -> pd.DataFr
     ):
         local = result["local_damping_exponent"]
         time = local.axes["middle"]
-        used = local.standard_error < LARGEST_ERROR
+        used = local.error < LARGEST_ERROR
         axes.errorbar(
             time[used],
             local.mean[used],
-            local.standard_error[used],
+            local.error[used],
             marker=marker,
             color=color,
             label=text,
             **style.POINTS,
         )
-        columns = {"time": time, "exponent": local.mean, "exponent_error": local.standard_error}
+        columns = {"time": time, "exponent": local.mean, "exponent_error": local.error}
         parts.append(pd.DataFrame({"source": text, **columns}))
     for value, text in ((SOUND, "2/3"), (DIFFUSION, "1/2")):
         axes.axhline(value, **style.GUIDE)
@@ -83,15 +84,15 @@ def draw_exponents(axes: Axes, fluctuations: Result, pulse: Result) -> pd.DataFr
 
 def draw_heat(axes: Axes, centre: Quantity) -> pd.DataFrame:
     time = centre.axes["time"]
-    axes.errorbar(time, centre.mean, centre.standard_error, marker="o", color=style.BLACK, **style.POINTS)
+    axes.errorbar(time, centre.mean, centre.error, marker="o", color=style.BLACK, **style.POINTS)
     axes.set(xscale="log", xlabel="time $t$", ylabel="$C_n(0, t)$", ylim=(0, None))
-    return pd.DataFrame({"time": time, "centre": centre.mean, "centre_error": centre.standard_error})
+    return pd.DataFrame({"time": time, "centre": centre.mean, "centre_error": centre.error})
 
 
 def known(quantity: Quantity) -> tuple[np.ndarray, np.ndarray]:
     """Values and errors where there are any and they are known well enough to be shown."""
-    used = quantity.standard_error < LARGEST_ERROR * np.maximum(1, np.abs(quantity.mean))
-    return quantity.mean[used], quantity.standard_error[used]
+    used = quantity.error < LARGEST_ERROR * np.maximum(1, np.abs(quantity.mean))
+    return quantity.mean[used], quantity.error[used]
 
 
 def deviation(values: np.ndarray, errors: np.ndarray, expected: float) -> tuple[float, int]:
@@ -107,7 +108,7 @@ def of_peak(result: Result) -> str:
     """What the height and the speed of the sound peak say."""
     peak, speed = result["peak"], known(result["peak_speed"])
     there = np.isfinite(peak.mean)
-    law = fit_power(peak.axes["time"][there], peak.mean[there], peak.standard_error[there])
+    law = fit_power(peak.axes["time"][there], peak.mean[there], peak.error[there])
     tests = []
     for expected, name in ((SOUND, "2/3"), (DIFFUSION, "1/2")):
         found = goodness(*deviation(*known(result["local_damping_exponent"]), expected))

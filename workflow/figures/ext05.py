@@ -21,7 +21,7 @@ SIDES = {"rate_right": ">", "rate_left": "<"}
 CURRENTS = {"particle_current": "o", "energy_current": "s"}
 
 
-def look_of(result: Result, marker: str, index: int) -> dict:
+def look_of(result: Result, marker: str, index: int) -> style.Look:
     """Large at gamma = N, small at gamma = 1; the second of two curves is open."""
     gamma = result.parameters["gamma"]
     _, color = style.BY_GAMMA[gamma]
@@ -41,10 +41,10 @@ def plot_deviations(axes: Axes, result: Result, curves: dict[str, str]) -> list[
         scale = 100 / np.abs(whole.mean).mean()
         look = look_of(result, marker, index)
         label = rf"{name.replace('_', ' ')}, $\gamma = {style.gamma(result)}$"
-        percent, error = scale * deviation.mean, scale * deviation.standard_error
+        percent, error = scale * deviation.mean, scale * deviation.error
         inside = (x > 0) & (x < 1)
         axes.errorbar(x[inside], percent[inside], error[inside], label=label, **look)
-        table = pd.DataFrame({"quantity": name, "x": x, "value": whole.mean, "error": whole.standard_error})
+        table = pd.DataFrame({"quantity": name, "x": x, "value": whole.mean, "error": whole.error})
         table["deviation_percent"], table["deviation_percent_error"] = percent, error
         tables.append(table.assign(units=whole.units, gamma=style.gamma(result), cells=cells))
     return tables
@@ -56,7 +56,7 @@ def plot_rates(axes: Axes, result: Result) -> None:
         rate, deviation = result[name], result[f"{name}_deviation"]
         x = (rate.axes["cell"] + 0.5) / int(result.parameters["cells"])
         look = look_of(result, marker, index)
-        axes.errorbar(x, rate.mean, rate.standard_error, **look)
+        axes.errorbar(x, rate.mean, rate.error, **look)
         axes.plot(x, rate.mean - deviation.mean, color=look["color"], linewidth=0.6, zorder=1)
 
 
@@ -68,7 +68,7 @@ def plot_excess(axes: Axes, results: Sequence[Result]) -> pd.DataFrame:
         (("left", "o", style.BLUE, "solid"), ("right", "s", style.VERMILLION, "dashed"))
     ):
         excess = np.array([result["density_excess"].mean[end] for result in results])
-        error = np.array([result["density_excess"].standard_error[end] for result in results])
+        error = np.array([result["density_excess"].error[end] for result in results])
         fitted = cells >= FITTED
         line = fit_line(np.log(cells[fitted]), excess[fitted], error[fitted])
         look = {"marker": marker, "color": color, "markerfacecolor": "white", **style.POINTS}

@@ -3,7 +3,7 @@
 Of the quantities that depend on the relaxation time those are drawn whose trend is resolved; the table has all.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -20,7 +20,7 @@ from workflow.lib.load import Result
 RESOLVED = 3  # standard errors of a trend that is not chance
 
 # Program, quantity, label, what it is for an infinite chain at equilibrium, and name.
-AGED = [
+AGED: list[tuple[str, str, str, Callable[[float], float], str]] = [
     ("persistence", "mu", r"persistence $\mu$", lambda sigma: np.arccos(sigma) / np.pi, "μ"),
     ("waiting_time", "exponent", r"exponent of $\Psi$", lambda _: -2, "the exponent of Ψ"),
     ("displacement", "alpha", r"exponent $\alpha$, zero momentum", lambda _: 1, "α"),
@@ -38,9 +38,9 @@ def plot_energies(axes: Axes, result: Result) -> list[pd.DataFrame]:
         energy = result[name]
         (time,) = energy.axes.values()
         look = {"marker": marker, "color": color, "markerfacecolor": face, **style.POINTS}
-        axes.errorbar(time, energy.mean, energy.standard_error, label=label, **look)
+        axes.errorbar(time, energy.mean, energy.error, label=label, **look)
         columns = {"quantity": name, "time": time, "value": energy.mean}
-        tables.append(pd.DataFrame({**columns, "error": energy.standard_error, "units": energy.units}))
+        tables.append(pd.DataFrame({**columns, "error": energy.error, "units": energy.units}))
     axes.set(xscale="log", ylabel=f"mean energy ({style.UNITS})", ylim=(0, None))
     axes.legend(loc="upper left")
     return tables
@@ -50,10 +50,10 @@ def plot_slopes(axes: Axes, result: Result) -> pd.DataFrame:
     """Of the scatterers' energy against ln t, by decade."""
     slope = result["decade_slope"]
     middle = slope.axes["decade"] * np.sqrt(10)
-    axes.errorbar(middle, slope.mean, slope.standard_error, marker="o", color=style.BLUE, **style.POINTS)
+    axes.errorbar(middle, slope.mean, slope.error, marker="o", color=style.BLUE, **style.POINTS)
     axes.set(xlabel="time from the start", ylabel=r"$dE/d\ln t$ of a scatterer", ylim=(0, None))
     columns = {"quantity": "decade_slope", "time": slope.axes["decade"], "value": slope.mean}
-    return pd.DataFrame({**columns, "error": slope.standard_error, "units": slope.units})
+    return pd.DataFrame({**columns, "error": slope.error, "units": slope.units})
 
 
 def aged(results: Sequence[Result], program: str, name: str) -> tuple[pd.DataFrame, Line]:
@@ -63,7 +63,7 @@ def aged(results: Sequence[Result], program: str, name: str) -> tuple[pd.DataFra
     time = [result.parameters["relaxation-time"] for result in runs]
     table = pd.DataFrame({"quantity": name, "time": time})
     table["value"] = [float(result[name].mean) for result in runs]
-    table["error"] = [float(result[name].standard_error) for result in runs]
+    table["error"] = [float(result[name].error) for result in runs]
     trend = fit_line(np.log(time), table["value"], table.error)
     return table.assign(units=runs[0][name].units, fitted=trend.at(np.log(time))), trend
 

@@ -43,7 +43,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     for result in results:
         row = {"gas": gas(result), "cells": int(result.parameters["cells"])}
         for name in ("kappa", "kappa_particle", "energy_current", "particle_current"):
-            row[name], row[f"{name}_error"] = float(result[name].mean), float(result[name].standard_error)
+            row[name], row[f"{name}_error"] = float(result[name].mean), float(result[name].error)
         row["sound"] = result.converged != NOT_REACHED and result["stationary"].mean == 1
         rows.append(row)
     return pd.DataFrame(rows).sort_values("cells", ignore_index=True)
@@ -121,7 +121,7 @@ def draw_cube_roots(axes: Axes, table: pd.DataFrame) -> None:
         if held := range_of(part, CUBE_ROOT):
             size = part.cells[part.cells >= held.first]
             axes.plot(np.cbrt(size), held.predicted, color=color, linestyle=style.DASHES[1])
-    above = axes.secondary_xaxis("top", functions=(lambda x: x**3, np.cbrt))
+    above = axes.secondary_xaxis("top", functions=(lambda x: np.power(x, 3), np.cbrt))
     above.set_xticks([size for size in (64, 256, 512, 1024, 2048, 8192) if size <= table.cells.max()])
     axes.tick_params(axis="x", which="both", top=False)
     axes.set(xlabel="$N^{1/3}$", ylim=(0, None))

@@ -22,29 +22,32 @@ from workflow.lib.load import Result
 
 SEEN = 1e-3  # probability of the rarest bins that are shown
 
+Curve = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]  # momenta, what was found, its error, exact
+
 
 def gaussian(momentum: np.ndarray, temperature: float) -> np.ndarray:
     """Probability density, averaged over equal bins about the given momenta."""
     half = 0.5 * (momentum[1] - momentum[0])
     below = [erf((momentum + sign * half) / np.sqrt(2 * temperature)) for sign in (-1, 1)]
-    return 0.5 * (below[1] - below[0]) / (2 * half)
+    density: np.ndarray = 0.5 * (below[1] - below[0]) / (2 * half)
+    return density
 
 
-def outgoing_flux(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def outgoing_flux(result: Result) -> Curve:
     """Momenta, F_N of what leaves (p < 0 at the left end, p > 0 at the right one), its error, the exact F."""
     flux, parameters = result["flux"], result.parameters
     momentum = flux.axes["momentum"]
     left = momentum < 0
-    values = [np.where(left, array[0], array[-1]) for array in (flux.mean, flux.standard_error)]
+    values = [np.where(left, array[0], array[-1]) for array in (flux.mean, flux.error)]
     exact = 2 * parameters["nu-left"] * gaussian(momentum, parameters["temperature-left"])
     return momentum, *values, exact
 
 
-def end_scatterers(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def end_scatterers(result: Result) -> Curve:
     """Momenta, g of both end scatterers together, its error, the exact g."""
     density = result["scatterer_density"]
     momentum = density.axes["momentum"]
-    error = np.hypot(*density.standard_error) / 2
+    error = np.hypot(*density.error) / 2
     return (
         momentum,
         density.mean.mean(axis=0),
@@ -61,7 +64,7 @@ def largest_distance(found: np.ndarray, error: np.ndarray, exact: np.ndarray) ->
     return float(np.abs(distance[at])), float(np.sqrt(np.nansum(error[: at + 1] ** 2)) / total)
 
 
-def plot(axes: Axes, result: Result, curve: tuple, units: str, shift: float) -> pd.DataFrame:
+def plot(axes: Axes, result: Result, curve: Curve, units: str, shift: float) -> pd.DataFrame:
     momentum, found, error, exact = curve
     seen = exact * (momentum[1] - momentum[0]) > SEEN * exact.sum() * (momentum[1] - momentum[0])
     momentum, found, error, exact = (array[seen] for array in (momentum, found, error, exact))

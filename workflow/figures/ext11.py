@@ -41,7 +41,7 @@ class Response:
         )
         potentials = np.log(rates / np.sqrt(temperatures))
         quantities = [result[name] for name in ("energy_current", "particle_current")]
-        errors = np.array([float(quantity.standard_error) for quantity in quantities])
+        errors = np.array([float(quantity.error) for quantity in quantities])
         correlation = float(result["current_correlation"].mean)
         return cls(
             int(result.parameters["cells"]),
@@ -58,7 +58,8 @@ class Response:
         correlation = self.covariance[0, 1] / product if product else 0.0
         first, second = random.standard_normal((2, DRAWN))
         both = np.stack([first, correlation * first + np.sqrt(1 - correlation**2) * second], axis=1)
-        return self.currents + errors * both
+        currents: np.ndarray = self.currents + errors * both
+        return currents
 
 
 def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
@@ -77,7 +78,8 @@ def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
 
     def heat(found: np.ndarray) -> np.ndarray:
         convected = found[..., 0, 1] * found[..., 1, 0] / found[..., 1, 1]
-        return (found[..., 0, 0] - convected) / pressure.temperature**2
+        kappa: np.ndarray = (found[..., 0, 0] - convected) / pressure.temperature**2
+        return kappa
 
     row["kappa_0"], row["kappa_0_error"] = float(heat(matrix)), float(heat(spread).std())
     asymmetry = spread[:, 0, 1] - spread[:, 1, 0]

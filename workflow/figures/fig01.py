@@ -46,7 +46,7 @@ def tabulate(result: Result) -> pd.DataFrame:
     table = table[["bins", "time", "momentum", "weighted_density", "error"]]
     for name in ("front", "plateau"):
         quantity = result[name]
-        for column, values in ((name, quantity.mean), (f"{name}_error", quantity.standard_error)):
+        for column, values in ((name, quantity.mean), (f"{name}_error", quantity.error)):
             table[column] = table.time.map(dict(zip(quantity.axes["time"], values, strict=True)))
     table.insert(0, "cell_length", style.spacing(result)[0])
     return table

@@ -26,10 +26,10 @@ def fitted(result: Result) -> pd.DataFrame:
     late = time >= result["plateau"].axes["time"][0] * (1 - 1e-9)
     x = np.log(time)
     line = count.mean[late].mean() + float(result["log_slope"].mean) * (x - x[late].mean())
-    table = pd.DataFrame({"time": time, "number": count.mean, "number_error": count.standard_error})
+    table = pd.DataFrame({"time": time, "number": count.mean, "number_error": count.error})
     table["number_fitted"] = np.where(late, line, np.nan)
     table["slope_to_next"], table["slope_to_next_error"] = (
-        np.append(values, np.nan) for values in (slope.mean, slope.standard_error)
+        np.append(values, np.nan) for values in (slope.mean, slope.error)
     )
     table.insert(0, "cell_length", style.spacing(result)[0])
     return table
@@ -37,7 +37,7 @@ def fitted(result: Result) -> pd.DataFrame:
 
 def straight(result: Result) -> bool:
     curvature = result["log_curvature"]
-    return not abs(float(curvature.mean)) > SURE * float(curvature.standard_error)
+    return not abs(float(curvature.mean)) > SURE * float(curvature.error)
 
 
 def draw_number(axes: Axes, table: pd.DataFrame, result: Result) -> None:
@@ -63,7 +63,7 @@ def draw_slopes(axes: Axes, table: pd.DataFrame, result: Result) -> None:
     )
     plateau = result["plateau"]
     look = {"marker": "s", "color": style.VERMILLION, "markerfacecolor": "white", **style.POINTS}
-    axes.errorbar(plateau.axes["time"], plateau.mean, plateau.standard_error, **look)
+    axes.errorbar(plateau.axes["time"], plateau.mean, plateau.error, **look)
     axes.set(xlabel=f"time $t$ ({style.UNITS})", ylabel=r"$dn/d\ln t$")
 
 

@@ -17,7 +17,7 @@ def tabulate(result: Result) -> pd.DataFrame:
     """One row per cell, with the line through the middle half and the density relative to it."""
     density = result["density"]
     table = pd.DataFrame({"x": (density.axes["cell"] + 0.5) / len(density.mean)})
-    table["density"], table["density_error"] = density.mean, density.standard_error
+    table["density"], table["density_error"] = density.mean, density.error
     bulk = table[(table.x > 0.25) & (table.x < 0.75)]
     table["bulk"] = fit_line(bulk.x, bulk.density, bulk.density_error).at(table.x)
     table["relative"] = table.density / table.bulk

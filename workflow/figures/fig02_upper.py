@@ -22,10 +22,10 @@ def tabulate(result: Result) -> pd.DataFrame:
     scatterer, particle = result["temperature_scatterer"], result["temperature_particle"]
     difference = result["temperature_difference"]
     table = pd.DataFrame({"x": (scatterer.axes["cell"] + 0.5) / len(scatterer.mean)})
-    table["scatterer"], table["scatterer_error"] = scatterer.mean, scatterer.standard_error
-    table["particle"], table["particle_error"] = particle.mean, particle.standard_error
+    table["scatterer"], table["scatterer_error"] = scatterer.mean, scatterer.error
+    table["particle"], table["particle_error"] = particle.mean, particle.error
     table["particle_minus_scatterer"] = -difference.mean
-    table["particle_minus_scatterer_error"] = difference.standard_error
+    table["particle_minus_scatterer_error"] = difference.error
     table.insert(0, "gamma", style.gamma(result))
     return table
 
@@ -33,8 +33,8 @@ def tabulate(result: Result) -> pd.DataFrame:
 def ends(result: Result) -> str:
     """Particle minus scatterer in the first and the last cell."""
     difference = result["temperature_difference"]
-    values = [with_error(-difference.mean[k], difference.standard_error[k]) for k in (0, -1)]
-    largest = np.nanmax(np.abs(difference.mean / difference.standard_error))
+    values = [with_error(-difference.mean[k], difference.error[k]) for k in (0, -1)]
+    largest = np.nanmax(np.abs(difference.mean / difference.error))
     return f"γ = {style.gamma(result)}: {values[0]} and {values[1]}; the largest difference of any cell is {largest:.1f} errors"
 
 

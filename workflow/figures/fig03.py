@@ -5,6 +5,7 @@ case sigma = 0, whose halves are Gaussian.
 """
 
 from collections.abc import Sequence
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -33,7 +34,8 @@ def gaussian_half(momentum: np.ndarray, flux: np.ndarray) -> np.ndarray:
     """Of the same integral and second moment on the same half line, by the midpoint rule."""
     square = np.average(momentum**2, weights=flux)
     rate = flux.sum() * (momentum[1] - momentum[0])
-    return rate * np.sqrt(2 / (np.pi * square)) * np.exp(-(momentum**2) / (2 * square))
+    gaussian: np.ndarray = rate * np.sqrt(2 / (np.pi * square)) * np.exp(-(momentum**2) / (2 * square))
+    return gaussian
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
@@ -53,7 +55,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     return pd.concat(parts, ignore_index=True)
 
 
-def draw_halves(axes: Axes, part: pd.DataFrame, values: pd.Series, **look: object) -> None:
+def draw_halves(axes: Axes, part: pd.DataFrame, values: pd.Series, **look: Any) -> None:
     """Not joined across the jump."""
     for half in (part.momentum < 0, part.momentum > 0):
         axes.plot(part.momentum[half], values[half], **look)

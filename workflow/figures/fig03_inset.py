@@ -25,7 +25,8 @@ MARKERS = ["o", "s", "^", "D"]  # by N
 
 def outgoing(values: np.ndarray, momentum: np.ndarray) -> np.ndarray:
     """By momentum: of the first place where p < 0, of the last one where p > 0."""
-    return np.where(momentum < 0, values[0], values[-1])
+    found: np.ndarray = np.where(momentum < 0, values[0], values[-1])
+    return found
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
@@ -43,7 +44,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         simulated = found.standard_error is not None
         table = pd.DataFrame({"momentum": momentum})
         table["deviation"] = (outgoing(found.mean, momentum) - exact) / largest
-        table["error"] = outgoing(found.standard_error, momentum) / largest if simulated else 0.0
+        table["error"] = outgoing(found.error, momentum) / largest if simulated else 0.0
         table.insert(0, "kind", SIMULATION if simulated else MEAN_FIELD)
         table.insert(1, "cells", int(result.parameters["cells"]))
         tables.append(table)
@@ -97,11 +98,12 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
     law = decay(table)
     label = rf"fit, $N^{{{law.text}}}$"
     axes.plot(points.cells, law.at(points.cells), color=style.BLUE, linestyle="dotted", label=label)
+    readings: list[tuple[float, str, style.Look]] = [
+        (1, r"of $\max F$", {}),
+        (1 / printed, "as printed", {"color": style.GREEN}),
+    ]
     for height, name in LIMITS:
-        for scale, reading, look in (
-            (1, r"of $\max F$", {}),
-            (1 / printed, "as printed", {"color": style.GREEN}),
-        ):
+        for scale, reading, look in readings:
             axes.axhline(height * scale, **style.GUIDE | look)
             axes.text(2, height * scale, f"{name} {reading}", va="bottom", size=8, **look)
     axes.set(xscale="log", yscale="log", ylim=(5e-5, 0.2))

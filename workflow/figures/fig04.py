@@ -48,7 +48,8 @@ def uncorrelated(results: Sequence[Result], like: Result) -> Result | None:
 
 def at(quantity: Quantity, x: float) -> np.ndarray:
     """Of the kinetic equation, at a place."""
-    return quantity.mean[np.abs(quantity.axes["x"] - x).argmin()]
+    values: np.ndarray = quantity.mean[np.abs(quantity.axes["x"] - x).argmin()]
+    return values
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
@@ -57,8 +58,8 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     for result, (place, (bond, *_)) in product(measured(results), ENDS.items()):
         flux, jump, expected = result["flux"], result["jump"], uncorrelated(results, result)
         part = pd.DataFrame({"x": place, "momentum": flux.axes["momentum"], "flux": flux.mean[bond]})
-        part["flux_error"] = flux.standard_error[bond]
-        part["jump"], part["jump_error"] = jump.mean[bond], jump.standard_error[bond]
+        part["flux_error"] = flux.error[bond]
+        part["jump"], part["jump_error"] = jump.mean[bond], jump.error[bond]
         if expected:
             where = flux.axes["bond"][bond] / flux.axes["bond"][-1]
             part["kinetic"], part["kinetic_jump"] = at(expected["flux"], where), at(expected["jump"], where)
@@ -78,9 +79,9 @@ def draw_distribution(axes: Axes, table: pd.DataFrame, reach: float) -> None:
     for (_, place), part in table.groupby(["nu_left", "x"], sort=False):
         _, color, dashes, _ = ENDS[place]
         equal = bool((part.nu_left == part.nu_right).all())
-        label = f"${place}$" + EQUAL * equal
+        label: str | None = f"${place}$" + EQUAL * equal
         for half in halves(part[part.momentum.abs() < reach]):
-            look = {"color": color, "linestyle": dashes, "alpha": 0.45 if equal else 1}
+            look: style.Look = {"color": color, "linestyle": dashes, "alpha": 0.45 if equal else 1}
             axes.errorbar(half.momentum, half.flux, half.flux_error, elinewidth=0.8, label=label, **look)
             axes.plot(half.momentum, half.kinetic, color=style.BLACK, linewidth=0.6, zorder=1)
             label = None
@@ -93,7 +94,8 @@ def draw_residuals(axes: Axes, table: pd.DataFrame) -> None:
         _, color, dashes, marker = ENDS[place]
         for half in halves(part[part.momentum.abs() < SHOWN]):
             unit = table.kinetic.max() / 100
-            look = {"marker": marker, "color": color, "markersize": 2, "elinewidth": 0.6, "linewidth": 0.6}
+            look: style.Look = {"marker": marker, "color": color, "markersize": 2}
+            look |= {"elinewidth": 0.6, "linewidth": 0.6}
             residual = (half.flux - half.kinetic) / unit
             axes.errorbar(half.momentum, residual, half.flux_error / unit, linestyle=dashes, **look)
     axes.axhline(0, color=style.BLACK, linewidth=0.6)

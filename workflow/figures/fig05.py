@@ -22,10 +22,11 @@ DASHES = ["dashed", "dotted"]
 
 def law(sigma: np.ndarray) -> np.ndarray:
     """Particle and scatterer Gaussian and independent, at one temperature."""
-    return np.arccos(sigma) / np.pi
+    share: np.ndarray = np.arccos(sigma) / np.pi
+    return share
 
 
-def law_at_local_energies(table: pd.DataFrame) -> np.ndarray:
+def law_at_local_energies(table: pd.DataFrame) -> pd.Series:
     """The same at the mean energies that particles and scatterers have when they meet."""
     c = np.sqrt((1 - table.sigma) * (1 + table.sigma))
     speeds = np.sqrt(table.particle_energy / table.scatterer_energy)
@@ -39,10 +40,10 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
             "particles_per_cell": int(result.parameters["particles-per-cell"]),
             "sigma": float(result.parameters["sigma"]),
             "mu": float(result["mu"].mean),
-            "mu_error": float(result["mu"].standard_error),
+            "mu_error": float(result["mu"].error),
             "particle_energy": float(result["particle_energy"].mean),
             "scatterer_energy": float(result["scatterer_energy"].mean),
-            "replicas": int(result["mu"].count),
+            "replicas": int(result["mu"].replicas),
             "converged": result.converged,
         }
         for result in results

@@ -32,7 +32,7 @@ def tabulate(result: Result) -> pd.DataFrame:
     """One row per bin that holds anything, with the fitted law from the cut on, and what the Gaussian start gives."""
     density, options = result["density"], result.parameters
     sigma, tau = float(options["sigma"]), density.axes["tau"]
-    table = pd.DataFrame({"tau": tau, "density": density.mean, "density_error": density.standard_error})
+    table = pd.DataFrame({"tau": tau, "density": density.mean, "density_error": density.error})
     table = table[table.density > 0].assign(unsure=lambda rows: ~(rows.density_error < UNSURE * rows.density))
     cut = options["tail-from"] * options["cell-length"] / np.sqrt(options["temperature"])
     tail = table[(table.tau > cut) & ~table.unsure]

@@ -20,13 +20,13 @@ def tabulate(result: Result) -> pd.DataFrame:
     """One row per time. The error of the share neglects that both parts vary together: it is an upper bound."""
     variance, drift, slope = result["variance"], result["centre_of_mass"], result["local_slope"]
     table = pd.DataFrame({"time": variance.axes["time"]})
-    table["variance"], table["variance_error"] = variance.mean, variance.standard_error
-    table["centre_of_mass"], table["centre_of_mass_error"] = drift.mean, drift.standard_error
+    table["variance"], table["variance_error"] = variance.mean, variance.error
+    table["centre_of_mass"], table["centre_of_mass_error"] = drift.mean, drift.error
     table["share"] = drift.mean / variance.mean
-    relative = np.hypot(drift.standard_error / drift.mean, variance.standard_error / variance.mean)
+    relative = np.hypot(drift.error / drift.mean, variance.error / variance.mean)
     table["share_error"] = table["share"] * relative
     table["slope_to_next"], table["slope_to_next_error"] = (
-        np.append(values, np.nan) for values in (slope.mean, slope.standard_error)
+        np.append(values, np.nan) for values in (slope.mean, slope.error)
     )
     return table
 

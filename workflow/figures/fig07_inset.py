@@ -33,9 +33,9 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
             "sigma": float(result.parameters["sigma"]),
             "zero_total_momentum": bool(result.parameters["zero-total-momentum"]),
             "alpha": float(result["alpha"].mean),
-            "alpha_error": float(result["alpha"].standard_error),
+            "alpha_error": float(result["alpha"].error),
             "alpha_relative": float(result["alpha_relative"].mean),
-            "alpha_relative_error": float(result["alpha_relative"].standard_error),
+            "alpha_relative_error": float(result["alpha_relative"].error),
             "converged": result.converged,
         }
         for result in results

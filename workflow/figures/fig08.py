@@ -45,7 +45,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         row = {"gamma": result.parameters["gamma"], "cells": result.parameters["cells"]}
         for name in ("kappa", "kappa_particle", "kappa_plain", "kappa_printed", "energy_current"):
             row[name], row[f"{name}_error"] = (
-                float(value) for value in (result[name].mean, result[name].standard_error)
+                float(value) for value in (result[name].mean, result[name].error)
             )
         row["sound"] = result.converged != NOT_REACHED and result["stationary"].mean == 1
         rows.append(row)

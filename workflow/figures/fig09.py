@@ -6,6 +6,7 @@ and the speed of the moving peak. Faint: times at which the ring has closed.
 
 import functools
 from collections.abc import Sequence
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -29,7 +30,8 @@ STARTS = {
 
 
 def start(result: Result) -> str | float:
-    return result.parameters["scatterer-temperature"]
+    given: str | float = result.parameters["scatterer-temperature"]
+    return given
 
 
 def gaussian_start(results: Sequence[Result]) -> Result:
@@ -41,15 +43,18 @@ def ring_closed(result: Result) -> np.ndarray:
     """At every time, whether the two sides of the pulse overlap where they meet, opposite to it."""
     difference = result["energy_difference"].mean
     opposite = difference[:, [0, 1, -2, -1]].mean(axis=1)
-    return opposite > CLOSED * difference.max(axis=1)
+    closed: np.ndarray = opposite > CLOSED * difference.max(axis=1)
+    return closed
 
 
-def look_of(result: Result) -> dict:
+def look_of(result: Result) -> style.Look:
     marker, color, face, _ = STARTS[start(result)]
     return {"marker": marker, "color": color, "markerfacecolor": face, **style.POINTS}
 
 
-def draw_marked(axes: Axes, time: np.ndarray, values: tuple, closed: np.ndarray, **look: object) -> None:
+def draw_marked(
+    axes: Axes, time: np.ndarray, values: tuple[np.ndarray, np.ndarray], closed: np.ndarray, **look: Any
+) -> None:
     """Values with errors; faint where the ring has closed."""
     for part, alpha in ((~closed, 1), (closed, FAINT)):
         axes.errorbar(time[part], values[0][part], values[1][part], alpha=alpha, **look)
@@ -65,13 +70,13 @@ def draw_profiles(axes: Axes, result: Result, shown: np.ndarray) -> pd.DataFrame
     parts = []
     places = np.flatnonzero(np.isin(times, shown))
     for k, color, dashes in zip(places, style.SEQUENCE, style.DASHES, strict=False):
-        mean, error = difference.mean[k] / 1e3, difference.standard_error[k] / 1e3
+        mean, error = difference.mean[k] / 1e3, difference.error[k] / 1e3
         alpha = FAINT if closed[k] else 1
         label = f"$t = {times[k]:g}$"
         axes.plot(distance, mean, color=color, linestyle=dashes, label=label, alpha=alpha)
         axes.fill_between(distance, mean - error, mean + error, color=color, alpha=0.3, linewidth=0)
         columns = {"time": times[k], "distance": distance, "energy_difference": difference.mean[k]}
-        part = pd.DataFrame({**columns, "energy_difference_error": difference.standard_error[k]})
+        part = pd.DataFrame({**columns, "energy_difference_error": difference.error[k]})
         parts.append(part.assign(ring_closed=closed[k]))
     axes.set_xlabel(r"distance from the central cell, $x/\lambda$")
     axes.legend(loc="upper right", title=STARTS[start(result)][3])
@@ -83,7 +88,7 @@ def draw_position(axes: Axes, result: Result) -> None:
     position, closed = result["peak_position"], ring_closed(result)
     time = position.axes["time"]
     label = STARTS[start(result)][3]
-    values = (position.mean, position.standard_error)
+    values = (position.mean, position.error)
     draw_marked(axes, time, values, closed, label=label, **look_of(result))
     guide = style.GUIDE | {"color": STARTS[start(result)][1]}
     axes.plot(time, position.mean[0] * time / time[0], **guide)
@@ -92,7 +97,7 @@ def draw_position(axes: Axes, result: Result) -> None:
 def draw_speed(axes: Axes, result: Result) -> None:
     speed = result["peak_speed"]
     closed = ring_closed(result)[1:]
-    draw_marked(axes, speed.axes["middle"], (speed.mean, speed.standard_error), closed, **look_of(result))
+    draw_marked(axes, speed.axes["middle"], (speed.mean, speed.error), closed, **look_of(result))
 
 
 def caption(results: Sequence[Result]) -> str:

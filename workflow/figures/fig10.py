@@ -25,18 +25,18 @@ SLOPES = {"N": (-2 / 3, r"$t^{-2/3}$"), 1: (-1, r"$t^{-1}$")}  # the paper's gui
 def tabulate(result: Result) -> pd.DataFrame:
     """One row per time."""
     peak = result["peak"]
-    part = pd.DataFrame(
-        {"time": peak.axes["time"], "peak": peak.mean, "peak_error": peak.standard_error}
-    ).assign(ring_closed=ring_closed(result))
+    part = pd.DataFrame({"time": peak.axes["time"], "peak": peak.mean, "peak_error": peak.error}).assign(
+        ring_closed=ring_closed(result)
+    )
     part["peak_raw"], part["peak_position"] = result["peak_raw"].mean, result["peak_position"].mean
-    part["peak_position_error"] = result["peak_position"].standard_error
+    part["peak_position_error"] = result["peak_position"].error
     for column, name in {
         "exponent_from_here": "damping_exponent_from",
         "exponent_to_next": "local_damping_exponent",
         "speed_to_next": "peak_speed",
     }.items():  # all but the last time have them
         part[column] = pd.Series(result[name].mean)
-        part[f"{column}_error"] = pd.Series(result[name].standard_error)
+        part[f"{column}_error"] = pd.Series(result[name].error)
     part.insert(0, "scatterer_temperature", str(start(result)))
     return part
 

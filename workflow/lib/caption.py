@@ -66,7 +66,7 @@ def parameters(results: Sequence[Result], *names: str) -> str:
 def replicas(results: Sequence[Result]) -> str:
     """How many there were: 64 replicas, or 32 to 64 replicas."""
     counts = [
-        int(max(np.max(quantity.count) for quantity in result.quantities.values()))
+        int(max(np.max(quantity.replicas) for quantity in result.quantities.values()))
         for result in results
         if "replicas" in result.parameters
     ]

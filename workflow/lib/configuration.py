@@ -20,7 +20,7 @@ FOLDER = Path(__file__).parents[1] / "config"
 class Admissible:
     """Options that the configuration may give, by program. A place is `paper.yaml: panels.fig05.common`."""
 
-    programs: dict[str, dict[str, dict]]
+    programs: dict[str, dict[str, dict[str, Any]]]
     effort: tuple[str, ...]
     not_physics: tuple[str, ...]
     folder: Path
@@ -90,7 +90,7 @@ def option_units() -> dict[str, str]:
     }
 
 
-def load_checked(path: Path, schema: dict) -> dict:
+def load_checked(path: Path, schema: dict[str, Any]) -> dict[str, Any]:
     """Raises ConfigurationError."""
     document = read(path)
     errors = sorted(
@@ -102,7 +102,8 @@ def load_checked(path: Path, schema: dict) -> dict:
         while deepest.context:  # of the alternatives, the last is a list of values
             deepest = max(deepest.context, key=lambda error: len(error.absolute_path))
         raise _complaint(document, deepest)
-    return document.content
+    content: dict[str, Any] = document.content
+    return content
 
 
 def _complaint(document: Document, error: Any) -> ConfigurationError:
@@ -123,7 +124,7 @@ def _complaint(document: Document, error: Any) -> ConfigurationError:
     return document.complaint(keys, text, json.dumps(error.instance) if plain else "")
 
 
-def admissible_schema() -> dict:
+def admissible_schema() -> dict[str, Any]:
     """Of schema.yaml itself."""
     number, text = {"type": "number"}, {"type": "string"}
     texts = {"type": "array", "items": text}
@@ -138,7 +139,7 @@ def admissible_schema() -> dict:
     return _object(properties, required=tuple(properties))
 
 
-def paper_schema() -> dict:
+def paper_schema() -> dict[str, Any]:
     """Without the options, which depend on the program."""
     program = {"type": "string"}
     series = {"type": "object", "properties": {"program": program, "replicated": {"type": "boolean"}}}
@@ -155,7 +156,7 @@ def paper_schema() -> dict:
     return _object({"panels": _named(panel)}, required=("panels",))
 
 
-def quality_schema(paper: dict) -> dict:
+def quality_schema(paper: dict[str, Any]) -> dict[str, Any]:
     """The panels and series of the paper, without the options."""
     effort = {"type": "object"}
     panels = {
@@ -165,7 +166,7 @@ def quality_schema(paper: dict) -> dict:
     return _object({"default": effort, "panels": _object(panels)}, required=("default",))
 
 
-def _object(properties: dict, required: tuple[str, ...] = ()) -> dict:
+def _object(properties: dict[str, Any], required: tuple[str, ...] = ()) -> dict[str, Any]:
     return {
         "type": "object",
         "properties": properties,
@@ -174,7 +175,7 @@ def _object(properties: dict, required: tuple[str, ...] = ()) -> dict:
     }
 
 
-def _named(values: dict) -> dict:
+def _named(values: dict[str, Any]) -> dict[str, Any]:
     """A mapping from names, which become parts of file names, to values."""
     return {
         "type": "object",

@@ -5,6 +5,7 @@ import math
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 from workflow.lib.load import FormatError, load_parameters
 from workflow.lib.options import Options, at_size
@@ -13,14 +14,14 @@ from workflow.lib.plan import QUALITIES, Run, data_path
 ROOT = Path(__file__).parents[2]
 
 
-def cost_file(quality: str, panel: str, run: str) -> dict | None:
+def cost_file(quality: str, panel: str, run: str) -> dict[str, Any] | None:
     """What the last execution of the run cost, as its sidecar says; none if there is none that says it."""
     return read_cost(ROOT / f"build/costs/{quality}/{panel}/{run}.json")
 
 
-def read_cost(path: Path) -> dict | None:
+def read_cost(path: Path) -> dict[str, Any] | None:
     try:
-        cost = json.loads(path.read_text()) if path.is_file() else None
+        cost: Any = json.loads(path.read_text()) if path.is_file() else None
         return cost if isinstance(cost["cpu_seconds"], float) else None
     except (OSError, ValueError, KeyError, TypeError):
         return None

@@ -8,6 +8,7 @@ import argparse
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -21,7 +22,7 @@ from workflow.lib.save import Text, save
 Draw = Callable[[Sequence[Result]], tuple[Figure, pd.DataFrame, str]]
 
 
-def described(result: Result) -> dict:
+def described(result: Result) -> dict[str, Any]:
     return {
         "sha256": file_hash(result.path),
         "build_id": result.provenance["build_id"],

@@ -74,9 +74,9 @@ def fit_line(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> Line:
     covariance = np.linalg.inv(design.T @ design)
     solution = covariance @ design.T @ (y / error)
     residual = y / error - design @ solution
-    return Line(
-        *map(float, solution), float(np.sqrt(covariance[1, 1])), float(residual @ residual), len(x) - 2
-    )
+    intercept, slope = map(float, solution)
+    error_of_slope, chi_square = float(np.sqrt(covariance[1, 1])), float(residual @ residual)
+    return Line(intercept, slope, error_of_slope, chi_square, len(x) - 2)
 
 
 def fit_power(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> PowerLaw:

@@ -43,11 +43,11 @@ def faults(path: Path) -> list[str]:
     return [f"{path}: {fault}" for fault in found]
 
 
-def describe(node: h5py.Group | h5py.Dataset) -> dict:
+def describe(node: h5py.Group | h5py.Dataset) -> dict[str, Any]:
     """The structure below a node as JSON: attributes; members of a group; dtype, shape and dimension scales of a
     dataset, of a 0-d one also the value."""
     own = [name for name in node.attrs if isinstance(node, h5py.Group) or name not in OF_SCALES]
-    described: dict = {"attributes": {name: _scalar(node.attrs[name]) for name in own}}
+    described: dict[str, Any] = {"attributes": {name: _scalar(node.attrs[name]) for name in own}}
     if isinstance(node, h5py.Group):
         return described | {"members": {name: describe(member) for name, member in node.items()}}
     described |= {"dtype": _type_name(node.dtype), "shape": list(node.shape or ()), "is_scale": node.is_scale}
@@ -60,7 +60,7 @@ def signature(units: str, axes: dict[str, str]) -> str:
     return f"{units} [{', '.join(f'{name} in {one}' for name, one in axes.items())}]" if axes else units
 
 
-def _summary(file: h5py.File) -> dict:
+def _summary(file: h5py.File) -> dict[str, Any]:
     """What the schema says of a program's quantities refers to; without what is incomplete."""
     program = _text(file.get("provenance", file), "program")
     means = {name: group["mean"] for name, group in file.get("results", {}).items() if "mean" in group}
@@ -77,7 +77,7 @@ def _text(node: h5py.Group | h5py.Dataset, attribute: str) -> str:
     return str(_scalar(node.attrs[attribute]).get("value")) if attribute in node.attrs else ""
 
 
-def _scalar(value: Any) -> dict:
+def _scalar(value: Any) -> dict[str, Any]:
     array = np.asarray(value)
     if array.shape:
         return {"dtype": f"array of {_type_name(array.dtype)}"}
@@ -94,7 +94,7 @@ def _plain(value: Any) -> Any:
     return str(plain) if isinstance(plain, float) and not math.isfinite(plain) else plain
 
 
-def _against_schema(described: dict) -> list[str]:
+def _against_schema(described: dict[str, Any]) -> list[str]:
     validator = Draft202012Validator(json.loads(SCHEMA.read_text()), format_checker=FORMATS)
     errors = sorted(validator.iter_errors(described), key=lambda error: [str(part) for part in error.path])
     return [
@@ -103,7 +103,7 @@ def _against_schema(described: dict) -> list[str]:
     ]
 
 
-def _inconsistencies(described: dict) -> list[str]:
+def _inconsistencies(described: dict[str, Any]) -> list[str]:
     quantities = {
         name: group["members"] for name, group in described["members"]["results"]["members"].items()
     }
@@ -119,7 +119,7 @@ def _inconsistencies(described: dict) -> list[str]:
     return found + [f"/provenance: {fault}" for fault in _of_convergence(provenance, quantities)]
 
 
-def _of_quantity(parts: dict[str, dict], place: str) -> list[str]:
+def _of_quantity(parts: dict[str, dict[str, Any]], place: str) -> list[str]:
     found = []
     if parts.keys() & (MEASURED | COMPUTED) not in (MEASURED, COMPUTED):
         found.append("it needs either standard_error and count, or discretisation_error")
@@ -144,7 +144,7 @@ def _of_quantity(parts: dict[str, dict], place: str) -> list[str]:
     return found
 
 
-def _of_convergence(provenance: dict[str, Any], quantities: dict[str, dict]) -> list[str]:
+def _of_convergence(provenance: dict[str, Any], quantities: dict[str, dict[str, Any]]) -> list[str]:
     """A run may have stopped for want of time with its target within reach: then `converged` promises nothing."""
     state = provenance["converged"]
     if state == NOT_REACHED:

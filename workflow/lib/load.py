@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, SupportsIndex
 
 import h5py
 import numpy as np
@@ -19,6 +19,8 @@ FORMAT = "lorentz-gas"
 FORMAT_VERSION = 2
 NOT_REACHED = "not reached"
 VALUES = ("mean", "standard_error", "discretisation_error", "count")  # of a quantity, besides its axes
+
+Index = SupportsIndex | tuple[SupportsIndex, ...]  # of a value among those of a quantity
 
 
 class FormatError(ValueError):
@@ -40,6 +42,16 @@ class Quantity:
     axis_units: dict[str, str]
     descriptions: dict[str, str]  # of the mean, of the errors and of the axes
     control_variates: bool | None
+
+    @property
+    def error(self) -> np.ndarray:
+        """The standard error of what is measured. Raises FormatError for what is computed."""
+        return _measured(self.standard_error)
+
+    @property
+    def replicas(self) -> np.ndarray:
+        """The count of what is measured. Raises FormatError for what is computed."""
+        return _measured(self.count)
 
     def to_xarray(self) -> "xarray.Dataset":
         """mean, errors and count over the axes; units and description are attributes of each."""
@@ -69,6 +81,12 @@ class Quantity:
         return {name: {"units": units[name], "description": text} for name, text in self.descriptions.items()}
 
 
+def _measured(array: np.ndarray | None) -> np.ndarray:
+    if array is None:
+        raise FormatError("the quantity is computed: it has no standard error and no count")
+    return array
+
+
 @dataclass(frozen=True)
 class Result:
     path: Path
@@ -82,7 +100,7 @@ class Result:
     @property
     def converged(self) -> str:
         """Of the target error: reached, not reached, or no target."""
-        return self.provenance["converged"]
+        return str(self.provenance["converged"])
 
 
 def load(path: Path) -> Result:

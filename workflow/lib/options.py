@@ -89,4 +89,4 @@ def _number(text: str) -> float:
 def _in_range(option: dict[str, Any], number: float) -> bool:
     """False for nan and the infinities."""
     lowest, largest = option.get("minimum", -sys.float_info.max), option.get("maximum", sys.float_info.max)
-    return lowest <= number <= largest and number > option.get("exclusive_minimum", -math.inf)
+    return bool(lowest <= number <= largest and number > option.get("exclusive_minimum", -math.inf))

@@ -10,8 +10,8 @@ from xml.etree import ElementTree
 PACKAGES = "requirements.lock"
 PARENTS_LINE = "# parents: "  # of a CSV
 CAPTION_LINE = "# caption: "  # of a CSV
-DATA = {"sha256": str, "build_id": str, "seed": int}
-BUILD = {"program": str, "source_hash": str, "compiler": str, "flags": str, "libraries": str}
+DATA: dict[str, type] = {"sha256": str, "build_id": str, "seed": int}
+BUILD: dict[str, type] = {"program": str, "source_hash": str, "compiler": str, "flags": str, "libraries": str}
 
 
 class ArtefactError(ValueError):
@@ -24,8 +24,8 @@ class Parents:
 
     panel: str
     quality: str
-    data: dict[str, dict]  # path: sha256, build_id, seed
-    builds: dict[str, dict]  # build id: program, source_hash, compiler, flags, libraries
+    data: dict[str, dict[str, Any]]  # path: sha256, build_id, seed
+    builds: dict[str, dict[str, Any]]  # build id: program, source_hash, compiler, flags, libraries
     sources: dict[str, str]  # script and the modules that it imports
     packages: str  # the locked Python packages
     python: str  # version, which chooses among them
@@ -118,10 +118,13 @@ def _of_png(path: Path) -> str:
     from PIL import Image  # noqa: PLC0415
 
     with Image.open(path, formats=["PNG"]) as picture:
-        return picture.info["Description"]
+        return str(picture.info["Description"])
 
 
 def _of_pdf(path: Path) -> str:
     from pypdf import PdfReader  # noqa: PLC0415
 
-    return PdfReader(path).metadata.subject
+    metadata = PdfReader(path).metadata
+    if metadata is None or metadata.subject is None:
+        raise ValueError("it has no subject")
+    return metadata.subject

@@ -7,6 +7,7 @@ import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from workflow.lib.configuration import (
     FOLDER,
@@ -152,7 +153,9 @@ def outputs_of(quality: str, job: str) -> list[str]:
     return [data_path(quality, panel, run)] if run else drawings_of(quality, panel)
 
 
-def _check(name: str, panel: dict, efforts: dict, quality: str, admissible: Admissible) -> None:
+def _check(
+    name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: str, admissible: Admissible
+) -> None:
     """Every option that a run of the panel is given is one that its program has, with a value that it accepts."""
     place = f"paper.yaml: panels.{name}"
     for series, own in panel.get("series", {}).items():
@@ -170,15 +173,16 @@ def _check(name: str, panel: dict, efforts: dict, quality: str, admissible: Admi
         admissible.check_effort(program, effort, f"{quality}: panels.{name}.{series}")
 
 
-def _options(series: dict) -> dict:
+def _options(series: dict[str, Any]) -> dict[str, Any]:
     return {key: value for key, value in series.items() if key not in ("program", "replicated")}
 
 
-def _effort(efforts: dict, panel: str, series: str) -> dict:
-    return efforts.get("panels", {}).get(panel, {}).get(series, {})
+def _effort(efforts: dict[str, Any], panel: str, series: str) -> dict[str, Any]:
+    effort: dict[str, Any] = efforts.get("panels", {}).get(panel, {}).get(series, {})
+    return effort
 
 
-def _panel(name: str, panel: dict, efforts: dict, quality: Quality) -> Panel:
+def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Quality) -> Panel:
     runs = []
     for series, own in panel.get("series", {}).items():
         replicated = own.get("replicated", True)

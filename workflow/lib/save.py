@@ -6,6 +6,7 @@ Equal inputs give equal bytes: no file holds a time, a host, a user or an absolu
 import io
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from matplotlib.figure import Figure
 
@@ -24,7 +25,7 @@ class Text:
 def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -> None:
     """Writes stem.pdf, .png, .svg and .csv, all or none. The table is that of columns.as_csv()."""
     described = parents.as_json()
-    pictures = {
+    pictures: dict[str, dict[str, Any]] = {
         "pdf": {
             "Title": text.title,
             "Creator": CREATOR,
@@ -49,7 +50,7 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
         path.replace(stem.with_suffix(f".{kind}"))
 
 
-def _picture(figure: Figure, kind: str, metadata: dict) -> bytes:
+def _picture(figure: Figure, kind: str, metadata: dict[str, Any]) -> bytes:
     buffer = io.BytesIO()
     figure.savefig(buffer, format=kind, metadata=metadata)
     return _with_fallbacks(buffer.getvalue()) if kind == "svg" else buffer.getvalue()

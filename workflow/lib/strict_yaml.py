@@ -92,15 +92,16 @@ def read(path: Path) -> Document:
 
 
 def _on_one_line(error: yaml.YAMLError) -> str:
-    mark = getattr(error, "problem_mark", None)
-    place = f"line {mark.line + 1}, column {mark.column + 1}: {error.problem}" if mark else str(error)
+    place = str(error)
+    if isinstance(error, yaml.MarkedYAMLError) and (mark := error.problem_mark):
+        place = f"line {mark.line + 1}, column {mark.column + 1}: {error.problem}"
     return " ".join(place.split())
 
 
 class _Loader(yaml.SafeLoader):
     """Refuses while the tree of nodes is made, where keys and places are known."""
 
-    yaml_implicit_resolvers: dict = {}  # noqa: RUF012  # PyYAML's own name and type
+    yaml_implicit_resolvers: dict[str, Any] = {}  # noqa: RUF012  # PyYAML's own name and type
 
     def __init__(self, text: str) -> None:
         super().__init__(text)
@@ -109,7 +110,7 @@ class _Loader(yaml.SafeLoader):
         self.complete: list[yaml.Node] = []
 
     def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node:
-        event = self.peek_event()
+        event = self.peek_event()  # type: ignore[no-untyped-call]  # the stub gives it no types
         key = index.value if isinstance(index, yaml.ScalarNode) else getattr(index, "id", index)
         self.keys += [] if key is None else [str(key)]
         place = event.start_mark.line + 1, event.start_mark.column + 1
@@ -118,11 +119,11 @@ class _Loader(yaml.SafeLoader):
             self._refuse("tags are not read", event.tag, PLAIN)
         if isinstance(event, yaml.AliasEvent) and event.anchor not in self.anchors:
             self._refuse("there is no such anchor above", f"*{event.anchor}", "the name of one")
-        node = super().compose_node(parent, index)
+        node: yaml.Node = super().compose_node(parent, index)  # type: ignore[assignment]  # None is in the stub only
         if isinstance(event, yaml.ScalarEvent):
             self._check_scalar(event)
         elif isinstance(event, yaml.AliasEvent):
-            self._check_shared(node, event.anchor)
+            self._check_shared(node, event)
         elif isinstance(node, yaml.MappingNode):
             self._check_keys(node)
         self.complete.append(node)
@@ -134,24 +135,23 @@ class _Loader(yaml.SafeLoader):
         text = event.value
         if event.style:
             return
-        if self.resolve(yaml.ScalarNode, text, (True, False)) != STRING:
+        if _tag(self, text) != STRING:
             if len(text) > DIGITS:
                 shown = f"{text[:DIGITS]}..."
                 self._refuse(
                     "the number is too long", shown, f"at most {DIGITS} characters", event.start_mark
                 )
             return
-        others = yaml.SafeLoader("").resolve(yaml.ScalarNode, text, (True, False))
-        if others != STRING or OCTAL.fullmatch(text):
+        if _tag(yaml.SafeLoader(""), text) != STRING or OCTAL.fullmatch(text):
             self._refuse("versions of YAML differ on what this means", text, PLAIN, event.start_mark)
 
-    def _check_shared(self, node: yaml.Node, anchor: str) -> None:
+    def _check_shared(self, node: yaml.Node, alias: yaml.AliasEvent) -> None:
         flat = isinstance(node, yaml.MappingNode) and not any(
             isinstance(value, yaml.MappingNode) for key, value in node.value if key.tag != MERGE
         )
         if not flat or not any(node is one for one in self.complete):
             self._refuse(
-                "only a flat mapping can be shared", f"*{anchor}", "an anchor at a mapping of options"
+                "only a flat mapping can be shared", f"*{alias.anchor}", "an anchor at a mapping of options"
             )
 
     def _check_keys(self, node: yaml.MappingNode) -> None:
@@ -167,7 +167,8 @@ class _Loader(yaml.SafeLoader):
                 self._refuse("the key stands here twice", str(name), "each key once", place)
             seen.add(name)
 
-    def _refuse(self, text: str, value: str, allowed: str, place: yaml.Mark | None = None) -> None:
+    def _refuse(self, text: str, value: str, allowed: str, place: Any = None) -> None:
+        """place: a mark, of which PyYAML has two types. Raises ConfigurationError."""
         keys = tuple(self.keys)
         if place:
             self.places[keys] = place.line + 1, place.column + 1
@@ -179,6 +180,11 @@ for _meaning, (_pattern, _first) in MEANINGS.items():
     _Loader.add_implicit_resolver(
         f"tag:yaml.org,2002:{_meaning}", re.compile(rf"(?:{_pattern})\Z"), [*_first]
     )
+
+
+def _tag(loader: Any, text: str) -> str:
+    """What a loader takes a plain word for."""
+    return str(loader.resolve(yaml.ScalarNode, text, (True, False)))
 
 
 def _number(loader: _Loader, node: yaml.ScalarNode) -> float:

@@ -1,15 +1,19 @@
 """How every figure looks: sizes, fonts, colours that differ also for the colour-blind and in grey."""
 
 from string import ascii_lowercase
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
+from matplotlib.typing import RcKeyType
 
 from workflow.lib import fit
-from workflow.lib.load import Quantity, Result
+from workflow.lib.load import Index, Quantity, Result
+
+Look = dict[str, Any]  # keywords of what draws
 
 # Width of one column of a journal, and the height that goes with it, in inches.
 COLUMN = 3.4
@@ -34,19 +38,25 @@ DASHES = ["solid", (0, (6, 1)), (0, (4, 1, 1, 1)), (0, (3, 1.5)), (0, (1, 1))]
 BY_GAMMA = {"N": ("o", BLUE), 1: ("s", VERMILLION)}
 
 # A legend that hides the lines behind it.
-OPAQUE = {"frameon": True, "framealpha": 1, "edgecolor": "none"}
+OPAQUE: Look = {"frameon": True, "framealpha": 1, "edgecolor": "none"}
 
 # Where a law was fitted.
-WINDOW = {"color": "0.92", "linewidth": 0, "zorder": -1}
+WINDOW: Look = {"color": "0.92", "linewidth": 0, "zorder": -1}
 
-GUIDE = {"color": "0.55", "linestyle": (0, (4, 2)), "linewidth": 0.8, "zorder": 0}
+GUIDE: Look = {"color": "0.55", "linestyle": (0, (4, 2)), "linewidth": 0.8, "zorder": 0}
 
-POINTS = {"linestyle": "none", "capsize": 1.5, "elinewidth": 0.8, "capthick": 0.8, "markeredgewidth": 0.8}
+POINTS: Look = {
+    "linestyle": "none",
+    "capsize": 1.5,
+    "elinewidth": 0.8,
+    "capthick": 0.8,
+    "markeredgewidth": 0.8,
+}
 
 # The first is used here; the text of an SVG is text, for which a viewer without it takes the next.
 FONTS = ("STIXGeneral", "STIX Two Text", "Times New Roman", "serif")
 
-_SETTINGS = {
+_SETTINGS: dict[RcKeyType, Any] = {
     "font.family": "serif",
     "font.serif": list(FONTS),
     "font.size": 9,
@@ -107,9 +117,9 @@ def cross_out(axes: Axes, x: np.ndarray, y: np.ndarray, where: np.ndarray) -> No
     axes.plot(x[where], y[where], linestyle="none", marker="x", color=BLACK, markersize=6, zorder=5)
 
 
-def with_error(quantity: Quantity, index: int | tuple = (), unit: float = 1) -> str:
+def with_error(quantity: Quantity, index: Index = (), unit: float = 1) -> str:
     """A number, or one of an array, with its error in units of the last digits, as 1.8620(54)."""
-    mean, error = unit * float(quantity.mean[index]), unit * float(quantity.standard_error[index])
+    mean, error = unit * float(quantity.mean[index]), unit * float(quantity.error[index])
     return fit.with_error(mean, error)
 
 

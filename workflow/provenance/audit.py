@@ -10,7 +10,8 @@ import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from workflow.lib.plan import ConfigurationError, Quality, load_plan, panel_named, with_used
+from workflow.lib.plan import Quality, load_plan, panel_named, with_used
+from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance import links, product_links, report_links
 from workflow.provenance.chain import Chain
 from workflow.provenance.crate_check import CrateError, Deposit

@@ -14,6 +14,7 @@ import os
 import re
 import sys
 from pathlib import Path
+from typing import Any
 
 IDENTITY = ("program", "version", "source_hash", "compiler", "flags", "libraries")
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
@@ -71,7 +72,7 @@ def write_if_changed(path: Path, text: str) -> None:
         path.write_text(text, "utf-8")
 
 
-def cpp_source(identity: dict) -> str:
+def cpp_source(identity: dict[str, Any]) -> str:
     fields = ",\n".join(
         f"    {json.dumps(identity[name])}"
         for name in ("version", "source_hash", "build_id", "compiler", "flags", "libraries")

@@ -50,7 +50,7 @@ class Chain:
                 return f"{path} has no record in the lock"
             if self.hashes[path] != job.outputs.get(path):
                 return f"{path} is not what the job wrote"
-        changed = self.changed_build(job) if run else next(self.changed_inputs(name), None)
+        changed = self.changed_build(self.lock.jobs[name]) if run else next(self.changed_inputs(name), None)
         return changed or self.changed_request(name)
 
     def planned(self, name: str) -> Run | None:
@@ -96,7 +96,7 @@ class Chain:
 
     def changed_build(self, job: Job) -> str | None:
         """A source of the executable that differs, or another part of its build id where it is built."""
-        old = self.lock.builds.get(job.build_id, {})
+        old = self.lock.builds.get(job.build, {})
         before, after = old.get("sources", {}), self.program_sources(job.tool)
         for path in sorted({*before, *after}):
             if before.get(path) != after.get(path):

@@ -11,7 +11,8 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from rocrate.rocrate import ROCrate
 
-from workflow.lib.plan import ConfigurationError, Panel, Quality, load_plan, panel_named, with_used
+from workflow.lib.plan import Panel, Quality, load_plan, panel_named, with_used
+from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance import report_links
 from workflow.provenance.chain import Chain
 from workflow.provenance.crate_graph import crate_of

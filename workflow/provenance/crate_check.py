@@ -6,6 +6,7 @@ import zipfile
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from workflow.provenance.chain import Chain
 from workflow.provenance.links import Link, unchecked
@@ -26,7 +27,7 @@ class Deposit:
     stated: dict[str, str]
     held: dict[str, str]
     quality: str
-    jobs: dict[str, dict]
+    jobs: dict[str, dict[str, Any]]
 
     @classmethod
     def read(cls, path: Path) -> "Deposit":

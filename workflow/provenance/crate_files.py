@@ -2,6 +2,7 @@
 
 from datetime import date
 from pathlib import Path
+from typing import Any
 
 import yaml
 from rocrate.model import ContextEntity, Entity
@@ -62,7 +63,7 @@ def add_files(crate: ROCrate, paths: set[str], scripts: set[str]) -> dict[str, E
     return files
 
 
-def add(crate: ROCrate, identifier: str, properties: dict) -> Entity:
+def add(crate: ROCrate, identifier: str, properties: dict[str, Any]) -> Entity:
     return crate.add(ContextEntity(crate, identifier, properties))
 
 
@@ -71,7 +72,7 @@ def compact(values: list[Entity]) -> Entity | list[Entity]:
     return values[0] if len(values) == 1 else values
 
 
-def _author(crate: ROCrate, number: int, author: dict) -> Entity:
+def _author(crate: ROCrate, number: int, author: dict[str, Any]) -> Entity:
     """By CITATION.cff a person has a family name, and a group a name only."""
     kind = "Person" if "family-names" in author else "Organization"
     name = author.get("name") or f"{author['given-names']} {author['family-names']}"
@@ -79,7 +80,7 @@ def _author(crate: ROCrate, number: int, author: dict) -> Entity:
 
 
 def _file(crate: ROCrate, path: str, is_script: bool) -> Entity:
-    properties = {
+    properties: dict[str, Any] = {
         "name": path,
         "sha256": file_hash(ROOT / path),
         "encodingFormat": TYPES.get(Path(path).suffix, "text/plain"),

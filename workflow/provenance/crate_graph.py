@@ -8,6 +8,7 @@ import shlex
 from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import UTC, date, datetime
+from typing import Any
 
 from rocrate.model import Entity
 from rocrate.rocrate import ROCrate
@@ -56,7 +57,7 @@ def crate_of(
         if job.is_drawing:
             actions.append(_drawing(name, job, files[job.tool]))
         else:
-            actions.append(_run(name, job, programs[job.build_id], settings))
+            actions.append(_run(name, job, programs[job.build], settings))
     if report:
         judged = [*sorted(products), CLAIMS, PACKAGES]
         actions.append(Action("#report", "report", files[REPORT_SCRIPT], "Judges the claims", judged, report))
@@ -81,7 +82,7 @@ def _run(name: str, job: Job, program: Entity, settings: list[str]) -> Action:
     return Action(f"#job/{name}", name, program, command, settings, job.outputs)
 
 
-def _add_program(crate: ROCrate, build: dict, files: dict[str, Entity]) -> Entity:
+def _add_program(crate: ROCrate, build: dict[str, Any], files: dict[str, Entity]) -> Entity:
     """The executable is not packed, what it was built from is."""
     properties = {
         "@type": "SoftwareApplication",

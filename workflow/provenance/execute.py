@@ -13,6 +13,7 @@ import subprocess
 import sys
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 from workflow.lib.options import Options, arguments
 from workflow.lib.parents import PACKAGES, Parents, file_hash
@@ -60,7 +61,7 @@ def call(command: list[str], allowed: tuple[int, ...] = (0,)) -> int:
     return status
 
 
-def built(program: str) -> tuple[dict, str]:
+def built(program: str) -> tuple[dict[str, Any], str]:
     """What the program was built from, and the hash of its file. Leaves if it is not the file that was built."""
     build = json.loads((ROOT / f"build/id/{program}.json").read_text())
     executable = file_hash(ROOT / "build/bin" / program)

@@ -6,6 +6,7 @@ import subprocess
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from workflow.lib.parents import file_hash
 from workflow.provenance.execute import ENVIRONMENT
@@ -35,11 +36,12 @@ class FreshBuild:
         _run(["ninja", "-C", str(folder), "--quiet", "--", *sorted(programs)])
         return cls(folder)
 
-    def identity(self, program: str) -> dict:
+    def identity(self, program: str) -> dict[str, Any]:
         """What it was built from."""
-        return json.loads((self.folder / f"id/{program}.json").read_text())
+        identity: dict[str, Any] = json.loads((self.folder / f"id/{program}.json").read_text())
+        return identity
 
-    def fault(self, job: Job, recorded: dict) -> str | None:
+    def fault(self, job: Job, recorded: dict[str, Any]) -> str | None:
         """What is wrong with the program that made the run, of which the lock has the record; none if the sources give
         the same. Where compiler or libraries differ, the file cannot be compared."""
         fresh = self.identity(job.tool)

@@ -18,7 +18,7 @@ import numpy as np
 import pandas as pd
 from PIL import Image
 from pypdf import PdfReader
-from pypdf.generic import ContentStream, IndirectObject, StreamObject
+from pypdf.generic import ContentStream, DictionaryObject, IndirectObject, StreamObject
 
 ROUNDING = 1e-9  # relative, of a number in a table
 SHIFT = 1e-3  # points, of a coordinate
@@ -28,6 +28,8 @@ NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 COORDINATES = {"d", "x", "y", "width", "height", "transform", "viewBox", "points"}  # attributes of SVG
 SIZES = {"/Length", "/Length1"}  # of streams of a PDF
 IDENTITY = re.compile(r"\b[a-z][0-9a-f]{10}\b")  # of markers and clips: a hash that rounding changes
+
+Element = tuple[str, str, dict[str, str]]  # tag, text and attributes
 
 
 def alike(one: Path, other: Path) -> bool:
@@ -75,8 +77,8 @@ def _vectors(one: Path, other: Path) -> bool:
     )
 
 
-def _elements(path: Path) -> list[tuple[str, str, dict[str, str]]]:
-    """Tag, text and attributes in the order of the file; identities are numbered as they come."""
+def _elements(path: Path) -> list[Element]:
+    """In the order of the file; identities are numbered as they come."""
     order: dict[str, str] = {}
 
     def numbered(text: str | None) -> str:
@@ -92,7 +94,7 @@ def _elements(path: Path) -> list[tuple[str, str, dict[str, str]]]:
     ]
 
 
-def _same_element(one: tuple, other: tuple) -> bool:
+def _same_element(one: Element, other: Element) -> bool:
     if one[:2] != other[:2] or one[2].keys() != other[2].keys():
         return False
     return all(
@@ -109,6 +111,8 @@ def _same_coordinates(one: str, other: str) -> bool:
 
 def _pages(one: Path, other: Path) -> bool:
     first, second = (PdfReader(path) for path in (one, other))
+    if first.metadata is None or second.metadata is None:
+        return False
     return _same_object(first.trailer["/Root"], second.trailer["/Root"], set()) and (
         dict(first.metadata) == dict(second.metadata)
     )
@@ -123,7 +127,7 @@ def _same_object(one: Any, other: Any, seen: set[int]) -> bool:
         return _same_object(one.get_object(), other.get_object(), seen)
     if isinstance(one, float | int) and isinstance(other, float | int):
         return abs(float(one) - float(other)) <= SHIFT
-    if isinstance(one, dict) and isinstance(other, dict):
+    if isinstance(one, DictionaryObject) and isinstance(other, DictionaryObject):
         names = one.keys() - SIZES
         same = names == other.keys() - SIZES and all(
             _same_object(one.raw_get(name), other.raw_get(name), seen) for name in names
@@ -142,5 +146,5 @@ def _same_stream(one: Any, other: Any, seen: set[int]) -> bool:
         return not isinstance(one, StreamObject) and not isinstance(other, StreamObject)
     if one.get_data() == other.get_data():
         return True
-    operations = [ContentStream(stream, None).operations for stream in (one, other)]
-    return one.get("/Subtype") in (None, "/Form") and _same_object(*operations, seen)
+    first, second = (ContentStream(stream, None).operations for stream in (one, other))
+    return one.get("/Subtype") in (None, "/Form") and _same_object(first, second, seen)

@@ -133,9 +133,9 @@ def builds(chain: Chain) -> Iterator[Link]:
 
 def executables(chain: Chain) -> Iterator[Link]:
     """Programs that made the runs, among one another and against those in build/bin."""
-    made: defaultdict[tuple[str, str], Counter] = defaultdict(Counter)
+    made: defaultdict[tuple[str, str], Counter[str | None]] = defaultdict(Counter)
     for job in chain.lock.runs().values():
-        made[job.tool, job.build_id][job.executable] += 1
+        made[job.tool, job.build][job.executable] += 1
     for (program, identifier), runs in made.items():
         path = f"build/bin/{program}"
         if len(runs) > 1:
@@ -202,5 +202,5 @@ def made_from(chain: Chain, job: Job) -> dict[str, str]:
     common = job.configuration | job.pipeline
     if job.is_drawing:
         return common | job.sources
-    built = chain.lock.builds.get(job.build_id, {"sources": {}})["sources"]
+    built = chain.lock.builds.get(job.build, {"sources": {}})["sources"]
     return common | {f"cpp/{path}": digest for path, digest in built.items()}

@@ -11,6 +11,7 @@ import os
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
+from typing import Any
 
 from workflow.lib.options import Options
 from workflow.provenance import repository
@@ -63,6 +64,11 @@ class Job:
         return self.build_id is None
 
     @property
+    def build(self) -> str:
+        """Build id of the program; empty for a drawing, which no build has."""
+        return self.build_id or ""
+
+    @property
     def sources(self) -> dict[str, str]:
         """Of a drawing: script, modules that it imports, locked packages."""
         return {path: digest for path, digest in self.inputs.items() if path not in self.data}
@@ -76,7 +82,7 @@ class Job:
 class Lock:
     quality: str
     jobs: dict[str, Job] = field(default_factory=dict)
-    builds: dict[str, dict] = field(default_factory=dict)  # build id: what build/id/<program>.json says
+    builds: dict[str, dict[str, Any]] = field(default_factory=dict)  # build id: as build/id/<program>.json
 
     @staticmethod
     def path(quality: str) -> Path:
@@ -132,7 +138,7 @@ class Lock:
         return {path: digest for job in self.jobs.values() for path, digest in job.outputs.items()}
 
 
-def _unique(pairs: list[tuple[str, object]]) -> dict:
+def _unique(pairs: list[tuple[str, object]]) -> dict[str, object]:
     """Raises ValueError for a name that stands twice, of which readers take one or the other."""
     content = dict(pairs)
     if len(content) < len(pairs):
@@ -143,10 +149,10 @@ def _unique(pairs: list[tuple[str, object]]) -> dict:
 
 def builds_of(jobs: Iterable[Job]) -> set[str]:
     """Build ids of the programs that made the runs among the jobs."""
-    return {job.build_id for job in jobs if not job.is_drawing}
+    return {job.build for job in jobs if not job.is_drawing}
 
 
-def checksum_of(content: dict) -> str:
+def checksum_of(content: dict[str, Any]) -> str:
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
@@ -175,12 +181,13 @@ def changing(quality: str) -> Iterator[Lock]:
         os.close(descriptor)
 
 
-def record(quality: str, name: str, outputs: list[str], made_by: dict, build: dict | None = None) -> None:
+def record(
+    quality: str, name: str, outputs: list[str], made_by: dict[str, Any], build: dict[str, Any] | None = None
+) -> None:
     """Enters a job that has just written its outputs."""
     hashes = repository.FileHashes()
-    written = {path: hashes[path] for path in outputs}
-    asked = {path: hashes[path] for path in configuration_files(quality)}
-    pipeline = {path: hashes[path] for path in pipeline_files()}
+    written, asked = hashes.of(outputs), hashes.of(configuration_files(quality))
+    pipeline = hashes.of(pipeline_files())
     state = repository.state() | {"machine": repository.machine()}
     job = Job(**made_by, outputs=written, configuration=asked, pipeline=pipeline, **state)
     with changing(quality) as lock:

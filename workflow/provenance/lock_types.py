@@ -15,7 +15,7 @@ def require(holds: bool, what: str) -> None:
         raise TypeError(what)
 
 
-def matches(pattern: re.Pattern, value: Any) -> bool:
+def matches(pattern: re.Pattern[str], value: Any) -> bool:
     return isinstance(value, str) and pattern.fullmatch(value) is not None
 
 

@@ -24,7 +24,7 @@ def run_fault(path: str, job: Job, lock: Lock) -> str | None:
         return f"is not a result file: {error}"
     if result is None:
         return found[0].removeprefix(f"{ROOT / path}: ")
-    wanted = {name: lock.builds[job.build_id][name] for name in BUILT} | {"build_id": job.build_id}
+    wanted = {name: lock.builds[job.build][name] for name in BUILT} | {"build_id": job.build_id}
     for name, value in wanted.items():
         if result.provenance[name] != value:
             return f"says {name} {result.provenance[name]}, not {value}"
@@ -63,7 +63,7 @@ def drawing_fault(path: str, job: Job, lock: Lock) -> str | None:
 def parents_of(job: Job, lock: Lock, quality: str, panel: str) -> Parents:
     """What the files of a drawing have to name, by the lock."""
     runs = {path: one for one in lock.runs().values() for path in one.outputs if path in job.data}
-    builds = {one.build_id: lock.builds[one.build_id] for one in runs.values()}
+    builds = {one.build: lock.builds[one.build] for one in runs.values()}
     return Parents(
         panel=panel,
         quality=quality,
@@ -78,6 +78,6 @@ def parents_of(job: Job, lock: Lock, quality: str, panel: str) -> Parents:
         builds={build_id: {name: build[name] for name in BUILT} for build_id, build in builds.items()},
         sources={path: digest for path, digest in job.sources.items() if path != PACKAGES},
         packages=job.inputs[PACKAGES],
-        python=job.python,
+        python=job.python or "",
         configuration=job.options["configuration"],
     )

@@ -132,9 +132,9 @@ def _comparable(a: Quantity, b: Quantity) -> bool:
         return False
     if a.standard_error is None:
         return np.array_equal(np.isnan(a.mean), np.isnan(b.mean))
-    enough = np.minimum(a.count, b.count) >= WELL_KNOWN
-    known = [np.isfinite(q.mean) & (q.standard_error > 0) for q in (a, b)]
-    scales = [q.standard_error * np.sqrt(q.count) for q in (a, b)]
+    enough = np.minimum(a.replicas, b.replicas) >= WELL_KNOWN
+    known = [np.isfinite(q.mean) & (q.error > 0) for q in (a, b)]
+    scales = [q.error * np.sqrt(q.replicas) for q in (a, b)]
     with np.errstate(divide="ignore", invalid="ignore"):
         far = np.abs(np.log(scales[0] / scales[1])) > np.log(UNLIKE)
     lost, either, both = enough & (known[0] != known[1]), known[0] | known[1], known[0] & known[1]
@@ -146,10 +146,10 @@ def _deviations(a: Quantity, b: Quantity) -> tuple[np.ndarray, np.ndarray]:
     """Differences in standard errors, and their degrees of freedom; a discretisation error counts as the
     standard error of many replicas."""
     computed = a.standard_error is None
-    errors = [q.discretisation_error if computed else q.standard_error for q in (a, b)]
-    error = np.atleast_1d(np.hypot(*errors))
+    one, other = (q.error if q.discretisation_error is None else q.discretisation_error for q in (a, b))
+    error = np.atleast_1d(np.hypot(one, other))
     difference = np.atleast_1d(np.abs(a.mean - b.mean))
-    replicas = np.full(error.shape, MANY) if computed else np.atleast_1d(np.minimum(a.count, b.count))
+    replicas = np.full(error.shape, MANY) if computed else np.atleast_1d(np.minimum(a.replicas, b.replicas))
     known = (error > 0) & np.isfinite(difference) & (replicas > 1)
     return difference[known] / error[known], 2 * (replicas[known] - 1.0)
 

@@ -5,7 +5,9 @@ import os
 import platform
 import subprocess
 import tempfile
+from collections.abc import Collection
 from pathlib import Path
+from typing import Any
 
 from workflow.lib.parents import file_hash
 
@@ -45,6 +47,13 @@ class FileHashes(dict[str, str | None]):
             self[path] = None
         return self[path]
 
+    def of(self, paths: Collection[str]) -> dict[str, str]:
+        """Of these files. Raises FileNotFoundError if one is not there or cannot be read."""
+        found = {path: digest for path in paths if (digest := self[path])}
+        if lacking := [path for path in paths if path not in found]:
+            raise FileNotFoundError(f"{lacking[0]} is no file of the project that can be read")
+        return found
+
 
 def write_whole(path: Path, text: str) -> None:
     """So that the file is never there by half."""
@@ -53,7 +62,9 @@ def write_whole(path: Path, text: str) -> None:
     unfinished.replace(path)
 
 
-def run_git(*arguments: str, given: bytes = b"", **variables: str) -> subprocess.CompletedProcess | None:
+def run_git(
+    *arguments: str, given: bytes = b"", variables: dict[str, str] = PLAIN
+) -> subprocess.CompletedProcess[bytes] | None:
     """None where git is not installed. The variables are those of its environment."""
     try:
         return subprocess.run(
@@ -68,9 +79,9 @@ def run_git(*arguments: str, given: bytes = b"", **variables: str) -> subprocess
         return None
 
 
-def git(*arguments: str, given: bytes = b"", **variables: str) -> bytes | None:
+def git(*arguments: str, given: bytes = b"", variables: dict[str, str] = PLAIN) -> bytes | None:
     """What git prints, or nothing where it fails: not installed, outside a repository, or an unknown commit."""
-    done = run_git(*arguments, given=given, **variables)
+    done = run_git(*arguments, given=given, variables=variables)
     return done.stdout if done and done.returncode == 0 else None
 
 
@@ -89,7 +100,7 @@ def no_history() -> str | None:
     return "the repository is shallow" if done.stdout == b"true\n" else None
 
 
-def state() -> dict:
+def state() -> dict[str, Any]:
     """Commit and whether tracked files differ from it or others lie among the code; the commit is null outside a
     repository."""
     commit = git("rev-parse", "HEAD")
@@ -158,11 +169,11 @@ def signature(commit: str) -> str:
     kind = os.fsdecode(git("rev-parse", "--show-object-format") or b"sha1").strip()
     with tempfile.TemporaryDirectory() as folder:
         apart = {"GIT_DIR": folder}
-        git("init", "--quiet", "--template=", f"--object-format={kind}", **apart)
+        git("init", "--quiet", "--template=", f"--object-format={kind}", variables=apart)
         apart |= {"GIT_OBJECT_DIRECTORY": objects}
-        if git("verify-commit", commit, **apart) is not None:
+        if git("verify-commit", commit, variables=apart) is not None:
             shown = ["show", "--no-patch", "--no-show-signature", "--format=%GS%x00%GK", commit]
-            signer, key = (git(*shown, **apart) or b"\0").decode(errors="replace").strip().split("\0")
+            signer, key = (git(*shown, variables=apart) or b"\0").decode(errors="replace").strip().split("\0")
             return f"signed by {signer or 'nobody known'}, key {key}"
     signed = b"\ngpgsig" in (git("cat-file", "commit", commit) or b"").partition(b"\n\n")[0]
     return "signed, but git cannot verify it" if signed else "not signed"

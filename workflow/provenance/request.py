@@ -4,7 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from workflow.lib.plan import ConfigurationError, Panel, load_plan, panel_named
+from workflow.lib.plan import Panel, load_plan, panel_named
+from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance.repository import ROOT
 
 

@@ -13,7 +13,8 @@ from rich.table import Table
 from workflow.lib.costs import cheapest, cost_file, expected_cost
 from workflow.lib.load import FormatError, load
 from workflow.lib.parents import ArtefactError, Parents, file_hash
-from workflow.lib.plan import ConfigurationError, Panel, data_path, load_plan
+from workflow.lib.plan import Panel, data_path, load_plan
+from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance.chain import Chain
 from workflow.provenance.printable import printable
 from workflow.provenance.repository import ROOT, untracked

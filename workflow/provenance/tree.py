@@ -12,7 +12,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import NoReturn, TypeVar
+from typing import Any, NoReturn, TypeVar
 
 from rich.console import Console
 from rich.markup import escape
@@ -20,7 +20,8 @@ from rich.tree import Tree
 
 from workflow.lib.load import Result, load
 from workflow.lib.parents import PACKAGES, Parents, file_hash
-from workflow.lib.plan import ConfigurationError, Panel, is_quality, load_plan, outputs_of
+from workflow.lib.plan import Panel, is_quality, load_plan, outputs_of
+from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance.build_id import content_hashes, include_closure, source_hash
 from workflow.provenance.lock import Lock, LockError
 from workflow.provenance.printable import printable
@@ -85,7 +86,7 @@ class Ancestry:
         tree = Tree(plain(f"{title}  panel {parents.panel} at quality {parents.quality}"))
         found = search(CONFIGURATION, lambda root: asks_for(root, parents))[0]
         tree.add(plain(f"configuration  {short(parents.configuration)}  {found}"))
-        found, locked = search(PACKAGES, lambda root: holding(root / PACKAGES, parents.packages))
+        found, locked = search(PACKAGES, held_below(PACKAGES, parents.packages))
         names = re.findall(r"^([\w.-]+==[^ ;\\]+)", (locked or b"").decode(errors="replace"), re.MULTILINE)
         node = tree.add(plain(f"{PACKAGES}  {short(parents.packages)}  {found}; Python {parents.python}"))
         if self.full and names:
@@ -105,10 +106,10 @@ class Ancestry:
 
     def add_scripts(self, node: Tree, sources: dict[str, str]) -> None:
         for name, digest in self.first(node, sources.items(), "scripts"):
-            found = search(name, lambda root, name=name, digest=digest: holding(root / name, digest))[0]
+            found = search(name, held_below(name, digest))[0]
             node.add(plain(f"{name}  {short(digest)}  {found}"))
 
-    def add_data(self, tree: Tree, name: str, data: dict, build: dict) -> None:
+    def add_data(self, tree: Tree, name: str, data: dict[str, Any], build: dict[str, Any]) -> None:
         here = holding(ROOT / name, data["sha256"]) is not None
         other = (
             "is here with other bytes"
@@ -122,7 +123,7 @@ class Ancestry:
             node.add(f"seed {data['seed']}")
         self.add_build(node, data["build_id"], build)
 
-    def add_build(self, node: Tree, identifier: str, build: dict) -> None:
+    def add_build(self, node: Tree, identifier: str, build: dict[str, Any]) -> None:
         above = identifier in self.shown
         self.shown.add(identifier)
         text = f"program {build['program']}  build {short(identifier)}{'  as above' if above else ''}"
@@ -153,7 +154,12 @@ def holding(path: Path, digest: str) -> bytes | None:
     return path.read_bytes() if path.is_file() and file_hash(path) == digest else None
 
 
-def closure(folder: Path, build: dict) -> dict[str, str] | None:
+def held_below(name: str, digest: str) -> Callable[[Path], bytes | None]:
+    """Reads the file below a root, if it has this hash."""
+    return lambda root: holding(root / name, digest)
+
+
+def closure(folder: Path, build: dict[str, Any]) -> dict[str, str] | None:
     """Hashes of the sources that the program is built from, if they are those of the build."""
     source = f"observables/{build['program']}.cpp"
     if not (folder / source).is_file():
@@ -208,7 +214,7 @@ def main() -> None:
             refuse(options.file, "is not a file")
         digest = file_hash(options.file)
     except OSError as error:
-        refuse(options.file, error.strerror)
+        refuse(options.file, error.strerror or str(error))
     found, damaged = makers(digest)
     console = Console(highlight=False, width=None if sys.stdout.isatty() else UNLIMITED)
     name = plain(options.file.name)

@@ -13,9 +13,11 @@ import sys
 import tempfile
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 from workflow.lib.load import FormatError
-from workflow.lib.plan import ConfigurationError, load_plan, outputs_of, panel_named
+from workflow.lib.plan import load_plan, outputs_of, panel_named
+from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance.fresh_build import BuildError, FreshBuild
 from workflow.provenance.lock import Job, Lock, LockError
 from workflow.provenance.printable import printable
@@ -33,7 +35,7 @@ def drawing_verdict(job: Job, differing: dict[str, bool]) -> Verdict:
     return True, "the same but for rounding" if differing else "the same bytes"
 
 
-def run_verdict(job: Job, fresh: FreshBuild, recorded: dict, folder: Path) -> Verdict:
+def run_verdict(job: Job, fresh: FreshBuild, recorded: dict[str, Any], folder: Path) -> Verdict:
     """Raises RedoError or FormatError."""
     if fault := fresh.fault(job, recorded):
         return False, fault
@@ -47,7 +49,7 @@ def run_verdict(job: Job, fresh: FreshBuild, recorded: dict, folder: Path) -> Ve
     return within, f"{words}, by another compiler or other libraries"
 
 
-def sample(lock: Lock, names: list[str], share: float, verdicts: dict) -> list[str]:
+def sample(lock: Lock, names: list[str], share: float, verdicts: dict[str, Any]) -> list[str]:
     """Those not yet verified first, in an order that only the names fix."""
 
     def order(name: str) -> tuple[bool, str]:
@@ -57,7 +59,7 @@ def sample(lock: Lock, names: list[str], share: float, verdicts: dict) -> list[s
     return sorted(names, key=order)[: math.ceil(share * len(names))]
 
 
-class Verdicts(dict[str, dict]):
+class Verdicts(dict[str, dict[str, Any]]):
     """By job; kept beside the lock where that can be written."""
 
     def __init__(self, quality: str) -> None:
@@ -102,7 +104,7 @@ def verdict_on(lock: Lock, name: str, fresh: FreshBuild, folder: Path) -> Verdic
             return False, f"{lacking[0]} is missing or not a file"
         if job.is_drawing:
             return drawing_verdict(job, redrawn(job, folder))
-        return run_verdict(job, fresh, lock.builds.get(job.build_id, {}), folder)
+        return run_verdict(job, fresh, lock.builds.get(job.build, {}), folder)
     except (RedoError, FormatError, AttributeError, OSError) as error:  # of a forged file, too
         return False, str(error)
 

@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import yaml
 
@@ -33,11 +34,11 @@ def effort(quality: Quality) -> str:
     return " ".join(f"{name}={value}" for name, value in given.items() if value is not None)
 
 
-def claim(judgement: Judgement, costs: Costs) -> dict:
+def claim(judgement: Judgement, costs: Costs) -> dict[str, Any]:
     readings = {name: getattr(judgement, name) for name in READINGS if getattr(judgement, name)}
     deciding = judgement.deciding
     runs = [path.removesuffix(".h5").split("/", 2)[2] for path in judgement.data]
-    return judgement.claim | {
+    return dict(judgement.claim) | {
         "outcome": judgement.outcome.value,
         "sign": words.SIGNS[judgement.outcome],
         "ours": words.result(deciding) if deciding else "no data",
@@ -60,7 +61,7 @@ def claim(judgement: Judgement, costs: Costs) -> dict:
     }
 
 
-def panel(quality: str, panel: Panel, products: Products, costs: Costs) -> dict:
+def panel(quality: str, panel: Panel, products: Products, costs: Costs) -> dict[str, Any]:
     """A panel as it was drawn. Raises ReportError."""
     *_, svg, csv = [products.file(path) for path in drawings_of(quality, panel.name)]
     title, _ = csv.read_text().split("\n", 1)
@@ -123,7 +124,7 @@ def _at_fixed_density(judgement: Judgement) -> str:
     return f", as the gas thins out while the chain grows; at fixed density and without a particle current, that the exponent is 1/3 is {said}"
 
 
-def findings(judgements: Sequence[Judgement]) -> list[dict]:
+def findings(judgements: Sequence[Judgement]) -> list[dict[str, Any]]:
     """Those of findings.yaml that the data bear out."""
     by_id = {one.claim["id"]: one for one in judgements}
     held = []
@@ -139,7 +140,7 @@ def findings(judgements: Sequence[Judgement]) -> list[dict]:
     return held
 
 
-def misprints(judgements: Sequence[Judgement], data: Data) -> list[dict]:
+def misprints(judgements: Sequence[Judgement], data: Data) -> list[dict[str, Any]]:
     by_id = {one.claim["id"]: one for one in judgements}
     rows = yaml.safe_load((HERE / "misprints.yaml").read_text())
     return [row | {"shown": _shown(row, by_id, data)} for row in rows]
@@ -155,7 +156,7 @@ def _shown(row: Mapping[str, str], by_id: Mapping[str, Judgement], data: Data) -
         return str(error)
 
 
-def environment(lock: Lock) -> dict:
+def environment(lock: Lock) -> dict[str, Any]:
     """Versions that made the products."""
     builds = lock.builds.values()
     python = sorted({job.python for job in lock.drawings().values() if job.python})
@@ -164,10 +165,11 @@ def environment(lock: Lock) -> dict:
     } | {"Python": python}
 
 
-def citation(root: Path) -> dict:
-    return yaml.safe_load((root / CITATION).read_text())
+def citation(root: Path) -> dict[str, Any]:
+    cited: dict[str, Any] = yaml.safe_load((root / CITATION).read_text())
+    return cited
 
 
-def as_script(content: dict) -> str:
+def as_script(content: dict[str, Any]) -> str:
     """JSON that can stand in a script element: no tag ends it."""
     return json.dumps(content, sort_keys=True, ensure_ascii=False).replace("<", "\\u003c")

@@ -12,6 +12,7 @@ import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
@@ -20,7 +21,8 @@ from workflow.claims.data import Data
 from workflow.claims.judge import judge_all
 from workflow.lib import style
 from workflow.lib.parents import caption_of
-from workflow.lib.plan import QUALITIES, ConfigurationError, Panel, drawings_of
+from workflow.lib.plan import QUALITIES, Panel, drawings_of
+from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance.lock import Lock, LockError
 from workflow.provenance.repository import ROOT, write_whole
 from workflow.provenance.status import GALLERY
@@ -37,7 +39,7 @@ def small(picture: Path) -> bytes:
     with Image.open(picture, formats=["PNG"]) as original:
         texts = PngInfo()
         for name, text in original.info.items():
-            if isinstance(text, str):
+            if isinstance(name, str) and isinstance(text, str):
                 texts.add_text(name, text)
         rows = round(original.height * COLUMNS / original.width)
         scaled = original.convert("RGB").resize((COLUMNS, rows), Image.Resampling.LANCZOS)
@@ -57,7 +59,7 @@ def best(panel: Panel, root: Path) -> tuple[str, list[Path]] | None:
     return None
 
 
-def picture_of_summary(claims: list[dict], parents: dict, place: Path) -> None:
+def picture_of_summary(claims: list[dict[str, Any]], parents: dict[str, Any], place: Path) -> None:
     style.apply()
     described = json.dumps(parents, sort_keys=True)
     summary.draw(claims).savefig(

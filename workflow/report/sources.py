@@ -5,6 +5,7 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from workflow.claims.judge import CLAIMS_FILE
 from workflow.lib.costs import cost_file
@@ -60,7 +61,7 @@ def measured_costs(quality: str, plan: Mapping[str, Panel]) -> Costs:
     return {name: float(f"{cost['cpu_seconds']:.3g}") for name, cost in found.items() if cost}
 
 
-def parents_in(report: Path) -> dict:
+def parents_in(report: Path) -> dict[str, Any]:
     """What a report says that it was written from. Raises ReportError."""
     try:
         found = PARENTS.search(report.read_text())

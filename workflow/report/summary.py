@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
@@ -43,7 +44,7 @@ def typeset(text: str) -> str:
     return re.sub(r"(?<![\w)])-(?=\d)|(?<=\s)-(?=\s)", words.MINUS, text)
 
 
-def draw(claims: Sequence[Mapping]) -> Figure:
+def draw(claims: Sequence[Mapping[str, Any]]) -> Figure:
     """claims: as content.claim() gives them."""
     figure = plt.figure(figsize=(2.6 * style.COLUMN, TOP + LINE * len(claims) + BOTTOM), layout="none")
     rows = len(claims)

@@ -12,7 +12,8 @@ import jinja2
 
 from workflow.claims.data import Data
 from workflow.claims.judge import judge_all
-from workflow.lib.plan import ConfigurationError, Quality
+from workflow.lib.plan import Quality
+from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance.lock import Lock, LockError
 from workflow.provenance.repository import ROOT, write_whole
 from workflow.report import content, words

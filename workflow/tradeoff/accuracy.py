@@ -55,7 +55,8 @@ def amplitude(seconds: np.ndarray, errors: np.ndarray, replicas: np.ndarray) -> 
 
 def uncertainty(errors: np.ndarray, replicas: np.ndarray) -> np.ndarray:
     """Standard deviation of a standard error that was estimated from so many replicas."""
-    return errors / np.sqrt(2 * (replicas - 1))
+    deviation: np.ndarray = errors / np.sqrt(2 * (replicas - 1))
+    return deviation
 
 
 def window(run: Run, share: float) -> dict[str, object]:
@@ -75,7 +76,7 @@ def sample(programs: Path, program: str) -> pd.DataFrame:
         result, seconds = execute(programs, run, **changes, replicas=replicas)
         target = result.provenance["target_quantity"]
         found = result[target]
-        rows.append((program, target, replicas, seconds, found.mean, found.standard_error, found.units))
+        rows.append((program, target, replicas, seconds, found.mean, found.error, found.units))
     columns = ["program", "quantity", "replicas", "cpu_seconds", "mean", "error", "units"]
     table = pd.DataFrame(rows, columns=columns)
     table["error"] = (table.error / abs(table["mean"].iloc[-1])).astype(float)

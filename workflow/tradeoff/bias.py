@@ -4,6 +4,7 @@ Its products hold no times, but belong to no panel of the paper.
 """
 
 from pathlib import Path
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -34,14 +35,16 @@ UNITS = {"setting": "column setting_units", "value": "column units", "error": "c
 UNITS |= {"bias": "1", "bias_error": "1"}
 
 
-def point(knob: str, setting: float, result: Result, name: str, index: tuple = ()) -> dict[str, object]:
+def point(
+    knob: str, setting: float, result: Result, name: str, index: tuple[int, ...] = ()
+) -> dict[str, object]:
     quantity = result[name]
-    values = {"value": float(quantity.mean[index]), "error": float(quantity.standard_error[index])}
+    values = {"value": float(quantity.mean[index]), "error": float(quantity.error[index])}
     row = {"knob": knob, "setting": setting, "setting_units": SETTING_UNITS.get(knob, "1"), "quantity": name}
     return row | values | {"units": quantity.units}
 
 
-def persistence(programs: Path) -> list[dict]:
+def persistence(programs: Path) -> list[dict[str, Any]]:
     run = planned("ext07", "persistence_relaxation-time=1")
     window = shortened(run.options["observation-time"], SHARE)
     rows = []
@@ -52,7 +55,7 @@ def persistence(programs: Path) -> list[dict]:
     return rows
 
 
-def conductivity(programs: Path, start: str) -> list[dict]:
+def conductivity(programs: Path, start: str) -> list[dict[str, Any]]:
     run = planned("fig08", "deterministic_cells=16")
     window = shortened(run.options["observation-time"], SHARE)
     rows = []
@@ -64,19 +67,19 @@ def conductivity(programs: Path, start: str) -> list[dict]:
     return rows
 
 
-def bins(programs: Path) -> list[dict]:
+def bins(programs: Path) -> list[dict[str, Any]]:
     run = planned("fig04a", "rare")
     return [point("bins", count, execute(programs, run, momentum_bins=count, replicas=REPLICAS)[0], "jump", (0,))
             for count in (10, 20, 50, 100, 200)]  # fmt: skip
 
 
-def decades(programs: Path) -> list[dict]:
+def decades(programs: Path) -> list[dict[str, Any]]:
     run = planned("ext07", "spreading_relaxation-time=10")
     return [point("decades", count, execute(programs, run, fit_decades=count, replicas=4 * REPLICAS)[0], "alpha")
             for count in (2, 1.5, 1, 0.5)]  # fmt: skip
 
 
-def stored(programs: Path, run: Run, knob: str, quantity: str, settings: slice) -> list[dict]:
+def stored(programs: Path, run: Run, knob: str, quantity: str, settings: slice) -> list[dict[str, Any]]:
     """From one run, whose file holds the quantity at every setting; the last of the slice is the careful one."""
     result, _ = execute(programs, run, replicas=2 * REPLICAS)
     axis = result[quantity].axes[knob]
@@ -98,7 +101,7 @@ def draw_knob(axes: Axes, part: pd.DataFrame, look: tuple[str, str], label: str 
     percent = 100 * part[["bias", "bias_error"]]
     bars = {"color": color, "label": label, **style.POINTS}
     axes.errorbar(part.setting, percent.bias, percent.bias_error, marker=marker, **bars)
-    careful = {"marker": marker, "color": color, "markerfacecolor": "white", "zorder": 4}
+    careful: style.Look = {"marker": marker, "color": color, "markerfacecolor": "white", "zorder": 4}
     axes.plot(part.setting[part.careful], percent.bias[part.careful], **careful)
     axes.axhline(0, **style.GUIDE)
     title, quantity = KNOBS[part.knob.iloc[0]]

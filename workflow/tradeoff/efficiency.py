@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -39,9 +40,7 @@ class Estimate:
     @classmethod
     def of(cls, result: Result, name: str, seconds: float) -> "Estimate":
         quantity = result[name]
-        return cls(
-            quantity.mean, quantity.standard_error, seconds, int(np.max(quantity.count)), quantity.units
-        )
+        return cls(quantity.mean, quantity.error, seconds, int(np.max(quantity.replicas)), quantity.units)
 
 
 def jackknife(statistic: Callable[[np.ndarray], float], rows: np.ndarray) -> tuple[float, float]:
@@ -73,20 +72,20 @@ def compared(device: str, quantity: str, plain: Estimate, better: Estimate) -> d
     return row
 
 
-def conductivity(programs: Path, run: Run, cells: int, replicas: tuple[int, int]) -> Iterator[dict]:
+def conductivity(programs: Path, run: Run, cells: int, replicas: tuple[int, int]) -> Iterator[dict[str, Any]]:
     """Engine and reference simulator, both from an empty start, with so many cells."""
     times = [shortened(run.options[name], SHARE if name.startswith("obs") else 1)
              for name in ("relaxation-time", "observation-time")]  # fmt: skip
-    times = [str(at_size(time, cells)) for time in times]
-    sample, slow = reference.open_chain(programs, run.options, cells, tuple(times), replicas[0])
+    relaxation, observation = (str(at_size(time, cells)) for time in times)
+    sample, slow = reference.open_chain(programs, run.options, cells, (relaxation, observation), replicas[0])
     result, fast = execute(programs, run, cells=cells, start="empty", replicas=replicas[1],
-                           relaxation_time=times[0], observation_time=times[1])  # fmt: skip
+                           relaxation_time=relaxation, observation_time=observation)  # fmt: skip
     current = sample["energy_current"][:, [0, -1]].mean(axis=1)
     rows = np.stack([current, *sample["temperature_scatterer"][:, [0, -1]].T], axis=1)
-    kappa = [np.array(x) for x in jackknife(lambda row: -row[0] * cells / (row[2] - row[1]), rows)]
+    kappa, error = (np.array(x) for x in jackknife(lambda row: -row[0] * cells / (row[2] - row[1]), rows))
     label = f"N = {cells}, gamma = {run.options['gamma']}"
     plain = {
-        "kappa": Estimate(*kappa, slow, len(rows), result["kappa"].units),
+        "kappa": Estimate(kappa, error, slow, len(rows), result["kappa"].units),
         "energy_current": of_sample(current, slow, result["energy_current"].units),
     }
     for name, estimate in plain.items():
@@ -96,13 +95,11 @@ def conductivity(programs: Path, run: Run, cells: int, replicas: tuple[int, int]
         yield compared("both", f"{name}, {label}", estimate, Estimate.of(result, name, fast))
 
 
-def spreading(programs: Path, panel: str, name: str, label: str) -> Iterator[dict]:
+def spreading(programs: Path, panel: str, name: str, label: str) -> Iterator[dict[str, Any]]:
     """<x^2> from one tagged particle, from all, and with the total momentum as a control variate."""
     result, seconds = execute(programs, planned(panel, name), replicas=50)
     every, better = (
-        Estimate(
-            quantity.mean[-1], quantity.standard_error[-1], seconds, int(quantity.count[-1]), quantity.units
-        )
+        Estimate(quantity.mean[-1], quantity.error[-1], seconds, int(quantity.replicas[-1]), quantity.units)
         for quantity in (result["variance_plain"], result["variance"])
     )
     spread = np.sqrt(result["fourth_moment"].mean[-1] - better.value**2)
@@ -111,7 +108,7 @@ def spreading(programs: Path, panel: str, name: str, label: str) -> Iterator[dic
     yield compared("known total momentum", f"<x^2>, {label}", every, better)
 
 
-def pulse(programs: Path) -> Iterator[dict]:
+def pulse(programs: Path) -> Iterator[dict[str, Any]]:
     """Energies in the cells that the pulse has reached, at the first time and the last."""
     run = planned("fig09a", "gaussian")
     shared, cost = reference.pulse(programs, run.options, 50, "shared")
@@ -121,12 +118,10 @@ def pulse(programs: Path) -> Iterator[dict]:
     _, twice = execute(programs, run, replicas=60, separate=True)
     quantity = result["energy_difference"]
     for k, label in ((0, "energies, first time"), (-1, "energies, last time")):
-        reached = quantity.mean[k] > 5 * quantity.standard_error[k]
+        reached = quantity.mean[k] > 5 * quantity.error[k]
         plain, one_start, both_sides = (of_sample(sample[:, k, reached], spent, quantity.units) for sample, spent in
                                         ((own, cost_of_own), (shared, cost), (folded, cost)))  # fmt: skip
-        found = Estimate(
-            quantity.mean[k][reached], quantity.standard_error[k][reached], seconds, 60, quantity.units
-        )
+        found = Estimate(quantity.mean[k][reached], quantity.error[k][reached], seconds, 60, quantity.units)
         yield compared("one start for both", label, plain, one_start)
         yield compared("both sides", label, one_start, both_sides)
         yield compared("twice only where it differs", label, replace(found, seconds=twice), found)

@@ -42,7 +42,7 @@ def drifts(run: Run, longest: int) -> Iterator[dict[str, object]]:
             for name in ("energy_drift", "momentum_drift"):
                 yield {"panel": "drift", "case": name, "parameter": sigma, "units": "1", "events": events,
                        "deviation": float(result[name].mean),
-                       "error": float(result[name].standard_error)}  # fmt: skip
+                       "error": float(result[name].error)}  # fmt: skip
 
 
 def draw_drift(axes: Axes, table: pd.DataFrame) -> None:

@@ -17,7 +17,8 @@ from rich.console import Console
 from rich.table import Table
 
 from workflow.lib.costs import cheapest, expected_cost
-from workflow.lib.plan import ConfigurationError, Panel, Run, load_plan, panel_named, with_used
+from workflow.lib.plan import Panel, Run, load_plan, panel_named, with_used
+from workflow.lib.strict_yaml import ConfigurationError
 from workflow.tradeoff.timings import Timings, UnknownCostError, read_timings, reference_seconds
 
 WIDE = 100  # columns, where nobody reads them on a screen
@@ -99,7 +100,7 @@ def forecast_of(name: str, programs: Path) -> Forecast:
 def show(quality: str, plan: dict[str, Panel], panels: Sequence[Panel], forecast: Forecast) -> Table:
     """Raises UnknownCostError."""
     result = Table("panel", "runs", "executed here", "CPU time", title=f"Quality {quality}")
-    costs = {}
+    costs: dict[tuple[str, str], Range] = {}
     for panel in panels:
         found = {run.name: forecast.cost(panel.name, run) for run in panel.runs}
         costs |= {(panel.name, run): cost for run, (cost, _) in found.items()}

@@ -7,6 +7,7 @@ with `run(measure, __doc__, UNITS, draw)`.
 import argparse
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -19,7 +20,7 @@ Draw = Callable[[pd.DataFrame], Figure]
 
 
 def whole(table: pd.DataFrame) -> str:
-    return table.to_string(index=False)
+    return str(table.to_string(index=False))
 
 
 def run(
@@ -28,7 +29,7 @@ def run(
     units: Mapping[str, str],
     draw: Draw | None = None,
     show: Callable[[pd.DataFrame], str] = whole,
-    **further: dict,
+    **further: dict[str, Any],
 ) -> None:
     """Further options are given by name, as argparse takes them; measure gets their values. What show makes of
     the table is printed."""

@@ -51,7 +51,7 @@ def draw(table: pd.DataFrame) -> Figure:
 
 
 def summary(table: pd.DataFrame) -> str:
-    return table[["gamma", "points", "cpu_seconds", "estimate", "distance"]].to_string(index=False)
+    return frame.whole(table[["gamma", "points", "cpu_seconds", "estimate", "distance"]])
 
 
 if __name__ == "__main__":

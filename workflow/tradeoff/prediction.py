@@ -29,8 +29,10 @@ FORETOLD = re.compile(r"the run ends after (\d+) to (\d+)")
 
 def foretold(said: str) -> tuple[int, int]:
     """The least and the most replicas, as the program says at its first look."""
-    least, most = FORETOLD.search(said).groups()
-    return int(least), int(most)
+    found = FORETOLD.search(said)
+    if found is None:
+        raise ValueError("the program does not say when the run ends")
+    return int(found[1]), int(found[2])
 
 
 def compare(programs: Path, program: str, excess: float) -> dict[str, object]:
@@ -41,7 +43,7 @@ def compare(programs: Path, program: str, excess: float) -> dict[str, object]:
     target = first.result.provenance["achieved_error"] / excess
     whole = attempt(programs, run, **changes, replicas=BATCH, target_error=target)
     least, most = foretold(whole.said)
-    needed = int(whole.result[whole.result.provenance["target_quantity"]].count)
+    needed = int(whole.result[whole.result.provenance["target_quantity"]].replicas)
     row = {"program": program, "target": target, "replicas_least": least, "replicas_most": most}
     row |= {"replicas": needed, "as_foretold": least <= needed <= most}
     seconds = {"seconds_least": least, "seconds_most": most}

@@ -12,9 +12,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
+from workflow.lib.configuration import FOLDER
 from workflow.lib.costs import cells, effort, executions
 from workflow.lib.options import Options
-from workflow.lib.plan import FOLDER, Run, load_plan
+from workflow.lib.plan import Run, load_plan
 from workflow.tradeoff.measure import execute, planned, shortened
 
 TABLE = FOLDER / "timings.csv"
@@ -53,7 +54,7 @@ def at_size(known: dict[float, float], size: float) -> float:
         return known[size]
     near, next_to_it = sorted(known, key=lambda one: abs(math.log(one / size)))[:2]
     power = math.log(known[next_to_it] / known[near]) / math.log(next_to_it / near)
-    return known[near] * (size / near) ** power
+    return float(known[near] * (size / near) ** power)
 
 
 def read_timings(path: Path = TABLE) -> Timings:
@@ -90,7 +91,7 @@ def measured(programs: Path, panel: str, run: Run) -> tuple[float, float]:
     return effort(run.options | changes), seconds
 
 
-def rows(programs: Path) -> Iterable[tuple]:
+def rows(programs: Path) -> Iterable[tuple[object, ...]]:
     """Those of a size are added up: other values than the size occur at every quality alike."""
     yield REFERENCE, "", 1, 1, statistics.median(reference_seconds(programs))
     for name, panel in load_plan(QUALITY).items():
