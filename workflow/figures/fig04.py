@@ -140,9 +140,9 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     for gamma, equal, part in cases(table):
         jumps = [f"{with_error(end.jump, end.jump_error)} at {end.x}" for end in part.itertuples()]
         said.append(f"γ = {gamma}{' with equal rates' * equal}: {listed(jumps)}")
-    equal = [end for _, equal, part in cases(table) if equal for end in part.itertuples()]
-    known = [end for end in equal if abs(end.jump) > RESOLVED * end.jump_error]
-    still = f"; with equal rates a jump is resolved at {len(known)} of {len(equal)} ends" if equal else ""
+    alike = [end for _, equal, part in cases(table) if equal for end in part.itertuples()]
+    known = [end for end in alike if abs(end.jump) > RESOLVED * end.jump_error]
+    still = f"; with equal rates a jump is resolved at {len(known)} of {len(alike)} ends" if alike else ""
     faint = "Faint: with the rates of both baths equal." if last == "N" else ""
     return f"""
         Flux distribution F_N(p, x) of the particles behind the first scatterer (solid, circles) and the last (dashed,

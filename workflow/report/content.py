@@ -83,7 +83,8 @@ def panel(quality: str, panel: Panel, products: Products, costs: Costs) -> dict[
 
 def _width(svg: Path) -> float:
     """Of a drawing, in inches."""
-    return float(re.search(r'<svg [^>]*width="([0-9.]+)pt"', svg.read_text())[1]) / 72
+    found = re.search(r'<svg [^>]*width="([0-9.]+)pt"', svg.read_text())
+    return float(found[1]) / 72 if found else 0.0
 
 
 def answer(judgements: Sequence[Judgement], quality: str) -> list[str]:
