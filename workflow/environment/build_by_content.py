@@ -11,6 +11,8 @@ import shutil
 import subprocess
 from pathlib import Path
 
+from workflow.lib.places import require_place
+
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build"
 RECORD = BUILD / "built_from.json"
@@ -63,6 +65,8 @@ def remove_edited_executables() -> None:
 
 
 def main() -> None:
+    for path in (RECORD.with_suffix(".tmp"), BUILD / "bin/any", *(BUILD / "id").glob("*"), BUILD / "id/any"):
+        require_place(path, ROOT)
     now = present()
     if (BUILD / "build.ninja").is_file():
         renew(recorded(), now)

@@ -49,4 +49,11 @@ sys.meta_path.insert(0, OfTheProject())
 
 if __name__ == "__main__":
     del sys.argv[0]
-    runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)
+    try:
+        runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)
+    except OSError as error:
+        from workflow.lib.places import in_one_line
+
+        if error.filename is None:
+            raise
+        sys.exit(in_one_line(error))  # where it was noticed says no more
