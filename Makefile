@@ -64,6 +64,11 @@ override CLOSED := $(if $(WRITING),$(shell for each in $(PLACES); do test ! -e $
 $(if $(CLOSED),$(error you may not write in $(CURDIR) ($(CLOSED)): copy the project to a folder of your own; \
   make audit, verify, provenance and status need no write access))
 
+# What the recipes below and ninja open without a question; the rest is looked at by what opens it (workflow/lib/places.py).
+OPENED := build/system-packages build/CMakeCache.txt build/build.ninja build/.ninja_log build/.ninja_deps
+override MISPLACED := $(if $(WRITING),$(shell for each in $(OPENED); do test ! -e $$each || test -f $$each || echo $$each; done))
+$(if $(MISPLACED),$(error $(MISPLACED): no file lies where a file belongs; move it away))
+
 override PYTHON := .venv/bin/python -P workflow/environment/launch.py
 YES := yes 1
 EFFORT := $(call quote,$(QUALITY)$(if $(SEED),_seed=$(SEED))$(if $(REPLICAS),_replicas=$(REPLICAS)))
@@ -104,10 +109,10 @@ crate: build runtime  ## Figures, data, code and runs as an RO-Crate in build/cr
 build: system-packages  ## The executables in build/bin
 	grep -qsxF $(call quote,CMAKE_HOME_DIRECTORY:INTERNAL=$(CURDIR)/cpp) build/CMakeCache.txt || \
 	  rm -rf build/CMakeCache.txt build/CMakeFiles build/build.ninja
-	python3 -I workflow/environment/build_by_content.py
+	python3 -I workflow/environment/launch.py workflow.environment.build_by_content
 	test -f build/build.ninja || cmake -S cpp -B build -G Ninja >build/cmake.log || { cat build/cmake.log; exit 1; }
 	ninja -C build --quiet
-	python3 -I workflow/environment/build_by_content.py --built
+	python3 -I workflow/environment/launch.py workflow.environment.build_by_content --built
 
 test: build dev  ## All tests; ends with the count
 	ninja -C build --quiet cpp_tests

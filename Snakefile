@@ -17,16 +17,22 @@ runpy.run_path(f"{workflow.basedir}/workflow/environment/launch.py")  # no other
 FOLDERS_HERE = {workflow.basedir, f"{workflow.basedir}/workflow", ""}  # where Snakemake looks first
 sys.path[:] = [folder for folder in sys.path if folder not in FOLDERS_HERE]
 from workflow.lib.parents import caption_of
+from workflow.lib.places import in_one_line, require_place
 from workflow.lib.plan import ConfigurationError, data_of, drawings_of
 from workflow.execution.handler import OF_PROJECT, LogHandler
 from workflow.provenance.chain import Chain
+from workflow.provenance.repository import ROOT
 from workflow.provenance.request import Request
 from workflow.provenance.stale import REPLACED, prepare, retire, unasked
 
 try:
     REQUEST = Request.of(config)
+    for place in ("data", "figures"):  # in which Snakemake looks before a run starts
+        require_place(ROOT / place / REQUEST.quality / "any", ROOT)
 except ConfigurationError as error:
     sys.exit(str(error))
+except OSError as error:
+    sys.exit(in_one_line(error))
 QUALITY, PANELS = REQUEST.quality, REQUEST.panels
 CHAIN = Chain(QUALITY, PANELS)
 

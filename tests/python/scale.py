@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from workflow.lib.configuration import option_units
 from workflow.lib.load import Quantity, Result
+from workflow.lib.option_units import option_units
 from workflow.lib.units import parse
 
 COEFFICIENT = re.compile(r"(?<![\^\d.])\d[\d.]*(?:e[-+]?\d+)?")  # not the exponent of N

@@ -1,6 +1,7 @@
 """A source is built again if its content differs, and an executable linked again; times decide nothing."""
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -71,6 +72,18 @@ def test_a_program_whose_includes_lead_elsewhere_is_built_again(root: Path, adde
     (root / added).write_text("")
     build_by_content.main()
     assert (root / PROGRAM).stat().st_mtime > 0
+
+
+@pytest.mark.parametrize("make", [Path.mkdir, os.mkfifo])
+@pytest.mark.parametrize("file", ["build/id/fake.json", "build/id/fake.sha256", "build/built_from.tmp"])
+def test_what_is_no_file_is_named(root: Path, file: str, make: Callable[[Path], object]) -> None:
+    """The linker and this would wait for ever for someone who reads from a pipe."""
+    (root / file).unlink(missing_ok=True)
+    make(root / file)
+    with pytest.raises(OSError, match="lies where a file belongs; move it away") as caught:
+        build_by_content.main()
+    assert caught.value.filename == str(root / file)
+    assert (root / "build/bin/fake").exists()
 
 
 @pytest.mark.parametrize("file", ["build/bin/fake", "build/id/fake.sha256"])

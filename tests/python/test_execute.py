@@ -7,12 +7,14 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from tests.python.conftest import ROOT
 from workflow.lib.parents import file_hash
+from workflow.provenance.build_id import IDENTITY
 
 HOSTILE = {
     "name": "x; touch a",
@@ -27,6 +29,9 @@ options = dict(zip(sys.argv, sys.argv[1:]))
 output = options["--output"]
 signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
 print("said", file=sys.stderr, flush=True)
+if "--stuck" in sys.argv:
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    print("stuck", file=sys.stderr, flush=True)
 if "--wait" in sys.argv:
     time.sleep(60)
 status = int(options.get("--status", 0))
@@ -41,12 +46,14 @@ sys.exit(status)
 def root(tmp_path: Path) -> Path:
     """A project with one program, `fake`, which writes down its words and its environment."""
     shutil.copytree(ROOT / "workflow", tmp_path / "workflow")
+    for name in ("Makefile", "Snakefile"):
+        (tmp_path / name).touch()
     for folder in ("bin", "id", "logs"):
         (tmp_path / "build" / folder).mkdir(parents=True)
     (tmp_path / "build/bin/fake").write_text(PROGRAM)
     (tmp_path / "build/bin/fake").chmod(0o755)
     (tmp_path / "build/id/fake.json").write_text(
-        json.dumps({"program": "fake", "build_id": "b", "sources": {}})
+        json.dumps(dict.fromkeys(IDENTITY, "") | {"program": "fake", "build_id": "b" * 64, "sources": {}})
     )
     note_executable(tmp_path)
     return tmp_path
@@ -139,9 +146,62 @@ def test_a_program_is_told_to_stop_and_waited_for(root: Path) -> None:
     assert jobs(root) == {}
 
 
+@pytest.mark.parametrize("second", [signal.SIGTERM, signal.SIGINT])
+def test_a_second_signal_ends_a_program_that_does_not_stop(root: Path, second: signal.Signals) -> None:
+    running = start(root, {"wait": True, "stuck": True})
+    log = root / "build/logs/log"
+    while not (log.is_file() and "stuck" in log.read_text()):
+        time.sleep(0.05)
+    running.send_signal(signal.SIGTERM)
+    time.sleep(0.5)
+    assert running.poll() is None
+    running.send_signal(second)
+    assert running.wait(timeout=10) == 128 + second
+    program = [path for path in Path("/proc").glob("[0-9]*/cmdline") if str(root).encode() in content(path)]
+    assert not program
+    assert jobs(root) == {}
+
+
+def content(path: Path) -> bytes:
+    """Of a file of a process, which may end meanwhile."""
+    try:
+        return path.read_bytes()
+    except OSError:
+        return b""
+
+
+PLACE = "a {} lies where a file belongs; move it away"
+
+
+@pytest.mark.parametrize(
+    ("path", "make", "words"),
+    [
+        ("build/id/fake.sha256", os.mkfifo, PLACE.format("pipe")),
+        ("build/id/fake.json", os.mkfifo, PLACE.format("pipe")),
+        ("build/bin/fake", os.mkfifo, PLACE.format("pipe")),
+        ("data/smoke/lock.tmp", os.mkfifo, PLACE.format("pipe")),
+        ("data/smoke/lock.tmp", Path.mkdir, PLACE.format("folder")),
+        ("data/smoke/lock.json", Path.touch, "data/smoke/lock.json is damaged"),
+        ("data/smoke/fig99/all_gamma=1.h5", Path.mkdir, "all_gamma=1.h5: Is a directory"),
+        ("build/costs/smoke/fig99/all_gamma=1.json", Path.mkdir, "all_gamma=1.json: Is a directory"),
+        ("build/partial", Path.touch, "build/partial/smoke/fig99: Not a directory"),
+    ],
+)
+def test_what_lies_in_a_files_place_is_told_in_one_line(
+    root: Path, path: str, make: Callable[[Path], object], words: str
+) -> None:
+    (root / path).parent.mkdir(parents=True, exist_ok=True)
+    (root / path).unlink(missing_ok=True)
+    make(root / path)
+    assert start(root, {}).wait(timeout=10) == 1
+    (line,) = (line for line in (root / "build/logs/log").read_text().splitlines() if line != "said")
+    assert words in line
+    assert not (root / "data/smoke/lock.json").is_file() or path.endswith("lock.json")
+
+
 def test_a_checkpoint_belongs_to_its_options(root: Path) -> None:
     for options in ({"sigma": 1}, {"sigma": 1}, {"sigma": 2}):
-        start(root, options).wait()
+        assert start(root, options).wait() == 0
         words, _ = json.loads((root / "data/smoke/fig99/all_gamma=1.h5").read_text())
         (root / "seen").open("a").write(words[words.index("--output") + 1] + "\n")
     first, second, third = (root / "seen").read_text().split()

@@ -18,7 +18,7 @@ ALLOWED = {
     "execution": {"lib", "tradeoff"},
     "claims": {"lib", "figures"},
     "report": {"lib", "claims", "provenance"},
-    "environment": set(),
+    "environment": {"lib"},
 }
 
 

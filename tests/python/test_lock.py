@@ -1,6 +1,9 @@
 """The lock file contains exactly the files that its jobs name."""
 
-from dataclasses import replace
+import json
+import os
+from collections.abc import Callable
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import pytest
@@ -8,7 +11,16 @@ import pytest
 from workflow.provenance import repository, stale
 from workflow.provenance.build_id import IDENTITY
 from workflow.provenance.chain import difference_of
-from workflow.provenance.lock import Job, Lock, LockError, changing, configuration_files
+from workflow.provenance.lock import (
+    FORMAT,
+    Job,
+    Lock,
+    LockError,
+    changing,
+    checksum_of,
+    configuration_files,
+    record,
+)
 
 KEPT = "a" * 64
 STATED = {"configuration": configuration_files("smoke"), "pipeline": ["Makefile", "Snakefile"]}
@@ -96,11 +108,13 @@ def test_another_lock_is_refused(root: Path, job: Job, old: str, new: str, words
     ],
 )  # fmt: skip
 def test_a_forged_entry_is_refused(root: Path, job: Job, part: str, value: object) -> None:
-    with changing("smoke") as lock:
-        lock.jobs["fig05/all"] = job
+    seal({"fig05/all": job})
     Lock.read("smoke")
-    with changing("smoke") as lock:
-        lock.jobs["fig05/all"] = replace(job, **{part: value})
+    forged = {"fig05/all": replace(job, **{part: value})}
+    with pytest.raises(LockError, match="it cannot hold"), changing("smoke") as lock:
+        lock.jobs = forged
+    assert Lock.read("smoke").jobs == {"fig05/all": job}
+    seal(forged)
     with pytest.raises(LockError, match="is damaged"):
         Lock.read("smoke")
 
@@ -113,3 +127,63 @@ def test_a_name_that_stands_twice_is_damage(root: Path, job: Job) -> None:
     path.write_text(path.read_text().replace('"quality"', '"quality": "evil",\n "quality"', 1))
     with pytest.raises(LockError, match="'quality' stands twice"):
         Lock.read("smoke")
+
+
+def seal(jobs: dict[str, Job], quality: str = "smoke") -> None:
+    """A lock whose checksum fits, whatever it holds."""
+    entries = {name: asdict(job) for name, job in jobs.items()}
+    content = FORMAT | {"quality": quality, "builds": {}, "jobs": entries}
+    Lock.path("smoke").parent.mkdir(parents=True, exist_ok=True)
+    Lock.path("smoke").write_text(json.dumps(content | {"checksum": checksum_of(content)}))
+
+
+@pytest.mark.parametrize("name", ["../precious", "fig05/..", "fig05/a/b", "/fig05", "fig05/", "."])
+def test_a_name_leads_nowhere_else(root: Path, job: Job, name: str) -> None:
+    seal({name: job})
+    with pytest.raises(LockError, match="is damaged: name"):
+        Lock.read("smoke")
+
+
+def test_the_lock_of_another_quality_is_refused(root: Path, job: Job) -> None:
+    """It would be written to the place of that quality."""
+    seal({"fig05/all": job}, "../elsewhere")
+    with pytest.raises(LockError, match=r"lock\.json is that of another quality"):
+        Lock.read("smoke")
+
+
+def test_what_a_lock_says_is_moved_only_where_the_job_writes(root: Path, job: Job) -> None:
+    own, others = "data/smoke/zzz/a.h5", (".git/HEAD", "README.md", "data/smoke/fig05/all.h5")
+    for path in (own, *others):
+        (root / path).parent.mkdir(parents=True, exist_ok=True)
+        (root / path).write_text("")
+    seal({"zzz/a": replace(job, outputs=dict.fromkeys((".git", "../precious", *others, own), KEPT))})
+    (root.parent / "precious").write_text("")
+    stale.retire("smoke", stale.unasked("smoke", {}))
+    assert all((root / path).exists() for path in (*others, "../precious"))
+    assert not (root / own).parent.exists()
+    assert (root / stale.REPLACED / own).is_file()
+    assert Lock.read("smoke").jobs == {}
+
+
+@pytest.mark.parametrize("make", [Path.mkdir, os.mkfifo, lambda path: path.symlink_to("..")])
+def test_only_files_are_moved(root: Path, job: Job, make: Callable[[Path], object]) -> None:
+    seal({"zzz/a": job})
+    place = root / "data/smoke/zzz/a.h5"
+    place.parent.mkdir()
+    make(place)
+    with pytest.raises(OSError, match="lies where a file belongs"):
+        stale.retire("smoke", ["zzz/a"])
+    assert os.path.lexists(place)
+    assert {*Lock.read("smoke").jobs} == {"zzz/a"}
+
+
+def test_what_lies_behind_a_link_is_not_recorded(root: Path, job: Job) -> None:
+    seal({"fig05/all": job})
+    (root / "elsewhere").mkdir()
+    (root / "elsewhere/all.h5").write_text("")
+    (root / "data/smoke/fig06").symlink_to(root / "elsewhere")
+    with pytest.raises(
+        LockError, match=r"fig06/all\.h5 is no file of the project: missing, or behind a link"
+    ):
+        record("smoke", "fig06/all", ["data/smoke/fig06/all.h5"], {"tool": "", "options": {}, "exit": 0})
+    assert Lock.read("smoke").jobs == {"fig05/all": job}

@@ -8,7 +8,7 @@ import yaml
 
 from tests.python.conftest import ROOT
 from workflow.lib import plan
-from workflow.lib.configuration import option_units
+from workflow.lib.option_units import option_units
 from workflow.lib.options import arguments
 from workflow.lib.plan import FOLDER, QUALITIES, ConfigurationError, load_plan
 

@@ -12,7 +12,19 @@ from workflow.provenance.sources import sources_of
 def test_imports_are_followed() -> None:
     found = sources_of("workflow/figures/fig10.py")
     assert found[0] == "workflow/figures/fig10.py"
-    lib = ("caption", "columns", "figure", "fit", "load", "parents", "save", "style", "units")
+    lib = (
+        "caption",
+        "columns",
+        "figure",
+        "fit",
+        "load",
+        "option_units",
+        "parents",
+        "places",
+        "save",
+        "style",
+        "units",
+    )
     assert set(found[1:]) == {"workflow/figures/fig09.py", *(f"workflow/lib/{name}.py" for name in lib)}
 
 

@@ -16,8 +16,8 @@ from hypothesis import strategies as st
 
 from tests.python.conftest import ROOT
 from tests.python.scale import ROUNDING, SCALES, Scale, agree
-from workflow.lib.configuration import option_units
 from workflow.lib.load import Result
+from workflow.lib.option_units import option_units
 from workflow.lib.units import WORDS, Units, UnitsError, parse
 from workflow.tradeoff.measure import call
 

@@ -11,6 +11,7 @@ from workflow.claims.data import Data, MissingError
 from workflow.claims.evidence import Claim, Evidence
 from workflow.claims.verdict import Band, Outcome, Reading, combined, level_of_each
 from workflow.lib.load import NOT_REACHED
+from workflow.lib.places import regular
 
 CLAIMS_FILE = "data/claims.csv"
 MODULES = (filling, profiles, fluxes, closed, growth, pulse)
@@ -37,7 +38,7 @@ class Judgement:
 
 
 def read_claims(root: Path) -> list[dict[str, str]]:
-    table = pd.read_csv(root / CLAIMS_FILE, dtype=str, keep_default_na=False)
+    table = pd.read_csv(regular(root / CLAIMS_FILE), dtype=str, keep_default_na=False)
     rows: list[dict[str, str]] = table.to_dict("records")
     return rows
 

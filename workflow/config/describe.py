@@ -18,6 +18,7 @@ import yaml
 
 from workflow.lib.layout import signature
 from workflow.lib.options import admissible
+from workflow.lib.places import regular
 from workflow.lib.units import UnitsError, parse
 
 ROOT = Path(__file__).parents[2]
@@ -48,7 +49,7 @@ def texts(described: dict[str, dict[str, Any]]) -> dict[Path, str]:
     return {
         SCHEMA: _with_options(SCHEMA.read_text(), described),
         FORMAT: _with_tables(FORMAT.read_text(), described),
-        FORMAT_SCHEMA: _with_quantities(FORMAT_SCHEMA.read_text(), described),
+        FORMAT_SCHEMA: _with_quantities(regular(FORMAT_SCHEMA).read_text(), described),
     }
 
 

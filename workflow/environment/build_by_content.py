@@ -15,6 +15,8 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from workflow.lib.places import require_place
+
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build"
 RECORD = BUILD / "built_from.json"
@@ -90,6 +92,8 @@ def remove_edited_executables() -> None:
 
 
 def main(arguments: Sequence[str] = ()) -> None:
+    for path in (RECORD.with_suffix(".tmp"), BUILD / "bin/any", *(BUILD / "id").glob("*"), BUILD / "id/any"):
+        require_place(path, ROOT)
     now = present()
     if arguments == ["--built"]:
         now |= rules()

@@ -63,7 +63,11 @@ def launch() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left is written there
         sys.exit(128 + signal.SIGPIPE)
     except OSError as error:
-        if error.filename is not None or error.errno not in (errno.ENOSPC, errno.EIO, errno.EDQUOT):
+        if error.filename is not None:
+            from workflow.lib.places import in_one_line  # noqa: PLC0415  # it is found by what this module sets up
+
+            sys.exit(in_one_line(error))  # where it was noticed says no more
+        if error.errno not in (errno.ENOSPC, errno.EIO, errno.EDQUOT):
             raise
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(f"What was to be said cannot be written: {error.strerror}")

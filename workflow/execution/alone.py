@@ -12,13 +12,28 @@ import sys
 from pathlib import Path
 
 from workflow.execution.stopping import stopping
+from workflow.lib.places import require_place
 
 PLACE = Path(".snakemake")
+LOCK = PLACE / "alone.lock"
+FOLDERS = (  # of Snakemake's
+    "auxiliary",
+    "conda",
+    "conda-archive",
+    "incomplete",
+    "iocache",
+    "locks",
+    "metadata",
+    "shadow",
+    "singularity",
+)
 
 
 def run() -> None:
+    for path in (LOCK, *(PLACE / folder / "any" for folder in FOLDERS)):
+        require_place(path, Path())
     PLACE.mkdir(exist_ok=True)
-    with (PLACE / "alone.lock").open("w") as file:
+    with LOCK.open("w") as file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:

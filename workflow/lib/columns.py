@@ -11,8 +11,8 @@ from collections.abc import Mapping, Sequence
 import pandas as pd
 from pandas.api.types import is_bool_dtype
 
-from workflow.lib.configuration import option_units
 from workflow.lib.load import Result
+from workflow.lib.option_units import option_units
 from workflow.lib.units import UnitsError, parse
 
 UNITS_LINE = "# units: "

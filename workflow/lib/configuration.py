@@ -2,7 +2,6 @@
 
 import json
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -76,18 +75,6 @@ class Admissible:
         name, _, keys = place.partition(": ")
         path = self.folder / name if name == "paper.yaml" else self.folder / "quality" / name
         return read(path).complaint(keys.split("."), text, "" if value is None else json.dumps(value))
-
-
-@cache
-def option_units() -> dict[str, str]:
-    """Of the programs' options, as the programs declare them (`make describe`); all others are pure numbers."""
-    programs = read(FOLDER / "schema.yaml").content["programs"]
-    return {
-        name: option["units"]
-        for options in programs.values()
-        for name, option in options.items()
-        if "units" in option
-    }
 
 
 def load_checked(path: Path, schema: dict[str, Any]) -> dict[str, Any]:

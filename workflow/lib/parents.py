@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
+from workflow.lib.places import regular
+
 PACKAGES = "requirements.lock"
 PARENTS_LINE = "# parents: "  # of a CSV
 CAPTION_LINE = "# caption: "  # of a CSV
@@ -63,7 +65,7 @@ def caption_of(table: Path) -> str:
 
 
 def file_hash(path: Path) -> str:
-    with path.open("rb") as file:
+    with regular(path).open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 

@@ -14,10 +14,10 @@ from workflow.lib.configuration import (
     Admissible,
     ConfigurationError,
     load_checked,
-    option_units,
     paper_schema,
     quality_schema,
 )
+from workflow.lib.option_units import option_units
 from workflow.lib.options import Options
 from workflow.lib.strict_yaml import nearest, read
 

@@ -11,6 +11,7 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from workflow.lib.parents import CAPTION_LINE, PARENTS_LINE, Parents
+from workflow.lib.places import regular
 from workflow.lib.style import FONTS
 
 CREATOR = "lorentz-gas"
@@ -43,7 +44,7 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
         [f"# {text.title}", PARENTS_LINE + described, units, CAPTION_LINE + text.caption, numbers]
     ).encode()
     stem.parent.mkdir(parents=True, exist_ok=True)
-    unfinished = {kind: stem.with_suffix(f".{kind}.tmp") for kind in contents}
+    unfinished = {kind: regular(stem.with_suffix(f".{kind}.tmp")) for kind in contents}
     for kind, path in unfinished.items():
         path.write_bytes(contents[kind])
     for kind, path in unfinished.items():

@@ -17,7 +17,8 @@ from typing import Any
 
 from workflow.lib.options import Options, arguments
 from workflow.lib.parents import PACKAGES, Parents, file_hash
-from workflow.provenance.lock import record
+from workflow.lib.places import move, regular
+from workflow.provenance.lock import LockError, record
 from workflow.provenance.repository import ROOT
 
 LAUNCH = "workflow/environment/launch.py"
@@ -51,10 +52,20 @@ def script_command(
 
 def call(command: list[str], allowed: tuple[int, ...] = (0,)) -> int:
     """Exit status; leaves with it if it is not among the allowed ones. On SIGINT and SIGTERM a program writes its
-    checkpoint, which this process waits for; a terminal sends SIGINT to both."""
+    checkpoint, which this process waits for; a terminal sends SIGINT to both. A second signal ends both at once."""
     child = subprocess.Popen(command, cwd=ROOT, env=ENVIRONMENT)
-    signal.signal(signal.SIGINT, lambda *_: None)
-    signal.signal(signal.SIGTERM, lambda number, _: child.send_signal(number))
+    signals = []
+
+    def stop(number: int, _: object) -> None:
+        signals.append(number)
+        if len(signals) > 1:
+            child.kill()
+            sys.exit(128 + number)
+        if number == signal.SIGTERM:
+            child.send_signal(number)
+
+    signal.signal(signal.SIGINT, stop)
+    signal.signal(signal.SIGTERM, stop)
     status = child.wait()
     if status not in allowed:
         sys.exit(status if status > 0 else 128 - status)
@@ -63,9 +74,9 @@ def call(command: list[str], allowed: tuple[int, ...] = (0,)) -> int:
 
 def built(program: str) -> tuple[dict[str, Any], str]:
     """What the program was built from, and the hash of its file. Leaves if it is not the file that was built."""
-    build = json.loads((ROOT / f"build/id/{program}.json").read_text())
+    build = json.loads(regular(ROOT / f"build/id/{program}.json").read_text())
     executable = file_hash(ROOT / "build/bin" / program)
-    if executable not in (ROOT / f"build/id/{program}.sha256").read_text().split():
+    if executable not in regular(ROOT / f"build/id/{program}.sha256").read_text().split():
         sys.exit(
             f"build/bin/{program} is not what was built: edited or replaced. `make build` builds it again."
         )
@@ -87,8 +98,8 @@ def simulate(job: argparse.Namespace) -> None:
     status = call([*command, *resumed, "--progress", "log"], (0, UNCONVERGED))
     if built(job.program) != (build, executable):
         sys.exit(f"build/bin/{job.program} was built again while it ran; run make again")
-    partial.with_suffix(".cost.json").replace(cost)
-    partial.replace(output)
+    move(partial.with_suffix(".cost.json"), cost)
+    move(partial, output)
     made_by = {"tool": job.program, "options": job.options, "exit": status}
     made_by |= {"build_id": build["build_id"], "executable": executable}
     record(job.quality, f"{job.panel}/{job.run}", [str(output)], made_by, build)
@@ -122,9 +133,12 @@ def main() -> None:
     drawing.add_argument("--sources", nargs="+", required=True, help="the script and what it imports")
     drawing.add_argument("--data", nargs="+", required=True)
     job = parser.parse_args()
-    with Path(job.log).open("w") as log:
+    with regular(Path(job.log)).open("w") as log:
         os.dup2(log.fileno(), sys.stderr.fileno())
-    job.function(job)
+    try:
+        job.function(job)
+    except LockError as error:
+        sys.exit(str(error))
 
 
 if __name__ == "__main__":

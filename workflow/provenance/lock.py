@@ -102,12 +102,11 @@ class Lock:
                 raise LockError(f"{name} is of version {content['version']}, not {FORMAT['version']}")
             if unknown := content.keys() - {*FORMAT, "quality", "builds", "jobs"}:
                 raise LockError(f"{name} is damaged: nobody here writes {min(unknown)!r} into it")
+            if content["quality"] != quality:
+                raise LockError(f"{name} is that of another quality")
             jobs = {name: Job(**job) for name, job in content["jobs"].items()}
-            for job_name, job in jobs.items():
-                check_job(job_name, job, configuration_files(quality))
-            for identifier, build in content["builds"].items():
-                check_build(identifier, build)
-            lock = cls(content["quality"], jobs, content["builds"])
+            lock = cls(quality, jobs, content["builds"])
+            lock.check()
         except LockError:
             raise
         except OSError as error:
@@ -119,14 +118,27 @@ class Lock:
         return lock
 
     def write(self) -> None:
-        """Builds that no run names are left out."""
+        """Builds that no run names are left out. Raises LockError where read() would."""
         path = self.path(self.quality)
         named = builds_of(self.jobs.values())
+        try:
+            self.check()
+        except TypeError as error:
+            raise LockError(
+                f"data/{self.quality}/lock.json is kept as it was, as it cannot hold {error}"
+            ) from error
         content = FORMAT | {"quality": self.quality}
         content["builds"] = {name: build for name, build in sorted(self.builds.items()) if name in named}
         content["jobs"] = {name: asdict(job) for name, job in sorted(self.jobs.items())}
         content["checksum"] = checksum_of(content)
         repository.write_whole(path, json.dumps(content, indent=1) + "\n")
+
+    def check(self) -> None:
+        """Raises TypeError if an entry is none that a job makes."""
+        for name, job in self.jobs.items():
+            check_job(name, job, configuration_files(self.quality))
+        for identifier, build in self.builds.items():
+            check_build(identifier, build)
 
     def runs(self) -> dict[str, Job]:
         return {name: job for name, job in self.jobs.items() if not job.is_drawing}
@@ -186,6 +198,8 @@ def record(
 ) -> None:
     """Enters a job that has just written its outputs."""
     hashes = repository.FileHashes()
+    if lost := [path for path in outputs if hashes[path] is None]:
+        raise LockError(f"{lost[0]} is no file of the project: missing, or behind a link; move the link away")
     written, asked = hashes.of(outputs), hashes.of(configuration_files(quality))
     pipeline = hashes.of(pipeline_files())
     state = repository.state() | {"machine": repository.machine()}

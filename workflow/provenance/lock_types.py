@@ -28,6 +28,8 @@ def are_hashes(value: Any) -> bool:
 def check_job(name: str, job: Any, configuration: list[str]) -> None:
     """Raises TypeError. configuration: the files that asked for it."""
     is_run = job.build_id is not None
+    parts = name.split("/")
+    require(len(parts) <= 2 and not {"", ".", ".."} & {*parts}, f"name {name!r}")  # it is part of paths
     require(isinstance(job.tool, str) and isinstance(job.machine, str), f"tool or machine of {name}")
     require(isinstance(job.options, dict), f"options of {name}")
     require(is_run or matches(SHA256, job.options.get("configuration")), f"configuration of {name}")

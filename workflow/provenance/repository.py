@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from workflow.lib.parents import file_hash
+from workflow.lib.places import regular
 
 ROOT = Path(__file__).parents[2]
 PLACES = (".", "data", "figures")
@@ -57,7 +58,7 @@ class FileHashes(dict[str, str | None]):
 
 def write_whole(path: Path, text: str) -> None:
     """So that the file is never there by half."""
-    unfinished = path.with_suffix(".tmp")
+    unfinished = regular(path.with_suffix(".tmp"))
     unfinished.write_text(text)
     unfinished.replace(path)
 

@@ -5,9 +5,10 @@ Run by Snakemake itself when it starts (Snakefile).
 
 import contextlib
 import glob
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
-from workflow.lib.plan import Panel
+from workflow.lib.places import move, require_place
+from workflow.lib.plan import Panel, outputs_of
 from workflow.provenance.chain import Chain
 from workflow.provenance.lock import Lock, LockError, changing
 from workflow.provenance.repository import ROOT
@@ -16,11 +17,30 @@ REPLACED = "build/replaced"
 
 
 def replace(paths: Iterable[str]) -> None:
-    """Moves what there is of the paths."""
+    """Moves what there is of the paths. Raises OSError where one of them is no file."""
     for path in paths:
-        if (ROOT / path).exists():
-            (ROOT / REPLACED / path).parent.mkdir(parents=True, exist_ok=True)
-            (ROOT / path).replace(ROOT / REPLACED / path)
+        if require_place(ROOT / path, ROOT).exists():
+            target = require_place(ROOT / REPLACED / path, ROOT)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            move(ROOT / path, target)
+
+
+def require_places(chain: Chain, jobs: Iterable[str]) -> None:
+    """Raises OSError where something else lies than the file that is going to be written, or than a folder on its way."""
+    for path in places(chain, jobs):
+        require_place(ROOT / path, ROOT)
+
+
+def places(chain: Chain, jobs: Iterable[str]) -> Iterator[str]:
+    """Every file that is written when the jobs run; a program names what it has not finished by itself."""
+    yield from (f"data/{chain.quality}/lock.{kind}" for kind in ("json", "tmp"))
+    for job in jobs:
+        name = f"{chain.quality}/{job}"
+        yield from (f"build/logs/{name}.log", f"build/benchmarks/{name}.tsv")
+        if chain.planned(job):
+            yield from (f"build/costs/{name}.json", f"build/partial/{name}.h5")
+        for path in chain.outputs(job):
+            yield from (path, f"{path}.tmp", f"{REPLACED}/{path}")
 
 
 def forget_partial(quality: str, job: str) -> None:
@@ -44,7 +64,8 @@ def set_damaged_lock_aside(quality: str) -> str | None:
 
 def prepare(chain: Chain, jobs: Iterable[str], fresh: bool) -> str | None:
     """Sets aside a damaged lock and the products of jobs that are going to run; returns what is wrong with the lock.
-    A fresh run resumes nothing."""
+    A fresh run resumes nothing. Raises OSError before anything is moved if a job could not write."""
+    require_places(chain, jobs)
     reason = set_damaged_lock_aside(chain.quality)
     for job in jobs:
         replace(chain.outputs(job))
@@ -63,10 +84,12 @@ def unasked(quality: str, plan: dict[str, Panel]) -> list[str]:
 
 
 def retire(quality: str, names: Iterable[str]) -> None:
-    """The jobs leave the lock, and their products the data and the figures, with the folders of their own."""
+    """The jobs leave the lock, and their products the data and the figures, with the folders of their own. A product
+    lies where a job of that name writes, whatever the lock says."""
     with changing(quality) as lock:
         for name in names:
-            outputs = lock.jobs.pop(name).outputs
+            del lock.jobs[name]
+            outputs = outputs_of(quality, name)
             replace(outputs)
             for folder in {(ROOT / path).parent for path in outputs}:
                 with contextlib.suppress(OSError):  # others' products lie there too

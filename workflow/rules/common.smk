@@ -42,14 +42,22 @@ def all_figures(wildcards):
     for job in leaving:
         say(f"{job} is not asked for any more{f': moved to {REPLACED}' if executing else ''}")
     if executing and leaving:
-        retire(QUALITY, leaving)
+        or_leave(retire, QUALITY, leaving)
     return [path for panel in PANELS for path in drawings_of(QUALITY, panel)]
+
+
+def or_leave(act, *arguments):
+    """What it returns; an error of a file is told in one line."""
+    try:
+        return act(*arguments)
+    except OSError as error:
+        sys.exit(in_one_line(error))
 
 
 onstart:
     if workflow.is_main_process and not workflow.touch:
-        if reason := prepare(CHAIN, STALE, REQUEST.fresh):
+        if reason := or_leave(prepare, CHAIN, STALE, REQUEST.fresh):
             say(f"{reason}: moved to {REPLACED}, and all is made again")
         for handler in workflow.logger_manager.get_log_handlers():
             if isinstance(handler, LogHandler):
-                handler.begin(QUALITY, PANELS, STALE, workflow.cores)
+                or_leave(handler.begin, QUALITY, PANELS, STALE, workflow.cores)

@@ -15,6 +15,7 @@ from pathlib import Path
 from workflow.lib.configuration import FOLDER
 from workflow.lib.costs import cells, effort, executions
 from workflow.lib.options import Options
+from workflow.lib.places import regular
 from workflow.lib.plan import Run, load_plan
 from workflow.tradeoff.measure import execute, planned, shortened
 
@@ -59,7 +60,7 @@ def at_size(known: dict[float, float], size: float) -> float:
 
 def read_timings(path: Path = TABLE) -> Timings:
     units: dict[tuple[str, str], dict[float, float]] = defaultdict(dict)
-    with path.open(newline="") as file:
+    with regular(path).open(newline="") as file:
         for row in csv.DictReader(file):
             unit = float(row["cpu_seconds"]) / float(row["effort"])
             units[row["panel"], row["series"]][float(row["cells"])] = unit

@@ -1,0 +1,61 @@
+"""What may lie where a file is read or written, asked before it is opened.
+
+Opening a pipe waits for ever, a link leads out of the project, and a folder in the place of a file would be noticed only
+when the work is done. Standard library only, as it starts for every job.
+"""
+
+import errno
+import os
+import shutil
+import stat
+from pathlib import Path
+
+KINDS = {stat.S_IFREG: "a file", stat.S_IFDIR: "a folder", stat.S_IFLNK: "a link", stat.S_IFIFO: "a pipe"}
+
+
+def regular(path: Path) -> Path:
+    """The path, if a file lies there, or nothing. Raises OSError."""
+    _require(path, stat.S_IFREG, follow=True)
+    return path
+
+
+def require_place(path: Path, root: Path) -> Path:
+    """The path, below root, if a file can be written there: nothing but folders on the way, and a file or nothing at its end.
+    Raises OSError. The first folder may be a link, as `data` and `figures` may lie on another disk; nothing below may."""
+    _, *folders = reversed(path.relative_to(root).parents)
+    for folder in folders:
+        _require(root / folder, stat.S_IFDIR, follow=len(folder.parts) == 1)
+    _require(path, stat.S_IFREG, follow=False)
+    return path
+
+
+def move(source: Path, target: Path) -> None:
+    """In place of what is there, also on another disk; the target is never there by half."""
+    try:
+        source.replace(target)
+    except OSError as error:
+        if error.errno != errno.EXDEV:
+            raise
+        unfinished = target.with_name(f"{target.name}.tmp")
+        with regular(source).open("rb") as old, regular(unfinished).open("wb") as new:
+            shutil.copyfileobj(old, new)
+            new.flush()
+            os.fsync(new.fileno())
+        unfinished.replace(target)
+        source.unlink()
+
+
+def in_one_line(error: OSError) -> str:
+    """Which file, and what is wrong with it."""
+    names = [str(name) for name in (error.filename, error.filename2) if name is not None]
+    return f"{' to '.join(names)}: {error.strerror}" if names else str(error)
+
+
+def _require(path: Path, kind: int, follow: bool) -> None:
+    try:
+        found = stat.S_IFMT(path.stat(follow_symlinks=follow).st_mode)
+    except FileNotFoundError:
+        return
+    if found != kind:
+        text = f"{KINDS.get(found, 'a device or socket')} lies where {KINDS[kind]} belongs; move it away"
+        raise OSError(errno.EINVAL, text, str(path))
