@@ -51,12 +51,20 @@ def test_another_compiler_configures_again(root: Path, monkeypatch: pytest.Monke
     assert not (root / "build/build.ninja").exists()
 
 
-def test_edited_rules_are_written_again(root: Path) -> None:
-    build_by_content.main()
-    assert (root / "build/build.ninja").exists()
+@pytest.mark.parametrize(
+    "file", ["build.ninja", "CMakeFiles/rules.ninja", "CMakeFiles/3.25.1/CMakeCXXCompiler.cmake"]
+)
+def test_edited_rules_are_written_again(root: Path, file: str) -> None:
+    path = root / "build" / file
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("rules")
     build_by_content.main(["--built"])
-    (root / "build/build.ninja").write_text("other rules")
     build_by_content.main()
+    assert path.exists()
+    build_by_content.main(["--built"])
+    path.write_text("other rules")
+    build_by_content.main()
+    assert not path.exists()
     assert not (root / "build/build.ninja").exists()
 
 

@@ -87,3 +87,12 @@ def test_what_a_user_does_is_no_traceback(tmp_path: Path, said: str, status: int
         check=False,
     )
     assert (done.returncode, done.stderr) == (status, words)
+
+
+def test_a_closed_output_is_said(tmp_path: Path) -> None:
+    (tmp_path / "workflow/environment").mkdir(parents=True)
+    shutil.copy(ROOT / LAUNCH, tmp_path / LAUNCH)
+    (tmp_path / "workflow/a.py").write_text("print(1)")
+    closed = ["sh", "-c", f"{sys.executable} -P {LAUNCH} workflow.a >&-"]
+    done = subprocess.run(closed, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr.startswith("Standard output is closed")) == (1, True)

@@ -79,7 +79,13 @@ def share_objects(folder: Path) -> None:
         "Ninja",
         f"-DCMAKE_CXX_COMPILER_LAUNCHER={launcher}",
     ]
-    noted = ["python3", "-I", "workflow/environment/launch.py", "workflow.environment.build_by_content", "--built"]
+    noted = [
+        "python3",
+        "-I",
+        "workflow/environment/launch.py",
+        "workflow.environment.build_by_content",
+        "--built",
+    ]
     for one in (command, noted):
         subprocess.run(one, cwd=folder, env={"PATH": os.defpath}, check=True, stdout=subprocess.DEVNULL)
 

@@ -21,7 +21,8 @@ ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build"
 RECORD = BUILD / "built_from.json"
 BUILD_ID = Path(__file__).resolve().parents[1] / "provenance/build_id.py"
-RULES = ("build.ninja", "CMakeCache.txt")
+# What CMake wrote for ninja and for itself, below build.
+RULES = ("build.ninja", "CMakeCache.txt", "CMakeFiles/*.ninja", "CMakeFiles/*.cmake", "CMakeFiles/*/*.cmake")
 SOURCES = ("cpp/**/*.[ch]pp", "cpp/**/CMakeLists.txt", "tests/cpp/**/*", "workflow/provenance/build_id.py")
 
 
@@ -45,17 +46,19 @@ def recorded() -> dict[str, str]:
 
 
 def rules() -> dict[str, str]:
-    return {name: hash_of(BUILD / name) for name in RULES if (BUILD / name).is_file()}
+    """Hashes by path, which begins with build/."""
+    files = (path for pattern in RULES for path in sorted(BUILD.glob(pattern)) if path.is_file())
+    return {f"build/{path.relative_to(BUILD)}": hash_of(path) for path in files}
 
 
 def renew(before: dict[str, str], now: dict[str, str]) -> None:
-    changed = [path for path in now if before.get(path) != now[path] and path not in ("compiler", *RULES)]
-    written = {name: before[name] for name in RULES if name in before}
+    changed = [path for path in now if before.get(path) != now[path] and path != "compiler"]
+    written = {path: digest for path, digest in before.items() if path.startswith("build/")}
     # CMake knows the compiler's version since it was first run.
     if before.get("compiler") != now["compiler"] or written != rules():
         changed.append("cpp/CMakeLists.txt")
-        for name in RULES:
-            (BUILD / name).unlink(missing_ok=True)
+        for path in rules():
+            (ROOT / path).unlink()
     for path in [*changed, *found_anew()]:
         os.utime(ROOT / path)
 

@@ -54,6 +54,8 @@ sys.meta_path.insert(0, OfTheProject())
 def launch() -> None:
     """What a user does is no fault of the module: a key that stops it, a reader that goes, a full disk behind the output."""
     del sys.argv[0]
+    if sys.stdout is None:
+        sys.exit("Standard output is closed, and nothing could be said; try >/dev/null")
     try:
         runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)
         sys.stdout.flush()
