@@ -202,7 +202,7 @@ def test_logs_and_costs_carry_the_names_of_the_products(clean: Clone) -> None:
     [
         (("figures", "QUALITY=best"), ["QUALITY='best'", "smoke, standard, paper, deep"]),
         (("figures", "quality=smoke"), ["did you mean QUALITY"]),
-        (("figures", "JOBS=0"), ["JOBS='0'", "at least 1"]),
+        (("figures", "JOBS=0"), ["JOBS='0'", "from 1 to 999"]),
         (("-e", "figures"), ["make -e is not admitted"]),
         (("-i", "audit"), ["make -i is not admitted"]),
         (("--eval=QUALITY:=smoke", "status"), ["make --eval and MAKEFILES are not admitted"]),
