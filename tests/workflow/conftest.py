@@ -79,14 +79,9 @@ def share_objects(folder: Path) -> None:
         "Ninja",
         f"-DCMAKE_CXX_COMPILER_LAUNCHER={launcher}",
     ]
-    noted = [
-        "python3",
-        "-I",
-        "workflow/environment/launch.py",
-        "workflow.environment.build_by_content",
-        "--built",
-    ]
-    for one in (command, noted):
+    by_content = ["python3", "-I", "workflow/environment/launch.py", "workflow.environment.build_by_content"]
+    (folder / "build").mkdir(exist_ok=True)
+    for one in (by_content, command, [*by_content, "--built"]):
         subprocess.run(one, cwd=folder, env={"PATH": os.defpath}, check=True, stdout=subprocess.DEVNULL)
 
 

@@ -66,7 +66,7 @@ def test_the_end_of_the_log_that_matters_is_shown(kept: Clone) -> None:
 @pytest.mark.parametrize(
     ("moment", "words"),
     [
-        ("ninja", ""),
+        ("Using workflow", "Stopped.*The same command goes on"),
         ("0 of 24 done", r"Stopped: \d+ of 24 done\. The same command goes on"),
     ],
     ids=["start", "run"],

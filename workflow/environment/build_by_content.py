@@ -97,16 +97,20 @@ def remove_edited_executables() -> None:
 def main(arguments: Sequence[str] = ()) -> None:
     for path in (RECORD.with_suffix(".tmp"), BUILD / "bin/any", *(BUILD / "id").glob("*"), BUILD / "id/any"):
         require_place(path, ROOT)
+    if arguments == ["--built"]:  # what was hashed before the build is what was built
+        return write(recorded() | rules())
     now = present()
-    if arguments == ["--built"]:
-        now |= rules()
-    elif (BUILD / "build.ninja").is_file():
+    if (BUILD / "build.ninja").is_file():
         renew(recorded(), now)
         remove_edited_executables()
+    return write(now)
+
+
+def write(content: dict[str, str]) -> None:
     if RECORD.is_dir():
         shutil.rmtree(RECORD)
     unfinished = RECORD.with_suffix(".tmp")
-    unfinished.write_text(json.dumps(now))
+    unfinished.write_text(json.dumps(content))
     unfinished.replace(RECORD)
 
 

@@ -198,10 +198,11 @@ def record(
 ) -> None:
     """Enters a job that has just written its outputs."""
     hashes = repository.FileHashes()
-    if lost := [path for path in outputs if hashes[path] is None]:
-        raise LockError(f"{lost[0]} is no file of the project: missing, or behind a link; move the link away")
-    written, asked = hashes.of(outputs), hashes.of(configuration_files(quality))
-    pipeline = hashes.of(pipeline_files())
+    try:
+        written, asked = hashes.of(outputs), hashes.of(configuration_files(quality))
+        pipeline = hashes.of(pipeline_files())
+    except FileNotFoundError as error:
+        raise LockError(str(error)) from error
     state = repository.state() | {"machine": repository.machine()}
     job = Job(**made_by, outputs=written, configuration=asked, pipeline=pipeline, **state)
     with changing(quality) as lock:

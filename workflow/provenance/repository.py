@@ -5,7 +5,7 @@ import os
 import platform
 import subprocess
 import tempfile
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +32,7 @@ DECIDING = (
     "requirements.lock",
 )
 # Nothing that is configured may show git another history than the one whose hashes it names, or other files.
+NOTHING_MORE: Mapping[str, str] = {}  # beside what every call of git is given
 PLAIN = {"GIT_NO_REPLACE_OBJECTS": "1", "GIT_GRAFT_FILE": os.devnull}
 
 
@@ -52,7 +53,9 @@ class FileHashes(dict[str, str | None]):
         """Of these files. Raises FileNotFoundError if one is not there or cannot be read."""
         found = {path: digest for path in paths if (digest := self[path])}
         if lacking := [path for path in paths if path not in found]:
-            raise FileNotFoundError(f"{lacking[0]} is no file of the project that can be read")
+            raise FileNotFoundError(
+                f"{lacking[0]} is no file of the project: missing, or behind a link; move the link away"
+            )
         return found
 
 
@@ -64,14 +67,14 @@ def write_whole(path: Path, text: str) -> None:
 
 
 def run_git(
-    *arguments: str, given: bytes = b"", variables: dict[str, str] = PLAIN
+    *arguments: str, given: bytes = b"", variables: Mapping[str, str] = NOTHING_MORE
 ) -> subprocess.CompletedProcess[bytes] | None:
     """None where git is not installed. The variables are those of its environment."""
     try:
         return subprocess.run(
             ["git", *arguments],
             cwd=ROOT,
-            env=os.environ | PLAIN | {"GIT_WORK_TREE": str(ROOT)} | variables,
+            env=os.environ | PLAIN | {"GIT_WORK_TREE": str(ROOT)} | dict(variables),
             input=given,
             capture_output=True,
             check=False,
@@ -80,7 +83,7 @@ def run_git(
         return None
 
 
-def git(*arguments: str, given: bytes = b"", variables: dict[str, str] = PLAIN) -> bytes | None:
+def git(*arguments: str, given: bytes = b"", variables: Mapping[str, str] = NOTHING_MORE) -> bytes | None:
     """What git prints, or nothing where it fails: not installed, outside a repository, or an unknown commit."""
     done = run_git(*arguments, given=given, variables=variables)
     return done.stdout if done and done.returncode == 0 else None

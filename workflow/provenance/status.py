@@ -12,12 +12,12 @@ from rich.table import Table
 
 from workflow.lib.costs import cheapest, cost_file, expected_cost
 from workflow.lib.load import FormatError, load
-from workflow.lib.parents import ArtefactError, Parents, file_hash
+from workflow.lib.parents import ArtefactError, Parents
 from workflow.lib.plan import Panel, data_path, load_plan
 from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance.chain import Chain
 from workflow.provenance.printable import printable
-from workflow.provenance.repository import ROOT, untracked
+from workflow.provenance.repository import ROOT, FileHashes, untracked
 
 GALLERY = "docs/gallery"  # small pictures of the panels
 WIDE = 150  # columns, where nobody reads them on a screen
@@ -74,14 +74,11 @@ def table(quality: str) -> Table:
 
 def outdated() -> list[str]:
     """Panels of which the gallery has a picture that was drawn by code that has changed since."""
-    names = []
+    names, hashes = [], FileHashes()
     for picture in sorted((ROOT / GALLERY).glob("*.png")):
         with suppress(ArtefactError):
             sources = Parents.of(picture).sources
-            if any(
-                not (ROOT / path).is_file() or file_hash(ROOT / path) != digest
-                for path, digest in sources.items()
-            ):
+            if any(hashes[path] != digest for path, digest in sources.items()):
                 names.append(picture.stem)
     return names
 

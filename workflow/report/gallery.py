@@ -10,7 +10,8 @@ import io
 import json
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -48,14 +49,20 @@ def small(picture: Path) -> bytes:
         return content.getvalue()
 
 
-def best(panel: Panel, root: Path) -> tuple[str, list[Path]] | None:
-    """The highest quality at which the panel is here as its job wrote it, with the paths of its drawings."""
+def made(root: Path) -> dict[str, Products]:
+    """By quality, the highest first, where there is a lock that can be read."""
+    found = {}
     for quality in reversed(QUALITIES):
-        try:
-            products = Products(root, Lock.read(quality))
-            return quality, [products.file(path) for path in drawings_of(quality, panel.name)]
-        except (LockError, ReportError):
-            continue
+        with suppress(LockError):
+            found[quality] = Products(root, Lock.read(quality))
+    return found
+
+
+def best(panel: Panel, products: Mapping[str, Products]) -> tuple[str, list[Path]] | None:
+    """The highest quality at which the panel is here as its job wrote it, with the paths of its drawings."""
+    for quality, one in products.items():
+        with suppress(ReportError):
+            return quality, [one.file(path) for path in drawings_of(quality, panel.name)]
     return None
 
 
@@ -83,19 +90,19 @@ def gallery(quality: str, root: Path = ROOT) -> Iterator[str]:
         )
     folder = root / GALLERY
     folder.mkdir(parents=True, exist_ok=True)
-    lines = []
+    lines, products = [], made(root)
     for panel in data.plan.values():
-        found = best(panel, root)
+        found = best(panel, products)
         if found is None:
             yield f"{panel.name} has not been made: run make figures"
             continue
-        made, (_, png, _, csv) = found
+        quality_there, (_, png, _, csv) = found
         (folder / f"{panel.name}.png").write_bytes(small(png))
         title = csv.read_text().split("\n", 1)[0].removeprefix("# ")
         lines.append(
-            f"## {panel.name}\n\n![{title}]({panel.name}.png)\n\n**{title}** (quality {made}). {caption_of(csv)}\n"
+            f"## {panel.name}\n\n![{title}]({panel.name}.png)\n\n**{title}** (quality {quality_there}). {caption_of(csv)}\n"
         )
-        yield f"{panel.name}: quality {made}"
+        yield f"{panel.name}: quality {quality_there}"
     claims = [content.claim(one, {}) for one in judgements]
     parents = {"quality": quality, "sources": source_hashes(root)}
     picture_of_summary(claims, parents, folder / "summary.png")
