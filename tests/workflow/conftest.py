@@ -65,24 +65,25 @@ def clone_into(folder: Path, source: Path = ROOT) -> Clone:
     return Clone(folder)
 
 
-def share_objects(folder: Path) -> None:
+def configure(folder: Path) -> None:
     """Clones compile each source once in all: what the compiler writes does not depend on the folder."""
     settings = {"CCACHE_DIR": ROOT / "build/ccache", "CCACHE_BASEDIR": folder, "CCACHE_NOHASHDIR": 1}
     launcher = ";".join(["env", *(f"{name}={value}" for name, value in settings.items()), "ccache"])
-    command = [
-        "cmake",
-        "-S",
-        "cpp",
-        "-B",
-        "build",
-        "-G",
-        "Ninja",
-        f"-DCMAKE_CXX_COMPILER_LAUNCHER={launcher}",
-    ]
+    launched = f"-DCMAKE_CXX_COMPILER_LAUNCHER={launcher}"
+    run_silently(folder, "cmake", "-S", "cpp", "-B", "build", "-G", "Ninja", launched)
+
+
+def share_objects(folder: Path) -> None:
+    """Has a clone configured as make would find it, so that it does not configure again without the shared objects."""
     by_content = ["python3", "-I", "workflow/environment/launch.py", "workflow.environment.build_by_content"]
     (folder / "build").mkdir(exist_ok=True)
-    for one in (by_content, command, [*by_content, "--built"]):
-        subprocess.run(one, cwd=folder, env={"PATH": os.defpath}, check=True, stdout=subprocess.DEVNULL)
+    run_silently(folder, *by_content)
+    configure(folder)
+    run_silently(folder, *by_content, "--built")
+
+
+def run_silently(folder: Path, *command: str) -> None:
+    subprocess.run(command, cwd=folder, env={"PATH": os.defpath}, check=True, stdout=subprocess.DEVNULL)
 
 
 @contextlib.contextmanager

@@ -5,7 +5,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from tests.workflow.conftest import ROOT, share_objects
+from tests.workflow.conftest import ROOT, configure
 
 STRAY = ("sleef.h", "numerics/cmath", "engine/Copy of open_start.cpp", "numerics/more.cpp")
 
@@ -16,6 +16,6 @@ def test_only_what_is_named_is_compiled(tmp_path: Path) -> None:
         shutil.copytree(ROOT / folder, tmp_path / folder)
     for path in STRAY:
         (tmp_path / "cpp" / path).write_text("#error a stray file was compiled\n")
-    share_objects(tmp_path)
+    configure(tmp_path)
     command = ["ninja", "-C", "build", "--quiet", "numerics", "engine"]
     subprocess.run(command, cwd=tmp_path, env={"PATH": os.defpath}, check=True)
