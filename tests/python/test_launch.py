@@ -2,6 +2,7 @@
 
 import os
 import py_compile
+import shlex
 import shutil
 import subprocess
 import sys
@@ -93,6 +94,6 @@ def test_a_closed_output_is_said(tmp_path: Path) -> None:
     (tmp_path / "workflow/environment").mkdir(parents=True)
     shutil.copy(ROOT / LAUNCH, tmp_path / LAUNCH)
     (tmp_path / "workflow/a.py").write_text("print(1)")
-    closed = ["sh", "-c", f"{sys.executable} -P {LAUNCH} workflow.a >&-"]
+    closed = ["sh", "-c", f"{shlex.quote(sys.executable)} -P {LAUNCH} workflow.a >&-"]
     done = subprocess.run(closed, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr.startswith("Standard output is closed")) == (1, True)
