@@ -24,6 +24,10 @@ FILE :=
 CRATE :=
 SEED :=
 REPLICAS :=
+PROFILE :=
+BATCH := 30
+ACCOUNT :=
+PARTITION :=
 SAMPLE := 0.1
 
 override quote = '$(subst ','\'',$1)'
@@ -40,7 +44,7 @@ NETWORK := PIP_INDEX_URL PIP_EXTRA_INDEX_URL PIP_TRUSTED_HOST PIP_CERT PIP_CONFI
 override SHELL := /usr/bin/env
 override .SHELLFLAGS := -i HOME=$(call quote,$(value HOME)) PATH=/opt/homebrew/bin:/usr/local/bin:/usr/bin:/bin:/usr/sbin:/sbin \
   LC_ALL=C.UTF-8 TZ=UTC SOURCE_DATE_EPOCH=1230768000 \
-  PYTHONHASHSEED=0 PYTHONNOUSERSITE=1 PYTHONDONTWRITEBYTECODE=1 PYTHONUNBUFFERED=1 \
+  PYTHONHASHSEED=0 PYTHONSAFEPATH=1 PYTHONNOUSERSITE=1 PYTHONDONTWRITEBYTECODE=1 PYTHONUNBUFFERED=1 \
   OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MPLBACKEND=Agg MPLCONFIGDIR=.cache/matplotlib \
   XDG_CACHE_HOME=.cache $(foreach name,$(NETWORK),$(if $(value $(name)),$(name)=$(call quote,$(value $(name))))) \
   /bin/bash -euo pipefail -c
@@ -72,9 +76,12 @@ $(if $(MISPLACED),$(error $(MISPLACED): no file lies where a file belongs; move 
 override PYTHON := .venv/bin/python -P workflow/environment/launch.py
 YES := yes 1
 EFFORT := $(call quote,$(QUALITY)$(if $(SEED),_seed=$(SEED))$(if $(REPLICAS),_replicas=$(REPLICAS)))
-$(foreach name,JOBS PANEL FILE CRATE SAMPLE,$(if $($(name)),$(eval override $(name) := $$(call quote,$$($(name))))))
-override SNAKEMAKE := $(PYTHON) workflow.execution.alone --cores $(or $(JOBS),$(shell env -u OMP_NUM_THREADS nproc 2>/dev/null || sysctl -n hw.ncpu)) \
-  --config quality=$(EFFORT) $(if $(PANEL),panel=$(PANEL)) $(if $(filter $(YES),$(FRESH)),fresh=yes)
+$(foreach name,JOBS PANEL FILE CRATE SAMPLE PROFILE BATCH ACCOUNT PARTITION,$(if $($(name)),$(eval override $(name) := $$(call quote,$$($(name))))))
+ON_THIS_MACHINE = --cores $(or $(JOBS),$(shell env -u OMP_NUM_THREADS nproc 2>/dev/null || sysctl -n hw.ncpu))
+ON_A_CLUSTER = --workflow-profile profiles/$(PROFILE) $(if $(JOBS),--jobs $(JOBS)) \
+  $(if $(ACCOUNT)$(PARTITION),--default-resources $(if $(ACCOUNT),slurm_account=$(ACCOUNT)) $(if $(PARTITION),slurm_partition=$(PARTITION)))
+override SNAKEMAKE := $(PYTHON) workflow.execution.alone $(if $(PROFILE),$(ON_A_CLUSTER),$(ON_THIS_MACHINE)) \
+  --config quality=$(EFFORT) $(if $(PROFILE),batch=$(BATCH)) $(if $(PANEL),panel=$(PANEL)) $(if $(filter $(YES),$(FRESH)),fresh=yes)
 SNAKEFMT := .venv/bin/snakefmt --no-format-shell --line-length 110
 ONLY_PANEL := $(if $(PANEL),--panel=$(PANEL))
 COMPARE = $(if $(SEED)$(REPLICAS)$(filter $(YES),$(FRESH)),$(PYTHON) workflow.provenance.compare --quality $(EFFORT))
@@ -84,6 +91,7 @@ COMPARE = $(if $(SEED)$(REPLICAS)$(filter $(YES),$(FRESH)),$(PYTHON) workflow.pr
 help:  ## This list
 	sed -nE 's/^([a-z-]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 16
 	echo 'Options: QUALITY=smoke|standard|paper|deep  PANEL=fig05  FRESH=yes  SEED=7  REPLICAS=200  JOBS=2'
+	echo 'On a cluster (docs/cluster.md): PROFILE=slurm  BATCH=30  ACCOUNT=physics  PARTITION=short'
 
 figures: build runtime  ## Build, simulate and draw every figure into figures/QUALITY
 	$(SNAKEMAKE) --logger progress -- figures
@@ -151,7 +159,7 @@ status: installed  ## Which panels are fresh, their errors and what they cost
 	$(PYTHON) workflow.provenance.status --quality $(EFFORT)
 
 cost: build runtime  ## CPU and wall time of a quality on this machine, foretold without a run; PANEL=fig05
-	$(PYTHON) workflow.tradeoff.forecast --programs build/bin --quality $(EFFORT) $(ONLY_PANEL)
+	$(PYTHON) workflow.tradeoff.forecast --programs build/bin --quality $(EFFORT) $(ONLY_PANEL) $(if $(PROFILE),--batch $(BATCH))
 
 bench: build runtime  ## Cost of an event: engine, reference and floor side by side; programs and bare loops
 	ninja -C build --quiet benchmarks

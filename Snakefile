@@ -6,6 +6,7 @@ build/replaced; a dry run only names them.
 """
 
 import json
+import math
 import re
 import runpy
 import sys
@@ -19,11 +20,14 @@ sys.path[:] = [folder for folder in sys.path if folder not in FOLDERS_HERE]
 from workflow.lib.parents import caption_of
 from workflow.lib.places import in_one_line, require_place
 from workflow.lib.plan import ConfigurationError, data_of, drawings_of
+from workflow.tradeoff.batches import divide
 from workflow.execution.handler import OF_PROJECT, LogHandler
 from workflow.provenance.chain import Chain
+from workflow.provenance.execute import identity_of
 from workflow.provenance.repository import ROOT
 from workflow.provenance.request import Request
 from workflow.provenance.stale import REPLACED, prepare, retire, unasked
+from workflow.tradeoff.timings import read_timings
 
 try:
     REQUEST = Request.of(config)
@@ -57,4 +61,11 @@ rule panel:
 
 
 include: "workflow/rules/simulate.smk"
+
+
+if REQUEST.batch:
+
+    include: "workflow/rules/cluster.smk"
+
+
 include: "workflow/rules/draw.smk"

@@ -123,7 +123,10 @@ void Program::write_result(const Outcome& outcome) const {
 }
 
 void Program::write_output(const Outcome& outcome, const std::string& cost) const try {
-  write_result(outcome);
+  if (outcome.part.empty())
+    write_result(outcome);
+  else
+    write_atomically(output_, outcome.part);
   write_atomically(cost_path(output_), cost);
   outcome.after_writing(true);
 } catch (...) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -24,7 +25,8 @@ struct Outcome {
   double target_error = 0;    // NaN without a target
   double achieved_error = 0;  // relative, or absolute if the target was
   Convergence convergence = Convergence::not_reached;
-  std::size_t replicas = 0;  // used for the results
+  std::size_t replicas = 0;       // used for the results
+  std::vector<std::byte> part{};  // content of the output if it is a part of a run, which has no results
 
   /// Called at the end with whether the results were written.
   std::function<void(bool)> after_writing = [](bool) {};

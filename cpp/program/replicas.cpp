@@ -21,7 +21,7 @@ class Team {
  public:
   Team(const ReplicaRun& run, const Measurement& measure, FinishedReplicas& finished)
       : run_(run), measure_(measure), finished_(finished), fractions_(run.threads) {
-    for (std::uint64_t index = 0; index < run.wanted; ++index)
+    for (std::uint64_t index = run.first; index < run.end; ++index)
       if (!finished.contains(index)) todo_.push_back(index);
     std::reverse(todo_.begin(), todo_.end());
   }

@@ -33,9 +33,9 @@ using FinishedReplicas = std::map<std::uint64_t, ReplicaRecord>;
 /// Number of replicas, resources and reporting of run_replicas().
 struct ReplicaRun {
   std::uint64_t seed;
-  std::uint64_t wanted;  // replicas 0 ... wanted - 1
+  std::uint64_t first, end;  // replicas first ... end - 1
   unsigned threads;
-  std::chrono::steady_clock::time_point deadline;  // no replica but the first two starts after it
+  std::chrono::steady_clock::time_point deadline;  // no replica but 0 and 1 starts after it
 
   /// Called in the thread of run_replicas() a few times per second; replicas in progress count as fractions.
   std::function<void(double replicas_done, const FinishedReplicas&)> report;

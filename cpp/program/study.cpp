@@ -14,6 +14,7 @@
 #include "program/build_info.hpp"
 #include "program/checkpoint.hpp"
 #include "program/errors.hpp"
+#include "program/parts.hpp"
 #include "program/stopping_rule.hpp"
 
 namespace lorentz {
@@ -89,10 +90,10 @@ class StudyRun {
       : study_(study),
         parameters_(parameters),
         progress_(progress),
-        checkpoint_(
-            program.output(),
+        format_(
             fmt::format("{}build_id = {}\n", as_text(program.options().parameters()), build_info.build_id),
             study.tallies.tallies()),
+        checkpoint_(program.output(), format_),
         absolute_(parameters.target_absolute > 0),
         target_(absolute_ ? parameters.target_absolute : parameters.target_error),
         deadline_(parameters.time_limit > 0 ? later(parameters.time_limit) : Clock::time_point::max()),
@@ -103,23 +104,18 @@ class StudyRun {
   Outcome run() try {
     if (parameters_.resume)
       finished_ = checkpoint_.load([this](const std::string& line) { progress_.warn(line); });
+    if (!parameters_.join.empty()) finished_.merge(join(parameters_.join, format_));
     resumed_ = finished_.size();
     next_checkpoint_ = later(parameters_.checkpoint_interval);
-    needed_ = target_ > 0 ? rule_.next_look(0) : parameters_.replicas;
-    for (std::uint64_t wanted = needed_;; wanted = rule_.next_look(wanted)) {
-      measure(wanted);
-      Outcome outcome = outcome_of(wanted);
-      if (!is_last(outcome, wanted)) continue;
-      warn_of_few(outcome.replicas, progress_);
-      outcome.after_writing = [checkpoint = checkpoint_, finished = std::move(finished_),
-                               &progress = progress_](bool written) {
-        if (written)
-          checkpoint.remove();
-        else
-          keep(checkpoint, finished, progress, "the results cannot be written");
-      };
-      return outcome;
-    }
+    Outcome outcome = parameters_.part.empty() ? whole() : part();
+    outcome.after_writing = [checkpoint = checkpoint_, finished = std::move(finished_),
+                             &progress = progress_](bool written) {
+      if (written)
+        checkpoint.remove();
+      else
+        keep(checkpoint, finished, progress, "the results cannot be written");
+    };
+    return outcome;
   } catch (const Interrupted&) {
     keep(checkpoint_, finished_, progress_, "interrupted");
     throw;
@@ -141,7 +137,30 @@ class StudyRun {
         fmt::format("{} after {} replicas, which are not saved: {}", why, finished.size(), error.what()));
   }
 
-  void measure(std::uint64_t wanted) {
+  /// Batch by batch until the last.
+  Outcome whole() {
+    needed_ = target_ > 0 ? rule_.next_look(0) : parameters_.replicas;
+    for (std::uint64_t wanted = needed_;; wanted = rule_.next_look(wanted)) {
+      measure(0, wanted);
+      Outcome outcome = outcome_of(wanted);
+      if (!is_last(outcome, wanted)) continue;
+      warn_of_few(outcome.replicas, progress_);
+      return outcome;
+    }
+  }
+
+  Outcome part() {
+    const Part part = Part::from(parameters_.part, parameters_.replicas);
+    needed_ = part.size();
+    measure(part.first, part.last + 1);
+    progress_.say(fmt::format("replicas {} to {} are measured, for --join", part.first, part.last));
+    Outcome outcome{.convergence = Convergence::no_target, .part = format_.content(finished_)};
+    for (const auto& [index, record] : finished_) outcome.events += record.events;
+    return outcome;
+  }
+
+  /// Replicas first ... end - 1, but for those that are finished.
+  void measure(std::uint64_t first, std::uint64_t end) {
     const auto measure_one = [this](const Replica& replica) {
       Record record(study_.tallies);
       const std::uint64_t events = study_.measure(replica, record);
@@ -158,7 +177,7 @@ class StudyRun {
       keep(checkpoint_, so_far, progress_, "interrupted");
       std::_Exit(static_cast<int>(ExitStatus::interrupted) + signal);
     };
-    run_replicas({parameters_.seed, wanted, parameters_.threads, deadline_, report, warn, abandon},
+    run_replicas({parameters_.seed, first, end, parameters_.threads, deadline_, report, warn, abandon},
                  measure_one, finished_);
   }
 
@@ -211,6 +230,7 @@ class StudyRun {
   const Study& study_;
   const ReplicaParameters& parameters_;
   Progress& progress_;
+  RecordFile format_;
   Checkpoint checkpoint_;
   bool absolute_;
   double target_;  // 0: none
@@ -224,42 +244,9 @@ class StudyRun {
 
 }  // namespace
 
-void declare(Options& options, ReplicaParameters& parameters) {
-  constexpr auto runtime = Options::Role::runtime;
-  options.integer("--replicas", parameters.replicas, {1, 100'000'000},
-                  "Independent replicas; with a target error, replicas per batch");
-  options.integer("--max-replicas", parameters.max_replicas, {1, 100'000'000},
-                  "Largest number of replicas with a target error");
-  options.integer("--seed", parameters.seed, {}, "Key of all random streams");
-  options.real("--target-error", parameters.target_error, non_negative, "1",
-               fmt::format("Add replicas, {} at least, until the relative standard error of the target "
-                           "quantity is below this with 95 % confidence; 0: no target",
-                           StoppingRule::least));
-  options.real("--target-absolute", parameters.target_absolute, non_negative, "that of the target quantity",
-               "The same for the standard error itself; 0: no target");
-  options.integer("--threads", parameters.threads, {1, 4096}, "Threads; no result depends on them", runtime);
-  options.real(
-      "--time-limit", parameters.time_limit, non_negative, "s",
-      "Seconds after which no replica but the first two starts; those in progress are finished; 0: none",
-      runtime);
-  options.real("--checkpoint-interval", parameters.checkpoint_interval, positive, "s",
-               "Seconds between checkpoints in OUTPUT.checkpoint", runtime);
-  options.flag("--resume", parameters.resume, "Resume from OUTPUT.checkpoint if it exists", runtime);
-}
-
 Outcome run_study(const Study& study, const ReplicaParameters& parameters, const Program& program,
                   Progress& progress) {
-  if (parameters.target_error > 0 && parameters.target_absolute > 0)
-    throw UsageError(
-        "--target-error and --target-absolute are both given: a run has one target. Leave out one of the "
-        "two.");
-  const bool has_target = parameters.target_error > 0 || parameters.target_absolute > 0;
-  if ((has_target || program.options().given("--max-replicas")) &&
-      parameters.max_replicas < parameters.replicas)
-    throw UsageError(fmt::format(
-        "--max-replicas {} is below --replicas {}: not even one batch would be allowed. Choose a smaller "
-        "batch or a larger maximum.",
-        parameters.max_replicas, parameters.replicas));
+  require_consistent(parameters, program.options(), program.output());
   return StudyRun(study, parameters, program, progress).run();
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "program/program.hpp"
+#include "program/replica_parameters.hpp"
 #include "program/replicas.hpp"
 #include "statistics/estimator.hpp"
 #include "statistics/tally.hpp"
@@ -20,24 +21,8 @@ struct Study {
   std::string target;  // quantity of --target-error
 };
 
-/// Options that all studies share. Without a target error a run has `replicas` replicas; with one, batches of
-/// that size are added until the StoppingRule is met.
-struct ReplicaParameters {
-  std::uint64_t replicas = 16;
-  std::uint64_t max_replicas = 1'000'000;
-  std::uint64_t seed = 1;
-  std::uint32_t threads = 1;
-  double target_error = 0;     // relative; 0: none
-  double target_absolute = 0;  // 0: none
-  double time_limit = 0;       // seconds; 0: none
-  double checkpoint_interval = 60;
-  bool resume = false;
-};
-
-void declare(Options& options, ReplicaParameters& parameters);
-
-/// Measures until the number of replicas or the target error is reached, with checkpoints, resumption and
-/// time limit. Throws UsageError, NumericalError or Interrupted.
+/// Measures until the number of replicas or the target error is reached, or a part of the replicas, with
+/// checkpoints, resumption and time limit. Throws UsageError, NumericalError or Interrupted.
 Outcome run_study(const Study& study, const ReplicaParameters& parameters, const Program& program,
                   Progress& progress);
 

@@ -15,6 +15,7 @@ import pytest
 from tests.python.conftest import ROOT
 from workflow.lib.parents import file_hash
 from workflow.provenance.build_id import IDENTITY
+from workflow.provenance.execute import add_costs
 
 HOSTILE = {
     "name": "x; touch a",
@@ -23,6 +24,7 @@ HOSTILE = {
     "flag": True,
     "off": False,
 }
+RECORD = "build/records/smoke/fig99/all_gamma=1.json"
 PROGRAM = """#!/usr/bin/python3
 import json, os, signal, sys, time
 options = dict(zip(sys.argv, sys.argv[1:]))
@@ -84,8 +86,8 @@ def start(root: Path, options: dict) -> subprocess.Popen:
 
 
 def jobs(root: Path) -> dict:
-    lock = root / "data/smoke/lock.json"
-    return json.loads(lock.read_text())["jobs"] if lock.is_file() else {}
+    record = root / RECORD
+    return json.loads(record.read_text())["jobs"] if record.is_file() else {}
 
 
 @pytest.mark.parametrize("status", [0, 4])
@@ -170,6 +172,20 @@ def content(path: Path) -> bytes:
         return b""
 
 
+def test_the_costs_of_parts_are_added(tmp_path: Path) -> None:
+    keys = ("wall_seconds", "cpu_seconds", "peak_memory_bytes", "events")
+    joined, parts = tmp_path / "joined.cost.json", tmp_path / "parts"
+    parts.mkdir()
+    for path, numbers in (
+        (joined, (1.0, 0.5, 10, 900)),
+        (parts / "0-3.part.cost.json", (20.0, 15.0, 70, 400)),
+        (parts / "4-7.part.cost.json", (30.0, 25.0, 60, 500)),
+    ):
+        path.write_text(json.dumps(dict(zip(keys, numbers, strict=True))))
+    add_costs(joined, parts)
+    assert json.loads(joined.read_text()) == dict(zip(keys, (51.0, 40.5, 70, 900), strict=True))
+
+
 PLACE = "a {} lies where a file belongs; move it away"
 
 
@@ -179,9 +195,9 @@ PLACE = "a {} lies where a file belongs; move it away"
         ("build/id/fake.sha256", os.mkfifo, PLACE.format("pipe")),
         ("build/id/fake.json", os.mkfifo, PLACE.format("pipe")),
         ("build/bin/fake", os.mkfifo, PLACE.format("pipe")),
-        ("data/smoke/lock.tmp", os.mkfifo, PLACE.format("pipe")),
-        ("data/smoke/lock.tmp", Path.mkdir, PLACE.format("folder")),
-        ("data/smoke/lock.json", Path.touch, "data/smoke/lock.json is damaged"),
+        (RECORD.replace(".json", ".tmp"), os.mkfifo, PLACE.format("pipe")),
+        (RECORD.replace(".json", ".tmp"), Path.mkdir, PLACE.format("folder")),
+        (RECORD, Path.mkdir, "all_gamma=1.json: Is a directory"),
         ("data/smoke/fig99/all_gamma=1.h5", Path.mkdir, "all_gamma=1.h5: Is a directory"),
         ("build/costs/smoke/fig99/all_gamma=1.json", Path.mkdir, "all_gamma=1.json: Is a directory"),
         ("build/partial", Path.touch, "build/partial/smoke/fig99: Not a directory"),
@@ -196,7 +212,7 @@ def test_what_lies_in_a_files_place_is_told_in_one_line(
     assert start(root, {}).wait(timeout=10) == 1
     (line,) = (line for line in (root / "build/logs/log").read_text().splitlines() if line != "said")
     assert words in line
-    assert not (root / "data/smoke/lock.json").is_file() or path.endswith("lock.json")
+    assert jobs(root) == {}
 
 
 def test_a_checkpoint_belongs_to_its_options(root: Path) -> None:

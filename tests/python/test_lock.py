@@ -11,15 +11,18 @@ import pytest
 from workflow.provenance import repository, stale
 from workflow.provenance.build_id import IDENTITY
 from workflow.provenance.chain import difference_of
+from workflow.provenance.job import Job
 from workflow.provenance.lock import (
     FORMAT,
-    Job,
     Lock,
     LockError,
     changing,
     checksum_of,
+    collect,
     configuration_files,
     record,
+    record_path,
+    records,
 )
 
 KEPT = "a" * 64
@@ -142,6 +145,59 @@ def test_a_name_leads_nowhere_else(root: Path, job: Job, name: str) -> None:
     seal({name: job})
     with pytest.raises(LockError, match="is damaged: name"):
         Lock.read("smoke")
+
+
+def leave(name: str, job: Job) -> Path:
+    path = record_path("smoke", name)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    Lock("smoke", {name: job}, {KEPT: BUILD}).write(path)
+    return path
+
+
+def test_records_are_read_and_collected(root: Path, job: Job) -> None:
+    """Also where there is no lock yet, and over what it says."""
+    path = leave("fig05/all", job)
+    assert Lock.read("smoke").jobs == {"fig05/all": job}
+    collect()
+    assert not path.exists()
+    leave("fig05/all", replace(job, machine="another"))
+    leave("fig06/all", job)
+    expected = {"fig05/all": replace(job, machine="another"), "fig06/all": job}
+    assert Lock.read("smoke").jobs == expected
+    collect()
+    assert Lock.read("smoke").jobs == expected
+    assert Lock.read("smoke").builds == {KEPT: BUILD}
+    assert records("smoke") == []
+
+
+@pytest.mark.parametrize(
+    "damage", [lambda text: text[:-9], lambda text: text.replace("persis", "Persis"), lambda text: ""]
+)
+def test_a_damaged_record_says_nothing(root: Path, job: Job, damage: Callable[[str], str]) -> None:
+    leave("fig05/all", job)
+    path = leave("fig06/all", job)
+    path.write_text(damage(path.read_text()))
+    assert Lock.read("smoke").jobs == {"fig05/all": job}
+
+
+def test_a_record_speaks_of_its_own_job_alone(root: Path, job: Job) -> None:
+    seal({"fig05/all": job})
+    other = leave("fig06/all", replace(job, machine="another"))
+    place = record_path("smoke", "fig05/all")
+    place.parent.mkdir(parents=True)
+    other.rename(place)
+    assert Lock.read("smoke").jobs == {"fig05/all": job}
+
+
+def test_a_damaged_lock_keeps_its_records(root: Path, job: Job) -> None:
+    path = leave("fig05/all", job)
+    Lock.path("smoke").parent.mkdir(parents=True)
+    Lock.path("smoke").write_text("{")
+    with pytest.raises(LockError):
+        collect()
+    assert path.exists()
+    assert stale.set_damaged_lock_aside("smoke")
+    assert Lock.read("smoke").jobs == {"fig05/all": job}
 
 
 def test_the_lock_of_another_quality_is_refused(root: Path, job: Job) -> None:

@@ -11,8 +11,8 @@ import pytest
 from tests.python.conftest import Program
 from workflow.lib import style
 from workflow.provenance import redo
+from workflow.provenance.job import Job
 from workflow.provenance.likeness import alike
-from workflow.provenance.lock import Job
 from workflow.provenance.redo import SIGNIFICANCE, RedoError, disagreement, redrawn, same_bytes
 from workflow.provenance.repository import machine
 

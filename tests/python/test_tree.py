@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from workflow.provenance import repository, tree
-from workflow.provenance.lock import Job, Lock, configuration_files
+from workflow.provenance.job import Job
+from workflow.provenance.lock import Lock, configuration_files
 
 KEPT = "a" * 64
 NAME = "a\x1b[2J.csv"

@@ -8,6 +8,7 @@ Standard library only: this runs before anything is installed.
 import difflib
 import re
 import sys
+from pathlib import Path
 
 QUALITIES = ("smoke", "standard", "paper", "deep")
 ADMITTED = {  # name: pattern of the whole value, what it may be, an example
@@ -22,6 +23,14 @@ ADMITTED = {  # name: pattern of the whole value, what it may be, an example
         "a number of replicas, from 4, as errors need some, to 100000000",
         "REPLICAS=200",
     ),
+    "PROFILE": (r"[a-z][a-z0-9_-]*", "the name of a folder in profiles", "PROFILE=slurm"),
+    "BATCH": (
+        r"[1-9][0-9]{0,3}|0?\.[0-9]*[1-9][0-9]*",
+        "the minutes that a job of a cluster is to take, up to 9999",
+        "BATCH=30",
+    ),
+    "ACCOUNT": (r"[A-Za-z0-9._-]+", "the account that pays for a cluster's jobs", "ACCOUNT=physics"),
+    "PARTITION": (r"[A-Za-z0-9._,-]+", "a partition of the cluster", "PARTITION=short"),
     "SAMPLE": (r"0?\.[0-9]*[1-9][0-9]*|1(\.0*)?", "a share, above 0 and at most 1", "SAMPLE=0.1"),
     "FILE": (r"[^\n]+", "the path of a file", "FILE=figures/standard/fig05.pdf"),
     "CRATE": (r"[^\n]+", "the path of a crate", "CRATE=crate.zip"),
@@ -29,16 +38,17 @@ ADMITTED = {  # name: pattern of the whole value, what it may be, an example
 
 
 EFFORT = ("QUALITY", "SEED", "REPLICAS")
+RUNNING = (*EFFORT, "JOBS", "PROFILE", "BATCH", "ACCOUNT", "PARTITION")
 USED = {  # by the goals that use any
-    "figures": (*EFFORT, "JOBS", "FRESH"),
-    "panel": (*EFFORT, "JOBS", "FRESH", "PANEL"),
-    "report": (*EFFORT, "JOBS"),
+    "figures": (*RUNNING, "FRESH"),
+    "panel": (*RUNNING, "FRESH", "PANEL"),
+    "report": RUNNING,
     "gallery": EFFORT,
     "crate": (*EFFORT, "PANEL"),
     "audit": (*EFFORT, "PANEL", "CRATE"),
     "verify": (*EFFORT, "PANEL", "SAMPLE"),
     "status": EFFORT,
-    "cost": (*EFFORT, "PANEL"),
+    "cost": (*EFFORT, "PANEL", "PROFILE", "BATCH"),
     "provenance": ("FILE", "FULL"),
     "check": (*EFFORT, "JOBS"),
     "tradeoff": ("QUALITY",),
@@ -65,10 +75,17 @@ def fault(argument: str) -> str | None:
         return f"{name!r} is not an argument of this Makefile: {known}"
     pattern, admitted, example = ADMITTED[name]
     if re.fullmatch(pattern, value):
-        return None
+        return missing_profile(value) if name == "PROFILE" else None
     near = difflib.get_close_matches(value.lower(), QUALITIES, 1) if name == "QUALITY" else []
     suggested = f"QUALITY={near[0]}" if near else example
     return f"{name}={value!r} cannot be used: it must be {admitted}; try {suggested}"
+
+
+def missing_profile(value: str) -> str | None:
+    known = sorted(path.parent.name for path in Path("profiles").glob("*/config.yaml"))
+    if value in known and value != "default":
+        return None
+    return f"PROFILE={value}: there is no profiles/{value}/config.yaml for a cluster; there is {', '.join(one for one in known if one != 'default')}"
 
 
 def main() -> None:

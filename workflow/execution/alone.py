@@ -13,6 +13,7 @@ from pathlib import Path
 
 from workflow.execution.stopping import stopping
 from workflow.lib.places import require_place
+from workflow.provenance.lock import LockError, collect
 
 PLACE = Path(".snakemake")
 LOCK = PLACE / "alone.lock"
@@ -39,7 +40,10 @@ def run() -> None:
         except BlockingIOError:
             sys.exit("Another make is running here: wait for its end, or stop it")
         shutil.rmtree(PLACE / "locks", ignore_errors=True)
-        snakemake()
+        try:
+            snakemake()
+        finally:
+            collect_records()
 
 
 def snakemake() -> None:
@@ -55,6 +59,13 @@ def snakemake() -> None:
         main(sys.argv[1:])
     except KeyboardInterrupt:
         sys.exit("Stopped. The same command goes on.")
+
+
+def collect_records() -> None:
+    try:
+        collect()
+    except LockError as error:
+        print(error, file=sys.stderr)
 
 
 def interrupt(*_: object) -> None:

@@ -20,12 +20,17 @@ BAR = 30  # columns
 
 @dataclass(frozen=True)
 class Running:
-    """job: `panel/run` or `panel`. start: by the monotonic clock."""
+    """job: `panel/run` or `panel`. start: by the monotonic clock. part: the replicas that are measured, if not all."""
 
     job: str
     start: float
     threads: int
     log: Path
+    part: str = ""
+
+    @property
+    def name(self) -> str:
+        return f"{self.job}, replicas {self.part}" if self.part else self.job
 
     @property
     def elapsed(self) -> float:
@@ -37,10 +42,10 @@ class Display:
         self._console = Console(file=sys.stdout, highlight=False, markup=False, emoji=False, soft_wrap=True)
         self._live = Live(self, console=self._console, auto_refresh=True, transient=True)
         self._remaining: Remaining | None = None
-        self._running: dict[str, Running] = {}
+        self._running: dict[str, Running] = {}  # by name
         self._done = self._total = 0
         self._ended = False
-        self._failed: list[str] = []
+        self._failed: dict[str, None] = {}  # names, in their order
         self._doubts: list[str] = []
 
     @property
@@ -56,7 +61,9 @@ class Display:
             self._live.start()
 
     def start(self, running: Running) -> None:
-        self._running[running.job] = running
+        """Perhaps once more, after it has failed."""
+        self._failed.pop(running.name, None)
+        self._running[running.name] = running
 
     def finish_run(self, running: Running, result: Outcome) -> None:
         self._finish(running)
@@ -65,14 +72,18 @@ class Display:
         if self._console.is_terminal:
             self.say(f"{running.job}: {result.text}{self._mark(result)}, {self.state}")
 
+    def finish_part(self, running: Running) -> None:
+        """The run is done when its parts are joined."""
+        self._running.pop(running.name, None)
+
     def finish_panel(self, running: Running, runs: int) -> None:
         self._finish(running)
         self.say(f"{running.job}: drawn{f' from {runs} runs' if runs else ''}, {self.state}")
 
     def fail(self, running: Running, lines: Sequence[str]) -> None:
-        self._running.pop(running.job, None)
-        self._failed.append(running.job)
-        self.say(f"{running.job} failed after {clock(running.elapsed)}. {running.log} ends with:")
+        self._running.pop(running.name, None)
+        self._failed[running.name] = None
+        self.say(f"{running.name} failed after {clock(running.elapsed)}. {running.log} ends with:")
         for line in lines:
             self.say(f"  {line}")
 
@@ -109,10 +120,10 @@ class Display:
         yield table
         for one in list(self._running.values()):
             line = " ".join(last_lines(one.log)[-1:])
-            yield Text(f"  {one.job}  {clock(one.elapsed)}  {line}", overflow="ellipsis", no_wrap=True)
+            yield Text(f"  {one.name}  {clock(one.elapsed)}  {line}", overflow="ellipsis", no_wrap=True)
 
     def _finish(self, running: Running) -> None:
-        self._running.pop(running.job, None)
+        self._running.pop(running.name, None)
         self._done += 1
         assert self._remaining is not None
         self._remaining.finish(running.job, running.elapsed * running.threads)

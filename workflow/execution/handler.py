@@ -64,13 +64,16 @@ class LogHandler(LogHandlerBase):
     def _start(self, record: Record) -> None:
         if record.wildcards:  # the target has none
             job = "/".join(record.wildcards[name] for name in ("panel", "run") if name in record.wildcards)
-            running = Running(job, time.monotonic(), record.threads, Path(record.log[0]))
+            part = record.wildcards.get("part", "")
+            running = Running(job, time.monotonic(), record.threads, Path(record.log[0]), part)
             self._running[record.jobid] = running
             self._display.start(running)
 
     def _finish(self, running: Running) -> None:
         panel, _, run = running.job.partition("/")
-        if run:
+        if running.part:
+            self._display.finish_part(running)
+        elif run:
             self._display.finish_run(running, outcome(Path(data_path(self._quality, panel, run))))
         else:
             self._display.finish_panel(running, len(self._plan[panel].runs))

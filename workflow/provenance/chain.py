@@ -10,7 +10,8 @@ from workflow.lib.options import Options
 from workflow.lib.parents import PACKAGES
 from workflow.lib.plan import Panel, Run, data_of, data_path, outputs_of, with_used
 from workflow.provenance.build_id import include_closure
-from workflow.provenance.lock import Job, Lock, LockError
+from workflow.provenance.job import Job
+from workflow.provenance.lock import Lock, LockError
 from workflow.provenance.repository import ROOT, FileHashes
 from workflow.provenance.sources import sources_of
 

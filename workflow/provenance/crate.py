@@ -16,7 +16,8 @@ from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance import report_links
 from workflow.provenance.chain import Chain
 from workflow.provenance.crate_graph import crate_of
-from workflow.provenance.lock import Job, Lock, LockError, builds_of
+from workflow.provenance.job import Job
+from workflow.provenance.lock import Lock, LockError, builds_of
 from workflow.provenance.repository import ROOT, git
 
 PLACE = ROOT / "build/crate"

@@ -16,7 +16,8 @@ from rocrate.rocrate import ROCrate
 from workflow.lib.options import arguments
 from workflow.lib.parents import PACKAGES
 from workflow.provenance.crate_files import WORKFLOW, add, add_files, compact, new_crate
-from workflow.provenance.lock import Job, Lock, builds_of, configuration_files
+from workflow.provenance.job import Job
+from workflow.provenance.lock import Lock, builds_of, configuration_files
 from workflow.provenance.repository import ROOT, git
 
 REPORT_SCRIPT, CLAIMS = "workflow/report/write.py", "data/claims.csv"

@@ -83,26 +83,58 @@ def built(program: str) -> tuple[dict[str, Any], str]:
     return build, executable
 
 
-def simulate(job: argparse.Namespace) -> None:
-    """Partial results and checkpoints lie under a name that changes with build and options, so that an interrupted
+def identity_of(program: str, options: Options) -> str:
+    """Changes with build and options. Partial results, checkpoints and parts have it in their name, so that an interrupted
     run goes on and one with other parameters starts anew."""
+    build, _ = built(program)
+    return hashlib.sha256(json.dumps([options, build["build_id"]]).encode()).hexdigest()[:16]
+
+
+def run_program(job: argparse.Namespace, partial: Path, *more: str) -> tuple[dict[str, Any], str, int]:
+    """Build, executable and exit status. Leaves if the program is not what was built, before and after."""
     build, executable = built(job.program)
-    identity = hashlib.sha256(json.dumps([job.options, build["build_id"]]).encode()).hexdigest()[:16]
-    name = f"{job.quality}/{job.panel}/{job.run}"
-    partial = Path(f"build/partial/{name}-{identity}.h5")
-    cost, output = Path(f"build/costs/{name}.json"), Path(f"data/{name}.h5")
-    for path in (partial, cost, output):
-        path.parent.mkdir(parents=True, exist_ok=True)
-    resumed = ["--threads", str(job.threads), "--resume"] if job.replicated else []
+    partial.parent.mkdir(parents=True, exist_ok=True)
     command = program_command(job.program, job.options, partial)
-    status = call([*command, *resumed, "--progress", "log"], (0, UNCONVERGED))
+    status = call([*command, *more, "--progress", "log"], (0, UNCONVERGED))
     if built(job.program) != (build, executable):
         sys.exit(f"build/bin/{job.program} was built again while it ran; run make again")
+    return build, executable, status
+
+
+def measure_part(job: argparse.Namespace) -> None:
+    """Some replicas of a run, on any machine that sees this folder."""
+    output = Path(job.output)
+    partial = Path("build/partial", *output.parts[2:])
+    run_program(job, partial, "--threads", "1", "--resume", "--part", job.part)
+    output.parent.mkdir(parents=True, exist_ok=True)
+    move(partial.with_suffix(".part.cost.json"), output.with_suffix(".part.cost.json"))
+    move(partial, output)
+
+
+def simulate(job: argparse.Namespace) -> None:
+    name = f"{job.quality}/{job.panel}/{job.run}"
+    partial = Path(f"build/partial/{name}-{identity_of(job.program, job.options)}.h5")
+    more = ["--threads", str(job.threads), "--resume"] if job.replicated else []
+    joined = ["--join", job.parts] if job.parts else []
+    build, executable, status = run_program(job, partial, *more, *joined)
+    if job.parts:
+        add_costs(partial.with_suffix(".cost.json"), Path(job.parts))
+    cost, output = Path(f"build/costs/{name}.json"), Path(f"data/{name}.h5")
+    for path in (cost, output):
+        path.parent.mkdir(parents=True, exist_ok=True)
     move(partial.with_suffix(".cost.json"), cost)
     move(partial, output)
     made_by = {"tool": job.program, "options": job.options, "exit": status}
     made_by |= {"build_id": build["build_id"], "executable": executable}
     record(job.quality, f"{job.panel}/{job.run}", [str(output)], made_by, build)
+
+
+def add_costs(joined: Path, parts: Path) -> None:
+    """Those of the parts in a folder to that of joining them, which knows the events of all. The memory is the largest."""
+    costs = [json.loads(path.read_text()) for path in (joined, *sorted(parts.glob("*.cost.json")))]
+    total = {key: sum(cost[key] for cost in costs) for key in ("wall_seconds", "cpu_seconds")}
+    total["peak_memory_bytes"] = max(cost["peak_memory_bytes"] for cost in costs)
+    joined.write_text(json.dumps(costs[0] | total) + "\n")
 
 
 def draw(job: argparse.Namespace) -> None:
@@ -119,16 +151,22 @@ def draw(job: argparse.Namespace) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description="Runs a job and enters it into the lock")
     kinds = parser.add_subparsers(required=True)
-    run, drawing = kinds.add_parser("simulate"), kinds.add_parser("draw")
-    for kind, function in ((run, simulate), (drawing, draw)):
+    run, part, drawing = (kinds.add_parser(kind) for kind in ("simulate", "part", "draw"))
+    for kind, function in ((run, simulate), (part, measure_part), (drawing, draw)):
         kind.set_defaults(function=function)
-        for name in ("log", "quality", "panel"):
-            kind.add_argument(f"--{name}", required=True)
+        kind.add_argument("--log", required=True)
+    for kind in (run, drawing):
+        kind.add_argument("--quality", required=True)
+        kind.add_argument("--panel", required=True)
+    for kind in (run, part):
+        kind.add_argument("--program", required=True)
+        kind.add_argument("--options", type=json.loads, required=True, help="JSON object")
     run.add_argument("--run", required=True)
-    run.add_argument("--program", required=True)
-    run.add_argument("--options", type=json.loads, required=True, help="JSON object")
     run.add_argument("--threads", type=int, required=True)
     run.add_argument("--replicated", action="store_true", help="the program takes --threads and --resume")
+    run.add_argument("--parts", default="", help="folder of the parts that are joined")
+    part.add_argument("--part", required=True, help="first and last replica, as 0-23")
+    part.add_argument("--output", required=True)
     drawing.add_argument("--configuration", required=True, help="hash of the panel's configuration")
     drawing.add_argument("--sources", nargs="+", required=True, help="the script and what it imports")
     drawing.add_argument("--data", nargs="+", required=True)

@@ -10,7 +10,7 @@ from typing import Any
 
 from workflow.lib.parents import file_hash
 from workflow.provenance.execute import ENVIRONMENT
-from workflow.provenance.lock import Job
+from workflow.provenance.job import Job
 from workflow.provenance.repository import ROOT, machine
 
 # Where Homebrew keeps compilers is not on the path of the jobs.

@@ -15,7 +15,8 @@ from workflow.environment.packages import faults
 from workflow.lib.parents import PACKAGES
 from workflow.provenance.build_id import build_id, source_hash
 from workflow.provenance.chain import Chain
-from workflow.provenance.lock import Job, configuration_files
+from workflow.provenance.job import Job
+from workflow.provenance.lock import configuration_files
 from workflow.provenance.repository import DECIDING, ROOT, files_at, no_history, untracked
 
 NAMED = 5  # files of packages that are named where many are wrong

@@ -1,20 +1,20 @@
 """data/<quality>/lock.json: for every job that made a product, what ran, from what, and the hash of what it wrote.
 
-Every job enters itself when it is done (execute.py), so that nothing is in the lock but what a job has just written.
+Every job leaves a record when it is done (execute.py): a lock of its own, with nothing but what it has just written. Whoever
+reads the lock reads the records too, and the one process that started the jobs collects them. So jobs on other machines
+need nothing but the shared folder, and no lock of the file system.
 """
 
 import contextlib
-import fcntl
 import hashlib
 import json
-import os
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from workflow.lib.options import Options
 from workflow.provenance import repository
+from workflow.provenance.job import Job
 from workflow.provenance.lock_types import check_build, check_job
 
 FORMAT = {"format": "lorentz-gas-lock", "version": 3}
@@ -38,46 +38,6 @@ class LockError(ValueError):
     """The lock is missing, damaged or edited."""
 
 
-@dataclass(frozen=True)
-class Job:
-    """A run of a program, `panel/run`, or the drawing of a panel, `panel`. Paths are relative to the project, hashes
-    are sha256."""
-
-    tool: str  # program, or script
-    options: Options  # of the program; of a drawing, the hash of the panel's configuration
-    outputs: dict[str, str]  # path: hash
-    configuration: dict[str, str]  # path: hash of the files that asked for it
-    commit: str | None  # of the repository when the job was done
-    dirty: bool | None  # whether tracked files differed from it
-    machine: str
-    exit: int
-    pipeline: dict[str, str]  # path: hash of the files that ran it
-    build_id: str | None = None  # of the program
-    executable: str | None = None  # hash of the program's file
-    inputs: dict[str, str] = field(
-        default_factory=dict
-    )  # of a drawing: path: hash of sources, packages, data
-    python: str | None = None  # version that drew
-
-    @property
-    def is_drawing(self) -> bool:
-        return self.build_id is None
-
-    @property
-    def build(self) -> str:
-        """Build id of the program; empty for a drawing, which no build has."""
-        return self.build_id or ""
-
-    @property
-    def sources(self) -> dict[str, str]:
-        """Of a drawing: script, modules that it imports, locked packages."""
-        return {path: digest for path, digest in self.inputs.items() if path not in self.data}
-
-    @property
-    def data(self) -> dict[str, str]:
-        return {path: digest for path, digest in self.inputs.items() if path.startswith("data/")}
-
-
 @dataclass
 class Lock:
     quality: str
@@ -90,8 +50,29 @@ class Lock:
 
     @classmethod
     def read(cls, quality: str) -> "Lock":
-        """Raises LockError."""
-        path = cls.path(quality)
+        """With the records that are not collected. Raises LockError."""
+        waiting = [record for path in records(quality) if (record := cls._record(path, quality))]
+        lock = (
+            cls(quality)
+            if waiting and not cls.path(quality).exists()
+            else cls._of(cls.path(quality), quality)
+        )
+        for record in waiting:
+            lock.jobs |= record.jobs
+            lock.builds |= record.builds
+        return lock
+
+    @classmethod
+    def _record(cls, path: Path, quality: str) -> "Lock | None":
+        """None if it is damaged, or of another job: then nothing is known of the job, which runs again."""
+        try:
+            record = cls._of(path, quality)
+        except LockError:
+            return None
+        return record if [record_path(quality, name) for name in record.jobs] == [path] else None
+
+    @classmethod
+    def _of(cls, path: Path, quality: str) -> "Lock":
         name = path.relative_to(repository.ROOT)
         if not path.is_file():
             raise LockError(f"{name} is missing")
@@ -117,16 +98,15 @@ class Lock:
             raise LockError(f"{name} is damaged or edited: its checksum does not fit")
         return lock
 
-    def write(self) -> None:
-        """Builds that no run names are left out. Raises LockError where read() would."""
-        path = self.path(self.quality)
+    def write(self, path: Path | None = None) -> None:
+        """Builds that no run names are left out. Raises LockError where read() would. path: of a record."""
+        path = path or self.path(self.quality)
         named = builds_of(self.jobs.values())
         try:
             self.check()
         except TypeError as error:
-            raise LockError(
-                f"data/{self.quality}/lock.json is kept as it was, as it cannot hold {error}"
-            ) from error
+            name = path.relative_to(repository.ROOT)
+            raise LockError(f"{name} is kept as it was, as it cannot hold {error}") from error
         content = FORMAT | {"quality": self.quality}
         content["builds"] = {name: build for name, build in sorted(self.builds.items()) if name in named}
         content["jobs"] = {name: asdict(job) for name, job in sorted(self.jobs.items())}
@@ -177,26 +157,40 @@ def pipeline_files() -> list[str]:
     return [str(path.relative_to(repository.ROOT)) for path in paths if path.is_file()]
 
 
+def record_path(quality: str, name: str) -> Path:
+    return repository.ROOT / f"build/records/{quality}/{name}.json"
+
+
+def records(quality: str) -> list[Path]:
+    """Files that jobs have left and nobody has collected."""
+    return sorted(path for path in record_path(quality, "any").parent.rglob("*.json") if path.is_file())
+
+
 @contextlib.contextmanager
 def changing(quality: str) -> Iterator[Lock]:
-    """The lock, or an empty one if there is none; written at the end. One at a time. Raises LockError if it is
-    damaged."""
-    folder = Lock.path(quality).parent
-    folder.mkdir(parents=True, exist_ok=True)
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX)
-        lock = Lock.read(quality) if Lock.path(quality).exists() else Lock(quality)
-        yield lock
-        lock.write()
-    finally:
-        os.close(descriptor)
+    """The lock with the records, or an empty one if there is none; written at the end, when the records go. For the one
+    process that starts jobs (workflow/execution/alone.py). Raises LockError if it is damaged."""
+    collected = records(quality)
+    Lock.path(quality).parent.mkdir(parents=True, exist_ok=True)
+    lock = Lock.read(quality) if collected or Lock.path(quality).exists() else Lock(quality)
+    yield lock
+    lock.write()
+    for path in collected:
+        path.unlink()
+
+
+def collect() -> None:
+    """The records of every quality. Raises LockError."""
+    for folder in sorted((repository.ROOT / "build/records").glob("*/")):
+        if records(folder.name):
+            with changing(folder.name):
+                pass
 
 
 def record(
     quality: str, name: str, outputs: list[str], made_by: dict[str, Any], build: dict[str, Any] | None = None
 ) -> None:
-    """Enters a job that has just written its outputs."""
+    """Leaves the record of a job that has just written its outputs."""
     hashes = repository.FileHashes()
     try:
         written, asked = hashes.of(outputs), hashes.of(configuration_files(quality))
@@ -205,7 +199,6 @@ def record(
         raise LockError(str(error)) from error
     state = repository.state() | {"machine": repository.machine()}
     job = Job(**made_by, outputs=written, configuration=asked, pipeline=pipeline, **state)
-    with changing(quality) as lock:
-        lock.jobs[name] = job
-        if build:
-            lock.builds[build["build_id"]] = build
+    path = record_path(quality, name)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    Lock(quality, {name: job}, {job.build: build} if build else {}).write(path)

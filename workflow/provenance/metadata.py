@@ -9,7 +9,8 @@ from workflow.lib.load import NOT_REACHED, load
 from workflow.lib.options import terms
 from workflow.lib.parents import PACKAGES, ArtefactError, Parents
 from workflow.provenance.execute import UNCONVERGED
-from workflow.provenance.lock import Job, Lock
+from workflow.provenance.job import Job
+from workflow.provenance.lock import Lock
 from workflow.provenance.repository import ROOT
 
 BUILT = ("program", "source_hash", "compiler", "flags", "libraries")

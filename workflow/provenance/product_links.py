@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from workflow.lib.plan import data_of, is_quality
 from workflow.provenance import report_links
 from workflow.provenance.chain import Chain
+from workflow.provenance.job import Job
 from workflow.provenance.links import Link, unchecked
-from workflow.provenance.lock import Job
 from workflow.provenance.metadata import drawing_fault, run_fault
 from workflow.provenance.repository import ROOT
 

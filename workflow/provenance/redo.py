@@ -14,8 +14,8 @@ from workflow.lib.load import Quantity, load
 from workflow.lib.options import arguments
 from workflow.lib.parents import PACKAGES, file_hash
 from workflow.provenance.execute import ENVIRONMENT, LAUNCH, UNCONVERGED, script_command
+from workflow.provenance.job import Job
 from workflow.provenance.likeness import alike
-from workflow.provenance.lock import Job
 from workflow.provenance.repository import ROOT, machine
 
 MANY = 1000  # replicas

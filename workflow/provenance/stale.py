@@ -5,6 +5,7 @@ Run by Snakemake itself when it starts (Snakefile).
 
 import contextlib
 import glob
+import shutil
 from collections.abc import Iterable, Iterator
 
 from workflow.lib.places import move, require_place
@@ -37,6 +38,7 @@ def places(chain: Chain, jobs: Iterable[str]) -> Iterator[str]:
     for job in jobs:
         name = f"{chain.quality}/{job}"
         yield from (f"build/logs/{name}.log", f"build/benchmarks/{name}.tsv")
+        yield from (f"build/records/{name}.{kind}" for kind in ("json", "tmp"))
         if chain.planned(job):
             yield from (f"build/costs/{name}.json", f"build/partial/{name}.h5")
         for path in chain.outputs(job):
@@ -44,9 +46,10 @@ def places(chain: Chain, jobs: Iterable[str]) -> Iterator[str]:
 
 
 def forget_partial(quality: str, job: str) -> None:
-    """Removes partial results and checkpoints of a run."""
-    for path in (ROOT / "build/partial" / quality).glob(f"{glob.escape(job)}-*"):
-        path.unlink()
+    """Removes partial results, checkpoints and parts of a run."""
+    for place in ("partial", "parts"):
+        for path in (ROOT / "build" / place / quality).glob(f"{glob.escape(job)}-*"):
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
 
 
 def set_damaged_lock_aside(quality: str) -> str | None:

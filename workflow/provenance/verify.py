@@ -19,7 +19,8 @@ from workflow.lib.load import FormatError
 from workflow.lib.plan import load_plan, outputs_of, panel_named
 from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance.fresh_build import BuildError, FreshBuild
-from workflow.provenance.lock import Job, Lock, LockError
+from workflow.provenance.job import Job
+from workflow.provenance.lock import Lock, LockError
 from workflow.provenance.printable import printable
 from workflow.provenance.redo import RedoError, agreement, redrawn, same_bytes, simulate, workplace
 from workflow.provenance.repository import ROOT, machine, write_whole

@@ -1,6 +1,7 @@
 """Inputs of the rules. What is stale is found where a job enters the DAG, and moved where the run starts."""
 
 STALE = {}  # job: reason
+BATCHES = divide(PANELS, 60 * REQUEST.batch or math.inf, read_timings())
 
 
 def say(text):
@@ -26,6 +27,30 @@ def run_of(wildcards):
 def build_id_of_run(wildcards):
     force_if_stale(f"{wildcards.panel}/{wildcards.run}")
     return f"build/id/{run_of(wildcards).program}.json"
+
+
+def threads_of_run(wildcards):
+    return 1 if REQUEST.batch else max(1, workflow.cores // len(PANELS[wildcards.panel].runs))
+
+
+def at_once():
+    """Cores on this machine, jobs on a cluster."""
+    return workflow.resource_settings.nodes if REQUEST.batch else workflow.cores
+
+
+def group_of_run(wildcards):
+    """On a cluster short runs share a job."""
+    return BATCHES.groups.get(f"{wildcards.panel}/{wildcards.run}") if REQUEST.batch else None
+
+
+def minutes_of_run(wildcards, attempt):
+    """Twice what is foretold, as machines and timings differ; what is lost with a job that takes longer is not much."""
+    return attempt * math.ceil(2 * BATCHES.seconds[f"{wildcards.panel}/{wildcards.run}"] / 60)
+
+
+def memory(wildcards, attempt):
+    """MB. What the largest chains take, and then more."""
+    return 1000 * 2 ** (attempt - 1)
 
 
 def data_of_panel(wildcards):
@@ -60,4 +85,4 @@ onstart:
             say(f"{reason}: moved to {REPLACED}, and all is made again")
         for handler in workflow.logger_manager.get_log_handlers():
             if isinstance(handler, LogHandler):
-                or_leave(handler.begin, QUALITY, PANELS, STALE, workflow.cores)
+                or_leave(handler.begin, QUALITY, PANELS, STALE, at_once())

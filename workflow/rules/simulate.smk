@@ -14,9 +14,15 @@ rule simulate:
         "build/logs/{quality}/{panel}/{run}.log",
     benchmark:
         "build/benchmarks/{quality}/{panel}/{run}.tsv"
+    group:
+        group_of_run
     conda:
         "../environment/conda.yaml"
-    threads: lambda wildcards: max(1, workflow.cores // len(PANELS[wildcards.panel].runs))
+    threads: threads_of_run
+    resources:
+        runtime=minutes_of_run,
+        mem_mb=memory,
+        slots=1,  # of which a job on a cluster has one, so that runs that share it follow each other
     params:
         program=lambda wildcards: run_of(wildcards).program,
         options=lambda wildcards: json.dumps(run_of(wildcards).options),

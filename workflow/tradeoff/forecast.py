@@ -19,11 +19,15 @@ from rich.table import Table
 from workflow.lib.costs import cheapest, expected_cost
 from workflow.lib.plan import Panel, Run, load_plan, panel_named, with_used
 from workflow.lib.strict_yaml import ConfigurationError
+from workflow.tradeoff.batches import Batches, divide
+from workflow.tradeoff.batches import wall as wall_of_jobs
 from workflow.tradeoff.timings import Timings, UnknownCostError, read_timings, reference_seconds
 
 WIDE = 100  # columns, where nobody reads them on a screen
 SPREAD = 1.5  # factor by which a series is off at most at other sizes, replicas and windows than were timed
 DRAWING = 3.6  # CPU seconds of a drawing on the machine of the table, the start of its Python included
+
+CLUSTERS = (1, 100, 1000, 10000)  # cores
 
 Range = tuple[float, float]  # the least and the most
 
@@ -116,21 +120,39 @@ def show(quality: str, plan: dict[str, Panel], panels: Sequence[Panel], forecast
     return result
 
 
+def show_cluster(batches: Batches) -> Table:
+    """On cores like that of the shipped timings."""
+    jobs = batches.jobs()
+    title = (
+        f"On a cluster: {len(jobs)} jobs, CPU time {duration(sum(jobs))}, the longest {duration(max(jobs))}"
+    )
+    result = Table("cores", "wall time", "efficiency", title=title)
+    for cores in CLUSTERS:
+        seconds = wall_of_jobs(jobs, cores)
+        result.add_row(str(cores), duration(seconds), f"{sum(jobs) / (cores * seconds):.0%}")
+    return result
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--programs", type=Path, required=True, help="folder of the executables")
     parser.add_argument("--quality", required=True)
     parser.add_argument("--panel", help="only this one and those whose runs it shows")
+    parser.add_argument("--batch", type=float, help="minutes that a job of a cluster is to take")
     options = parser.parse_args()
     try:
         plan = load_plan(options.quality)
         asked = panel_named(plan, options.panel).name if options.panel else None
         panels = with_used(plan, asked) if asked else list(plan.values())
-        table = show(options.quality, plan, panels, forecast_of(options.quality, options.programs))
+        forecast = forecast_of(options.quality, options.programs)
+        tables = [show(options.quality, plan, panels, forecast)]
+        if options.batch:
+            asked_for = {panel.name: panel for panel in panels}
+            tables.append(show_cluster(divide(asked_for, 60 * options.batch, forecast.timings)))
     except (ConfigurationError, UnknownCostError) as error:
         print(f"make cost: {error}", file=sys.stderr)
         sys.exit(2)
-    Console(width=None if sys.stdout.isatty() else WIDE).print(table)
+    Console(width=None if sys.stdout.isatty() else WIDE).print(*tables)
     print("A range holds what machines and timings leave open; other work on this machine comes on top.")
 
 

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "program/errors.hpp"
+#include "program/hdf5_file.hpp"
 #include "support/refusal.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -29,6 +30,7 @@ const std::string identity = "sigma = 0.5\nbuild_id = abc\n";
 /// A number and a pair, as in some_replicas().
 const std::vector<Description> tallies{{"a", "1", "A number"},
                                        {"b", "momentum", "A pair", {{"i", "1", "", {0, 1}}}}};
+const RecordFile format{identity, tallies};
 
 FinishedReplicas some_replicas() {
   return {{0, {{0.1, -0.0, 5e-324}, 3}}, {1, {{1e308, 2, 3}, 0}}, {1ULL << 40, {{-1, 1.0 / 3, 7}, ~0ULL}}};
@@ -44,7 +46,7 @@ FinishedReplicas load(const Checkpoint& checkpoint) {
 
 TEST(Checkpoint, GivesBackWhatWasSaved) {
   const TemporaryFolder folder;
-  const Checkpoint checkpoint(folder / "a.h5", identity, tallies);
+  const Checkpoint checkpoint(folder / "a.h5", format);
   EXPECT_EQ(checkpoint.path(), folder / "a.h5.checkpoint");
   checkpoint.save({{5, {{1.0, 2.0, 3.0}, 1}}});
   checkpoint.save(some_replicas());  // replaces the first
@@ -61,7 +63,7 @@ TEST(Checkpoint, GivesBackWhatWasSaved) {
 
 TEST(Checkpoint, IsEmptyWithoutAFile) {
   const TemporaryFolder folder;
-  const Checkpoint checkpoint(folder / "a.h5", identity, tallies);
+  const Checkpoint checkpoint(folder / "a.h5", format);
   EXPECT_TRUE(load(checkpoint).empty());
   checkpoint.save({});  // no finished replica, no file
   EXPECT_TRUE(folder.names().empty());
@@ -70,7 +72,7 @@ TEST(Checkpoint, IsEmptyWithoutAFile) {
 
 TEST(Checkpoint, IsRemoved) {
   const TemporaryFolder folder;
-  const Checkpoint checkpoint(folder / "a.h5", identity, tallies);
+  const Checkpoint checkpoint(folder / "a.h5", format);
   checkpoint.save(some_replicas());
   EXPECT_FALSE(folder.names().empty());
   checkpoint.remove();
@@ -79,7 +81,7 @@ TEST(Checkpoint, IsRemoved) {
 
 TEST(Checkpoint, SaysWhatItsTalliesAre) {
   const TemporaryFolder folder;
-  const Checkpoint checkpoint(folder / "a.h5", identity, tallies);
+  const Checkpoint checkpoint(folder / "a.h5", format);
   checkpoint.save(some_replicas());
   const Hdf5Reader file(checkpoint.path());
   EXPECT_EQ(file.text_attribute("/tallies/b", "units"), "momentum");
@@ -88,10 +90,10 @@ TEST(Checkpoint, SaysWhatItsTalliesAre) {
 
 TEST(Checkpoint, OfAnotherIdentityIsRefused) {
   const TemporaryFolder folder;
-  Checkpoint(folder / "a.h5", identity, tallies).save(some_replicas());
+  Checkpoint(folder / "a.h5", format).save(some_replicas());
   for (const std::string& other : {std::string("sigma = 0.4\nbuild_id = abc\n"), identity + " ",
                                    identity.substr(0, identity.size() - 1), std::string()}) {
-    const std::string message = support::refusal([&] { load({folder / "a.h5", other, tallies}); });
+    const std::string message = support::refusal([&] { load({folder / "a.h5", {other, tallies}}); });
     EXPECT_NE(message.find(folder / "a.h5.checkpoint"), std::string::npos) << other;
     EXPECT_NE(message.find("Remove it"), std::string::npos) << message;
   }
@@ -99,14 +101,14 @@ TEST(Checkpoint, OfAnotherIdentityIsRefused) {
 
 TEST(Checkpoint, WithArraysOfOtherSizesIsRefused) {
   const TemporaryFolder folder;
-  Checkpoint(folder / "a.h5", identity, {tallies[0], {"b", "1", "A number"}}).save({{0, {{1.0, 2.0}, 3}}});
-  const std::string reason = support::refusal([&] { load(Checkpoint(folder / "a.h5", identity, tallies)); });
+  Checkpoint(folder / "a.h5", {identity, {tallies[0], {"b", "1", "A number"}}}).save({{0, {{1.0, 2.0}, 3}}});
+  const std::string reason = support::refusal([&] { load(Checkpoint(folder / "a.h5", format)); });
   EXPECT_NE(reason.find("other sizes"), std::string::npos);
 }
 
 TEST(Checkpoint, EveryFlippedBitIsFound) {
   const TemporaryFolder folder;
-  const Checkpoint checkpoint(folder / "a.h5", identity, tallies);
+  const Checkpoint checkpoint(folder / "a.h5", format);
   checkpoint.save(some_replicas());
   std::string content = content_of(checkpoint.path());
   for (std::size_t byte = 0; byte < content.size(); ++byte) {
@@ -124,7 +126,7 @@ TEST(Checkpoint, EveryFlippedBitIsFound) {
 
 TEST(Checkpoint, TruncatedAndForeignFilesArePassedOver) {
   const TemporaryFolder folder;
-  const Checkpoint checkpoint(folder / "a.h5", identity, tallies);
+  const Checkpoint checkpoint(folder / "a.h5", format);
   checkpoint.save(some_replicas());
   const std::string whole = content_of(checkpoint.path());
   for (std::size_t size = 0; size < whole.size(); size += size < 64 ? 1 : 97) {
@@ -145,7 +147,7 @@ TEST(Checkpoint, TruncatedAndForeignFilesArePassedOver) {
 /// A folder with two generations, of one replica and of three.
 struct TwoGenerations : testing::Test {
   TemporaryFolder folder;
-  Checkpoint checkpoint{folder / "a.h5", identity, tallies};
+  Checkpoint checkpoint{folder / "a.h5", format};
   std::string newest = checkpoint.path(), former = newest + ".old";
 
   TwoGenerations() {
@@ -180,7 +182,7 @@ TEST_F(TwoGenerations, BothDamagedAreABeginning) {
 }
 
 TEST_F(TwoGenerations, TheFormerOfAnotherRunIsNotResumed) {
-  const Checkpoint other(folder / "a.h5", "sigma = 0.4\n", tallies);
+  const Checkpoint other(folder / "a.h5", {"sigma = 0.4\n", tallies});
   other.save({{7, {{1.0, 2.0, 3.0}, 1}}});
   damage(newest);
   EXPECT_TRUE(load(other).empty());

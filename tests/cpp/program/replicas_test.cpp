@@ -19,9 +19,10 @@ using namespace lorentz;
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-ReplicaRun run_of(std::uint64_t wanted, unsigned threads) {
+ReplicaRun run_of(std::uint64_t end, unsigned threads) {
   return {1,
-          wanted,
+          0,
+          end,
           threads,
           Clock::time_point::max(),
           [](double, const FinishedReplicas&) {},

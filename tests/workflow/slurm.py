@@ -1,0 +1,163 @@
+"""A Slurm of one node that listens on loopback only, for tests. It has to be started by root."""
+
+import contextlib
+import os
+import secrets
+import shutil
+import signal
+import socket
+import subprocess
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+CONFIGURATION = """ClusterName=test
+SlurmctldHost=localhost(127.0.0.1)
+SlurmctldPort={controller}
+SlurmdPort={node}
+SlurmUser=root
+SlurmdUser=root
+AuthType=auth/munge
+AuthInfo=socket={folder}/munge/socket
+CommunicationParameters=NoCtldInAddrAny,NoInAddrAny
+StateSaveLocation={folder}/state
+SlurmdSpoolDir={folder}/spool
+SlurmctldPidFile={folder}/slurmctld.pid
+SlurmdPidFile={folder}/slurmd.pid
+SlurmctldLogFile={folder}/slurmctld.log
+SlurmdLogFile={folder}/slurmd.log
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_Core_Memory
+SchedulerParameters=batch_sched_delay=0,sched_interval=2,bf_interval=2
+MpiDefault=none
+ReturnToService=2
+KillWait=10
+JobAcctGatherType=jobacct_gather/linux
+AccountingStorageType=accounting_storage/none
+MinJobAge=300
+NodeName=localhost NodeAddr=127.0.0.1 CPUs={cpus} RealMemory=8000 State=UNKNOWN
+PartitionName=test Nodes=ALL Default=YES MaxTime=INFINITE State=UP
+"""
+
+
+def available() -> bool:
+    programs = ("slurmctld", "slurmd", "munged", "sbatch", "scontrol")
+    return (
+        os.geteuid() == 0
+        and not os.path.lexists(PLACE)
+        and all(shutil.which(program, path=PATH) for program in programs)
+    )
+
+
+PLACE = Path("/etc/slurm/slurm.conf")
+PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
+
+
+class Cluster:
+    def __init__(self, folder: Path, cpus: int) -> None:
+        self.folder = folder
+        self.environment = {"PATH": PATH}
+        self._daemons: dict[str, subprocess.Popen] = {}
+        for name in ("state", "spool", "munge"):
+            (folder / name).mkdir()
+        ports = dict(zip(("controller", "node"), _free_ports(2), strict=True))
+        text = CONFIGURATION.format(folder=folder, cpus=cpus, **ports)
+        (folder / "slurm.conf").write_text(text)
+
+    def start(self) -> None:
+        self._install()
+        munge = self.folder / "munge"
+        (munge / "key").write_bytes(secrets.token_bytes(1024))
+        for path, mode in ((munge / "key", 0o400), (munge, 0o755)):
+            path.chmod(mode)
+            shutil.chown(path, "munge", "munge")
+        files = {
+            "key-file": "key",
+            "socket": "socket",
+            "pid-file": "pid",
+            "log-file": "log",
+            "seed-file": "seed",
+        }
+        self._run("munged", "--foreground", "--force", *(f"--{key}={munge / name}" for key, name in files.items()),
+                  user="munge")  # fmt: skip
+        _wait_until((munge / "socket").exists)
+        self.start_controller()
+        self._run("slurmd", "-D", "-N", "localhost")
+        _wait_until(lambda: "idle" in self.say("sinfo", "--noheader", "--format=%t"))
+
+    def start_controller(self) -> None:
+        self._run("slurmctld", "-D")
+
+    def stop_controller(self) -> None:
+        self._end("slurmctld")
+
+    def _install(self) -> None:
+        """Where Slurm's commands look for it, as the executor hands no variable to those that it starts in a job."""
+        PLACE.parent.mkdir(exist_ok=True)
+        PLACE.symlink_to(self.folder / "slurm.conf")
+
+    def stop(self) -> None:
+        PLACE.unlink(missing_ok=True)
+        with contextlib.suppress(subprocess.SubprocessError):
+            self.say("scancel", "--user=root")
+        for name in [*self._daemons][::-1]:
+            self._end(name)
+
+    def say(self, *command: str) -> str:
+        """What one of Slurm's commands prints; empty if it fails, as while the controller is away."""
+        done = subprocess.run(
+            command, env=self.environment, capture_output=True, text=True, timeout=60, check=False
+        )
+        return done.stdout if done.returncode == 0 else ""
+
+    def jobs(self) -> list[str]:
+        """Numbers of the jobs that run."""
+        return self.say("squeue", "--noheader", "--states=RUNNING", "--format=%i").split()
+
+    def _run(self, name: str, *arguments: str, user: str | None = None) -> None:
+        with (self.folder / f"{name}.out").open("a") as log:
+            self._daemons[name] = subprocess.Popen(
+                [name, *arguments], env=self.environment, user=user, group=user, stdout=log, stderr=log, start_new_session=True
+            )  # fmt: skip
+
+    def _end(self, name: str) -> None:
+        daemon = self._daemons.pop(name)
+        daemon.send_signal(signal.SIGTERM)
+        try:
+            daemon.wait(20)
+        except subprocess.TimeoutExpired:
+            daemon.kill()
+            daemon.wait()
+
+
+@contextlib.contextmanager
+def cluster(cpus: int = 2) -> Iterator[Cluster]:
+    """Below /tmp, as the path of a socket must be short and its folder open to another user."""
+    folder = Path(tempfile.mkdtemp(prefix="slurm."))
+    folder.chmod(0o755)
+    one = Cluster(folder, cpus)
+    try:
+        one.start()
+        yield one
+    finally:
+        one.stop()
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def _free_ports(number: int) -> list[int]:
+    sockets = [socket.create_server(("127.0.0.1", 0)) for _ in range(number)]
+    ports = [one.getsockname()[1] for one in sockets]
+    for one in sockets:
+        one.close()
+    return ports
+
+
+def _wait_until(holds: Callable[[], bool], seconds: float = 60) -> None:
+    end = time.monotonic() + seconds
+    while not holds():
+        if time.monotonic() > end:
+            raise TimeoutError("Slurm did not start")
+        time.sleep(0.2)
