@@ -1,8 +1,9 @@
 # Front door. `make help` lists what it can do.
 #
 # Every recipe runs in an environment of its own: .SHELLFLAGS below starts it with nothing but what is
-# named there, so no variable of the caller's shell changes a result. Options are arguments of make; they are
-# checked before anything else happens, and are text, in which neither make nor the shell expands anything.
+# named there, so no variable of the caller's shell changes a result. Options are arguments of make. Their values are
+# checked before anything else happens, and are text, in which neither make nor the shell expands anything; only what make
+# itself executes before it reads a Makefile (PANEL!=..., a variable's name that expands, --eval) is beyond any Makefile.
 
 $(if $(wildcard workflow/environment/arguments.py),,$(error run make in the project's folder, or make -C FOLDER))
 override GIVEN := $(foreach name,$(.VARIABLES),$(if $(filter command,$(origin $(name))),$(name)))
@@ -55,6 +56,9 @@ $(if $(findstring e,$(FLAGS)),$(error make -e is not admitted: variables of the 
 $(if $(findstring i,$(FLAGS)),$(error make -i is not admitted: it would hide failures))
 $(if $(findstring t,$(FLAGS))$(findstring q,$(FLAGS)),$(error make -t and -q are not admitted: they would do nothing, without a word))
 $(if $(findstring --eval,$(MAKEFLAGS))$(MAKEFILES),$(error make --eval and MAKEFILES are not admitted: they would change results))
+# Of -o and -W, with which a goal would be left out, make tells a Makefile nothing; the system does.
+override WORDS := $(shell tr '\0' '\n' </proc/$$PPID/cmdline 2>/dev/null | grep -Em1 '^(-[BbdeiknpqrRsStvw]*[oW]|--(old|new|assume|what))' || true)
+$(if $(WORDS),$(error make -o and -W are not admitted: they would leave out what is to be done, without a word))
 override CHECK := python3 -I workflow/environment/arguments.py $(foreach goal,$(MAKECMDGOALS),$(call quote,$(goal))) \
   $(foreach name,$(GIVEN),$(call quote,$(name)=$(value $(name))))
 override FAULT := $(if $(GIVEN),$(shell $(CHECK)))

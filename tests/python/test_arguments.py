@@ -64,6 +64,11 @@ def test_refused(argument: str, words: str) -> None:
         (["he\nlp", "QUALITY=smoke"], "no argument may hold a line break"),
         (["--touch", "help"], "make -t and -q are not admitted"),
         (["-sq", "help"], "make -t and -q are not admitted"),
+        (["-o", "help", "help"], "make -o and -W are not admitted"),
+        (["-sW", "help", "help"], "make -o and -W are not admitted"),
+        (["--old-file=help", "help"], "make -o and -W are not admitted"),
+        (["help", "PROFILE=slrum"], "there is no profiles/slrum/config.yaml"),
+        (["figures", "PROFILE=default"], "there is no profiles/default/config.yaml for a cluster"),
     ],
 )
 def test_refused_by_make_itself(arguments: list[str], words: str) -> None:

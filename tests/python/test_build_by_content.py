@@ -94,6 +94,13 @@ def test_what_is_no_file_is_named(root: Path, file: str, make: Callable[[Path], 
     assert (root / "build/bin/fake").exists()
 
 
+@pytest.mark.parametrize("text", ["{", "[]", "5", "[" * 100_000 + "]" * 100_000], ids=len)
+def test_a_damaged_identity_is_written_again(root: Path, text: str) -> None:
+    (root / "build/id/fake.json").write_text(text)
+    build_by_content.main()
+    assert not (root / "build/id/fake.json").exists()
+
+
 @pytest.mark.parametrize("file", ["build/bin/fake", "build/id/fake.sha256"])
 def test_an_executable_that_is_not_as_linked_leaves(root: Path, file: str) -> None:
     build_by_content.main()

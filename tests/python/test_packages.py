@@ -89,6 +89,13 @@ def test_a_file_that_cannot_be_read_is_not_what_was_installed(
     assert packages.digest(installed / MODULE) == "cannot be read"
 
 
+@pytest.mark.parametrize("files", ['{"a": 5}', '{"a": []}', "[" * 100_000 + "]" * 100_000, "[]"], ids=len)
+def test_a_damaged_record_is_none(installed: Path, files: str) -> None:
+    packages.RECORD.write_text(f'{{"locks": {{}}, "files": {files}}}')
+    assert packages.record() == {}
+    assert packages.faults() == [".venv/installed.json"]
+
+
 def test_a_file_is_read_again_only_if_it_may_have_changed(
     installed: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

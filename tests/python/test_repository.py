@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from workflow.provenance import repository
-from workflow.provenance.repository import FileHashes, files_at, no_history, state, untracked
+from workflow.provenance.repository import DamagedError, FileHashes, files_at, no_history, state, untracked
 
 TRUE, FALSE = "true\n", "false\n"
 
@@ -51,7 +51,51 @@ def test_an_object_that_is_not_what_its_name_says_is_none(root: Path) -> None:
     place = root / ".git/objects" / name[:2] / name[2:]
     place.chmod(0o644)
     place.write_bytes(zlib.compress(f"blob {len(FALSE)}\0{FALSE}".encode()))
-    assert files_at("HEAD", "a") is None
+    with pytest.raises(DamagedError, match=f"git fsck complains: .*{name[2:]}"):
+        files_at("HEAD", "a")
+
+
+def test_only_a_commit_has_files(root: Path) -> None:
+    assert files_at(run(root, "rev-parse", "HEAD^{tree}")) is None
+    assert files_at(run(root, "rev-parse", "HEAD:a")) is None
+    assert files_at("0" * 40) is None
+
+
+@pytest.mark.parametrize("decides", ["workflow/lib/fit.py", "CITATION.cff"])
+def test_what_git_is_told_of_changes_is_not_believed(root: Path, decides: str) -> None:
+    """A monitor that the repository names says that no file has changed; git would run it, and believe it."""
+    (root / decides).parent.mkdir(parents=True, exist_ok=True)
+    (root / decides).write_text("1\n")
+    run(root, "add", "--all")
+    run(root, "commit", "--quiet", "--message", "more")
+    monitor = root / ".git/monitor"
+    monitor.write_text("#!/bin/sh\ntouch .git/ran\nprintf 'tok\\0'\n")
+    monitor.chmod(0o755)
+    run(root, "config", "core.fsmonitor", str(monitor))
+    run(root, "status")
+    run(root, "status")
+    (root / ".git/ran").unlink()
+    assert state()["dirty"] is False
+    (root / decides).write_text("2\n")
+    assert state()["dirty"] is True
+    assert not (root / ".git/ran").exists()
+
+
+def test_an_index_that_lies_does_not_hide_a_change(root: Path) -> None:
+    """By the times that it has of a file git does not read it again."""
+    (root / "CITATION.cff").write_text("1\n")
+    run(root, "add", "--all")
+    run(root, "commit", "--quiet", "--message", "more")
+    run(root, "config", "core.trustctime", "false")
+    run(root, "config", "core.checkStat", "minimal")
+    before = (root / "CITATION.cff").stat()
+    os.utime(root / "CITATION.cff", ns=(0, 0))
+    run(root, "update-index", "--refresh")
+    (root / "CITATION.cff").write_text("2\n")
+    os.utime(root / "CITATION.cff", ns=(0, 0))
+    assert (root / "CITATION.cff").stat().st_size == before.st_size
+    assert run(root, "status", "--porcelain") == ""
+    assert state()["dirty"] is True
 
 
 @pytest.mark.parametrize("mark", ["--assume-unchanged", "--skip-worktree"])

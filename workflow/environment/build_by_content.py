@@ -73,7 +73,7 @@ def found_anew() -> list[str]:
             before = json.loads(identity.read_text())["sources"].keys()
             if (ROOT / "cpp" / source).is_file() and {*closure(ROOT / "cpp", source)} != {*before}:
                 stale.append(f"cpp/{source}")
-        except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
             identity.unlink(missing_ok=True)  # damaged: written again
     return stale
 

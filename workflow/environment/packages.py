@@ -63,8 +63,9 @@ def record() -> dict[str, Any]:
     """Empty if there is none that can be read."""
     try:
         read = json.loads(RECORD.read_text()) if RECORD.is_file() else {}
-        return read if isinstance(read["locks"], dict) and isinstance(read["files"], dict) else {}
-    except (OSError, ValueError, KeyError, TypeError):
+        lists = all(isinstance(one, list) and one for one in read["files"].values())
+        return read if lists and isinstance(read["locks"], dict) else {}
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return {}
 
 

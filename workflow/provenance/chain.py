@@ -110,7 +110,7 @@ class Chain:
             for part in ("compiler", "flags", "libraries", "version"):
                 if old.get(part) != build[part]:
                     return f"{part} of {job.tool} changed: {old.get(part)} to {build[part]}"
-        except (ValueError, KeyError, TypeError):
+        except (ValueError, KeyError, TypeError, RecursionError):
             return f"build/id/{job.tool}.json does not say what was built"
         return f"{job.tool} changed"
 

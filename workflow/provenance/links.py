@@ -17,7 +17,7 @@ from workflow.provenance.build_id import build_id, source_hash
 from workflow.provenance.chain import Chain
 from workflow.provenance.job import Job
 from workflow.provenance.lock import configuration_files
-from workflow.provenance.repository import DECIDING, ROOT, files_at, no_history, untracked
+from workflow.provenance.repository import DECIDING, ROOT, DamagedError, files_at, no_history, untracked
 
 NAMED = 5  # files of packages that are named where many are wrong
 
@@ -115,7 +115,12 @@ def uncommitted(chain: Chain) -> Iterator[Link]:
     """Files that decide and are not those of the commit that is checked out, whether a job names them or not."""
     if no_history():
         return
-    for path, content in (files_at("HEAD", *DECIDING) or {}).items():
+    try:
+        files = files_at("HEAD", *DECIDING) or {}
+    except DamagedError as error:
+        yield Link("the repository", f"is damaged, and the files here cannot be compared with it: {error}")
+        return
+    for path, content in files.items():
         if chain.hashes[path] != hashlib.sha256(content).hexdigest():
             yield unchecked(path, "is not what the commit that is checked out holds")
     for path in untracked():
@@ -161,7 +166,7 @@ def executable_fault(chain: Chain, path: str, identifier: str) -> Link | None:
             return Link(path, f"is not the build {identifier[:12]} that made the data")
         if not stated.is_file() or stated.read_text().split()[:1] != [chain.hashes[path]]:
             return Link(path, "is not what the linker wrote: edited or replaced")
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return Link(path, f"{stem}.json and .sha256 do not say what it was built from")
     return None
 
@@ -185,9 +190,14 @@ def commits(chain: Chain) -> Iterator[Link]:
 
 
 def against_commit(chain: Chain, commit: str, jobs: dict[str, Job]) -> Iterator[Link]:
-    files, place = files_at(commit), f"commit {commit[:12]}"
+    place = f"commit {commit[:12]}"
+    try:
+        files = files_at(commit)
+    except DamagedError as error:
+        yield Link(place, f"cannot be read, as the repository is damaged: {error}")
+        return
     if files is None:
-        yield Link(place, "is not in this repository, and products name it")
+        yield Link(place, "is no commit of this repository, and products name it")
         return
     there = {path: hashlib.sha256(content).hexdigest() for path, content in files.items()}
     for name, job in jobs.items():

@@ -33,7 +33,19 @@ DECIDING = (
 )
 # Nothing that is configured may show git another history than the one whose hashes it names, or other files.
 NOTHING_MORE: Mapping[str, str] = {}  # beside what every call of git is given
-PLAIN = {"GIT_NO_REPLACE_OBJECTS": "1", "GIT_GRAFT_FILE": os.devnull}
+PLAIN = {
+    "GIT_NO_REPLACE_OBJECTS": "1",
+    "GIT_GRAFT_FILE": os.devnull,
+    "GIT_CONFIG_COUNT": "2",  # no command that the repository names is run
+    "GIT_CONFIG_KEY_0": "core.fsmonitor",
+    "GIT_CONFIG_VALUE_0": "false",
+    "GIT_CONFIG_KEY_1": "core.hooksPath",
+    "GIT_CONFIG_VALUE_1": os.devnull,
+}
+
+
+class DamagedError(OSError):
+    """The repository's objects are not what their names say."""
 
 
 class FileHashes(dict[str, str | None]):
@@ -117,8 +129,21 @@ def state() -> dict[str, Any]:
     unseen = any(marked)  # assume-unchanged, skip-worktree
     return {
         "commit": commit.decode().strip(),
-        "dirty": not known or bool(changed) or unseen or bool(untracked()),
+        "dirty": not known or bool(changed) or unseen or bool(untracked()) or deciding_differ(),
     }
+
+
+def deciding_differ() -> bool:
+    """Whether a file that decides differs from the commit, by its content: git's status believes an index of times."""
+    entries = [
+        (entry.split(b" ", 2)[2].split(b"\t", 1))
+        for entry in (git("ls-tree", "-r", "-z", "HEAD", "--", *DECIDING) or b"").split(b"\0")
+        if entry
+    ]
+    paths = [path for _, path in entries]
+    listed = b"".join(path + b"\n" for path in paths)
+    there = git("hash-object", "--no-filters", "--stdin-paths", given=listed)
+    return there is None or there.split() != [name for name, _ in entries]
 
 
 def untracked() -> list[str]:
@@ -139,11 +164,15 @@ def paths_of(listed: bytes | None) -> list[str]:
 
 
 def files_at(commit: str, *folders: str) -> dict[str, bytes] | None:
-    """Contents by path at a commit; nothing if the repository does not have it, or if an object is not what its name
-    says. Read as they are stored, without the filters that a checkout applies; a submodule has none."""
-    listed = git("ls-tree", "-r", "-z", "--full-tree", commit, "--", *folders)
-    if listed is None or git("fsck", "--no-dangling", "--no-progress", commit) is None:
+    """Contents by path at a commit; nothing if the repository does not have it. Read as they are stored, without the filters
+    that a checkout applies; a submodule has none. Raises DamagedError if an object is not what its name says."""
+    if git("cat-file", "-t", commit) != b"commit\n":
         return None
+    checked = run_git("fsck", "--no-dangling", "--no-progress", commit)
+    listed = git("ls-tree", "-r", "-z", "--full-tree", commit, "--", *folders)
+    if listed is None or checked is None or checked.returncode:
+        said = checked.stderr.decode(errors="replace").splitlines() if checked else []
+        raise DamagedError(f"git fsck complains: {(said or ['it does not say of what'])[0]}")
     entries = [
         (*entry.split(b"\t", 1)[0].split(), entry.split(b"\t", 1)[1])
         for entry in listed.split(b"\0")

@@ -25,7 +25,7 @@ from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance.build_id import content_hashes, include_closure, source_hash
 from workflow.provenance.lock import Lock, LockError
 from workflow.provenance.printable import printable
-from workflow.provenance.repository import ROOT, commits, files_at
+from workflow.provenance.repository import ROOT, DamagedError, commits, files_at
 
 SHORT = 16  # digits of a hash that are shown
 FEW = 2  # entries of a list that are shown where not all are asked for
@@ -190,7 +190,11 @@ def search(path: str, read: Callable[[Path], Found | None]) -> tuple[str, Found 
 
 
 def unpack(commit: str, source: str, folder: Path) -> None:
-    for name, text in (files_at(commit, source) or {}).items():
+    try:
+        files = files_at(commit, source) or {}
+    except DamagedError:  # the audit says so
+        return
+    for name, text in files.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_bytes(text)
 
