@@ -171,7 +171,8 @@ def files_at(commit: str, *folders: str) -> dict[str, bytes] | None:
     checked = run_git("fsck", "--no-dangling", "--no-progress", commit)
     listed = git("ls-tree", "-r", "-z", "--full-tree", commit, "--", *folders)
     if listed is None or checked is None or checked.returncode:
-        said = checked.stderr.decode(errors="replace").splitlines() if checked else []
+        lines = checked.stderr.decode(errors="replace").splitlines() if checked else []
+        said = [line for line in lines if not line.startswith("hint:")]
         raise DamagedError(f"git fsck complains: {(said or ['it does not say of what'])[0]}")
     entries = [
         (*entry.split(b"\t", 1)[0].split(), entry.split(b"\t", 1)[1])
