@@ -1,9 +1,14 @@
 """On a cluster of one node: the bytes of a local run, whatever happens to the jobs."""
 
+import contextlib
 import os
 import re
+import signal
 import subprocess
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import TypeVar
 
 import pytest
 
@@ -56,3 +61,58 @@ def test_parts_and_groups_make_the_same_bytes(cluster: slurm.Cluster, clean: Clo
     assert not any(path.is_file() for path in left)
     audited = clean.make("audit", "QUALITY=smoke", "PANEL=fig01")
     assert "Nothing is broken" in audited.stdout, audited.stdout
+
+
+T = TypeVar("T")
+
+
+def processes(clone: Clone, program: str) -> list[int]:
+    """Of a program of this clone."""
+    path = str(clone.folder / "build/bin" / program).encode()
+    found = []
+    for place in Path("/proc").glob("[0-9]*/cmdline"):
+        with contextlib.suppress(OSError):
+            if place.read_bytes().split(b"\0")[0] == path:
+                found.append(int(place.parent.name))
+    return found
+
+
+def wait_for(find: Callable[[], Sequence[T]], other_than: Sequence[T] = ()) -> T:
+    """The first that is found beside those."""
+    end = time.monotonic() + 120
+    while not (new := [one for one in find() if one not in other_than]):
+        assert time.monotonic() < end, "nothing runs"
+        time.sleep(0.2)
+    return new[0]
+
+
+@pytest.mark.long
+def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, clean: Clone) -> None:
+    """By scancel, by kill -9, by its time limit, and while the controller is away."""
+    asked = ("PANEL=fig06", "QUALITY=smoke", "REPLICAS=2000")
+    making = on_cluster(clean, "panel", *asked, "BATCH=0.1")
+    cancelled = wait_for(cluster.jobs)
+    wait_for(lambda: processes(clean, "waiting_time"))
+    cluster.say("scancel", cancelled)
+    killed = wait_for(lambda: processes(clean, "waiting_time"), processes(clean, "waiting_time"))
+    os.kill(killed, signal.SIGKILL)
+    cluster.stop_controller()
+    time.sleep(5)
+    cluster.start_controller()
+    seen = processes(clean, "waiting_time")
+    stopped = wait_for(lambda: processes(clean, "waiting_time"), seen)
+    os.kill(stopped, signal.SIGSTOP)
+    for job in cluster.jobs():
+        cluster.say("scontrol", "update", f"JobId={job}", "TimeLimit=1")
+    said, _ = making.communicate(timeout=600)
+    assert making.returncode == 0, said
+    ended = {
+        line.split()[-1]
+        for line in cluster.say("squeue", "--states=all", "--format=%T", "--noheader").split()
+    }
+    assert {"CANCELLED", "FAILED", "TIMEOUT", "COMPLETED"} <= ended, said
+    results = {path: path.read_bytes() for path in (clean.folder / "data/smoke_replicas=2000/fig06").iterdir()}
+    again = clean.make("panel", *asked, "FRESH=yes")
+    assert again.returncode == 0, again.stdout
+    assert len(results) == 2
+    assert all(path.read_bytes() == content for path, content in results.items())
