@@ -130,7 +130,9 @@ test: build dev  ## All tests; ends with the count
 	ninja -C build --quiet cpp_tests
 	$(PYTHON) tests.run
 
-test-long: build dev  ## The same and tests that take minutes
+test-long: build dev  ## The same and tests that take minutes, on a Slurm of one node too
+	test -x /usr/sbin/slurmctld || { apt-get update --quiet=2 && \
+	  apt-get install --quiet=2 --yes --no-install-recommends slurm-wlm munge; } || echo 'no Slurm: its tests are skipped'
 	ninja -C build --quiet cpp_tests
 	$(PYTHON) tests.run --long
 

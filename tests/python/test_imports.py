@@ -15,7 +15,7 @@ ALLOWED = {
     "figures": {"lib"},
     "tradeoff": {"lib"},
     "provenance": {"lib", "environment"},
-    "execution": {"lib", "provenance", "tradeoff"},
+    "execution": {"lib", "tradeoff"},
     "claims": {"lib", "figures"},
     "report": {"lib", "claims", "provenance"},
     "environment": {"lib"},

@@ -158,13 +158,13 @@ def test_records_are_read_and_collected(root: Path, job: Job) -> None:
     """Also where there is no lock yet, and over what it says."""
     path = leave("fig05/all", job)
     assert Lock.read("smoke").jobs == {"fig05/all": job}
-    collect()
+    collect("smoke")
     assert not path.exists()
     leave("fig05/all", replace(job, machine="another"))
     leave("fig06/all", job)
     expected = {"fig05/all": replace(job, machine="another"), "fig06/all": job}
     assert Lock.read("smoke").jobs == expected
-    collect()
+    collect("smoke")
     assert Lock.read("smoke").jobs == expected
     assert Lock.read("smoke").builds == {KEPT: BUILD}
     assert records("smoke") == []
@@ -194,7 +194,7 @@ def test_a_damaged_lock_keeps_its_records(root: Path, job: Job) -> None:
     Lock.path("smoke").parent.mkdir(parents=True)
     Lock.path("smoke").write_text("{")
     with pytest.raises(LockError):
-        collect()
+        collect("smoke")
     assert path.exists()
     assert stale.set_damaged_lock_aside("smoke")
     assert Lock.read("smoke").jobs == {"fig05/all": job}

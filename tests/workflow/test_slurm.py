@@ -15,10 +15,7 @@ import pytest
 from tests.workflow import slurm
 from tests.workflow.conftest import Clone
 
-pytestmark = [
-    pytest.mark.skipif(not slurm.available(), reason="Slurm is not installed, or runs here already"),
-    pytest.mark.xdist_group("slurm"),  # its configuration has one place
-]
+pytestmark = pytest.mark.skipif(not slurm.available(), reason="Slurm is not installed, or runs here already")
 PATIENCE = {"slurm-init-seconds-before-status-checks": "2", "latency-wait": "10"}  # of a small cluster
 
 
@@ -111,7 +108,9 @@ def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, clean: Clone) -> No
         for line in cluster.say("squeue", "--states=all", "--format=%T", "--noheader").split()
     }
     assert {"CANCELLED", "FAILED", "TIMEOUT", "COMPLETED"} <= ended, said
-    results = {path: path.read_bytes() for path in (clean.folder / "data/smoke_replicas=2000/fig06").iterdir()}
+    results = {
+        path: path.read_bytes() for path in (clean.folder / "data/smoke_replicas=2000/fig06").iterdir()
+    }
     again = clean.make("panel", *asked, "FRESH=yes")
     assert again.returncode == 0, again.stdout
     assert len(results) == 2

@@ -13,7 +13,6 @@ from pathlib import Path
 
 from workflow.execution.stopping import stopping
 from workflow.lib.places import require_place
-from workflow.provenance.lock import LockError, collect
 
 PLACE = Path(".snakemake")
 LOCK = PLACE / "alone.lock"
@@ -40,10 +39,7 @@ def run() -> None:
         except BlockingIOError:
             sys.exit("Another make is running here: wait for its end, or stop it")
         shutil.rmtree(PLACE / "locks", ignore_errors=True)
-        try:
-            snakemake()
-        finally:
-            collect_records()
+        snakemake()
 
 
 def snakemake() -> None:
@@ -59,13 +55,6 @@ def snakemake() -> None:
         main(sys.argv[1:])
     except KeyboardInterrupt:
         sys.exit("Stopped. The same command goes on.")
-
-
-def collect_records() -> None:
-    try:
-        collect()
-    except LockError as error:
-        print(error, file=sys.stderr)
 
 
 def interrupt(*_: object) -> None:

@@ -179,12 +179,11 @@ def changing(quality: str) -> Iterator[Lock]:
         path.unlink()
 
 
-def collect() -> None:
-    """The records of every quality. Raises LockError."""
-    for folder in sorted((repository.ROOT / "build/records").glob("*/")):
-        if records(folder.name):
-            with changing(folder.name):
-                pass
+def collect(quality: str) -> None:
+    """Enters the records into the lock. Raises LockError."""
+    if records(quality):
+        with changing(quality):
+            pass
 
 
 def record(

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from workflow.lib.places import move, require_place
 from workflow.lib.plan import Panel, outputs_of
 from workflow.provenance.chain import Chain
-from workflow.provenance.lock import Lock, LockError, changing
+from workflow.provenance.lock import Lock, LockError, changing, collect
 from workflow.provenance.repository import ROOT
 
 REPLACED = "build/replaced"
@@ -70,6 +70,7 @@ def prepare(chain: Chain, jobs: Iterable[str], fresh: bool) -> str | None:
     A fresh run resumes nothing. Raises OSError before anything is moved if a job could not write."""
     require_places(chain, jobs)
     reason = set_damaged_lock_aside(chain.quality)
+    collect(chain.quality)  # what a run that was killed has left
     for job in jobs:
         replace(chain.outputs(job))
         if fresh:

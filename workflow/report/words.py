@@ -20,6 +20,7 @@ READINGS = {"literal": "in words", "substance": "in substance", "other": "other 
 SMALLEST = -12  # power of ten; p-values below are not told apart
 
 
+BOUND = " ± "
 MINUS = "\N{MINUS SIGN}"
 
 
@@ -33,12 +34,21 @@ def typeset(text: str) -> Markup:
 
 def value(number: Number) -> str:
     """With the standard error in units of the last digit, and the systematic bound apart."""
-    if abs(number.value) < 1e-3 and number.value:
-        power = math.floor(math.log10(max(abs(number.value), number.error)))
-        scale = 10.0**power
-        return f"{value(number.over(scale))}·10^{power}"
-    bound = f" ± {number.systematic:.2g} syst" if number.systematic > 0.05 * number.error else ""
+    size = max(abs(number.value), number.error, number.systematic)
+    if 0 < size < 1e-3:
+        power = math.floor(math.log10(size))
+        scaled = value(number.over(10.0**power))
+        return f"({scaled})·10^{power}" if BOUND in scaled else f"{scaled}·10^{power}"
+    bound = f"{BOUND}{short(number.systematic)} syst" if number.systematic > 0.05 * number.error else ""
     return f"{with_error(number.value, number.error)}{bound}"
+
+
+def short(size: float) -> str:
+    """Two digits, with a power of ten where there would be many zeros."""
+    if not 0 < size < 1e-3:
+        return f"{size:.2g}"
+    power = math.floor(math.log10(size))
+    return f"{size / 10.0**power:.2g}·10^{power}"
 
 
 def told(number: Number) -> str:
@@ -61,7 +71,7 @@ def result(reading: Reading) -> str:
 
 
 def power(reading: Reading) -> str:
-    return f"A deviation of {reading.detectable:.2g} beyond the band would have been seen with {POWER:.0%}"
+    return f"A deviation of {short(reading.detectable)} beyond the band would have been seen with {POWER:.0%}"
 
 
 def remedy(reading: Reading) -> str:

@@ -86,3 +86,13 @@ onstart:
         for handler in workflow.logger_manager.get_log_handlers():
             if isinstance(handler, LogHandler):
                 or_leave(handler.begin, QUALITY, PANELS, STALE, at_once())
+
+
+onsuccess:
+    if workflow.is_main_process:
+        collect(QUALITY)
+
+
+onerror:
+    if workflow.is_main_process:
+        collect(QUALITY)
