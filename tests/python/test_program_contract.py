@@ -18,7 +18,7 @@ PROVENANCE = {
     "streams", "events", "target_quantity", "target_error", "achieved_error", "converged",
 }  # fmt: skip
 NOT_PARAMETERS = {"threads", "progress", "config", "describe", "output", "resume", "checkpoint-interval"}
-NOT_PARAMETERS |= {"time-limit"}
+NOT_PARAMETERS |= {"time-limit", "part", "join"}
 
 
 def test_layout(persistence: Program, tmp_path: Path) -> None:

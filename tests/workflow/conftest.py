@@ -3,7 +3,7 @@ import fcntl
 import os
 import shutil
 import subprocess
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -118,7 +118,8 @@ def clean(tmp_path_factory: pytest.TempPathFactory) -> Clone:
 @pytest.fixture
 def kept(clean: Clone) -> Iterator[Clone]:
     """The clean clone, with sources and products as they were when the test is over."""
-    places = ("data", "figures", "workflow", "cpp", "docs", "README.md", "requirements.lock")
+    places = ("data", "figures", "workflow", "profiles", "cpp", "docs", "README.md", "requirements.lock")
+    folders = folders_below(clean.folder, places)
     before = {file: file.read_bytes() for place in places for file in files_below(clean.folder / place)}
     yield clean
     for file in {file for place in places for file in files_below(clean.folder / place)} - before.keys():
@@ -126,6 +127,12 @@ def kept(clean: Clone) -> Iterator[Clone]:
     for file, content in before.items():
         if not file.exists() or file.read_bytes() != content:
             file.write_bytes(content)
+    for folder in sorted(folders_below(clean.folder, places) - folders, reverse=True):
+        folder.rmdir()
+
+
+def folders_below(root: Path, places: Iterable[str]) -> set[Path]:
+    return {folder for place in places for folder in (root / place).rglob("*") if folder.is_dir()}
 
 
 def files_below(place: Path) -> list[Path]:

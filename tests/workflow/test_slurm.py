@@ -41,22 +41,22 @@ def on_cluster(clone: Clone, *arguments: str) -> subprocess.Popen:
     )
 
 
-def test_parts_and_groups_make_the_same_bytes(cluster: slurm.Cluster, clean: Clone) -> None:
-    products = clean.products()
+def test_parts_and_groups_make_the_same_bytes(cluster: slurm.Cluster, kept: Clone) -> None:
+    products = kept.products()
     for panel in ("fig01", "fig06"):
-        for path in (clean.folder / f"data/smoke/{panel}").iterdir():
+        for path in (kept.folder / f"data/smoke/{panel}").iterdir():
             path.unlink()
     asked = ("QUALITY=smoke", "BATCH=0.01")
     for panel in ("fig01", "fig06"):
-        made = on_cluster(clean, "panel", f"PANEL={panel}", *asked)
+        made = on_cluster(kept, "panel", f"PANEL={panel}", *asked)
         said, _ = made.communicate(timeout=300)
         assert made.returncode == 0, said
-    assert clean.products() == products
-    logs = clean.folder / "build/logs/smoke/fig01"
+    assert kept.products() == products
+    logs = kept.folder / "build/logs/smoke/fig01"
     assert [path.name for path in sorted(logs.glob("paper-*/*.log"))] == ["0-0.log", "1-1.log"]
-    left = [path for place in ("parts", "records") for path in (clean.folder / "build" / place).rglob("*")]
+    left = [path for place in ("parts", "records") for path in (kept.folder / "build" / place).rglob("*")]
     assert not any(path.is_file() for path in left)
-    audited = clean.make("audit", "QUALITY=smoke", "PANEL=fig01")
+    audited = kept.make("audit", "QUALITY=smoke", "PANEL=fig01")
     assert "Nothing is broken" in audited.stdout, audited.stdout
 
 
@@ -84,20 +84,20 @@ def wait_for(find: Callable[[], Sequence[T]], other_than: Sequence[T] = ()) -> T
 
 
 @pytest.mark.long
-def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, clean: Clone) -> None:
+def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, kept: Clone) -> None:
     """By scancel, by kill -9, by its time limit, and while the controller is away."""
     asked = ("PANEL=fig06", "QUALITY=smoke", "REPLICAS=2000")
-    making = on_cluster(clean, "panel", *asked, "BATCH=0.1")
+    making = on_cluster(kept, "panel", *asked, "BATCH=0.1")
     cancelled = wait_for(cluster.jobs)
-    wait_for(lambda: processes(clean, "waiting_time"))
+    wait_for(lambda: processes(kept, "waiting_time"))
     cluster.say("scancel", cancelled)
-    killed = wait_for(lambda: processes(clean, "waiting_time"), processes(clean, "waiting_time"))
+    killed = wait_for(lambda: processes(kept, "waiting_time"), processes(kept, "waiting_time"))
     os.kill(killed, signal.SIGKILL)
     cluster.stop_controller()
     time.sleep(5)
     cluster.start_controller()
-    seen = processes(clean, "waiting_time")
-    stopped = wait_for(lambda: processes(clean, "waiting_time"), seen)
+    seen = processes(kept, "waiting_time")
+    stopped = wait_for(lambda: processes(kept, "waiting_time"), seen)
     os.kill(stopped, signal.SIGSTOP)
     for job in cluster.jobs():
         cluster.say("scontrol", "update", f"JobId={job}", "TimeLimit=1")
@@ -108,10 +108,8 @@ def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, clean: Clone) -> No
         for line in cluster.say("squeue", "--states=all", "--format=%T", "--noheader").split()
     }
     assert {"CANCELLED", "FAILED", "TIMEOUT", "COMPLETED"} <= ended, said
-    results = {
-        path: path.read_bytes() for path in (clean.folder / "data/smoke_replicas=2000/fig06").iterdir()
-    }
-    again = clean.make("panel", *asked, "FRESH=yes")
+    results = {path: path.read_bytes() for path in (kept.folder / "data/smoke_replicas=2000/fig06").iterdir()}
+    again = kept.make("panel", *asked, "FRESH=yes")
     assert again.returncode == 0, again.stdout
     assert len(results) == 2
     assert all(path.read_bytes() == content for path, content in results.items())

@@ -6,7 +6,7 @@ Parts lie under a name that changes with build and options, as checkpoints do, s
 # Runs of a group that have nothing to do with each other are put into one job by `group-components: [batch=…]`.
 workflow.parent_groupids.update({name: "batch" for name in BATCHES.groups.values()})
 NONE = "(?!)"  # matches no name
-SPLIT = "|".join({re.escape(job.partition("/")[2]) for job in BATCHES.parts}) or NONE
+SPLIT = "|".join(sorted({re.escape(job.partition("/")[2]) for job in BATCHES.parts})) or NONE
 
 
 localrules:

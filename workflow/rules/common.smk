@@ -1,7 +1,6 @@
 """Inputs of the rules. What is stale is found where a job enters the DAG, and moved where the run starts."""
 
 STALE = {}  # job: reason
-BATCHES = divide(PANELS, 60 * REQUEST.batch or math.inf, read_timings())
 
 
 def say(text):
@@ -40,12 +39,13 @@ def at_once():
 
 def group_of_run(wildcards):
     """On a cluster short runs share a job."""
-    return BATCHES.groups.get(f"{wildcards.panel}/{wildcards.run}") if REQUEST.batch else None
+    return BATCHES.groups.get(f"{wildcards.panel}/{wildcards.run}") if BATCHES else None
 
 
 def minutes_of_run(wildcards, attempt):
     """Twice what is foretold, as machines and timings differ; what is lost with a job that takes longer is not much."""
-    return attempt * math.ceil(2 * BATCHES.seconds[f"{wildcards.panel}/{wildcards.run}"] / 60)
+    seconds = BATCHES.seconds[f"{wildcards.panel}/{wildcards.run}"] if BATCHES else 0
+    return max(1, attempt * math.ceil(2 * seconds / 60))
 
 
 def memory(wildcards, attempt):
@@ -77,6 +77,10 @@ def or_leave(act, *arguments):
         return act(*arguments)
     except OSError as error:
         sys.exit(in_one_line(error))
+
+
+# On one machine no run is split, and none shares a job.
+BATCHES = divide(PANELS, 60 * REQUEST.batch, or_leave(read_timings)) if REQUEST.batch else None
 
 
 onstart:
