@@ -85,7 +85,7 @@ def wait_for(find: Callable[[], Sequence[T]], other_than: Sequence[T] = ()) -> T
 
 @pytest.mark.long
 def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, kept: Clone) -> None:
-    """By scancel, by kill -9, by its time limit, and while the controller is away."""
+    """By scancel, by kill -9, by its time limit, while the controller is away, and while the node is drained."""
     asked = ("PANEL=fig06", "QUALITY=smoke", "REPLICAS=2000")
     making = on_cluster(kept, "panel", *asked, "BATCH=0.1")
     cancelled = wait_for(cluster.jobs)
@@ -96,6 +96,9 @@ def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, kept: Clone) -> Non
     cluster.stop_controller()
     time.sleep(5)
     cluster.start_controller()
+    cluster.say("scontrol", "update", "NodeName=localhost", "State=DRAIN", "Reason=test")
+    assert "in the queue: " in kept.make("status", "QUALITY=smoke").stdout
+    cluster.say("scontrol", "update", "NodeName=localhost", "State=RESUME")
     seen = processes(kept, "waiting_time")
     stopped = wait_for(lambda: processes(kept, "waiting_time"), seen)
     os.kill(stopped, signal.SIGSTOP)

@@ -1,8 +1,11 @@
-"""Prints for every panel whether it is fresh and if not why, its errors, what it cost and what it would cost."""
+"""Prints for every panel whether it is fresh and if not why, its errors, what it cost and what it would cost; and the jobs of
+this folder in the queue of a cluster, if there is one."""
 
 import argparse
 import math
+import subprocess
 import sys
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
 
@@ -83,12 +86,26 @@ def outdated() -> list[str]:
     return names
 
 
+def queue() -> str:
+    """By state, the jobs of Slurm that were started here: 12 pending, 3 running. Empty without any, and without Slurm."""
+    command = ["squeue", "--me", "--noheader", "--format=%T %Z"]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=20, check=False)
+    except (FileNotFoundError, subprocess.TimeoutExpired):
+        return ""
+    jobs = (line.partition(" ") for line in done.stdout.splitlines())
+    states = Counter(state.lower() for state, _, folder in jobs if folder == str(ROOT))
+    return ", ".join(f"{number} {state}" for state, number in sorted(states.items()))
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--quality", required=True)
     quality = parser.parse_args().quality
     try:
         Console(width=None if sys.stdout.isatty() else WIDE).print(table(quality))
+        if jobs := queue():
+            print(f"Jobs in the queue: {jobs}")
         for path in untracked():
             print(
                 f"{printable(path)}: untracked: no commit has it, and jobs that run now are entered as such of no commit"
