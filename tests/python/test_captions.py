@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.figures.ext02 import glide
+from workflow.figures.ext02 import definitions, glide, local
 from workflow.figures.ext03 import deviation
 from workflow.lib.caption import goodness, listed, number, parameters, replicas
 from workflow.lib.load import Quantity, Result
@@ -88,11 +88,23 @@ def test_p_values_near_zero_are_bounds() -> None:
 
 
 @pytest.mark.parametrize(
-    ("last", "verb"), [(0.5, "rises"), (0.1, "falls"), (0.32, "does not change beyond errors")]
+    ("change", "verb"), [(0.02, "rises"), (-0.02, "falls"), (0.002, "does not change beyond errors")]
 )
-def test_a_change_is_named_beyond_three_errors(last: float, verb: str) -> None:
-    found = pd.DataFrame({"size": [16, 64], "exponent": [0.3, last], "exponent_error": [0.01, 0.01]})
-    assert glide(found).startswith(f"{verb}, from 0.300(10) about N = 16 to ")
+def test_a_change_is_named_beyond_three_errors(change: float, verb: str) -> None:
+    """Errors of 1 %, from which the ends alone would not tell: 0.35(2) and 0.42(2) where it rises."""
+    cells = 16 * 2.0 ** np.arange(8)
+    kappa = np.exp(0.3 * np.log(cells) + change / 2 * np.log(cells) ** 2)
+    part = pd.DataFrame({"cells": cells})
+    for name in ("kappa", "kappa_particle", "kappa_baths"):
+        part[name], part[f"{name}_error"] = kappa, 0.01 * kappa
+    said = glide(part, local(part))
+    assert said.startswith(f"{verb}, from {0.3 + change * np.log(16 * np.sqrt(2)):.3f}(20) about N = 23 to ")
+
+
+def test_what_a_definition_changes_is_told_at_both_ends() -> None:
+    found = pd.DataFrame({"size": [23.0, 90.0], "exponent": [0.3, 0.3]})
+    found["exponent_particle"], found["exponent_baths"] = [0.35, 0.28], [0.2, 0.31]
+    assert definitions(found) == "0.10 about N = 23 and 0.02 about N = 90"
 
 
 def test_a_wrong_exponent_of_correlated_differences_is_told() -> None:

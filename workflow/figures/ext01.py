@@ -94,7 +94,12 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         alphas = [with_error(one.alpha, one.alpha_error) for one in runs.itertuples()]
         said.append(f"{listed(alphas)} at σ = {number(sigma)}")
     (control,) = set(table.kind) - {PAPER}
-    conserved, power = table.momentum_drift.max(), table.logarithmic_power
+    conserved = table.momentum_drift.max()
+    logarithms = table.dropna(subset="logarithmic_power").sort_values("logarithmic_power")
+    least, most = (
+        with_error(one.logarithmic_power, one.logarithmic_power_error)
+        for one in logarithms.iloc[[0, -1]].itertuples()
+    )
     return f"""
         Spreading of a tagged particle in a closed chain, {parameters(used, "cells", "cell-length", "temperature", "gamma")},
         n particles per cell, relaxed for t_r, {replicas(used)}. Above, local slopes of ln ⟨x²⟩ against ln t for the paper's
@@ -102,8 +107,8 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         t = {fitted:g} on. Guides: ballistic and diffusive. {ERRORS}. α with {PAPER}, and with {control}: {"; ".join(said)}. The total momentum of particles
         and scatterers is conserved to {conserved:.0e} of the sum of all momenta; the superdiffusion that the paper reads from
         its ensemble of random total momentum is the drift of it, and is gone where there is none, or where directions are
-        drawn. Without drift, a fit of t times a power of its logarithm gives powers from {number(power.min())} to
-        {number(power.max())}."""
+        drawn. Fits of t times a power of its logarithm to the runs without drift give powers between {least} and {most},
+        where diffusion has none."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

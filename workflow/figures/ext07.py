@@ -4,6 +4,7 @@ Of the quantities that depend on the relaxation time those are drawn whose trend
 """
 
 from collections.abc import Callable, Sequence
+from string import ascii_lowercase
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -12,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.caption import CHAIN, ERRORS, GAS, parameters, replicas
+from workflow.lib.caption import CHAIN, ERRORS, GAS, listed, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import Line, fit_line, with_error
 from workflow.lib.load import Result
@@ -80,6 +81,8 @@ def plot_aged(axes: Axes, table: pd.DataFrame, label: str, expected: float) -> N
 
 
 def caption(longest: Result, trends: dict[str, Line], results: Sequence[Result]) -> str:
+    moving = [name for name, trend in trends.items() if resolved(trend)]
+    shown = [f"({letter}) {name}" for letter, name in zip(ascii_lowercase[2:], moving, strict=False)]
     first, last = (style.with_error(longest["decade_slope"], k) for k in (1, -1))
     said = [
         f"{with_error(trend.slope, trend.error)} of {name}{'' if resolved(trend) else ', which is not resolved'}"
@@ -89,8 +92,7 @@ def caption(longest: Result, trends: dict[str, Line], results: Sequence[Result])
         Ageing of a closed chain, {parameters([longest], *CHAIN, *GAS)}, {replicas(results)}, that starts with scatterers at rest. (a) Mean
         kinetic energy of a scatterer (circles) and of a particle (squares) against the time from the start; (b) slope of the scatterers'
         energy against ln t, decade by decade: {first} in the second and {last} in the last. The paper has a logarithmic growth that
-        saturates; the slope falls, and is not zero at the end. The other panel, where there is one: quantities that move with the
-        relaxation time, with a line fitted in its logarithm (dotted) and the value expected at equilibrium (dashed). Change per unit of
+        saturates; the slope falls, and is not zero at the end. {f"{listed(shown)} against the relaxation time, with a line fitted in its logarithm (dotted) and the value expected at equilibrium (dashed)." if shown else ""} Change per unit of
         the logarithm of the relaxation time: {"; ".join(said)}. {ERRORS}; a trend is resolved beyond {RESOLVED} of them."""
 
 

@@ -25,6 +25,7 @@ LOOKS = {
 }  # by gas
 LEVEL = 0.01  # p-value below which a law is rejected
 CUBE_ROOT = "N^(1/3)"
+ABOVE = 14  # points that the axis of N takes above (b)
 
 
 def gas(result: Result) -> str:
@@ -38,12 +39,16 @@ def spacings(results: Sequence[Result]) -> dict[str, str]:
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per run, sorted by N."""
+    """One row per run, sorted by N. kappa_baths has the temperatures of the baths in place of T_1 and T_N."""
     rows = []
     for result in results:
         row = {"gas": gas(result), "cells": int(result.parameters["cells"])}
         for name in ("kappa", "kappa_particle", "energy_current", "particle_current"):
             row[name], row[f"{name}_error"] = float(result[name].mean), float(result[name].error)
+        low, high = (float(result.parameters[f"temperature-{side}"]) for side in ("left", "right"))
+        per_current = -int(result.parameters["cells"]) / (high - low)
+        row["kappa_baths"] = per_current * float(result["energy_current"].mean)
+        row["kappa_baths_error"] = abs(per_current) * float(result["energy_current"].error)
         row["sound"] = result.converged != NOT_REACHED and result["stationary"].mean == 1
         rows.append(row)
     return pd.DataFrame(rows).sort_values("cells", ignore_index=True)
@@ -101,7 +106,7 @@ def draw_powers(axes: Axes, table: pd.DataFrame, spacing: Mapping[str, str]) -> 
         axes.errorbar(part.cells, part.kappa, part.kappa_error, label=label, **look)
         style.cross_out(axes, part.cells.to_numpy(), part.kappa.to_numpy(), ~part.sound.to_numpy())
     size = np.array([table.cells.min(), table.cells.max()], dtype=float)
-    guide = 0.75 * table.kappa.min() * (size / size[0]) ** (1 / 3)
+    guide = 0.5 * table.kappa.min() * (size / size[0]) ** (1 / 3)
     axes.plot(size, guide, **style.GUIDE)
     axes.text(size[1], 0.86 * guide[1], "$N^{1/3}$", size=8, ha="right", va="top")
     axes.set(xscale="log", yscale="log", xlabel="number of cells $N$")
@@ -124,7 +129,8 @@ def draw_cube_roots(axes: Axes, table: pd.DataFrame) -> None:
     above = axes.secondary_xaxis("top", functions=(lambda x: np.power(x, 3), np.cbrt))
     above.set_xticks([size for size in (64, 256, 512, 1024, 2048, 8192) if size <= table.cells.max()])
     axes.tick_params(axis="x", which="both", top=False)
-    axes.set(xlabel="$N^{1/3}$", ylim=(0, None))
+    axes.set(xlabel="$N^{1/3}$", ylabel=r"conductivity $\kappa$", ylim=(0, None))
+    above.set_xlabel("$N$", labelpad=1)
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
@@ -133,7 +139,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     spacing = spacings(results)
     draw_powers(row[0], table, spacing)
     draw_cube_roots(row[1], table)
-    style.letter(*row)
+    style.letter(*row, lift=ABOVE)
     sentences, tables = [], []
     for name, part in table.groupby("gas", sort=False):
         sentences.append(sentence(spacing[name], part))
@@ -165,4 +171,5 @@ if __name__ == "__main__":
         ),
         "1",
     )
-    run(draw, "Heat conductivity at fixed spacing and at the spacing 1/N", **pure)
+    baths = dict.fromkeys(("kappa_baths", "kappa_baths_error"), "energy/(time temperature)")
+    run(draw, "Heat conductivity at fixed spacing and at the spacing 1/N", **pure, **baths)

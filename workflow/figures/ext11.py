@@ -63,8 +63,8 @@ class Response:
 
 
 def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
-    """L from a run at equal pressure and one at equal temperature. The errors are those of currents that are drawn anew
-    from normal distributions with the runs' covariances."""
+    """L from a run at equal pressure and one at equal temperature, and kappa = -J_u N/(T_R - T_L) of the former. The errors
+    are those of currents that are drawn anew from normal distributions with the runs' covariances."""
     runs = (temperature, pressure)
     inverse = np.linalg.inv(np.stack([run.forces for run in runs], axis=1)) * temperature.cells
     currents = np.stack([run.currents for run in runs], axis=1)
@@ -82,6 +82,9 @@ def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
         return kappa
 
     row["kappa_0"], row["kappa_0_error"] = float(heat(matrix)), float(heat(spread).std())
+    per_current = temperature.cells / (temperature.forces[0] * temperature.temperature**2)
+    row["kappa"] = per_current * temperature.currents[0]
+    row["kappa_error"] = abs(per_current) * np.sqrt(temperature.covariance[0, 0])
     asymmetry = spread[:, 0, 1] - spread[:, 1, 0]
     row["asymmetry"], row["asymmetry_error"] = matrix[0, 1] - matrix[1, 0], asymmetry.std()
     return row
@@ -128,12 +131,14 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     right.set(ylabel=rf"$\kappa_0$ at $J_n = 0$ ({style.UNITS})")
     left.legend(loc="upper left")
     style.letter(left, right)
+    ratio = table.kappa_0 / table.kappa
     pulls = table.asymmetry / table.asymmetry_error
     caption = (
         "Linear response at γ = N about equal baths, from a difference of temperature at equal pressure and a difference "
         "of pressure at equal temperature. (a) Coefficient of the particle current; without friction in the bulk, as momentum is "
         "conserved, it would grow in proportion to N. (b) Heat conductivity without a current of "
-        f"particles, κ_0 = (L_uu - L_un L_nu / L_nn)/T^2. Over all sizes, {'; '.join(said)}. Onsager's symmetry "
+        f"particles, κ_0 = (L_uu - L_un L_nu / L_nn)/T^2, {ratio.min():.1f} to {ratio.max():.1f} times -J_u N/(T_R - T_L) at equal "
+        f"pressure, where particles carry energy against the heat. Over all sizes, {'; '.join(said)}. Onsager's symmetry "
         f"L_un = L_nu: χ² = {np.sum(pulls**2):.1f} for {len(pulls)} pairs. Error bars: standard errors over replicas."
     )
     return figure, table, caption
@@ -141,7 +146,11 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 if __name__ == "__main__":
     units = {"L_uu": "energy^2/time", "L_un": "energy/time", "L_nu": "energy/time", "L_nn": "1/time"}
-    units |= {"kappa_0": "energy/(time temperature)", "asymmetry": "energy/time"}
+    units |= {
+        "kappa": "energy/(time temperature)",
+        "kappa_0": "energy/(time temperature)",
+        "asymmetry": "energy/time",
+    }
     run(
         draw,
         "Linear response of energy and particle currents",

@@ -89,9 +89,9 @@ def caption(tables: Sequence[pd.DataFrame], results: Sequence[Result]) -> str:
     slope = SLOPES[results[0].parameters["gamma"]][0]
     return f"""
         Height of the moving peak of the energy difference after a pulse against time, from the runs of fig. 9;
-        {parameters(results, *CHAIN, "particles-per-cell", "energy", "pulse-energy")} per degree of freedom, {replicas(results)}. Above
-        the top of a smooth peak fitted to the profile above half of its height, from Gaussian momenta (circles) and from
-        scatterers at rest that have relaxed, as in the paper (squares); faint once the ring has closed. Below minus d ln(peak)/d ln t between two times; no
+        {parameters(results, *CHAIN, "particles-per-cell", "energy", "pulse-energy")} per degree of freedom, {replicas(results)}. (a) The
+        top of a smooth peak fitted to the profile above half of its height, from Gaussian momenta (circles) and from
+        scatterers at rest that have relaxed, as in the paper (squares); faint once the ring has closed. (b) -d ln(peak)/d ln t between two times; no
         two of these pairs share a time. Dashed: the paper's {number(slope)}. {ERRORS}. {"; ".join(said)}."""
 
 

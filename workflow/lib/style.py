@@ -92,10 +92,10 @@ def apply() -> None:
     mpl.rcParams.update(_SETTINGS)
 
 
-def letter(*panels: Axes) -> None:
-    """(a), (b), ... above the upper left corner of each."""
+def letter(*panels: Axes, lift: float | None = None) -> None:
+    """(a), (b), ... above the upper left corner of each; by so many points, where an axis on top of one has labels."""
     for character, axes in zip(ascii_lowercase, panels, strict=False):
-        axes.set_title(f"({character})", loc="left")
+        axes.set_title(f"({character})", loc="left", y=None if lift is None else 1, pad=lift)
 
 
 def label_within_decades(axis: Axis) -> None:
