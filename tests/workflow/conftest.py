@@ -1,15 +1,18 @@
 import contextlib
 import fcntl
+import json
 import os
 import shutil
 import subprocess
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).parents[2]
+PLACES = ("data", "figures", "build/logs", "build/costs", "build/benchmarks")
+DRAWN = (".snakemake", *(f"{place}/smoke" for place in PLACES))  # what drawing leaves
 CHEAP = ("PANEL=fig03", "QUALITY=standard")  # a second, at a quality that is packed
 
 
@@ -86,6 +89,20 @@ def run_silently(folder: Path, *command: str) -> None:
     subprocess.run(command, cwd=folder, env={"PATH": os.defpath}, check=True, stdout=subprocess.DEVNULL)
 
 
+def drawn_already() -> bool:
+    """Whether the project's figures of smoke quality are all from the commit that is checked out. Whether there is one of
+    every panel, and fresh, is for make to find out."""
+    lock = ROOT / "data/smoke/lock.json"
+    if not lock.is_file() or not (ROOT / ".git").is_dir():
+        return False
+    head, changed = (
+        subprocess.check_output(["git", *words], cwd=ROOT, text=True).strip()
+        for words in (("rev-parse", "HEAD"), ("status", "--porcelain"))
+    )
+    jobs = json.loads(lock.read_text())["jobs"].values()
+    return not changed and all((job["commit"], job["dirty"]) == (head, False) for job in jobs)
+
+
 @contextlib.contextmanager
 def locked(path: Path) -> Iterator[None]:
     with path.open("w") as file:
@@ -95,21 +112,25 @@ def locked(path: Path) -> Iterator[None]:
 
 @pytest.fixture(scope="session")
 def clean(tmp_path_factory: pytest.TempPathFactory) -> Clone:
-    """A repository with one commit, built, with every figure at smoke quality. Processes that run tests beside each
-    other draw once and copy."""
+    """A repository, built, with every figure at smoke quality: those of the project itself if they are of the commit that
+    is checked out, or else drawn. Processes that run tests beside each other draw once and copy."""
     own = tmp_path_factory.getbasetemp()
     shared = own.parent if "PYTEST_XDIST_WORKER" in os.environ else own
     with locked(shared / "drawn.lock"):
         drawn = Clone(shared / "drawn")
         if not drawn.folder.exists():
             clone = clone_into(shared / "being drawn")
-            clone.git("init", "--quiet")
-            clone.commit()
+            if drawn_already():
+                for place in (".git", *DRAWN):
+                    shutil.copytree(ROOT / place, clone.folder / place, dirs_exist_ok=True)
+            else:
+                clone.git("init", "--quiet")
+                clone.commit()
             made = clone.make("figures", "QUALITY=smoke")
             assert made.returncode == 0, made.stdout
             clone.folder.rename(drawn.folder)
     clone = clone_into(tmp_path_factory.mktemp("clean"), drawn.folder)
-    for place in (".git", ".snakemake", "data", "figures", "build/logs", "build/costs", "build/benchmarks"):
+    for place in (".git", *DRAWN):
         shutil.copytree(drawn.folder / place, clone.folder / place, dirs_exist_ok=True)
     assert clone.make("build").returncode == 0
     return clone
@@ -140,6 +161,19 @@ def files_below(place: Path) -> list[Path]:
 
 
 Edit = Callable[[Clone], object]  # something done to a clone
+
+
+def side_by_side(concerned: Mapping[str, Iterable[str]]) -> list[list[str]]:
+    """Names in few groups, so that what those of a group concern is disjoint and can be told apart when all are done at
+    once. One by one they are done by the long tests."""
+    groups: list[tuple[list[str], set[str]]] = []
+    for name, concerns in concerned.items():
+        names, taken = next((group for group in groups if group[1].isdisjoint(concerns)), ([], set()))
+        if not names:
+            groups.append((names, taken))
+        names.append(name)
+        taken.update(concerns)
+    return [names for names, _ in groups]
 
 
 def append(path: str, text: str) -> Edit:

@@ -124,6 +124,7 @@ def test_files_without_parents_are_refused(clean: Clone, file: str, words: str) 
     assert "Traceback" not in told.stdout
 
 
+@pytest.mark.long
 def test_products_can_be_made_again_to_the_last_byte(kept: Clone) -> None:
     verified = kept.make("verify", "QUALITY=smoke", "PANEL=fig07", "SAMPLE=1")
     assert verified.returncode == 0, verified.stdout
@@ -160,6 +161,13 @@ def test_programs_are_built_from_their_sources_alone(tampered: Clone) -> None:
     )
     assert "fig03/equal: the same bytes" in verified.stdout
     assert "Looked at 4 of " in verified.stdout
+    record = json.loads((tampered.folder / "data/smoke/verification.json").read_text())
+    assert {name: one["same"] for name, one in record.items()} == {
+        "fig03": True,
+        "fig03/delta": True,
+        "fig03/equal": True,
+        "fig03/paper": False,
+    }
 
 
 def test_what_cannot_be_made_again_is_said(kept: Clone) -> None:

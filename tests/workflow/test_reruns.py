@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import pytest
 
-from tests.workflow.conftest import Clone, Edit, append, copy, delete, files_below, replace
+from tests.workflow.conftest import Clone, Edit, append, copy, delete, files_below, replace, side_by_side
 from workflow.lib.plan import Panel, data_path, drawings_of, load_plan, with_used
 from workflow.provenance.sources import sources_of
 
@@ -104,11 +104,17 @@ CHANGES: dict[str, tuple[Edit, Jobs]] = {
 MANY = ("module of many panels", "lock of Python packages")  # of which each is drawn again
 
 
+AT_ONCE = side_by_side({name: jobs for name, (_, jobs) in CHANGES.items() if name not in MANY})
+
+
 @pytest.mark.parametrize(
-    "change", [pytest.param(one, marks=pytest.mark.long if one in MANY else ()) for one in CHANGES]
+    "changes", [*AT_ONCE, *(pytest.param([one], marks=pytest.mark.long) for one in CHANGES)], ids=", ".join
 )
-def test_exactly_what_is_affected_runs_again(kept: Clone, change: str) -> None:
-    edit, expected = CHANGES[change]
-    edit(kept)
+def test_exactly_what_is_affected_runs_again(kept: Clone, changes: list[str]) -> None:
+    expected = set()
+    for change in changes:
+        edit, jobs = CHANGES[change]
+        edit(kept)
+        expected |= jobs
     assert remade(kept) == expected
     assert all(stamps(kept).values())  # nothing is missing
