@@ -90,7 +90,7 @@ SNAKEFMT := .venv/bin/snakefmt --no-format-shell --line-length 110
 ONLY_PANEL := $(if $(PANEL),--panel=$(PANEL))
 COMPARE = $(if $(SEED)$(REPLICAS)$(filter $(YES),$(FRESH)),$(PYTHON) workflow.provenance.compare --quality $(EFFORT))
 
-.PHONY: help figures panel report gallery build test test-long check format describe reference lock audit verify provenance status \
+.PHONY: help figures panel report gallery build test test-long check tidy format describe reference lock audit verify provenance status \
   cost crate bench timings tradeoff clean system-packages installed runtime dev
 help:  ## This list
 	sed -nE 's/^([a-z-]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 16
@@ -136,12 +136,15 @@ test-long: build dev  ## The same and tests that take minutes, on a Slurm of one
 	ninja -C build --quiet cpp_tests
 	$(PYTHON) tests.run --long
 
-check: build dev reference  ## Format, lint, types and reference
+check: build dev reference tidy  ## Format, lint, types, clang-tidy and reference
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 .venv/bin/clang-format --dry-run --Werror
 	.venv/bin/ruff check --quiet . && .venv/bin/ruff format --quiet --check .
 	.venv/bin/mypy --no-error-summary
 	$(SNAKEFMT) --check --compact-diff Snakefile workflow/rules
 	$(SNAKEMAKE) --lint
+
+tidy: build dev  ## clang-tidy over the C++ sources that have changed since they were clean
+	$(PYTHON) workflow.environment.tidy
 
 format: dev  ## Format every source in place
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 .venv/bin/clang-format -i

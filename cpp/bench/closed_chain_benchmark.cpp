@@ -48,7 +48,8 @@ void closed_engine(benchmark::State& state) {
   simulate(dynamics, until, observer, [](double) {});
   const std::uint64_t before = dynamics.events();
   const double step = events_per_iteration(state, 1e5, of.chain.particles()) / of.rate;
-  for ([[maybe_unused]] auto iteration : state) simulate(dynamics, until += step, observer, [](double) {});
+  for ([[maybe_unused]] const auto iteration : state)
+    simulate(dynamics, until += step, observer, [](double) {});
   benchmark::DoNotOptimize(observer.count);
   state.SetItemsProcessed(static_cast<std::int64_t>(dynamics.events() - before));
 }
@@ -65,7 +66,7 @@ void closed_reference(benchmark::State& state) {
   };
   if (of.chain.deterministic()) advance(static_cast<std::uint64_t>(settling) * of.chain.particles());
   constexpr std::uint64_t events = 2000;
-  for ([[maybe_unused]] auto iteration : state) advance(events);
+  for ([[maybe_unused]] const auto iteration : state) advance(events);
   benchmark::DoNotOptimize(observer.count);
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * events));
 }
@@ -90,7 +91,7 @@ void closed_floor(benchmark::State& state) {
     }
   };
   constexpr std::uint64_t events = 100'000;
-  for ([[maybe_unused]] auto iteration : state) {
+  for ([[maybe_unused]] const auto iteration : state) {
     if (of.chain.deterministic())
       advance.operator()<false>(events);
     else
@@ -108,7 +109,7 @@ void short_run(benchmark::State& state) {
   const bool freeze = state.range(1) != 0;
   Persistent observer;
   std::uint64_t events = 0;
-  for ([[maybe_unused]] auto iteration : state) {
+  for ([[maybe_unused]] const auto iteration : state) {
     ClosedDynamics dynamics(chain, start, freeze ? end : end_time, {1, 0});
     simulate(dynamics, end, observer, [](double) {});
     events += dynamics.events();

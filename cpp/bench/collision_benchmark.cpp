@@ -21,7 +21,7 @@ struct PlainReflection {
     u = -sigma * u_before + c * U;
     U = c * u_before + sigma * U;
   }
-  double scatterer_scale() const { return 1; }
+  static double scatterer_scale() { return 1; }
   double sigma, c;
 };
 
@@ -36,7 +36,7 @@ struct SplitReflection {
     u = __builtin_fma(c_high, U, __builtin_fma(c_low, U, -sigma * u_before));
     U = __builtin_fma(c_high, u_before, __builtin_fma(c_low, u_before, sigma * U));
   }
-  double scatterer_scale() const { return 1; }
+  static double scatterer_scale() { return 1; }
   double sigma, c_high, c_low;
 };
 
@@ -63,7 +63,7 @@ __attribute__((target("fma"))) void collisions(benchmark::State& state) {
   };
   const long double before = energy();
   std::uint64_t pair = 1;
-  for ([[maybe_unused]] auto iteration : state) {
+  for ([[maybe_unused]] const auto iteration : state) {
     pair = pair * 6364136223846793005ULL + 1442695040888963407ULL;  // the MMIX generator of Knuth
     collide(particles[(pair >> 40) % population], scatterers[(pair >> 50) % population]);
   }

@@ -12,7 +12,7 @@ void kinetic_equation(benchmark::State& state) {
   problem.sigma = static_cast<double>(state.range(0)) / 100;
   problem.gamma = static_cast<double>(state.range(1));
   double error = 0, evaluations = 0;
-  for ([[maybe_unused]] auto iteration : state) {
+  for ([[maybe_unused]] const auto iteration : state) {
     const RefinedSolution solution = refine(problem, 1e-10);
     error = solution.error;
     evaluations = solution.evaluations;

@@ -55,7 +55,8 @@ void open_engine(benchmark::State& state) {
   simulate(dynamics, until, observer, [](double) {});
   observer.count = 0;
   const double step = time_of(events_per_iteration(state, 1e4, particles), chain);
-  for ([[maybe_unused]] auto iteration : state) simulate(dynamics, until += step, observer, [](double) {});
+  for ([[maybe_unused]] const auto iteration : state)
+    simulate(dynamics, until += step, observer, [](double) {});
   state.counters["particles"] = observer.last_slot;
   state.SetItemsProcessed(observer.count);
 }
@@ -69,7 +70,7 @@ void open_reference(benchmark::State& state) {
   double until = age;
   simulator.run(until);
   std::int64_t collisions = 0;
-  for ([[maybe_unused]] auto iteration : state)
+  for ([[maybe_unused]] const auto iteration : state)
     collisions += static_cast<std::int64_t>(simulator.run(until += time_of(1000, chain)));
   state.SetItemsProcessed(collisions);
 }
@@ -147,7 +148,7 @@ void open_floor(benchmark::State& state) {
     }
   };
   constexpr std::uint64_t events = 10'000;
-  for ([[maybe_unused]] auto iteration : state) {
+  for ([[maybe_unused]] const auto iteration : state) {
     if (chain.deterministic())
       advance.operator()<false>(events);
     else

@@ -99,7 +99,7 @@ CollisionOperator::Spectrum CollisionOperator::transform(const FourierIntegrals&
   return spectrum;
 }
 
-Flux CollisionOperator::inverse_transform(const FourierIntegrals& integrals, const Spectrum& spectrum) const {
+Flux CollisionOperator::inverse_transform(const FourierIntegrals& integrals, const Spectrum& spectrum) {
   const MatrixXd even = integrals.cosine * spectrum.real() / std::numbers::pi;
   const MatrixXd odd = integrals.sine * spectrum.imag() / std::numbers::pi;
   Flux flux(2 * even.rows(), even.cols());

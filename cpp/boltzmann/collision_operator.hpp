@@ -64,7 +64,7 @@ class CollisionOperator {
   using Scaling = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
   Spectrum transform(const FourierIntegrals& integrals, const Flux& flux) const;
-  Flux inverse_transform(const FourierIntegrals& integrals, const Spectrum& spectrum) const;
+  static Flux inverse_transform(const FourierIntegrals& integrals, const Spectrum& spectrum);
   Spectrum scaled(std::size_t doubling, const Spectrum& spectrum) const;
   Spectrum reflected(const Flux& flux) const;
   Spectrum first_change(const Flux& change, const Spectrum& before) const;

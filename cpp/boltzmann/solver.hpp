@@ -65,7 +65,7 @@ class KineticSolution {
   Flux resampled(const KineticSolution& other) const;
   Flux arriving(const Transport& transport, const Flux& source) const;
   double size(const Flux& residual) const;
-  void iterate(Flux deviation, const Heartbeat& heartbeat);
+  void iterate(Flux flux, const Heartbeat& heartbeat);
 
   KineticProblem problem_;
   Reservoir equilibrium_;  // E; fluxes are stored as F - E

@@ -22,6 +22,7 @@ class ChunkedLists {
     flights_.reserve(flights + flights / 4 + (lists + 16) * chunk);
 #ifdef MADV_HUGEPAGE
     const std::uintptr_t begin = reinterpret_cast<std::uintptr_t>(flights_.data()) & ~std::uintptr_t{4095};
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): the beginning of a page
     madvise(reinterpret_cast<void*>(begin), flights_.capacity() * sizeof(Flight), MADV_HUGEPAGE);
 #endif
     next_.clear();

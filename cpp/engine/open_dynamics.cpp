@@ -9,7 +9,7 @@ namespace {
 const PhasePoint& checked(const PhasePoint& start, const OpenChain& chain) {
   if (start.scatterers.size() != chain.cells)
     throw std::invalid_argument("the start does not have one scatterer per cell");
-  return start;
+  return start;  // NOLINT(bugprone-return-const-ref-from-parameter): read at once
 }
 
 }  // namespace

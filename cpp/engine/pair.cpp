@@ -9,14 +9,14 @@ PairDynamics::PairDynamics(const ClosedChain& chain, const PhasePoint& plain, co
       free_flight_(chain, key),
       indices_(chain.particles(), shared),
       diverged_flights_(1),
-      scatterer_diverged_(chain.cells, false),
+      scatterer_diverged_(chain.cells, 0),
       queue_(first_events(plain, perturbed, end_time, share), expected_rate(chain, plain), end_time) {
   const std::vector<double> one = scatter_.rule().scaled(plain.scatterers);
   const std::vector<double> other = scatter_.rule().scaled(perturbed.scatterers);
   for (std::uint32_t cell = 0; cell < chain.cells; ++cell) {
     scatterers_.push_back({one[cell], other[cell]});
     if (share && plain.scatterers[cell] == perturbed.scatterers[cell]) continue;
-    scatterer_diverged_[cell] = true;
+    scatterer_diverged_[cell] = 1;
     diverged_cells_.push_back(cell);
   }
 }
@@ -48,7 +48,7 @@ std::uint32_t PairDynamics::diverge_particle(const Flight& plain, const Flight& 
 }
 
 void PairDynamics::diverge_scatterer(std::uint32_t cell) {
-  scatterer_diverged_[cell] = true;
+  scatterer_diverged_[cell] = 1;
   diverged_cells_.push_back(cell);
   scatterers_[cell][1] = scatterers_[cell][0];
 }

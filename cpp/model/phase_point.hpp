@@ -5,6 +5,7 @@
 
 namespace lorentz {
 
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): always made with both
 struct Particle {
   double position;  // from the left end, in [0, cells * cell_length)
   double velocity;  // u = p/sqrt(m)

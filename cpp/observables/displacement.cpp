@@ -71,7 +71,7 @@ ReducedRecords controlled(const Records& plain, const Tallies& tallies) {
       columns_of({tallies.square, tallies.absolute, tallies.fourth, tallies.centre_square});
   Columns measured = squares;
   for (const std::size_t column : columns_of({tallies.mean})) measured.push_back(column);
-  ReducedRecords reduced = reduce_variance(plain, {{measured, columns_of({tallies.momentum_square})}});
+  const ReducedRecords reduced = reduce_variance(plain, {{measured, columns_of({tallies.momentum_square})}});
   const std::vector<double> means = reduced.records.mean();
   const bool possible = std::ranges::all_of(squares, [&](std::size_t column) { return means[column] >= 0; });
   return possible ? reduced : ReducedRecords{plain, false};

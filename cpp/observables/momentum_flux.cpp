@@ -38,7 +38,7 @@ std::vector<double> by_bond(std::size_t bonds, std::size_t inner, const Value& v
 struct Flux {
   RecordView mean;
   const BondTallies& tallies;
-  double bin_width;
+  double bin_width = 0;
 
   double operator()(std::size_t bond, std::size_t bin) const {
     return mean[tallies.crossings][bin * tallies.bonds() + bond] / bin_width;

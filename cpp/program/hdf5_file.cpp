@@ -125,7 +125,7 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, c
   } else if (const auto* real = std::get_if<double>(&value)) {
     write_attribute(owner, name, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, real);
   } else {
-    const std::string& text = std::get<std::string>(value);
+    const auto& text = std::get<std::string>(value);
     const Hdf5Handle type = text_type(text.size());
     write_attribute(owner, name, type, type, text.c_str());
   }

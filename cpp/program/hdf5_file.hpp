@@ -23,7 +23,7 @@ class Hdf5Handle {
   Hdf5Handle(const Hdf5Handle&) = delete;
   Hdf5Handle& operator=(const Hdf5Handle&) = delete;
   ~Hdf5Handle() { close_(id_); }
-  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor)
+  operator hid_t() const { return id_; }  // NOLINT(cppcoreguidelines-explicit-constructor): used as one
 
  private:
   hid_t id_;

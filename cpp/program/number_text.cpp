@@ -17,13 +17,13 @@ bool read_polynomial(const std::string& text, const Range<double>& range, char s
   const auto powers = powers_of(symbol);
   Scaled sum{};
   std::array<bool, 3> given{};
-  const char* at = text.data() + text.starts_with('+');
+  const char* at = text.data() + (text.starts_with('+') ? 1 : 0);
   const char* const end = text.data() + text.size();
   for (;; ++at) {
-    double coefficient;
+    double coefficient = 0;
     const auto [stop, error] = std::from_chars(at, end, coefficient);
     const char* const next = std::find(stop, end, '+');
-    const auto power = std::find(powers.begin(), powers.end(), std::string(stop, next)) - powers.begin();
+    const auto power = std::ranges::find(powers, std::string(stop, next)) - powers.begin();
     if (error != std::errc{} || !contains(range, coefficient) || power == 3 || given[power]) return false;
     sum.coefficients[power] = coefficient;
     given[power] = true;

@@ -172,7 +172,7 @@ void Options::ascending_list(const std::string& name, std::vector<double>& value
     values.clear();
     std::istringstream items(text + ',');  // getline passes over an empty item after the last comma
     for (std::string item; std::getline(items, item, ',');) {
-      double value;
+      double value = 0;
       if (!read_number(item, range, value) || (!values.empty() && value <= values.back())) return false;
       values.push_back(value);
     }
@@ -197,7 +197,7 @@ void Options::choice(const std::string& name, std::string& value, const std::vec
                      const std::string& help, Role role) {
   const auto read = [&value, choices](const std::string& text) {
     value = text;
-    return std::find(choices.begin(), choices.end(), text) != choices.end();
+    return std::ranges::find(choices, text) != choices.end();
   };
   add(name, help, role,
       {{{"type", "choice"}, {"choices", choices}},
@@ -215,8 +215,8 @@ void Options::text(const std::string& name, std::string& value, const std::strin
 }
 
 bool Options::given(const std::string& name) const {
-  return std::any_of(options_.begin(), options_.end(),
-                     [&](const Option& option) { return option.given && option.name == name; });
+  return std::ranges::any_of(options_,
+                             [&](const Option& option) { return option.given && option.name == name; });
 }
 
 void Options::refuse(const std::string& why) const {
@@ -245,9 +245,8 @@ void Options::read(Option& option, const std::string& text, const std::string& p
 
 void Options::read_file(const std::string& path) {
   for (const ConfigEntry& entry : read_config_file(path)) {
-    const auto option = std::find_if(options_.begin(), options_.end(), [&](const Option& each) {
-      return each.description["name"] == entry.key;
-    });
+    const auto option = std::ranges::find_if(
+        options_, [&](const Option& each) { return each.description["name"] == entry.key; });
     if (option == options_.end())
       refuse(fmt::format("{}: no option has the name '{}'; the nearest one is '{}'", entry.place, entry.key,
                          nearest(entry.key).substr(2)));
@@ -302,8 +301,7 @@ std::vector<Parameter> Options::parameters() const {
   std::vector<Parameter> result;
   for (const Option& option : options_)
     if (option.description["affects_results"]) result.push_back({option.name.substr(2), option.recorded()});
-  std::sort(result.begin(), result.end(),
-            [](const Parameter& a, const Parameter& b) { return a.name < b.name; });
+  std::ranges::sort(result, [](const Parameter& a, const Parameter& b) { return a.name < b.name; });
   return result;
 }
 

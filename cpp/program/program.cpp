@@ -9,6 +9,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string_view>
 
 #include "program/atomic_file.hpp"
 #include "program/build_info.hpp"
@@ -44,7 +45,7 @@ std::string cost(Clock::time_point start, std::uint64_t events) {
       seconds(usage.ru_utime) + seconds(usage.ru_stime), usage.ru_maxrss * bytes_per_unit, events);
 }
 
-std::string name_of(Convergence convergence) {
+std::string_view name_of(Convergence convergence) {
   switch (convergence) {
     case Convergence::reached:
       return "reached";
@@ -114,7 +115,7 @@ void Program::write_result(const Outcome& outcome) const {
       {"target_quantity", outcome.target_quantity},
       {"target_error", outcome.target_error},
       {"achieved_error", outcome.achieved_error},
-      {"converged", name_of(outcome.convergence)},
+      {"converged", std::string(name_of(outcome.convergence))},
   };
   for (const Parameter& entry : provenance) file.attribute("/provenance", entry.name, entry.value);
 

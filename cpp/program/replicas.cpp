@@ -23,7 +23,7 @@ class Team {
       : run_(run), measure_(measure), finished_(finished), fractions_(run.threads) {
     for (std::uint64_t index = run.first; index < run.end; ++index)
       if (!finished.contains(index)) todo_.push_back(index);
-    std::reverse(todo_.begin(), todo_.end());
+    std::ranges::reverse(todo_);
   }
 
   void run() {

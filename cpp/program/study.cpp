@@ -54,8 +54,8 @@ Results estimate_all(const Study& study, const Records& records) {
 }
 
 const Quantity& quantity_named(const Results& results, const std::string& name) {
-  const auto found = std::find_if(results.begin(), results.end(),
-                                  [&](const Quantity& quantity) { return quantity.what.name == name; });
+  const auto found =
+      std::ranges::find_if(results, [&](const Quantity& quantity) { return quantity.what.name == name; });
   if (found == results.end()) throw std::logic_error("no quantity named " + name);
   return *found;
 }

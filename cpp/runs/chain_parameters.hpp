@@ -11,7 +11,7 @@ namespace lorentz {
 
 /// Parameters that closed and open chains have in common.
 struct ScatteringParameters {
-  std::uint32_t cells;
+  std::uint32_t cells = 0;
   double sigma = 0.5;             // (M-m)/(M+m)
   std::optional<double> gamma{};  // mean number of scatterings in N cells; none: N, every scatterer scatters
 

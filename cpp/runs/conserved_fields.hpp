@@ -11,6 +11,7 @@ namespace lorentz {
 
 /// What a closed chain conserves.
 struct Conserved {
+  // NOLINTNEXTLINE(cppcoreguidelines-use-enum-class): they are indices
   enum : std::size_t { number, energy, momentum };
 };
 

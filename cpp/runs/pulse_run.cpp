@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "engine/closed_dynamics.hpp"
 #include "engine/closed_start.hpp"
@@ -70,10 +71,10 @@ PulseRun::Start PulseRun::start(const PulseParameters& parameters, const StreamK
 PulseRun::PulseRun(const PulseParameters& parameters, const StreamKey& key, const Heartbeat& heartbeat)
     : PulseRun(parameters, key, heartbeat, start(parameters, key, heartbeat)) {}
 
-PulseRun::PulseRun(const PulseParameters& parameters, const StreamKey& key, const Heartbeat& heartbeat,
+PulseRun::PulseRun(const PulseParameters& parameters, const StreamKey& key, Heartbeat heartbeat,
                    const Start& start)
     : chain_(parameters.ring.chain()),
-      heartbeat_(heartbeat),
+      heartbeat_(std::move(heartbeat)),
       relaxation_events_(start.events),
       pair_(chain_, start.plain, start.pulsed, parameters.times.back(), key, !parameters.separate),
       injected_energy_(sum(energy_difference())),

@@ -56,11 +56,10 @@ class PulseRun {
  private:
   struct Start {
     PhasePoint plain, pulsed;
-    std::uint64_t events;  // of the relaxation
+    std::uint64_t events = 0;  // of the relaxation
   };
   static Start start(const PulseParameters& parameters, const StreamKey& key, const Heartbeat& heartbeat);
-  PulseRun(const PulseParameters& parameters, const StreamKey& key, const Heartbeat& heartbeat,
-           const Start& start);
+  PulseRun(const PulseParameters& parameters, const StreamKey& key, Heartbeat heartbeat, const Start& start);
 
   ClosedChain chain_;
   Heartbeat heartbeat_;

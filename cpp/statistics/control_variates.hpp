@@ -31,7 +31,7 @@ double variance_ratio(const Records& a, const Records& b, const Columns& columns
 /// Records after reduce_variance().
 struct ReducedRecords {
   Records records;
-  bool control_variates;  // whether they were used
+  bool control_variates = false;  // whether they were used
 };
 
 /// Applies control variates if this is possible and lowers the variance of the measured columns of all

@@ -75,7 +75,7 @@ class LogGrid {
   double log_first_, steps_per_unit_;
   std::size_t steps_;
   int ignored_bits_ = 52;  // trailing bits of a number that do not select its cell
-  std::int64_t first_, last_;
+  std::int64_t first_ = 0, last_ = 0;
   std::vector<Cell> table_;
 };
 

@@ -39,7 +39,7 @@ struct ExpCubic {
   Eigen::MatrixX4d powers;  // of u
   Eigen::VectorXd root_weight, y;
 
-  int inputs() const { return 4; }
+  static int inputs() { return 4; }
   int values() const { return static_cast<int>(y.size()); }
   Eigen::VectorXd weighted(const Eigen::VectorXd& c) const {
     return (powers * c).unaryExpr(&elementary::exp).cwiseProduct(root_weight);

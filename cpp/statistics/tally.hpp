@@ -22,7 +22,8 @@ struct Tally {
 struct ScalarTally {
   std::size_t column;
 
-  operator Tally() const { return {column, 1}; }  // NOLINT(google-explicit-constructor)
+  /// A number is an array of size 1.
+  operator Tally() const { return {column, 1}; }  // NOLINT(cppcoreguidelines-explicit-constructor)
 };
 
 /// Columns of records.
@@ -69,7 +70,7 @@ class Record {
   /// Sets an array. Throws std::out_of_range unless the sizes agree.
   void set(Tally tally, std::span<const double> values) {
     if (values.size() != tally.size) throw std::out_of_range("values of another size than the tally");
-    std::copy(values.begin(), values.end(), values_.begin() + static_cast<std::ptrdiff_t>(tally.first));
+    std::ranges::copy(values, values_.begin() + static_cast<std::ptrdiff_t>(tally.first));
   }
 
   const std::vector<double>& values() const { return values_; }
@@ -81,7 +82,8 @@ class Record {
 /// Read-only view of the mean record of replicas, or of one record.
 class RecordView {
  public:
-  RecordView(std::span<const double> values) : values_(values) {}  // NOLINT(google-explicit-constructor)
+  // NOLINTNEXTLINE(cppcoreguidelines-explicit-constructor): any record, of whatever type, can be viewed
+  RecordView(std::span<const double> values) : values_(values) {}
 
   double operator[](ScalarTally tally) const { return values_[tally.column]; }
   std::span<const double> operator[](Tally tally) const { return values_.subspan(tally.first, tally.size); }

@@ -211,9 +211,8 @@ using Mutant = StreamKey (*)(const StreamKey&);
 
 class Chance : public testing::TestWithParam<Source> {
  protected:
-  bool shared(
-      const StreamKey& a, const StreamKey& b,
-      Mutant mutant = [](const StreamKey& key) { return key; }) const {
+  static bool shared(
+      const StreamKey& a, const StreamKey& b, Mutant mutant = [](const StreamKey& key) { return key; }) {
     const auto draw = GetParam().draw;
     return share(draw(mutant(a), a), draw(mutant(b), b));
   }

@@ -64,7 +64,7 @@ struct Invariances {
 };
 
 struct Outcome {
-  double energy_drift, momentum_drift;  // relative, of the invariants themselves
+  double energy_drift = 0, momentum_drift = 0;  // relative, of the invariants themselves
   Invariances steps;
 };
 
@@ -163,8 +163,8 @@ double mean_drift_score(const Law& law, int groups, std::uint64_t events) {
   for (int group = 0; group < groups; ++group) {
     std::mt19937_64 generator(static_cast<std::uint64_t>(group));
     std::normal_distribution<double> velocity(0, 1);
-    std::array<double, 220> particles;
-    std::array<double, 11> scatterers;
+    std::array<double, 220> particles{};
+    std::array<double, 11> scatterers{};
     for (double& u : particles) u = velocity(generator);
     for (double& w : scatterers) w = velocity(generator) / law.scatterer_scale();
     const auto energy = [&] {

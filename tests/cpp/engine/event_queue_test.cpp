@@ -56,7 +56,7 @@ std::vector<Flight> first_flights(const Schedule& schedule, Generator& generator
 std::size_t compare_with_ordered_set(const Schedule& schedule, double rate) {
   Generator generator(schedule.population);
   std::exponential_distribution<double> stretch(1 / schedule.stretch);
-  std::vector<Flight> flights = first_flights(schedule, generator);
+  const std::vector<Flight> flights = first_flights(schedule, generator);
   std::set<std::pair<double, std::uint32_t>> expected;
   const auto expect = [&](const Flight& flight) {
     if (flight.time < schedule.end_time) expected.emplace(flight.time, flight.particle);

@@ -88,7 +88,7 @@ TEST(OpenDynamics, FlightsOfAParticleJoin) {
     if (!leaves && path.arrival < 10) arrivals.emplace(path.arrival, static_cast<double>(path.last));
   }
   EXPECT_TRUE(arrivals.empty());
-  const std::uint64_t at_start = static_cast<std::uint64_t>(std::count_if(
+  const auto at_start = static_cast<std::uint64_t>(std::count_if(
       seen.paths.begin(), seen.paths.end(), [](const Path& path) { return path.departure == 0; }));
   EXPECT_EQ(newcomers, seen.entries + at_start);
 }
@@ -109,7 +109,7 @@ TEST(OpenDynamics, StopsInBetweenChangeNothing) {
 
 /// Sums over a window: marks reached, time spent, energy in and out, collisions.
 struct InWindow {
-  Window window;
+  Window window{};
   std::uint64_t marks = 0, collisions = 0;
   double square = 0, time = 0, entered = 0, left = 0;
   double first_arrival = infinity;

@@ -17,7 +17,8 @@ Path random_path(std::mt19937_64& generator) {
   std::uniform_real_distribution<double> uniform;
   const double tau = std::exp(6 * uniform(generator) - 3), departure = 5 * uniform(generator);
   const bool rightwards = uniform(generator) < 0.5;
-  int a = mark(generator), b = mark(generator);
+  const int a = mark(generator);
+  int b = mark(generator);
   while (a == b) b = mark(generator);
   const std::int64_t low = std::min(a, b), high = std::max(a, b);
   const std::int64_t first = rightwards ? low : high, last = rightwards ? high : low;
@@ -51,7 +52,7 @@ TEST(Path, WindowsAddUp) {
     // Windows that also begin and end exactly at marks.
     std::vector<double> edges{
         0, path.departure, path.time_at(path.first), path.time_at(path.last), path.arrival, 1e4};
-    std::sort(edges.begin(), edges.end());
+    std::ranges::sort(edges);
     for (std::size_t k = 0; k + 1 < edges.size(); ++k) {
       const Marks marks = marks_in(path, {edges[k], edges[k + 1]});
       for (std::int64_t mark = marks.low; mark <= marks.high; ++mark)

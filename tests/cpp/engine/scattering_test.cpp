@@ -24,9 +24,9 @@ ClosedChain ring(double gamma = std::numeric_limits<double>::infinity(), double 
 
 /// What a flight and a scatterer become.
 struct Scattered {
-  Flight flight;
-  double w;
-  Departure departure;
+  Flight flight{};
+  double w = 0;
+  Departure departure{};
 };
 
 template <bool launching = false>

@@ -20,7 +20,7 @@ constexpr double draws = 1e6;
 /// Known answers for Philox4x64-10 in Random123's test vectors (kat_vectors).
 TEST(Random, PhiloxGivesThePublishedAnswers) {
   constexpr std::uint64_t ones = ~std::uint64_t{0};
-  r123::Philox4x64 philox;
+  const r123::Philox4x64 philox;
   EXPECT_EQ(philox(Counter{}, Key{}),
             (Counter{{0x16554d9eca36314c, 0xdb20fe9d672d0fdc, 0xd7e772cee186176b, 0x7e68b68aec7ba23b}}));
   EXPECT_EQ(philox(Counter{{ones, ones, ones, ones}}, Key{{ones, ones}}),

@@ -32,7 +32,7 @@ void expect_refused(const std::string& path, std::size_t size = 100) {
     } catch (const UsageError& error) {
       const std::string message = error.what();
       EXPECT_NE(message.find("'" + path + "' cannot be written: "), std::string::npos) << message;
-      EXPECT_TRUE(message.ends_with(".")) << message;
+      EXPECT_TRUE(message.ends_with('.')) << message;
     }
   }
 }

@@ -37,7 +37,7 @@ FinishedReplicas some_replicas() {
 }
 
 /// Warning of the last load().
-std::string said;
+std::string said;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): read after the call
 
 FinishedReplicas load(const Checkpoint& checkpoint) {
   said.clear();
@@ -206,6 +206,7 @@ TEST_F(TwoGenerations, SurviveAKillAtAnyMoment) {
   for (int round = 0; round < 30; ++round) {
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
+    // NOLINTNEXTLINE(bugprone-infinite-loop): until it is killed
     for (std::uint64_t index = 0; child == 0; ++index) checkpoint.save({{index, {{1.0, 2.0, 3.0}, 1}}});
     std::this_thread::sleep_for(std::chrono::microseconds(3000 + 700 * round));
     ::kill(child, SIGKILL);

@@ -107,7 +107,7 @@ Runs many(const Law& law, double ideal, const Looks& next, const Stop& stop) {
     const Sample sample = until(law, error / (law.relative ? law.mean : 1), next, stop, generator);
     const double deviation = sample.mean() - law.mean,
                  true_error = law.deviation / std::sqrt(sample.replicas);
-    for (int k : {1, 2}) {
+    for (const int k : {1, 2}) {
       runs.inside[k - 1] += (std::abs(deviation) < k * sample.error()) / double{seeds};
       runs.student[k - 1] += (2 * gsl_cdf_tdist_P(k, sample.replicas - 1) - 1) / seeds;
     }
@@ -148,7 +148,7 @@ TEST(StoppingRule, StoppedRunsCoverLikeStudentsLawWhereRecordsAreNormal) {
     for (const std::uint64_t batch : batches)
       for (const double ideal : ideals) {
         const Runs runs = by_rule(normal(relative), ideal, batch);
-        for (int k : {0, 1})
+        for (const int k : {0, 1})
           EXPECT_LT(std::abs(difference(runs.inside[k], runs.student[k], 0)), significant)
               << relative << ' ' << batch << ' ' << ideal << ": " << runs.inside[k] << " for "
               << runs.student[k];
@@ -172,7 +172,7 @@ TEST(StoppingRule, StoppedRunsOfSkewedRecordsCoverLikeThirtyTwoReplicasGivenInAd
     for (const std::uint64_t batch : {1, 16, 64})
       for (const double ideal : {60., 200.}) {
         const Runs runs = by_rule(law, ideal, batch);
-        for (int k : {0, 1})
+        for (const int k : {0, 1})
           EXPECT_GT(compare(runs, k), -significant)
               << batch << ' ' << ideal << ": " << runs.inside[k] << " for " << standard.inside[k];
       }

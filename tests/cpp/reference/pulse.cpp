@@ -52,7 +52,7 @@ Start with_pulse(const Pulse& pulse, Start start) {
   const std::size_t begin = central * pulse.particles_per_cell, end = begin + pulse.particles_per_cell;
   double energy = std::pow(start.P[central] / pulse.root_mass(), 2) / 2;
   for (std::size_t i = begin; i < end; ++i) energy += start.p[i] * start.p[i] / 2;
-  const double degrees_of_freedom = static_cast<double>(pulse.particles_per_cell + 1);
+  const auto degrees_of_freedom = static_cast<double>(pulse.particles_per_cell + 1);
   const double factor = std::sqrt(degrees_of_freedom * pulse.pulse_energy / energy);
   for (std::size_t i = begin; i < end; ++i) start.p[i] *= factor;
   start.P[central] *= factor;

@@ -18,13 +18,12 @@ const OpenChain chain{.cells = 2, .left = {0, 1}, .right = {0, 1}};
 const Window window{2, 10};
 const Bins bins(4, 4);
 
-class CellProfileTallies : public testing::Test {
- protected:
+struct CellProfileTallies : testing::Test {
   CellTallies tallies{2, bins};
   CellProfile observer{chain, window, bins};
 
   /// Of the whole window.
-  std::vector<double> sums(Tally tally) {
+  std::vector<double> sums(Tally tally) const {
     Record record(tallies);
     observer.record(tallies, record);
     std::vector<double> values(record[tally].begin(), record[tally].end());

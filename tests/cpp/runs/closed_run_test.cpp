@@ -91,7 +91,7 @@ TEST(ClosedRun, TellsThatNoMomentumIsConserved) {
 // squares. Mutants: the mean of the particles alone, by which both are off by far as M = 19; the momentum not
 // squared.
 TEST(ClosedRun, ControlsHaveMeanZero) {
-  ClosedParameters parameters{
+  const ClosedParameters parameters{
       .ring = {.scattering = {.cells = 3, .sigma = 0.9}, .particles_per_cell = 2},
       .temperature = 2,
       .scatterer_temperature = 5,

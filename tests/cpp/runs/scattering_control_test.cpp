@@ -62,7 +62,7 @@ Found found(double sigma, double assumed_sigma, bool late) {
   std::vector<double> halves[2], controls, energies;
   for (int i = 0; i < samples; ++i) {
     const Watched watched = watch(sigma, assumed_sigma, late, generator);
-    for (int half : {0, 1}) halves[half].push_back(watched.control[half]);
+    for (const int half : {0, 1}) halves[half].push_back(watched.control[half]);
     controls.push_back(watched.control[0] + watched.control[1]);
     energies.push_back(watched.energy);
   }
@@ -82,7 +82,7 @@ TEST(ScatteringControl, HasMeanZeroAndKnowsTheNoise) {
   for (const double sigma : {0.5, -0.3, 0.9}) {
     const Found right = found(sigma, sigma, false), late = found(sigma, sigma, true),
                 reversed = found(sigma, -sigma, false);
-    for (int half : {0, 1}) {
+    for (const int half : {0, 1}) {
       EXPECT_LT(std::abs(right.score[half]), 4) << sigma;
       EXPECT_LT(std::abs(reversed.score[half]), 4) << sigma;
       EXPECT_GT(std::abs(late.score[half]), 10) << sigma;

@@ -19,7 +19,7 @@ TEST(RangeTally, IsTheSumOverElements) {
   RangeTally<> spread(10);
   std::vector<double> plain(10, 0), overlap(10, 0);
   for (int trial = 0; trial < 500; ++trial) {
-    std::ptrdiff_t first = static_cast<std::ptrdiff_t>(10 * uniform(generator));
+    const auto first = static_cast<std::ptrdiff_t>(10 * uniform(generator));
     const std::ptrdiff_t last = trial % 5 == 0 ? first : static_cast<std::ptrdiff_t>(10 * uniform(generator));
     const double value = uniform(generator);
     tally.add(first, last, {value, -2 * value});

@@ -59,7 +59,8 @@ inline int run_program(Arguments arguments, const MeasureValue& measurement) {
 }
 
 /// Output of the last run on standard error.
-inline std::string complaints;
+inline std::string
+    complaints;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): read after the call
 
 inline int run(const Arguments& arguments, const MeasureValue& measurement = measure) {
   testing::internal::CaptureStderr();
