@@ -17,6 +17,7 @@ from snakemake.logging import logger
 runpy.run_path(f"{workflow.basedir}/workflow/environment/launch.py")  # no other file is taken for a module
 FOLDERS_HERE = {workflow.basedir, f"{workflow.basedir}/workflow", ""}  # where Snakemake looks first
 sys.path[:] = [folder for folder in sys.path if folder not in FOLDERS_HERE]
+from workflow.lib.costs import peak_memory
 from workflow.lib.parents import caption_of
 from workflow.lib.places import in_one_line, require_place
 from workflow.lib.plan import ConfigurationError, data_of, drawings_of

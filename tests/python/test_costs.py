@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from workflow.lib import costs
-from workflow.lib.costs import effort, expected_cost, read_cost
+from workflow.lib.costs import effort, expected_cost, peak_memory, read_cost
 from workflow.lib.plan import Run
 
 
@@ -43,3 +43,21 @@ def test_a_run_of_another_size_foretells_nothing(monkeypatch: pytest.MonkeyPatch
     assert expected_cost("fig08", run, 0.0) == (4, 4)
     other = Run("large", "conductivity", {"cells": 512, "replicas": 8})
     assert all(map(math.isnan, expected_cost("fig08", other, 0.0)))
+
+
+def test_memory_is_foretold_by_the_series(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    executed = {
+        "a_cells=16": (16, 20e6),
+        "a_cells=64": (64, 30e6),
+        "ab_cells=512": (512, 70e6),
+        "c": (11, 9e6),
+    }
+    folder = tmp_path / "build/costs/standard/fig08"
+    folder.mkdir(parents=True)
+    for name, (_, peak) in executed.items():
+        (folder / f"{name}.json").write_text(f'{{"cpu_seconds": 1.0, "peak_memory_bytes": {peak}}}')
+    monkeypatch.setattr(costs, "ROOT", tmp_path)
+    monkeypatch.setattr(costs, "load_parameters", lambda path: {"cells": executed[path.stem][0]})
+    for cells, expected in ((64, 80e6), (256, 320e6), (8, 30e6)):
+        assert peak_memory("fig08", Run("", "conductivity", {"cells": cells}, series="a")) == expected
+    assert math.isnan(peak_memory("fig08", Run("", "conductivity", {"cells": 64}, series="b")))

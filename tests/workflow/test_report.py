@@ -77,10 +77,10 @@ def test_pictures_are_described(page: Page) -> None:
     ("edit", "message"),
     [
         (replace(HTML, "</h1>", "!</h1>"), f"{HTML}: does not follow from"),
-        (replace(HTML, '"fig05/', '"fig00/'), f"{HTML}: does not follow from"),
-        (append(MARKDOWN, "more\n"), f"{MARKDOWN}: does not follow from"),
+        pytest.param(replace(HTML, '"fig05/', '"fig00/'), f"{HTML}: does not follow from", marks=pytest.mark.long),
+        pytest.param(append(MARKDOWN, "more\n"), f"{MARKDOWN}: does not follow from", marks=pytest.mark.long),
         (delete(MARKDOWN), f"{MARKDOWN}: is missing beside"),
-        (append("data/claims.csv", "\n"), f"{HTML}: does not follow from"),
+        pytest.param(append("data/claims.csv", "\n"), f"{HTML}: does not follow from", marks=pytest.mark.long),
         (append("figures/smoke/fig05.csv", "0"), f"{HTML}: cannot be written again: make report: figures/smoke/fig05.csv"),
     ],
     ids=["page", "costs", "table", "missing", "claims", "panel"],

@@ -51,6 +51,22 @@ def executions(panel: str, run: Run) -> Iterator[tuple[Options, float]]:
                 yield parameters, cost["cpu_seconds"]
 
 
+def peak_memory(panel: str, run: Run) -> float:
+    """Bytes: the most that an execution of the series took, at the size of the run, as particles and cells grow alike; NaN
+    if there is none."""
+    most = math.nan
+    for quality in QUALITIES:
+        for path in (ROOT / f"build/costs/{quality}/{panel}").glob("*.json"):
+            if path.stem.partition("_")[0] != run.series:
+                continue
+            cost = read_cost(path)
+            with suppress(FormatError, KeyError, TypeError):
+                executed = load_parameters(ROOT / data_path(quality, panel, path.stem))
+                growth = max(1.0, cells(run.options) / cells(executed))
+                most = max(growth * cost["peak_memory_bytes"], most) if cost else most
+    return most
+
+
 def scaled(cost: float, share: float, start: float) -> tuple[float, float]:
     """The least and the most that a run costs if up to `start` seconds of another's cost do not grow with the effort."""
     least, most = sorted((cost * share, start + (cost - start) * share))

@@ -49,8 +49,10 @@ def minutes_of_run(wildcards, attempt):
 
 
 def memory(wildcards, attempt):
-    """MB. Chains of 2048 cells at the spacing 0.1 take 47, and memory grows as the number of particles."""
-    return 1000 * 2 ** (attempt - 1)
+    """MB: Python and Snakemake, and half as much again as an execution of the series took. Without one, enough for the
+    longest chains of paper, which take 50."""
+    taken = peak_memory(wildcards.panel, run_of(wildcards)) / 1e6 if BATCHES else math.nan
+    return 2 ** (attempt - 1) * (1000 if math.isnan(taken) else 500 + math.ceil(1.5 * taken))
 
 
 def data_of_panel(wildcards):
