@@ -1,6 +1,20 @@
 #include "program/config_file.hpp"
 
 #include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace lorentz {
+namespace {
+/// What toml++ asserts is wrong of some files, as of "[ = 1". They are refused, and do not end the process.
+constexpr void require_rules_of_toml(bool kept) {
+  if (!kept) throw std::invalid_argument("the rules of TOML are broken");
+}
+}  // namespace
+}  // namespace lorentz
+
+// NOLINTNEXTLINE(cppcoreguidelines-macro-usage): toml++ asks for a macro
+#define TOML_ASSERT(expression) lorentz::require_rules_of_toml(static_cast<bool>(expression))
 #include <toml++/toml.h>
 
 #include <cerrno>
@@ -60,6 +74,8 @@ std::vector<ConfigEntry> read_config_file(const std::string& path) try {
     entries.back().place = fmt::format("{}, line {}", path, key.source().begin.line);
   }
   return entries;
+} catch (const std::invalid_argument&) {
+  refuse(path, "it breaks the rules of TOML");
 } catch (const toml::parse_error& error) {
   const toml::source_position where = error.source().begin;
   throw UsageError(fmt::format("{}, line {}, column {}: {}. Correct the file.", path, where.line,

@@ -153,24 +153,40 @@ std::vector<std::byte> Hdf5Writer::image() {
 
 Hdf5Reader::Hdf5Reader(const std::string& path) : path_(path), file_(open_file(path)) {}
 
+void Hdf5Reader::require(bool as_written, const std::string& object) const {
+  if (!as_written)
+    throw UsageError(
+        fmt::format("'{}' is damaged: {} is not as this program writes it. Remove it.", path_, object));
+}
+
+std::size_t Hdf5Reader::elements(hid_t space, std::size_t bytes, const std::string& object) const {
+  const hssize_t count = H5Sget_simple_extent_npoints(space);
+  hsize_t size = 0;
+  require(count >= 0 && H5Fget_filesize(file_, &size) >= 0 && static_cast<hsize_t>(count) <= size / bytes,
+          object);
+  return static_cast<std::size_t>(count);
+}
+
 template <class Value>
-std::vector<Value> Hdf5Reader::read(const std::string& dataset, hid_t memory_type) const {
+std::vector<Value> Hdf5Reader::read(const std::string& dataset, hid_t type_written) const {
   const hid_t id = H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT);
   if (id < 0) throw UsageError(fmt::format("'{}' has no dataset {}.", path_, dataset));
   const Hdf5Handle handle(id, H5Dclose);
+  const Hdf5Handle type(H5Dget_type(handle), H5Tclose);
+  require(H5Tequal(type, type_written) > 0, dataset);
   const Hdf5Handle space(H5Dget_space(handle), H5Sclose);
-  std::vector<Value> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  std::vector<Value> values(elements(space, sizeof(Value), dataset));
   if (!values.empty())
-    check(H5Dread(handle, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "read a dataset");
+    require(H5Dread(handle, type_written, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0, dataset);
   return values;
 }
 
 std::vector<double> Hdf5Reader::doubles(const std::string& dataset) const {
-  return read<double>(dataset, H5T_NATIVE_DOUBLE);
+  return read<double>(dataset, H5T_IEEE_F64LE);
 }
 
 std::vector<std::uint64_t> Hdf5Reader::counts(const std::string& dataset) const {
-  return read<std::uint64_t>(dataset, H5T_NATIVE_UINT64);
+  return read<std::uint64_t>(dataset, H5T_STD_U64LE);
 }
 
 std::string Hdf5Reader::text_attribute(const std::string& object, const std::string& name) const {
@@ -178,8 +194,12 @@ std::string Hdf5Reader::text_attribute(const std::string& object, const std::str
   if (id < 0) throw UsageError(fmt::format("'{}' has no attribute {} at {}.", path_, name, object));
   const Hdf5Handle attribute(id, H5Aclose);
   const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
+  const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
+  require(H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 &&
+              elements(space, H5Tget_size(type), name) == 1,
+          name);
   std::string text(H5Tget_size(type), '\0');
-  check(H5Aread(attribute, type, text.data()), "read an attribute");
+  require(H5Aread(attribute, type, text.data()) >= 0, name);
   return text.substr(0, text.find('\0'));
 }
 

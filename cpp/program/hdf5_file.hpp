@@ -59,7 +59,8 @@ class Hdf5Writer {
   Hdf5Handle file_;
 };
 
-/// Reads files of Hdf5Writer. Throws UsageError, which names the file, if something is missing.
+/// Reads files of Hdf5Writer. Throws UsageError, which names the file, if something is missing or otherwise
+/// than it was written.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(const std::string& path);
@@ -70,7 +71,10 @@ class Hdf5Reader {
 
  private:
   template <class Value>
-  std::vector<Value> read(const std::string& dataset, hid_t memory_type) const;
+  std::vector<Value> read(const std::string& dataset, hid_t type_written) const;
+  void require(bool as_written, const std::string& object) const;
+  /// Their number, if the file has room for them.
+  std::size_t elements(hid_t space, std::size_t bytes, const std::string& object) const;
 
   std::string path_;
   Hdf5Handle file_;

@@ -88,6 +88,7 @@ FinishedReplicas RecordFile::read(const std::string& path) const {
   };
   require(!indices.empty() && events.size() == indices.size());
   for (std::size_t row = 0; row < indices.size(); ++row) finished[indices[row]].events = events[row];
+  require(finished.size() == indices.size());
   for (const Description& tally : tallies_) {
     const std::vector<double> values = file.doubles("/tallies/" + tally.name);
     require(values.size() == indices.size() * tally.size());

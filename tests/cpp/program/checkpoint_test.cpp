@@ -1,11 +1,13 @@
 #include "program/checkpoint.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <chrono>
 #include <cmath>
@@ -104,6 +106,25 @@ TEST(Checkpoint, WithArraysOfOtherSizesIsRefused) {
   Checkpoint(folder / "a.h5", {identity, {tallies[0], {"b", "1", "A number"}}}).save({{0, {{1.0, 2.0}, 3}}});
   const std::string reason = support::refusal([&] { load(Checkpoint(folder / "a.h5", format)); });
   EXPECT_NE(reason.find("other sizes"), std::string::npos);
+}
+
+// Found by fuzzing: the records of an index that comes twice were joined to one of double length.
+TEST(Checkpoint, WithAReplicaTwiceIsRefused) {
+  const TemporaryFolder folder;
+  const Checkpoint checkpoint(folder / "a.h5", format);
+  checkpoint.save({{2, {{1, 2, 3}, 4}}, {9, {{5, 6, 7}, 8}}});
+  std::string content = content_of(checkpoint.path());
+  content.resize(content.size() - 8);
+  const std::uint64_t index = 9, other = 2;
+  const std::string both(reinterpret_cast<const char*>(&other), sizeof other);
+  const std::size_t place =
+      content.find(both + std::string(reinterpret_cast<const char*>(&index), sizeof index));
+  ASSERT_NE(place, std::string::npos);
+  content.replace(place + sizeof other, sizeof index, both);
+  const auto* bytes = reinterpret_cast<const Bytef*>(content.data());
+  content += fmt::format("{:08x}", ::crc32_z(0, bytes, content.size()));
+  support::write_file(checkpoint.path(), content);
+  EXPECT_NE(support::refusal([&] { load(checkpoint); }).find("other sizes"), std::string::npos);
 }
 
 TEST(Checkpoint, EveryFlippedBitIsFound) {

@@ -143,6 +143,17 @@ TEST_F(ConfigFile, IsRefusedWhereItBreaksTheRulesOfToml) {
   broken("start = \"\xff\"\n", "line 1, column ");
 }
 
+// Found by fuzzing: an assertion of toml++ ended the process, and its search for blanks has no answer for
+// letters.
+TEST_F(ConfigFile, IsRefusedWhereTheLibraryIsAtALoss) {
+  write("[ = 1");
+  EXPECT_TRUE(refusal({"--config", path}).find("it breaks the rules of TOML") != std::string::npos);
+  for (const std::string content : {"\xc3\xa9 = 1", "sigma\xef\xbb\xbb = 1"}) {
+    write(content);
+    EXPECT_TRUE(refusal({"--config", path}).starts_with(path + ", line 1, column ")) << content;
+  }
+}
+
 TEST_F(ConfigFile, IsRefusedIfItCannotBeRead) {
   const auto unreadable = [](const std::string& name, const std::string& why) {
     EXPECT_EQ(refusal({"--config", name}),

@@ -132,4 +132,37 @@ TEST(Hdf5File, SaysWhatIsMissing) {
   expect_complaint([&] { Hdf5Reader{folder / "absent.h5"}; }, folder / "absent.h5", "HDF5");
 }
 
+// Found by fuzzing: what such a file says of its sizes was believed, and memory behind a text overwritten.
+TEST(Hdf5File, OfOtherObjectsThanThoseWrittenIsRefused) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.h5";
+  {
+    const Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+    const hsize_t enormous = hsize_t{1} << 60, three = 3;
+    const Hdf5Handle huge(H5Screate_simple(1, &enormous, nullptr), H5Sclose);
+    const Hdf5Handle triple(H5Screate_simple(1, &three, nullptr), H5Sclose);
+    const Hdf5Handle one(H5Screate(H5S_SCALAR), H5Sclose);
+    const Hdf5Handle pointer(H5Tcopy(H5T_C_S1), H5Tclose), letters(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(pointer, H5T_VARIABLE);
+    H5Tset_size(letters, 100);
+    const auto dataset = [&](const char* name, hid_t type, hid_t space) {
+      const Hdf5Handle made(H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                            H5Dclose);
+    };
+    const auto attribute = [&](const char* name, hid_t type, hid_t space) {
+      const Hdf5Handle made(H5Acreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    };
+    dataset("/enormous", H5T_IEEE_F64LE, huge);
+    dataset("/real", H5T_IEEE_F64LE, one);
+    attribute("texts", letters, triple);
+    attribute("pointer", pointer, one);
+    attribute("number", H5T_IEEE_F64LE, one);
+  }
+  const Hdf5Reader file(path);
+  expect_complaint([&] { (void)file.doubles("/enormous"); }, path, "/enormous is not as");
+  expect_complaint([&] { (void)file.counts("/real"); }, path, "/real is not as");
+  for (const char* name : {"texts", "pointer", "number"})
+    expect_complaint([&] { (void)file.text_attribute("/", name); }, path, std::string(name) + " is not as");
+}
+
 }  // namespace
