@@ -12,6 +12,7 @@ import pytest
 
 from tests.workflow.conftest import CHEAP, Clone
 from tests.workflow.tampering import run_module
+from workflow.provenance.bill_of_materials import NAME as BILL
 
 FOLDER = "build/crate/standard"
 ARCHIVE = "build/crate/lorentz-gas-standard.zip"
@@ -33,11 +34,18 @@ def test_every_file_is_there_with_its_hash(packed: Clone) -> None:
     assert {"Makefile", "LICENSE", "CITATION.cff", "cpp/CMakeLists.txt", "docs/format.md"} <= present
     for path, entity in files.items():
         assert hashlib.sha256((folder / path).read_bytes()).hexdigest() == entity["sha256"]
-        assert (folder / path).read_bytes() == (packed.folder / path).read_bytes()
+        assert int(entity["contentSize"]) == (folder / path).stat().st_size
+        assert path == BILL or (folder / path).read_bytes() == (packed.folder / path).read_bytes()
     with zipfile.ZipFile(packed.folder / ARCHIVE) as archive:
         assert {name: archive.read(name) for name in archive.namelist()} == {
             name: (folder / name).read_bytes() for name in present
         }
+
+
+def test_the_bill_of_materials_names_what_the_panel_was_made_with(packed: Clone) -> None:
+    bill = json.loads((packed.folder / FOLDER / BILL).read_text())
+    named = {package["name"] for package in bill["packages"]}
+    assert {"numpy", "matplotlib", "snakemake", "GSL", "HDF5"} <= named
 
 
 def test_every_job_of_the_panel_is_an_action(packed: Clone) -> None:

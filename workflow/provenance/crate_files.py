@@ -1,6 +1,8 @@
 """The crate itself and its files: whose it is, what it conforms to, and the sha256 of everything in it."""
 
+import hashlib
 from datetime import date
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -61,6 +63,17 @@ def add_files(crate: ROCrate, paths: set[str], scripts: set[str]) -> dict[str, E
         files[path]["version"] = crate.root_dataset["version"]
     files["README.md"]["about"] = crate.root_dataset
     return files
+
+
+def add_text(crate: ROCrate, path: str, text: str) -> Entity:
+    """A file that the crate alone has."""
+    properties = {
+        "name": path,
+        "sha256": hashlib.sha256(text.encode()).hexdigest(),
+        "encodingFormat": TYPES[Path(path).suffix],
+        "contentSize": str(len(text.encode())),
+    }
+    return crate.add_file(StringIO(text), path, properties=properties)
 
 
 def add(crate: ROCrate, identifier: str, properties: dict[str, Any]) -> Entity:

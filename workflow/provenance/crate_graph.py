@@ -15,7 +15,9 @@ from rocrate.rocrate import ROCrate
 
 from workflow.lib.options import arguments
 from workflow.lib.parents import PACKAGES
-from workflow.provenance.crate_files import WORKFLOW, add, add_files, compact, new_crate
+from workflow.provenance.bill_of_materials import NAME as BILL
+from workflow.provenance.bill_of_materials import bill_of_materials
+from workflow.provenance.crate_files import WORKFLOW, add, add_files, add_text, compact, new_crate
 from workflow.provenance.job import Job
 from workflow.provenance.lock import Lock, builds_of, configuration_files
 from workflow.provenance.repository import ROOT, git
@@ -49,6 +51,8 @@ def crate_of(
     lock_path = str(Lock.path(lock.quality).relative_to(ROOT))
     files = add_files(crate, {*sources, *products, *report, lock_path}, scripts)
     used = sorted(builds_of(jobs.values()))
+    libraries = [lock.builds[build_id]["libraries"] for build_id in used]
+    add_text(crate, BILL, bill_of_materials(f"lorentz-gas-{lock.quality}", published(jobs), libraries))
     programs = {build_id: _add_program(crate, lock.builds[build_id], files) for build_id in used}
 
     settings = configuration_files(lock.quality)
