@@ -30,6 +30,7 @@ BATCH := 30
 ACCOUNT :=
 PARTITION :=
 SAMPLE := 0.1
+SECONDS := 60
 
 override quote = '$(subst ','\'',$1)'
 
@@ -73,14 +74,14 @@ $(if $(CLOSED),$(error you may not write in $(CURDIR) ($(CLOSED)): copy the proj
   make audit, verify, provenance and status need no write access))
 
 # What the recipes below and ninja open without a question; the rest is looked at by what opens it (workflow/lib/places.py).
-OPENED := build/system-packages build/CMakeCache.txt build/build.ninja build/.ninja_log build/.ninja_deps
+OPENED := build/system-packages build/dev-packages build/CMakeCache.txt build/build.ninja build/.ninja_log build/.ninja_deps
 override MISPLACED := $(if $(WRITING),$(shell for each in $(OPENED); do test ! -e $$each || test -f $$each || echo $$each; done))
 $(if $(MISPLACED),$(error $(MISPLACED): no file lies where a file belongs; move it away))
 
 override PYTHON := .venv/bin/python -P workflow/environment/launch.py
 YES := yes 1
 EFFORT := $(call quote,$(QUALITY)$(if $(SEED),_seed=$(SEED))$(if $(REPLICAS),_replicas=$(REPLICAS)))
-$(foreach name,JOBS PANEL FILE CRATE SAMPLE PROFILE BATCH ACCOUNT PARTITION,$(if $($(name)),$(eval override $(name) := $$(call quote,$$($(name))))))
+$(foreach name,JOBS PANEL FILE CRATE SAMPLE PROFILE BATCH ACCOUNT PARTITION SECONDS,$(if $($(name)),$(eval override $(name) := $$(call quote,$$($(name))))))
 ON_THIS_MACHINE = --cores $(or $(JOBS),$(shell env -u OMP_NUM_THREADS nproc 2>/dev/null || sysctl -n hw.ncpu))
 ON_A_CLUSTER = --workflow-profile profiles/$(PROFILE) $(if $(JOBS),--jobs $(JOBS)) \
   $(if $(ACCOUNT)$(PARTITION),--default-resources $(if $(ACCOUNT),slurm_account=$(ACCOUNT)) $(if $(PARTITION),slurm_partition=$(PARTITION)))
@@ -90,11 +91,12 @@ SNAKEFMT := .venv/bin/snakefmt --no-format-shell --line-length 110
 ONLY_PANEL := $(if $(PANEL),--panel=$(PANEL))
 COMPARE = $(if $(SEED)$(REPLICAS)$(filter $(YES),$(FRESH)),$(PYTHON) workflow.provenance.compare --quality $(EFFORT))
 
-.PHONY: help figures panel report gallery build test test-long check tidy format describe reference lock audit verify provenance status \
-  cost crate bench timings tradeoff clean system-packages installed runtime dev
+.PHONY: help figures panel report gallery build test test-long check tidy fuzz format describe reference lock audit verify provenance status \
+  cost crate bench timings tradeoff clean system-packages dev-packages installed runtime dev
 help:  ## This list
 	sed -nE 's/^([a-z-]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 16
 	echo 'Options: QUALITY=smoke|standard|paper|deep  PANEL=fig05  FRESH=yes  SEED=7  REPLICAS=200  JOBS=2'
+	echo 'For developers: SECONDS=60'
 	echo 'On a cluster (docs/cluster.md): PROFILE=slurm  BATCH=30  ACCOUNT=physics  PARTITION=short'
 
 figures: build runtime  ## Build, simulate and draw every figure into figures/QUALITY
@@ -126,25 +128,28 @@ build: system-packages  ## The executables in build/bin
 	ninja -C build --quiet
 	python3 -I workflow/environment/launch.py workflow.environment.build_by_content --built
 
-test: build dev  ## All tests; ends with the count
+test: dev build  ## All tests; ends with the count
 	ninja -C build --quiet cpp_tests
 	$(PYTHON) tests.run
 
-test-long: build dev  ## The same and tests that take minutes, on a Slurm of one node too
+test-long: dev build  ## The same and tests that take minutes, on a Slurm of one node too
 	test -x /usr/sbin/slurmctld || { apt-get update --quiet=2 && \
 	  apt-get install --quiet=2 --yes --no-install-recommends slurm-wlm munge; } || echo 'no Slurm: its tests are skipped'
 	ninja -C build --quiet cpp_tests
 	$(PYTHON) tests.run --long
 
-check: build dev reference tidy  ## Format, lint, types, clang-tidy and reference
+check: dev build reference tidy  ## Format, lint, types, clang-tidy and reference
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 .venv/bin/clang-format --dry-run --Werror
 	.venv/bin/ruff check --quiet . && .venv/bin/ruff format --quiet --check .
 	.venv/bin/mypy --no-error-summary
 	$(SNAKEFMT) --check --compact-diff Snakefile workflow/rules
 	$(SNAKEMAKE) --lint
 
-tidy: build dev  ## clang-tidy over the C++ sources that have changed since they were clean
+tidy: dev build  ## clang-tidy over the C++ sources that have changed since they were clean
 	$(PYTHON) workflow.environment.tidy
+
+fuzz: dev  ## Random command lines, configuration files and checkpoints, each for SECONDS=60
+	$(PYTHON) tests.fuzz $(SECONDS)
 
 format: dev  ## Format every source in place
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 .venv/bin/clang-format -i
@@ -170,7 +175,7 @@ status: installed  ## Which panels are fresh, their errors and what they cost
 cost: build runtime  ## CPU and wall time of a quality on this machine, foretold without a run; PANEL=fig05
 	$(PYTHON) workflow.tradeoff.forecast --programs build/bin --quality $(EFFORT) $(ONLY_PANEL) $(if $(PROFILE),--batch $(BATCH))
 
-bench: build runtime  ## Cost of an event: engine, reference and floor side by side; programs and bare loops
+bench: dev-packages build runtime  ## Cost of an event: engine, reference and floor side by side; programs and bare loops
 	ninja -C build --quiet benchmarks
 	build/bin/benchmarks --benchmark_repetitions=3 --benchmark_enable_random_interleaving=true \
 	  --benchmark_report_aggregates_only=true --benchmark_out=build/bench.json
@@ -180,7 +185,7 @@ bench: build runtime  ## Cost of an event: engine, reference and floor side by s
 timings: build runtime  ## Measure the timings that make cost starts from anew, if they are to be shipped
 	$(PYTHON) workflow.tradeoff.timings --programs build/bin
 
-tradeoff: build runtime  ## Speed against accuracy, measured here: figures/tradeoff
+tradeoff: dev-packages build runtime  ## Speed against accuracy, measured here: figures/tradeoff
 	ninja -C build --quiet reference_pulse reference_open_chain reference_drift
 	$(PYTHON) workflow.tradeoff.kinetic --programs build/bin --output figures/tradeoff/ext06_kinetic
 	$(PYTHON) workflow.tradeoff.accuracy --programs build/bin --output figures/tradeoff/ext06
@@ -190,7 +195,7 @@ tradeoff: build runtime  ## Speed against accuracy, measured here: figures/trade
 	$(PYTHON) workflow.tradeoff.prediction --programs build/bin --output figures/tradeoff/ext06_prediction
 	$(PYTHON) workflow.tradeoff.extremes --programs build/bin --quality $(EFFORT) --output figures/tradeoff/ext08
 
-reference: system-packages dev  ## C++ and Python reference in build/reference; any warning is an error
+reference: dev  ## C++ and Python reference in build/reference; any warning is an error
 	mkdir -p build/reference
 	doxygen docs/Doxyfile
 	PDOC_ALLOW_EXEC=1 .venv/bin/python -P -W error::UserWarning workflow/environment/launch.py pdoc -o build/reference/python \
@@ -210,6 +215,12 @@ system-packages:
 	  { bash workflow/environment/system_packages.sh && mkdir -p build && \
 	    cp workflow/environment/system_packages.sh build/system-packages; }
 
+# What was configured without them knows no tests, and is configured again.
+dev-packages: system-packages
+	cmp -s workflow/environment/system_packages.sh build/dev-packages || \
+	  { bash workflow/environment/system_packages.sh dev && cp workflow/environment/system_packages.sh build/dev-packages; }
+	test ! -f build/build.ninja || grep -q cpp_tests build/build.ninja || cmake build >build/cmake.log
+
 # For what looks and changes nothing: packages are installed where there are none, and not repaired. Nor is anything of
 # them started that is not as it was installed: it could say of itself that it is.
 installed:
@@ -219,5 +230,5 @@ installed:
 runtime: system-packages
 	python3 -I workflow/environment/packages.py requirements.lock
 
-dev: system-packages
+dev: dev-packages
 	python3 -I workflow/environment/packages.py requirements.lock requirements-dev.lock

@@ -33,6 +33,7 @@ ADMITTED = {  # name: pattern of the whole value, what it may be, an example
     "PARTITION": (r"[A-Za-z0-9._,-]+", "a partition of the cluster", "PARTITION=short"),
     "SAMPLE": (r"0?\.[0-9]*[1-9][0-9]*|1(\.0*)?", "a share, above 0 and at most 1", "SAMPLE=0.1"),
     "FILE": (r"[^\n]+", "the path of a file", "FILE=figures/standard/fig05.pdf"),
+    "SECONDS": (r"[1-9][0-9]{0,4}", "the seconds that each fuzzer runs, up to 99999", "SECONDS=60"),
     "CRATE": (r"[^\n]+", "the path of a crate", "CRATE=crate.zip"),
 }
 
@@ -52,6 +53,7 @@ USED = {  # by the goals that use any
     "provenance": ("FILE", "FULL"),
     "check": (*EFFORT, "JOBS"),
     "tradeoff": ("QUALITY",),
+    "fuzz": ("SECONDS",),
     "help": ADMITTED,
 }
 

@@ -1,5 +1,6 @@
 #!/bin/bash
 # Finds out which system packages are missing and installs them with apt when root; otherwise says how.
+# With "dev" also those that tests, checks and benchmarks need.
 # Each line: a probe (a command, a header, or the venv module), then the package on Debian, Fedora, Homebrew.
 set -euo pipefail
 
@@ -17,12 +18,16 @@ header:nlohmann/json.hpp nlohmann-json3-dev json-devel nlohmann-json
 header:Random123/philox.h librandom123-dev Random123-devel random123
 header:sleef.h         libsleef-dev       sleef-devel      sleef
 header:fmt/format.h    libfmt-dev         fmt-devel        fmt
-header:gtest/gtest.h   libgtest-dev       gtest-devel      googletest
-header:benchmark/benchmark.h libbenchmark-dev google-benchmark-devel google-benchmark
-command:doxygen        doxygen            doxygen          doxygen
-command:ccache         ccache             ccache           ccache
 venv:                  python3-venv       python3          python
 '
+for_developers='
+header:gtest/gtest.h   libgtest-dev       gtest-devel      googletest
+header:benchmark/benchmark.h libbenchmark-dev google-benchmark-devel google-benchmark
+command:clang++        clang              clang            llvm
+command:doxygen        doxygen            doxygen          doxygen
+command:ccache         ccache             ccache           ccache
+'
+[ "${1-}" != dev ] || probes+=$for_developers
 
 includes=(-I/usr/include/hdf5/serial -I/usr/include/eigen3 -I/opt/homebrew/include -I/opt/homebrew/include/eigen3)
 

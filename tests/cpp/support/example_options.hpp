@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,6 +57,16 @@ struct Example {
     return options.parse(static_cast<int>(pointers.size()), pointers.data(), "example 1.0");
   }
 };
+
+/// Ends the process unless all values are in the ranges that were declared.
+inline void require_admissible(const Example& e) {
+  const auto between = [](double low, double value, double high) { return low <= value && value <= high; };
+  const bool admissible = between(-1, e.sigma, 1) && e.temperature > 0 && e.relaxation >= 0 &&
+                          e.gamma.value_or(0) >= 0 && between(1, e.sites.value_or(1), 300) &&
+                          e.window.at(1) > 0 && between(1, e.cells, 100) && between(1, e.threads, 4096) &&
+                          std::ranges::is_sorted(e.times, std::ranges::less_equal());
+  if (!admissible) std::abort();
+}
 
 /// Message of the UsageError.
 inline std::string refusal(const Arguments& arguments) {
