@@ -91,7 +91,7 @@ SNAKEFMT := .venv/bin/snakefmt --no-format-shell --line-length 110
 ONLY_PANEL := $(if $(PANEL),--panel=$(PANEL))
 COMPARE = $(if $(SEED)$(REPLICAS)$(filter $(YES),$(FRESH)),$(PYTHON) workflow.provenance.compare --quality $(EFFORT))
 
-.PHONY: help figures panel report gallery build test test-long check tidy fuzz format describe reference lock audit verify provenance status \
+.PHONY: help figures panel report gallery build test test-long check lint tidy fuzz format describe reference lock audit verify provenance status \
   cost crate bench timings tradeoff clean system-packages dev-packages installed runtime dev
 help:  ## This list
 	sed -nE 's/^([a-z-]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 16
@@ -138,14 +138,16 @@ test-long: dev build  ## The same and tests that take minutes, on a Slurm of one
 	ninja -C build --quiet cpp_tests
 	$(PYTHON) tests.run --long
 
-check: dev build reference tidy  ## Format, lint, types, clang-tidy and reference
+check: lint tidy  ## All that looks at sources without running them
+
+lint: dev build reference  ## Format, lint, types and reference: seconds
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 .venv/bin/clang-format --dry-run --Werror
 	.venv/bin/ruff check --quiet . && .venv/bin/ruff format --quiet --check .
 	.venv/bin/mypy --no-error-summary
 	$(SNAKEFMT) --check --compact-diff Snakefile workflow/rules
 	$(SNAKEMAKE) --lint
 
-tidy: dev build  ## clang-tidy over the C++ sources that have changed since they were clean
+tidy: dev build  ## clang-tidy over the C++ sources that have changed since they were clean; minutes at first
 	$(PYTHON) workflow.environment.tidy
 
 fuzz: dev  ## Random command lines, configuration files and checkpoints, each for SECONDS=60

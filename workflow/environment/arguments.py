@@ -52,6 +52,7 @@ USED = {  # by the goals that use any
     "cost": (*EFFORT, "PANEL", "PROFILE", "BATCH"),
     "provenance": ("FILE", "FULL"),
     "check": (*EFFORT, "JOBS"),
+    "lint": (*EFFORT, "JOBS"),
     "tradeoff": ("QUALITY",),
     "fuzz": ("SECONDS",),
     "help": ADMITTED,
