@@ -1,6 +1,7 @@
 """What other services read at the root, CODECHECK, CodeMeta and the Citation File Format, is right and agrees."""
 
 import json
+import tomllib
 
 import pytest
 import yaml
@@ -69,3 +70,12 @@ def test_the_paper_is_described_alike() -> None:
     assert names(described["author"]) == names(checked["authors"]) == names(cited["authors"])
     assert described["isPartOf"]["name"] == cited["journal"]
     assert described["datePublished"] == str(cited["year"])
+
+
+def test_every_file_has_the_licence_of_the_project() -> None:
+    """As the REUSE specification has it: one statement for all, and the text of each licence that it names."""
+    (stated,) = tomllib.loads((ROOT / "REUSE.toml").read_text())["annotations"]
+    assert (stated["path"], stated["SPDX-License-Identifier"]) == ("**", CITATION["license"])
+    assert [path.stem for path in (ROOT / "LICENSES").iterdir()] == [CITATION["license"]]
+    assert (ROOT / f"LICENSES/{CITATION['license']}.txt").read_text() == (ROOT / "LICENSE").read_text()
+    assert stated["SPDX-FileCopyrightText"] in (ROOT / "LICENSE").read_text()

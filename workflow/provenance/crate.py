@@ -25,7 +25,15 @@ DRAFT = "smoke"
 NAMED = 5  # stale jobs that a refusal names
 # What belongs to the project where git cannot tell.
 FOLDERS = ("cpp", "docs", "profiles", "tests", "workflow")
-FILES = ("Makefile", "Snakefile", "requirements.lock", "requirements-dev.lock", ".clang-format", ".ruff.toml")
+FILES = (
+    "Makefile",
+    "Snakefile",
+    "requirements.lock",
+    "requirements-dev.lock",
+    ".clang-format",
+    ".clang-tidy",
+    ".ruff.toml",
+)
 PAPERS = (
     "README.md",
     "CHANGELOG.md",
@@ -33,6 +41,8 @@ PAPERS = (
     "codecheck.yml",
     "codemeta.json",
     "LICENSE",
+    "LICENSES/MIT.txt",
+    "REUSE.toml",
     ".gitignore",
     "data/README.md",
     "data/claims.csv",
