@@ -30,8 +30,10 @@ class Team {
     {
       std::vector<std::jthread> workers;
       start(workers);
-      alone_ = workers.empty() && !todo_.empty();
-      if (alone_) work(fractions_[0]);
+      if (workers.empty() && !todo_.empty()) {
+        alone_ = true;  // written only where no thread is that could read it meanwhile
+        work(fractions_[0]);
+      }
       report_until_done();
     }
     if (failure_) std::rethrow_exception(failure_);
