@@ -1,6 +1,5 @@
 import contextlib
 import fcntl
-import json
 import os
 import shutil
 import subprocess
@@ -89,20 +88,6 @@ def run_silently(folder: Path, *command: str) -> None:
     subprocess.run(command, cwd=folder, env={"PATH": os.defpath}, check=True, stdout=subprocess.DEVNULL)
 
 
-def drawn_already() -> bool:
-    """Whether the project's figures of smoke quality are all from the commit that is checked out. Whether there is one of
-    every panel, and fresh, is for make to find out."""
-    lock = ROOT / "data/smoke/lock.json"
-    if not lock.is_file() or not (ROOT / ".git").is_dir():
-        return False
-    head, changed = (
-        subprocess.check_output(["git", *words], cwd=ROOT, text=True).strip()
-        for words in (("rev-parse", "HEAD"), ("status", "--porcelain"))
-    )
-    jobs = json.loads(lock.read_text())["jobs"].values()
-    return not changed and all((job["commit"], job["dirty"]) == (head, False) for job in jobs)
-
-
 @contextlib.contextmanager
 def locked(path: Path) -> Iterator[None]:
     with path.open("w") as file:
@@ -112,20 +97,16 @@ def locked(path: Path) -> Iterator[None]:
 
 @pytest.fixture(scope="session")
 def clean(tmp_path_factory: pytest.TempPathFactory) -> Clone:
-    """A repository, built, with every figure at smoke quality: those of the project itself if they are of the commit that
-    is checked out, or else drawn. Processes that run tests beside each other draw once and copy."""
+    """A repository with one commit, built, with every figure at smoke quality. Processes that run tests beside each
+    other draw once and copy."""
     own = tmp_path_factory.getbasetemp()
     shared = own.parent if "PYTEST_XDIST_WORKER" in os.environ else own
     with locked(shared / "drawn.lock"):
         drawn = Clone(shared / "drawn")
         if not drawn.folder.exists():
             clone = clone_into(shared / "being drawn")
-            if drawn_already():
-                for place in (".git", *DRAWN):
-                    shutil.copytree(ROOT / place, clone.folder / place, dirs_exist_ok=True)
-            else:
-                clone.git("init", "--quiet")
-                clone.commit()
+            clone.git("init", "--quiet")
+            clone.commit()
             made = clone.make("figures", "QUALITY=smoke")
             assert made.returncode == 0, made.stdout
             clone.folder.rename(drawn.folder)
