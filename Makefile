@@ -91,7 +91,7 @@ SNAKEFMT := .venv/bin/snakefmt --no-format-shell --line-length 110
 ONLY_PANEL := $(if $(PANEL),--panel=$(PANEL))
 COMPARE = $(if $(SEED)$(REPLICAS)$(filter $(YES),$(FRESH)),$(PYTHON) workflow.provenance.compare --quality $(EFFORT))
 
-.PHONY: help figures panel report gallery build test test-long check lint tidy fuzz format describe reference lock audit verify provenance status \
+.PHONY: help figures panel report gallery build test test-long check lint tidy sanitize fuzz format describe reference lock audit verify provenance status \
   cost crate bench timings tradeoff clean system-packages dev-packages installed runtime dev
 help:  ## This list
 	sed -nE 's/^([a-z-]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 16
@@ -149,6 +149,9 @@ lint: dev build reference  ## Format, lint, types and reference: seconds
 
 tidy: dev build  ## clang-tidy over the C++ sources that have changed since they were clean; minutes at first
 	$(PYTHON) workflow.environment.tidy
+
+sanitize: dev  ## C++ tests and programs under AddressSanitizer, UBSan and ThreadSanitizer; ends with the count
+	$(PYTHON) tests.sanitize
 
 fuzz: dev  ## Random command lines, configuration files and checkpoints, each for SECONDS=60
 	$(PYTHON) tests.fuzz $(SECONDS)
