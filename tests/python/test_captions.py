@@ -91,7 +91,7 @@ def test_p_values_near_zero_are_bounds() -> None:
     ("change", "verb"), [(0.02, "rises"), (-0.02, "falls"), (0.002, "does not change beyond errors")]
 )
 def test_a_change_is_named_beyond_three_errors(change: float, verb: str) -> None:
-    """Errors of 1 %, from which the ends alone would not tell: 0.35(2) and 0.42(2) where it rises."""
+    """Errors of 1 %, from which the ends alone would not tell: 0.36(2) and 0.45(2) where it rises."""
     cells = 16 * 2.0 ** np.arange(8)
     kappa = np.exp(0.3 * np.log(cells) + change / 2 * np.log(cells) ** 2)
     part = pd.DataFrame({"cells": cells})

@@ -10,8 +10,6 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-PLACES = ("data", "figures", "build/logs", "build/costs", "build/benchmarks")
-DRAWN = (".snakemake", *(f"{place}/smoke" for place in PLACES))  # what drawing leaves
 CHEAP = ("PANEL=fig03", "QUALITY=standard")  # a second, at a quality that is packed
 
 
@@ -111,7 +109,7 @@ def clean(tmp_path_factory: pytest.TempPathFactory) -> Clone:
             assert made.returncode == 0, made.stdout
             clone.folder.rename(drawn.folder)
     clone = clone_into(tmp_path_factory.mktemp("clean"), drawn.folder)
-    for place in (".git", *DRAWN):
+    for place in (".git", ".snakemake", "data", "figures", "build/logs", "build/costs", "build/benchmarks"):
         shutil.copytree(drawn.folder / place, clone.folder / place, dirs_exist_ok=True)
     assert clone.make("build").returncode == 0
     return clone

@@ -93,7 +93,8 @@ def apply() -> None:
 
 
 def letter(*panels: Axes, lift: float | None = None) -> None:
-    """(a), (b), ... above the upper left corner of each; by so many points, where an axis on top of one has labels."""
+    """(a), (b), ... above the upper left corner of each. lift: height above the axes in points, the same for all, if one of
+    them has tick labels on top."""
     for character, axes in zip(ascii_lowercase, panels, strict=False):
         axes.set_title(f"({character})", loc="left", y=None if lift is None else 1, pad=lift)
 
