@@ -92,13 +92,15 @@ def scatter(found: pd.DataFrame) -> tuple[float, int]:
 
 def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) -> None:
     drives = sorted(found.drive.unique())
-    for name in found.gas.unique():
+    for place, name in enumerate(found.gas.unique()):
         marker, color = LOOKS[name]
         for number, drive in enumerate(drives):
             one = found[(found.gas == name) & (found.drive == drive)]
             face = FACES[number] or color
             axes.errorbar(
-                one["size"] * 1.06 ** (number - 1),
+                one["size"]
+                * 1.1 ** (number - 1)
+                * 1.03 ** (place - 1),  # beside each other, or they would hide each other
                 one.exponent,
                 one.exponent_error,
                 marker=marker,
