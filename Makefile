@@ -206,8 +206,8 @@ reference: dev  ## C++ and Python reference in build/reference; any warning is a
 	PDOC_ALLOW_EXEC=1 .venv/bin/python -P -W error::UserWarning workflow/environment/launch.py pdoc -o build/reference/python \
 	  $$(git ls-files 'workflow/*.py' | sed 's|/|.|g; s|\.py$$||')
 
-lock: dev  ## Renew both locks of Python packages
-	for name in requirements requirements-dev; do \
+lock: dev  ## Renew the locks of Python packages
+	for name in requirements requirements-build requirements-dev; do \
 	  .venv/bin/uv pip compile --quiet --no-header --no-annotate --upgrade --generate-hashes --universal \
 	    --python-version 3.11 workflow/environment/$$name.in -o $$name.lock; \
 	done
@@ -229,11 +229,11 @@ dev-packages: system-packages
 # For what looks and changes nothing: packages are installed where there are none, and not repaired. Nor is anything of
 # them started that is not as it was installed: it could say of itself that it is.
 installed:
-	test -x .venv/bin/python || python3 -I workflow/environment/packages.py requirements.lock
+	test -x .venv/bin/python || python3 -I workflow/environment/packages.py requirements-build.lock requirements.lock
 	python3 -I workflow/environment/packages.py --check
 
 runtime: system-packages
-	python3 -I workflow/environment/packages.py requirements.lock
+	python3 -I workflow/environment/packages.py requirements-build.lock requirements.lock
 
 dev: dev-packages
-	python3 -I workflow/environment/packages.py requirements.lock requirements-dev.lock
+	python3 -I workflow/environment/packages.py requirements-build.lock requirements.lock requirements-dev.lock

@@ -58,7 +58,7 @@ def clone_into(folder: Path, source: Path = ROOT) -> Clone:
     for name in filter(None, tracked.split("\0")):
         if (source / name).is_file():
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(source / name, folder / name)
+            shutil.copy(source / name, folder / name)
     # Copies, as every hard link would change the time of change by which changed packages are noticed.
     shutil.copytree(ROOT / ".venv", folder / ".venv", symlinks=True)
     share_objects(folder)
@@ -66,11 +66,9 @@ def clone_into(folder: Path, source: Path = ROOT) -> Clone:
 
 
 def configure(folder: Path) -> None:
-    """Clones compile each source once in all: what the compiler writes does not depend on the folder."""
-    settings = {"CCACHE_DIR": ROOT / "build/ccache", "CCACHE_BASEDIR": folder, "CCACHE_NOHASHDIR": 1}
-    launcher = ";".join(["env", *(f"{name}={value}" for name, value in settings.items()), "ccache"])
-    launched = f"-DCMAKE_CXX_COMPILER_LAUNCHER={launcher}"
-    run_silently(folder, "cmake", "-S", "cpp", "-B", "build", "-G", "Ninja", launched)
+    """With the project's own objects: nothing is compiled twice."""
+    cache = f"-DCOMPILER_CACHE={ROOT / 'build/ccache'}"
+    run_silently(folder, "cmake", "-S", "cpp", "-B", "build", "-G", "Ninja", cache)
 
 
 def share_objects(folder: Path) -> None:
@@ -93,24 +91,40 @@ def locked(path: Path) -> Iterator[None]:
         yield
 
 
+MADE = ("data/smoke", "figures/smoke", ".snakemake", "build/logs", "build/costs", "build/benchmarks")
+
+
+def copy_made(source: Path, target: Path) -> None:
+    for place in MADE:
+        if (source / place).is_dir():
+            shutil.copytree(source / place, target / place, dirs_exist_ok=True)
+
+
+def drawn_into(folder: Path) -> None:
+    """The project as it stands, its changes committed, with the figures that it has; those that are missing or stale are
+    made."""
+    subprocess.run(["git", "clone", "--quiet", "--no-checkout", ROOT, folder], check=True)
+    clone = clone_into(folder)
+    clone.commit()
+    copy_made(ROOT, folder)
+    made = clone.make("figures", "QUALITY=smoke")
+    assert made.returncode == 0, made.stdout
+
+
 @pytest.fixture(scope="session")
 def clean(tmp_path_factory: pytest.TempPathFactory) -> Clone:
-    """A repository with one commit, built, with every figure at smoke quality. Processes that run tests beside each
+    """A repository with nothing to commit, built, with every figure at smoke quality. Processes that run tests beside each
     other draw once and copy."""
     own = tmp_path_factory.getbasetemp()
     shared = own.parent if "PYTEST_XDIST_WORKER" in os.environ else own
+    drawn = shared / "drawn"
     with locked(shared / "drawn.lock"):
-        drawn = Clone(shared / "drawn")
-        if not drawn.folder.exists():
-            clone = clone_into(shared / "being drawn")
-            clone.git("init", "--quiet")
-            clone.commit()
-            made = clone.make("figures", "QUALITY=smoke")
-            assert made.returncode == 0, made.stdout
-            clone.folder.rename(drawn.folder)
-    clone = clone_into(tmp_path_factory.mktemp("clean"), drawn.folder)
-    for place in (".git", ".snakemake", "data", "figures", "build/logs", "build/costs", "build/benchmarks"):
-        shutil.copytree(drawn.folder / place, clone.folder / place, dirs_exist_ok=True)
+        if not drawn.exists():
+            drawn_into(shared / "being drawn")
+            (shared / "being drawn").rename(drawn)
+    clone = clone_into(tmp_path_factory.mktemp("clean"), drawn)
+    shutil.copytree(drawn / ".git", clone.folder / ".git")
+    copy_made(drawn, clone.folder)
     assert clone.make("build").returncode == 0
     return clone
 

@@ -130,6 +130,8 @@ def add(locks: list[str]) -> None:
             "--quiet",
             "--disable-pip-version-check",
             "--require-hashes",
+            "--no-build-isolation",  # which would fetch what builds them, by no hash
+            "--use-pep517",
         ]
         subprocess.run([*command, "-r", ROOT / lock], check=True)
 

@@ -4,8 +4,8 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
 import numpy as np
-from scipy.stats import chi2
 
+from workflow.lib.fit import p_value
 from workflow.lib.load import Result
 
 SYMBOLS = {
@@ -76,5 +76,5 @@ def replicas(results: Sequence[Result]) -> str:
 
 def goodness(chi_square: float, freedom: int) -> str:
     """chi^2 with its degrees of freedom and its p-value."""
-    p = float(chi2.sf(chi_square, freedom))
+    p = p_value(chi_square, freedom)
     return f"χ² = {chi_square:.1f} for {freedom}, p {f'= {p:.2g}' if p > SMALLEST_P else f'< {SMALLEST_P:g}'}"

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import minimize_scalar
-from scipy.stats import chi2
+
+from workflow.lib.fit import p_value
 
 Basis = Callable[[np.ndarray], list[np.ndarray]]  # functions of the size that are combined linearly
 
@@ -34,7 +35,7 @@ class Growth:
 
     @property
     def p_value(self) -> float:
-        return float(chi2.sf(self.chi_square, self.freedom))
+        return p_value(self.chi_square, self.freedom)
 
     @property
     def criterion(self) -> float:

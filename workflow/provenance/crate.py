@@ -29,6 +29,7 @@ FILES = (
     "Makefile",
     "Snakefile",
     "requirements.lock",
+    "requirements-build.lock",
     "requirements-dev.lock",
     ".clang-format",
     ".clang-tidy",

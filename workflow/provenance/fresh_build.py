@@ -32,7 +32,7 @@ class FreshBuild:
     @classmethod
     def of(cls, programs: Iterable[str], folder: Path) -> "FreshBuild":
         """Raises BuildError."""
-        _run(["cmake", "-S", str(ROOT / "cpp"), "-B", str(folder), "-G", "Ninja"])
+        _run(["cmake", "-S", str(ROOT / "cpp"), "-B", str(folder), "-G", "Ninja", "-DCOMPILER_CACHE=none"])
         _run(["ninja", "-C", str(folder), "--quiet", "--", *sorted(programs)])
         return cls(folder)
 
