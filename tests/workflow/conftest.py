@@ -95,9 +95,11 @@ MADE = ("data/smoke", "figures/smoke", ".snakemake", "build/logs", "build/costs"
 
 
 def copy_made(source: Path, target: Path) -> None:
+    """Products and what is known of their jobs; not the report, which no figure needs."""
     for place in MADE:
         if (source / place).is_dir():
-            shutil.copytree(source / place, target / place, dirs_exist_ok=True)
+            without = shutil.ignore_patterns("report.*")
+            shutil.copytree(source / place, target / place, dirs_exist_ok=True, ignore=without)
 
 
 def drawn_into(folder: Path) -> None:

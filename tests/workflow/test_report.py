@@ -1,6 +1,7 @@
 """The report: complete, the same again, whole without a network, noticed when it is changed, usable on narrow screens."""
 
 import json
+import os
 import re
 import subprocess
 from collections.abc import Callable
@@ -8,13 +9,15 @@ from collections.abc import Callable
 import pytest
 
 from tests.workflow.conftest import Clone, append, delete, replace
-from tests.workflow.tampering import run_module
+from tests.workflow.tampering import in_place_of, run_module, tampered
 from tests.workflow.webpage import Page
 from workflow.lib.parents import Parents, caption_of
 from workflow.lib.plan import load_plan
 
 HTML, MARKDOWN = "figures/smoke/report.html", "figures/smoke/report.md"
 LITTLE = ("--panel", "fig03")  # the panel that an audit draws again, beside the report
+
+__all__ = ["tampered"]  # a fixture
 
 
 @pytest.fixture(scope="module")
@@ -82,10 +85,11 @@ def test_pictures_are_described(page: Page) -> None:
         (delete(MARKDOWN), f"{MARKDOWN}: is missing beside"),
         pytest.param(append("data/claims.csv", "\n"), f"{HTML}: does not follow from", marks=pytest.mark.long),
         (append("figures/smoke/fig05.csv", "0"), f"{HTML}: cannot be written again: make report: figures/smoke/fig05.csv"),
+        (in_place_of("workflow/figures/fig05.py", os.mkfifo), f"{HTML}: cannot be written again: workflow/figures/fig05.py is no file"),
     ],
-    ids=["page", "costs", "table", "missing", "claims", "panel"],
+    ids=["page", "costs", "table", "missing", "claims", "panel", "queue"],
 )  # fmt: skip
-def test_an_audit_notices_changes(clone: Clone, kept: Clone, edit: Callable, message: str) -> None:
+def test_an_audit_notices_changes(clone: Clone, tampered: Clone, edit: Callable, message: str) -> None:
     edit(clone)
     audited = run_module(clone, "audit", *LITTLE)
     assert audited.returncode == 1, audited.stdout

@@ -30,6 +30,10 @@ def report(chain: Chain) -> Iterator[Link]:
             for path in lacking
         )
         return
+    if foreign := _no_module():
+        for path in there:
+            yield Link(path, f"cannot be written again: {foreign} is no file", JOB)
+        return
     with tempfile.TemporaryDirectory() as folder:
         command = [sys.executable, "-P", LAUNCH, WRITER, "--quality", chain.quality, "--output", folder]
         command += ["--costs-of", str(ROOT / paths(chain.quality)[0])]
@@ -43,3 +47,9 @@ def report(chain: Chain) -> Iterator[Link]:
                 yield Link(
                     path, "does not follow from the products and sources that are there: run make report", JOB
                 )
+
+
+def _no_module() -> str | None:
+    """What lies in the place of a module and is no file. Its import could wait for ever."""
+    modules = sorted((ROOT / "workflow").rglob("*.py"))
+    return next((str(path.relative_to(ROOT)) for path in modules if not path.is_file()), None)
