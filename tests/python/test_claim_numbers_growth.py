@@ -1,0 +1,200 @@
+"""The numbers that claims are judged by, as in test_claim_numbers.py: pulses, and conductivity against size."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tests.python.claim_numbers import check, of, power
+from tests.python.known_results import Fill, Known, quantity, truth, uneven
+from workflow.claims.data import MissingError
+from workflow.claims.judge import FUNCTIONS
+from workflow.lib.load import Quantity, Result
+from workflow.lib.plan import Run
+
+
+def pulse(apart: bool) -> Fill:
+    """Peaks at distances of their own that are lost at the first time and at the last; both starts beyond two errors from each
+    other, or within, in all exponents."""
+
+    def fill(run: Run) -> dict[str, Quantity]:
+        found = uneven(run)
+        time = found["peak"].axes["time"]
+        place = 300 * time ** (0.8 if apart and run.name == "rest" else 1.1) * (1 + 1e-3 * found["peak"].mean)
+        place[[0, -1]] = math.nan
+        slow = 0.5 if apart and run.name == "rest" else 0.6
+        damping = np.array(slow + 1e-3 * found["damping_exponent"].mean)
+        return found | {
+            "peak_position": quantity(run, "peak_position", place, 0.01 * place),
+            "damping_exponent": quantity(run, "damping_exponent", damping, np.array(0.02)),
+        }
+
+    return fill
+
+
+def pulses(apart: bool) -> Known:
+    return Known(dict.fromkeys(("fig09a", "fig09b"), pulse(apart)) | {"ext03": uneven, "fig08": uneven})
+
+
+def test_pulse_leaves() -> None:
+    data = pulses(False)
+    result: Result = data.one("fig09a", "gaussian")
+    known = range(1, len(result["peak"].mean) - 1)
+    nearest = [round(float(result["peak_position"].mean[k])) - 1 for k in known]  # distances count from 1
+    assert len(set(nearest)) > 4
+    values, errors = (
+        [array[k, place] / result["peak"].mean[k] for k, place in zip(known, nearest, strict=True)]
+        for array in (result["odd_part"].mean, result["odd_part"].error)
+    )
+    share, error = result["centre_share"].mean[-1], result["centre_share"].error[-1]
+    check(FUNCTIONS["C25"](data).literal, [share, *values], [error, *errors], freedom=511)
+
+
+@pytest.mark.parametrize("apart", [False, True])
+def test_way_of_the_peak(apart: bool) -> None:
+    data = pulses(apart)
+    evidence = FUNCTIONS["C26"](data)
+
+    def slope(run: str, first: int, last: int) -> float:
+        place = data.one("fig09b", run)["peak_position"]
+        x, y = np.log(place.axes["time"][1:-1]), np.log(place.mean[1:-1])
+        return float((y[last] - y[first]) / (x[last] - x[first]))
+
+    found, rest = slope("gaussian", 0, -1), slope("rest", 0, -1)
+    others = [slope("gaussian", *ends) for ends in ((1, -1), (2, -1), (0, -2))] + [rest] * apart
+    error = 0.01 * math.sqrt(2) / math.log(0.04 / 0.0125)
+    assert (abs(rest - found) > 2 * math.sqrt(2) * error) == apart
+    for numbers in (evidence.literal, evidence.substance):
+        check(numbers, found, error, max(abs(other - found) for other in others), 511)
+
+
+def test_too_short_a_way() -> None:
+    def fill(run: Run) -> dict[str, Quantity]:
+        place = uneven(run)["peak_position"]
+        place.mean[3:] = math.nan
+        return {"peak_position": place}
+
+    with pytest.raises(MissingError):
+        FUNCTIONS["C26"](Known({"fig09b": fill}))
+
+
+def damping(data: Known, panel: str, apart: bool) -> tuple[float, float, float]:
+    result, rest = (data.one(panel, run) for run in ("gaussian", "rest"))
+    value = float(result["damping_exponent"].mean)
+    later = result["damping_exponent_from"].mean
+    others = [*later[1 : 5 if panel == "fig09a" else 4], *[rest["damping_exponent"].mean] * apart]
+    return value, 0.02, max(abs(other - value) for other in others)
+
+
+@pytest.mark.parametrize("apart", [False, True])
+def test_damping(apart: bool) -> None:
+    data = pulses(apart)
+    evidence = FUNCTIONS["C27"](data)
+    for numbers in (evidence.literal, evidence.substance):
+        check(numbers, *damping(data, "fig09a", apart), freedom=511)
+    check(FUNCTIONS["C28"](data).literal, *damping(data, "fig09b", apart), freedom=511)
+    value, error = of("ext03", "long", "damping_exponent", data)
+    later, _ = of("ext03", "long", "damping_exponent_from", data)
+    check(evidence.other, value, error, abs(later[1] - value), 95)
+
+
+def some_stationary(run: Run) -> dict[str, Quantity]:
+    """Conductivities about N, but for the runs that are not stationary: N = 64 and the largest of fig. 8."""
+    found = uneven(run)
+    if run.program != "conductivity":
+        return found
+    size = run.options["cells"]
+    moving = size == 64 or run.name == "large_cells=2048"
+    kappa = found["kappa"].mean * size * (1000 if moving else 1)
+    stationary = replace(found["stationary"], mean=np.array(float(not moving)))
+    return found | {"kappa": quantity(run, "kappa", kappa, found["kappa"].error), "stationary": stationary}
+
+
+SOME = Known(dict.fromkeys(("fig08", "fig09a", "fig09b", "ext09"), some_stationary))
+
+
+def kappa(panel: str, sizes: Sequence[int], *series: str) -> tuple[list[int], np.ndarray, np.ndarray]:
+    """By size, of the series that has it."""
+    names = {run.options["cells"]: run.name for run in SOME.plan[panel].runs if run.series in series}
+    mean, error = np.array([of(panel, names[size], "kappa", SOME) for size in sizes]).T
+    return [*sizes], mean, error
+
+
+def test_conductivity() -> None:
+    """At gamma = 1 from a sixteenth of the largest size on; at gamma = N from 16 on, and between the two largest."""
+    rare = power(*kappa("fig08", [128, 256, 512, 1024, 2048], "rare"))
+    check(FUNCTIONS["C23"](SOME).literal, *rare, 127)
+
+    evidence = FUNCTIONS["C24"](SOME)
+    sizes = [16, 32, 128, 256, 512, 1024]
+    found, error, later = power(*kappa("fig08", sizes, "deterministic", "large"))
+    parts = [power(*kappa("fig08", part, "deterministic", "large"))[0] for part in (sizes[:4], sizes[3:])]
+    check(evidence.literal, found, error, later + max(abs(part - found) for part in parts), 95)
+    last = [
+        power(*kappa("fig08", [512, 1024], "large")),
+        power(*kappa("ext09", [1024, 2048], "thinning-large")),
+    ]
+    check(evidence.substance, *np.array(last).T)
+    assert [one.freedom for one in evidence.substance] == [95, 31]
+
+
+@pytest.mark.parametrize(
+    ("number", "claim", "sizes", "series", "freedom"),
+    [
+        (0, "C27", [128, 256, 512, 1024], ["deterministic", "large"], 95),
+        (1, "C28", [128, 256, 512, 1024, 2048], ["rare"], 127),
+    ],
+)
+def test_relation_of_pulse_and_conductivity(
+    number: int, claim: str, sizes: list[int], series: list[str], freedom: float
+) -> None:
+    exponent, error, bound = power(*kappa("fig08", sizes, *series))
+    (peak,) = FUNCTIONS[claim](SOME).literal
+    slope = 1 / peak.value**2
+    found = FUNCTIONS["C30"](SOME).literal[number]
+    expected = 2 - 1 / peak.value - exponent
+    error = math.hypot(slope * peak.error, error)
+    check([found], expected, error, slope * peak.systematic + bound, freedom)
+
+
+def test_conductivity_without_a_particle_current() -> None:
+    """Currents by linear response with kappa_0 = 50 N^0.3; only the energy current at a difference of temperature, in which
+    kappa_0 is linear, has an error. The thinning gas has another response."""
+
+    def currents(name: str) -> Callable[[Run], float]:
+        def of_run(run: Run) -> float:
+            o, cells = run.options, run.options["cells"]
+            left, right = ((o[f"temperature-{end}"], o[f"nu-{end}"]) for end in ("left", "right"))
+            heat = 1 / right[0] - 1 / left[0]
+            drift = math.log(left[1] / right[1] * math.sqrt(right[0] / left[0]))
+            nn, un = 3 * cells, 70 * cells * (5 if o["cell-length"] == "1/N" else 1)
+            uu = 1e4 * 50 * cells**0.3 + un**2 / nn
+            row = (uu, un) if name == "energy_current" else (un, nn)
+            return float((row[0] * heat + row[1] * drift) / cells)
+
+        return of_run
+
+    given = {name: currents(name) for name in ("energy_current", "particle_current")}
+
+    def fill(run: Run) -> dict[str, Quantity]:
+        found = truth({**given, "current_correlation": 0.0}, 1e-12)(run)
+        if run.series.endswith("-temperature"):
+            current = found["energy_current"].mean
+            found["energy_current"] = quantity(run, "energy_current", current, 1e-4 * abs(current))
+        return found
+
+    data = Known({"fig08": some_stationary, "ext09": some_stationary, "ext11": fill})
+    (found,) = FUNCTIONS["C24"](data).other
+    sizes = np.array([16, 32, 64, 128, 256])
+    current = [of("ext11", f"dense-temperature_cells={size}", "energy_current", data)[1] for size in sizes]
+    force = 1 / (1000 / 9) - 1 / 90
+    errors = np.array(current) * sizes / abs(force) / 1e4  # of L_uu/T^2
+    _, error, _ = power(sizes, 50 * sizes**0.3, errors)
+    assert found.value == pytest.approx(0.3, abs=1e-6)
+    assert found.error == pytest.approx(error, rel=0.05)  # drawn
+    assert found.systematic == pytest.approx(0, abs=1e-6)
+    assert found.freedom == 127
+    with pytest.raises(MissingError):
+        FUNCTIONS["C24"](Known({"fig08": truth({"kappa": 1, "stationary": 0}, 0.1)}))
