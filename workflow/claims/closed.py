@@ -10,6 +10,8 @@ from workflow.claims.verdict import Number, with_systematic
 from workflow.figures.fig05 import law
 from workflow.lib.load import Result
 
+ROUNDING = 1e-9  # relative, of the times of a logarithmic grid
+
 
 def _named(results: list[Result], quantity: str, name: str) -> list[Number]:
     """One number of each run, labelled by name and mass ratio and, where they differ, its particles per cell."""
@@ -134,7 +136,7 @@ def ageing(data: Data) -> Evidence:
     """Slopes against ln t decade by decade, over their mean from t = 1 on; the last one over the largest."""
     result = max(data.of("ext07", "ageing"), key=lambda one: one.parameters["observation-time"])
     slope = result["decade_slope"]
-    late = np.flatnonzero(slope.axes["decade"] >= 1)
+    late = np.flatnonzero(slope.axes["decade"] > 1 - ROUNDING)
     mean = float(slope.mean[late].mean())
     steady = [
         number(

@@ -91,10 +91,10 @@ def number(result: Result, name: str, index: Index = (), label: str = "") -> Num
 
 def ratio(above: Number, below: Number, label: str) -> Number:
     """Of two independent numbers."""
-    value = above.value / below.value
-    error = abs(value) * np.hypot(above.error / above.value, below.error / below.value)
-    systematic = abs(value) * (above.systematic / abs(above.value) + below.systematic / abs(below.value))
-    return Number(label, value, float(error), min(above.freedom, below.freedom), systematic)
+    value, size = above.value / below.value, abs(below.value)
+    error = float(np.hypot(above.error, value * below.error)) / size
+    systematic = (above.systematic + abs(value) * below.systematic) / size
+    return Number(label, value, error, min(above.freedom, below.freedom), systematic)
 
 
 def combination(numbers: Sequence[Number], weights: Sequence[float], label: str, minus: float = 0) -> Number:

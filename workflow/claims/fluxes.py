@@ -1,5 +1,7 @@
 """Claims on the momentum distribution of the particles (figs. 3 and 4, section 4), and on equilibrium."""
 
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 
@@ -57,7 +59,12 @@ def _departures(result: Result, name: str = "") -> list[Number]:
         number(result, "kurtosis", (place, half), f"{told}{name}").over(1, 3)
         for place, half, told in OUTGOING
     ]
-    return [combination([one], [np.sign(one.value)], f"|⟨p⁴⟩/⟨p²⟩² - 3|, {one.label}") for one in both]
+    return [_magnitude(one, f"|⟨p⁴⟩/⟨p²⟩² - 3|, {one.label}") for one in both]
+
+
+def _magnitude(number: Number, label: str = "") -> Number:
+    """Has its error also where it vanishes."""
+    return replace(number, value=abs(number.value), label=label)
 
 
 def gaussian_only_if(data: Data) -> Evidence:
@@ -143,7 +150,7 @@ def deviations_central(data: Data) -> Evidence:
     momentum, value, error = (part[name].to_numpy() for name in ("momentum", "deviation", "error"))
     middle = len(momentum) // 2
     left, right = (Number("", value[k], error[k], known) for k in (middle - 1, middle))
-    centre = combination([left, right], [np.sign(left.value) / 2, np.sign(right.value) / 2], "")
+    centre = combination([_magnitude(left), _magnitude(right)], [0.5, 0.5], "")
     outer = np.flatnonzero((np.abs(momentum) > np.sqrt(temperature)) & (np.abs(momentum) < REACH))
     less = [
         combination(
@@ -156,7 +163,7 @@ def deviations_central(data: Data) -> Evidence:
     odd = combination(
         [left, right], [0.5 / abs(centre.value), -0.5 / abs(centre.value)], "odd part over the whole at p = 0"
     )
-    return Evidence([*less, combination([odd], [np.sign(odd.value)], odd.label)])
+    return Evidence([*less, _magnitude(odd, odd.label)])
 
 
 def on_top_of_kinetic(data: Data) -> Evidence:

@@ -1,0 +1,139 @@
+"""Results whose truth is known, in place of those that simulations gave: for the runs of the plan, with its parameters."""
+
+import zlib
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tests.python.conftest import ROOT
+from workflow.claims.data import Data, MissingError
+from workflow.lib.load import Quantity, Result
+from workflow.lib.plan import Panel, Run, data_path, load_plan
+
+# Of every program, the quantities that claims are judged by, with their axes (docs/format.md).
+QUANTITIES: dict[str, dict[str, tuple[str, ...]]] = {
+    "particle_count": {"log_slope": (), "log_curvature": (), "plateau": ("time",), "front": ("time",), "front_exponent": ()},
+    "persistence": {"mu": ()},
+    "waiting_time": {"exponent": (), "exponent_spread": ()},
+    "displacement": {"alpha": (), "momentum_drift": ()},
+    "ageing": {"decade_slope": ("decade",)},
+    "steady_profile": {
+        "temperature_scatterer": ("cell",), "temperature_particle": ("cell",), "temperature_difference": ("cell",),
+        "density_slope": (), "density_excess": ("end",), "rate_right": ("cell",), "rate_right_deviation": ("cell",),
+        "rate_left_deviation": ("cell",), "particle_current_deviation": ("bond",), "scatterer_density": ("end", "momentum"),
+    },
+    "momentum_flux": {"flux": ("bond", "momentum"), "jump": ("bond",), "square": ("bond", "half"), "kurtosis": ("bond", "half")},
+    "boltzmann": {"flux": ("x", "momentum"), "flux_density": ("x", "momentum"), "jump": ("x",), "kurtosis": ("x", "half")},
+    "conductivity": {"kappa": (), "stationary": (), "energy_current": (), "particle_current": (), "current_correlation": ()},
+    "correlation": {"damping_exponent": (), "damping_exponent_from": ("from",)},
+    "energy_pulse": {
+        "centre_share": ("time",), "odd_part": ("time", "distance"), "peak": ("time",), "peak_position": ("time",),
+        "peak_speed": ("middle",), "damping_exponent": (), "damping_exponent_from": ("from",),
+    },
+}  # fmt: skip
+DEFAULTS = {"cells": "continuum", "zero-total-momentum": False}  # where the plan leaves an option out
+
+Fill = Callable[[Run], Mapping[str, Quantity]]
+Truth = Mapping[
+    str, Any
+]  # by quantity: a number, or a function of the run and the coordinates along each axis
+
+plan = cache(load_plan)
+
+
+class Known(Data):
+    """Every run of these panels has the results that the function gives for it; other panels have none."""
+
+    def __init__(
+        self, fills: Mapping[str, Fill], quality: str = "paper", converged: str = "no target"
+    ) -> None:
+        self.quality, self.root, self.fills, self.converged = quality, ROOT, fills, converged
+        self.plan: dict[str, Panel] = plan(quality)
+        self.loaded, self.used = {}, {}
+
+    def _load(self, panel: str, run: str) -> tuple[str, Result]:
+        path = data_path(self.quality, panel, run)
+        if panel not in self.fills:
+            raise MissingError(f"{path} is missing or damaged")
+        if path not in self.loaded:
+            planned = self.plan[panel].run(run)
+            planned = replace(planned, options=DEFAULTS | planned.options)
+            provenance = {"program": planned.program, "converged": self.converged}
+            quantities = dict(self.fills[panel](planned))
+            self.loaded[path] = Result(Path(path), planned.options, provenance, quantities)
+        return path, self.loaded[path]
+
+
+def axes(run: Run) -> dict[str, np.ndarray]:
+    """Coordinates along every axis that a quantity of the run may have."""
+    cells = run.options["cells"] if isinstance(run.options["cells"], int) else 10
+    times = np.array(str(run.options.get("times", 1)).split(","), dtype=float)
+    bins, largest = run.options.get("momentum-bins", 100), run.options.get("momentum-max", 60)
+    decades, end = run.options.get("decades", 6), run.options.get("observation-time")
+    places = run.options.get("positions")
+    return {
+        "time": times,
+        "from": times[:-1],
+        "middle": 0.5 * (times[1:] + times[:-1]),
+        "cell": np.arange(float(cells)),
+        "bond": np.arange(cells + 1.0),
+        "end": np.arange(2.0),
+        "half": np.array([-1.0, 1.0]),
+        "x": np.array(places.split(","), dtype=float) if places else np.linspace(0, 1, cells + 1),
+        "momentum": (np.arange(bins) + 0.5) * (2 * largest / bins) - largest,
+        "distance": np.arange(1.0, cells // 2 + 1),
+        "decade": (end if isinstance(end, int) else 1) * 10.0 ** np.arange(-decades, 0),
+    }
+
+
+def quantity(run: Run, name: str, mean: np.ndarray, error: np.ndarray) -> Quantity:
+    """With the error of what is computed, if the run is not replicated."""
+    along = {axis: axes(run)[axis] for axis in QUANTITIES[run.program][name]}
+    if run.replicated:
+        count = np.full(mean.shape, run.options["replicas"])
+        return Quantity(mean, error, None, count, along, "1", {}, {}, None)
+    return Quantity(mean, None, error, None, along, "1", {}, {}, None)
+
+
+def uneven(run: Run) -> dict[str, Quantity]:
+    """All quantities of a run between 1 and 2, errors about a hundredth; no two of them alike, nor those of another run."""
+    random = np.random.default_rng(zlib.crc32(f"{run.name} {run.program} {run.options.get('seed')}".encode()))
+    coordinates = axes(run)
+    shapes = {
+        name: tuple(len(coordinates[axis]) for axis in along)
+        for name, along in QUANTITIES[run.program].items()
+    }
+    return {
+        name: quantity(
+            run, name, np.asarray(random.uniform(1, 2, shape)), np.asarray(random.uniform(0.01, 0.02, shape))
+        )
+        for name, shape in shapes.items()
+    }
+
+
+def truth(
+    given: Truth, relative: float, random: np.random.Generator | None = None
+) -> Callable[[Run], dict[str, Quantity]]:
+    """The quantities given, with this relative error, or this error where they vanish. With random numbers they are measured:
+    normal values with errors that are estimated from as many replicas as the run has."""
+
+    def fill(run: Run) -> dict[str, Quantity]:
+        coordinates = axes(run)
+        found = {}
+        for name in QUANTITIES[run.program].keys() & given.keys():
+            grids = np.meshgrid(*(coordinates[axis] for axis in QUANTITIES[run.program][name]), indexing="ij")
+            value = given[name](run, *grids) if callable(given[name]) else given[name]
+            mean = np.array(np.broadcast_to(value, grids[0].shape if grids else ()), dtype=float)
+            error = relative * np.where(mean == 0, 1, abs(mean))
+            if random is not None and name != "stationary":
+                mean = mean + error * random.standard_normal(mean.shape)
+                freedom = run.options["replicas"] - 1
+                error = error * np.sqrt(random.chisquare(freedom, mean.shape) / freedom)
+            found[name] = quantity(run, name, mean, error)
+        return found
+
+    return fill

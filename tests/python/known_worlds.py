@@ -1,0 +1,157 @@
+"""Results as they would be if the world were one in which a claim holds, or one in which it does not: by panel, the truth of the
+quantities that matter."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from tests.python.known_results import Truth
+from workflow.lib.plan import Run
+
+COLD, HOT = 900 / 11, 1100 / 9  # the baths
+
+World = Mapping[str, Truth]  # by panel
+
+
+def rare(run: Run) -> bool:
+    """gamma = 1."""
+    return bool(run.options["gamma"] == 1)
+
+
+def law(run: Run) -> float:
+    return float(np.arccos(run.options["sigma"]) / np.pi)
+
+
+def gaussian(temperature: float, factor: float) -> Any:
+    return lambda _run, _place, p: factor * np.exp(-(p**2) / 2 / temperature) / np.sqrt(2 * np.pi * temperature)  # fmt: skip
+
+
+def equilibrium(temperature: float) -> World:
+    return {"ext10": {"flux": gaussian(temperature, 400), "scatterer_density": gaussian(temperature, 1),
+                      "square": temperature, "kurtosis": 3, "temperature_scatterer": temperature}}  # fmt: skip
+
+
+def finite(amplitude: float, exponent: float = -1, middle: float = 0, odd: float = 0.2) -> World:
+    """F is Gaussian; F_N deviates by a bump at +-middle, as printed of this size for one cell."""
+
+    def flux(run: Run, _place: np.ndarray, p: np.ndarray) -> np.ndarray:
+        cells = run.options["cells"]
+        size = 0 if cells == "continuum" else 400 * amplitude * cells**exponent
+        bump = np.exp(-((abs(p) - middle) ** 2) / 50) * (1 + odd * np.sign(p))
+        found: np.ndarray = gaussian(102, 400)(run, _place, p) + size * bump
+        return found
+
+    return {"fig03_inset": {"flux": flux}}
+
+
+def profile(**given: Any) -> World:
+    return {"fig02_upper": given}
+
+
+def straight(steep: float, less: float) -> World:
+    """Temperature difference between the ends over that of the baths, at gamma = N and 1."""
+
+    def temperature(run: Run, cell: np.ndarray) -> np.ndarray:
+        return (COLD + HOT) / 2 + (less if rare(run) else steep) * (HOT - COLD) * (cell / 29 - 0.5)
+
+    return profile(temperature_scatterer=temperature)
+
+
+def densities(slope: tuple[float, float], excess: tuple[float, float]) -> World:
+    """At gamma = N and 1."""
+    return profile(
+        density_slope=lambda run: slope[rare(run)], density_excess=lambda run, _: excess[rare(run)]
+    )
+
+
+def rates(deviation: float) -> World:
+    names = ("rate_right_deviation", "rate_left_deviation", "particle_current_deviation")
+    return profile(rate_right=200, **dict.fromkeys(names, deviation))
+
+
+def halves(paper: float, exchange: float = 3.07, equal: float = 3.0, jump: float = 4) -> World:
+    kurtosis = {"paper": paper, "exchange": exchange, "equal": equal}
+    return {"fig03": {"flux_density": 10, "jump": jump, "kurtosis": lambda run, *_: kurtosis[run.name]}}
+
+
+def chain(plateau: float = 15, slope: float = 15, curvature: float = 0, growth: float = 0) -> World:
+    """growth: power of time with which the plateau grows."""
+    given = {
+        "log_slope": slope,
+        "log_curvature": curvature,
+        "plateau": lambda _, t: plateau * (t / 1800) ** growth,
+    }
+    return {"fig01": given}  # fmt: skip
+
+
+def fronts(exponent: float, others: float) -> World:
+    return {"fig01": {"front": lambda _, t: 1 / t,
+                      "front_exponent": lambda run: exponent if run.name == "unit-chain" else others}}  # fmt: skip
+
+
+def jumps(deterministic: float, rare_: float) -> World:
+    return {"fig04a": {"jump": rare_, "flux": 1}, "fig04b": {"jump": deterministic}}
+
+
+def waits(exponent: float, spread: float = 0) -> World:
+    return {"fig06": {"exponent": exponent, "exponent_spread": spread}}
+
+
+def waits_aged(exponent: float, aged: float, spread: float = 0) -> World:
+    return {**waits(exponent, spread), "ext07": {"exponent": aged}}
+
+
+def spreads(panel: str, alpha: float, aged: float) -> World:
+    return {panel: {"alpha": alpha}, "ext01": {"alpha": aged}}
+
+
+def every_sigma(free: float, zero: float) -> World:
+    return {"fig07_inset": {"alpha": lambda run: zero if run.options["zero-total-momentum"] else free}}
+
+
+def kappas(deterministic: float, rare_: float, end: float = 0) -> World:
+    """Powers of N; end: part of kappa by which small chains at gamma = N are off, falling as 1/N."""
+
+    def kappa(run: Run) -> float:
+        size = run.options["cells"]
+        return float(size**rare_ if rare(run) else size**deterministic * (1 + end / size))
+
+    both = {"stationary": 1, "kappa": kappa}
+    return {"fig08": both, "ext09": both}
+
+
+def pulse(panel: str, **given: Any) -> World:
+    return {panel: {"peak": 1, "peak_position": 10, "peak_speed": 300, "odd_part": 0, **given}}
+
+
+def ballistic(power: float) -> World:
+    return pulse("fig09b", peak_position=lambda _, t: 300 * t**power)
+
+
+def damped(panel: str, exponent: float, later: float | None = None) -> World:
+    return pulse(panel, damping_exponent=exponent, damping_exponent_from=exponent if later is None else later)
+
+
+def linked(conductivity: float, shift: float = 0) -> World:
+    """2 - 1/xi is 1/3 and 1, less the shift."""
+    peaks = damped("fig09a", 1 / (5 / 3 + shift)), damped("fig09b", 1 / (1 + shift))
+    return {**peaks[0], **peaks[1], "fig08": kappas(conductivity, 1)["fig08"]}
+
+
+def ageing(power: float, last: float = 1) -> World:
+    return {"ext07": {"decade_slope": lambda _, t: 100 * t**power * np.where(t == t.max(), last, 1)}}
+
+
+def excess(power: float) -> World:
+    """Excess of the end cells against ln N."""
+    both = {"density_excess": lambda run, _: 1 + power * np.log(run.options["cells"])}
+    return {"ext05": both, "fig02_upper": both}
+
+
+def persistent(shift: float, limits: float = 0) -> World:
+    return {"fig05": {"mu": lambda run: law(run) + (shift if abs(run.options["sigma"]) < 1 else limits)}}
+
+
+def drift(size: float) -> World:
+    return {"fig07_inset": {"momentum_drift": size}}

@@ -1,0 +1,151 @@
+"""The numbers that claims are judged by, from results in which no two values are alike: each is taken from the right run,
+quantity and place, with its error. Filling chains and closed chains."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tests.python.claim_numbers import DATA, check, each, of, relative_change
+from tests.python.known_results import Known, quantity, uneven
+from workflow.claims.data import ratio
+from workflow.claims.judge import FUNCTIONS
+from workflow.claims.verdict import Number
+from workflow.lib.load import Quantity
+from workflow.lib.plan import Run
+
+
+def test_filling_chain() -> None:
+    plateau, error = of("fig01", "unit-chain", "plateau")
+    evidence = FUNCTIONS["C01"](DATA)
+    check(evidence.literal, *relative_change(plateau[:-1], plateau[1:], error[:-1], error[1:]), freedom=63)
+    ends = [np.array(of("fig01", run, "plateau"))[:, [0, -1]] for run in ("paper", "short")]
+    (first, last), errors = (np.array([one[row] for one in ends]).T for row in (0, 1))
+    check(evidence.other, *relative_change(first, last, *errors))
+
+    (slope, slope_error), (curvature, curvature_error) = (
+        of("fig01", "unit-chain", f"log_{name}") for name in ("slope", "curvature")
+    )
+    bent, bent_error = relative_change(slope, curvature, slope_error, curvature_error)
+    agreement = relative_change(plateau[-1], slope, error[-1], slope_error)
+    evidence = FUNCTIONS["C02"](DATA)
+    check(evidence.literal, [bent + 1, agreement[0]], [bent_error, agreement[1]], freedom=63)
+    rise = np.array(relative_change(plateau[0], plateau[-1], error[0], error[-1]))
+    check(evidence.substance, *(rise / math.log(9))[:, None])
+
+    evidence = FUNCTIONS["C03"](DATA)
+    check(evidence.literal, *of("fig01", "unit-chain", "front_exponent"), freedom=63)
+    check(evidence.substance, *each("fig01", "front_exponent", "paper", "short"))
+
+
+def test_misfits_of_the_front() -> None:
+    """Exactly 1/ln t, the same relative error everywhere: chi^2 of 1/t is the variance of t/ln t over its mean square."""
+
+    def fill(run: Run) -> dict[str, Quantity]:
+        time = uneven(run)["front"].axes["time"]
+        return uneven(run) | {"front": quantity(run, "front", 7 / np.log(time), 0.01 * 7 / np.log(time))}
+
+    time = np.array([200, 600, 1000, 1400, 1800])
+    scaled = np.log(time) / time
+    expected = 1e4 * (5 - scaled.sum() ** 2 / np.sum(scaled**2))
+    caveat = FUNCTIONS["C03"](Known({"fig01": fill})).caveat
+    assert f": {expected:.0f} for p₀ ~ 1/t, 0 for" in caveat
+
+
+def test_persistence() -> None:
+    evidence = FUNCTIONS["C15"](DATA)
+    for numbers, series in ((evidence.substance, "dense"), (evidence.other, "paper")):
+        runs = [run for run in DATA.plan["fig05"].runs if run.series == series]
+        mean, error = each("fig05", "mu", *(run.name for run in runs))
+        check(
+            numbers,
+            mean - [math.acos(run.options["sigma"]) / math.pi for run in runs],
+            error,
+            0,
+            runs[0].options["replicas"] - 1,
+        )
+    mean, error = each("fig05", "mu", *(f"paper_sigma={sigma}" for sigma in (-1, 0, 1)))
+    check(evidence.literal, mean - [1, 0.5, 0], error, freedom=1023)
+
+
+def test_waiting_times() -> None:
+    """The shortest relaxation, whose exponent is far off, does not count."""
+
+    def fill(run: Run) -> dict[str, Quantity]:
+        short = run.options["relaxation-time"] == 1
+        return {"exponent": quantity(run, "exponent", np.array(9.0), np.array(0.1))} if short else uneven(run)
+
+    data = Known({"fig06": uneven, "ext07": fill})
+    for claim, sigma, aged in (("C16", 0.5, [10, 100, 1000]), ("C17", 0, [])):
+        value, error = of("fig06", f"all_sigma={sigma}", "exponent")
+        spread, _ = of("fig06", f"all_sigma={sigma}", "exponent_spread")
+        others = [of("ext07", f"waiting_relaxation-time={time}", "exponent")[0] for time in aged]
+        bound = spread + max([abs(other - value) for other in others], default=0)
+        check(FUNCTIONS[claim](data).literal, value, error, bound, 8191)
+
+
+def ext01(series: str, sigma: float, zero: bool, *times: int) -> list[str]:
+    name = f"{series}_sigma={sigma}_zero-total-momentum={zero}"
+    return [f"{name}_relaxation-time={time}" for time in times] or [name]
+
+
+@pytest.mark.parametrize(
+    ("claim", "panel", "run", "sigma", "others"),
+    [
+        ("C18", "fig07", "all", 0.5, [*ext01("paper", 0.5, True, 10, 1000), *ext01("dense", 0.5, True)]),
+        ("C19", "fig07_inset", "all_sigma=0", 0, ext01("dense", 0, False)),
+    ],
+)
+def test_spreading(claim: str, panel: str, run: str, sigma: float, others: list[str]) -> None:
+    evidence = FUNCTIONS[claim](DATA)
+    value, error = of(panel, run, "alpha")
+    relaxed, _ = each("ext01", "alpha", *ext01("paper", sigma, False, 10, 1000))
+    freedom = DATA.plan[panel].run(run).options["replicas"] - 1
+    check(evidence.literal, value, error, abs(relaxed - value).max(), freedom)
+    check(evidence.other, *each("ext01", "alpha", *others))
+
+
+def test_exponents_and_drifts_of_every_sigma_but_0() -> None:
+    runs = [run.name for run in DATA.plan["fig07_inset"].runs if run.options["sigma"] != 0]
+    free, zero = ([run for run in runs if run.startswith(series)] for series in ("all", "zero-momentum"))
+    evidence = FUNCTIONS["C20"](DATA)
+    assert len(free) == len(zero) == 12
+    check(evidence.literal, *each("fig07_inset", "alpha", *free), freedom=511)
+    check(evidence.substance, *each("fig07_inset", "alpha", *zero), freedom=511)
+
+    drift, error = each("fig07_inset", "momentum_drift", *runs)
+    check(FUNCTIONS["C22"](DATA).literal, np.log10(drift), error / drift / np.log(10), freedom=511)
+
+    evidence = FUNCTIONS["C21"](DATA)
+    for numbers in (evidence.literal, evidence.substance):
+        check(numbers, *each("ext04", "alpha", *(run.name for run in DATA.plan["ext04"].runs)))
+
+
+@pytest.mark.parametrize(
+    ("quality", "run", "first", "freedom"), [("paper", "long", 0, 31), ("standard", "energy", 2, 31)]
+)
+def test_ageing(quality: str, run: str, first: int, freedom: float) -> None:
+    """The longest run, from t = 1 on: the decades of the long one all, of the other one not the first two."""
+    data = Known({"ext07": uneven}, quality)
+    slope, error = of("ext07", run, "decade_slope", data)
+    evidence = FUNCTIONS["C29"](data)
+    mean = slope[first:].mean()
+    check(evidence.literal, slope[first:] / mean - 1, error[first:] / mean, freedom=freedom)
+    check(evidence.other, slope[-1] / slope.max(), error[-1] / slope.max())
+
+
+def test_a_decade_from_1_on_counts_though_rounding_puts_it_below() -> None:
+    def fill(run: Run) -> dict[str, Quantity]:
+        slope = uneven(run)["decade_slope"]
+        return {"decade_slope": replace(slope, axes={"decade": (1 - 1e-15) * slope.axes["decade"]})}
+
+    assert len(FUNCTIONS["C29"](Known({"ext07": fill})).literal) == 6
+
+
+def test_ratios_also_of_a_number_that_vanishes() -> None:
+    """Mutant: a relative error, which has no meaning there."""
+    found = ratio(Number("", 0.0, 0.3, 5, 0.1), Number("", 2.0, 0.5, 4, 0.2), "")
+    check([found], 0, 0.15, 0.05, 4)
+    found = ratio(Number("", 4.0, 0.3, 7, 0.1), Number("", -2.0, 0.2, 9, 0.2), "")
+    check([found], -2, 0.25, 0.25, 7)

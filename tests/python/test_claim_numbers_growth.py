@@ -1,0 +1,216 @@
+"""The numbers that claims are judged by, as in test_claim_numbers.py: pulses, and conductivity against size."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import pytest
+
+from tests.python.claim_numbers import check, of, power
+from tests.python.known_results import Fill, Known, quantity, truth, uneven
+from workflow.claims.data import MissingError
+from workflow.claims.judge import FUNCTIONS
+from workflow.lib.load import Quantity, Result
+from workflow.lib.plan import Run
+
+
+def pulse(apart: bool, odd: int = 2) -> Fill:
+    """Peaks that are lost at the first time and at the last, off a power of time at one other. In their exponents the two starts are
+    a little more than two errors apart, or a little less. The damping is the larger, the later it is fitted."""
+
+    def fill(run: Run) -> dict[str, Quantity]:
+        found, other = uneven(run), run.name == "rest"
+        time = found["peak"].axes["time"]
+        place = 300 * time ** (1.1 + other * (0.04 if apart else 0.03))
+        place[odd] *= 1.02
+        place[[0, -1]] = math.nan
+        damping = np.array(0.6 + other * (0.065 if apart else 0.05))
+        later = damping + 0.002 * np.arange(len(time) - 1)
+        return found | {
+            "peak_position": quantity(run, "peak_position", place, 0.01 * place),
+            "damping_exponent": quantity(run, "damping_exponent", damping, np.array(0.02)),
+            "damping_exponent_from": quantity(run, "damping_exponent_from", later, 0.01 * later),
+        }
+
+    return fill
+
+
+def pulses(apart: bool, odd: int = 2) -> Known:
+    return Known(dict.fromkeys(("fig09a", "fig09b"), pulse(apart, odd)) | {"ext03": uneven})
+
+
+def test_pulse_leaves() -> None:
+    data = pulses(False)
+    result: Result = data.one("fig09a", "gaussian")
+    known = range(1, len(result["peak"].mean) - 1)
+    nearest = [round(float(result["peak_position"].mean[k])) - 1 for k in known]  # distances count from 1
+    assert len(set(nearest)) > 4
+    values, errors = (
+        [array[k, place] / result["peak"].mean[k] for k, place in zip(known, nearest, strict=True)]
+        for array in (result["odd_part"].mean, result["odd_part"].error)
+    )
+    share, error = result["centre_share"].mean[-1], result["centre_share"].error[-1]
+    check(FUNCTIONS["C25"](data).literal, [share, *values], [error, *errors], freedom=511)
+
+
+@pytest.mark.parametrize("apart", [False, True])
+@pytest.mark.parametrize(
+    "odd", [2, 3, -3]
+)  # the first but one, the first but two, the last but one of those known
+def test_way_of_the_peak(apart: bool, odd: int) -> None:
+    data = pulses(apart, odd)
+    evidence = FUNCTIONS["C26"](data)
+
+    def slope(run: str, first: int, last: int) -> float:
+        place = data.one("fig09b", run)["peak_position"]
+        x, y = np.log(place.axes["time"][1:-1]), np.log(place.mean[1:-1])
+        return float((y[last] - y[first]) / (x[last] - x[first]))
+
+    found, rest = slope("gaussian", 0, -1), slope("rest", 0, -1)
+    others = [slope("gaussian", *ends) for ends in ((1, -1), (2, -1), (0, -2))] + [rest] * apart
+    error = 0.01 * math.sqrt(2) / math.log(0.04 / 0.0125)
+    assert (abs(rest - found) > 2 * math.sqrt(2) * error) == apart
+    for numbers in (evidence.literal, evidence.substance):
+        check(numbers, found, error, max(abs(other - found) for other in others), 511)
+
+
+def test_too_short_a_way() -> None:
+    def fill(run: Run) -> dict[str, Quantity]:
+        place = uneven(run)["peak_position"]
+        place.mean[3:] = math.nan
+        return {"peak_position": place}
+
+    with pytest.raises(MissingError):
+        FUNCTIONS["C26"](Known({"fig09b": fill}))
+
+
+def damping(data: Known, panel: str, apart: bool) -> tuple[float, float, float]:
+    result, rest = (data.one(panel, run) for run in ("gaussian", "rest"))
+    value = float(result["damping_exponent"].mean)
+    later = result["damping_exponent_from"].mean
+    others = [*later[1 : 5 if panel == "fig09a" else 4], *[rest["damping_exponent"].mean] * apart]
+    return value, 0.02, max(abs(other - value) for other in others)
+
+
+@pytest.mark.parametrize("apart", [False, True])
+def test_damping(apart: bool) -> None:
+    data = pulses(apart)
+    evidence = FUNCTIONS["C27"](data)
+    for numbers in (evidence.literal, evidence.substance):
+        check(numbers, *damping(data, "fig09a", apart), freedom=511)
+    check(FUNCTIONS["C28"](data).literal, *damping(data, "fig09b", apart), freedom=511)
+    value, error = of("ext03", "long", "damping_exponent", data)
+    later, _ = of("ext03", "long", "damping_exponent_from", data)
+    check(evidence.other, value, error, abs(later[1] - value), 95)
+
+
+def conductivities(run: Run, odd: int = 0) -> dict[str, Quantity]:
+    """About N, three times that at one size; wrong where the run is not stationary: N = 64 and the largest of fig. 8."""
+    found = uneven(run)
+    if run.program != "conductivity":
+        return found
+    size = run.options["cells"]
+    moving = size == 64 or run.name == "large_cells=2048"
+    kappa = (1 + 0.1 * found["kappa"].mean) * size * (1000 if moving else 3 if size == odd else 1)
+    stationary = replace(found["stationary"], mean=np.array(float(not moving)))
+    return found | {
+        "kappa": quantity(run, "kappa", kappa, found["kappa"].error * size),
+        "stationary": stationary,
+    }
+
+
+SOME = Known(dict.fromkeys(("fig08", "fig09a", "fig09b", "ext09"), conductivities))
+
+
+def kappa(
+    panel: str, sizes: Sequence[int], *series: str, data: Known = SOME
+) -> tuple[list[int], np.ndarray, np.ndarray]:
+    """By size, of the series that has it."""
+    names = {run.options["cells"]: run.name for run in SOME.plan[panel].runs if run.series in series}
+    mean, error = np.array([of(panel, names[size], "kappa", data) for size in sizes]).T
+    return [*sizes], mean, error
+
+
+@pytest.mark.parametrize("odd", [128, 1024])  # so that the one or the other half is the farther off
+def test_conductivity(odd: int) -> None:
+    """At gamma = 1 from a sixteenth of the largest size on; at gamma = N from 16 on, and between the two largest."""
+    data = Known(dict.fromkeys(("fig08", "ext09"), partial(conductivities, odd=odd)))
+    kappas = partial(kappa, data=data)
+    rare = power(*kappas("fig08", [128, 256, 512, 1024, 2048], "rare"))
+    check(FUNCTIONS["C23"](data).literal, *rare, 127)
+
+    evidence = FUNCTIONS["C24"](data)
+    sizes = [16, 32, 128, 256, 512, 1024]
+    found, error, later = power(*kappas("fig08", sizes, "deterministic", "large"))
+    parts = [power(*kappas("fig08", part, "deterministic", "large"))[0] for part in (sizes[:4], sizes[3:])]
+    check(evidence.literal, found, error, later + max(abs(part - found) for part in parts), 95)
+    last = [
+        power(*kappas("fig08", [512, 1024], "large")),
+        power(*kappas("ext09", [1024, 2048], "thinning-large")),
+    ]
+    check(evidence.substance, *np.array(last).T)
+    assert [one.freedom for one in evidence.substance] == [95, 31]
+
+
+@pytest.mark.parametrize(
+    ("number", "claim", "sizes", "series", "freedom"),
+    [
+        (0, "C27", [128, 256, 512, 1024], ["deterministic", "large"], 95),
+        (1, "C28", [128, 256, 512, 1024, 2048], ["rare"], 127),
+    ],
+)
+def test_relation_of_pulse_and_conductivity(
+    number: int, claim: str, sizes: list[int], series: list[str], freedom: float
+) -> None:
+    exponent, error, bound = power(*kappa("fig08", sizes, *series))
+    (peak,) = FUNCTIONS[claim](SOME).literal
+    slope = 1 / peak.value**2
+    found = FUNCTIONS["C30"](SOME).literal[number]
+    expected = 2 - 1 / peak.value - exponent
+    error = math.hypot(slope * peak.error, error)
+    check([found], expected, error, slope * peak.systematic + bound, freedom)
+
+
+def test_conductivity_without_a_particle_current() -> None:
+    """Currents by linear response with kappa_0 = N^0.3 but at N = 16; only the energy current at a difference of temperature, in which
+    kappa_0 is linear, has an error. The thinning gas has another response."""
+
+    sizes = np.array([16, 32, 64, 128, 256])
+    kappa_0 = dict(zip(sizes, sizes**0.3, strict=True)) | {16: 3}
+
+    def currents(name: str) -> Callable[[Run], float]:
+        def of_run(run: Run) -> float:
+            o, cells = run.options, run.options["cells"]
+            left, right = ((o[f"temperature-{end}"], o[f"nu-{end}"]) for end in ("left", "right"))
+            heat = 1 / right[0] - 1 / left[0]
+            drift = math.log(left[1] / right[1] * math.sqrt(right[0] / left[0]))
+            nn, un = 3 * cells, 70 * cells * (5 if o["cell-length"] == "1/N" else 1)
+            uu = 1e4 * kappa_0[cells] + un**2 / nn
+            row = (uu, un) if name == "energy_current" else (un, nn)
+            return float((row[0] * heat + row[1] * drift) / cells)
+
+        return of_run
+
+    given = {name: currents(name) for name in ("energy_current", "particle_current")}
+
+    def fill(run: Run) -> dict[str, Quantity]:
+        found = truth({**given, "current_correlation": 0.0}, 1e-12)(run)
+        if run.series.endswith("-temperature"):
+            current = found["energy_current"].mean
+            found["energy_current"] = quantity(run, "energy_current", current, 1e-4 * abs(current))
+        return found
+
+    data = Known({"fig08": conductivities, "ext09": conductivities, "ext11": fill})
+    (found,) = FUNCTIONS["C24"](data).other
+    current = [of("ext11", f"dense-temperature_cells={size}", "energy_current", data)[1] for size in sizes]
+    force = 1 / (1000 / 9) - 1 / 90
+    errors = np.array(current) * sizes / abs(force) / 1e4  # of L_uu/T^2
+    value, error, later = power(sizes, [*kappa_0.values()], errors)
+    assert later > 0.05
+    assert (found.value, found.systematic) == pytest.approx((value, later), abs=2e-3)  # weights are drawn
+    assert found.error == pytest.approx(error, rel=0.05)
+    assert found.freedom == 127
+    with pytest.raises(MissingError):
+        FUNCTIONS["C24"](Known({"fig08": truth({"kappa": 1, "stationary": 0}, 0.1)}))
