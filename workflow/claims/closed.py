@@ -1,6 +1,7 @@
 """Claims on the closed chain: persistence, waiting times, spreading, conservation, ageing (figs. 5 to 7, section 5)."""
 
 import math
+import sys
 
 import numpy as np
 
@@ -113,19 +114,13 @@ def diffusion_recovered(data: Data) -> Evidence:
 
 
 def only_energy(data: Data) -> Evidence:
-    """Change of the total momentum over a run, relative to the sum of all |momenta|, as a power of ten."""
+    """Change of the total momentum over a run, relative to the sum of all |momenta|, as a power of ten. What is below
+    rounding counts as rounding."""
     runs = [one for one in data.of("fig07_inset") if one.parameters["sigma"]]
     found = []
     for one in _named(runs, "momentum_drift", "log₁₀ of the relative change of Σp + ΣP"):
-        error = one.error / (one.value * math.log(10))
-        found.append(
-            Number(
-                one.label,
-                math.log10(one.value),
-                error,
-                one.freedom,
-            )
-        )
+        change = max(one.value, sys.float_info.epsilon)
+        found.append(Number(one.label, math.log10(change), one.error / (change * math.log(10)), one.freedom))
     largest = max(float(one["momentum_drift"].mean) for one in runs)
     return Evidence(
         found, caveat=f"The largest change is {largest:.1e}, rounding; every collision conserves p + P."

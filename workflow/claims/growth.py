@@ -74,11 +74,13 @@ def cube_root(data: Data) -> Evidence:
 
 
 def without_particle_current(data: Data) -> Number:
-    """Exponent of kappa_0, the conductivity at J_n = 0, at fixed spacing (ext. 11)."""
-    runs = data.of("ext11", cell_length=FIXED_SPACING)
-    table = tabulate(runs)
-    if len(table) < 2:
+    """Exponent of kappa_0, the conductivity at J_n = 0, at fixed spacing (ext. 11), over sizes whose runs are stationary."""
+    asked = data.of("ext11", cell_length=FIXED_SPACING)
+    moving = {one.parameters["cells"] for one in asked if one["stationary"].mean != 1}
+    runs = [one for one in asked if one.parameters["cells"] not in moving]
+    if len({one.parameters["cells"] for one in runs}) < 2:
         raise MissingError("fewer than two sizes")
+    table = tabulate(runs)
     law = fit_power(table.cells, table.kappa_0, table.kappa_0_error)
     label = f"d ln κ_0/d ln N at J_n = 0 and spacing {FIXED_SPACING}, N = {table.cells.min()} to {table.cells.max()}"
     later = table[1:] if len(table) > 2 else table
