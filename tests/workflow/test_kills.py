@@ -79,4 +79,4 @@ def test_what_is_killed_at_any_moment_goes_on(kept: Clone) -> None:
     assert made.returncode == 0, made.stdout
     assert kept.products() == expected
     audited = kept.make("audit", "QUALITY=smoke", f"PANEL={PANEL}")
-    assert "Nothing is broken" in audited.stdout or "every link holds" in audited.stdout, audited.stdout
+    assert audited.returncode == 0, audited.stdout

@@ -55,6 +55,7 @@ USED = {  # by the goals that use any
     "lint": (*EFFORT, "JOBS"),
     "tradeoff": ("QUALITY",),
     "fuzz": ("SECONDS",),
+    "mutants": ("SAMPLE",),
     "help": ADMITTED,
 }
 
