@@ -91,7 +91,7 @@ SNAKEFMT := .venv/bin/snakefmt --no-format-shell --line-length 110
 ONLY_PANEL := $(if $(PANEL),--panel=$(PANEL))
 COMPARE = $(if $(SEED)$(REPLICAS)$(filter $(YES),$(FRESH)),$(PYTHON) workflow.provenance.compare --quality $(EFFORT))
 
-.PHONY: help figures panel report gallery build test test-long check lint tidy sanitize fuzz mutants format describe reference lock audit verify provenance status \
+.PHONY: help figures panel report gallery build test test-long check lint tidy sanitize fuzz coverage mutants format describe reference lock audit verify provenance status \
   cost crate bench timings tradeoff clean system-packages dev-packages installed runtime dev
 help:  ## This list
 	sed -nE 's/^([a-z-]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 16
@@ -155,6 +155,9 @@ sanitize: dev  ## C++ tests and programs under AddressSanitizer, UBSan and Threa
 
 fuzz: dev  ## Random command lines, configuration files and checkpoints, each for SECONDS=60
 	$(PYTHON) tests.fuzz $(SECONDS)
+
+coverage: dev  ## Lines of C++ and of the workflow that tests execute
+	$(PYTHON) tests.cover
 
 mutants: dev build  ## Changes the code at a SAMPLE=0.1 of its places, one at a time: which do no test notice?
 	$(PYTHON) tests.mutants $(SAMPLE)

@@ -16,6 +16,8 @@ STARTED = {  # not imported
     "axe-playwright-python": "its script is read by the tests of the report",
     "clang-format": "make lint",
     "clang-tidy": "make tidy",
+    "coverage": "make coverage",
+    "gcovr": "make coverage",
     "mypy": "make lint",
     "pdoc": "make reference",
     "pytest-xdist": "by pytest",
