@@ -137,3 +137,17 @@ def test_all_is_installed_again(installed: Path, added: list, what: str) -> None
     packages.install(["a.lock"])
     assert added == [["a.lock"]]
     assert not (installed / MODULE).exists()
+
+
+@pytest.mark.parametrize("put", [None, os.mkfifo, os.mkdir])
+def test_without_a_lock_nothing_is_removed(
+    installed: Path, added: list, put: Callable[[Path], object] | None
+) -> None:
+    lock = installed.parent / "a.lock"
+    lock.unlink()
+    if put:
+        put(lock)
+    with pytest.raises(OSError, match=r"a\.lock is no file"):
+        packages.install(["a.lock"])
+    assert added == []
+    assert (installed / MODULE).exists()

@@ -92,7 +92,11 @@ def differing(before: State, now: State) -> list[str]:
 
 
 def install(locks: list[str]) -> None:
-    """What the locks say, unless it is there. Packages of a lock that is asked for later are added to it."""
+    """What the locks say, unless it is there. Packages of a lock that is asked for later are added to it. Without a lock what
+    is installed stays; raises OSError."""
+    for lock in locks:
+        if not (ROOT / lock).is_file():
+            raise OSError(f"{lock} is no file: put that of the repository there")
     asked = {lock: digest(ROOT / lock) for lock in locks}
     known = record()
     before, there = known.get("files", {}), known.get("locks", {})
