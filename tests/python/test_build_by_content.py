@@ -1,5 +1,6 @@
 """A source is built again if its content differs, and an executable linked again; times decide nothing."""
 
+import json
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -99,6 +100,15 @@ def test_a_damaged_identity_is_written_again(root: Path, text: str) -> None:
     (root / "build/id/fake.json").write_text(text)
     build_by_content.main()
     assert not (root / "build/id/fake.json").exists()
+
+
+@pytest.mark.parametrize("content", [b"{", b"[[1, 2]]", b"[" * 100_000, b"\xff"], ids=len)
+def test_a_damaged_record_hinders_nothing(root: Path, content: bytes) -> None:
+    build_by_content.main()
+    for path in ("build/built_from.json", "build/id/fake.sha256"):
+        (root / path).write_bytes(content)
+    build_by_content.main()
+    assert json.loads((root / "build/built_from.json").read_text())
 
 
 @pytest.mark.parametrize("file", ["build/bin/fake", "build/id/fake.sha256"])

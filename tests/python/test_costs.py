@@ -10,7 +10,21 @@ from workflow.lib.costs import effort, expected_cost, peak_memory, read_cost
 from workflow.lib.plan import Run
 
 
-@pytest.mark.parametrize("text", ["{", "{}", '"text"', "[]", '{"cpu_seconds": "1"}', "\0"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "{",
+        "{}",
+        '"text"',
+        "[]",
+        '{"cpu_seconds": "1"}',
+        "\0",
+        "[" * 100000,
+        '{"cpu_seconds": 0.0}',
+        '{"cpu_seconds": -3.0}',
+        '{"cpu_seconds": NaN}',
+    ],
+)
 def test_a_damaged_record_is_none(tmp_path: Path, text: str) -> None:
     (tmp_path / "cost.json").write_text(text)
     assert read_cost(tmp_path / "cost.json") is None

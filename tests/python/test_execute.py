@@ -67,7 +67,7 @@ def note_executable(root: Path) -> None:
     (root / "build/id/fake.sha256").write_text(f"{digest}  fake\n")
 
 
-def start(root: Path, options: dict) -> subprocess.Popen:
+def start(root: Path, options: dict, redirection: str = "") -> subprocess.Popen:
     command = [
         sys.executable,
         "-I",
@@ -81,13 +81,21 @@ def start(root: Path, options: dict) -> subprocess.Popen:
     command += ["--quality", "smoke", "--panel", "fig99", "--run", "all_gamma=1", "--program", "fake"]
     command += ["--options", json.dumps(options), "--threads", "3", "--replicated"]
     return subprocess.Popen(
-        command, cwd=root, env={"PATH": os.defpath, "OMP_NUM_THREADS": "7", "HOSTILE": "1"}
+        ["bash", "-c", f'exec "$@" {redirection}', "bash", *command],
+        cwd=root,
+        env={"PATH": os.defpath, "OMP_NUM_THREADS": "7", "HOSTILE": "1"},
     )
 
 
 def jobs(root: Path) -> dict:
     record = root / RECORD
     return json.loads(record.read_text())["jobs"] if record.is_file() else {}
+
+
+def test_standard_error_may_be_closed(root: Path) -> None:
+    """As for what is started by a clock."""
+    assert start(root, HOSTILE, "2>&-").wait() == 0
+    assert jobs(root)
 
 
 @pytest.mark.parametrize("status", [0, 4])

@@ -1,5 +1,6 @@
 """The loader takes the order of the dimensions from the dimension scales, and names units of all that it returns."""
 
+import os
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -108,4 +109,21 @@ def test_what_belongs_to_no_dimension_is_refused(tmp_path: Path, measured: dict)
     with h5py.File(tmp_path / "a.h5", "r+") as file:
         file["results/energy/more"] = TIME
     with pytest.raises(FormatError, match="more belong to no dimension"):
+        load(tmp_path / "a.h5")
+
+
+@pytest.mark.parametrize("link", [h5py.ExternalLink("b.h5", "/results"), h5py.SoftLink("/parameters")])
+def test_no_link_is_followed(tmp_path: Path, measured: dict, link: object) -> None:
+    for name in ("a.h5", "b.h5"):
+        write(tmp_path / name, {"time": TIME, "cell": CELL}, measured)
+    with h5py.File(tmp_path / "a.h5", "r+") as file:
+        del file["results"]
+        file["results"] = link
+    with pytest.raises(FormatError, match="results is a link"):
+        load(tmp_path / "a.h5")
+
+
+def test_no_pipe_is_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "a.h5")
+    with pytest.raises(FormatError, match="a pipe lies where a file belongs"):
         load(tmp_path / "a.h5")

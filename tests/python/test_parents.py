@@ -2,6 +2,7 @@
 
 import json
 import os
+import resource
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -38,6 +39,20 @@ def stem(tmp_path: Path) -> Path:
     )
     plt.close(figure)
     return tmp_path / "a"
+
+
+def test_what_cannot_be_written_leaves_nothing(tmp_path: Path) -> None:
+    figure, _ = plt.subplots()
+    limit = resource.getrlimit(resource.RLIMIT_FSIZE)
+    table = as_csv(pd.DataFrame({"a": [1.0]}), {"a": "1"})
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, limit[1]))
+    try:
+        with pytest.raises(OSError, match=r"File too large: '.*a\.pdf\.tmp'"):
+            save(figure, table, tmp_path / "a", Text("title", "caption"), PARENTS)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limit)
+        plt.close(figure)
+    assert [*tmp_path.iterdir()] == []
 
 
 def refusal(path: Path) -> str:

@@ -1,5 +1,6 @@
 import contextlib
 import fcntl
+import json
 import os
 import shutil
 import subprocess
@@ -8,6 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+
+from workflow.lib.parents import file_hash
 
 ROOT = Path(__file__).parents[2]
 CHEAP = ("PANEL=fig03", "QUALITY=standard")  # a second, at a quality that is packed
@@ -102,13 +105,26 @@ def copy_made(source: Path, target: Path) -> None:
             shutil.copytree(source / place, target / place, dirs_exist_ok=True, ignore=without)
 
 
+def made_as_now() -> bool:
+    """Whether all products of the project were made by the pipeline that is there now, from what was committed."""
+    try:
+        jobs = json.loads((ROOT / "data/smoke/lock.json").read_text())["jobs"].values()
+        used = {item for job in jobs for item in job["pipeline"].items()}
+        return not any(job["dirty"] for job in jobs) and all(
+            file_hash(ROOT / path) == own for path, own in used
+        )
+    except (OSError, ValueError, KeyError):
+        return False
+
+
 def drawn_into(folder: Path) -> None:
-    """The project as it stands, its changes committed, with the figures that it has; those that are missing or stale are
-    made."""
+    """The project as it stands, its changes committed, with the figures that it has, if they were made as they would be now.
+    Those that are missing or stale are made."""
     subprocess.run(["git", "clone", "--quiet", "--no-checkout", ROOT, folder], check=True)
     clone = clone_into(folder)
     clone.commit()
-    copy_made(ROOT, folder)
+    if made_as_now():
+        copy_made(ROOT, folder)
     made = clone.make("figures", "QUALITY=smoke")
     assert made.returncode == 0, made.stdout
 

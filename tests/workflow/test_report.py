@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import pytest
 
-from tests.workflow.conftest import Clone, append, delete, replace
+from tests.workflow.conftest import Clone, append, delete, files_below, replace
 from tests.workflow.tampering import in_place_of, run_module, tampered
 from tests.workflow.webpage import Page
 from workflow.lib.parents import Parents, caption_of
@@ -114,6 +114,13 @@ def test_the_gallery_has_every_panel_and_knows_when_it_is_old(kept: Clone) -> No
     answer = (kept.folder / "README.md").read_text().split("<!-- answer, by make gallery -->")[1]
     assert re.findall(r"^\d(?=\. )", answer, re.MULTILINE) == [*"12345"]
     assert "docs/gallery" not in kept.make("status", "QUALITY=smoke").stdout
+    forged = next((kept.folder / "data/smoke/fig05").iterdir())
+    content, before = forged.read_bytes(), files_below(folder)
+    forged.write_bytes(content + b"\0")
+    made = kept.make("gallery", "QUALITY=smoke")
+    assert (made.returncode, f"{forged.name} is not what its job wrote" in made.stdout) == (2, True)
+    assert files_below(folder) == before
+    forged.write_bytes(content)
     append("workflow/figures/fig06.py", "# more\n")(kept)
     assert (
         "docs/gallery: drawn by former code: fig06; make gallery"

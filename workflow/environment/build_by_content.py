@@ -40,8 +40,9 @@ def present() -> dict[str, str]:
 
 def recorded() -> dict[str, str]:
     try:
-        return dict(json.loads(RECORD.read_text())) if RECORD.is_file() else {}
-    except (OSError, ValueError, TypeError):
+        read = dict(json.loads(RECORD.read_text())) if RECORD.is_file() else {}
+        return {path: digest for path, digest in read.items() if isinstance(path, str)}
+    except (OSError, ValueError, TypeError, RecursionError):
         return {}
 
 
@@ -89,7 +90,7 @@ def remove_edited_executables() -> None:
         elif (
             not executable.is_file()
             or not stated.is_file()
-            or stated.read_text().split()[:1] != [hash_of(executable)]
+            or stated.read_text(errors="replace").split()[:1] != [hash_of(executable)]
         ):
             executable.unlink()
 

@@ -56,6 +56,8 @@ def launch() -> None:
     del sys.argv[0]
     if sys.stdout is None:
         sys.exit("Standard output is closed, and nothing could be said; try >/dev/null")
+    if sys.stderr is None:  # as what is started by a clock may have it; the next file would take its number
+        sys.stderr = os.fdopen(os.open(os.devnull, os.O_WRONLY), "w")
     try:
         runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)
         sys.stdout.flush()

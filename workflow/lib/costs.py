@@ -22,8 +22,9 @@ def cost_file(quality: str, panel: str, run: str) -> dict[str, Any] | None:
 def read_cost(path: Path) -> dict[str, Any] | None:
     try:
         cost: Any = json.loads(path.read_text()) if path.is_file() else None
-        return cost if isinstance(cost["cpu_seconds"], float) else None
-    except (OSError, ValueError, KeyError, TypeError):
+        seconds = cost["cpu_seconds"] if cost else None
+        return cost if isinstance(seconds, float) and 0 < seconds < math.inf else None
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return None
 
 

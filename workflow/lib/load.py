@@ -10,6 +10,7 @@ import h5py
 import numpy as np
 import pandas as pd
 
+from workflow.lib.places import regular
 from workflow.lib.units import parse
 
 if TYPE_CHECKING:
@@ -120,7 +121,9 @@ def load_parameters(path: Path) -> dict[str, Any]:
 def _opened(path: Path) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
     """The file and its provenance. Raises FormatError for all that goes wrong while it is open."""
     try:
-        with h5py.File(path) as file:
+        with h5py.File(regular(path)) as file:
+            if led := file.visititems_links(_leads_elsewhere):
+                raise FormatError(f"{led} is a link, which could lead anywhere")
             provenance = _attributes(file["provenance"])
             if (provenance["format"], provenance["format_version"]) != (FORMAT, FORMAT_VERSION):
                 raise FormatError(
@@ -130,8 +133,12 @@ def _opened(path: Path) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
             yield file, provenance
     except FormatError as error:
         raise FormatError(f"{path}: {error}") from error
-    except (OSError, AttributeError, KeyError, TypeError, ValueError, RuntimeError) as error:
+    except (OSError, AttributeError, KeyError, TypeError, ValueError, RuntimeError, MemoryError) as error:
         raise FormatError(f"{path} is not a result file: {error}") from error
+
+
+def _leads_elsewhere(name: str, link: object) -> str | None:
+    return None if isinstance(link, h5py.HardLink) else name
 
 
 def _attributes(group: h5py.Group | h5py.Dataset) -> dict[str, Any]:

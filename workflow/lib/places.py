@@ -8,6 +8,8 @@ import errno
 import os
 import shutil
 import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 KINDS = {stat.S_IFREG: "a file", stat.S_IFDIR: "a folder", stat.S_IFLNK: "a link", stat.S_IFIFO: "a pipe"}
@@ -36,13 +38,27 @@ def move(source: Path, target: Path) -> None:
     except OSError as error:
         if error.errno != errno.EXDEV:
             raise
-        unfinished = target.with_name(f"{target.name}.tmp")
-        with regular(source).open("rb") as old, regular(unfinished).open("wb") as new:
-            shutil.copyfileobj(old, new)
-            new.flush()
-            os.fsync(new.fileno())
-        unfinished.replace(target)
+        with unfinished(target.with_name(f"{target.name}.tmp")) as copy:
+            with regular(source).open("rb") as old, copy.open("wb") as new:
+                shutil.copyfileobj(old, new)
+                new.flush()
+                os.fsync(new.fileno())
+            copy.replace(target)
         source.unlink()
+
+
+@contextmanager
+def unfinished(path: Path) -> Iterator[Path]:
+    """A file that is written, to be given its name when it is whole. If it cannot be, it does not stay, and the error names it."""
+    regular(path)
+    try:
+        yield path
+    except OSError as error:
+        if error.filename is None and error.errno is not None:
+            error.filename = str(path)
+        raise
+    finally:
+        path.unlink(missing_ok=True)
 
 
 def in_one_line(error: OSError) -> str:

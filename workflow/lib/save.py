@@ -4,6 +4,7 @@ Equal inputs give equal bytes: no file holds a time, a host, a user or an absolu
 """
 
 import io
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,7 +12,7 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from workflow.lib.parents import CAPTION_LINE, PARENTS_LINE, Parents
-from workflow.lib.places import regular
+from workflow.lib.places import unfinished
 from workflow.lib.style import FONTS
 
 CREATOR = "lorentz-gas"
@@ -44,11 +45,13 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
         [f"# {text.title}", PARENTS_LINE + described, units, CAPTION_LINE + text.caption, numbers]
     ).encode()
     stem.parent.mkdir(parents=True, exist_ok=True)
-    unfinished = {kind: regular(stem.with_suffix(f".{kind}.tmp")) for kind in contents}
-    for kind, path in unfinished.items():
-        path.write_bytes(contents[kind])
-    for kind, path in unfinished.items():
-        path.replace(stem.with_suffix(f".{kind}"))
+    with ExitStack() as written:
+        files = {}
+        for kind, content in contents.items():
+            files[kind] = written.enter_context(unfinished(stem.with_suffix(f".{kind}.tmp")))
+            files[kind].write_bytes(content)
+        for kind, file in files.items():
+            file.replace(stem.with_suffix(f".{kind}"))
 
 
 def _picture(figure: Figure, kind: str, metadata: dict[str, Any]) -> bytes:

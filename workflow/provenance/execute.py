@@ -76,7 +76,7 @@ def built(program: str) -> tuple[dict[str, Any], str]:
     """What the program was built from, and the hash of its file. Leaves if it is not the file that was built."""
     build = json.loads(regular(ROOT / f"build/id/{program}.json").read_text())
     executable = file_hash(ROOT / "build/bin" / program)
-    if executable not in regular(ROOT / f"build/id/{program}.sha256").read_text().split():
+    if executable not in regular(ROOT / f"build/id/{program}.sha256").read_text(errors="replace").split():
         sys.exit(
             f"build/bin/{program} is not what was built: edited or replaced. `make build` builds it again."
         )

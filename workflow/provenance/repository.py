@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from workflow.lib.parents import file_hash
-from workflow.lib.places import regular
+from workflow.lib.places import unfinished
 
 ROOT = Path(__file__).parents[2]
 PLACES = (".", "data", "figures")
@@ -71,11 +71,11 @@ class FileHashes(dict[str, str | None]):
         return found
 
 
-def write_whole(path: Path, text: str) -> None:
+def write_whole(path: Path, content: str | bytes) -> None:
     """So that the file is never there by half."""
-    unfinished = regular(path.with_suffix(".tmp"))
-    unfinished.write_text(text)
-    unfinished.replace(path)
+    with unfinished(path.with_suffix(".tmp")) as file:
+        file.write_bytes(content.encode() if isinstance(content, str) else content)
+        file.replace(path)
 
 
 def run_git(

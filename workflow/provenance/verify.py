@@ -69,7 +69,7 @@ class Verdicts(dict[str, dict[str, Any]]):
         try:
             read = json.loads(self.path.read_text()) if self.path.is_file() else {}
             super().__init__({name: one for name, one in read.items() if isinstance(one, dict)})
-        except (OSError, ValueError, AttributeError):
+        except (OSError, ValueError, AttributeError, RecursionError):
             super().__init__()
 
     def keep(self, name: str, job: Job, verdict: Verdict) -> None:

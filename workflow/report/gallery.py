@@ -10,7 +10,7 @@ import io
 import json
 import re
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -19,7 +19,7 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from workflow.claims.data import Data
-from workflow.claims.judge import judge_all
+from workflow.claims.judge import Judgement, judge_all
 from workflow.lib import style
 from workflow.lib.parents import caption_of
 from workflow.lib.plan import QUALITIES, Panel, drawings_of
@@ -66,12 +66,12 @@ def best(panel: Panel, products: Mapping[str, Products]) -> tuple[str, list[Path
     return None
 
 
-def picture_of_summary(claims: list[dict[str, Any]], parents: dict[str, Any], place: Path) -> None:
+def picture_of_summary(claims: list[dict[str, Any]], parents: dict[str, Any]) -> bytes:
     style.apply()
-    described = json.dumps(parents, sort_keys=True)
-    summary.draw(claims).savefig(
-        place, dpi=130, metadata={"Description": described, "Software": "lorentz-gas"}
-    )
+    described, picture = json.dumps(parents, sort_keys=True), io.BytesIO()
+    metadata = {"Description": described, "Software": "lorentz-gas"}
+    summary.draw(claims).savefig(picture, format="png", dpi=130, metadata=metadata)
+    return picture.getvalue()
 
 
 def written(answer: list[str]) -> str:
@@ -79,47 +79,62 @@ def written(answer: list[str]) -> str:
     return f"\n{sentences}\n\n"
 
 
-def gallery(quality: str, root: Path = ROOT) -> Iterator[str]:
-    """Writes all of it; yields a line per panel. quality: of the answer and the verdicts. Raises ReportError."""
-    data = Data(quality, root)
+def judged(data: Data) -> list[Judgement]:
+    """By results that are what their jobs wrote. Raises ReportError."""
     judgements = judge_all(data)
+    try:
+        products = Products(data.root, Lock.read(data.quality))
+    except LockError as error:
+        raise ReportError(f"{error}: run make figures") from error
+    for path in {path for judgement in judgements for path in judgement.data}:
+        products.file(path)
+    return judgements
+
+
+def gallery(quality: str, root: Path = ROOT) -> list[str]:
+    """Writes all of it, or nothing; a line per panel. quality: of the answer and the verdicts. Raises ReportError."""
+    data = Data(quality, root)
+    judgements = judged(data)
     readme = (root / README).read_text()
     if not BLOCK.search(readme):
         raise ReportError(
             f"{README} has no place for the answer: restore its lines '<!-- ... the answer -->'"
         )
     folder = root / GALLERY
-    folder.mkdir(parents=True, exist_ok=True)
-    lines, products = [], made(root)
+    told, lines, products = [], [], made(root)
+    files: dict[Path, str | bytes] = {}
     for panel in data.plan.values():
         found = best(panel, products)
         if found is None:
-            yield f"{panel.name} has not been made: run make figures"
+            told.append(f"{panel.name} has not been made: run make figures")
             continue
         quality_there, (_, png, _, csv) = found
-        (folder / f"{panel.name}.png").write_bytes(small(png))
+        files[folder / f"{panel.name}.png"] = small(png)
         title = csv.read_text().split("\n", 1)[0].removeprefix("# ")
         lines.append(
             f"## {panel.name}\n\n![{title}]({panel.name}.png)\n\n**{title}** (quality {quality_there}). {caption_of(csv)}\n"
         )
-        yield f"{panel.name}: quality {quality_there}"
+        told.append(f"{panel.name}: quality {quality_there}")
     claims = [content.claim(one, {}) for one in judgements]
     parents = {"quality": quality, "sources": source_hashes(root)}
-    picture_of_summary(claims, parents, folder / "summary.png")
+    files[folder / "summary.png"] = picture_of_summary(claims, parents)
     head = (
         f"# Gallery\n\nMade by `make gallery`.\n\n![Verdicts on the claims, quality {quality}](summary.png)\n"
     )
-    write_whole(folder / "README.md", "\n".join([head, *lines]))
+    files[folder / "README.md"] = "\n".join([head, *lines])
     text = written(content.answer(judgements, quality))
-    write_whole(root / README, BLOCK.sub(lambda _: text, readme))
+    files[root / README] = BLOCK.sub(lambda _: text, readme)
+    folder.mkdir(parents=True, exist_ok=True)
+    for path, content_of in files.items():
+        write_whole(path, content_of)
+    return told
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--quality", required=True, help="of the verdicts")
     try:
-        for line in gallery(parser.parse_args().quality):
-            print(line)
+        print(*gallery(parser.parse_args().quality), sep="\n")
     except ConfigurationError as error:
         print(f"make gallery: {error}", file=sys.stderr)
         sys.exit(2)
