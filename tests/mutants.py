@@ -9,6 +9,7 @@ import re
 import shutil
 import subprocess
 import sys
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -87,7 +88,7 @@ def mutants(path: str) -> Iterator[Mutant]:
             yield Mutant(path, source, found.start(), found.end(), change(found))
 
 
-class Lane:
+class Lane(ABC):
     """A copy of the sources in which one mutant after the other is tried."""
 
     name: str
@@ -124,9 +125,9 @@ class Lane:
         if not self.passes(""):
             sys.exit(f"{self.name}: the tests fail without a change")
 
+    @abstractmethod
     def passes(self, path: str) -> bool:
         """Whether no test notices what this source has become."""
-        raise NotImplementedError
 
     def survives(self, mutant: Mutant) -> bool:
         target = self.folder / mutant.path

@@ -38,9 +38,8 @@ QUANTITIES: dict[str, dict[str, tuple[str, ...]]] = {
 DEFAULTS = {"cells": "continuum", "zero-total-momentum": False}  # where the plan leaves an option out
 
 Fill = Callable[[Run], Mapping[str, Quantity]]
-Truth = Mapping[
-    str, Any
-]  # by quantity: a number, or a function of the run and the coordinates along each axis
+# By quantity: a number, or a function of the run and the coordinates along each axis.
+Truth = Mapping[str, Any]
 
 plan = cache(load_plan)
 

@@ -26,8 +26,9 @@ esac
 
 def test_the_commit_that_is_compared_is_named(clean: Clone) -> None:
     commit = json.loads((clean.folder / LOCK).read_text())["jobs"]["fig03"]["commit"]
+    plain = "\ngpgsig" not in git_says(clean, "cat-file", "commit", commit)
     told = clean.make("audit", "QUALITY=smoke", "PANEL=fig03").stdout
-    assert f"compared with commit {commit[:12]} (" in told
+    assert f"compared with commit {commit[:12]} ({'not signed)' if plain else 'signed'}" in told
 
 
 AUTHOR = ("-c", "user.name=Nobody", "-c", "user.email=nobody@example.org")

@@ -8,8 +8,8 @@ import errno
 import os
 import shutil
 import stat
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 KINDS = {stat.S_IFREG: "a file", stat.S_IFDIR: "a folder", stat.S_IFLNK: "a link", stat.S_IFIFO: "a pipe"}
@@ -59,6 +59,17 @@ def unfinished(path: Path) -> Iterator[Path]:
         raise
     finally:
         path.unlink(missing_ok=True)
+
+
+def write_together(contents: Mapping[Path, bytes]) -> None:
+    """Each gets its name when all are written, so that a full disk leaves those that were there."""
+    with ExitStack() as written:
+        files = {}
+        for path, content in contents.items():
+            files[path] = written.enter_context(unfinished(path.with_name(f"{path.name}.tmp")))
+            files[path].write_bytes(content)
+        for path, file in files.items():
+            file.replace(path)
 
 
 def in_one_line(error: OSError) -> str:

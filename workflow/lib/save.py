@@ -4,7 +4,6 @@ Equal inputs give equal bytes: no file holds a time, a host, a user or an absolu
 """
 
 import io
-from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,7 +11,7 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from workflow.lib.parents import CAPTION_LINE, PARENTS_LINE, Parents
-from workflow.lib.places import unfinished
+from workflow.lib.places import write_together
 from workflow.lib.style import FONTS
 
 CREATOR = "lorentz-gas"
@@ -45,13 +44,7 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
         [f"# {text.title}", PARENTS_LINE + described, units, CAPTION_LINE + text.caption, numbers]
     ).encode()
     stem.parent.mkdir(parents=True, exist_ok=True)
-    with ExitStack() as written:
-        files = {}
-        for kind, content in contents.items():
-            files[kind] = written.enter_context(unfinished(stem.with_suffix(f".{kind}.tmp")))
-            files[kind].write_bytes(content)
-        for kind, file in files.items():
-            file.replace(stem.with_suffix(f".{kind}"))
+    write_together({stem.with_suffix(f".{kind}"): content for kind, content in contents.items()})
 
 
 def _picture(figure: Figure, kind: str, metadata: dict[str, Any]) -> bytes:

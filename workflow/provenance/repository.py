@@ -71,10 +71,10 @@ class FileHashes(dict[str, str | None]):
         return found
 
 
-def write_whole(path: Path, content: str | bytes) -> None:
+def write_whole(path: Path, text: str) -> None:
     """So that the file is never there by half."""
     with unfinished(path.with_suffix(".tmp")) as file:
-        file.write_bytes(content.encode() if isinstance(content, str) else content)
+        file.write_text(text)
         file.replace(path)
 
 

@@ -19,13 +19,12 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from workflow.claims.data import Data
-from workflow.claims.judge import Judgement, judge_all
 from workflow.lib import style
 from workflow.lib.parents import caption_of
+from workflow.lib.places import write_together
 from workflow.lib.plan import QUALITIES, Panel, drawings_of
 from workflow.lib.strict_yaml import ConfigurationError
-from workflow.provenance.lock import Lock, LockError
-from workflow.provenance.repository import ROOT, write_whole
+from workflow.provenance.repository import ROOT
 from workflow.provenance.status import GALLERY
 from workflow.report import content, summary
 from workflow.report.sources import Products, ReportError, source_hashes
@@ -53,8 +52,8 @@ def made(root: Path) -> dict[str, Products]:
     """By quality, the highest first, where there is a lock that can be read."""
     found = {}
     for quality in reversed(QUALITIES):
-        with suppress(LockError):
-            found[quality] = Products(root, Lock.read(quality))
+        with suppress(ReportError):
+            found[quality] = Products.of(quality, root)
     return found
 
 
@@ -79,22 +78,10 @@ def written(answer: list[str]) -> str:
     return f"\n{sentences}\n\n"
 
 
-def judged(data: Data) -> list[Judgement]:
-    """By results that are what their jobs wrote. Raises ReportError."""
-    judgements = judge_all(data)
-    try:
-        products = Products(data.root, Lock.read(data.quality))
-    except LockError as error:
-        raise ReportError(f"{error}: run make figures") from error
-    for path in {path for judgement in judgements for path in judgement.data}:
-        products.file(path)
-    return judgements
-
-
 def gallery(quality: str, root: Path = ROOT) -> list[str]:
     """Writes all of it, or nothing; a line per panel. quality: of the answer and the verdicts. Raises ReportError."""
     data = Data(quality, root)
-    judgements = judged(data)
+    judgements = Products.of(quality, root).judged(data)
     readme = (root / README).read_text()
     if not BLOCK.search(readme):
         raise ReportError(
@@ -102,7 +89,7 @@ def gallery(quality: str, root: Path = ROOT) -> list[str]:
         )
     folder = root / GALLERY
     told, lines, products = [], [], made(root)
-    files: dict[Path, str | bytes] = {}
+    files = {}
     for panel in data.plan.values():
         found = best(panel, products)
         if found is None:
@@ -121,12 +108,11 @@ def gallery(quality: str, root: Path = ROOT) -> list[str]:
     head = (
         f"# Gallery\n\nMade by `make gallery`.\n\n![Verdicts on the claims, quality {quality}](summary.png)\n"
     )
-    files[folder / "README.md"] = "\n".join([head, *lines])
+    files[folder / "README.md"] = "\n".join([head, *lines]).encode()
     text = written(content.answer(judgements, quality))
-    files[root / README] = BLOCK.sub(lambda _: text, readme)
+    files[root / README] = BLOCK.sub(lambda _: text, readme).encode()
     folder.mkdir(parents=True, exist_ok=True)
-    for path, content_of in files.items():
-        write_whole(path, content_of)
+    write_together(files)
     return told
 
 

@@ -7,11 +7,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from workflow.claims.judge import CLAIMS_FILE
+from workflow.claims.data import Data
+from workflow.claims.judge import CLAIMS_FILE, Judgement, judge_all
 from workflow.lib.costs import cost_file
 from workflow.lib.parents import PACKAGES, file_hash
 from workflow.lib.plan import Panel
-from workflow.provenance.lock import Lock
+from workflow.provenance.lock import Lock, LockError
 from workflow.provenance.sources import sources_of
 
 SCRIPT = "workflow/report/write.py"
@@ -32,6 +33,21 @@ class Products:
     root: Path
     lock: Lock
     used: dict[str, str] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, quality: str, root: Path) -> "Products":
+        """Raises ReportError if there is no lock that can be read."""
+        try:
+            return cls(root, Lock.read(quality))
+        except LockError as error:
+            raise ReportError(f"{error}: run make figures") from error
+
+    def judged(self, data: Data) -> list[Judgement]:
+        """All claims, by files that are what their jobs wrote. Raises ReportError."""
+        judgements = judge_all(data)
+        for path in {path for judgement in judgements for path in judgement.data}:
+            self.file(path)
+        return judgements
 
     def file(self, path: str) -> Path:
         """Raises ReportError if it is not what its job wrote."""

@@ -11,11 +11,10 @@ from pathlib import Path
 import jinja2
 
 from workflow.claims.data import Data
-from workflow.claims.judge import judge_all
+from workflow.lib.places import write_together
 from workflow.lib.plan import Quality
 from workflow.lib.strict_yaml import ConfigurationError
-from workflow.provenance.lock import Lock, LockError
-from workflow.provenance.repository import ROOT, write_whole
+from workflow.provenance.repository import ROOT
 from workflow.report import content, words
 from workflow.report.sources import Costs, Products, ReportError, measured_costs, parents_in, source_hashes
 
@@ -25,15 +24,9 @@ NAMES = ("report.html", "report.md")
 def pages(quality: str, costs: Costs | None = None, root: Path = ROOT) -> dict[str, str]:
     """Text by name of the file. Without costs those that were measured here are stated. Raises ReportError."""
     data = Data(quality, root)
-    try:
-        lock = Lock.read(quality)
-    except LockError as error:
-        raise ReportError(f"{error}: run make figures") from error
+    products = Products.of(quality, root)
+    judgements = products.judged(data)
     costs = measured_costs(quality, data.plan) if costs is None else costs
-    products = Products(root, lock)
-    judgements = judge_all(data)
-    for path in {path for judgement in judgements for path in judgement.data}:
-        products.file(path)
     context = {
         "quality": quality,
         "effort": content.effort(Quality.of(quality)),
@@ -42,7 +35,7 @@ def pages(quality: str, costs: Costs | None = None, root: Path = ROOT) -> dict[s
         "findings": content.findings(judgements),
         "misprints": content.misprints(judgements, data),
         "panels": [content.panel(quality, one, products, costs) for one in data.plan.values()],
-        "environment": content.environment(lock),
+        "environment": content.environment(products.lock),
         "citation": content.citation(root),
         "cost": sum(costs.values()),
     }
@@ -77,8 +70,8 @@ def main() -> None:
     folder = options.output or ROOT / "figures" / options.quality
     try:
         costs = parents_in(options.costs_of).get("costs") if options.costs_of else None
-        for name, text in pages(options.quality, costs).items():
-            write_whole(folder / name, text)
+        texts = pages(options.quality, costs)
+        write_together({folder / name: text.encode() for name, text in texts.items()})
     except (ReportError, ConfigurationError) as error:
         sys.exit(f"make report: {error}")
 
