@@ -24,6 +24,8 @@ HOSTILE = {
     "flag": True,
     "off": False,
 }
+DATA = "data/smoke/fig99/all_gamma=1.h5"
+COST = "build/costs/smoke/fig99/all_gamma=1.json"
 RECORD = "build/records/smoke/fig99/all_gamma=1.json"
 PROGRAM = """#!/usr/bin/python3
 import json, os, signal, sys, time
@@ -206,9 +208,9 @@ PLACE = "a {} lies where a file belongs; move it away"
         (RECORD.replace(".json", ".tmp"), os.mkfifo, PLACE.format("pipe")),
         (RECORD.replace(".json", ".tmp"), Path.mkdir, PLACE.format("folder")),
         (RECORD, Path.mkdir, "all_gamma=1.json: Is a directory"),
-        ("data/smoke/fig99/all_gamma=1.h5", Path.mkdir, "all_gamma=1.h5: Is a directory"),
-        ("build/costs/smoke/fig99/all_gamma=1.json", Path.mkdir, "all_gamma=1.json: Is a directory"),
-        ("build/partial", Path.touch, "build/partial/smoke/fig99: Not a directory"),
+        (DATA, Path.mkdir, "all_gamma=1.h5: a folder lies where a file belongs; move it away"),
+        (COST, Path.mkdir, "all_gamma=1.json: Is a directory"),
+        ("build/partial", Path.touch, ".exit0.h5: Not a directory"),
     ],
 )
 def test_what_lies_in_a_files_place_is_told_in_one_line(
@@ -220,7 +222,23 @@ def test_what_lies_in_a_files_place_is_told_in_one_line(
     assert start(root, {}).wait(timeout=10) == 1
     (line,) = (line for line in (root / "build/logs/log").read_text().splitlines() if line != "said")
     assert words in line
-    assert jobs(root) == {}
+    assert not (root / DATA).is_file()
+
+
+@pytest.mark.parametrize("status", [0, 4])
+@pytest.mark.parametrize("path", [DATA, RECORD, RECORD.replace(".json", ".tmp"), COST])
+def test_what_could_not_be_entered_is_not_simulated_again(root: Path, path: str, status: int) -> None:
+    """Whatever stands in the way when the program has ended; a full disk and a folder fail at the same places."""
+    (root / path).mkdir(parents=True)
+    assert start(root, {"status": status}).wait(timeout=10) == 1
+    assert "said" in (root / "build/logs/log").read_text()
+    (root / path).rmdir()
+    assert start(root, {"status": status}).wait(timeout=10) == 0
+    assert (root / "build/logs/log").read_text() == ""
+    job = jobs(root)["fig99/all_gamma=1"]
+    assert (job["exit"], job["outputs"]) == (status, {DATA: file_hash(root / DATA)})
+    assert (root / COST).is_file()
+    assert list((root / "build/partial").rglob("*.*")) == []
 
 
 def test_a_checkpoint_belongs_to_its_options(root: Path) -> None:

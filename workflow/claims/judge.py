@@ -11,9 +11,11 @@ from workflow.claims.data import Data, MissingError
 from workflow.claims.evidence import Claim, Evidence
 from workflow.claims.verdict import Band, Outcome, Reading, combined, level_of_each
 from workflow.lib.load import NOT_REACHED
-from workflow.lib.places import regular
+from workflow.lib.places import damaged, regular
 
 CLAIMS_FILE = "data/claims.csv"
+READINGS = ["literal", "substance", "other"]
+COLUMNS = ["id", "panel", "place", "quantity", "paper", "criterion", *READINGS]
 MODULES = (filling, profiles, fluxes, closed, growth, pulse)
 FUNCTIONS: dict[str, Claim] = {name: claim for module in MODULES for name, claim in module.CLAIMS.items()}
 
@@ -38,8 +40,17 @@ class Judgement:
 
 
 def read_claims(root: Path) -> list[dict[str, str]]:
-    table = pd.read_csv(regular(root / CLAIMS_FILE), dtype=str, keep_default_na=False)
-    rows: list[dict[str, str]] = table.to_dict("records")
+    """Raises OSError if the table is missing or damaged."""
+    path = regular(root / CLAIMS_FILE)
+    try:
+        table = pd.read_csv(path, dtype=str, keep_default_na=False)[COLUMNS]
+        rows: list[dict[str, str]] = table.to_dict("records")
+        if sorted(row["id"] for row in rows) != sorted(FUNCTIONS):
+            raise ValueError("not the claims that are judged here")
+        for text in (row[reading] for row in rows for reading in READINGS):
+            Band.of(text or "above 0")
+    except (ValueError, KeyError) as error:  # pandas' own are of the first kind
+        raise damaged(path, error) from error
     return rows
 
 

@@ -60,7 +60,7 @@ class Parents:
 
 def caption_of(table: Path) -> str:
     """What the CSV of a panel says of it; nothing before it is drawn."""
-    lines = table.read_text("utf-8").splitlines() if table.is_file() else []
+    lines = table.read_text("utf-8", "replace").splitlines() if table.is_file() else []
     return "".join(line.removeprefix(CAPTION_LINE) for line in lines if line.startswith(CAPTION_LINE))
 
 

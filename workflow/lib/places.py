@@ -72,6 +72,11 @@ def write_together(contents: Mapping[Path, bytes]) -> None:
             file.replace(path)
 
 
+def damaged(path: Path, error: Exception) -> OSError:
+    """Of a file of the repository, with what was wrong when it was read."""
+    return OSError(errno.EINVAL, f"damaged; take it from the repository again ({error!r})", str(path))
+
+
 def in_one_line(error: OSError) -> str:
     """Which file, and what is wrong with it."""
     names = [str(name) for name in (error.filename, error.filename2) if name is not None]

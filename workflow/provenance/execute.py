@@ -23,6 +23,7 @@ from workflow.provenance.repository import ROOT
 
 LAUNCH = "workflow/environment/launch.py"
 UNCONVERGED = 4  # exit status of a program that wrote its result and says that the target was not reached
+STATUSES = (0, UNCONVERGED)  # of a program that wrote its result
 ENVIRONMENT = {
     "PATH": "/usr/local/bin:/usr/bin:/bin",
     "LC_ALL": "C.UTF-8",
@@ -91,24 +92,35 @@ def identity_of(program: str, options: Options) -> str:
 
 
 def run_program(job: argparse.Namespace, partial: Path, *more: str) -> tuple[dict[str, Any], str, int]:
-    """Build, executable and exit status. Leaves if the program is not what was built, before and after."""
+    """Build, executable and exit status; the result is then at ended(partial, status). One that an earlier job could not
+    enter into the lock, as on a full disk, is taken as it is. Leaves if the program is not what was built, before and after.
+    """
     build, executable = built(job.program)
+    for status in STATUSES:
+        if regular(ended(partial, status)).exists():
+            return build, executable, status
     partial.parent.mkdir(parents=True, exist_ok=True)
     command = program_command(job.program, job.options, partial)
-    status = call([*command, *more, "--progress", "log"], (0, UNCONVERGED))
+    status = call([*command, *more, "--progress", "log"], STATUSES)
     if built(job.program) != (build, executable):
         sys.exit(f"build/bin/{job.program} was built again while it ran; run make again")
+    move(partial, ended(partial, status))
     return build, executable, status
+
+
+def ended(partial: Path, status: int) -> Path:
+    """Name of a result whose program has ended, until it is entered into the lock; renaming needs no space on the disk."""
+    return partial.with_suffix(f".exit{status}{partial.suffix}")
 
 
 def measure_part(job: argparse.Namespace) -> None:
     """Some replicas of a run, on any machine that sees this folder."""
     output = Path(job.output)
     partial = Path("build/partial", *output.parts[2:])
-    run_program(job, partial, "--threads", "1", "--resume", "--part", job.part)
+    _, _, status = run_program(job, partial, "--threads", "1", "--resume", "--part", job.part)
     output.parent.mkdir(parents=True, exist_ok=True)
     move(partial.with_suffix(".part.cost.json"), output.with_suffix(".part.cost.json"))
-    move(partial, output)
+    move(ended(partial, status), output)
 
 
 def simulate(job: argparse.Namespace) -> None:
@@ -117,16 +129,19 @@ def simulate(job: argparse.Namespace) -> None:
     more = ["--threads", str(job.threads), "--resume"] if job.replicated else []
     joined = ["--join", job.parts] if job.parts else []
     build, executable, status = run_program(job, partial, *more, *joined)
-    if job.parts:
-        add_costs(partial.with_suffix(".cost.json"), Path(job.parts))
-    cost, output = Path(f"build/costs/{name}.json"), Path(f"data/{name}.h5")
-    for path in (cost, output):
-        path.parent.mkdir(parents=True, exist_ok=True)
-    move(partial.with_suffix(".cost.json"), cost)
-    move(partial, output)
+    result, cost = ended(partial, status), partial.with_suffix(".cost.json")
     made_by = {"tool": job.program, "options": job.options, "exit": status}
     made_by |= {"build_id": build["build_id"], "executable": executable}
-    record(job.quality, f"{job.panel}/{job.run}", [str(output)], made_by, build)
+    output = f"data/{name}.h5"
+    record(job.quality, f"{job.panel}/{job.run}", {output: file_hash(result)}, made_by, build)
+    entered = Path(f"build/costs/{name}.json")
+    for path in (entered, Path(output)):
+        path.parent.mkdir(parents=True, exist_ok=True)
+    if cost.exists():
+        move(cost, entered)
+        if job.parts:
+            add_costs(entered, Path(job.parts))
+    move(result, Path(output))
 
 
 def add_costs(joined: Path, parts: Path) -> None:
@@ -145,7 +160,8 @@ def draw(job: argparse.Namespace) -> None:
     inputs = parents.inputs()
     order = [*job.sources, PACKAGES, *job.data]
     made_by |= {"inputs": {path: inputs[path] for path in order}, "python": parents.python}
-    record(job.quality, job.panel, [f"{stem}.{kind}" for kind in ("csv", "pdf", "png", "svg")], made_by)
+    outputs = {f"{stem}.{kind}": file_hash(stem.with_suffix(f".{kind}")) for kind in ("csv", "pdf", "png", "svg")}
+    record(job.quality, job.panel, outputs, made_by)
 
 
 def main() -> None:

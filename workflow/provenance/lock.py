@@ -13,6 +13,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
+from workflow.lib.places import require_place
 from workflow.provenance import repository
 from workflow.provenance.job import Job
 from workflow.provenance.lock_types import check_build, check_job
@@ -187,17 +188,23 @@ def collect(quality: str) -> None:
 
 
 def record(
-    quality: str, name: str, outputs: list[str], made_by: dict[str, Any], build: dict[str, Any] | None = None
+    quality: str,
+    name: str,
+    outputs: dict[str, str],
+    made_by: dict[str, Any],
+    build: dict[str, Any] | None = None,
 ) -> None:
-    """Leaves the record of a job that has just written its outputs."""
+    """Leaves the record of a job; outputs are its files with their hashes. Raises LockError, or OSError if a file of the
+    project cannot be where one of them is to be."""
     hashes = repository.FileHashes()
+    for path in outputs:
+        require_place(repository.ROOT / path, repository.ROOT)
     try:
-        written, asked = hashes.of(outputs), hashes.of(configuration_files(quality))
-        pipeline = hashes.of(pipeline_files())
+        asked, pipeline = hashes.of(configuration_files(quality)), hashes.of(pipeline_files())
     except FileNotFoundError as error:
         raise LockError(str(error)) from error
     state = repository.state() | {"machine": repository.machine()}
-    job = Job(**made_by, outputs=written, configuration=asked, pipeline=pipeline, **state)
+    job = Job(**made_by, outputs=outputs, configuration=asked, pipeline=pipeline, **state)
     path = record_path(quality, name)
     path.parent.mkdir(parents=True, exist_ok=True)
     Lock(quality, {name: job}, {job.build: build} if build else {}).write(path)

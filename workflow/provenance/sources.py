@@ -1,6 +1,7 @@
 """Which files of the project a Python script is made of."""
 
 import ast
+import errno
 from pathlib import Path
 
 from workflow.provenance.repository import ROOT
@@ -8,7 +9,7 @@ from workflow.provenance.repository import ROOT
 
 def sources_of(script: str) -> list[str]:
     """The script and every module of the project that it imports, directly or not; relative paths, the script
-    first, the others sorted. Raises FileNotFoundError if one is missing."""
+    first, the others sorted. Raises OSError if one is missing or no Python."""
     found: set[str] = set()
     waiting = [script]
     while waiting:
@@ -22,9 +23,13 @@ def sources_of(script: str) -> list[str]:
 def _imported(path: Path) -> list[str]:
     """Modules named in `import workflow.a.b`, `from workflow.a.b import c` and `from workflow.a import b`."""
     if not path.is_file():
-        raise FileNotFoundError(f"{path.relative_to(ROOT)} is missing or not a file")
+        raise FileNotFoundError(errno.ENOENT, "missing or not a file", str(path.relative_to(ROOT)))
+    try:
+        tree = ast.parse(path.read_text("utf-8"))
+    except (SyntaxError, ValueError, RecursionError) as error:  # also of a byte that is no text
+        raise OSError(errno.EINVAL, f"no Python: {error}", str(path.relative_to(ROOT))) from error
     names = []
-    for node in ast.walk(ast.parse(path.read_text(), path.name)):
+    for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             names += [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom) and node.module:

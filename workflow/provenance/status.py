@@ -115,10 +115,6 @@ def main() -> None:
     except ConfigurationError as error:
         print(f"make status: {error}", file=sys.stderr)
         sys.exit(2)
-    except (OSError, SyntaxError, UnicodeDecodeError) as error:
-        if isinstance(error, OSError) and error.filename is None:  # of the output
-            raise
-        sys.exit(f"make status: a source cannot be read: {error}")
 
 
 if __name__ == "__main__":

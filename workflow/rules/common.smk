@@ -8,7 +8,7 @@ def say(text):
 
 
 def force_if_stale(job):
-    if workflow.is_main_process and job not in STALE and (reason := made_anew(job)):
+    if workflow.is_main_process and job not in STALE and (reason := or_leave(made_anew, job)):
         STALE[job] = reason
         workflow.dag.forcefiles.update(CHAIN.outputs(job))
         if not REQUEST.fresh and any(CHAIN.hashes[path] for path in CHAIN.outputs(job)):
@@ -73,6 +73,14 @@ def all_figures(wildcards):
     return [path for panel in PANELS for path in drawings_of(QUALITY, panel)]
 
 
+def leave_if_stale():
+    """Something else may have written a product or a source meanwhile, as a job of a make that was killed."""
+    chain = Chain(QUALITY, PANELS)
+    if late := {job: reason for job in STALE if (reason := or_leave(chain.reason, job))}:
+        job, reason = next(iter(late.items()))
+        sys.exit(f"{job} was made, and is stale already: {reason}. The same command makes it again")
+
+
 def or_leave(act, *arguments):
     """What it returns; an error of a file is told in one line."""
     try:
@@ -87,16 +95,17 @@ BATCHES = divide(PANELS, 60 * REQUEST.batch, or_leave(read_timings)) if REQUEST.
 
 onstart:
     if workflow.is_main_process and not workflow.touch:
-        if reason := or_leave(prepare, CHAIN, STALE, REQUEST.fresh):
-            say(f"{reason}: moved to {REPLACED}, and all is made again")
         for handler in workflow.logger_manager.get_log_handlers():
             if isinstance(handler, LogHandler):
                 or_leave(handler.begin, QUALITY, PANELS, STALE, at_once())
+        if reason := or_leave(prepare, CHAIN, STALE, REQUEST.fresh):
+            say(f"{reason}: moved to {REPLACED}, and all is made again")
 
 
 onsuccess:
     if workflow.is_main_process:
         collect(QUALITY)
+        leave_if_stale()
 
 
 onerror:

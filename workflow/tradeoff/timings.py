@@ -15,7 +15,7 @@ from pathlib import Path
 from workflow.lib.configuration import FOLDER
 from workflow.lib.costs import cells, effort, executions
 from workflow.lib.options import Options
-from workflow.lib.places import regular
+from workflow.lib.places import damaged, regular
 from workflow.lib.plan import Run, load_plan
 from workflow.tradeoff.measure import execute, planned, shortened
 
@@ -59,6 +59,14 @@ def at_size(known: dict[float, float], size: float) -> float:
 
 
 def read_timings(path: Path = TABLE) -> Timings:
+    """Raises OSError if the table is missing or damaged."""
+    try:
+        return _timings(path)
+    except (ValueError, KeyError, TypeError, ArithmeticError, csv.Error) as error:
+        raise damaged(path, error) from error
+
+
+def _timings(path: Path) -> Timings:
     units: dict[tuple[str, str], dict[float, float]] = defaultdict(dict)
     with regular(path).open(newline="") as file:
         for row in csv.DictReader(file):
