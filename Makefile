@@ -48,7 +48,7 @@ override .SHELLFLAGS := -i HOME=$(call quote,$(value HOME)) PATH=/opt/homebrew/b
   LC_ALL=C.UTF-8 TZ=UTC SOURCE_DATE_EPOCH=1230768000 \
   PYTHONHASHSEED=0 PYTHONSAFEPATH=1 PYTHONNOUSERSITE=1 PYTHONDONTWRITEBYTECODE=1 PYTHONUNBUFFERED=1 \
   OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MPLBACKEND=Agg MPLCONFIGDIR=.cache/matplotlib \
-  XDG_CACHE_HOME=.cache $(foreach name,$(NETWORK),$(if $(value $(name)),$(name)=$(call quote,$(value $(name))))) \
+  XDG_CACHE_HOME=$(call quote,$(CURDIR)/.cache) $(foreach name,$(NETWORK),$(if $(value $(name)),$(name)=$(call quote,$(value $(name))))) \
   /bin/bash -euo pipefail -c
 
 # What would change results or hide failures without a word.

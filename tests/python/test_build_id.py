@@ -43,6 +43,14 @@ def test_closure(tree: Path) -> None:
     assert include_closure(tree / "cpp", "observables/a.cpp") == expected
 
 
+def test_a_source_may_have_bytes_that_are_no_text(tree: Path) -> None:
+    """As the compiler admits them."""
+    before = include_closure(tree / "cpp", "observables/a.cpp")
+    with (tree / "cpp/engine/x.hpp").open("ab") as file:
+        file.write(b"// caf\xe9\n")
+    assert include_closure(tree / "cpp", "observables/a.cpp") == before
+
+
 def test_a_header_beside_the_source_comes_before_that_of_the_root(tree: Path) -> None:
     """As the compiler takes it."""
     (tree / "cpp/engine/model").mkdir()

@@ -1,5 +1,6 @@
 """The table of claims, what is told of them, and how a claim is judged."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import h5py
@@ -32,6 +33,28 @@ def test_rows_are_complete(claim: dict[str, str]) -> None:
     for name in READINGS:
         if claim[name]:
             Band.of(claim[name])
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda text: "garbage\n",
+        lambda text: "",
+        lambda text: text.replace(",substance,", ",other,", 1),
+        lambda text: text[: text.rindex("\nC34") + 1],
+        lambda text: text.replace("-0.1 to 0.1", "0.1 to -0.1", 1),
+        lambda text: text.replace("C02", "C99", 1),
+        lambda text: text.encode().replace(b"Changes", b"Chang\xe9s", 1),
+    ],
+)
+def test_a_damaged_table_is_told_in_one_line(tmp_path: Path, damage: Callable[[str], str | bytes]) -> None:
+    path = tmp_path / judge.CLAIMS_FILE
+    path.parent.mkdir()
+    content = damage((ROOT / judge.CLAIMS_FILE).read_text())
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    with pytest.raises(OSError, match=r"damaged; take it from the repository again") as error:
+        judge.read_claims(tmp_path)
+    assert error.value.filename == str(path)
 
 
 def test_findings_and_misprints_name_what_there_is() -> None:

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -88,3 +89,13 @@ def test_wall_time_is_not_less_than_the_longest_run() -> None:
 )
 def test_durations(seconds: tuple[float, float], text: str) -> None:
     assert between(seconds) == text
+
+
+@pytest.mark.parametrize(
+    "content", [b"garbage\n", b"", b"panel,series,cells,effort,cpu_seconds\nfig05,a,1,0,2\n", b"\xff,\n"]
+)
+def test_a_damaged_table_is_told_in_one_line(tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "timings.csv"
+    path.write_bytes(content)
+    with pytest.raises(OSError, match=r"damaged; take it from the repository again"):
+        read_timings(path)

@@ -72,8 +72,9 @@ def run(root: Path, module: str) -> subprocess.CompletedProcess:
         (
             "raise OSError(28, 'No space left on device')",
             1,
-            "What was to be said cannot be written: No space left on device\n",
+            "The system does not let this go on: No space left on device\n",
         ),
+        ("raise MemoryError", 1, "The system does not let this go on: there is not enough memory\n"),
     ],
 )
 def test_what_a_user_does_is_no_traceback(tmp_path: Path, said: str, status: int, words: str) -> None:

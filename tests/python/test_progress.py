@@ -1,5 +1,7 @@
 """What make figures shows: what came out, what is left, what went wrong."""
 
+import errno
+import io
 from pathlib import Path
 
 import pytest
@@ -106,3 +108,16 @@ def test_what_is_stopped_says_how_to_go_on(capsys: pytest.CaptureFixture) -> Non
 def test_nothing_is_said_where_nothing_began(capsys: pytest.CaptureFixture) -> None:
     Display().end()
     assert capsys.readouterr().out == ""
+
+
+def test_nobody_reads_what_is_shown(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The jobs go on."""
+
+    class Full(io.StringIO):
+        def write(self, _: str) -> int:
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("sys.stdout", Full())
+    display = Display()
+    display.say("once")
+    display.say("twice")

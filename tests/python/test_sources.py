@@ -47,3 +47,14 @@ def test_every_panel_has_its_sources() -> None:
 def test_a_missing_script_is_an_error() -> None:
     with pytest.raises(FileNotFoundError, match="nothing"):
         sources_of("workflow/figures/nothing.py")
+
+
+@pytest.mark.parametrize("content", [b"def (", b"# caf\xe9", b"a = '\0'", b"(" * 100_000])
+def test_a_script_that_is_no_python_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, content: bytes
+) -> None:
+    (tmp_path / "a.py").write_bytes(content)
+    monkeypatch.setattr(sources, "ROOT", tmp_path)
+    with pytest.raises(OSError, match="no Python") as error:
+        sources_of("a.py")
+    assert error.value.filename == "a.py"

@@ -9,19 +9,10 @@ from collections.abc import Iterator
 
 import pytest
 
-from tests.workflow.conftest import Clone
+from tests.workflow.conftest import Clone, processes
 
 KILLS, PANEL = 200, "fig05"
 PATIENCE = 120  # seconds until what was told to end has ended
-
-
-def in_session(leader: int) -> list[int]:
-    """Its processes that are alive."""
-    told = subprocess.run(
-        ["ps", "-o", "pid=,stat=", "-s", str(leader)], capture_output=True, text=True, check=False
-    )
-    rows = [line.split() for line in told.stdout.splitlines()]
-    return [int(pid) for pid, state in rows if not state.startswith("Z")]
 
 
 def killed(clone: Clone, chance: random.Random, seconds: float) -> str:
@@ -38,7 +29,7 @@ def killed(clone: Clone, chance: random.Random, seconds: float) -> str:
         start_new_session=True,
     ) as making:
         time.sleep(chance.uniform(0, seconds))
-        there = in_session(making.pid)
+        there = processes(making.pid)
         for victim in there if chance.random() < 0.3 else chance.sample(there, min(1, len(there))):
             try:
                 os.kill(victim, signal.SIGKILL)
@@ -46,7 +37,7 @@ def killed(clone: Clone, chance: random.Random, seconds: float) -> str:
                 continue
         said, _ = making.communicate(timeout=PATIENCE)
         end = time.monotonic() + PATIENCE
-        while in_session(making.pid):
+        while processes(making.pid):
             assert time.monotonic() < end, "what was started goes on for ever"
             time.sleep(0.1)
     return said

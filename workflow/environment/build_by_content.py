@@ -15,7 +15,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from workflow.lib.places import require_place
+from workflow.lib.places import require_place, unfinished
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build"
@@ -110,9 +110,9 @@ def main(arguments: Sequence[str] = ()) -> None:
 def write(content: dict[str, str]) -> None:
     if RECORD.is_dir():
         shutil.rmtree(RECORD)
-    unfinished = RECORD.with_suffix(".tmp")
-    unfinished.write_text(json.dumps(content))
-    unfinished.replace(RECORD)
+    with unfinished(RECORD.with_suffix(".tmp")) as file:
+        file.write_text(json.dumps(content))
+        file.replace(RECORD)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@
 that lies there takes its place, and no file of the project that of a package. Standard library only.
 """
 
+import contextlib
 import errno
 import os
 import runpy
@@ -17,6 +18,11 @@ from pathlib import Path
 from types import CodeType, ModuleType
 
 ROOT = Path(__file__).resolve().parents[2]
+# Of a disk, an output, a file's size, open files, memory: what fails for them is no fault of the module.
+LIMITS = {
+    getattr(errno, name)
+    for name in ("ENOSPC", "EIO", "EDQUOT", "EFBIG", "EMFILE", "ENFILE", "ENOMEM", "EAGAIN")
+}
 FOLDERS = ("workflow", "tests")
 
 
@@ -71,10 +77,13 @@ def launch() -> None:
             from workflow.lib.places import in_one_line  # noqa: PLC0415  # it is found by what this module sets up
 
             sys.exit(in_one_line(error))  # where it was noticed says no more
-        if error.errno not in (errno.ENOSPC, errno.EIO, errno.EDQUOT):
+        if error.errno not in LIMITS:
             raise
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(f"What was to be said cannot be written: {error.strerror}")
+        with contextlib.suppress(OSError):  # where not even that can be opened
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(f"The system does not let this go on: {error.strerror}")
+    except MemoryError:
+        sys.exit("The system does not let this go on: there is not enough memory")
 
 
 if __name__ == "__main__":

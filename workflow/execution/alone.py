@@ -1,18 +1,22 @@
 """Runs Snakemake as the only one in this folder, and removes what an interrupted one has left locked.
 
-`--logger progress` shows what runs in the project's own words (workflow/execution).
+A job that outlives a make that was killed would write its products among those of the next one, which waits for its end
+therefore. `--logger progress` shows what runs in the project's own words (workflow/execution).
 
 Snakemake's own locks are files, which stay when it is killed; this one is the system's and ends with the process.
 """
 
 import fcntl
+import json
 import shutil
 import signal
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from workflow.execution.stopping import stopping
-from workflow.lib.places import require_place
+from workflow.lib.places import JOBS, in_one_line, require_place
 
 PLACE = Path(".snakemake")
 LOCK = PLACE / "alone.lock"
@@ -30,7 +34,7 @@ FOLDERS = (  # of Snakemake's
 
 
 def run() -> None:
-    for path in (LOCK, *(PLACE / folder / "any" for folder in FOLDERS)):
+    for path in (LOCK, JOBS, *(PLACE / folder / "any" for folder in FOLDERS)):
         require_place(path, Path())
     PLACE.mkdir(exist_ok=True)
     with LOCK.open("w") as file:
@@ -38,23 +42,59 @@ def run() -> None:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             sys.exit("Another make is running here: wait for its end, or stop it")
+        with JOBS.open("w") as jobs:
+            try:
+                fcntl.flock(jobs, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                sys.exit(
+                    f"A job of a make that was killed still runs here: wait for its end, or stop it (fuser {JOBS})"
+                )
         shutil.rmtree(PLACE / "locks", ignore_errors=True)
+        remove_damaged_notes()
         snakemake()
+
+
+def remove_damaged_notes() -> None:
+    """Of Snakemake's on its outputs, which it does not write at once. Nothing is decided by them."""
+    for note in (PLACE / "metadata").rglob("*"):
+        if note.is_file():
+            try:
+                whole = isinstance(json.loads(note.read_bytes()), dict)
+            except (ValueError, RecursionError):
+                whole = False
+            if not whole:
+                note.unlink()
 
 
 def snakemake() -> None:
     """What takes a second to import is imported when a key may already be pressed."""
     signal.signal(signal.SIGINT, interrupt)
     try:
+        from snakemake.api import SnakemakeApi  # noqa: PLC0415
         from snakemake.cli import main  # noqa: PLC0415
         from snakemake_interface_logger_plugins.registry import LoggerPluginRegistry  # noqa: PLC0415
 
         from workflow.execution import handler  # noqa: PLC0415
 
+        SnakemakeApi.print_exception = told_by(SnakemakeApi.print_exception)
         LoggerPluginRegistry().register_plugin("snakemake_logger_plugin_progress", handler)
         main(sys.argv[1:])
     except KeyboardInterrupt:
         sys.exit("Stopped. The same command goes on.")
+
+
+def told_by(others: Callable[[Any, Exception], None]) -> Callable[[Any, Exception], None]:
+    """Says an error of a file or of memory in one line; others say the rest."""
+
+    def tell(api: Any, error: Exception) -> None:
+        if isinstance(error, OSError):
+            print(in_one_line(error), file=sys.stderr)
+        elif isinstance(error, MemoryError):
+            print("There is not enough memory", file=sys.stderr)
+        else:
+            others(api, error)
+
+    return tell
 
 
 def interrupt(*_: object) -> None:

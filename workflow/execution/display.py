@@ -53,7 +53,11 @@ class Display:
         return bool(self._failed)
 
     def say(self, text: str) -> None:
-        self._console.print(text)
+        """Nothing any more where the output is full or nobody reads it; the jobs go on, and make notices at its end."""
+        try:
+            self._console.print(text)
+        except OSError:
+            self._console = Console(quiet=True)
 
     def begin(self, total: int, remaining: Remaining) -> None:
         self._total, self._remaining = total, remaining

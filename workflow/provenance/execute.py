@@ -5,6 +5,7 @@ variable of the caller's environment reaches the job. Standard library only, as 
 """
 
 import argparse
+import fcntl
 import hashlib
 import json
 import os
@@ -17,7 +18,7 @@ from typing import Any
 
 from workflow.lib.options import Options, arguments
 from workflow.lib.parents import PACKAGES, Parents, file_hash
-from workflow.lib.places import move, regular
+from workflow.lib.places import JOBS, move, regular
 from workflow.provenance.lock import LockError, record
 from workflow.provenance.repository import ROOT
 
@@ -38,6 +39,13 @@ ENVIRONMENT = {
 }
 
 
+def hold_lock() -> None:
+    """Until this process and the one that it starts have ended."""
+    file = os.open(JOBS, os.O_RDWR | os.O_CREAT)
+    fcntl.flock(file, fcntl.LOCK_SH)
+    os.set_inheritable(file, True)
+
+
 def program_command(program: str, options: Options, output: Path) -> list[str]:
     return [str(ROOT / "build/bin" / program), *arguments(options), "--output", str(output)]
 
@@ -54,7 +62,9 @@ def script_command(
 def call(command: list[str], allowed: tuple[int, ...] = (0,)) -> int:
     """Exit status; leaves with it if it is not among the allowed ones. On SIGINT and SIGTERM a program writes its
     checkpoint, which this process waits for; a terminal sends SIGINT to both. A second signal ends both at once."""
-    child = subprocess.Popen(command, cwd=ROOT, env=ENVIRONMENT)
+    child = subprocess.Popen(
+        command, cwd=ROOT, env=ENVIRONMENT, close_fds=False
+    )  # it holds the lock of the jobs too
     signals = []
 
     def stop(number: int, _: object) -> None:
@@ -160,7 +170,9 @@ def draw(job: argparse.Namespace) -> None:
     inputs = parents.inputs()
     order = [*job.sources, PACKAGES, *job.data]
     made_by |= {"inputs": {path: inputs[path] for path in order}, "python": parents.python}
-    outputs = {f"{stem}.{kind}": file_hash(stem.with_suffix(f".{kind}")) for kind in ("csv", "pdf", "png", "svg")}
+    outputs = {
+        f"{stem}.{kind}": file_hash(stem.with_suffix(f".{kind}")) for kind in ("csv", "pdf", "png", "svg")
+    }
     record(job.quality, job.panel, outputs, made_by)
 
 
@@ -171,6 +183,7 @@ def main() -> None:
     for kind, function in ((run, simulate), (part, measure_part), (drawing, draw)):
         kind.set_defaults(function=function)
         kind.add_argument("--log", required=True)
+        kind.add_argument("--here", action="store_true", help="on the machine of the make that starts it")
     for kind in (run, drawing):
         kind.add_argument("--quality", required=True)
         kind.add_argument("--panel", required=True)
@@ -187,6 +200,8 @@ def main() -> None:
     drawing.add_argument("--sources", nargs="+", required=True, help="the script and what it imports")
     drawing.add_argument("--data", nargs="+", required=True)
     job = parser.parse_args()
+    if job.here:
+        hold_lock()
     with regular(Path(job.log)).open("w") as log:
         os.dup2(log.fileno(), sys.stderr.fileno())
     try:

@@ -197,8 +197,8 @@ def record(
     """Leaves the record of a job; outputs are its files with their hashes. Raises LockError, or OSError if a file of the
     project cannot be where one of them is to be."""
     hashes = repository.FileHashes()
-    for path in outputs:
-        require_place(repository.ROOT / path, repository.ROOT)
+    for output in outputs:
+        require_place(repository.ROOT / output, repository.ROOT)
     try:
         asked, pipeline = hashes.of(configuration_files(quality)), hashes.of(pipeline_files())
     except FileNotFoundError as error:

@@ -1,6 +1,7 @@
 """Inputs of the rules. What is stale is found where a job enters the DAG, and moved where the run starts."""
 
 STALE = {}  # job: reason
+HERE = "" if REQUEST.batch else "--here"
 
 
 def say(text):
@@ -75,9 +76,8 @@ def all_figures(wildcards):
 
 def leave_if_stale():
     """Something else may have written a product or a source meanwhile, as a job of a make that was killed."""
-    chain = Chain(QUALITY, PANELS)
-    if late := {job: reason for job in STALE if (reason := or_leave(chain.reason, job))}:
-        job, reason = next(iter(late.items()))
+    stale = or_leave(Chain(QUALITY, PANELS).stale, [panel for panel in PANELS if panel in STALE])
+    for job, reason in stale.items():
         sys.exit(f"{job} was made, and is stale already: {reason}. The same command makes it again")
 
 

@@ -28,7 +28,7 @@ rule draw:
         caption=lambda wildcards, output: caption_of(Path(output.csv)),
     shell:
         """
-        .venv/bin/python -I -S workflow/environment/launch.py workflow.provenance.execute draw --log {log:q} \
+        .venv/bin/python -I -S workflow/environment/launch.py workflow.provenance.execute draw {HERE} --log {log:q} \
             --quality {wildcards.quality:q} --panel {wildcards.panel:q} \
             --configuration {params.configuration:q} --sources {input.sources:q} --data {input.data:q}
         """

@@ -29,7 +29,7 @@ rule simulate:
         replicated=lambda wildcards: "--replicated" if run_of(wildcards).replicated else "",
     shell:
         """
-        .venv/bin/python -I -S workflow/environment/launch.py workflow.provenance.execute simulate --log {log:q} \
+        .venv/bin/python -I -S workflow/environment/launch.py workflow.provenance.execute simulate {HERE} --log {log:q} \
             --quality {wildcards.quality:q} --panel {wildcards.panel:q} --run {wildcards.run:q} \
             --program {params.program:q} --options {params.options:q} --threads {threads} {params.replicated}
         """
