@@ -233,6 +233,13 @@ def test_only_files_are_moved(root: Path, job: Job, make: Callable[[Path], objec
     assert {*Lock.read("smoke").jobs} == {"zzz/a"}
 
 
+def test_records_are_not_looked_for_behind_a_link(root: Path) -> None:
+    (root / "build").mkdir(exist_ok=True)
+    (root / "build/records").symlink_to("/")
+    with pytest.raises(OSError, match="a link lies where a folder belongs"):
+        Lock.read("smoke")
+
+
 def test_what_lies_behind_a_link_is_not_recorded(root: Path, job: Job) -> None:
     seal({"fig05/all": job})
     (root / "elsewhere").mkdir()

@@ -9,6 +9,7 @@ import pytest
 
 from workflow.claims import judge
 from workflow.lib import layout
+from workflow.lib.citation import CITATION, citation
 from workflow.lib.parents import file_hash
 from workflow.lib.places import move, regular, require_place
 from workflow.lib.plan import load_plan
@@ -26,7 +27,8 @@ def test_only_a_file_is_opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, 
     place = tmp_path / "data/claims.csv"
     place.parent.mkdir()
     OTHERS[kind](place)
-    OTHERS[kind](tmp_path / "lock.tmp")
+    for name in ("lock.tmp", CITATION):
+        OTHERS[kind](tmp_path / name)
     monkeypatch.setattr(layout, "SCHEMA", place)
     for read in (
         regular,
@@ -34,10 +36,18 @@ def test_only_a_file_is_opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, 
         read_timings,
         lambda _: layout._against_schema({}),
         lambda _: judge.read_claims(tmp_path),
+        lambda _: citation(tmp_path),
         lambda _: write_whole(tmp_path / "lock.json", ""),
     ):
         with pytest.raises(OSError, match=f"a {kind} lies where a file belongs; move it away"):
             read(place)
+
+
+@pytest.mark.parametrize("text", ["", "[1, 2]", "title: a", "title: [", "\udcff"])
+def test_a_damaged_citation_is_told_in_one_line(tmp_path: Path, text: str) -> None:
+    (tmp_path / CITATION).write_bytes(text.encode("utf-8", "surrogateescape"))
+    with pytest.raises(OSError, match="damaged; take it from the repository again"):
+        citation(tmp_path)
 
 
 def test_a_file_a_link_to_one_and_nothing_may_be_opened(tmp_path: Path) -> None:

@@ -11,8 +11,7 @@ from datetime import date
 from importlib.metadata import PackageNotFoundError, metadata
 from typing import Any
 
-import yaml
-
+from workflow.lib.citation import citation
 from workflow.lib.parents import PACKAGES
 from workflow.provenance.repository import ROOT
 
@@ -41,8 +40,8 @@ LIBRARIES = {  # linked or included
 
 def bill_of_materials(name: str, day: date, libraries: Iterable[str]) -> str:
     """libraries: of each build, as `GSL 2.7.1, HDF5 1.10.8`. Raises KeyError for one whose licence nobody has written here."""
-    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text())
-    project = _package("lorentz-gas", citation["version"], citation["license"]) | {"SPDXID": PROJECT}
+    cited = citation(ROOT)
+    project = _package("lorentz-gas", cited["version"], cited["license"]) | {"SPDXID": PROJECT}
     locked = LOCKED.findall((ROOT / PACKAGES).read_text())
     linked = sorted({tuple(one.rsplit(" ", 1)) for build in libraries for one in build.split(", ")})
     packages = [
@@ -59,7 +58,7 @@ def bill_of_materials(name: str, day: date, libraries: Iterable[str]) -> str:
         "dataLicense": "CC0-1.0",
         "SPDXID": DOCUMENT,
         "name": name,
-        "documentNamespace": f"https://spdx.org/spdxdocs/{name}-{citation['version']}-{day}",
+        "documentNamespace": f"https://spdx.org/spdxdocs/{name}-{cited['version']}-{day}",
         "creationInfo": {"created": f"{day}T00:00:00Z", "creators": ["Tool: lorentz-gas make crate"]},
         "packages": [project, *packages],
         "relationships": [described, *used],

@@ -6,11 +6,12 @@ from io import StringIO
 from pathlib import Path
 from typing import Any
 
-import yaml
 from rocrate.model import ContextEntity, Entity
 from rocrate.rocrate import ROCrate
 
+from workflow.lib.citation import citation
 from workflow.lib.parents import file_hash
+from workflow.lib.places import regular
 from workflow.provenance.repository import ROOT
 
 PROFILES = {
@@ -35,19 +36,19 @@ WORKFLOW = "Snakefile"
 
 def new_crate(description: str, day: date) -> ROCrate:
     """A crate without files; name, authors, version and licence are those of CITATION.cff and LICENSE."""
-    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text())
-    licence = (ROOT / "LICENSE").read_text()
+    cited = citation(ROOT)
+    licence = regular(ROOT / "LICENSE").read_text()
     terms = {"@type": "CreativeWork", "name": licence.partition("\n")[0], "description": licence}
     crate = ROCrate(version="1.1")
     crate.metadata.extra_terms |= TERMS
-    crate.name = citation["title"]
+    crate.name = cited["title"]
     crate.description = description
     crate.datePublished = day
-    crate.license = add(crate, f"https://spdx.org/licenses/{citation['license']}", terms)
+    crate.license = add(crate, f"https://spdx.org/licenses/{cited['license']}", terms)
     root = crate.root_dataset
-    root["version"] = citation["version"]
+    root["version"] = cited["version"]
     root["author"] = compact(
-        [_author(crate, number, author) for number, author in enumerate(citation["authors"], start=1)]
+        [_author(crate, number, author) for number, author in enumerate(cited["authors"], start=1)]
     )
     root["conformsTo"] = [
         add(crate, url, {"@type": "CreativeWork", "name": name, "version": url.rpartition("/")[2]})

@@ -163,8 +163,9 @@ def record_path(quality: str, name: str) -> Path:
 
 
 def records(quality: str) -> list[Path]:
-    """Files that jobs have left and nobody has collected."""
-    return sorted(path for path in record_path(quality, "any").parent.rglob("*.json") if path.is_file())
+    """Files that jobs have left and nobody has collected. Raises OSError where their folder is none of the project's."""
+    folder = require_place(record_path(quality, "any"), repository.ROOT).parent
+    return sorted(path for path in folder.rglob("*.json") if path.is_file())
 
 
 @contextlib.contextmanager

@@ -20,7 +20,7 @@ from workflow.provenance.lock import Lock
 from workflow.provenance.status import worst_error
 from workflow.report import words
 from workflow.report.misprints import NUMBERS
-from workflow.report.sources import CITATION, Costs, Products, total
+from workflow.report.sources import Costs, Products, total
 from workflow.report.strip import strip_of
 
 HERE = Path(__file__).parent
@@ -164,11 +164,6 @@ def environment(lock: Lock) -> dict[str, Any]:
     return {
         name: sorted({build[name] for build in builds}) for name in ("compiler", "flags", "libraries")
     } | {"Python": python}
-
-
-def citation(root: Path) -> dict[str, Any]:
-    cited: dict[str, Any] = yaml.safe_load((root / CITATION).read_text())
-    return cited
 
 
 def as_script(content: dict[str, Any]) -> str:

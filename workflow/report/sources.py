@@ -9,6 +9,7 @@ from typing import Any
 
 from workflow.claims.data import Data
 from workflow.claims.judge import CLAIMS_FILE, Judgement, judge_all
+from workflow.lib.citation import CITATION
 from workflow.lib.costs import cost_file
 from workflow.lib.parents import PACKAGES, file_hash
 from workflow.lib.plan import Panel
@@ -16,7 +17,6 @@ from workflow.provenance.lock import Lock, LockError
 from workflow.provenance.sources import sources_of
 
 SCRIPT = "workflow/report/write.py"
-CITATION = "CITATION.cff"
 PARENTS = re.compile(r'<script type="application/json" id="parents">(.*?)</script>', re.DOTALL)
 
 Costs = dict[str, float]  # CPU seconds by panel/run

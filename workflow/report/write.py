@@ -11,6 +11,7 @@ from pathlib import Path
 import jinja2
 
 from workflow.claims.data import Data
+from workflow.lib.citation import citation
 from workflow.lib.places import write_together
 from workflow.lib.plan import Quality
 from workflow.lib.strict_yaml import ConfigurationError
@@ -36,7 +37,7 @@ def pages(quality: str, costs: Costs | None = None, root: Path = ROOT) -> dict[s
         "misprints": content.misprints(judgements, data),
         "panels": [content.panel(quality, one, products, costs) for one in data.plan.values()],
         "environment": content.environment(products.lock),
-        "citation": content.citation(root),
+        "citation": citation(root),
         "cost": sum(costs.values()),
     }
     for path in data.used:
