@@ -117,6 +117,12 @@ def load_parameters(path: Path) -> dict[str, Any]:
         return _attributes(file["parameters"])
 
 
+def load_provenance(path: Path) -> dict[str, Any]:
+    """Of one result file, without its results. Raises FormatError."""
+    with _opened(path) as (_, provenance):
+        return provenance
+
+
 @contextmanager
 def _opened(path: Path) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
     """The file and its provenance. Raises FormatError for all that goes wrong while it is open."""

@@ -2,6 +2,7 @@
 
 import ast
 import errno
+from functools import cache
 from pathlib import Path
 
 from workflow.provenance.repository import ROOT
@@ -21,18 +22,22 @@ def sources_of(script: str) -> list[str]:
 
 
 def _imported(path: Path) -> list[str]:
-    """Modules named in `import workflow.a.b`, `from workflow.a.b import c` and `from workflow.a import b`."""
     if not path.is_file():
         raise FileNotFoundError(errno.ENOENT, "missing or not a file", str(path.relative_to(ROOT)))
     try:
-        tree = ast.parse(path.read_text("utf-8"))
-    except (SyntaxError, ValueError, RecursionError) as error:  # also of a byte that is no text
+        named = _named(path.read_text("utf-8"))
+    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:  # also of a byte that is no text
         raise OSError(errno.EINVAL, f"no Python: {error}", str(path.relative_to(ROOT))) from error
+    return [file for file in named if (ROOT / file).is_file()]
+
+
+@cache  # panels share most of what they import
+def _named(source: str) -> tuple[str, ...]:
+    """Modules in `import workflow.a.b`, `from workflow.a.b import c` and `from workflow.a import b`, as files."""
     names = []
-    for node in ast.walk(tree):
+    for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Import):
             names += [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom) and node.module:
             names += [node.module, *(f"{node.module}.{alias.name}" for alias in node.names)]
-    files = [name.replace(".", "/") + ".py" for name in names if name.startswith("workflow.")]
-    return [file for file in files if (ROOT / file).is_file()]
+    return tuple(name.replace(".", "/") + ".py" for name in names if name.startswith("workflow."))

@@ -14,7 +14,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from workflow.lib.costs import cheapest, cost_file, expected_cost
-from workflow.lib.load import FormatError, load
+from workflow.lib.load import FormatError, load_provenance
 from workflow.lib.parents import ArtefactError, Parents
 from workflow.lib.plan import Panel, data_path, load_plan
 from workflow.lib.strict_yaml import ConfigurationError
@@ -31,7 +31,7 @@ def worst_error(quality: str, panel: Panel) -> str:
     errors, aimed = [], []
     for run in panel.runs:
         try:
-            provenance = load(ROOT / data_path(quality, panel.name, run.name)).provenance
+            provenance = load_provenance(ROOT / data_path(quality, panel.name, run.name))
             achieved, target = (float(provenance[name]) for name in ("achieved_error", "target_error"))
         except (FormatError, KeyError, TypeError, ValueError):
             continue
