@@ -86,33 +86,40 @@ def wait_for(find: Callable[[], Sequence[T]], other_than: Sequence[T] = ()) -> T
 @pytest.mark.long
 def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, kept: Clone) -> None:
     """By scancel, by kill -9, by its time limit, while the controller is away, and while the node is drained."""
-    asked = ("PANEL=fig06", "QUALITY=smoke", "REPLICAS=2000")
+    asked, program = ("PANEL=fig01", "QUALITY=standard"), "particle_count"
     making = on_cluster(kept, "panel", *asked, "BATCH=0.1")
     cancelled = wait_for(cluster.jobs)
-    wait_for(lambda: processes(kept, "waiting_time"))
+    wait_for(lambda: processes(kept, program))
     cluster.say("scancel", cancelled)
-    killed = wait_for(lambda: processes(kept, "waiting_time"), processes(kept, "waiting_time"))
+    killed = wait_for(lambda: processes(kept, program), processes(kept, program))
     os.kill(killed, signal.SIGKILL)
     cluster.stop_controller()
     time.sleep(5)
     cluster.start_controller()
     cluster.say("scontrol", "update", "NodeName=localhost", "State=DRAIN", "Reason=test")
-    assert "in the queue: " in kept.make("status", "QUALITY=smoke").stdout
+    assert "in the queue: " in kept.make("status", "QUALITY=standard").stdout
     cluster.say("scontrol", "update", "NodeName=localhost", "State=RESUME")
-    seen = processes(kept, "waiting_time")
-    stopped = wait_for(lambda: processes(kept, "waiting_time"), seen)
+    stopped = wait_for(lambda: processes(kept, program), processes(kept, program))
     os.kill(stopped, signal.SIGSTOP)
     for job in cluster.jobs():
         cluster.say("scontrol", "update", f"JobId={job}", "TimeLimit=1")
-    said, _ = making.communicate(timeout=600)
+    said, _ = making.communicate(timeout=900)
     assert making.returncode == 0, said
     ended = {
         line.split()[-1]
         for line in cluster.say("squeue", "--states=all", "--format=%T", "--noheader").split()
     }
     assert {"CANCELLED", "FAILED", "TIMEOUT", "COMPLETED"} <= ended, said
-    results = {path: path.read_bytes() for path in (kept.folder / "data/smoke_replicas=2000/fig06").iterdir()}
+    products = {path: path.read_bytes() for path in products_of(kept)}
     again = kept.make("panel", *asked, "FRESH=yes")
     assert again.returncode == 0, again.stdout
-    assert len(results) == 2
-    assert all(path.read_bytes() == content for path, content in results.items())
+    assert len(products) == 3 + 4
+    assert {path: path.read_bytes() for path in products_of(kept)} == products
+
+
+def products_of(clone: Clone) -> list[Path]:
+    """Of the panel at quality standard: results, PDF, PNG, SVG and CSV."""
+    return [
+        *(clone.folder / "data/standard/fig01").iterdir(),
+        *(clone.folder / "figures/standard").glob("fig01.*"),
+    ]

@@ -1,6 +1,9 @@
 """Claims on the conductivity against the size (fig. 8, section 6)."""
 
 from collections.abc import Sequence
+from typing import TypeVar
+
+import numpy as np
 
 from workflow.claims.data import Data, MissingError, freedom, number, power, where_made
 from workflow.claims.evidence import Claim, Evidence
@@ -8,6 +11,8 @@ from workflow.claims.verdict import Number, with_systematic
 from workflow.figures.ext11 import tabulate
 from workflow.lib.fit import PowerLaw, fit_power, with_error
 from workflow.lib.load import Result
+
+T = TypeVar("T")
 
 BULK = 16  # smaller chains are mostly ends
 LARGE = 16  # the largest sizes are those within this factor of the largest
@@ -55,37 +60,42 @@ def linear(data: Data) -> Evidence:
     return Evidence([found], caveat=_fit(law))
 
 
+def halves(by_size: Sequence[T]) -> list[Sequence[T]]:
+    """The smaller and the larger sizes, with the middle one in both. A power law has one exponent in them."""
+    middle = len(by_size) // 2
+    return [part for part in (by_size[: middle + 1], by_size[middle:]) if len(part) > 1]
+
+
 def cube_root(data: Data) -> Evidence:
-    """One exponent over the paper's sizes; in substance that of the largest sizes; of the conductivity without a particle
-    current at fixed spacing in the other reading.
-    The exponents of the smaller and of the larger half of the sizes bound the systematic error."""
+    """Of the smaller and of the larger half of the paper's sizes, which a power law has in common; in substance between the
+    largest sizes; of the conductivity without a particle current at fixed spacing in the other reading."""
     runs = [one for one in sizes(data, "N") if one.parameters["cells"] >= BULK]
-    found, law = exponent(runs, "d ln κ/d ln N, γ = N")
-    half = len(runs) // 2
-    parts = [exponent(part, "")[0].value for part in (runs[: half + 1], runs[half:]) if len(part) > 1]
+    _, law = exponent(runs, "")
     last = last_exponents(data)
     told = ", ".join(f"{with_error(one.value, one.error)} ({one.label})" for one in last.values())
     return Evidence(
-        [with_systematic(found, parts)],
+        [exponent(part, "d ln κ/d ln N, γ = N")[0] for part in halves(runs)],
         [one for name, one in last.items() if name not in FIXED],
         where_made(lambda: without_particle_current(data)),
-        caveat=f"{_fit(law)} Between the largest sizes: {told}. At spacing 1/N the gas thins out as N grows.",
+        caveat=f"Over all sizes {_fit(law)} Between the largest sizes: {told}. At spacing 1/N the gas thins out as N grows.",
     )
 
 
 def without_particle_current(data: Data) -> Number:
-    """Exponent of kappa_0, the conductivity at J_n = 0, at fixed spacing (ext. 11), over sizes whose runs are stationary."""
+    """Exponent of kappa_0, the conductivity at J_n = 0, at fixed spacing (ext. 11), over sizes whose runs are stationary. Those
+    of the smaller and of the larger half bound the systematic error."""
     asked = data.of("ext11", cell_length=FIXED_SPACING)
     moving = {one.parameters["cells"] for one in asked if one["stationary"].mean != 1}
     runs = [one for one in asked if one.parameters["cells"] not in moving]
     if len({one.parameters["cells"] for one in runs}) < 2:
         raise MissingError("fewer than two sizes")
     table = tabulate(runs)
-    law = fit_power(table.cells, table.kappa_0, table.kappa_0_error)
+    values = [*zip(table.cells, table.kappa_0, table.kappa_0_error, strict=True)]
+    law, *parts = (fit_power(*np.array(part, float).T) for part in (values, *halves(values)))
     label = f"d ln κ_0/d ln N at J_n = 0 and spacing {FIXED_SPACING}, N = {table.cells.min()} to {table.cells.max()}"
-    later = table[1:] if len(table) > 2 else table
-    other = fit_power(later.cells, later.kappa_0, later.kappa_0_error).exponent
-    return with_systematic(Number(label, law.exponent, law.error, freedom(*runs)), [other])
+    return with_systematic(
+        Number(label, law.exponent, law.error, freedom(*runs)), [part.exponent for part in parts]
+    )
 
 
 def _fit(law: PowerLaw) -> str:

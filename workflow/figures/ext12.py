@@ -50,7 +50,7 @@ def exponents(table: pd.DataFrame) -> pd.DataFrame:
     return pd.concat(parts, ignore_index=True)
 
 
-def laws(table: pd.DataFrame) -> str:
+def laws(table: pd.DataFrame, spacing: Mapping[str, str]) -> str:
     """From which size on kappa grows as a + b N^(1/3), for every drive at fixed spacing, in words."""
     said = []
     warm = table[(table.start == "warm") & (table.gas != "thinning")]
@@ -60,8 +60,8 @@ def laws(table: pd.DataFrame) -> str:
             found = (
                 f"from N = {law.first:.0f} on ({goodness(law.chi_square, law.freedom)})" if law else "nowhere"
             )
-            said.append(f"at the ratio {drive:g} {found}")
-    return f" At fixed spacing a + b N^(1/3) holds {'; '.join(said)}." if said else ""
+            said.append(f"at λ = {spacing[name]} and the ratio {drive:g} {found}")
+    return f" a + b N^(1/3) holds {'; '.join(said)}." if said else ""
 
 
 def deviations(table: pd.DataFrame) -> pd.DataFrame:
@@ -150,7 +150,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     caption = (
         f"(a) Local exponent of κ for ratios of the baths' temperatures of {drives} (white, grey and full markers), at "
         f"equal pressures: {goodness(spread, freedom)}, "
-        f"about a common value at every size and spacing; {ends}.{laws(table)} (b) κ from several starts relative to the mean over them: in "
+        f"about a common value at every size and spacing; {ends}.{laws(table, spacing)} (b) κ from several starts relative to the mean over them: in "
         "equilibrium with the mean of the baths (warm), with the colder or the hotter one, and empty; "
         f"{goodness(starts.chi_square.sum(), int(starts.freedom.sum()))}, about a common value at every size, the largest "
         f"deviation {100 * starts.deviation.abs().max():.1f} %. Error bars: standard errors over replicas."
