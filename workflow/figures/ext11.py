@@ -15,8 +15,10 @@ from matplotlib.figure import Figure
 
 from workflow.figures.ext09 import LOOKS, gas, spacings
 from workflow.lib import style
+from workflow.lib.caption import goodness
 from workflow.lib.figure import run
 from workflow.lib.fit import fit_power, with_error
+from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
 DRAWN = 4000  # samples of the currents, for errors good to 1 %
@@ -101,6 +103,14 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     return pd.DataFrame(rows).sort_values("cells", ignore_index=True)
 
 
+def growth(part: pd.DataFrame, column: str) -> str:
+    """Exponent of a power law through all sizes, whether there is one, and the exponent between the two largest."""
+    law = fit_power(part.cells, part[column], part[f"{column}_error"])
+    _, slope, error = local_exponents(part.cells, part[column], part[f"{column}_error"])
+    whole, last = (with_error(*pair) for pair in ((law.exponent, law.error), (slope[-1], error[-1])))
+    return f"{whole} ({goodness(law.chi_square, law.freedom)}), {last} between the largest"
+
+
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     table = tabulate(results)
     figure, (left, right) = plt.subplots(1, 2, figsize=(1.9 * style.COLUMN, style.HEIGHT))
@@ -110,12 +120,10 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         look = {"marker": marker, "color": color, **style.POINTS}
         left.errorbar(part.cells, part.L_nn, part.L_nn_error, label=rf"$\lambda = {spacing[name]}$", **look)
         right.errorbar(part.cells, part.kappa_0, part.kappa_0_error, **look)
-        ballistic = fit_power(part.cells, part.L_nn, part.L_nn_error)
-        heat = fit_power(part.cells, part.kappa_0, part.kappa_0_error)
-        said.append(
-            f"at spacing {spacing[name]} L_nn grows as N^{with_error(ballistic.exponent, ballistic.error)} and κ_0 as "
-            f"N^{with_error(heat.exponent, heat.error)}"
-        )
+        grows = [
+            f"{symbol} {growth(part, column)}" for symbol, column in (("L_nn", "L_nn"), ("κ_0", "kappa_0"))
+        ]
+        said.append(f"at spacing {spacing[name]} that of {' and that of '.join(grows)}")
     size = np.array([table.cells.min(), table.cells.max()], dtype=float)
     for axes, slope, values, text in (
         (left, 1, table.L_nn, "$N$"),
@@ -133,13 +141,15 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     style.letter(left, right)
     ratio = table.kappa_0 / table.kappa
     pulls = table.asymmetry / table.asymmetry_error
+    worst = table.loc[pulls.abs().idxmax()]
     caption = (
         "Linear response at γ = N about equal baths, from a difference of temperature at equal pressure and a difference "
         "of pressure at equal temperature. (a) Coefficient of the particle current; without friction in the bulk, as momentum is "
         "conserved, it would grow in proportion to N. (b) Heat conductivity without a current of "
         f"particles, κ_0 = (L_uu - L_un L_nu / L_nn)/T^2, {ratio.min():.1f} to {ratio.max():.1f} times -J_u N/(T_R - T_L) at equal "
-        f"pressure, where particles carry energy against the heat. Over all sizes, {'; '.join(said)}. Onsager's symmetry "
-        f"L_un = L_nu: χ² = {np.sum(pulls**2):.1f} for {len(pulls)} pairs. Error bars: standard errors over replicas."
+        f"pressure, where particles carry energy against the heat. Exponents over all sizes: {'; '.join(said)}. Onsager's symmetry "
+        f"L_un = L_nu: {goodness(float(np.sum(pulls**2)), len(pulls))}, the farthest off by {100 * worst.asymmetry / worst.L_un:.1f} % "
+        f"at N = {worst.cells} and spacing {spacing[worst.gas]}. Error bars: standard errors over replicas."
     )
     return figure, table, caption
 
