@@ -11,6 +11,7 @@ from workflow.claims.verdict import Number, with_systematic
 from workflow.figures.ext11 import tabulate
 from workflow.lib.fit import PowerLaw, fit_power, with_error
 from workflow.lib.load import Result
+from workflow.lib.style import spacing
 
 T = TypeVar("T")
 
@@ -46,7 +47,11 @@ def last_exponents(data: Data) -> dict[str, Number]:
             series[name] = _stationary([one for one in data.of("ext09") if one.path.stem.startswith(name)])
         except MissingError:
             continue
-    return {name: exponent(runs[-2:], name)[0] for name, runs in series.items() if len(runs) > 1}
+    return {
+        name: exponent(runs[-2:], name if name == "fig08" else f"ext09 at spacing {spacing(runs[-1])[1]}")[0]
+        for name, runs in series.items()
+        if len(runs) > 1
+    }
 
 
 def _stationary(runs: Sequence[Result]) -> list[Result]:

@@ -100,7 +100,7 @@ def answer(judgements: Sequence[Judgement], quality: str) -> list[str]:
     return [
         f"Of {len(judgements)} claims, at quality {quality}: {listed}; the probability of any wrong verdict by chance is at most {FAMILY_LEVEL:.0%}.",
         f"Contradicted: {'; '.join(against)}." if against else "At this quality no claim is contradicted.",
-        f"Heat: κ ∼ N at γ = 1 is {_said(by_id['C23'])}; κ ∼ N^(1/3) at γ = N is {_said(by_id['C24'])}{_at_fixed_density(by_id['C24'])}.",
+        f"Heat: κ ∼ N at γ = 1 is {_said(by_id['C23'])}; κ ∼ N^(1/3) at γ = N is {_both(by_id['C24'])}{_at_fixed_density(by_id['C24'])}.",
         f"Particles: the tagged particle spreads as the paper says, {_told(by_id['C20'], 'literal')}, but by drift: {_told(by_id['C20'], 'substance')}; that only energy is conserved is {by_id['C22'].outcome.value}, as total momentum is too.",
         f"Kinetic equation: that finite chains tend to it is {_said(by_id['C12'])}; that they differ by less than 0.1 % is {_said(by_id['C10'])}.",
     ]
@@ -115,6 +115,11 @@ def _told(judgement: Judgement, reading: str) -> str:
 def _said(judgement: Judgement) -> str:
     reading = judgement.deciding
     return f"{judgement.outcome.value} ({words.told(reading.worst)})" if reading else judgement.outcome.value
+
+
+def _both(judgement: Judgement) -> str:
+    """With the numbers that decide the words and the substance."""
+    return f"{judgement.outcome.value} ({_told(judgement, 'literal')}; {_told(judgement, 'substance')})"
 
 
 def _at_fixed_density(judgement: Judgement) -> str:
