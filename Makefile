@@ -121,7 +121,7 @@ crate: build runtime  ## Figures, data, code and runs as an RO-Crate in build/cr
 	$(PYTHON) workflow.provenance.crate --quality $(EFFORT) $(ONLY_PANEL)
 
 build: system-packages  ## The executables in build/bin
-	grep -qsxF $(call quote,CMAKE_HOME_DIRECTORY:INTERNAL=$(CURDIR)/cpp) build/CMakeCache.txt || \
+	test ! -e build/CMakeCache.txt || grep -qsxF $(call quote,CMAKE_HOME_DIRECTORY:INTERNAL=$(CURDIR)/cpp) build/CMakeCache.txt || \
 	  rm -rf build/CMakeCache.txt build/CMakeFiles build/build.ninja
 	python3 -I workflow/environment/launch.py workflow.environment.build_by_content
 	test -f build/build.ninja || cmake -S cpp -B build -G Ninja >build/cmake.log || { cat build/cmake.log; exit 1; }

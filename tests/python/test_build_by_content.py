@@ -69,6 +69,16 @@ def test_edited_rules_are_written_again(root: Path, file: str) -> None:
     assert not (root / "build/build.ninja").exists()
 
 
+def test_a_build_that_was_killed_is_not_configured_again(root: Path) -> None:
+    """Nor after a second kill, which leaves no objects if CMake is at work then."""
+    for _ in range(3):
+        build_by_content.main()
+    assert (root / "build/build.ninja").exists()
+    (root / "build/build.ninja").write_text("other rules")
+    build_by_content.main()
+    assert not (root / "build/build.ninja").exists()
+
+
 @pytest.mark.parametrize("added", ["cpp/observables/model/a.hpp", "cpp/model/a.cpp"])
 def test_a_program_whose_includes_lead_elsewhere_is_built_again(root: Path, added: str) -> None:
     """A header that hides another, or the source beside a header: ninja's list of prerequisites does not have it."""

@@ -52,7 +52,8 @@ def rules() -> dict[str, str]:
     return {f"build/{path.relative_to(BUILD)}": hash_of(path) for path in files}
 
 
-def renew(before: dict[str, str], now: dict[str, str]) -> None:
+def renew(before: dict[str, str], now: dict[str, str]) -> dict[str, str]:
+    """Returns the rules that stay."""
     changed = [path for path in now if before.get(path) != now[path] and path != "compiler"]
     written = {path: digest for path, digest in before.items() if path.startswith("build/")}
     # CMake knows the compiler's version since it was first run.
@@ -60,8 +61,10 @@ def renew(before: dict[str, str], now: dict[str, str]) -> None:
         changed.append("cpp/CMakeLists.txt")
         for path in rules():
             (ROOT / path).unlink()
+        written = {}
     for path in [*changed, *found_anew()]:
         os.utime(ROOT / path)
+    return written
 
 
 def found_anew() -> list[str]:
@@ -102,7 +105,7 @@ def main(arguments: Sequence[str] = ()) -> None:
         return write(recorded() | rules())
     now = present()
     if (BUILD / "build.ninja").is_file():
-        renew(recorded(), now)
+        now |= renew(recorded(), now)
         remove_edited_executables()
     return write(now)
 
