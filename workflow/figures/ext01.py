@@ -94,7 +94,8 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         alphas = [with_error(one.alpha, one.alpha_error) for one in runs.itertuples()]
         said.append(f"{listed(alphas)} at σ = {number(sigma)}")
     (control,) = set(table.kind) - {PAPER}
-    conserved = table.momentum_drift.max()
+    conserved = table[table.kind == PAPER].momentum_drift.max()
+    unequal = " of unequal masses" if 0 in table.sigma.to_numpy() else ""
     logarithms = table.dropna(subset="logarithmic_power").sort_values("logarithmic_power")
     least, most = (
         with_error(one.logarithmic_power, one.logarithmic_power_error)
@@ -104,10 +105,9 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         Spreading of a tagged particle in a closed chain, {parameters(used, "cells", "cell-length", "temperature", "gamma")},
         n particles per cell, relaxed for t_r, {replicas(used)}. Above, local slopes of ln ⟨x²⟩ against ln t for the paper's
         number of particles and the longest relaxation; below, the exponent α of all runs, fitted in the shaded decade, from
-        t = {fitted:g} on. Guides: ballistic and diffusive. {ERRORS}. α with {PAPER}, and with {control}: {"; ".join(said)}. The total momentum of particles
-        and scatterers is conserved to {conserved:.0e} of the sum of all momenta; the superdiffusion that the paper reads from
-        its ensemble of random total momentum is the drift of it, and is gone where there is none, or where directions are
-        drawn. Fits of t times a power of its logarithm to the runs without drift give powers between {least} and {most},
+        t = {fitted:g} on. Guides: ballistic and diffusive. {ERRORS}. α with {PAPER}, and with {control}: {"; ".join(said)}. In the paper's ensemble the
+        total momentum of particles and scatterers is random, and conserved to {conserved:.0e} of the sum of all momenta; the
+        superdiffusion that the paper reads from it is this drift, and is gone with {control}{unequal}. Fits of t times a power of its logarithm to the runs without drift give powers between {least} and {most},
         where diffusion has none."""
 
 

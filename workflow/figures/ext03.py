@@ -15,7 +15,7 @@ from matplotlib.ticker import NullFormatter
 
 from workflow.figures.fig09 import gaussian_start
 from workflow.lib import style
-from workflow.lib.caption import goodness
+from workflow.lib.caption import CHAIN, GAS, goodness, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import fit_power, mean_of, with_error
 from workflow.lib.load import Quantity, Result
@@ -140,11 +140,9 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         draw_heat(row[2], largest["centre"]),
     ]
     style.letter(*row)
-    parameters = largest.parameters
     caption = (
-        f"Sound in a ring of N = {parameters['cells']} cells with {parameters['particles-per-cell']} particles each, from "
-        "equilibrium fluctuations. (a) Covariance of the momenta of two cells at distance r and times t apart, about the "
-        "moving peak, rescaled with the exponent 2/3 to the first time shown, t_1. (b) Local exponents of the peak's "
+        f"Sound in a ring, {parameters([largest], *CHAIN, *GAS)}, {replicas([largest])}, from equilibrium fluctuations. (a) C_g, the "
+        "covariance of the momenta of two cells at distance r and times t apart, about the peak that moves with the speed c, rescaled with the exponent 2/3 to the first time shown, t_1. (b) Local exponents of the peak's "
         f"height between neighbouring times, beside those of the energy pulse of fig. 9a. {of_peak(largest)} (c) "
         f"Covariance of the numbers of particles in one cell at two times. {of_heat(largest)}; heat would keep one exponent, and "
         "slow particles that have not left their cell make C_n fall as the logarithm of t. Error bars: standard errors over replicas."

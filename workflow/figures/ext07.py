@@ -83,15 +83,15 @@ def plot_aged(axes: Axes, table: pd.DataFrame, label: str, expected: float) -> N
 def caption(longest: Result, trends: dict[str, Line], results: Sequence[Result]) -> str:
     moving = [name for name, trend in trends.items() if resolved(trend)]
     shown = [f"({letter}) {name}" for letter, name in zip(ascii_lowercase[2:], moving, strict=False)]
-    first, last = (style.with_error(longest["decade_slope"], k) for k in (1, -1))
+    first, last = (style.with_error(longest["decade_slope"], k) for k in (0, -1))
     said = [
         f"{with_error(trend.slope, trend.error)} of {name}{'' if resolved(trend) else ', which is not resolved'}"
         for name, trend in trends.items()
     ]
     return f"""
-        Ageing of a closed chain, {parameters([longest], *CHAIN, *GAS)}, {replicas(results)}, that starts with scatterers at rest. (a) Mean
+        Ageing of a closed chain, {parameters([longest], *CHAIN, *GAS)}, {replicas(results)}, that starts with scatterers at rest, to which the particles lose their energy. (a) Mean
         kinetic energy of a scatterer (circles) and of a particle (squares) against the time from the start; (b) slope of the scatterers'
-        energy against ln t, decade by decade: {first} in the second and {last} in the last. The paper has a logarithmic growth that
+        energy against ln t, decade by decade: {first} in the first and {last} in the last. The paper has a logarithmic growth that
         saturates; the slope falls, and is not zero at the end. {f"{listed(shown)} against the relaxation time, with a line fitted in its logarithm (dotted) and the value expected at equilibrium (dashed)." if shown else ""} Change per unit of
         the logarithm of the relaxation time: {"; ".join(said)}. {ERRORS}; a trend is resolved beyond {RESOLVED} of them."""
 

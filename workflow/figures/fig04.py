@@ -146,9 +146,9 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     faint = "Faint: with the rates of both baths equal." if last == "N" else ""
     return f"""
         Flux distribution F_N(p, x) of the particles behind the first scatterer (solid, circles) and the last (dashed,
-        squares) of an open chain; {parameters(main, *CHAIN, *BATHS, *WINDOW)}, {replicas(runs)}. Black: without
-        correlations. {faint} (a) F_N, (b) the same about the momentum zero, (c) the same minus the uncorrelated F, in per cent of its
-        maximum, (d) jump at momentum zero; black bars without correlations. Jumps at {"; ".join(said)}.
+        squares) of an open chain; {parameters(main, *CHAIN, *BATHS, *WINDOW)}, {replicas(runs)}. Black: the kinetic
+        equation of the same chain, in which what meets is not correlated. {faint} (a) F_N, (b) the same about the momentum zero, (c) the same minus that F, in per cent of its
+        maximum, (d) jump at momentum zero; black bars by the kinetic equation. Jumps at {"; ".join(said)}.
         {ERRORS}. The paper has the curves of γ = 1 on top of the kinetic equation, and says that
         at γ = N the jump comes from unequal rates alone{still}."""
 

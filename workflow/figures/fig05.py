@@ -73,8 +73,8 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         Persistence μ, the probability that a particle keeps its direction when it scatters, against the mass ratio
         σ = (M − m)/(M + m) in closed chains of {parameters(results, "cells", "cell-length", "gamma", "temperature", "relaxation-time")}
         with {sizes} particles per cell; {replicas(results)} per point. (a) μ and the law arccos(σ)/π, which holds for Gaussian
-        particles and scatterers of one temperature. (b) μ minus the law, in thousandths; broken lines: the law at the local mean
-        energies of particles and scatterers, which differ in a finite chain. {ERRORS}. Deviation from the law: {"; ".join(said)}.
+        particles and scatterers of one temperature. (b) μ minus the law, in thousandths; broken and dotted lines: the law at the local mean
+        energies of particles and scatterers, whose difference explains a part of it. {ERRORS}. Deviation from the law: {"; ".join(said)}.
         The paper has the smaller n and sees no deviation; it is smaller in the chain with the larger n. The paper calls particles persistent for all unequal masses;
         by its own law they are only where scatterers are the lighter."""
 

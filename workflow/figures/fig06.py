@@ -74,8 +74,8 @@ def caption(tables: Sequence[pd.DataFrame], results: Sequence[Result]) -> str:
     return f"""
         Probability density Ψ(τ) of the time between two scatterings of a particle in a closed chain, for equal masses (circles) and
         σ = {number(max(result.parameters["sigma"] for result in results))} (squares); {parameters(results, *chain, *GAS, *WINDOW)},
-        {replicas(results)}. (a) Ψ; the line through the circles is exact for many particles that start from a Gaussian. (b), (c) Ψ times
-        the powers of τ that the paper states. Broken: power laws of the exponents fitted by maximum likelihood in the shaded tail, from
+        {replicas(results)}. A flight counts with its whole length, which is known when it begins. (a) Ψ; the line through the circles is exact for many particles that start from a Gaussian. (b), (c) Ψ times
+        the powers of τ that the paper states. Broken and dotted: power laws of the exponents fitted by maximum likelihood in the shaded tail, from
         {number(options["tail-from"])} thermal flights on: {"; ".join(said)}. {ERRORS}; {unsure} bins known to worse than
         {number(100 * UNSURE)} % are open, with arrows from one error above. The paper gives the inverse cube for equal masses and the
         inverse square otherwise. For equal masses momenta are only exchanged, and Ψ is a property of the Gaussian start."""

@@ -115,12 +115,13 @@ def found(table: pd.DataFrame, gamma: str | int) -> str:
     """What the points of one gamma say of a power law."""
     part = table[table.gamma == gamma]
     law, local = exponent(part), exponents(part)
-    first, last = (
-        with_error(*local[["exponent_to_next", "exponent_to_next_error"]].iloc[k]) for k in (0, -1)
+    first, most, last = (
+        with_error(*local[["exponent_to_next", "exponent_to_next_error"]].iloc[k])
+        for k in (0, int(local.exponent_to_next.argmax()), -1)
     )
     goodness = f"χ² = {law.chi_square:.0f} for {law.freedom} degrees of freedom"
     said = f"exponent {law.text}" if not law.rejected else "no single power of N"
-    return f"γ = {gamma}: {said} ({goodness}); the local exponent goes from {first} at the smallest sizes to {last} at the largest"
+    return f"γ = {gamma}: {said} ({goodness}); the local exponent is {first} at the smallest sizes, at most {most}, and {last} at the largest"
 
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
@@ -129,11 +130,11 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     return f"""
         Heat conductivity κ = −J_U N/(T_N − T_1) of an open chain against its number of cells N, for γ = N (circles) and
         γ = 1 (squares); {parameters(runs, "sigma", *BATHS)}, λ = {runs[0].parameters["cell-length"]}, {replicas(runs)}
-        per point. (a) κ, dashed grey the paper's powers of N through the data, dashed blue the chain without correlations
-        (mean field). (b), (c) κ over these powers, with the temperatures of the scatterers (full) and of the arriving particles
+        per point. (a) κ, dashed grey the paper's powers of N, scaled to the data, dashed blue the kinetic equation of the same
+        chain (mean field). (b), (c) κ over these powers, with the temperatures of the scatterers (full) and of the arriving particles
         (open). (d) Local exponents between neighbouring sizes, which share a point; dashed the paper's. {ERRORS}; crosses,
         {crossed or "none"} here, mark points that are not stationary. {found(table, 1)}. {found(table, "N")}. The paper reads
-        N and the cube root of N from its points. Without correlations there is no growth at γ = N."""
+        N and the cube root of N from its points. In mean field there is no growth at γ = N."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

@@ -50,9 +50,14 @@ def disjoint(table: pd.DataFrame) -> pd.DataFrame:
     return pairs.iloc[:-1:2].dropna(subset="exponent_to_next")
 
 
-def drift(table: pd.DataFrame) -> tuple[bool, str]:
-    """Whether the disjoint exponents differ by more than chance, and chi^2 about their mean."""
+def before_closing(table: pd.DataFrame) -> pd.DataFrame:
     pairs = disjoint(table)
+    return pairs[~pairs.closed.astype(bool)]
+
+
+def drift(table: pd.DataFrame) -> tuple[bool, str]:
+    """Whether the disjoint exponents before the ring closes differ by more than chance, and chi^2 about their mean."""
+    pairs = before_closing(table)
     *_, chi_square = mean_of(pairs.exponent_to_next, pairs.exponent_to_next_error)
     freedom = len(pairs) - 1
     return rejected(chi_square, freedom), f"χ² = {chi_square:.1f} for {freedom} degrees of freedom"
@@ -77,7 +82,7 @@ def caption(tables: Sequence[pd.DataFrame], results: Sequence[Result]) -> str:
     said = []
     for result, table in zip(results, tables, strict=True):
         drifts, goodness = drift(table)
-        pairs = disjoint(table)
+        pairs = before_closing(table)
         ends = [with_error(one.exponent_to_next, one.exponent_to_next_error) for one in pairs.itertuples()]
         local = f"from {ends[0]} at early to {ends[-1]} at late times" if ends else "unknown"
         verdict = (
@@ -92,7 +97,7 @@ def caption(tables: Sequence[pd.DataFrame], results: Sequence[Result]) -> str:
         {parameters(results, *CHAIN, "particles-per-cell", "energy", "pulse-energy")} per degree of freedom, {replicas(results)}. (a) The
         top of a smooth peak fitted to the profile above half of its height, from Gaussian momenta (circles) and from
         scatterers at rest that have relaxed, as in the paper (squares); faint once the ring has closed. (b) -d ln(peak)/d ln t between two times; no
-        two of these pairs share a time. Dashed: the paper's {number(slope)}. {ERRORS}. {"; ".join(said)}."""
+        two of these pairs have a time in common. Dashed: the paper's {number(slope)}. {ERRORS}. {"; ".join(said)}."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

@@ -98,7 +98,7 @@ def answer(judgements: Sequence[Judgement], quality: str) -> list[str]:
         if one.outcome is Outcome.CONTRADICTED
     ]
     return [
-        f"Of {len(judgements)} claims, at quality {quality}: {listed}; the probability of any wrong verdict by chance is at most {FAMILY_LEVEL:.0%}.",
+        f"Of {len(judgements)} claims, at quality {quality}: {listed}; given what each claim is taken to admit, noise makes any of these verdicts wrong with a probability of at most {FAMILY_LEVEL:.0%}.",
         f"Contradicted: {'; '.join(against)}." if against else "At this quality no claim is contradicted.",
         f"Heat: κ ∼ N at γ = 1 is {_said(by_id['C23'])}; κ ∼ N^(1/3) at γ = N is {_both(by_id['C24'])}{_at_fixed_density(by_id['C24'])}.",
         f"Particles: the tagged particle spreads as the paper says, {_told(by_id['C20'], 'literal')}, but by drift: {_told(by_id['C20'], 'substance')}; that only energy is conserved is {by_id['C22'].outcome.value}, as total momentum is too.",
