@@ -95,7 +95,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         said.append(f"{listed(alphas)} at σ = {number(sigma)}")
     (control,) = set(table.kind) - {PAPER}
     conserved = table[table.kind == PAPER].momentum_drift.max()
-    unequal = " of unequal masses" if 0 in table.sigma.to_numpy() else ""
+    unequal = " for unequal masses" if 0 in table.sigma.to_numpy() else ""
     logarithms = table.dropna(subset="logarithmic_power").sort_values("logarithmic_power")
     least, most = (
         with_error(one.logarithmic_power, one.logarithmic_power_error)
@@ -107,7 +107,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         number of particles and the longest relaxation; below, the exponent α of all runs, fitted in the shaded decade, from
         t = {fitted:g} on. Guides: ballistic and diffusive. {ERRORS}. α with {PAPER}, and with {control}: {"; ".join(said)}. In the paper's ensemble the
         total momentum of particles and scatterers is random, and conserved to {conserved:.0e} of the sum of all momenta; the
-        superdiffusion that the paper reads from it is this drift, and is gone with {control}{unequal}. Fits of t times a power of its logarithm to the runs without drift give powers between {least} and {most},
+        superdiffusion that the paper reads from it is this drift, and with {control} it is gone{unequal}. Fits of t times a power of its logarithm to the runs without drift give powers between {least} and {most},
         where diffusion has none."""
 
 
