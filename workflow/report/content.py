@@ -102,7 +102,7 @@ def answer(judgements: Sequence[Judgement], quality: str) -> list[str]:
         f"Contradicted: {'; '.join(against)}." if against else "At this quality no claim is contradicted.",
         f"Heat: κ ∼ N at γ = 1 is {_said(by_id['C23'])}; κ ∼ N^(1/3) at γ = N is {_both(by_id['C24'])}{_at_fixed_density(by_id['C24'])}.",
         f"Particles: the tagged particle spreads as the paper says, {_told(by_id['C20'], 'literal')}, but by drift: {_told(by_id['C20'], 'substance')}; that only energy is conserved is {by_id['C22'].outcome.value}, as total momentum is too.",
-        f"Kinetic equation: that finite chains tend to it is {_said(by_id['C12'])}; that they differ by less than 0.1 % is {_said(by_id['C10'])}.",
+        f"Kinetic equation: that finite chains tend to it is {_said(by_id['C12'])}; that they differ by less than 0.1 % is {_said(by_id['C10'])} in the printed normalisation, and relative to the largest F {_otherwise(by_id['C10'])}.",
     ]
 
 
@@ -122,12 +122,17 @@ def _both(judgement: Judgement) -> str:
     return f"{judgement.outcome.value} ({_told(judgement, 'literal')}; {_told(judgement, 'substance')})"
 
 
+def _otherwise(judgement: Judgement) -> str:
+    """In the reading that does not count."""
+    other = judgement.other
+    return f"{other.outcome.value} ({words.told(other.worst)})" if other else "not measured"
+
+
 def _at_fixed_density(judgement: Judgement) -> str:
     """What heat does in the thermodynamic limit, where it has been measured."""
     if not judgement.other:
         return ""
-    said = f"{judgement.other.outcome.value} ({words.told(judgement.other.worst)})"
-    return f", as the gas thins out while the chain grows; at fixed density and without a particle current, that the exponent is 1/3 is {said}"
+    return f", as the gas thins out while the chain grows; at fixed density and without a particle current, that the exponent is 1/3 is {_otherwise(judgement)}"
 
 
 def findings(judgements: Sequence[Judgement]) -> list[dict[str, Any]]:
