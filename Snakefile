@@ -25,6 +25,7 @@ from workflow.tradeoff.batches import divide
 from workflow.execution.handler import OF_PROJECT, LogHandler
 from workflow.provenance.chain import Chain
 from workflow.provenance.execute import identity_of
+from workflow.provenance.node import note_libraries
 from workflow.provenance.repository import ROOT
 from workflow.provenance.lock import collect
 from workflow.provenance.request import Request

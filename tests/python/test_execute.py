@@ -2,12 +2,13 @@
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pytest
@@ -16,6 +17,7 @@ from tests.python.conftest import ROOT
 from workflow.lib.parents import file_hash
 from workflow.provenance.build_id import IDENTITY
 from workflow.provenance.execute import add_costs
+from workflow.provenance.node import linked
 
 HOSTILE = {
     "name": "x; touch a",
@@ -54,6 +56,7 @@ def root(tmp_path: Path) -> Path:
         (tmp_path / name).touch()
     for folder in ("bin", "id", "logs"):
         (tmp_path / "build" / folder).mkdir(parents=True)
+    (tmp_path / ".snakemake").mkdir()
     (tmp_path / "build/bin/fake").write_text(PROGRAM)
     (tmp_path / "build/bin/fake").chmod(0o755)
     (tmp_path / "build/id/fake.json").write_text(
@@ -69,7 +72,9 @@ def note_executable(root: Path) -> None:
     (root / "build/id/fake.sha256").write_text(f"{digest}  fake\n")
 
 
-def start(root: Path, options: dict, redirection: str = "") -> subprocess.Popen:
+def start(
+    root: Path, options: dict, redirection: str = "", where: Sequence[str] = ("--here",)
+) -> subprocess.Popen:
     command = [
         sys.executable,
         "-I",
@@ -81,7 +86,7 @@ def start(root: Path, options: dict, redirection: str = "") -> subprocess.Popen:
         "build/logs/log",
     ]
     command += ["--quality", "smoke", "--panel", "fig99", "--run", "all_gamma=1", "--program", "fake"]
-    command += ["--options", json.dumps(options), "--threads", "3", "--replicated"]
+    command += ["--options", json.dumps(options), "--threads", "3", "--replicated", *where]
     return subprocess.Popen(
         ["bash", "-c", f'exec "$@" {redirection}', "bash", *command],
         cwd=root,
@@ -98,6 +103,24 @@ def test_standard_error_may_be_closed(root: Path) -> None:
     """As for what is started by a clock."""
     assert start(root, HOSTILE, "2>&-").wait() == 0
     assert jobs(root)
+
+
+@pytest.mark.parametrize(("noted", "status"), [("", 0), ("libgsl.so.1\n", 1)])
+def test_a_node_with_other_libraries_makes_nothing(root: Path, noted: str, status: int) -> None:
+    """The program is a script, which is linked to none."""
+    (root / "build/libraries").mkdir()
+    (root / "build/libraries/fake").write_text(noted)
+    assert start(root, {}, where=()).wait() == status
+    assert (root / DATA).is_file() == (status == 0)
+    said = (root / "build/logs/log").read_text()
+    assert ("This node has nothing where the one that started the run has libgsl.so.1: " in said) == bool(
+        status
+    )
+
+
+def test_libraries_are_known_by_their_versions() -> None:
+    names = linked("persistence")
+    assert any(re.fullmatch(r"libgsl\.so\.\d+\.\d+\.\d+", name) for name in names)
 
 
 @pytest.mark.parametrize("status", [0, 4])

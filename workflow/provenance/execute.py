@@ -20,6 +20,7 @@ from workflow.lib.options import Options, arguments
 from workflow.lib.parents import PACKAGES, Parents, file_hash
 from workflow.lib.places import JOBS, move, regular
 from workflow.provenance.lock import LockError, record
+from workflow.provenance.node import difference_of_node
 from workflow.provenance.repository import ROOT
 
 LAUNCH = "workflow/environment/launch.py"
@@ -106,6 +107,8 @@ def run_program(job: argparse.Namespace, partial: Path, *more: str) -> tuple[dic
     enter into the lock, as on a full disk, is taken as it is. Leaves if the program is not what was built, before and after.
     """
     build, executable = built(job.program)
+    if not job.here and (difference := difference_of_node(job.program)):
+        sys.exit(difference)
     for status in STATUSES:
         if regular(ended(partial, status)).exists():
             return build, executable, status

@@ -95,6 +95,8 @@ BATCHES = divide(PANELS, 60 * REQUEST.batch, or_leave(read_timings)) if REQUEST.
 
 onstart:
     if workflow.is_main_process and not workflow.touch:
+        if REQUEST.batch:
+            or_leave(note_libraries, {run.program for panel in PANELS.values() for run in panel.runs})
         for handler in workflow.logger_manager.get_log_handlers():
             if isinstance(handler, LogHandler):
                 or_leave(handler.begin, QUALITY, PANELS, STALE, at_once())
