@@ -23,12 +23,13 @@ rule draw:
     conda:
         "../environment/conda.yaml"
     params:
+        here=HERE,
         configuration=lambda wildcards: PANELS[wildcards.panel].hash(),
         # For the report. What depends on an output is not among the parameters whose change Snakemake looks for.
         caption=lambda wildcards, output: caption_of(Path(output.csv)),
     shell:
         """
-        .venv/bin/python -I -S workflow/environment/launch.py workflow.provenance.execute draw {HERE} --log {log:q} \
+        .venv/bin/python -I -S workflow/environment/launch.py workflow.provenance.execute draw {params.here} --log {log:q} \
             --quality {wildcards.quality:q} --panel {wildcards.panel:q} \
             --configuration {params.configuration:q} --sources {input.sources:q} --data {input.data:q}
         """

@@ -24,12 +24,13 @@ rule simulate:
         mem_mb=memory,
         slots=1,  # of which a job on a cluster has one, so that runs that share it follow each other
     params:
+        here=HERE,
         program=lambda wildcards: run_of(wildcards).program,
         options=lambda wildcards: json.dumps(run_of(wildcards).options),
         replicated=lambda wildcards: "--replicated" if run_of(wildcards).replicated else "",
     shell:
         """
-        .venv/bin/python -I -S workflow/environment/launch.py workflow.provenance.execute simulate {HERE} --log {log:q} \
+        .venv/bin/python -I -S workflow/environment/launch.py workflow.provenance.execute simulate {params.here} --log {log:q} \
             --quality {wildcards.quality:q} --panel {wildcards.panel:q} --run {wildcards.run:q} \
             --program {params.program:q} --options {params.options:q} --threads {threads} {params.replicated}
         """
