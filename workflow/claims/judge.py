@@ -47,8 +47,8 @@ def read_claims(root: Path) -> list[dict[str, str]]:
         rows: list[dict[str, str]] = table.to_dict("records")
         if sorted(row["id"] for row in rows) != sorted(FUNCTIONS):
             raise ValueError("not the claims that are judged here")
-        for text in (row[reading] for row in rows for reading in READINGS):
-            Band.of(text or "above 0")
+        for band in (row[reading] for row in rows for reading in READINGS if row[reading]):
+            Band.of(band)
     except (ValueError, KeyError) as error:  # pandas' own are of the first kind
         raise damaged(path, error) from error
     return rows

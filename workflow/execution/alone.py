@@ -1,7 +1,7 @@
 """Runs Snakemake as the only one in this folder, and removes what an interrupted one has left locked.
 
-A job that outlives a make that was killed would write its products among those of the next one, which waits for its end
-therefore. `--logger progress` shows what runs in the project's own words (workflow/execution).
+While a job of a make that was killed still runs, the next make refuses to start, as that job would write its products
+among the new ones. `--logger progress` shows what runs in the project's own words (workflow/execution).
 
 Snakemake's own locks are files, which stay when it is killed; this one is the system's and ends with the process.
 """

@@ -142,7 +142,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     style.letter(*row)
     caption = (
         f"Sound in a ring, {parameters([largest], *CHAIN, *GAS)}, {replicas([largest])}, from equilibrium fluctuations. (a) C_g, the "
-        "covariance of the momenta of two cells at distance r and times t apart, about the peak that moves with the speed c, rescaled with the exponent 2/3 to the first time shown, t_1. (b) Local exponents of the peak's "
+        "covariance of the momenta of two cells at distance r and times t apart, about the peak that moves with the speed c, "
+        "rescaled with the exponent 2/3 to the first time shown, t_1. (b) Local exponents of the peak's "
         f"height between neighbouring times, beside those of the energy pulse of fig. 9a. {of_peak(largest)} (c) "
         f"Covariance of the numbers of particles in one cell at two times. {of_heat(largest)}; heat would keep one exponent, and "
         "slow particles that have not left their cell make C_n fall as the logarithm of t. Error bars: standard errors over replicas."

@@ -63,9 +63,8 @@ def script_command(
 def call(command: list[str], allowed: tuple[int, ...] = (0,)) -> int:
     """Exit status; leaves with it if it is not among the allowed ones. On SIGINT and SIGTERM a program writes its
     checkpoint, which this process waits for; a terminal sends SIGINT to both. A second signal ends both at once."""
-    child = subprocess.Popen(
-        command, cwd=ROOT, env=ENVIRONMENT, close_fds=False
-    )  # it holds the lock of the jobs too
+    # Its files stay open in the child, which so holds the lock of the jobs too.
+    child = subprocess.Popen(command, cwd=ROOT, env=ENVIRONMENT, close_fds=False)
     signals = []
 
     def stop(number: int, _: object) -> None:
