@@ -87,22 +87,6 @@ def run_silently(folder: Path, *command: str) -> None:
     subprocess.run(command, cwd=folder, env={"PATH": os.defpath}, check=True, stdout=subprocess.DEVNULL)
 
 
-def processes(session: int, words: str = "") -> list[int]:
-    """Those of the session that are alive and have the words in their command."""
-    told = subprocess.run(
-        ["ps", "-ww", "-o", "pid=,stat=,args=", "-s", str(session)],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    rows = [line.split(maxsplit=2) for line in told.stdout.splitlines()]
-    return [
-        int(pid)
-        for pid, state, command in rows
-        if not state.startswith("Z") and words in command.split("--")[0]
-    ]
-
-
 @contextlib.contextmanager
 def locked(path: Path) -> Iterator[None]:
     with path.open("w") as file:

@@ -8,9 +8,10 @@ import signal
 import socket
 import subprocess
 import tempfile
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
+
+from tests.workflow.running import soon
 
 CONFIGURATION = """ClusterName=test
 SlurmctldHost=localhost(127.0.0.1)
@@ -83,10 +84,10 @@ class Cluster:
         }
         self._run("munged", "--foreground", "--force", *(f"--{key}={munge / name}" for key, name in files.items()),
                   user="munge")  # fmt: skip
-        _wait_until((munge / "socket").exists)
+        soon((munge / "socket").exists)
         self.start_controller()
         self._run("slurmd", "-D", "-N", "localhost")
-        _wait_until(lambda: "idle" in self.say("sinfo", "--noheader", "--format=%t"))
+        soon(lambda: "idle" in self.say("sinfo", "--noheader", "--format=%t"))
 
     def start_controller(self) -> None:
         self._run("slurmctld", "-D")
@@ -153,11 +154,3 @@ def _free_ports(number: int) -> list[int]:
     for one in sockets:
         one.close()
     return ports
-
-
-def _wait_until(holds: Callable[[], bool], seconds: float = 60) -> None:
-    end = time.monotonic() + seconds
-    while not holds():
-        if time.monotonic() > end:
-            raise TimeoutError("Slurm did not start")
-        time.sleep(0.2)

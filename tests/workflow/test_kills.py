@@ -1,45 +1,32 @@
-"""make panel, of which one process or all are killed again and again: the same command goes on, and nothing is half written."""
+"""make panel, of which processes are killed, or beside which others write: the same command goes on, nothing is half written,
+and nothing foreign is called made."""
 
 import os
 import random
 import signal
-import subprocess
 import time
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
-from tests.workflow.conftest import Clone, processes
+from tests.workflow.conftest import Clone
+from tests.workflow.running import kill, processes, running, soon
 
 KILLS, PANEL = 200, "fig05"
+FRESH = ("panel", f"PANEL={PANEL}", "QUALITY=smoke", "FRESH=yes", "JOBS=1")
 PATIENCE = 120  # seconds until what was told to end has ended
 
 
 def killed(clone: Clone, chance: random.Random, seconds: float) -> str:
     """Starts make, and kills one of its processes or all of them after some time; returns what it had said when all had
     ended."""
-    command = ["/usr/bin/make", "panel", f"PANEL={PANEL}", "QUALITY=smoke", "JOBS=2"]
-    with subprocess.Popen(
-        command,
-        cwd=clone.folder,
-        env={"PATH": os.defpath, "HOME": "/"},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        start_new_session=True,
-    ) as making:
+    with running(clone, "panel", f"PANEL={PANEL}", "QUALITY=smoke", "JOBS=2") as making:
         time.sleep(chance.uniform(0, seconds))
         there = processes(making.pid)
-        for victim in there if chance.random() < 0.3 else chance.sample(there, min(1, len(there))):
-            try:
-                os.kill(victim, signal.SIGKILL)
-            except ProcessLookupError:
-                continue
+        kill(there if chance.random() < 0.3 else chance.sample(there, min(1, len(there))))
         said, _ = making.communicate(timeout=PATIENCE)
-        end = time.monotonic() + PATIENCE
-        while processes(making.pid):
-            assert time.monotonic() < end, "what was started goes on for ever"
-            time.sleep(0.1)
+        soon(lambda: not processes(making.pid), PATIENCE)
     return said
 
 
@@ -71,3 +58,56 @@ def test_what_is_killed_at_any_moment_goes_on(kept: Clone) -> None:
     assert kept.products() == expected
     audited = kept.make("audit", "QUALITY=smoke", f"PANEL={PANEL}")
     assert audited.returncode == 0, audited.stdout
+
+
+def test_a_killed_make_is_followed_by_the_next_and_a_running_one_is_not(kept: Clone) -> None:
+    products = kept.products()
+    with running(kept, *FRESH) as first:
+        soon(lambda: kept.products().keys() != products.keys())  # the first product is set aside
+        other = kept.make("panel", "PANEL=fig03", "QUALITY=smoke")
+        os.killpg(first.pid, signal.SIGKILL)
+    assert other.returncode != 0
+    assert "Another make is running here" in other.stdout
+    assert list((kept.folder / ".snakemake/locks").iterdir())
+    made = kept.make("panel", f"PANEL={PANEL}", "QUALITY=smoke")
+    assert made.returncode == 0, made.stdout
+    assert kept.products() == products
+
+
+def test_a_job_that_outlives_a_killed_make_is_not_joined_by_the_next(kept: Clone) -> None:
+    """It would write what is no longer asked for among the next one's products."""
+    products = kept.products()
+    with running(kept, *FRESH) as first:
+        program = soon(lambda: processes(first.pid, "build/bin/persistence"))[0]
+        os.kill(program, signal.SIGSTOP)
+        kill(processes(first.pid, "workflow.execution.alone"))
+        first.wait()
+        other = kept.make("panel", f"PANEL={PANEL}", "QUALITY=smoke")
+        os.kill(program, signal.SIGCONT)
+        soon(lambda: not processes(first.pid))
+    assert other.returncode != 0
+    assert "A job of a make that was killed still runs here" in other.stdout
+    made = kept.make("panel", f"PANEL={PANEL}", "QUALITY=smoke")
+    assert made.returncode == 0, made.stdout
+    assert kept.products() == products
+
+
+def test_what_others_write_meanwhile_is_not_called_made(kept: Clone) -> None:
+    product, other = (f"data/smoke/{PANEL}/dense_sigma={sigma}.h5" for sigma in ("-0.5", "0.5"))
+    foreign, before = (kept.folder / other).read_bytes(), written(kept.folder / product)
+    with running(kept, *FRESH) as making:
+        soon(lambda: written(kept.folder / product) not in (None, before))
+        (kept.folder / product).write_bytes(foreign)
+        said, _ = making.communicate()
+    assert making.returncode != 0
+    assert f"{product} is not what the job wrote. The same command makes it again" in said
+    made = kept.make("panel", f"PANEL={PANEL}", "QUALITY=smoke")
+    assert made.returncode == 0, made.stdout
+
+
+def written(path: Path) -> int | None:
+    """When; none while it is set aside."""
+    try:
+        return path.stat().st_mtime_ns
+    except FileNotFoundError:
+        return None

@@ -1,21 +1,16 @@
 """The two front doors, from outside: no environment in front, nothing done twice, clear refusals."""
 
-import contextlib
 import os
 import resource
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
-import time
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from tests.workflow.conftest import ROOT, Clone, clone_into, processes
+from tests.workflow.conftest import ROOT, Clone, clone_into
 from workflow.lib.load import load
 from workflow.lib.plan import load_plan
 
@@ -115,73 +110,6 @@ def test_fresh_panel_resumes_nothing_and_says_what_differs(kept: Clone) -> None:
     assert "fig05/dense_sigma=0.5: other bytes, not within errors" in made.stdout
     assert "fig05/dense_sigma=-0.5: the same bytes" in made.stdout
     assert not any(leftover.exists() for leftover in partial_of(kept))
-
-
-def test_a_killed_make_is_followed_by_the_next_and_a_running_one_is_not(kept: Clone) -> None:
-    products = kept.products()
-    first = start_fresh_panel(kept)
-    soon(lambda: kept.products().keys() != products.keys())  # the first product is set aside
-    other = kept.make("panel", "PANEL=fig03", "QUALITY=smoke")
-    os.killpg(first.pid, signal.SIGKILL)
-    first.wait()
-    assert other.returncode != 0
-    assert "Another make is running here" in other.stdout
-    assert list((kept.folder / ".snakemake/locks").iterdir())
-    made = kept.make("panel", "PANEL=fig05", "QUALITY=smoke")
-    assert made.returncode == 0, made.stdout
-    assert kept.products() == products
-
-
-def test_a_job_that_outlives_a_killed_make_is_not_joined_by_the_next(kept: Clone) -> None:
-    """It would write what is no longer asked for among the next one's products."""
-    products = kept.products()
-    first = start_fresh_panel(kept)
-    program = soon(lambda: processes(first.pid, "build/bin/persistence"))
-    os.kill(program[0], signal.SIGSTOP)
-    for making in processes(first.pid, "workflow.execution.alone"):
-        os.kill(making, signal.SIGKILL)
-    first.wait()
-    other = kept.make("panel", "PANEL=fig05", "QUALITY=smoke")
-    os.kill(program[0], signal.SIGCONT)
-    assert other.returncode != 0
-    assert "A job of a make that was killed still runs here" in other.stdout
-    soon(lambda: not processes(first.pid))
-    made = kept.make("panel", "PANEL=fig05", "QUALITY=smoke")
-    assert made.returncode == 0, made.stdout
-    assert kept.products() == products
-
-
-def test_what_others_write_meanwhile_is_not_called_made(kept: Clone) -> None:
-    product, other = kept.folder / f"{SIGMA}-0.5.h5", kept.folder / f"{SIGMA}0.5.h5"
-    foreign, before = other.read_bytes(), product.stat().st_mtime_ns
-    making = start_fresh_panel(kept)
-
-    def made() -> bool:
-        with contextlib.suppress(FileNotFoundError):  # it is set aside first
-            return product.stat().st_mtime_ns != before
-        return False
-
-    soon(made)
-    product.write_bytes(foreign)
-    said, _ = making.communicate()
-    assert making.returncode != 0
-    assert f"{SIGMA}-0.5.h5 is not what the job wrote. The same command makes it again" in said
-    made = kept.make("panel", "PANEL=fig05", "QUALITY=smoke")
-    assert made.returncode == 0, made.stdout
-
-
-def start_fresh_panel(clone: Clone) -> subprocess.Popen:
-    """In a session of its own."""
-    command = ["/usr/bin/make", "panel", "PANEL=fig05", "QUALITY=smoke", "FRESH=yes", "JOBS=1"]
-    return subprocess.Popen(command, cwd=clone.folder, env={"PATH": os.defpath}, stdout=subprocess.PIPE,
-                            stderr=subprocess.STDOUT, text=True, start_new_session=True)  # fmt: skip
-
-
-def soon(happens: Callable[[], Any]) -> Any:
-    deadline = time.monotonic() + 120
-    while not (found := happens()):
-        assert time.monotonic() < deadline
-    return found
 
 
 def partial_of(clone: Clone) -> list[Path]:

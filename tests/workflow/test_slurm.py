@@ -14,6 +14,7 @@ import pytest
 
 from tests.workflow import slurm
 from tests.workflow.conftest import Clone
+from tests.workflow.running import soon
 
 pytestmark = pytest.mark.skipif(not slurm.available(), reason="Slurm is not installed, or runs here already")
 PATIENCE = {"slurm-init-seconds-before-status-checks": "2", "latency-wait": "10"}  # of a small cluster
@@ -63,7 +64,7 @@ def test_parts_and_groups_make_the_same_bytes(cluster: slurm.Cluster, kept: Clon
 T = TypeVar("T")
 
 
-def processes(clone: Clone, program: str) -> list[int]:
+def instances(clone: Clone, program: str) -> list[int]:
     """Of a program of this clone."""
     path = str(clone.folder / "build/bin" / program).encode()
     found = []
@@ -76,11 +77,7 @@ def processes(clone: Clone, program: str) -> list[int]:
 
 def wait_for(find: Callable[[], Sequence[T]], other_than: Sequence[T] = ()) -> T:
     """The first that is found beside those."""
-    end = time.monotonic() + 120
-    while not (new := [one for one in find() if one not in other_than]):
-        assert time.monotonic() < end, "nothing runs"
-        time.sleep(0.2)
-    return new[0]
+    return soon(lambda: [one for one in find() if one not in other_than])[0]
 
 
 @pytest.mark.long
@@ -89,9 +86,9 @@ def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, kept: Clone) -> Non
     asked, program = ("PANEL=fig01", "QUALITY=standard"), "particle_count"
     making = on_cluster(kept, "panel", *asked, "BATCH=0.1")
     cancelled = wait_for(cluster.jobs)
-    wait_for(lambda: processes(kept, program))
+    wait_for(lambda: instances(kept, program))
     cluster.say("scancel", cancelled)
-    killed = wait_for(lambda: processes(kept, program), processes(kept, program))
+    killed = wait_for(lambda: instances(kept, program), instances(kept, program))
     os.kill(killed, signal.SIGKILL)
     cluster.stop_controller()
     time.sleep(5)
@@ -99,7 +96,7 @@ def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, kept: Clone) -> Non
     cluster.say("scontrol", "update", "NodeName=localhost", "State=DRAIN", "Reason=test")
     assert "in the queue: " in kept.make("status", "QUALITY=standard").stdout
     cluster.say("scontrol", "update", "NodeName=localhost", "State=RESUME")
-    stopped = wait_for(lambda: processes(kept, program), processes(kept, program))
+    stopped = wait_for(lambda: instances(kept, program), instances(kept, program))
     os.kill(stopped, signal.SIGSTOP)
     for job in cluster.jobs():
         cluster.say("scontrol", "update", f"JobId={job}", "TimeLimit=1")
