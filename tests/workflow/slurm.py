@@ -30,6 +30,7 @@ SlurmctldLogFile={folder}/slurmctld.log
 SlurmdLogFile={folder}/slurmd.log
 ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
+TaskProlog={folder}/prolog
 SelectType=select/cons_tres
 SelectTypeParameters=CR_Core_Memory
 SchedulerParameters=batch_sched_delay=0,sched_interval=2,bf_interval=2
@@ -54,6 +55,7 @@ def available() -> bool:
 
 
 PLACE = Path("/etc/slurm/slurm.conf")
+DISK = Path("/dev/shm")  # what a node's own disk is for the others
 PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
 
 
@@ -67,6 +69,9 @@ class Cluster:
         ports = dict(zip(("controller", "node"), _free_ports(2), strict=True))
         text = CONFIGURATION.format(folder=folder, cpus=cpus, **ports)
         (folder / "slurm.conf").write_text(text)
+        prolog = folder / "prolog"
+        prolog.write_text(f"#!/bin/sh\necho export TMPDIR={DISK}\n")
+        prolog.chmod(0o755)
 
     def start(self) -> None:
         self._install()

@@ -14,7 +14,7 @@ import pytest
 
 from tests.workflow import slurm
 from tests.workflow.conftest import Clone
-from tests.workflow.running import soon
+from tests.workflow.running import running, soon
 
 pytestmark = pytest.mark.skipif(not slurm.available(), reason="Slurm is not installed, or runs here already")
 PATIENCE = {"slurm-init-seconds-before-status-checks": "2", "latency-wait": "10"}  # of a small cluster
@@ -26,20 +26,13 @@ def cluster() -> Iterator[slurm.Cluster]:
         yield one
 
 
-def on_cluster(clone: Clone, *arguments: str) -> subprocess.Popen:
+def on_cluster(clone: Clone, *arguments: str) -> contextlib.AbstractContextManager[subprocess.Popen]:
     profile = clone.folder / "profiles/slurm/config.yaml"
     text = profile.read_text()
     for name, value in PATIENCE.items():
         text = re.sub(f"^{name}: .*$", f"{name}: {value}", text, flags=re.MULTILINE)
     profile.write_text(text + "seconds-between-status-checks: 3\n")
-    return subprocess.Popen(
-        ["/usr/bin/make", *arguments, "PROFILE=slurm"],
-        cwd=clone.folder,
-        env={"PATH": os.defpath, "HOME": os.environ.get("HOME", "/")},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-    )
+    return running(clone, *arguments, "PROFILE=slurm")
 
 
 def test_parts_and_groups_make_the_same_bytes(cluster: slurm.Cluster, kept: Clone) -> None:
@@ -49,9 +42,9 @@ def test_parts_and_groups_make_the_same_bytes(cluster: slurm.Cluster, kept: Clon
             path.unlink()
     asked = ("QUALITY=smoke", "BATCH=0.01")
     for panel in ("fig01", "fig06"):
-        made = on_cluster(kept, "panel", f"PANEL={panel}", *asked)
-        said, _ = made.communicate(timeout=300)
-        assert made.returncode == 0, said
+        with on_cluster(kept, "panel", f"PANEL={panel}", *asked) as making:
+            said, _ = making.communicate(timeout=300)
+        assert making.returncode == 0, said
     assert kept.products() == products
     logs = kept.folder / "build/logs/smoke/fig01"
     assert [path.name for path in sorted(logs.glob("paper-*/*.log"))] == ["0-0.log", "1-1.log"]
@@ -84,39 +77,74 @@ def wait_for(find: Callable[[], Sequence[T]], other_than: Sequence[T] = ()) -> T
 def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, kept: Clone) -> None:
     """By scancel, by kill -9, by its time limit, while the controller is away, and while the node is drained."""
     asked, program = ("PANEL=fig01", "QUALITY=standard"), "particle_count"
-    making = on_cluster(kept, "panel", *asked, "BATCH=0.1")
-    cancelled = wait_for(cluster.jobs)
-    wait_for(lambda: instances(kept, program))
-    cluster.say("scancel", cancelled)
-    killed = wait_for(lambda: instances(kept, program), instances(kept, program))
-    os.kill(killed, signal.SIGKILL)
-    cluster.stop_controller()
-    time.sleep(5)
-    cluster.start_controller()
-    cluster.say("scontrol", "update", "NodeName=localhost", "State=DRAIN", "Reason=test")
-    assert "in the queue: " in kept.make("status", "QUALITY=standard").stdout
-    cluster.say("scontrol", "update", "NodeName=localhost", "State=RESUME")
-    stopped = wait_for(lambda: instances(kept, program), instances(kept, program))
-    os.kill(stopped, signal.SIGSTOP)
-    for job in cluster.jobs():
-        cluster.say("scontrol", "update", f"JobId={job}", "TimeLimit=1")
-    said, _ = making.communicate(timeout=900)
+    with on_cluster(kept, "panel", *asked, "BATCH=0.1") as making:
+        cancelled = wait_for(cluster.jobs)
+        wait_for(lambda: instances(kept, program))
+        cluster.say("scancel", cancelled)
+        killed = wait_for(lambda: instances(kept, program), instances(kept, program))
+        os.kill(killed, signal.SIGKILL)
+        cluster.stop_controller()
+        time.sleep(5)
+        cluster.start_controller()
+        cluster.say("scontrol", "update", "NodeName=localhost", "State=DRAIN", "Reason=test")
+        assert "in the queue: " in kept.make("status", "QUALITY=standard").stdout
+        cluster.say("scontrol", "update", "NodeName=localhost", "State=RESUME")
+        stopped = wait_for(lambda: instances(kept, program), instances(kept, program))
+        os.kill(stopped, signal.SIGSTOP)
+        for job in cluster.jobs():
+            cluster.say("scontrol", "update", f"JobId={job}", "TimeLimit=1")
+        said, _ = making.communicate(timeout=900)
     assert making.returncode == 0, said
     ended = {
         line.split()[-1]
         for line in cluster.say("squeue", "--states=all", "--format=%T", "--noheader").split()
     }
     assert {"CANCELLED", "FAILED", "TIMEOUT", "COMPLETED"} <= ended, said
-    products = {path: path.read_bytes() for path in products_of(kept)}
-    again = kept.make("panel", *asked, "FRESH=yes")
+    require_bytes_of_a_local_run(kept, *asked)
+
+
+@pytest.mark.long
+def test_a_job_goes_on_from_the_checkpoint_that_left_the_node(cluster: slurm.Cluster, kept: Clone) -> None:
+    """The second attempt begins where the first was ended, and makes the bytes of an undisturbed run."""
+    asked, run = ("PANEL=fig01", "QUALITY=standard"), "standard/fig01/unit-chain"
+    log = kept.folder / f"build/logs/{run}.log"
+    log.unlink(missing_ok=True)
+    with on_cluster(kept, "panel", *asked, "BATCH=1", "FRESH=yes") as making:
+        soon(lambda: len(reports(log)) > 1, seconds=300)
+        assert [*slurm.DISK.glob("lorentz.*")]
+        cluster.say("scancel", *cluster.jobs())
+        (measured,) = soon(lambda: re.findall(r"interrupted after (\d+) replicas; --resume", told(log)))
+        (checkpoint,) = soon(lambda: [*kept.folder.glob(f"build/partial/{run}-*.h5.checkpoint")])
+        again = soon(lambda: "interrupted" not in told(log) and reports(log))
+        assert again[0] > int(measured) > 0
+        said, _ = making.communicate(timeout=900)
+    assert making.returncode == 0, said
+    assert not checkpoint.exists()
+    assert not [*slurm.DISK.glob("lorentz.*")]
+    require_bytes_of_a_local_run(kept, *asked)
+
+
+def require_bytes_of_a_local_run(clone: Clone, *asked: str) -> None:
+    """Results, PDF, PNG, SVG and CSV of fig01 at quality standard."""
+
+    def products() -> dict[Path, bytes]:
+        places = ("data/standard/fig01/*", "figures/standard/fig01.*")
+        return {path: path.read_bytes() for place in places for path in clone.folder.glob(place)}
+
+    before = products()
+    assert len(before) == 3 + 4
+    again = clone.make("panel", *asked, "FRESH=yes")
     assert again.returncode == 0, again.stdout
-    assert len(products) == 3 + 4
-    assert {path: path.read_bytes() for path in products_of(kept)} == products
+    assert products() == before
 
 
-def products_of(clone: Clone) -> list[Path]:
-    """Of the panel at quality standard: results, PDF, PNG, SVG and CSV."""
-    return [
-        *(clone.folder / "data/standard/fig01").iterdir(),
-        *(clone.folder / "figures/standard").glob("fig01.*"),
-    ]
+def told(log: Path) -> str:
+    """Nothing between two attempts."""
+    with contextlib.suppress(FileNotFoundError):
+        return log.read_text()
+    return ""
+
+
+def reports(log: Path) -> list[float]:
+    """Numbers of replicas, which a program tells every ten seconds."""
+    return [float(number) for number in re.findall(r"(\d+\.\d) of \d+ replicas", told(log))]

@@ -39,13 +39,18 @@ def move(source: Path, target: Path) -> None:
     except OSError as error:
         if error.errno != errno.EXDEV:
             raise
-        with unfinished(target.with_name(f"{target.name}.tmp")) as copy:
-            with regular(source).open("rb") as old, copy.open("wb") as new:
-                shutil.copyfileobj(old, new)
-                new.flush()
-                os.fsync(new.fileno())
-            copy.replace(target)
+        copy(source, target)
         source.unlink()
+
+
+def copy(source: Path, target: Path) -> None:
+    """In place of what is there, which stays until all is written."""
+    with unfinished(target.with_name(f"{target.name}.tmp")) as written:
+        with regular(source).open("rb") as old, written.open("wb") as new:
+            shutil.copyfileobj(old, new)
+            new.flush()
+            os.fsync(new.fileno())
+        written.replace(target)
 
 
 @contextmanager

@@ -5,6 +5,7 @@ variable of the caller's environment reaches the job. Standard library only, as 
 """
 
 import argparse
+import contextlib
 import fcntl
 import hashlib
 import json
@@ -22,6 +23,7 @@ from workflow.lib.places import JOBS, move, regular
 from workflow.provenance.lock import LockError, record
 from workflow.provenance.node import difference_of_node
 from workflow.provenance.repository import ROOT
+from workflow.provenance.scratch import scratch
 
 LAUNCH = "workflow/environment/launch.py"
 UNCONVERGED = 4  # exit status of a program that wrote its result and says that the target was not reached
@@ -112,8 +114,9 @@ def run_program(job: argparse.Namespace, partial: Path, *more: str) -> tuple[dic
         if regular(ended(partial, status)).exists():
             return build, executable, status
     partial.parent.mkdir(parents=True, exist_ok=True)
-    command = program_command(job.program, job.options, partial)
-    status = call([*command, *more, "--progress", "log"], STATUSES)
+    with contextlib.nullcontext(partial) if job.here else scratch(partial) as output:
+        command = program_command(job.program, job.options, output)
+        status = call([*command, *more, "--progress", "log"], STATUSES)
     if built(job.program) != (build, executable):
         sys.exit(f"build/bin/{job.program} was built again while it ran; run make again")
     move(partial, ended(partial, status))
