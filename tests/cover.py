@@ -14,7 +14,7 @@ from tests.run import REPORTS
 from tests.sanitize import calls, count_tests
 
 SHARE = 95  # percent
-FLAGS = ["-O0", "--coverage"]  # threads may lose counts of each other, but not all of a line
+FLAGS = ["--coverage"]  # threads may lose counts of each other, but not all of a line
 IN_PROCESS = ["-m", "pytest", "-c", "tests/pytest.ini", "-m", "not long", "tests/python"]
 
 

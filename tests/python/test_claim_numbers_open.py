@@ -141,6 +141,11 @@ def test_deviations_of_finite_chains() -> None:
         evidence = FUNCTIONS[claim](DATA)
         check(evidence.literal, value / 400, error / 400, freedom=639)  # 220 + 180
         check(evidence.other, value / largest, error / largest, freedom=639)
+        theory, momentum = deviations(f"mean-field_cells={cells[0]}")[0], np.arange(-59, 60, 2)
+        ends = [
+            np.polyval(np.polyfit(momentum[two], theory[two], 1), 0) for two in (slice(28, 30), slice(30, 32))
+        ]
+        assert f"{np.abs(ends).max() / 400:.2e}" in evidence.caveat
 
 
 def test_decay_of_the_deviations() -> None:

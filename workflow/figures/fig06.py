@@ -62,6 +62,15 @@ def draw_density(axes: Axes, table: pd.DataFrame, power: float = 0, label: str =
     axes.plot(table.tau, scale * table.fitted, color=style.BLACK, linestyle=dashes, zorder=5)
 
 
+def mark_outside(axes: Axes, table: pd.DataFrame, power: float, top: float) -> None:
+    """Bins whose symbol would lie above the strip."""
+    shown = table.density + table.density_error.where(table.unsure, 0)
+    outside = table.tau[table.tau**power * shown > top]
+    _, color, _ = MARKS[float(table.sigma.iloc[0])]
+    look: style.Look = {"marker": "^", "color": color, "markerfacecolor": "white", "markersize": 3.5}
+    axes.plot(outside, [top] * len(outside), linestyle="none", clip_on=False, zorder=6, **look)
+
+
 def caption(tables: Sequence[pd.DataFrame], results: Sequence[Result]) -> str:
     said = [
         f"{style.with_error(result['exponent'])} at σ = {number(result.parameters['sigma'])} "
@@ -77,7 +86,7 @@ def caption(tables: Sequence[pd.DataFrame], results: Sequence[Result]) -> str:
         {replicas(results)}. A flight counts with its whole length, which is known when it begins. (a) Ψ; the line through the circles is exact for many particles that start from a Gaussian. (b), (c) Ψ times
         the powers of τ that the paper states. Broken and dotted: power laws of the exponents fitted by maximum likelihood in the shaded tail, from
         {number(options["tail-from"])} thermal flights on: {"; ".join(said)}. {ERRORS}; {unsure} bins known to worse than
-        {number(100 * UNSURE)} % are open, with arrows from one error above. The paper gives the inverse cube for equal masses and the
+        {number(100 * UNSURE)} % are open, with arrows from one error above; triangles at the upper edges stand for bins above them. The paper gives the inverse cube for equal masses and the
         inverse square otherwise. For equal masses momenta are only exchanged, and Ψ is a property of the Gaussian start."""
 
 
@@ -104,6 +113,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
             )
             strip.plot(table.tau, table.tau**3 * table.gaussian_start, color=style.SKY, zorder=0)
         typical = (table.tau ** POWERS[sigma] * table.fitted).median()
+        mark_outside(strip, table, POWERS[sigma], 2 * typical)
         strip.set(ylim=(0, 2 * typical), ylabel=rf"$\tau^{POWERS[sigma]}\,\Psi$, $\sigma = {sigma:g}$")
     options = results[0].parameters
     cut = options["tail-from"] * options["cell-length"] / np.sqrt(options["temperature"])
