@@ -106,7 +106,7 @@ def _at_zero(table: pd.DataFrame, cells: int) -> float:
         half.absolute_as_printed.to_numpy()
         for half in (part[part.momentum > 0], part[part.momentum < 0][::-1])
     )
-    return max(abs(1.5 * first - 0.5 * second) for first, second, *_ in halves)
+    return float(max(abs(1.5 * first - 0.5 * second) for first, second, *_ in halves))
 
 
 def deviations_small(data: Data) -> Evidence:
@@ -198,12 +198,16 @@ def jump_smaller(data: Data) -> Evidence:
 
 def jump_from_rates_only(data: Data) -> Evidence:
     """Jump at equal rates, unequal temperatures and gamma = N, over max F."""
-    equal = data.one("fig04b", "equal")
+    equal, kinetic = (data.one("fig04b", run) for run in ("equal", "mean-field-equal"))
     scale = float(equal["flux"].mean.max())
-    return Evidence([
-        number(equal, "jump", bond, f"jump over max F at ν_L = ν_R, {name}").over(scale)
-        for bond, name in ((1, "x = 1/N"), (-1, "x = 1"))
-    ])  # fmt: skip
+    theory = [float(kinetic["jump"].mean[bond]) / scale for bond in (1, -1)]
+    return Evidence(
+        [
+            number(equal, "jump", bond, f"jump over max F at ν_L = ν_R, {name}").over(scale)
+            for bond, name in ((1, "x = 1/N"), (-1, "x = 1"))
+        ],
+        caveat=f"Without correlations it is {theory[0]:.3f} and {theory[1]:.3f}: equal rates do not remove it there either.",
+    )
 
 
 CLAIMS: dict[str, Claim] = {

@@ -15,7 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, CHAIN, ERRORS, WINDOW, listed, parameters, replicas
+from workflow.lib.caption import BATHS, CHAIN, ERRORS, WINDOW, listed, number, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Quantity, Result
@@ -154,7 +154,12 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         said.append(f"γ = {gamma}{' with equal rates' * equal}: {listed(jumps)}")
     alike = [end for _, equal, part in cases(table) if equal for end in part.itertuples()]
     known = [end for end in alike if abs(end.jump) > RESOLVED * end.jump_error]
-    still = f"; with equal rates a jump is resolved at {len(known)} of {len(alike)} ends" if alike else ""
+    theory = listed(number(end.kinetic_jump) for end in alike) if alike else ""
+    still = (
+        f"; with equal rates a jump is resolved at {len(known)} of {len(alike)} ends, and the kinetic equation has {theory} there"
+        if alike
+        else ""
+    )
     faint = "Faint: with the rates of both baths equal." if last == "N" else ""
     return f"""
         Flux distribution F_N(p, x) of the particles behind the first scatterer (solid, circles) and the last (dashed,
