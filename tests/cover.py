@@ -1,49 +1,80 @@
-"""Lines of the programs and of the workflow that tests execute; less than SHARE of the lines fails.
+"""Lines of the programs and of the workflow that tests execute; less than SHARE of either fails.
 
-C++ by its own tests and by a short call of every program. The workflow by the Python tests; what they start in a folder of its
-own, as make does, runs without the packages that could count, so that its lines are missing here.
+All tests, but for those that take minutes, run in a copy of the project. Its programs count their lines, and its launcher starts
+to count those of every module that it runs, also in the copies that tests make of the project in their turn.
 """
 
+import shutil
 import subprocess
 import sys
-import tempfile
+import sysconfig
 from pathlib import Path
 
-from tests.instrumented import build
-from tests.run import REPORTS
-from tests.sanitize import calls, count_tests
+from tests.instrumented import COMMON
+from tests.workflow.conftest import ROOT, clone_into
 
 SHARE = 95  # percent
-FLAGS = ["--coverage"]  # threads may lose counts of each other, but not all of a line
-IN_PROCESS = ["-m", "pytest", "-c", "tests/pytest.ini", "-m", "not long", "tests/python"]
+COPY = ROOT / "build/instrumented/coverage"
+COUNTS = COPY / "build/counts"
+FLAGS = ";".join([*COMMON, "--coverage"])  # threads may lose counts of each other, but not all of a line
+# Runs in every process; what is started by -I -S lacks the packages.
+START = f"""
+import atexit, sys
+sys.path.append({sysconfig.get_path("purelib")!r})
+import coverage
+sys.path.pop()
+_counter = coverage.Coverage(data_file={str(COUNTS / "lines")!r}, data_suffix=True, include="*/workflow/*", omit="*/site-packages/*",
+                             messages=False)
+_counter.start()
+atexit.register(lambda: (_counter.stop(), _counter.save()))
+"""
+PLACES = f"[paths]\nworkflow =\n    {COPY}/workflow\n    */workflow\n[report]\nshow_missing = True\nskip_covered = True\n"
 
 
-def covers(*command: str | Path) -> bool:
-    return subprocess.run([sys.executable, "-m", *command], check=False).returncode == 0
+def run(*command: str | Path) -> bool:
+    return subprocess.run(command, cwd=COPY, check=False).returncode == 0
 
 
-def programs_are_covered() -> bool:
-    programs = build("coverage", FLAGS, ["cpp_tests", "all"])
-    for counted in programs.parent.rglob("*.gcda"):
-        counted.unlink()
-    print(count_tests(programs))
-    with tempfile.TemporaryDirectory() as folder:
-        wrong = [call for call, well in calls(programs, Path(folder)) if not well]
-    print(*(f"{call} ended otherwise than it should" for call in wrong), sep="\n")
-    which = ["--root", "cpp", "--object-directory", programs.parent, "--exclude", "cpp/bench/"]
-    return covers("gcovr", *which, "--exclude-throw-branches", "--fail-under-line", str(SHARE))
-
-
-def workflow_is_covered() -> bool:
-    covers("coverage", "run", "--source=workflow", "--data-file=build/tests/coverage", *IN_PROCESS)
-    return covers(
-        "coverage", "report", "--data-file=build/tests/coverage", "--show-missing", f"--fail-under={SHARE}"
+def make_copy() -> None:
+    shutil.rmtree(COPY, ignore_errors=True)
+    COPY.mkdir(parents=True)
+    clone = clone_into(COPY)
+    COUNTS.mkdir()
+    launcher, first = COPY / "workflow/environment/launch.py", "ROOT = Path("
+    text = launcher.read_text()
+    launcher.write_text(text.replace(first, f"exec({START!r})\n{first}", 1))
+    (COPY / "tests/conftest.py").write_text(START)
+    clone.git("init", "--quiet")
+    clone.commit()
+    (COPY / "build/ccache").symlink_to(ROOT / "build/ccache")
+    run(
+        "cmake",
+        "-S",
+        "cpp",
+        "-B",
+        "build",
+        "-G",
+        "Ninja",
+        "--log-level=WARNING",
+        f"-DINSTRUMENTATION={FLAGS}",
     )
+    if not run("ninja", "-C", "build", "--quiet", "cpp_tests", "all"):
+        sys.exit("the copy was not built")
 
 
 def main() -> int:
-    REPORTS.mkdir(parents=True, exist_ok=True)
-    covered = [programs_are_covered(), workflow_is_covered()]
+    make_copy()
+    python = COPY / ".venv/bin/python"
+    run(python, "-P", "workflow/environment/launch.py", "tests.run")
+    (COUNTS / "settings").write_text(PLACES)
+    settings = [f"--rcfile={COUNTS}/settings", f"--data-file={COUNTS}/lines"]
+    run(python, "-m", "coverage", "combine", *settings, "--quiet", "--keep")
+    programs = ["--root", "cpp", "--object-directory", "build", "--exclude", "cpp/bench/", "--exclude-throw-branches",
+                "--gcov-ignore-parse-errors=negative_hits.warn_once_per_file", "--fail-under-line", str(SHARE)]  # fmt: skip
+    covered = [
+        run(python, "-m", "gcovr", *programs),
+        run(python, "-m", "coverage", "report", *settings, f"--fail-under={SHARE}"),
+    ]
     return 0 if all(covered) else 1
 
 
