@@ -104,6 +104,8 @@ def test_spreading(claim: str, panel: str, run: str, sigma: float, others: list[
     freedom = DATA.plan[panel].run(run).options["replicas"] - 1
     check(evidence.literal, value, error, abs(relaxed - value).max(), freedom)
     check(evidence.other, *each("ext01", "alpha", *others))
+    if claim == "C18":  # of chains of two contents, which their labels tell
+        assert {number.label.rpartition(", n = ")[2] for number in evidence.other} == {"20", "80"}
 
 
 def test_exponents_and_drifts_of_every_sigma_but_0() -> None:
@@ -115,7 +117,9 @@ def test_exponents_and_drifts_of_every_sigma_but_0() -> None:
     check(evidence.substance, *each("fig07_inset", "alpha", *zero), freedom=511)
 
     drift, error = each("fig07_inset", "momentum_drift", *runs)
-    check(FUNCTIONS["C22"](DATA).literal, np.log10(drift), error / drift / np.log(10), freedom=511)
+    evidence = FUNCTIONS["C22"](DATA)
+    check(evidence.literal, np.log10(drift), error / drift / np.log(10), freedom=511)
+    assert f"The largest change is {drift.max():.1e}," in evidence.caveat
 
     evidence = FUNCTIONS["C21"](DATA)
     for numbers in (evidence.literal, evidence.substance):

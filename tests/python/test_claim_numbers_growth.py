@@ -1,7 +1,7 @@
 """The numbers that claims are judged by, as in test_claim_numbers.py: pulses, and conductivity against size."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -154,6 +154,18 @@ def test_conductivity(odd: int) -> None:
     assert [one.freedom for one in evidence.substance] == [95, 127]
 
 
+@pytest.mark.parametrize("few", [1, 2])
+def test_an_exponent_takes_two_sizes(few: int) -> None:
+    """Of ext. 9 that are stationary."""
+
+    def fill(run: Run) -> dict[str, Quantity]:
+        still = run.series.startswith("thinning") and run.options["cells"] in (16, 32)[:few]
+        return uneven(run) | {"stationary": quantity(run, "stationary", np.array(float(still)), None)}
+
+    substance = FUNCTIONS["C24"](Known({"fig08": conductivities, "ext09": fill})).substance
+    assert len(substance) == few
+
+
 @pytest.mark.parametrize(
     ("number", "claim", "sizes", "series", "freedom"),
     [
@@ -193,15 +205,11 @@ def test_conductivity_without_a_particle_current() -> None:
 
         return of_run
 
-    def stationary(run: Run) -> float:
-        return float(run.options["cells"] != moving or run.series.endswith("-temperature"))
+    given = {name: currents(name) for name in ("energy_current", "particle_current")}
 
-    given = {name: currents(name) for name in ("energy_current", "particle_current")} | {
-        "stationary": stationary
-    }
-
-    def fill(run: Run) -> dict[str, Quantity]:
-        found = truth({**given, "current_correlation": 0.0}, 1e-12)(run)
+    def fill(run: Run, still: Collection[int] = sizes) -> dict[str, Quantity]:
+        stationary = float(run.options["cells"] in still or run.series.endswith("-temperature"))
+        found = truth({**given, "stationary": stationary, "current_correlation": 0.0}, 1e-12)(run)
         if run.series.endswith("-temperature"):
             current = found["energy_current"].mean
             found["energy_current"] = quantity(run, "energy_current", current, 1e-4 * abs(current))
@@ -220,5 +228,8 @@ def test_conductivity_without_a_particle_current() -> None:
     assert (found.value, found.systematic) == pytest.approx((value, bound), abs=2e-3)  # weights are drawn
     assert found.error == pytest.approx(error, rel=0.05)
     assert found.freedom == 127
+    for few in (1, 2):
+        data = Known({"fig08": conductivities, "ext11": partial(fill, still=sizes[:few])})
+        assert len(FUNCTIONS["C24"](data).other) == few - 1
     with pytest.raises(MissingError):
         FUNCTIONS["C24"](Known({"fig08": truth({"kappa": 1, "stationary": 0}, 0.1)}))
