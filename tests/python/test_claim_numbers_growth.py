@@ -106,6 +106,48 @@ def test_damping(apart: bool) -> None:
     check(evidence.other, value, error, abs(later[1] - value), 95)
 
 
+def one_fit_off(k: int) -> Fill:
+    """Only what is fitted from the k-th time on differs from the exponent."""
+
+    def fill(run: Run) -> dict[str, Quantity]:
+        later = np.full(len(uneven(run)["damping_exponent_from"].mean), 0.6)
+        later[k] += 0.2
+        return uneven(run) | {
+            "damping_exponent": quantity(run, "damping_exponent", np.array(0.6), np.array(0.02)),
+            "damping_exponent_from": quantity(run, "damping_exponent_from", later, 0.01 * later),
+        }
+
+    return fill
+
+
+def test_which_fits_bound_the_damping() -> None:
+    """Of the pulse up to the half of the times, of sound the second one, but never the first, which is the exponent itself."""
+    bounds = {"C27": (range(1, 5), {1}), "C28": (range(1, 4), None)}
+    for k in range(5):
+        data = Known(dict.fromkeys(("fig09a", "fig09b", "ext03"), one_fit_off(k)))
+        for claim, (of_pulse, of_sound) in bounds.items():
+            evidence = FUNCTIONS[claim](data)
+            assert [one.systematic for one in evidence.literal] == pytest.approx([0.2 * (k in of_pulse)])
+            if of_sound:
+                assert [one.systematic for one in evidence.other] == pytest.approx([0.2 * (k in of_sound)])
+
+
+@pytest.mark.parametrize("known", [0, 1, 2, 5])
+def test_speeds_that_are_told(known: int) -> None:
+    """The first and the last of those at which there is a moving peak."""
+
+    def fill(run: Run) -> dict[str, Quantity]:
+        speed = np.full(len(uneven(run)["peak_speed"].mean), math.nan)
+        speed[2 : 2 + known] = 500 - np.arange(known)
+        return uneven(run) | {"peak_speed": quantity(run, "peak_speed", speed, 0.1 * np.ones(len(speed)))}
+
+    data = Known({"fig09a": fill})
+    middle = data.one("fig09a", "gaussian")["peak_speed"].axes["middle"]
+    ends = [f"{500 - k}.00(10) at t = {middle[2 + k]:.3g}" for k in (0, known - 1)]
+    expected = f"Speed of the peaks: {', '.join(ends)}." if known else "No moving peak was found."
+    assert FUNCTIONS["C25"](data).caveat == expected
+
+
 def conductivities(run: Run, odd: int = 0) -> dict[str, Quantity]:
     """About N, three times that at one size; wrong where the run is not stationary: N = 64 and the largest of fig. 8."""
     found = uneven(run)

@@ -4,6 +4,7 @@ profiles and momentum distributions of open chains."""
 import math
 
 import numpy as np
+import pytest
 from scipy.stats import norm
 
 from tests.python.claim_numbers import DATA, check, each, line, of, power, relative_change
@@ -54,6 +55,20 @@ def test_densities() -> None:
         value, error = np.array([(mean[end], spread[end]) for mean, spread in points]).T
         slope, spread = line(size, value, error)
         check([found], slope, spread, abs(line(size[1:], value[1:], error[1:])[0] - slope), 383)
+
+
+@pytest.mark.parametrize("smallest", [-0.01, 0.01])
+def test_the_smallest_chain_bounds_the_growth_at_the_ends(smallest: float) -> None:
+    """Whether it lies above or below the line of the others."""
+
+    def fill(run: Run) -> dict[str, Quantity]:
+        size = run.options["cells"]
+        excess = np.full(2, math.log(size) + smallest * (size == 20))
+        return {"density_excess": quantity(run, "density_excess", excess, np.full(2, 0.01))}
+
+    for found in FUNCTIONS["C34"](Known({"ext05": fill, "fig02_upper": fill})).literal:
+        assert found.systematic == pytest.approx(abs(found.value - 1))
+        assert (found.value < 1) == (smallest > 0)
 
 
 def test_rates() -> None:

@@ -98,6 +98,14 @@ def test_one_contradiction_outweighs_what_is_open_and_what_agrees() -> None:
     assert Reading(BAND, (inside, Number("unknown", 0, math.nan, 3)), LEVEL).worst.label == "unknown"
 
 
+def test_of_the_undecided_the_one_that_reaches_out_by_more_of_its_width_decides() -> None:
+    band, known = Band(0, 1000), 1e9
+    half = critical(LEVEL / 2, known)  # of the interval of an error of 1
+    further, less = Number("", 1000, 1, known), Number("", 0.5 * half, 1, known)
+    for numbers in ((further, less), (less, further)):
+        assert Reading(band, numbers, LEVEL).worst is further
+
+
 def test_a_reading_without_numbers_cannot_be_tested() -> None:
     assert Reading(BAND, (), LEVEL).outcome is Outcome.NOT_TESTABLE
 
