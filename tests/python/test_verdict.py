@@ -135,3 +135,4 @@ def test_level_and_bound() -> None:
     assert critical(0.05, math.inf) == pytest.approx(1.959964)
     moved = with_systematic(Number("", 1.0, 0.1, systematic=0.5), [0.7, 1.1, math.nan])
     assert moved.systematic == pytest.approx(0.8)
+    assert with_systematic(Number("", 1.0, 0.1), [math.nan]).systematic == 0
