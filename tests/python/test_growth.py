@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import kstest
 
-from workflow.lib.growth import LAWS, POWER, fits, local_exponents
+from workflow.lib.growth import LAWS, POWER, Growth, fits, local_exponents
 
 SIZES = np.array([16, 32, 64, 128, 256, 512, 1024, 2048], dtype=float)
 TRUTH = {
@@ -30,6 +30,10 @@ def test_the_law_is_found_and_its_p_value_is_uniform(law: str) -> None:
         if seed < 20:
             assert min(found.values(), key=lambda one: one.criterion).law == law
     assert kstest(p_values, "uniform").pvalue > 1e-3
+
+
+def test_a_parameter_has_to_lower_chi_square_by_two() -> None:
+    assert [Growth("", 16, 3.5, 5, count).criterion for count in (1, 2, 3)] == [5.5, 7.5, 9.5]
 
 
 def test_exponent_and_its_error() -> None:
