@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import kstest
 
-from workflow.lib.growth import LAWS, POWER, Growth, fits, local_exponents
+from workflow.lib.growth import LAWS, POWER, Growth, fits, local_exponents, widest
 
 SIZES = np.array([16, 32, 64, 128, 256, 512, 1024, 2048], dtype=float)
 TRUTH = {
@@ -51,6 +51,18 @@ def test_sizes_from_the_first_on_and_never_fewer_than_three() -> None:
     assert {one.freedom for one in fits(SIZES, values, error, first=512)} == {1}
     assert fits(SIZES, values, error, first=1024) == []
     assert fits(SIZES, values, error, first=100)[0].first == 128
+
+
+def test_widest_range_of_a_law() -> None:
+    """Without the two smallest sizes, which are far off; no range if only three sizes, or only another law, agree."""
+    values, error = TRUTH["N^(1/3)"].copy(), np.full(len(SIZES), 0.1)
+    values[:2] += 50
+    found = widest(SIZES, values, error, "N^(1/3)", 0.01)
+    assert found is not None
+    assert (found.law, found.first, found.freedom) == ("N^(1/3)", 64, 4)
+    values[-4] += 50
+    assert widest(SIZES, values, error, "N^(1/3)", 0.01) is None
+    assert widest(SIZES, TRUTH["logarithm"], error, "N^(1/3)", 0.01) is None
 
 
 def test_local_exponents() -> None:
