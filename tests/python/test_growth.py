@@ -44,6 +44,11 @@ def test_exponent_and_its_error() -> None:
         scores.append((power.exponent - 0.25) / power.exponent_error)
     assert abs(np.mean(scores)) < 4 / np.sqrt(len(scores))
     assert np.std(scores) == pytest.approx(1, abs=4 / np.sqrt(2 * len(scores)))
+    power = fits(SIZES, TRUTH[POWER], 0.01 * TRUTH[POWER], first=16)[-1]
+    spread = np.sum(
+        (np.log(SIZES) - np.log(SIZES).mean()) ** 2
+    )  # of a line through logarithms of equal errors
+    assert power.exponent_error == pytest.approx(0.01 / np.sqrt(spread), rel=1e-3)
 
 
 def test_sizes_from_the_first_on_and_never_fewer_than_three() -> None:
