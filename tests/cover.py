@@ -23,12 +23,20 @@ import atexit, sys
 sys.path.append({sysconfig.get_path("purelib")!r})
 import coverage
 sys.path.pop()
-_counter = coverage.Coverage(data_file={str(COUNTS / "lines")!r}, data_suffix=True, include="*/workflow/*", omit=["*/site-packages/*", "*/tests/*"],
-                             messages=False)
+_counter = coverage.Coverage(data_file={str(COUNTS / "lines")!r}, data_suffix=True, messages=False,
+                             include="*/workflow/*", omit=["*/site-packages/*", "*/tests/*"])
 _counter.start()
 atexit.register(lambda: (_counter.stop(), _counter.save()))
 """
-PLACES = f"[paths]\nworkflow =\n    {COPY}/workflow\n    */workflow\n[report]\nshow_missing = True\nskip_covered = True\nignore_errors = True\n"
+PLACES = f"""[paths]
+workflow =
+    {COPY}/workflow
+    */workflow
+[report]
+show_missing = True
+skip_covered = True
+ignore_errors = True
+"""
 
 
 def run(*command: str | Path) -> bool:
@@ -47,17 +55,8 @@ def make_copy() -> None:
     clone.git("init", "--quiet")
     clone.commit()
     (COPY / "build/ccache").symlink_to(ROOT / "build/ccache")
-    run(
-        "cmake",
-        "-S",
-        "cpp",
-        "-B",
-        "build",
-        "-G",
-        "Ninja",
-        "--log-level=WARNING",
-        f"-DINSTRUMENTATION={FLAGS}",
-    )
+    quietly = ["-S", "cpp", "-B", "build", "-G", "Ninja", "--log-level=WARNING"]
+    run("cmake", *quietly, f"-DINSTRUMENTATION={FLAGS}")
     if not run("ninja", "-C", "build", "--quiet", "cpp_tests", "all"):
         sys.exit("the copy was not built")
 

@@ -76,10 +76,25 @@ def test_what_was_there_stays_if_the_node_has_nothing_newer(shared: Path, disk: 
 def test_checkpoints_are_copied_while_the_job_runs(shared: Path) -> None:
     with scratch(shared, interval=0.01) as own:
         named(own, 0).write_text("on the way")
-        deadline = time.monotonic() + 60
-        while not named(shared, 0).exists():
-            assert time.monotonic() < deadline
-            time.sleep(0.01)
+        soon_there(named(shared, 0))
+
+
+@pytest.mark.usefixtures("disk")
+def test_what_cannot_be_copied_on_the_way_does_not_end_the_job(shared: Path) -> None:
+    """A folder lies in the place of the checkpoint for a while."""
+    with scratch(shared, interval=0.01) as own:
+        named(shared, 0).mkdir()
+        named(own, 0).write_text("on the way")
+        time.sleep(0.1)
+        named(shared, 0).rmdir()
+        soon_there(named(shared, 0))
+
+
+def soon_there(path: Path) -> None:
+    deadline = time.monotonic() + 60
+    while not path.is_file():
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
 
 
 def test_without_a_disk_of_its_own_the_shared_folder_serves(

@@ -39,7 +39,8 @@ def scratch(shared: Path, interval: float = INTERVAL) -> Iterator[Path]:
 
 @contextlib.contextmanager
 def copying(own: Path, shared: Path, interval: float) -> Iterator[None]:
-    """Now and then while it lasts, and at its end, however it ends."""
+    """Now and then while it lasts, and at its end, however it ends. Raises OSError at the end only: on the way the run matters more
+    than a copy, and the next one may succeed."""
 
     def copy_it() -> None:
         with contextlib.suppress(FileNotFoundError):
@@ -47,7 +48,8 @@ def copying(own: Path, shared: Path, interval: float) -> Iterator[None]:
 
     def now_and_then() -> None:
         while not ended.wait(interval):
-            copy_it()
+            with contextlib.suppress(OSError):
+                copy_it()
 
     ended = threading.Event()
     thread = threading.Thread(target=now_and_then, daemon=True)
