@@ -258,7 +258,11 @@ def test_conductivity_without_a_particle_current() -> None:
         return found
 
     data = Known({"fig08": conductivities, "ext09": conductivities, "ext11": fill})
-    (found,) = FUNCTIONS["C24"](data).other
+    found, *last = FUNCTIONS["C24"](data).other
+    expected = [
+        power(*kappa("ext09", [1024, 2048], f"{gas}-large", data=data)) for gas in ("dilute", "dense")
+    ]
+    check(last, *np.array(expected).T)
     current = [of("ext11", f"dense-temperature_cells={size}", "energy_current", data)[1] for size in sizes]
     force = 1 / (1000 / 9) - 1 / 90
     errors = np.array(current) * sizes / abs(force) / 1e4  # of L_uu/T^2

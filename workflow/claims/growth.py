@@ -72,8 +72,8 @@ def halves(by_size: Sequence[T]) -> list[Sequence[T]]:
 
 
 def cube_root(data: Data) -> Evidence:
-    """Of the smaller and of the larger half of the paper's sizes, which a power law has in common; in substance between the
-    largest sizes; of the conductivity without a particle current at fixed spacing in the other reading."""
+    """Of the smaller and of the larger half of fig. 8's sizes, which a power law has in common; in substance between the largest
+    sizes; at fixed spacing in the other reading: of the conductivity without a particle current, and between the largest sizes."""
     runs = [one for one in sizes(data, "N") if one.parameters["cells"] >= BULK]
     _, law = exponent(runs, "")
     last = last_exponents(data)
@@ -81,8 +81,11 @@ def cube_root(data: Data) -> Evidence:
     return Evidence(
         [exponent(part, "d ln κ/d ln N, γ = N")[0] for part in halves(runs)],
         [one for name, one in last.items() if name not in FIXED],
-        where_made(lambda: without_particle_current(data)),
-        caveat=f"Over all sizes {_fit(law)} Between the largest sizes: {told}. At spacing 1/N the gas thins out as N grows.",
+        [
+            *where_made(lambda: without_particle_current(data)),
+            *(one for name, one in last.items() if name in FIXED),
+        ],
+        caveat=f"Over all sizes {_fit(law)} Between the largest sizes: {told}. At spacing 1/N the gas thins out as N grows, so that size and density change together.",
     )
 
 

@@ -128,15 +128,18 @@ def damping_rare(data: Data) -> Evidence:
 
 def relation(data: Data) -> Evidence:
     """2 - 1/xi with xi of the moving peak, minus the exponent of kappa."""
-    found = []
+    found, told = [], []
     for panel, gamma in (("fig09a", "N"), ("fig09b", 1)):
         peak = damping_exponent(data, panel)
         slope = peak.value**-2
         expected = Number("", 2 - 1 / peak.value, slope * peak.error, peak.freedom, slope * peak.systematic)
-        kappa, _ = exponent(largest_sizes(sizes(data, gamma)), "")
+        kappa, law = exponent(largest_sizes(sizes(data, gamma)), "")
+        told.append(f"{law.chi_square:.1f} for {law.freedom} at γ = {gamma}")
         found.append(combination([expected, kappa], [1, -1], f"2 - 1/ξ minus exponent of κ, γ = {gamma}"))
     return Evidence(
-        found, caveat="With ξ of the peak, as the paper does; the centre has no constant exponent (ext03)."
+        found,
+        caveat="With ξ of the peak, as the paper does; the centre has no constant exponent (ext03). The exponents of κ are those of "
+        f"power laws with χ² of {' and '.join(told)}.",
     )
 
 

@@ -2,7 +2,7 @@
 
 J_i = sum_k L_ik X_k / N with X_u = 1/T_R - 1/T_L and X_n = (mu/T)_L - (mu/T)_R, where mu/T = ln(nu/sqrt(T)) + const for
 half-Gaussian baths [eq. 29]. What is called heat conductivity elsewhere has no current of particles,
-κ_0 = (L_uu - L_un^2/L_nn)/T^2.
+κ_0 = (L_uu - L_un L_nu/L_nn)/T^2.
 """
 
 from collections.abc import Sequence

@@ -18,6 +18,7 @@ from workflow.lib.load import Result
 
 FACES = ("white", "0.7", None)  # of the markers, from the weakest drive to the strongest
 PARAMETERS = 2  # of a + b N^(1/3)
+STATE = {"particle_current": "J_n", "temperature_first": "T_1", "temperature_last": "T_N"}
 STARTS = {
     "warm": ("s", style.BLACK),
     "cold": ("v", style.BLUE),
@@ -32,7 +33,10 @@ def read(results: Sequence[Result]) -> pd.DataFrame:
     for result in results:
         low, high = (float(result.parameters[f"temperature-{side}"]) for side in ("left", "right"))
         row = tabulate([result]).iloc[0].to_dict()
-        rows.append(row | {"start": result.parameters["start"], "drive": round(high / low, 2)})
+        row |= {"start": result.parameters["start"], "drive": round(high / low, 2)}
+        for name in STATE:
+            row[name], row[f"{name}_error"] = float(result[name].mean), float(result[name].error)
+        rows.append(row)
     return pd.DataFrame(rows).sort_values("cells", ignore_index=True)
 
 
@@ -64,18 +68,29 @@ def laws(table: pd.DataFrame, spacing: Mapping[str, str]) -> str:
     return f" a + b N^(1/3) holds {'; '.join(said)}." if said else ""
 
 
-def deviations(table: pd.DataFrame) -> pd.DataFrame:
-    """kappa from every start relative to the mean over the starts, minus 1, at the drive that has several; with
+def deviations(table: pd.DataFrame, quantity: str = "kappa") -> pd.DataFrame:
+    """A quantity from every start relative to the mean over the starts, minus 1, at the drive that has several; with
     chi^2 about that mean for each size, in its first row."""
     driven = table[table.drive.isin(table[table.start != "warm"].drive)]
     parts = []
     for (name, cells), part in driven.groupby(["gas", "cells"]):
         if len(part) > 1:
-            mean, _, spread = mean_of(part.kappa, part.kappa_error)
-            found = {"deviation": part.kappa / mean - 1, "deviation_error": part.kappa_error / mean}
+            value, error = part[quantity], part[f"{quantity}_error"]
+            mean, _, spread = mean_of(value, error)
+            found = {"deviation": value / mean - 1, "deviation_error": error / mean}
             parts.append(part[["start"]].assign(gas=name, cells=cells, **found))
             parts[-1].loc[parts[-1].index[0], ["chi_square", "freedom"]] = spread, len(part) - 1
     return pd.concat(parts, ignore_index=True)
+
+
+def memory(table: pd.DataFrame) -> str:
+    """Whether the state of the chain knows its start, in words."""
+    said = []
+    for quantity, symbol in STATE.items():
+        found = deviations(table, quantity)
+        spread = goodness(found.chi_square.sum(), int(found.freedom.sum()))
+        said.append(f"{symbol} {spread}, largest deviation {100 * found.deviation.abs().max():.1f} %")
+    return f"Of the state, likewise: {'; '.join(said)}."
 
 
 def scatter(found: pd.DataFrame) -> tuple[float, int]:
@@ -153,7 +168,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         f"about a common value at every size and spacing; {ends}.{laws(table, spacing)} (b) κ from several starts relative to the mean over them: in "
         "equilibrium with the mean of the baths (warm), with the colder or the hotter one, and empty; "
         f"{goodness(starts.chi_square.sum(), int(starts.freedom.sum()))}, about a common value at every size, the largest "
-        f"deviation {100 * starts.deviation.abs().max():.1f} %. Error bars: standard errors over replicas."
+        f"deviation {100 * starts.deviation.abs().max():.1f} %. {memory(table)} Error bars: standard errors over replicas."
     )
     return figure, pd.concat([slopes, starts]), caption
 

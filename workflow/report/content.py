@@ -132,7 +132,11 @@ def _at_fixed_density(judgement: Judgement) -> str:
     """What heat does in the thermodynamic limit, where it has been measured."""
     if not judgement.other:
         return ""
-    return f", as the gas thins out while the chain grows; at fixed density and without a particle current, that the exponent is 1/3 is {_otherwise(judgement)}"
+    found = "; ".join(words.told(number) for number in judgement.other.numbers)
+    return (
+        ", where size and density change together, as the gas thins out; at fixed density, that the exponent is 1/3 is "
+        f"{judgement.other.outcome.value} ({found})"
+    )
 
 
 def findings(judgements: Sequence[Judgement]) -> list[dict[str, Any]]:
@@ -143,7 +147,10 @@ def findings(judgements: Sequence[Judgement]) -> list[dict[str, Any]]:
         judgement = by_id[finding["claim"]]
         reading = getattr(judgement, finding["reading"])
         if reading and reading.outcome.value == finding["outcome"]:
-            text = finding["text"].format(number=words.told(reading.worst), caveat=judgement.caveat)
+            numbers = "; ".join(words.told(number) for number in reading.numbers)
+            text = finding["text"].format(
+                number=words.told(reading.worst), numbers=numbers, caveat=judgement.caveat
+            )
             held.append(
                 finding
                 | {"text": text, "p": words.p_value(reading.p_value), "panel": judgement.claim["panel"]}
