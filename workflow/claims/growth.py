@@ -9,7 +9,9 @@ from workflow.claims.data import Data, MissingError, freedom, number, power, whe
 from workflow.claims.evidence import Claim, Evidence
 from workflow.claims.verdict import Number, with_systematic
 from workflow.figures.ext11 import tabulate
+from workflow.lib.caption import goodness
 from workflow.lib.fit import PowerLaw, fit_power, with_error
+from workflow.lib.growth import fits
 from workflow.lib.load import Result
 from workflow.lib.style import spacing
 
@@ -39,14 +41,22 @@ def largest_sizes(runs: Sequence[Result]) -> list[Result]:
     return [one for one in runs if one.parameters["cells"] * LARGE >= runs[-1].parameters["cells"]]
 
 
+def _series(data: Data) -> dict[str, list[Result]]:
+    """Stationary runs of every series of ext09 that has been made, by N."""
+    try:
+        made = data.of("ext09")
+    except MissingError:
+        return {}
+    by_name = {
+        name: _stationary([one for one in made if one.path.stem.startswith(name)])
+        for name in ("thinning", *FIXED)
+    }
+    return {name: runs for name, runs in by_name.items() if runs}
+
+
 def last_exponents(data: Data) -> dict[str, Number]:
     """Of kappa between the two largest stationary sizes: fig. 8, and every series of ext09 that has been made."""
-    series = {"fig08": sizes(data, "N")}
-    for name in ("thinning", *FIXED):
-        try:
-            series[name] = _stationary([one for one in data.of("ext09") if one.path.stem.startswith(name)])
-        except MissingError:
-            continue
+    series = {"fig08": sizes(data, "N")} | _series(data)
     return {
         name: exponent(runs[-2:], name if name == "fig08" else f"ext09 at spacing {spacing(runs[-1])[1]}")[0]
         for name, runs in series.items()
@@ -58,6 +68,21 @@ def _stationary(runs: Sequence[Result]) -> list[Result]:
     return sorted(
         (one for one in runs if one["stationary"].mean == 1), key=lambda one: one.parameters["cells"]
     )
+
+
+def finite_limit(data: Data) -> str:
+    """How well a conductivity that stays finite fits ext09 at fixed spacing, over the largest sizes, in words."""
+    told = []
+    for name, runs in _series(data).items():
+        large = [number(one, "kappa") for one in largest_sizes(runs)]
+        cells = [one.parameters["cells"] for one in largest_sizes(runs)]
+        found = fits(cells, [one.value for one in large], [one.error for one in large], cells[0])
+        told += [
+            f"{goodness(one.chi_square, one.freedom)} at spacing {spacing(runs[-1])[1]}, N = {cells[0]} to {cells[-1]}"
+            for one in found
+            if one.law == "constant" and name in FIXED
+        ]
+    return f" a + b N^(-1/3), which has a finite limit: {'; '.join(told)}." if told else ""
 
 
 def linear(data: Data) -> Evidence:
@@ -85,7 +110,7 @@ def cube_root(data: Data) -> Evidence:
             *where_made(lambda: without_particle_current(data)),
             *(one for name, one in last.items() if name in FIXED),
         ],
-        caveat=f"Over all sizes {_fit(law)} Between the largest sizes: {told}. At spacing 1/N the gas thins out as N grows, so that size and density change together.",
+        caveat=f"Over all sizes {_fit(law)} Between the largest sizes: {told}. At spacing 1/N the gas thins out as N grows, so that size and density change together.{finite_limit(data)}",
     )
 
 

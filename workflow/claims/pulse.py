@@ -98,21 +98,26 @@ def damping(data: Data) -> Evidence:
 
 
 def _sound(data: Data) -> Number:
-    """Exponent of the sound peak in the fluctuations of the largest ring."""
+    """Exponent of the sound peak in the fluctuations of the largest ring. Fits that leave out up to half of the times bound the
+    systematic error."""
     rings = data.of("ext03", "correlation")
     largest = max(rings, key=lambda one: one.parameters["cells"])
-    later = largest["damping_exponent_from"].mean[1:2]
+    later = _later(largest["damping_exponent_from"])
     label = f"sound peak of the fluctuations, N = {largest.parameters['cells']}"
-    return with_systematic(number(largest, "damping_exponent", label=label), [float(one) for one in later])
+    return with_systematic(number(largest, "damping_exponent", label=label), later)
+
+
+def _later(fitted: Quantity) -> list[float]:
+    """Exponents of the fits that leave out up to half of the times."""
+    return [float(one) for one in fitted.mean[1 : len(fitted.mean) // 2 + 1]]
 
 
 def damping_exponent(data: Data, panel: str) -> Number:
     """Fits that leave out up to half of the times, and the other start, bound the systematic error."""
     result = _pulse(data, panel)
-    fitted = result["damping_exponent_from"].mean
     found = number(result, "damping_exponent", label="damping exponent, Gaussian start")
     rest = number(_from_rest(data, panel), "damping_exponent")
-    return _bounded(found, [float(one) for one in fitted[1 : len(fitted) // 2 + 1]], rest)
+    return _bounded(found, _later(result["damping_exponent_from"]), rest)
 
 
 def _other_fits(data: Data, panel: str) -> str:

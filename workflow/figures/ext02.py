@@ -1,6 +1,6 @@
 """Ext. 2: local exponent of the heat conductivity, d ln kappa / d ln N, at the paper's spacing and at fixed spacings."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -16,7 +16,8 @@ from workflow.lib.load import Result
 
 RESOLVED = 3  # standard errors beyond which a curvature is called one
 BESIDE = 1.05  # factor of the sizes at which neighbouring spacings are drawn, as points would hide each other
-OTHERS = ("particle", "baths")  # whose temperatures may take the place of T_1 and T_N in eq. 28
+TEMPERATURES = {"particle": "arriving particles", "baths": "baths"}  # that may take the place of T_1 and T_N in eq. 28
+OTHERS = tuple(TEMPERATURES)
 
 
 def local(part: pd.DataFrame) -> pd.DataFrame:
@@ -38,13 +39,17 @@ def of_cube_root(part: pd.DataFrame) -> tuple[np.ndarray, np.ndarray] | None:
     return middle, slope
 
 
-def glide(part: pd.DataFrame, found: pd.DataFrame) -> str:
-    """What the exponent does from the smallest sizes to the largest, by the curvature of ln kappa in ln N over all sizes."""
-    curve, errors = np.polyfit(
-        np.log(part.cells), np.log(part.kappa), 2, w=part.kappa / part.kappa_error, cov="unscaled"
-    )
+def trend(part: pd.DataFrame, column: str) -> str:
+    """What the exponent does with growing size, by the curvature of ln kappa in ln N over all sizes."""
+    value, error = part[column], part[f"{column}_error"]
+    curve, errors = np.polyfit(np.log(part.cells), np.log(value), 2, w=value / error, cov="unscaled")
     change = curve[0] / np.sqrt(errors[0, 0])
-    verb = "does not change beyond errors" if abs(change) < RESOLVED else "rises" if change > 0 else "falls"
+    return "does not change beyond errors" if abs(change) < RESOLVED else "rises" if change > 0 else "falls"
+
+
+def glide(part: pd.DataFrame, found: pd.DataFrame) -> str:
+    """What the exponent does from the smallest sizes to the largest."""
+    verb = trend(part, "kappa")
     first, last = found.iloc[0], found.iloc[-1]
     ends = [
         f"{with_error(one.exponent, one.exponent_error)} about N = {one['size']:.0f}" for one in (first, last)
@@ -59,6 +64,17 @@ def definitions(found: pd.DataFrame) -> str:
     )
     most = apart.groupby(found["size"]).max()
     return " and ".join(f"{most[size]:.2f} about N = {size:.0f}" for size in (most.index[0], most.index[-1]))
+
+
+def otherwise(table: pd.DataFrame, spacing: Mapping[str, str]) -> str:
+    """Where another definition of kappa has another trend, in words."""
+    said = [
+        f"at spacing {spacing[name]} with those of the {TEMPERATURES[other]} it {verb}"
+        for name, part in table.groupby("gas", sort=False)
+        for other in OTHERS
+        if (verb := trend(part, f"kappa_{other}")) != trend(part, "kappa")
+    ]
+    return f"; {', '.join(said)}" if said else ""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
@@ -87,7 +103,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         f"{'; '.join(said)}. At the spacing 1/N of the paper the gas thins out as the chain grows; at fixed spacings large "
         "N is the thermodynamic limit. Broken lines: a + b N^(1/3), fitted to the sizes for which it is not rejected, "
         "whose exponent tends to 1/3. With the temperatures of the arriving particles or of the baths in place of T_1 and "
-        f"T_N the exponents differ from these by up to {definitions(whole)}. Error bars: standard errors over replicas; neighbouring points share a size; "
+        f"T_N the exponents differ from these by up to {definitions(whole)}{otherwise(table, spacing)}. Error bars: standard errors over replicas; neighbouring points share a size; "
         "spacings are drawn beside each other."
     )
     return figure, whole, caption

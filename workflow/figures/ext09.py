@@ -11,8 +11,10 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from workflow.lib import style
+from workflow.lib.caption import goodness
 from workflow.lib.figure import run
 from workflow.lib.fit import with_error
 from workflow.lib.growth import LAWS, POWER, Growth, fits, widest
@@ -25,6 +27,14 @@ LOOKS = {
 }  # by gas
 LEVEL = 0.01  # p-value below which a law is rejected
 CUBE_ROOT = "N^(1/3)"
+LINES = dict(zip((CUBE_ROOT, POWER, "logarithm", "constant"), style.DASHES[1:], strict=True))
+WORDS = {"constant": "a + b N^(-1/3)", "logarithm": "a + b ln N", CUBE_ROOT: "a + b N^(1/3)"}
+MATHS = {
+    "constant": "$a + bN^{-1/3}$",
+    "logarithm": r"$a + b\,\ln N$",
+    CUBE_ROOT: "$a + bN^{1/3}$",
+    POWER: "$aN^b$",
+}
 ABOVE = 14  # points that the axis of N takes above (b)
 
 
@@ -38,6 +48,11 @@ def spacings(results: Sequence[Result]) -> dict[str, str]:
     return {gas(result): style.spacing(result)[1] for result in results}
 
 
+def sound(result: Result) -> bool:
+    """Whether a run reached its target error and was stationary."""
+    return bool(result.converged != NOT_REACHED and result["stationary"].mean == 1)
+
+
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     """One row per run, sorted by N. kappa_baths has the temperatures of the baths in place of T_1 and T_N."""
     rows = []
@@ -49,7 +64,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         per_current = -int(result.parameters["cells"]) / (high - low)
         row["kappa_baths"] = per_current * float(result["energy_current"].mean)
         row["kappa_baths_error"] = abs(per_current) * float(result["energy_current"].error)
-        row["sound"] = result.converged != NOT_REACHED and result["stationary"].mean == 1
+        row["sound"] = sound(result)
         rows.append(row)
     return pd.DataFrame(rows).sort_values("cells", ignore_index=True)
 
@@ -71,13 +86,13 @@ def sentence(spacing: str, part: pd.DataFrame) -> str:
     held = {law: one for law in (*LAWS, POWER) if (one := range_of(part, law))}
     if not held:
         whole = [one for one in fits(part.cells, part.kappa, part.kappa_error, 0) if one.law == POWER]
-        rejected = "; ".join(f"power law: χ²/f = {one.chi_square:.0f}/{one.freedom}" for one in whole)
+        rejected = "; ".join(f"power law: {goodness(one.chi_square, one.freedom)}" for one in whole)
         return f"Spacing {spacing}: no law holds over three sizes or more ({rejected})."
     start = min(one.first for one in held.values())
     best = min((one for one in held.values() if one.first == start), key=lambda one: one.criterion)
     shown = [best, *(one for one in held.values() if one.law == CUBE_ROOT and one is not best)]
     text = f"Spacing {spacing}: " + ", ".join(
-        f"{written(one)} from N = {one.first:.0f} on (χ²/f = {one.chi_square:.1f}/{one.freedom})"
+        f"{written(one)} from N = {one.first:.0f} on ({goodness(one.chi_square, one.freedom)})"
         for one in shown
     )
     rivals = [
@@ -90,12 +105,7 @@ def sentence(spacing: str, part: pd.DataFrame) -> str:
 
 
 def written(growth: Growth) -> str:
-    words = {
-        "constant": "a + b N^(-1/3)",
-        "logarithm": "a + b ln N",
-        CUBE_ROOT: "a + b N^(1/3)",
-    }
-    return words.get(growth.law) or f"N^{with_error(growth.exponent, growth.exponent_error)}"
+    return WORDS.get(growth.law) or f"N^{with_error(growth.exponent, growth.exponent_error)}"
 
 
 def draw_powers(axes: Axes, table: pd.DataFrame, spacing: Mapping[str, str]) -> None:
@@ -117,20 +127,24 @@ def draw_powers(axes: Axes, table: pd.DataFrame, spacing: Mapping[str, str]) -> 
 
 
 def draw_cube_roots(axes: Axes, table: pd.DataFrame) -> None:
-    """kappa against N^(1/3): straight where it grows as N^(1/3) beside a constant."""
+    """kappa against N^(1/3): straight where it grows as N^(1/3) beside a constant. Every law over the sizes for which it holds."""
+    shown: dict[str, Line2D] = {}
     for name, part in table.groupby("gas", sort=False):
         marker, color = LOOKS[name]
         axes.errorbar(
             np.cbrt(part.cells), part.kappa, part.kappa_error, marker=marker, color=color, **style.POINTS
         )
-        if held := range_of(part, CUBE_ROOT):
-            size = part.cells[part.cells >= held.first]
-            axes.plot(np.cbrt(size), held.predicted, color=color, linestyle=style.DASHES[1])
+        for law, line in LINES.items():
+            if held := range_of(part, law):
+                size = part.cells[part.cells >= held.first]
+                axes.plot(np.cbrt(size), held.predicted, color=color, linestyle=line)
+                shown[law] = Line2D([], [], color=style.BLACK, linestyle=line, label=MATHS[law])
     above = axes.secondary_xaxis("top", functions=(lambda x: np.power(x, 3), np.cbrt))
     above.set_xticks([size for size in (64, 256, 512, 1024, 2048, 8192) if size <= table.cells.max()])
     axes.tick_params(axis="x", which="both", top=False)
     axes.set(xlabel="$N^{1/3}$", ylabel=r"conductivity $\kappa$", ylim=(0, None))
     above.set_xlabel("$N$", labelpad=1)
+    axes.legend(handles=list(shown.values()), loc="upper left")
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
@@ -151,8 +165,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         f"temperatures {parameters['temperature-left']:g} and {parameters['temperature-right']:g} that press equally "
         "hard, at the spacing 1/N, which thins the gas out as the chain grows, and at fixed spacings, where the "
         "number of particles per cell is the same for every N. (a) Logarithmic axes. (b) Against the cube root of N: "
-        "a straight line is growth as N^(1/3) beside a constant; broken lines are such fits over the sizes for which "
-        f"they are not rejected at {LEVEL:.0%}. {' '.join(sentences)} Error bars: standard errors over replicas."
+        "a straight line is growth as N^(1/3) beside a constant. Lines: each law over the sizes for which it is not "
+        f"rejected at {LEVEL:.0%}. {' '.join(sentences)} Error bars: standard errors over replicas."
     )
     return figure, pd.concat([table, fitted]), caption
 

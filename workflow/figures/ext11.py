@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from workflow.figures.ext09 import LOOKS, gas, spacings
+from workflow.figures.ext09 import LOOKS, gas, sound, spacings
 from workflow.lib import style
 from workflow.lib.caption import goodness
 from workflow.lib.figure import run
@@ -34,6 +34,7 @@ class Response:
     currents: np.ndarray  # J_u, J_n
     covariance: np.ndarray
     temperature: float  # geometric mean of the baths'
+    sound: bool
 
     @classmethod
     def of(cls, result: Result) -> "Response":
@@ -51,6 +52,7 @@ class Response:
             np.array([float(quantity.mean) for quantity in quantities]),
             np.outer(errors, errors) * np.array([[1, correlation], [correlation, 1]]),
             float(np.sqrt(np.prod(temperatures))),
+            sound(result),
         )
 
     def drawn(self, random: np.random.Generator) -> np.ndarray:
@@ -73,7 +75,7 @@ def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
     random = np.random.default_rng(0)
     drawn = np.stack([run.drawn(random) for run in runs], axis=2)
     matrix, spread = currents @ inverse, drawn @ inverse
-    row = {}
+    row: dict[str, float] = {"sound": all(run.sound for run in runs)}
     for index, name in enumerate(COEFFICIENTS):
         place = divmod(index, 2)
         row[name], row[f"{name}_error"] = matrix[place], spread[:, *place].std()
@@ -111,6 +113,11 @@ def growth(part: pd.DataFrame, column: str) -> str:
     return f"{whole} ({goodness(law.chi_square, law.freedom)}), {last} between the largest"
 
 
+def crossed(table: pd.DataFrame) -> str:
+    unsound = int((~table.sound.astype(bool)).sum())
+    return f" Crosses: {unsound} points of which a run is not stationary or missed its target error." if unsound else ""
+
+
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     table = tabulate(results)
     figure, (left, right) = plt.subplots(1, 2, figsize=(1.9 * style.COLUMN, style.HEIGHT))
@@ -120,6 +127,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         look = {"marker": marker, "color": color, **style.POINTS}
         left.errorbar(part.cells, part.L_nn, part.L_nn_error, label=rf"$\lambda = {spacing[name]}$", **look)
         right.errorbar(part.cells, part.kappa_0, part.kappa_0_error, **look)
+        for axes, column in ((left, part.L_nn), (right, part.kappa_0)):
+            style.cross_out(axes, part.cells.to_numpy(), column.to_numpy(), ~part.sound.to_numpy(dtype=bool))
         grows = [
             f"{symbol} {growth(part, column)}" for symbol, column in (("L_nn", "L_nn"), ("κ_0", "kappa_0"))
         ]
@@ -145,11 +154,11 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     caption = (
         "Linear response at γ = N about equal baths, from a difference of temperature at equal pressure and a difference "
         "of pressure at equal temperature. (a) Coefficient of the particle current; without friction in the bulk, as momentum is "
-        "conserved, it would grow in proportion to N. (b) Heat conductivity without a current of "
+        "conserved, it would grow in proportion to N, of which finite chains fall a little short. (b) Heat conductivity without a current of "
         f"particles, κ_0 = (L_uu - L_un L_nu / L_nn)/T^2, {ratio.min():.1f} to {ratio.max():.1f} times -J_u N/(T_R - T_L) at equal "
         f"pressure, where particles carry energy against the heat. Exponents over all sizes: {'; '.join(said)}. Onsager's symmetry "
         f"L_un = L_nu: {goodness(float(np.sum(pulls**2)), len(pulls))}, the farthest off by {100 * worst.asymmetry / worst.L_un:.1f} % "
-        f"at N = {worst.cells} and spacing {spacing[worst.gas]}. Error bars: standard errors over replicas."
+        f"at N = {worst.cells} and spacing {spacing[worst.gas]}.{crossed(table)} Error bars: standard errors over replicas."
     )
     return figure, table, caption
 

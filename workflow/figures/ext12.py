@@ -126,11 +126,13 @@ def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) 
             )
     axes.set(xscale="log", xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, 0.8))
     axes.set_xlim(found["size"].min() / 1.6, found["size"].max() * 1.6)
+    axes.axhline(1 / 3, **style.GUIDE)
+    axes.annotate("1/3", (1.01, 1 / 3), xycoords=("axes fraction", "data"), va="center", size=8)
     style.label_sizes(axes.xaxis)
     axes.legend(loc="upper left", ncols=3, columnspacing=0.8, handletextpad=0.2)
 
 
-def draw_starts(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) -> None:
+def draw_starts(axes: Axes, found: pd.DataFrame, symbol: str) -> None:
     places = {key: index for index, key in enumerate(found.groupby(["cells", "gas"], sort=True).groups)}
     for number, (start, (marker, color)) in enumerate(STARTS.items()):
         one = found[found.start == start]
@@ -139,21 +141,37 @@ def draw_starts(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) -> 
         look = {"marker": marker, "color": color, "label": start, **style.POINTS}
         axes.errorbar(place, 100 * one.deviation, 100 * one.deviation_error, **look)
     axes.axhline(0, **style.GUIDE)
-    labels = [f"{cells}\n{spacing[name]}" for cells, name in places]
-    axes.set_xticks(range(len(places)), labels)
-    axes.tick_params(axis="x", which="both", length=0)
-    axes.set(xlabel=r"$N$, $\lambda$", ylabel=r"$\kappa$ over the mean of the starts $-\,1$ (%)")
+    axes.set_ylabel(rf"$\delta {symbol}$ (%)")
     axes.margins(y=0.25)
-    axes.legend(loc="upper left", ncols=len(STARTS), columnspacing=0.8, handletextpad=0.2)
+
+
+def label_cases(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) -> None:
+    cases = found.groupby(["cells", "gas"], sort=True).groups
+    axes.set_xticks(range(len(cases)), [f"{cells}\n{spacing[name]}" for cells, name in cases])
+    axes.tick_params(axis="x", which="both", length=0)
+    axes.set_xlabel(r"$N$, $\lambda$")
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     table = read(results)
     slopes, starts = exponents(table), deviations(table)
-    figure, (left, right) = plt.subplots(1, 2, figsize=(1.9 * style.COLUMN, style.HEIGHT))
-    draw_exponents(left, slopes, spacings(results))
-    draw_starts(right, starts, spacings(results))
-    style.letter(left, right)
+    current = deviations(table, "particle_current")
+    figure, axes = plt.subplot_mosaic("ab;ac", figsize=(1.9 * style.COLUMN, style.HEIGHT))
+    draw_exponents(axes["a"], slopes, spacings(results))
+    for panel, found, symbol in (("b", starts, r"\kappa"), ("c", current, "J_n")):
+        draw_starts(axes[panel], found, symbol)
+    axes["b"].sharex(axes["c"])
+    axes["b"].tick_params(labelbottom=False, length=0, axis="x", which="both")
+    label_cases(axes["c"], current, spacings(results))
+    figure.legend(
+        *axes["b"].get_legend_handles_labels(),
+        loc="outside upper right",
+        ncols=len(STARTS),
+        columnspacing=0.8,
+        handletextpad=0.2,
+    )
+    figure.align_ylabels([axes["b"], axes["c"]])
+    style.letter(*axes.values())
     spread, freedom = scatter(slopes)
     spacing = spacings(results)
     last = slopes[slopes["size"] == slopes.groupby("gas")["size"].transform("max")]
@@ -165,12 +183,15 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     caption = (
         f"(a) Local exponent of κ for ratios of the baths' temperatures of {drives} (white, grey and full markers), at "
         f"equal pressures: {goodness(spread, freedom)}, "
-        f"about a common value at every size and spacing; {ends}.{laws(table, spacing)} (b) κ from several starts relative to the mean over them: in "
-        "equilibrium with the mean of the baths (warm), with the colder or the hotter one, and empty; "
+        f"about a common value at every size and spacing; {ends}.{laws(table, spacing)} (b, c) κ and J_n from several starts relative to the mean over them, δ: in "
+        "equilibrium with the mean of the baths (warm), with the colder or the hotter one, and empty; for κ "
         f"{goodness(starts.chi_square.sum(), int(starts.freedom.sum()))}, about a common value at every size, the largest "
         f"deviation {100 * starts.deviation.abs().max():.1f} %. {memory(table)} Error bars: standard errors over replicas."
     )
-    return figure, pd.concat([slopes, starts]), caption
+    starts, current = (
+        found.assign(quantity=name) for found, name in ((starts, "kappa"), (current, "particle_current"))
+    )
+    return figure, pd.concat([slopes, starts, current]), caption
 
 
 if __name__ == "__main__":

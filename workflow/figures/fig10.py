@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from workflow.figures.fig09 import STARTS, draw_marked, look_of, ring_closed, start
 from workflow.lib import style
-from workflow.lib.caption import CHAIN, ERRORS, number, parameters, replicas
+from workflow.lib.caption import CHAIN, ERRORS, listed, number, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import mean_of, rejected, with_error
 from workflow.lib.load import Result
@@ -83,10 +83,11 @@ def caption(tables: Sequence[pd.DataFrame], results: Sequence[Result]) -> str:
     for result, table in zip(results, tables, strict=True):
         drifts, goodness = drift(table)
         pairs = before_closing(table)
-        ends = [with_error(one.exponent_to_next, one.exponent_to_next_error) for one in pairs.itertuples()]
-        local = f"from {ends[0]} at early to {ends[-1]} at late times" if ends else "unknown"
+        exponents = [
+            with_error(one.exponent_to_next, one.exponent_to_next_error) for one in pairs.itertuples()
+        ]
         verdict = (
-            f"no power law, local exponents {local}"
+            f"no power law, local exponents {listed(exponents)} one after another"
             if drifts
             else f"exponent {style.with_error(result['damping_exponent'])}"
         )
