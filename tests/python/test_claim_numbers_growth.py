@@ -196,7 +196,7 @@ def test_conductivity(odd: int) -> None:
         power(*kappas("ext09", [1024, 2048], "thinning-large")),
     ]
     check(evidence.substance, *np.array(last).T)
-    assert [one.freedom for one in evidence.substance] == [95, 127]
+    assert [one.freedom for one in evidence.substance] == [95, 63]
 
 
 def test_conductivity_with_a_finite_limit() -> None:
@@ -215,7 +215,9 @@ def test_conductivity_with_a_finite_limit() -> None:
 
         caveat = FUNCTIONS["C24"](Known({"fig08": conductivities, "ext09": fill})).caveat
         law = r"χ² = ([\d.]+) for 3, [^;]*?at spacing ([\d.]+), N = 128 to 2048"
-        return {spacing: float(found) for found, spacing in re.findall(law, caveat.partition("finite limit")[2])}
+        return {
+            spacing: float(found) for found, spacing in re.findall(law, caveat.partition("finite limit")[2])
+        }
 
     assert told(True) == {"0.1": 0.0, "0.025": 0.0}
     size = 2.0 ** np.arange(7, 12)
@@ -304,7 +306,7 @@ def test_conductivity_without_a_particle_current() -> None:
     assert bound > 0.05
     assert (found.value, found.systematic) == pytest.approx((value, bound), abs=2e-3)  # weights are drawn
     assert found.error == pytest.approx(error, rel=0.05)
-    assert found.freedom == 127
+    assert found.freedom == 39
     for few in (1, 2):
         data = Known({"fig08": conductivities, "ext11": partial(fill, still=sizes[:few])})
         assert len(FUNCTIONS["C24"](data).other) == few - 1

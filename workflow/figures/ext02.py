@@ -16,7 +16,10 @@ from workflow.lib.load import Result
 
 RESOLVED = 3  # standard errors beyond which a curvature is called one
 BESIDE = 1.05  # factor of the sizes at which neighbouring spacings are drawn, as points would hide each other
-TEMPERATURES = {"particle": "arriving particles", "baths": "baths"}  # that may take the place of T_1 and T_N in eq. 28
+TEMPERATURES = {
+    "particle": "arriving particles",
+    "baths": "baths",
+}  # that may take the place of T_1 and T_N in eq. 28
 OTHERS = tuple(TEMPERATURES)
 
 

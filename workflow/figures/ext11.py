@@ -115,7 +115,11 @@ def growth(part: pd.DataFrame, column: str) -> str:
 
 def crossed(table: pd.DataFrame) -> str:
     unsound = int((~table.sound.astype(bool)).sum())
-    return f" Crosses: {unsound} points of which a run is not stationary or missed its target error." if unsound else ""
+    return (
+        f" Crosses: {unsound} points of which a run is not stationary or missed its target error."
+        if unsound
+        else ""
+    )
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
-from matplotlib.typing import RcKeyType
+from matplotlib.typing import LineStyleType, RcKeyType
 
 from workflow.lib import fit
 from workflow.lib.load import Index, Quantity, Result
@@ -32,7 +32,7 @@ SKY = "#56B4E9"
 
 # For curves in an order, from early to late: lightness rises, and so do the gaps of the dashes.
 SEQUENCE = [BLACK, BLUE, VERMILLION, ORANGE, SKY]
-DASHES = ["solid", (0, (6, 1)), (0, (4, 1, 1, 1)), (0, (3, 1.5)), (0, (1, 1))]
+DASHES: list[LineStyleType] = ["solid", (0, (6, 1)), (0, (4, 1, 1, 1)), (0, (3, 1.5)), (0, (1, 1))]
 
 # Marker and colour by gamma, where a figure shows both.
 BY_GAMMA = {"N": ("o", BLUE), 1: ("s", VERMILLION)}
