@@ -8,6 +8,7 @@ Snakemake's own locks are files, which stay when it is killed; this one is the s
 
 import fcntl
 import json
+import resource
 import shutil
 import signal
 import sys
@@ -31,9 +32,11 @@ FOLDERS = (  # of Snakemake's
     "shadow",
     "singularity",
 )
+ADDRESS_SPACE = 1 << 30  # bytes; below 0.4 GB Snakemake's imports fail in many ways, and libraries try again without end
 
 
 def run() -> None:
+    require_address_space()
     for path in (LOCK, JOBS, *(PLACE / folder / "any" for folder in FOLDERS)):
         require_place(path, Path())
     PLACE.mkdir(exist_ok=True)
@@ -52,6 +55,15 @@ def run() -> None:
         shutil.rmtree(PLACE / "locks", ignore_errors=True)
         remove_damaged_notes()
         snakemake()
+
+
+def require_address_space() -> None:
+    limit, _ = resource.getrlimit(resource.RLIMIT_AS)
+    if limit != resource.RLIM_INFINITY and limit < ADDRESS_SPACE:
+        sys.exit(
+            f"A process may have {limit >> 20} MB of addresses here, and the pipeline needs {ADDRESS_SPACE >> 20}: raise the "
+            f"limit, as by ulimit -v {ADDRESS_SPACE >> 10}"
+        )
 
 
 def remove_damaged_notes() -> None:
