@@ -32,7 +32,8 @@ FOLDERS = (  # of Snakemake's
     "shadow",
     "singularity",
 )
-ADDRESS_SPACE = 1 << 30  # bytes; below 0.4 GB Snakemake's imports fail in many ways, and libraries try again without end
+# Bytes. Below 0.4 GB Snakemake's imports fail in many ways, and libraries try again without end.
+ADDRESS_SPACE = 1 << 30
 
 
 def run() -> None:
