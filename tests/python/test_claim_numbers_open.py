@@ -154,7 +154,8 @@ def test_deviations_of_finite_chains() -> None:
         parts = [np.array(deviations(f"simulation_cells={size}"))[:, seen] for size in cells]
         value, error = np.hstack(parts)
         evidence = FUNCTIONS[claim](DATA)
-        check(evidence.literal, value / 400, error / 400, freedom=639)  # 220 + 180
+        of_bins = evidence.substance or evidence.literal
+        check(of_bins, value / 400, error / 400, freedom=639)  # 220 + 180
         check(evidence.other, value / largest, error / largest, freedom=639)
         theory, momentum = deviations(f"mean-field_cells={cells[0]}")[0], np.arange(-59, 60, 2)
         ends = [
@@ -162,6 +163,23 @@ def test_deviations_of_finite_chains() -> None:
         ]
         assert f"{np.abs(ends).max() / 400:.2e}" in evidence.caveat
     assert f"deviation of a bin is {np.abs(theory).max() / 400:.2e}" in evidence.caveat
+
+
+def test_deviations_at_zero() -> None:
+    """By lines through the two innermost bins of a half; parabolas through three bound the systematic error. The bins come first."""
+    numbers = FUNCTIONS["C10"](DATA)
+    found = numbers.literal[len(numbers.substance) :]
+    momentum, expected = np.arange(-59, 60, 2), []
+    for size in (2, 4, 8, 16):
+        value, error = deviations(f"simulation_cells={size}")
+        for inner in ([29, 28, 27], [30, 31, 32]):
+            line, parabola = (
+                np.polyval(np.polyfit(momentum[inner[:count]], value[inner[:count]], count - 1), 0)
+                for count in (2, 3)
+            )
+            spread = math.hypot(1.5 * error[inner[0]], 0.5 * error[inner[1]])
+            expected.append((line / 400, spread / 400, abs(parabola - line) / 400))
+    check(found, *np.array(expected).T, 639)
 
 
 def test_decay_of_the_deviations() -> None:
