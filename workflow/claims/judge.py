@@ -38,6 +38,11 @@ class Judgement:
         by_words = self.substance is None or self.literal is None or self.outcome is self.literal.outcome
         return self.literal if by_words else self.substance
 
+    @property
+    def shown(self) -> Reading | None:
+        """The reading that a picture shows: where a claim holds in substance only, the words that do not hold."""
+        return self.literal if self.outcome is Outcome.IN_SUBSTANCE else self.deciding
+
 
 def read_claims(root: Path) -> list[dict[str, str]]:
     """Raises OSError if the table is missing or damaged."""

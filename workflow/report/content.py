@@ -36,13 +36,15 @@ def effort(quality: Quality) -> str:
 
 def claim(judgement: Judgement, costs: Costs) -> dict[str, Any]:
     readings = {name: getattr(judgement, name) for name in READINGS if getattr(judgement, name)}
-    deciding = judgement.deciding
+    deciding, shown = judgement.deciding, judgement.shown
     runs = [path.removesuffix(".h5").split("/", 2)[2] for path in judgement.data]
     return dict(judgement.claim) | {
         "outcome": judgement.outcome.value,
         "sign": words.SIGNS[judgement.outcome],
         "ours": words.result(deciding) if deciding else "no data",
-        "short": words.value(deciding.worst) if deciding else "no data",
+        "short": words.value(shown.worst) if shown else "no data",
+        "label": shown.worst.label if shown else "",
+        "admitted": str(shown.band) if shown else "",
         "readings": [
             {
                 "name": words.READINGS[name],
@@ -56,7 +58,7 @@ def claim(judgement: Judgement, costs: Costs) -> dict[str, Any]:
         "p": words.p_value(deciding.p_value) if deciding else "",
         "caveat": judgement.caveat,
         "consequence": words.consequence(judgement),
-        "strip": strip_of(deciding) if deciding else None,
+        "strip": strip_of(shown) if shown else None,
         "cost": total(costs, runs) if runs else None,
     }
 
@@ -101,7 +103,7 @@ def answer(judgements: Sequence[Judgement], quality: str) -> list[str]:
         f"Of {len(judgements)} claims, at quality {quality}: {listed}; given what each claim is taken to admit, noise makes any of these verdicts wrong with a probability of at most {FAMILY_LEVEL:.0%}.",
         f"Contradicted: {'; '.join(against)}." if against else "At this quality no claim is contradicted.",
         f"Heat: κ ∼ N at γ = 1 is {_said(by_id['C23'])}; κ ∼ N^(1/3) at γ = N is {_both(by_id['C24'])}{_at_fixed_density(by_id['C24'])}.",
-        f"Particles: the tagged particle spreads as the paper says, {_told(by_id['C20'], 'literal')}, but by drift: {_told(by_id['C20'], 'substance')}; that only energy is conserved is {by_id['C22'].outcome.value}, as total momentum is too.",
+        f"Particles: over the paper's times a tagged particle spreads as it says ({_told(by_id['C18'], 'literal')}, an exponent that still rises), but by the drift of a random total momentum, without which there is diffusion ({_told(by_id['C18'], 'other')}); that only energy is conserved is {by_id['C22'].outcome.value}, as total momentum is too.",
         f"Kinetic equation: that finite chains tend to it is {_said(by_id['C12'])}; that they differ by less than 0.1 % is {_said(by_id['C10'])} in the printed normalisation, and relative to the largest F {_otherwise(by_id['C10'])}.",
     ]
 

@@ -13,12 +13,17 @@ from workflow.lib import style
 from workflow.report import words
 from workflow.report.strip import WIDTH, Strip
 
-LINE, TOP, BOTTOM = 0.21, 0.32, 0.3  # inches
+LINE, TOP, BOTTOM = 0.31, 0.32, 0.42  # inches
+UP, DOWN, HALF = 0.2, 0.26, 0.24  # of the two lines of a row, and half the height of a band
 KEY = (
-    "Each line has its own scale. Grey: what the claim admits. Points with intervals: the numbers that were measured, at the level of "
-    "the verdict;\nthe number written is the least certain of them, and `make report` says which it is."
+    "Each row has its own scale. Grey: what the claim admits. Points: the numbers that were measured, with intervals in which they lie "
+    "with 95 % for\nall claims together; red those that lie outside the grey. Written is the number that decides, with its name and "
+    "what is admitted. `In substance`: what the\nclaim means holds, and its words do not, which are shown."
 )
 COLUMNS = {"quantity": 0.045, "paper": 0.315, "strip": 0.6, "short": 0.72, "verdict": 0.885}  # left ends
+# Characters that the font lacks.
+RAISED = {ord(one): f"$^{number}$" for number, one in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")}
+LOWERED = {ord(one): f"$_{number}$" for number, one in enumerate("₀₁₂₃₄₅₆₇₈₉")}
 COLORS = {
     Outcome.REPRODUCED: style.BLUE,
     Outcome.IN_SUBSTANCE: "#2A7FA5",
@@ -31,17 +36,19 @@ COLORS = {
 def draw_strip(axes: Axes, strip: Strip, height: float) -> None:
     """The band that the claim admits, and the numbers with their intervals."""
     low, high = strip.band
-    axes.fill_between([low, high], height - 0.36, height + 0.36, color="0.86", linewidth=0)
+    axes.fill_between([low, high], height - HALF, height + HALF, color="0.86", linewidth=0)
     for first, value, last in strip.points:
-        axes.plot([first, last], [height, height], color=style.BLACK, linewidth=0.8)
-        axes.plot(value, height, "o", color=style.BLACK, markersize=2.2)
+        outside = last < low or first > high
+        color = style.VERMILLION if outside else style.BLACK
+        axes.plot([first, last], [height, height], color=color, linewidth=0.8, zorder=2 + outside)
+        axes.plot(value, height, "D" if outside else "o", color=color, markersize=2.2, zorder=2 + outside)
 
 
 def typeset(text: str) -> str:
-    """Powers after ^, indices after _, and minus signs, as matplotlib sets them."""
+    """Powers after ^, indices after _, minus signs, and what the font lacks, as matplotlib sets them."""
     text = re.sub(r"\^(?:\(([^)]*)\)|(-?\w+))", lambda found: f"$^{{{found[1] or found[2]}}}$", text)
     text = re.sub(r"_(\w+)", r"$_{\\mathrm{\1}}$", text)
-    return re.sub(r"(?<![\w)])-(?=\d)|(?<=\s)-(?=\s)", words.MINUS, text)
+    return re.sub(r"(?<![\w)])-(?=\d)|(?<=\s)-(?=\s)", words.MINUS, text).translate(RAISED | LOWERED)
 
 
 def draw(claims: Sequence[Mapping[str, Any]]) -> Figure:
@@ -66,11 +73,14 @@ def draw(claims: Sequence[Mapping[str, Any]]) -> Figure:
         outcome = Outcome(claim["outcome"])
         if row % 2:
             text.axhspan(row - 0.5, row + 0.5, color="0.96", zorder=-1)
-        text.text(0.01, row, claim["id"], size=7.5, va="center", color="0.35")
+        text.text(0.01, row - UP, claim["id"], size=7.5, va="center", color="0.35")
         for name in ("quantity", "paper", "short"):
-            text.text(COLUMNS[name], row, typeset(claim[name]), size=7.5, va="center")
-        text.text(COLUMNS["verdict"], row, outcome.name.replace("_", " ").lower(), size=7.5, va="center",
+            text.text(COLUMNS[name], row - UP, typeset(claim[name]), size=7.5, va="center")
+        if claim["label"]:
+            told = typeset(f"{claim['label']}; admitted {claim['admitted']}")
+            text.text(COLUMNS["strip"], row + DOWN, told, size=6.5, va="center", color="0.35")
+        text.text(COLUMNS["verdict"], row - UP, outcome.name.replace("_", " ").lower(), size=7.5, va="center",
                   color=COLORS[outcome], weight="bold")  # fmt: skip
         if claim["strip"]:
-            draw_strip(strips, claim["strip"], row)
+            draw_strip(strips, claim["strip"], row - UP)
     return figure
