@@ -98,7 +98,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     unequal = " for unequal masses" if 0 in table.sigma.to_numpy() else ""
     logarithms = table.dropna(subset="logarithmic_power").sort_values("logarithmic_power")
     least, most = (
-        with_error(one.logarithmic_power, one.logarithmic_power_error)
+        f"{with_error(one.logarithmic_power, one.logarithmic_power_error)} (σ = {number(one.sigma)}, n = {one.particles_per_cell}, t_r = {one.relaxation_time:g})"
         for one in logarithms.iloc[[0, -1]].itertuples()
     )
     return f"""
@@ -107,8 +107,8 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         number of particles and the longest relaxation; below, the exponent α of all runs, fitted in the shaded decade, from
         t = {fitted:g} on. Guides: ballistic and diffusive. {ERRORS}. α with {PAPER}, and with {control}: {"; ".join(said)}. In the paper's ensemble the
         total momentum of particles and scatterers is random, and conserved to {conserved:.0e} of the sum of all momenta; the
-        superdiffusion that the paper reads from it is this drift, and with {control} it is gone{unequal}. Fits of t times a power of its logarithm to the runs without drift give powers between {least} and {most},
-        where diffusion has none."""
+        superdiffusion that the paper reads from it is this drift, and with {control} it is gone{unequal}. Fits of t times a power of its logarithm to the runs without drift give powers from {least} to {most};
+        diffusion has none, and waiting times without a variance leave some for as long as they are watched."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

@@ -15,7 +15,7 @@ from matplotlib.ticker import NullFormatter
 
 from workflow.figures.fig09 import gaussian_start
 from workflow.lib import style
-from workflow.lib.caption import CHAIN, GAS, goodness, parameters, replicas
+from workflow.lib.caption import CHAIN, GAS, WINDOW, goodness, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import fit_power, mean_of, with_error
 from workflow.lib.load import Quantity, Result
@@ -141,7 +141,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     ]
     style.letter(*row)
     caption = (
-        f"Sound in a ring, {parameters([largest], *CHAIN, *GAS)}, {replicas([largest])}, from equilibrium fluctuations. (a) C_g, the "
+        f"Sound in a ring, {parameters([largest], *CHAIN, *GAS)}, with scatterers at {largest.parameters['scatterer-temperature']:g}, to "
+        f"which they heat up anyway, {parameters([largest], *WINDOW)}, {replicas([largest])}, from the fluctuations of what has then formed. (a) C_g, the "
         "covariance of the momenta of two cells at distance r and times t apart, about the peak that moves with the speed c, "
         "rescaled with the exponent 2/3 to the first time shown, t_1. (b) Local exponents of the peak's "
         f"height between neighbouring times, beside those of the energy pulse of fig. 9a. {of_peak(largest)} (c) "

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from workflow.lib import style
-from workflow.lib.caption import goodness
+from workflow.lib.caption import BATHS, WINDOW, goodness, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import with_error
 from workflow.lib.growth import LAWS, POWER, Growth, fits, widest
@@ -159,11 +159,12 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         sentences.append(sentence(spacing[name], part))
         tables.append(laws(part).drop(columns="predicted").assign(gas=name))
     fitted = pd.concat(tables).rename(columns={"first": "fitted_from"})
-    parameters = results[0].parameters
+    options = results[0].parameters
     caption = (
-        f"Heat conductivity κ = −J_U N/(T_N − T_1) at γ = N, σ = {parameters['sigma']:g}, between baths of "
-        f"temperatures {parameters['temperature-left']:g} and {parameters['temperature-right']:g} that press equally "
-        "hard, at the spacing 1/N, which thins the gas out as the chain grows, and at fixed spacings, where the "
+        f"Heat conductivity κ = −J_U N/(T_N − T_1) at γ = N, σ = {options['sigma']:g}, between baths "
+        f"({parameters(results, *BATHS)}) that press equally hard, {replicas(results)}, started near the stationary profile, {parameters(results, *WINDOW)}: the "
+        "largest chains at fixed spacing relax for less than a wrong profile would take, so that they rest on the start (ext. 12 "
+        "compares starts). At the spacing 1/N the gas thins out as the chain grows; at fixed spacings the "
         "number of particles per cell is the same for every N. (a) Logarithmic axes. (b) Against the cube root of N: "
         "a straight line is growth as N^(1/3) beside a constant. Lines: each law over the sizes for which it is not "
         f"rejected at {LEVEL:.0%}. {' '.join(sentences)} Error bars: standard errors over replicas."

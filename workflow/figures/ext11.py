@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 from workflow.figures.ext09 import LOOKS, gas, sound, spacings
 from workflow.lib import style
-from workflow.lib.caption import goodness
+from workflow.lib.caption import BATHS, goodness, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import fit_power, with_error
 from workflow.lib.growth import local_exponents
@@ -148,7 +148,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         axes.set(xscale="log", yscale="log", xlabel="number of cells $N$")
         style.label_sizes(axes.xaxis)
         style.label_within_decades(axes.yaxis)
-    left.set(ylabel="$L_{nn}$")
+    left.set(ylabel=rf"$L_{{nn}}$ ({style.UNITS})")
     right.set(ylabel=rf"$\kappa_0$ at $J_n = 0$ ({style.UNITS})")
     left.legend(loc="upper left")
     style.letter(left, right)
@@ -156,10 +156,11 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     pulls = table.asymmetry / table.asymmetry_error
     worst = table.loc[pulls.abs().idxmax()]
     caption = (
-        "Linear response at γ = N about equal baths, from a difference of temperature at equal pressure and a difference "
-        "of pressure at equal temperature. (a) Coefficient of the particle current; without friction in the bulk, as momentum is "
+        f"Linear response at γ = N, {parameters(results, 'sigma')}, from a difference of temperature at equal pressure and one "
+        f"of pressure at equal temperature ({parameters(results, *BATHS)}), {replicas(results)}: N J_i = Σ L_ik X_k with the forces X_u, the "
+        "difference of the inverse temperatures, and X_n, that of ln(ν/√T). (a) Coefficient of the particle current; without friction in the bulk, as momentum is "
         "conserved, it would grow in proportion to N, of which finite chains fall a little short. (b) Heat conductivity without a current of "
-        f"particles, κ_0 = (L_uu - L_un L_nu / L_nn)/T^2, {ratio.min():.1f} to {ratio.max():.1f} times -J_u N/(T_R - T_L) at equal "
+        f"particles, κ_0 = (L_uu - L_un L_nu / L_nn)/T^2, {ratio.min():.1f} to {ratio.max():.1f} times −J_U N/(T_R − T_L) at equal "
         f"pressure, where particles carry energy against the heat. Exponents over all sizes: {'; '.join(said)}. Onsager's symmetry "
         f"L_un = L_nu: {goodness(float(np.sum(pulls**2)), len(pulls))}, the farthest off by {100 * worst.asymmetry / worst.L_un:.1f} % "
         f"at N = {worst.cells} and spacing {spacing[worst.gas]}.{crossed(table)} Error bars: standard errors over replicas."

@@ -181,7 +181,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     )
     drives = ", ".join(f"{drive:g}" for drive in sorted(slopes.drive.unique()))
     caption = (
-        f"(a) Local exponent of κ for ratios of the baths' temperatures of {drives} (white, grey and full markers), at "
+        f"(a) Local exponent of κ for ratios of the baths' temperatures of {drives} (white, grey and full markers, drawn beside each other), at "
         f"equal pressures: {goodness(spread, freedom)}, "
         f"about a common value at every size and spacing; {ends}.{laws(table, spacing)} (b, c) κ and J_n from several starts relative to the mean over them, δ: in "
         "equilibrium with the mean of the baths (warm), with the colder or the hotter one, and empty; for κ "

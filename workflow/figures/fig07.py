@@ -33,11 +33,14 @@ def tabulate(result: Result) -> pd.DataFrame:
 
 def caption(table: pd.DataFrame, result: Result, window: tuple[float, float]) -> str:
     last = table.iloc[-1]
+    fitted = table[(table.time >= window[0]) & table.slope_to_next.notna()].iloc[[0, -1]]
+    slopes = [with_error(one.slope_to_next, one.slope_to_next_error) for one in fitted.itertuples()]
     return f"""
         Mean square displacement of a tagged particle (circles) and of the centre of mass of all particles (squares) in a closed chain,
         {parameters([result], *CHAIN, *GAS, "relaxation-time")}, {replicas([result])}. (a) Both, with the paper's square of t above them; (b) the share of the centre of mass; its error is an upper bound, as both vary together; (c) local slope between neighbouring
         times, with guides for ballistic and diffusive spreading. {ERRORS}. Fitted in the shaded window from t = {number(window[0])} to
-        {number(window[1])}: α = {style.with_error(result["alpha"])}, slightly below the square as in the paper. But at the last
+        {number(window[1])}: α = {style.with_error(result["alpha"])}, slightly below the square as in the paper, but no property of the gas: the
+        local slope goes from {slopes[0]} to {slopes[1]} in the window, as diffusion gives way to a drift. At the last
         time {with_error(100 * last.share, 100 * last.share_error)} % of it is the drift of all particles together, which the
         conserved total momentum keeps going."""
 
