@@ -71,16 +71,17 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         above.fill_between(table.x, low, high, color=color, alpha=0.3, linewidth=0)
         below.errorbar(table.x, table.particle_minus_scatterer, table.particle_minus_scatterer_error, **look)
     options = results[0].parameters
-    for end, name, place in (("left", "$T_L$", 0.97), ("right", "$T_R$", 0.03)):
+    for end, name, place, lift in (("left", "$T_L$", 0.06, -3), ("right", "$T_R$", 0.94, 3)):
         temperature = options[f"temperature-{end}"]
         above.axhline(temperature, **style.GUIDE)
+        side = "bottom" if lift > 0 else "top"
         above.annotate(
-            name, (place, temperature), (0, 3), textcoords="offset points", ha="center", va="bottom", size=8
+            name, (place, temperature), (0, lift), textcoords="offset points", ha="center", va=side, size=8
         )
     middle = np.mean([options[f"temperature-{end}"] for end in ("left", "right")])
     above.set(ylabel=f"temperature ({style.UNITS})", xlim=(0, 1), ylim=(0.76 * middle, 1.28 * middle))
     below.axhline(0, **style.GUIDE)
-    below.set(xlabel="$x$", ylabel="particles minus\nscatterers")
+    below.set(xlabel="$x$", ylabel="temperature, particles\nminus scatterers")
     figure.legend(*above.get_legend_handles_labels(), loc="outside upper left", ncols=2)
     style.letter(above, below)
     figure.align_ylabels()

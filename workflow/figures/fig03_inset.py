@@ -96,7 +96,7 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
     axes.errorbar(points.cells, points.deviation, points.error, **look, label=SIMULATION)
     axes.plot(line.cells, line.deviation, color=style.BLACK, label=MEAN_FIELD)
     law = decay(table)
-    label = rf"fit, $N^{{{law.text}}}$"
+    label = "power law, rejected" if law.rejected else rf"fit, $N^{{{law.text}}}$"
     axes.plot(points.cells, law.at(points.cells), color=style.BLUE, linestyle="dotted", label=label)
     readings: list[tuple[float, str, style.Look]] = [
         (1, r"of $\max F$", {}),
@@ -128,7 +128,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         Finite chains against the kinetic equation, {parameters(runs, "cells", "cell-length", "sigma", "gamma", *BATHS, *WINDOW)},
         {replicas(runs)}. (a) F_N − F in the halves that leave the chain, negative p at the left end and positive p at the right one,
         means over the bins in thousandths of the largest F: simulations (points) and chains without correlations (lines, mean
-        field). {ERRORS}. (b) The largest deviation over the bins: {listed(found)}; it falls as the power {law.text} of N
+        field). {ERRORS}. (b) The largest deviation over the bins: {listed(found)}; it falls {"about " * law.rejected}as the power {law.text} of N
         (χ² = {law.chi_square:.1f} for {law.freedom} degrees of freedom). The paper states less than {LIMITS[0][1]} for all N and
         {LIMITS[1][1]} for the longest chain, without a reference: both are exceeded relative to the largest F; in its printed
         normalisation, in which F integrates to one, taken at the mean of the two rates (right axis), they are {first} for the shortest and

@@ -75,13 +75,12 @@ def halves(part: pd.DataFrame) -> list[pd.DataFrame]:
 
 
 def draw_distribution(axes: Axes, table: pd.DataFrame, reach: float) -> None:
-    """F over its bins at both ends; faint where the rates are equal, black without correlations."""
-    for (_, place), part in table.groupby(["nu_left", "x"], sort=False):
+    """F over its bins at both ends; black without correlations."""
+    for place, part in table.groupby("x", sort=False):
         _, color, dashes, _ = ENDS[place]
-        equal = bool((part.nu_left == part.nu_right).all())
-        label: str | None = f"${place}$" + EQUAL * equal
+        label: str | None = f"${place}$"
         for half in halves(part[part.momentum.abs() < reach]):
-            look: style.Look = {"color": color, "linestyle": dashes, "alpha": 0.45 if equal else 1}
+            look: style.Look = {"color": color, "linestyle": dashes}
             axes.errorbar(half.momentum, half.flux, half.flux_error, elinewidth=0.8, label=label, **look)
             axes.plot(half.momentum, half.kinetic, color=style.BLACK, linewidth=0.6, zorder=1)
             label = None
@@ -144,13 +143,20 @@ def extrapolation_error(table: pd.DataFrame) -> float:
     return float(max(errors))
 
 
+def by_theory(jump: float) -> str:
+    return f" (kinetic equation {number(jump)})" if np.isfinite(jump) else ""
+
+
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     runs = measured(results)
     last = table.gamma.iloc[-1]
     main = [result for result in runs if style.gamma(result) == last and len(set(rates(result))) > 1]
     said = []
     for gamma, equal, part in cases(table):
-        jumps = [f"{with_error(end.jump, end.jump_error)} at {end.x}" for end in part.itertuples()]
+        jumps = [
+            f"{with_error(end.jump, end.jump_error)} at {end.x}{by_theory(end.kinetic_jump)}"
+            for end in part.itertuples()
+        ]
         said.append(f"γ = {gamma}{' with equal rates' * equal}: {listed(jumps)}")
     alike = [end for _, equal, part in cases(table) if equal for end in part.itertuples()]
     known = [end for end in alike if abs(end.jump) > RESOLVED * end.jump_error]
@@ -160,11 +166,10 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         if alike
         else ""
     )
-    faint = "Faint: with the rates of both baths equal." if last == "N" else ""
     return f"""
         Flux distribution F_N(p, x) of the particles behind the first scatterer (solid, circles) and the last (dashed,
         squares) of an open chain; {parameters(main, *CHAIN, *BATHS, *WINDOW)}, {replicas(runs)}. Black: the kinetic
-        equation of the same chain, in which what meets is not correlated. {faint} (a) F_N, (b) the same about the momentum zero, (c) the same minus that F, in per cent of its
+        equation of the same chain, in which what meets is not correlated. (a) F_N, (b) the same about the momentum zero, (c) the same minus that F, in per cent of its
         maximum, (d) jump at momentum zero; black bars by the kinetic equation. Jumps at {"; ".join(said)}.
         {ERRORS}; the lines through two bins on either side that give the jumps err by up to {extrapolation_error(table):.2g}, as they do for the kinetic equation. The paper has the curves of γ = 1 on top of the kinetic equation, and says that
         at γ = N the jump comes from unequal rates alone{still}."""
@@ -180,7 +185,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         height_ratios=[1.7, 1],
     )
     draw_distribution(panels["main"], unequal, SHOWN)
-    draw_distribution(panels["near"], main, NEAR)
+    draw_distribution(panels["near"], unequal, NEAR)
     draw_residuals(panels["residual"], unequal)
     draw_jumps(panels["jump"], table)
     panels["main"].text(

@@ -71,19 +71,28 @@ def mark_outside(axes: Axes, table: pd.DataFrame, power: float, top: float) -> N
     axes.plot(outside, [top] * len(outside), linestyle="none", clip_on=False, zorder=6, **look)
 
 
+def cut(result: Result) -> float:
+    """Time from which on the tail is fitted."""
+    options = result.parameters
+    return float(options["tail-from"] * options["cell-length"] / np.sqrt(options["temperature"]))
+
+
 def caption(tables: Sequence[pd.DataFrame], results: Sequence[Result]) -> str:
     said = [
         f"{style.with_error(result['exponent'])} at σ = {number(result.parameters['sigma'])} "
         f"(for cuts within a factor of three it differs by at most {style.with_error(result['exponent_spread'])})"
         for result in results
     ]
+    (exchanging,) = (table for table in tables if float(table.sigma.iloc[0]) == 0)
+    tail = exchanging[(exchanging.tau > cut(results[0])) & ~exchanging.unsure]
+    above_line = 100 * ((tail.density / tail.gaussian_start).median() - 1)
     unsure = sum(int(table.unsure.sum()) for table in tables)
     chain = [name for name in CHAIN if name != "sigma"]
     options = results[0].parameters
     return f"""
         Probability density Ψ(τ) of the time between two scatterings of a particle in a closed chain, for equal masses (circles) and
         σ = {number(max(result.parameters["sigma"] for result in results))} (squares); {parameters(results, *chain, *GAS, *WINDOW)},
-        {replicas(results)}. A flight counts with its whole length, which is known when it begins. (a) Ψ; the line through the circles is exact for many particles that start from a Gaussian. (b), (c) Ψ times
+        {replicas(results)}. A flight counts with its whole length, which is known when it begins. (a) Ψ; the line through the circles is exact for many particles per cell that start from a Gaussian; in the tail the circles lie {above_line:.0f} % above it, as there are momenta on the scatterers too. (b), (c) Ψ times
         the powers of τ that the paper states. Broken and dotted: power laws of the exponents fitted by maximum likelihood in the shaded tail, from
         {number(options["tail-from"])} thermal flights on: {"; ".join(said)}. {ERRORS}; {unsure} bins known to worse than
         {number(100 * UNSURE)} % are open, with arrows from one error above; triangles at the upper edges stand for bins above them. The paper gives the inverse cube for equal masses and the
@@ -115,11 +124,9 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         typical = (table.tau ** POWERS[sigma] * table.fitted).median()
         mark_outside(strip, table, POWERS[sigma], 2 * typical)
         strip.set(ylim=(0, 2 * typical), ylabel=rf"$\tau^{POWERS[sigma]}\,\Psi$, $\sigma = {sigma:g}$")
-    options = results[0].parameters
-    cut = options["tail-from"] * options["cell-length"] / np.sqrt(options["temperature"])
     above.set(xscale="log", yscale="log", ylabel=r"density $\Psi(\tau)$")
     for axes in (above, *strips):
-        axes.axvspan(cut, max(table.tau.max() for table in tables), **style.WINDOW)
+        axes.axvspan(cut(results[0]), max(table.tau.max() for table in tables), **style.WINDOW)
     strips[-1].set_xlabel(rf"waiting time $\tau$ ({style.UNITS})")
     above.legend(loc="lower left")
     style.letter(above, *strips)
