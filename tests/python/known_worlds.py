@@ -117,7 +117,7 @@ def kappas(deterministic: float, rare_: float, end: float = 0) -> World:
         size = run.options["cells"]
         return float(size**rare_ if rare(run) else size**deterministic * (1 + end / size))
 
-    both = {"stationary": 1, "kappa": kappa}
+    both = {"stationary": 1, "kappa": kappa, "kappa_particle": kappa}
     return {"fig08": both, "ext09": both}
 
 

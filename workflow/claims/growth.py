@@ -28,13 +28,13 @@ def sizes(data: Data, gamma: str | int) -> list[Result]:
     return _stationary(data.of("fig08", "conductivity", gamma=gamma))
 
 
-def exponent(runs: Sequence[Result], name: str) -> tuple[Number, PowerLaw]:
+def exponent(runs: Sequence[Result], name: str, quantity: str = "kappa") -> tuple[Number, PowerLaw]:
     """Of kappa over these sizes."""
     if len(runs) < 2:
         raise MissingError("fewer than two sizes")
     cells = [one.parameters["cells"] for one in runs]
     label = f"{name}, N = {cells[0]} to {cells[-1]}"
-    return power(runs, cells, [number(one, "kappa") for one in runs], label)
+    return power(runs, cells, [number(one, quantity) for one in runs], label)
 
 
 def largest_sizes(runs: Sequence[Result]) -> list[Result]:
@@ -55,10 +55,16 @@ def _series(data: Data) -> dict[str, list[Result]]:
 
 
 def last_exponents(data: Data) -> dict[str, Number]:
-    """Of kappa between the two largest stationary sizes: fig. 8, and every series of ext09 that has been made."""
+    """Of kappa between the two largest stationary sizes: fig. 8, and every series of ext09 that has been made. That of kappa by
+    the temperatures of the arriving particles bounds the systematic error."""
+
+    def between(runs: Sequence[Result], name: str) -> Number:
+        found, by_particles = (exponent(runs, name, kind)[0] for kind in ("kappa", "kappa_particle"))
+        return with_systematic(found, [by_particles.value])
+
     series = {"fig08": sizes(data, "N")} | _series(data)
     return {
-        name: exponent(runs[-2:], name if name == "fig08" else f"ext09 at spacing {spacing(runs[-1])[1]}")[0]
+        name: between(runs[-2:], name if name == "fig08" else f"ext09 at spacing {spacing(runs[-1])[1]}")
         for name, runs in series.items()
         if len(runs) > 1
     }

@@ -136,7 +136,7 @@ def _at_fixed_density(judgement: Judgement) -> str:
         return ""
     found = "; ".join(words.told(number) for number in judgement.other.numbers)
     return (
-        ", where size and density change together, as the gas thins out; at fixed density, that the exponent is 1/3 is "
+        ", where size and density change together; at fixed density, that the exponent is 1/3 is "
         f"{judgement.other.outcome.value} ({found})"
     )
 
