@@ -29,7 +29,10 @@ QUANTITIES: dict[str, dict[str, tuple[str, ...]]] = {
     "momentum_flux": {"flux": ("bond", "momentum"), "jump": ("bond",), "square": ("bond", "half"), "kurtosis": ("bond", "half")},
     "boltzmann": {"flux": ("x", "momentum"), "flux_density": ("x", "momentum"), "jump": ("x",), "kurtosis": ("x", "half")},
     "conductivity": {"kappa": (), "kappa_particle": (), "stationary": (), "energy_current": (), "particle_current": (), "current_correlation": ()},
-    "correlation": {"damping_exponent": (), "damping_exponent_from": ("from",)},
+    "correlation": {
+        "damping_exponent": (), "damping_exponent_from": ("from",),
+        "peak": ("time",), "peak_position": ("time",), "momentum_correlation": ("time", "cell"),
+    },
     "energy_pulse": {
         "centre_share": ("time",), "odd_part": ("time", "distance"), "peak": ("time",), "peak_position": ("time",),
         "peak_speed": ("middle",), "damping_exponent": (), "damping_exponent_from": ("from",),

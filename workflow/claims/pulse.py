@@ -9,6 +9,7 @@ from workflow.claims.data import Data, MissingError, combination, number, where_
 from workflow.claims.evidence import Claim, Evidence
 from workflow.claims.growth import exponent, largest_sizes, sizes
 from workflow.claims.verdict import Number, with_systematic
+from workflow.figures import ext03
 from workflow.figures.fig09 import gaussian_start, start
 from workflow.lib.fit import with_error
 from workflow.lib.load import Quantity, Result
@@ -98,13 +99,13 @@ def damping(data: Data) -> Evidence:
 
 
 def _sound(data: Data) -> Number:
-    """Exponent of the sound peak in the fluctuations of the largest ring. Fits that leave out up to half of the times bound the
-    systematic error."""
+    """Exponent of the sound peak in the fluctuations of the largest ring. Fits that leave out up to half of the times, and what it
+    is above the background, bound the systematic error."""
     rings = data.of("ext03", "correlation")
     largest = max(rings, key=lambda one: one.parameters["cells"])
-    later = _later(largest["damping_exponent_from"])
+    others = [*_later(largest["damping_exponent_from"]), -ext03.damping(largest, above=True).exponent]
     label = f"sound peak of the fluctuations, N = {largest.parameters['cells']}"
-    return with_systematic(number(largest, "damping_exponent", label=label), later)
+    return with_systematic(number(largest, "damping_exponent", label=label), others)
 
 
 def _later(fitted: Quantity) -> list[float]:

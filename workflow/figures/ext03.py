@@ -17,11 +17,12 @@ from workflow.figures.fig09 import gaussian_start
 from workflow.lib import style
 from workflow.lib.caption import CHAIN, GAS, WINDOW, goodness, parameters, replicas
 from workflow.lib.figure import run
-from workflow.lib.fit import fit_power, mean_of, with_error
+from workflow.lib.fit import PowerLaw, fit_power, mean_of, with_error
 from workflow.lib.load import Quantity, Result
 
 SOUND, DIFFUSION = 2 / 3, 1 / 2
 LARGEST_ERROR = 0.1  # of what is shown, absolute for exponents and relative for speeds
+BESIDE = (3, 5)  # half widths of the peak between which C_g beside it is background
 REACH = 0.6  # of the first peak from the centre, over which profiles are compared
 
 
@@ -104,11 +105,35 @@ def deviation(values: np.ndarray, errors: np.ndarray, expected: float) -> tuple[
     return float(pull @ np.linalg.solve(covariance, pull)), size
 
 
+def background(result: Result) -> np.ndarray:
+    """C_g beside the peak at every time, on both sides: what the chain's ageing has left there, if the variance of the momentum of a
+    cell has changed (docs/model.md, eq. 55). NaN without a peak."""
+    heights, positions = result["peak"].mean, result["peak_position"].mean
+    found = np.full(len(heights), np.nan)
+    for k in np.flatnonzero(np.isfinite(heights)):
+        profile = folded(result["momentum_correlation"].mean[k])
+        distance = np.arange(len(profile)) - positions[k]
+        half_width = distance[(distance > 0) & (profile < heights[k] / 2)].min(initial=np.inf)
+        near, far = (factor * half_width for factor in BESIDE)
+        beside = profile[(np.abs(distance) > near) & (np.abs(distance) < far)]
+        found[k] = beside.mean() if len(beside) else np.nan
+    return found
+
+
+def damping(result: Result, above: bool = False) -> PowerLaw:
+    """Power of time by which the peak falls, or by which it falls above its background; NaN where there are not two heights."""
+    peak = result["peak"]
+    height = peak.mean - background(result) if above else peak.mean
+    there = np.isfinite(height)
+    if there.sum() < 2:
+        return PowerLaw(np.nan, np.nan, np.nan, np.nan, 0)
+    return fit_power(peak.axes["time"][there], height[there], peak.error[there])
+
+
 def of_peak(result: Result) -> str:
     """What the height and the speed of the sound peak say."""
-    peak, speed = result["peak"], known(result["peak_speed"])
-    there = np.isfinite(peak.mean)
-    law = fit_power(peak.axes["time"][there], peak.mean[there], peak.error[there])
+    speed = known(result["peak_speed"])
+    law, above = damping(result), damping(result, above=True)
     tests = []
     for expected, name in ((SOUND, "2/3"), (DIFFUSION, "1/2")):
         found = goodness(*deviation(*known(result["local_damping_exponent"]), expected))
@@ -116,7 +141,8 @@ def of_peak(result: Result) -> str:
     mean, error, _ = mean_of(*speed)
     value, size = deviation(*speed, mean)
     return (
-        f"The height of the peak falls as t^-{with_error(-law.exponent, law.error)} over all times shown; the local "
+        f"The height of the peak falls as t^-{with_error(-law.exponent, law.error)} over all times shown, above the background "
+        f"beside it, which ageing leaves, as t^-{with_error(-above.exponent, above.error)}; the local "
         f"exponents against {tests[0]}; against {tests[1]}. The peak moves at {with_error(mean, error)} cells per unit "
         f"time ({goodness(value, size - 1)}, about a constant speed)."
     )
