@@ -345,7 +345,7 @@ def test_conductivity_without_a_particle_current() -> None:
     assert bound > 0.05
     assert (found.value, found.systematic) == pytest.approx((value, bound), abs=2e-3)  # weights are drawn
     assert found.error == pytest.approx(error, rel=0.05)
-    assert found.freedom == 39
+    assert found.freedom == 47
     for few in (1, 2):
         data = Known({"fig08": conductivities, "ext11": partial(fill, still=sizes[:few])})
         assert len(FUNCTIONS["C24"](data).other) == few - 1
