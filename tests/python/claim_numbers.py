@@ -29,6 +29,12 @@ def check(
     assert freedom is None or {one.freedom for one in numbers} == {freedom}
 
 
+def freedom(panel: str, series: str) -> int:
+    """One less than the replicas of a series."""
+    (replicas,) = {run.options["replicas"] for run in DATA.plan[panel].runs if run.series == series}
+    return int(replicas) - 1
+
+
 def of(panel: str, run: str, name: str, data: Known = DATA) -> tuple[np.ndarray, np.ndarray]:
     """Mean and error that were put in."""
     found = data.one(panel, run)[name]

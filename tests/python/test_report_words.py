@@ -64,12 +64,13 @@ def test_a_strip_keeps_order_and_stays_in_its_picture() -> None:
     strip = strip_of(Reading(BAND, numbers, 0.05))
     assert len(strip.points) == 3
     assert strip.band[0] < strip.band[1]
-    for low, value, high in strip.points:
+    for low, value, high, _ in strip.points:
         assert 0 <= low <= value <= high <= WIDTH
-    assert max(value for _, value, _ in strip.points) > strip.band[1]
+    assert max(one.value for one in strip.points) > strip.band[1]
+    assert {one.value > strip.band[1]: one.outside for one in strip.points} == {True: True, False: False}
     assert strip_of(Reading(BAND, numbers[3:], 0.05)) is None
     half = strip_of(Reading(Band(0, math.inf), numbers[:1], 0.05))
-    assert half.band[1] >= max(high for *_, high in half.points)
+    assert half.band[1] >= max(one.high for one in half.points)
 
 
 def test_what_stands_in_a_script_cannot_end_it() -> None:

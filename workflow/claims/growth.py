@@ -79,14 +79,15 @@ def _stationary(runs: Sequence[Result]) -> list[Result]:
 def finite_limit(data: Data) -> str:
     """How well a conductivity that stays finite fits ext09 at fixed spacing, over the largest sizes, in words."""
     told = []
-    for name, runs in _series(data).items():
-        large = [number(one, "kappa") for one in largest_sizes(runs)]
-        cells = [one.parameters["cells"] for one in largest_sizes(runs)]
-        found = fits(cells, [one.value for one in large], [one.error for one in large], cells[0])
+    fixed = [runs for name, runs in _series(data).items() if name in FIXED]
+    for runs in map(largest_sizes, fixed):
+        cells = [one.parameters["cells"] for one in runs]
+        values = [number(one, "kappa") for one in runs]
+        found = fits(cells, [one.value for one in values], [one.error for one in values], cells[0])
         told += [
             f"{goodness(one.chi_square, one.freedom)} at spacing {spacing(runs[-1])[1]}, N = {cells[0]} to {cells[-1]}"
             for one in found
-            if one.law == "constant" and name in FIXED
+            if one.law == "constant"
         ]
     return f" a + b N^(-1/3), which has a finite limit: {'; '.join(told)}." if told else ""
 

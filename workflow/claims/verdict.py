@@ -78,11 +78,6 @@ class Band:
                 return cls(float(low), float(high))
         raise ValueError(f"'{text}' is no band: write '0.95 to 1.05', 'above 0' or 'below 1'")
 
-    def __str__(self) -> str:
-        if math.isinf(self.high):
-            return f"above {self.low:g}"
-        return f"below {self.high:g}" if math.isinf(self.low) else f"{self.low:g} to {self.high:g}"
-
     def outcome(self, interval: tuple[float, float]) -> Outcome:
         low, high = interval
         if self.low <= low and high <= self.high:

@@ -106,8 +106,8 @@ def deviation(values: np.ndarray, errors: np.ndarray, expected: float) -> tuple[
 
 
 def background(result: Result) -> np.ndarray:
-    """C_g beside the peak at every time, on both sides: what the chain's ageing has left there, if the variance of the momentum of a
-    cell has changed (docs/model.md, eq. 55). NaN without a peak."""
+    """C_g beside the peak at every time, on both sides: 0 in equilibrium, but for the small share of a long ring;
+    not where the variance of the momentum of a cell changes (docs/model.md, eq. 55). NaN without a peak."""
     heights, positions = result["peak"].mean, result["peak_position"].mean
     found = np.full(len(heights), np.nan)
     for k in np.flatnonzero(np.isfinite(heights)):
@@ -142,7 +142,7 @@ def of_peak(result: Result) -> str:
     value, size = deviation(*speed, mean)
     return (
         f"The height of the peak falls as t^-{with_error(-law.exponent, law.error)} over all times shown, above the background "
-        f"beside it, which ageing leaves, as t^-{with_error(-above.exponent, above.error)}; the local "
+        f"beside it as t^-{with_error(-above.exponent, above.error)}; the local "
         f"exponents against {tests[0]}; against {tests[1]}. The peak moves at {with_error(mean, error)} cells per unit "
         f"time ({goodness(value, size - 1)}, about a constant speed)."
     )

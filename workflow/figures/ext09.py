@@ -18,7 +18,7 @@ from workflow.lib.caption import BATHS, WINDOW, goodness, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import with_error
 from workflow.lib.growth import LAWS, POWER, Growth, fits, widest
-from workflow.lib.load import NOT_REACHED, Result
+from workflow.lib.load import Result
 
 LOOKS = {
     "thinning": ("o", style.BLACK),
@@ -48,11 +48,6 @@ def spacings(results: Sequence[Result]) -> dict[str, str]:
     return {gas(result): style.spacing(result)[1] for result in results}
 
 
-def sound(result: Result) -> bool:
-    """Whether a run reached its target error and was stationary."""
-    return bool(result.converged != NOT_REACHED and result["stationary"].mean == 1)
-
-
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     """One row per run, sorted by N. kappa_baths has the temperatures of the baths in place of T_1 and T_N."""
     rows = []
@@ -64,7 +59,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         per_current = -int(result.parameters["cells"]) / (high - low)
         row["kappa_baths"] = per_current * float(result["energy_current"].mean)
         row["kappa_baths_error"] = abs(per_current) * float(result["energy_current"].error)
-        row["sound"] = sound(result)
+        row["sound"] = result.sound
         rows.append(row)
     return pd.DataFrame(rows).sort_values("cells", ignore_index=True)
 

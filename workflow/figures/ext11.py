@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from workflow.figures.ext09 import LOOKS, gas, sound, spacings
+from workflow.figures.ext09 import LOOKS, gas, spacings
 from workflow.lib import style
 from workflow.lib.caption import BATHS, goodness, parameters, replicas
 from workflow.lib.figure import run
@@ -52,7 +52,7 @@ class Response:
             np.array([float(quantity.mean) for quantity in quantities]),
             np.outer(errors, errors) * np.array([[1, correlation], [correlation, 1]]),
             float(np.sqrt(np.prod(temperatures))),
-            sound(result),
+            result.sound,
         )
 
     def drawn(self, random: np.random.Generator) -> np.ndarray:

@@ -68,7 +68,7 @@ def laws(table: pd.DataFrame, spacing: Mapping[str, str]) -> str:
     return f" a + b N^(1/3) holds {'; '.join(said)}." if said else ""
 
 
-def deviations(table: pd.DataFrame, quantity: str = "kappa") -> pd.DataFrame:
+def deviations(table: pd.DataFrame, quantity: str) -> pd.DataFrame:
     """A quantity from every start relative to the mean over the starts, minus 1, at the drive that has several; with
     chi^2 about that mean for each size, in its first row."""
     driven = table[table.drive.isin(table[table.start != "warm"].drive)]
@@ -83,13 +83,13 @@ def deviations(table: pd.DataFrame, quantity: str = "kappa") -> pd.DataFrame:
     return pd.concat(parts, ignore_index=True)
 
 
-def memory(table: pd.DataFrame) -> str:
-    """Whether the state of the chain knows its start, in words."""
+def memory(found: Mapping[str, pd.DataFrame]) -> str:
+    """Whether the state of the chain knows its start, in words, from the deviations of what describes it."""
     said = []
     for quantity, symbol in STATE.items():
-        found = deviations(table, quantity)
-        spread = goodness(found.chi_square.sum(), int(found.freedom.sum()))
-        said.append(f"{symbol} {spread}, largest deviation {100 * found.deviation.abs().max():.1f} %")
+        one = found[quantity]
+        spread = goodness(one.chi_square.sum(), int(one.freedom.sum()))
+        said.append(f"{symbol} {spread}, largest deviation {100 * one.deviation.abs().max():.1f} %")
     return f"Of the state, likewise: {'; '.join(said)}."
 
 
@@ -154,12 +154,13 @@ def label_cases(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) -> 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     table = read(results)
-    slopes, starts = exponents(table), deviations(table)
-    current = deviations(table, "particle_current")
+    slopes = exponents(table)
+    found = {name: deviations(table, name) for name in ("kappa", *STATE)}
+    starts, current = found["kappa"], found["particle_current"]
     figure, axes = plt.subplot_mosaic("ab;ac", figsize=(1.9 * style.COLUMN, style.HEIGHT))
     draw_exponents(axes["a"], slopes, spacings(results))
-    for panel, found, symbol in (("b", starts, r"\kappa"), ("c", current, "J_n")):
-        draw_starts(axes[panel], found, symbol)
+    draw_starts(axes["b"], starts, r"\kappa")
+    draw_starts(axes["c"], current, "J_n")
     axes["b"].sharex(axes["c"])
     axes["b"].tick_params(labelbottom=False, length=0, axis="x", which="both")
     label_cases(axes["c"], current, spacings(results))
@@ -186,12 +187,10 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         f"about a common value at every size and spacing; {ends}.{laws(table, spacing)} (b, c) κ and J_n from several starts relative to the mean over them, δ: in "
         "equilibrium with the mean of the baths (warm), with the colder or the hotter one, and empty; for κ "
         f"{goodness(starts.chi_square.sum(), int(starts.freedom.sum()))}, about a common value at every size, the largest "
-        f"deviation {100 * starts.deviation.abs().max():.1f} %. {memory(table)} Error bars: standard errors over replicas."
+        f"deviation {100 * starts.deviation.abs().max():.1f} %. {memory(found)} Error bars: standard errors over replicas."
     )
-    starts, current = (
-        found.assign(quantity=name) for found, name in ((starts, "kappa"), (current, "particle_current"))
-    )
-    return figure, pd.concat([slopes, starts, current]), caption
+    drawn = [found[name].assign(quantity=name) for name in ("kappa", "particle_current")]
+    return figure, pd.concat([slopes, *drawn]), caption
 
 
 if __name__ == "__main__":

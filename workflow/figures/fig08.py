@@ -17,7 +17,7 @@ from workflow.lib.caption import BATHS, ERRORS, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import PowerLaw, fit_power, with_error
 from workflow.lib.growth import local_exponents
-from workflow.lib.load import NOT_REACHED, Result
+from workflow.lib.load import Result
 
 GUIDES = {"N": (1 / 3, r"$N^{1/3}$"), 1: (1, "$N$")}  # the paper's exponents, by gamma
 BELOW = 0.6  # factor by which these lie below the data
@@ -48,7 +48,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
             row[name], row[f"{name}_error"] = (
                 float(value) for value in (result[name].mean, result[name].error)
             )
-        row["sound"] = result.converged != NOT_REACHED and result["stationary"].mean == 1
+        row["sound"] = result.sound
         rows.append(row)
     return pd.DataFrame(rows).sort_values("cells")
 

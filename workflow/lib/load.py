@@ -103,6 +103,11 @@ class Result:
         """Of the target error: reached, not reached, or no target."""
         return str(self.provenance["converged"])
 
+    @property
+    def sound(self) -> bool:
+        """Whether the target error was not missed and the chain was stationary. Raises KeyError where that is not tested."""
+        return bool(self.converged != NOT_REACHED and self["stationary"].mean == 1)
+
 
 def load(path: Path) -> Result:
     """One result file. Raises FormatError if it is not one."""

@@ -44,7 +44,7 @@ def claim(judgement: Judgement, costs: Costs) -> dict[str, Any]:
         "ours": words.result(deciding) if deciding else "no data",
         "short": words.value(shown.worst) if shown else "no data",
         "label": shown.worst.label if shown else "",
-        "admitted": str(shown.band) if shown else "",
+        "admitted": next((judgement.claim[name] for name, one in readings.items() if one is shown), ""),
         "readings": [
             {
                 "name": words.READINGS[name],
@@ -134,10 +134,9 @@ def _at_fixed_density(judgement: Judgement) -> str:
     """What heat does in the thermodynamic limit, where it has been measured."""
     if not judgement.other:
         return ""
-    found = "; ".join(words.told(number) for number in judgement.other.numbers)
     return (
         ", where size and density change together; at fixed density, that the exponent is 1/3 is "
-        f"{judgement.other.outcome.value} ({found})"
+        f"{judgement.other.outcome.value} ({words.told_all(judgement.other)})"
     )
 
 
@@ -149,9 +148,8 @@ def findings(judgements: Sequence[Judgement]) -> list[dict[str, Any]]:
         judgement = by_id[finding["claim"]]
         reading = getattr(judgement, finding["reading"])
         if reading and reading.outcome.value == finding["outcome"]:
-            numbers = "; ".join(words.told(number) for number in reading.numbers)
             text = finding["text"].format(
-                number=words.told(reading.worst), numbers=numbers, caveat=judgement.caveat
+                number=words.told(reading.worst), numbers=words.told_all(reading), caveat=judgement.caveat
             )
             held.append(
                 finding

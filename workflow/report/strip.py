@@ -3,11 +3,21 @@
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import NamedTuple
 
-from workflow.claims.verdict import Reading
+from workflow.claims.verdict import Outcome, Reading
 
 WIDTH, MARGIN = 200, 8  # of the picture, in its own units
 MOST = 24  # numbers drawn; of more, those nearest to an edge or beyond it
+
+
+class Point(NamedTuple):
+    """A number with the ends of its interval; outside: the whole interval lies out of the band."""
+
+    low: float
+    value: float
+    high: float
+    outside: bool
 
 
 @dataclass(frozen=True)
@@ -15,7 +25,7 @@ class Strip:
     """Places along the picture, rounded to a tenth."""
 
     band: tuple[float, float]
-    points: list[tuple[float, float, float]]  # low end, value, high end
+    points: list[Point]
 
 
 def strip_of(reading: Reading) -> Strip | None:
@@ -39,7 +49,15 @@ def strip_of(reading: Reading) -> Strip | None:
 
     return Strip(
         (place(reading.band.low), place(reading.band.high)),
-        [(place(first), place(value), place(last)) for first, last, value in shown],
+        [
+            Point(
+                place(first),
+                place(value),
+                place(last),
+                reading.band.outcome((first, last)) is Outcome.CONTRADICTED,
+            )
+            for first, last, value in shown
+        ],
     )
 
 

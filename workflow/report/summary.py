@@ -37,8 +37,7 @@ def draw_strip(axes: Axes, strip: Strip, height: float) -> None:
     """The band that the claim admits, and the numbers with their intervals."""
     low, high = strip.band
     axes.fill_between([low, high], height - HALF, height + HALF, color="0.86", linewidth=0)
-    for first, value, last in strip.points:
-        outside = last < low or first > high
+    for first, value, last, outside in strip.points:
         color = style.VERMILLION if outside else style.BLACK
         axes.plot([first, last], [height, height], color=color, linewidth=0.8, zorder=2 + outside)
         axes.plot(value, height, "D" if outside else "o", color=color, markersize=2.2, zorder=2 + outside)

@@ -55,6 +55,10 @@ def told(number: Number) -> str:
     return f"{number.label}: {value(number)}"
 
 
+def told_all(reading: Reading) -> str:
+    return "; ".join(map(told, reading.numbers))
+
+
 def p_value(p: float) -> str:
     if math.isnan(p):
         return "unknown"
