@@ -7,6 +7,7 @@
 #include <fstream>
 #include <span>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 #include "program/errors.hpp"
@@ -23,7 +24,8 @@ std::string checksum(std::span<const std::byte> content) {
 
 /// Whether a regular file ends with the checksum of what precedes it.
 bool is_whole(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path)) return false;
+  std::error_code unreadable;
+  if (!std::filesystem::is_regular_file(path, unreadable)) return false;
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
   const std::string file = std::move(text).str();
