@@ -118,7 +118,7 @@ def _at_zero(table: pd.DataFrame, kind: str, known: float) -> list[Number]:
 
 
 def _largest_at_zero(table: pd.DataFrame, cells: int) -> float:
-    """Without correlations."""
+    """In mean field."""
     part = table[table.cells == cells]
     return max(abs(one.value) for one in _at_zero(part, "mean field", math.inf))
 
@@ -131,7 +131,7 @@ def deviations_small(data: Data) -> Evidence:
         bins,
         other=_bins(table, known, False),
         caveat="In the normalisation printed, with the mean of both rates, F integrates to 1; relative to max F in the other reading. "
-        f"At p = 0 itself {_largest_at_zero(table, 2):.2e} is reached at N = 2 without correlations.",
+        f"At p = 0 itself {_largest_at_zero(table, 2):.2e} is reached at N = 2 in mean field.",
     )
 
 
@@ -142,12 +142,12 @@ def deviations_at_16(data: Data) -> Evidence:
     return Evidence(
         _bins(table, known, True),
         other=_bins(table, known, False),
-        caveat=f"Without correlations the largest deviation of a bin is {theory:.2e} as printed, and {_largest_at_zero(table, 16):.2e} at p = 0.",
+        caveat=f"In mean field the largest deviation of a bin is {theory:.2e} as printed, and {_largest_at_zero(table, 16):.2e} at p = 0.",
     )
 
 
 def deviations_vanish(data: Data) -> Evidence:
-    """The part of the deviation that has the shape of the one without correlations at N = 2, against N."""
+    """The part of the deviation that has the shape of that of the mean field at N = 2, against N."""
     table, _ = _deviations(data)
     shape = table[(table.kind == "mean field") & (table.cells == 2)].deviation.to_numpy()
     results = sorted(data.of("fig03_inset", "momentum_flux"), key=lambda one: one.parameters["cells"])
@@ -222,7 +222,7 @@ def jump_from_rates_only(data: Data) -> Evidence:
             number(equal, "jump", bond, f"jump over max F at ν_L = ν_R, {name}").over(scale)
             for bond, name in ((1, "x = 1/N"), (-1, "x = 1"))
         ],
-        caveat=f"Without correlations it is {theory[0]:.3f} and {theory[1]:.3f}: equal rates do not remove it there either.",
+        caveat=f"In mean field it is {theory[0]:.3f} and {theory[1]:.3f}: equal rates do not remove it there either.",
     )
 
 

@@ -15,18 +15,20 @@ from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
 RESOLVED = 3  # standard errors beyond which a curvature is called one
-BESIDE = 1.05  # factor of the sizes at which neighbouring spacings are drawn, as points would hide each other
+BESIDE = 1.07  # factor of the sizes at which neighbouring spacings are drawn, as points would hide each other
 TEMPERATURES = {
     "particle": "arriving particles",
     "baths": "baths",
 }  # that may take the place of T_1 and T_N in eq. 28
 OTHERS = tuple(TEMPERATURES)
+DEFINITIONS = ("", *(f"_{other}" for other in OTHERS))  # as suffixes of columns
+SPREAD: style.Look = {"linewidth": 4, "alpha": 0.25, "zorder": 1}  # of the definitions
 
 
 def local(part: pd.DataFrame) -> pd.DataFrame:
     """Between neighbouring sizes of one spacing, for each definition of kappa."""
     found: dict[str, np.ndarray] = {}
-    for name in ("", *(f"_{other}" for other in OTHERS)):
+    for name in DEFINITIONS:
         middle, slope, error = local_exponents(part.cells, part[f"kappa{name}"], part[f"kappa{name}_error"])
         found |= {"size": middle, f"exponent{name}": slope, f"exponent{name}_error": error}
     return pd.DataFrame(found)
@@ -91,6 +93,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         look = {"marker": marker, "color": color, "label": rf"$\lambda = {spacing[name]}$", **style.POINTS}
         beside = BESIDE ** len(tables)
         axes.errorbar(beside * found["size"], found.exponent, found.exponent_error, **look)
+        others = found[[f"exponent{name}" for name in DEFINITIONS]]
+        axes.vlines(beside * found["size"], others.min(axis=1), others.max(axis=1), color=color, **SPREAD)
         if law := of_cube_root(part):
             axes.plot(*law, color=color, linestyle=style.DASHES[1])
         tables.append(found.assign(gas=name))
@@ -106,13 +110,13 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         f"{'; '.join(said)}. At the spacing 1/N of the paper the gas thins out as the chain grows; at fixed spacings large "
         "N is the thermodynamic limit. Broken lines: a + b N^(1/3), fitted to the sizes for which it is not rejected, "
         "whose exponent tends to 1/3. With the temperatures of the arriving particles or of the baths in place of T_1 and "
-        f"T_N the exponents differ from these by up to {definitions(whole)}{otherwise(table, spacing)}. Error bars: standard errors over replicas; neighbouring points share a size; "
+        f"T_N (pale bars from the least to the largest of the three) the exponents differ from these by up to {definitions(whole)}{otherwise(table, spacing)}. Error bars: standard errors over replicas; neighbouring points share a size; "
         "spacings are drawn beside each other."
     )
     return figure, whole, caption
 
 
 if __name__ == "__main__":
-    exponents = [f"exponent{name}" for name in ("", *(f"_{other}" for other in OTHERS))]
+    exponents = [f"exponent{name}" for name in DEFINITIONS]
     pure = ["size", *exponents, *(f"{name}_error" for name in exponents)]
     run(draw, "Local exponent of the heat conductivity", **dict.fromkeys(pure, "1"))

@@ -49,8 +49,7 @@ def draw_collapse(axes: Axes, result: Result) -> pd.DataFrame:
     axes.axhline(0, **style.GUIDE)
     axes.set(xlabel=r"$(r - ct)\,(t_1/t)^{2/3}$")
     axes.set(ylabel=rf"$(t/t_1)^{{2/3}}\,C_g(r, t)\,/\,10^4$ ({style.UNITS})")
-    axes.set_xlim(left=2 * axes.get_xlim()[0])
-    axes.legend(loc="upper left", handlelength=2.4)
+    axes.legend(loc="upper left", handlelength=1.6)
     return pd.concat(parts) if parts else pd.DataFrame(columns=["time", "x", "y"])
 
 

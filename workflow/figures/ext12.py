@@ -16,7 +16,7 @@ from workflow.lib.fit import mean_of
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
-FACES = ("white", "0.7", None)  # of the markers, from the weakest drive to the strongest
+FACES: tuple[str, str, str | None] = ("white", "0.7", None)  # of the markers, from the weakest drive to the strongest
 PARAMETERS = 2  # of a + b N^(1/3)
 STATE = {"particle_current": "J_n", "temperature_first": "T_1", "temperature_last": "T_N"}
 STARTS = {
@@ -111,25 +111,20 @@ def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) 
         marker, color = LOOKS[name]
         for number, drive in enumerate(drives):
             one = found[(found.gas == name) & (found.drive == drive)]
-            face = FACES[number] or color
-            axes.errorbar(
-                one["size"]
-                * 1.1 ** (number - 1)
-                * 1.03 ** (place - 1),  # beside each other, or they would hide each other
-                one.exponent,
-                one.exponent_error,
-                marker=marker,
-                color=color,
-                markerfacecolor=face,
-                label=rf"$\lambda = {spacing[name]}$" if drive == drives[-1] else None,
-                **style.POINTS,
-            )
-    axes.set(xscale="log", xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, 0.8))
+            # Beside each other, or they would hide each other.
+            size = one["size"] * 1.1 ** (number - 1) * 1.03 ** (place - 1)
+            look: style.Look = {"marker": marker, "color": color, "markerfacecolor": FACES[number] or color}
+            look["label"] = rf"$\lambda = {spacing[name]}$" if drive == drives[-1] else None
+            axes.errorbar(size, one.exponent, one.exponent_error, **look, **style.POINTS)
+    for drive, face in zip(drives, FACES, strict=False):
+        label = rf"$T_R/T_L = {drive:g}$"
+        axes.plot([], [], "D", color=style.BLACK, markerfacecolor=face or style.BLACK, label=label)
+    axes.set(xscale="log", xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, 1))
     axes.set_xlim(found["size"].min() / 1.6, found["size"].max() * 1.6)
     axes.axhline(1 / 3, **style.GUIDE)
     axes.annotate("1/3", (1.01, 1 / 3), xycoords=("axes fraction", "data"), va="center", size=8)
     style.label_sizes(axes.xaxis)
-    axes.legend(loc="upper left", ncols=3, columnspacing=0.8, handletextpad=0.2)
+    axes.legend(loc="upper left", ncols=2, columnspacing=0.8, handletextpad=0.2)
 
 
 def draw_starts(axes: Axes, found: pd.DataFrame, symbol: str) -> None:

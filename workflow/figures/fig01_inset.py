@@ -51,18 +51,34 @@ def draw_number(axes: Axes, table: pd.DataFrame, result: Result) -> None:
         label="$n(t)$",
     )
     dashes = "solid" if straight(result) else "dotted"
-    axes.plot(table.time, table.number_fitted, color=style.BLACK, linestyle=dashes, zorder=3)
-    axes.text(0.05, 0.95, rf"$\lambda = {style.spacing(result)[1]}$", transform=axes.transAxes, va="top")
+    label = r"$a + b\ln t$" + ("" if straight(result) else ", rejected")
+    axes.plot(table.time, table.number_fitted, color=style.BLACK, linestyle=dashes, zorder=3, label=label)
     axes.set(xscale="log", ylabel="particles inside $n(t)$", ylim=(0, None))
+    title = rf"$\lambda = {style.spacing(result)[1]}$"
+    axes.legend(
+        title=title, alignment="left", loc="lower right" if table.cell_length.iloc[0] < 1 else "upper left"
+    )
 
 
 def draw_slopes(axes: Axes, table: pd.DataFrame, result: Result) -> None:
     between = np.sqrt(table.time * table.time.shift(-1))
     axes.errorbar(
-        between, table.slope_to_next, table.slope_to_next_error, marker="o", color=style.BLUE, **style.POINTS
+        between,
+        table.slope_to_next,
+        table.slope_to_next_error,
+        marker="o",
+        color=style.BLUE,
+        label="slope of $n(t)$",
+        **style.POINTS,
     )
     plateau = result["plateau"]
-    look = {"marker": "s", "color": style.VERMILLION, "markerfacecolor": "white", **style.POINTS}
+    look = {
+        "marker": "s",
+        "color": style.VERMILLION,
+        "markerfacecolor": "white",
+        "label": r"$|p|\,n_t(p)$",
+        **style.POINTS,
+    }
     axes.errorbar(plateau.axes["time"], plateau.mean, plateau.error, **look)
     axes.set(xlabel=f"time $t$ ({style.UNITS})", ylabel=r"$dn/d\ln t$")
 
@@ -104,6 +120,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         draw_slopes(below, table, result)
         for axes in (above, below):
             axes.axvspan(*result["plateau"].axes["time"][[0, -1]], **style.WINDOW)
+    rows[1, 0].legend(loc="upper left", handletextpad=0.2)
     style.letter(*rows.flat)
     return figure, pd.concat(tables), caption(results)
 

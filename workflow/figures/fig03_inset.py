@@ -1,7 +1,7 @@
 """Fig. 3, inset: finite chains against the kinetic equation, in the halves that leave the chain.
 
 F_N(p, 0) for p < 0 and F_N(p, 1) for p > 0, both averaged over the bins, minus F, in units of the largest F.
-Lines: the chain of N scatterers without correlations (mean field).
+Lines: the mean field, the kinetic equation of N scatterers.
 """
 
 from collections.abc import Sequence
@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, ERRORS, WINDOW, listed, parameters, replicas
+from workflow.lib.caption import BATHS, ERRORS, WINDOW, goodness, listed, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import PowerLaw, fit_power, with_error
 from workflow.lib.load import Result
@@ -124,12 +124,12 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         for one in rows.assign(absolute_as_printed=rows.absolute_as_printed.abs()).iloc[[0, -1]].itertuples()
     )
     law = decay(table)
+    said = "no power of N fits it" if law.rejected else f"it falls as the power {law.text} of N"
     return f"""
         Finite chains against the kinetic equation, {parameters(runs, "cells", "cell-length", "sigma", "gamma", *BATHS, *WINDOW)},
         {replicas(runs)}. (a) F_N − F in the halves that leave the chain, negative p at the left end and positive p at the right one,
-        means over the bins in thousandths of the largest F: simulations (points) and chains without correlations (lines, mean
-        field). {ERRORS}. (b) The largest deviation over the bins: {listed(found)}; it falls {"about " * law.rejected}as the power {law.text} of N
-        (χ² = {law.chi_square:.1f} for {law.freedom} degrees of freedom). The paper states less than {LIMITS[0][1]} for all N and
+        means over the bins in thousandths of the largest F: simulations (points) and the mean field, the kinetic equation of
+        N scatterers (lines). {ERRORS}. (b) The largest deviation over the bins: {listed(found)}; {said} ({goodness(law.chi_square, law.freedom)}). The paper states less than {LIMITS[0][1]} for all N and
         {LIMITS[1][1]} for the longest chain, without a reference: both are exceeded relative to the largest F; in its printed
         normalisation, in which F integrates to one, taken at the mean of the two rates (right axis), they are {first} for the shortest and
         {last} for the longest. The largest of noisy bins is above the true largest, by up to the error of one."""

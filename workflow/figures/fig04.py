@@ -1,8 +1,7 @@
 """Fig. 4: momentum distribution of the particles at both ends of an open chain; a: gamma = 1, b: gamma = N.
 
 Beside it the surroundings of p = 0, where the distribution jumps, and the jumps of all cases; in b also with equal rates
-at both ends and with gamma = 1. Without correlations means the kinetic equation at gamma = 1, and as many scatterers of it
-at gamma = N.
+at both ends and with gamma = 1. The mean field is the kinetic equation at gamma = 1, and that of N scatterers at gamma = N.
 """
 
 from collections.abc import Sequence
@@ -75,7 +74,7 @@ def halves(part: pd.DataFrame) -> list[pd.DataFrame]:
 
 
 def draw_distribution(axes: Axes, table: pd.DataFrame, reach: float) -> None:
-    """F over its bins at both ends; black without correlations."""
+    """F over its bins at both ends; black in mean field."""
     for place, part in table.groupby("x", sort=False):
         _, color, dashes, _ = ENDS[place]
         label: str | None = f"${place}$"
@@ -110,7 +109,7 @@ def cases(table: pd.DataFrame) -> list[tuple[str, bool, pd.DataFrame]]:
 
 
 def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
-    """One row per chain; both ends, and without correlations."""
+    """One row per chain; both ends, and in mean field."""
     chains = cases(table)
     for row, (_, _, part) in enumerate(chains):
         for shift, end in zip((0.17, -0.17), part.itertuples(), strict=True):
@@ -144,7 +143,7 @@ def extrapolation_error(table: pd.DataFrame) -> float:
 
 
 def by_theory(jump: float) -> str:
-    return f" (kinetic equation {number(jump)})" if np.isfinite(jump) else ""
+    return f" (mean field {number(jump)})" if np.isfinite(jump) else ""
 
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
@@ -162,16 +161,16 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     known = [end for end in alike if abs(end.jump) > RESOLVED * end.jump_error]
     theory = listed(number(end.kinetic_jump) for end in alike) if alike else ""
     still = (
-        f"; with equal rates a jump is resolved at {len(known)} of {len(alike)} ends, and the kinetic equation has {theory} there"
+        f"; with equal rates a jump is resolved at {len(known)} of {len(alike)} ends, and the mean field has {theory} there"
         if alike
         else ""
     )
     return f"""
         Flux distribution F_N(p, x) of the particles behind the first scatterer (solid, circles) and the last (dashed,
-        squares) of an open chain; {parameters(main, *CHAIN, *BATHS, *WINDOW)}, {replicas(runs)}. Black: the kinetic
-        equation of the same chain, in which what meets is not correlated. (a) F_N, (b) the same about the momentum zero, (c) the same minus that F, in per cent of its
-        maximum, (d) jump at momentum zero; black bars by the kinetic equation. Jumps at {"; ".join(said)}.
-        {ERRORS}; the lines through two bins on either side that give the jumps err by up to {extrapolation_error(table):.2g}, as they do for the kinetic equation. The paper has the curves of γ = 1 on top of the kinetic equation, and says that
+        squares) of an open chain; {parameters(main, *CHAIN, *BATHS, *WINDOW)}, {replicas(runs)}. Black: the mean field, the kinetic
+        equation of the same chain. (a) F_N, (b) the same about the momentum zero, (c) the same minus that F, in per cent of its
+        maximum, (d) jump at momentum zero; black bars in mean field. Jumps at {"; ".join(said)}.
+        {ERRORS}; the lines through two bins on either side that give the jumps err by up to {extrapolation_error(table):.2g}, as they do in mean field. The paper has the curves of γ = 1 on top of the kinetic equation, and says that
         at γ = N the jump comes from unequal rates alone{still}."""
 
 
@@ -191,7 +190,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     panels["main"].text(
         0.95, 0.9, rf"$\gamma = {main.gamma.iloc[0]}$", transform=panels["main"].transAxes, ha="right"
     )
-    panels["near"].plot([], [], color=style.BLACK, linewidth=0.6, label="without correlations")
+    panels["near"].plot([], [], color=style.BLACK, linewidth=0.6, label="mean field")
     handles = panels["near"].get_legend_handles_labels()
     figure.legend(*handles, loc="outside upper center", ncols=5)
     style.letter(*panels.values())

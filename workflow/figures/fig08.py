@@ -1,7 +1,7 @@
 """Fig. 8: heat conductivity against the number of cells.
 
 Beside it kappa over the power of N that the paper states, and local exponents d ln kappa / d ln N between neighbouring sizes,
-which are constant where a power law holds. The mean field is the chain of as many scatterers without correlations.
+which are constant where a power law holds. The mean field is the kinetic equation of N scatterers.
 Points whose window is not stationary, or whose run stopped before its target, are crossed out and not used.
 """
 
@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, ERRORS, parameters, replicas
+from workflow.lib.caption import BATHS, ERRORS, goodness, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import PowerLaw, fit_power, with_error
 from workflow.lib.growth import local_exponents
@@ -21,7 +21,10 @@ from workflow.lib.load import Result
 
 GUIDES = {"N": (1 / 3, r"$N^{1/3}$"), 1: (1, "$N$")}  # the paper's exponents, by gamma
 BELOW = 0.6  # factor by which these lie below the data
-FACES = {"kappa": None, "kappa_particle": "white"}  # by whose temperature is used
+LOOKS = {
+    "kappa": (None, "$T$ of scatterers"),
+    "kappa_particle": ("white", "$T$ of particles"),
+}  # faces and names
 
 
 def measured(results: Sequence[Result]) -> list[Result]:
@@ -29,7 +32,7 @@ def measured(results: Sequence[Result]) -> list[Result]:
 
 
 def mean_field(results: Sequence[Result]) -> pd.DataFrame:
-    """kappa of the chains without correlations, sorted by N."""
+    """kappa in mean field, sorted by N."""
     rows = []
     for result in results:
         if result.provenance["program"] == "boltzmann":
@@ -91,16 +94,17 @@ def draw_sizes(axes: Axes, table: pd.DataFrame, theory: pd.DataFrame) -> None:
 def draw_compensated(axes: Axes, table: pd.DataFrame, theory: pd.DataFrame, gamma: str | int) -> None:
     """kappa over the paper's power of N, by the temperatures of scatterers (full) and of particles (open)."""
     marker, color = style.BY_GAMMA[gamma]
-    slope, name = GUIDES[gamma]
+    slope, guide = GUIDES[gamma]
     part = table[table.gamma == gamma]
     power = part.cells**slope
-    for column, face in FACES.items():
+    for column, (face, name) in LOOKS.items():
         look = {"marker": marker, "color": color, "markerfacecolor": face or color, **style.POINTS}
-        axes.errorbar(part.cells, part[column] / power, part[f"{column}_error"] / power, **look)
+        axes.errorbar(part.cells, part[column] / power, part[f"{column}_error"] / power, label=name, **look)
     if gamma == "N":
         expected = theory.mean_field_kappa / theory.cells**slope
         axes.plot(theory.cells, expected, color=color, linestyle="dashed")
-    axes.set(xscale="log", ylabel=rf"$\kappa\,/$ {name}")
+    axes.set(xscale="log", ylabel=rf"$\kappa\,/$ {guide}")
+    axes.legend(loc="upper right" if gamma == 1 else "upper left", handletextpad=0.2)
 
 
 def draw_local(axes: Axes, table: pd.DataFrame) -> None:
@@ -120,9 +124,8 @@ def found(table: pd.DataFrame, gamma: str | int) -> str:
         with_error(*local[["exponent_to_next", "exponent_to_next_error"]].iloc[k])
         for k in (0, int(local.exponent_to_next.argmax()), -1)
     )
-    goodness = f"χ² = {law.chi_square:.0f} for {law.freedom} degrees of freedom"
     said = f"exponent {law.text}" if not law.rejected else "no single power of N"
-    return f"γ = {gamma}: {said} ({goodness}); the local exponent is {first} at the smallest sizes, at most {most}, and {last} at the largest"
+    return f"γ = {gamma}: {said} ({goodness(law.chi_square, law.freedom)}); the local exponent is {first} at the smallest sizes, at most {most}, and {last} at the largest"
 
 
 def caption(table: pd.DataFrame, theory: pd.DataFrame, results: Sequence[Result]) -> str:
@@ -131,8 +134,8 @@ def caption(table: pd.DataFrame, theory: pd.DataFrame, results: Sequence[Result]
     return f"""
         Heat conductivity κ = −J_U N/(T_N − T_1) of an open chain against its number of cells N, for γ = N (circles) and
         γ = 1 (squares); {parameters(runs, "sigma", *BATHS)}, λ = {runs[0].parameters["cell-length"]}, {replicas(runs)}
-        per point. (a) κ, dashed grey the paper's powers of N, drawn below, dashed blue the kinetic equation of the same
-        chain (mean field), solved up to N = {theory.cells.max()}. (b), (c) κ over these powers, with the temperatures of the scatterers (full) and of the arriving particles
+        per point. (a) κ, dashed grey the paper's powers of N, drawn below, dashed blue the mean field, the kinetic equation of
+        N scatterers, solved up to N = {theory.cells.max()}. (b), (c) κ over these powers, with the temperatures of the scatterers (full) and of the arriving particles
         (open). (d) Local exponents between neighbouring sizes, which share a point; dashed the paper's. {ERRORS}; crosses,
         {crossed or "none"} here, mark points that are not stationary. {found(table, 1)}. {found(table, "N")}. The paper reads
         N and the cube root of N from its points. In mean field there is no growth at γ = N."""

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from workflow.figures.fig09 import STARTS, draw_marked, look_of, ring_closed, start
 from workflow.lib import style
-from workflow.lib.caption import CHAIN, ERRORS, listed, number, parameters, replicas
+from workflow.lib.caption import CHAIN, ERRORS, goodness, listed, number, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import mean_of, rejected, with_error
 from workflow.lib.load import Result
@@ -60,7 +60,7 @@ def drift(table: pd.DataFrame) -> tuple[bool, str]:
     pairs = before_closing(table)
     *_, chi_square = mean_of(pairs.exponent_to_next, pairs.exponent_to_next_error)
     freedom = len(pairs) - 1
-    return rejected(chi_square, freedom), f"χ² = {chi_square:.1f} for {freedom} degrees of freedom"
+    return rejected(chi_square, freedom), goodness(chi_square, freedom)
 
 
 def draw_peaks(axes: Axes, result: Result, table: pd.DataFrame) -> None:
@@ -81,7 +81,7 @@ def draw_exponents(axes: Axes, result: Result, table: pd.DataFrame) -> None:
 def caption(tables: Sequence[pd.DataFrame], results: Sequence[Result]) -> str:
     said = []
     for result, table in zip(results, tables, strict=True):
-        drifts, goodness = drift(table)
+        drifts, spread = drift(table)
         pairs = before_closing(table)
         exponents = [
             with_error(one.exponent_to_next, one.exponent_to_next_error) for one in pairs.itertuples()
@@ -91,7 +91,7 @@ def caption(tables: Sequence[pd.DataFrame], results: Sequence[Result]) -> str:
             if drifts
             else f"exponent {style.with_error(result['damping_exponent'])}"
         )
-        said.append(f"{STARTS[start(result)][3]}: {verdict} ({goodness})")
+        said.append(f"{STARTS[start(result)][3]}: {verdict} ({spread})")
     slope = SLOPES[results[0].parameters["gamma"]][0]
     return f"""
         Height of the moving peak of the energy difference after a pulse against time, from the runs of fig. 9;
