@@ -16,7 +16,7 @@ from workflow.lib.fit import mean_of
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
-FACES: tuple[str, str, str | None] = ("white", "0.7", None)  # of the markers, from the weakest drive to the strongest
+FACES = ("white", "0.7")  # of the markers of all drives but the strongest, from the weakest on
 PARAMETERS = 2  # of a + b N^(1/3)
 STATE = {"particle_current": "J_n", "temperature_first": "T_1", "temperature_last": "T_N"}
 STARTS = {
@@ -113,12 +113,12 @@ def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) 
             one = found[(found.gas == name) & (found.drive == drive)]
             # Beside each other, or they would hide each other.
             size = one["size"] * 1.1 ** (number - 1) * 1.03 ** (place - 1)
-            look: style.Look = {"marker": marker, "color": color, "markerfacecolor": FACES[number] or color}
+            look: style.Look = {"marker": marker, "color": color, "markerfacecolor": [*FACES, color][number]}
             look["label"] = rf"$\lambda = {spacing[name]}$" if drive == drives[-1] else None
             axes.errorbar(size, one.exponent, one.exponent_error, **look, **style.POINTS)
-    for drive, face in zip(drives, FACES, strict=False):
+    for drive, face in zip(drives, [*FACES, style.BLACK], strict=False):
         label = rf"$T_R/T_L = {drive:g}$"
-        axes.plot([], [], "D", color=style.BLACK, markerfacecolor=face or style.BLACK, label=label)
+        axes.plot([], [], "D", color=style.BLACK, markerfacecolor=face, label=label)
     axes.set(xscale="log", xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, 1))
     axes.set_xlim(found["size"].min() / 1.6, found["size"].max() * 1.6)
     axes.axhline(1 / 3, **style.GUIDE)
