@@ -49,12 +49,21 @@ def available() -> bool:
     programs = ("slurmctld", "slurmd", "munged", "sbatch", "scontrol")
     return (
         os.geteuid() == 0
-        and not os.path.lexists(PLACE)
+        and (not os.path.lexists(PLACE) or left_behind())
         and all(shutil.which(program, path=PATH) for program in programs)
     )
 
 
+def left_behind() -> bool:
+    """Whether the configuration is that of tests that were killed: its controller is gone."""
+    if not PLACE.is_symlink() or not PLACE.readlink().parent.name.startswith(PREFIX):
+        return False
+    pid = PLACE.readlink().with_name("slurmctld.pid")
+    return not (pid.is_file() and Path("/proc", pid.read_text().strip(), "comm").is_file())
+
+
 PLACE = Path("/etc/slurm/slurm.conf")
+PREFIX = "slurm."  # of a cluster's folder
 DISK = Path("/dev/shm")  # what a node's own disk is for the others
 PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
 
@@ -103,6 +112,7 @@ class Cluster:
     def _install(self) -> None:
         """Where Slurm's commands look for it, as the executor hands no variable to those that it starts in a job."""
         PLACE.parent.mkdir(exist_ok=True)
+        PLACE.unlink(missing_ok=True)  # left behind, or there would be no cluster here
         PLACE.symlink_to(self.folder / "slurm.conf")
 
     def stop(self) -> None:
@@ -142,7 +152,7 @@ class Cluster:
 @contextlib.contextmanager
 def cluster(cpus: int = 2) -> Iterator[Cluster]:
     """Below /tmp, as the path of a socket must be short and its folder open to another user."""
-    folder = Path(tempfile.mkdtemp(prefix="slurm."))
+    folder = Path(tempfile.mkdtemp(prefix=PREFIX))
     folder.chmod(0o755)
     one = Cluster(folder, cpus)
     try:
