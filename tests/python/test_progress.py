@@ -98,6 +98,12 @@ def test_a_failure_is_shown_with_the_end_of_its_log(capsys: pytest.CaptureFixtur
     assert end.startswith("Failed: fig05/a; 0 of 3 done. When the cause is mended, the same command goes on")
 
 
+def test_a_failure_that_left_no_word_says_so(capsys: pytest.CaptureFixture) -> None:
+    display = begun()
+    display.fail(running("fig05/a"), [])
+    assert capsys.readouterr().out.endswith("a.log is empty: it was killed, or never began\n")
+
+
 def test_what_is_stopped_says_how_to_go_on(capsys: pytest.CaptureFixture) -> None:
     display = begun()
     display.finish_run(running("fig05/a"), Outcome(""))

@@ -39,7 +39,7 @@ ReturnToService=2
 KillWait=10
 JobAcctGatherType=jobacct_gather/linux
 AccountingStorageType=accounting_storage/none
-MinJobAge=300
+MinJobAge=3600
 NodeName=localhost NodeAddr=127.0.0.1 CPUs={cpus} RealMemory=8000 State=UNKNOWN
 PartitionName=test Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 """

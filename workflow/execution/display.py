@@ -87,7 +87,8 @@ class Display:
     def fail(self, running: Running, lines: Sequence[str]) -> None:
         self._running.pop(running.name, None)
         self._failed[running.name] = None
-        self.say(f"{running.name} failed after {clock(running.elapsed)}. {running.log} ends with:")
+        said = "ends with:" if lines else "is empty: it was killed, or never began"
+        self.say(f"{running.name} failed after {clock(running.elapsed)}. {running.log} {said}")
         for line in lines:
             self.say(f"  {line}")
 
