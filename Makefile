@@ -66,8 +66,12 @@ override FAULT := $(if $(GIVEN),$(shell $(CHECK)))
 $(if $(FAULT),$(error $(FAULT)))
 $(if $(and $(GIVEN),$(filter-out 0,$(.SHELLSTATUS))),$(error the arguments cannot be checked: python3 is needed))
 
-# Who may not write here is told so before anything is tried.
+# Who may not write here is told so before anything is tried, and in which folders compiler and Snakemake do not work.
 WRITING := $(filter-out help audit verify provenance status,$(MAKECMDGOALS))
+override hash := \#
+override UNNAMED := $(if $(WRITING),$(shell test "$$PWD" = "$$(printf %s "$$PWD" | tr -d '[]{}"\\$(hash)$$\n')" || echo yes))
+$(if $(UNNAMED),$(error the path of this folder has one of [ ] { } " \ $(hash) $$ or a line break, which cmake, ccache or Snakemake \
+  take for something else: move the project to another one))
 PLACES := . build data figures .venv .snakemake .cache
 override CLOSED := $(if $(WRITING),$(shell for each in $(PLACES); do test ! -e $$each || test -w $$each || echo $$each; done))
 $(if $(CLOSED),$(error you may not write in $(CURDIR) ($(CLOSED)): copy the project to a folder of your own; \
@@ -219,6 +223,7 @@ lock: dev  ## Renew the locks of Python packages
 	done
 
 clean:  ## Remove what can be made again, results included
+	python3 -I workflow/environment/packages.py --idle
 	rm -rf build data/*/ figures/*/ .snakemake .cache
 
 system-packages:

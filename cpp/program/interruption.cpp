@@ -35,8 +35,11 @@ void handle(int number, void (*handler)(int)) {
 }  // namespace
 
 void watch_for_signals() {
-  handle(SIGINT, note_signal);
-  handle(SIGTERM, note_signal);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
+    struct sigaction before{};
+    sigaction(number, nullptr, &before);
+    if (number != SIGHUP || before.sa_handler != SIG_IGN) handle(number, note_signal);
+  }
   handle(SIGALRM, end_process);
 }
 

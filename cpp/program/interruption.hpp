@@ -2,7 +2,8 @@
 
 namespace lorentz {
 
-/// Installs handlers that record SIGINT and SIGTERM instead of terminating the process.
+/// Installs handlers that record SIGINT, SIGTERM, SIGHUP and SIGXCPU instead of terminating the process.
+/// SIGHUP stays ignored where it is, as by nohup.
 void watch_for_signals();
 
 /// Last signal received, or 0. Thread-safe and cheap: one atomic load.

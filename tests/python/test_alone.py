@@ -1,7 +1,6 @@
 """What the start of Snakemake takes away, and what is told of errors that are not the project's."""
 
 import json
-import resource
 from pathlib import Path
 
 import pytest
@@ -39,19 +38,3 @@ def test_errors_of_the_system_are_told_in_one_line(
     alone.told_by(lambda _, other: left.append(other))(None, error)
     assert capsys.readouterr().err == line
     assert left == ([] if line else [error])
-
-
-@pytest.mark.parametrize(
-    ("limit", "enough"),
-    [(250 << 20, False), ((1 << 30) - 1, False), (1 << 30, True), (resource.RLIM_INFINITY, True)],
-)
-def test_too_few_addresses_are_told_beforehand(
-    monkeypatch: pytest.MonkeyPatch, limit: int, enough: bool
-) -> None:
-    """With 250 MB libraries would try again without end, with 330 Snakemake would end in a traceback."""
-    monkeypatch.setattr(resource, "getrlimit", lambda _: (limit, limit))
-    if enough:
-        alone.require_address_space()
-        return
-    with pytest.raises(SystemExit, match=rf"{limit >> 20} MB .* needs 1024: .* ulimit -v 1048576"):
-        alone.require_address_space()

@@ -16,7 +16,7 @@ import pytest
 from tests.python.conftest import ROOT
 from workflow.lib.parents import file_hash
 from workflow.provenance.build_id import IDENTITY
-from workflow.provenance.execute import add_costs
+from workflow.provenance.execute import add_costs, require_parts
 from workflow.provenance.node import linked
 
 HOSTILE = {
@@ -219,6 +219,34 @@ def test_the_costs_of_parts_are_added(tmp_path: Path) -> None:
     assert json.loads(joined.read_text()) == dict(zip(keys, (51.0, 40.5, 70, 900), strict=True))
 
 
+@pytest.mark.parametrize("damaged", [False, True])
+def test_a_result_that_could_not_be_entered_is_taken_unless_it_is_damaged(root: Path, damaged: bool) -> None:
+    (root / RECORD).mkdir(parents=True)
+    assert start(root, {}).wait() == 1
+    (waiting,) = (root / "build/partial").rglob("*.exit0-*.h5")
+    if damaged:
+        waiting.write_text("forged")
+    (root / RECORD).rmdir()
+    assert start(root, {}).wait() == 0
+    assert ("said" in (root / "build/logs/log").read_text()) == damaged  # by the program, which ran again
+    assert json.loads((root / DATA).read_text())
+    assert not [path for path in (root / "build/partial").rglob("*") if path.is_file()]
+
+
+def test_a_damaged_part_is_removed_so_that_it_is_measured_again(tmp_path: Path) -> None:
+    parts = {name: tmp_path / f"{name}.part" for name in ("0-3", "4-7", "8-9", "10-11")}
+    for name, path in parts.items():
+        path.write_text(name)
+        cost = {"sha256": file_hash(path)}
+        path.with_suffix(".part.cost.json").write_text(json.dumps(cost))
+    require_parts(tmp_path)
+    parts["4-7"].write_text("4-6")
+    parts["8-9"].with_suffix(".part.cost.json").write_text("{")
+    with pytest.raises(SystemExit, match=r"4-7.part, .*8-9.part: not what the job wrote, and removed"):
+        require_parts(tmp_path)
+    assert {path.name for path in tmp_path.glob("*.part")} == {"0-3.part", "10-11.part"}
+
+
 PLACE = "a {} lies where a file belongs; move it away"
 
 
@@ -233,7 +261,7 @@ PLACE = "a {} lies where a file belongs; move it away"
         (RECORD, Path.mkdir, "all_gamma=1.json: Is a directory"),
         (DATA, Path.mkdir, "all_gamma=1.h5: a folder lies where a file belongs; move it away"),
         (COST, Path.mkdir, "all_gamma=1.json: Is a directory"),
-        ("build/partial", Path.touch, ".exit0.h5: Not a directory"),
+        ("build/partial", Path.touch, "Not a directory"),
     ],
 )
 def test_what_lies_in_a_files_place_is_told_in_one_line(

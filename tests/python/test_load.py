@@ -127,3 +127,14 @@ def test_no_pipe_is_waited_for(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "a.h5")
     with pytest.raises(FormatError, match="a pipe lies where a file belongs"):
         load(tmp_path / "a.h5")
+
+
+def test_a_name_that_is_no_text_is_no_result(tmp_path: Path, measured: dict) -> None:
+    """One bit flipped in the name of a dataset, which h5py tells as an error of the system."""
+    path = tmp_path / "a.h5"
+    write(path, {"time": TIME, "cell": CELL}, measured)
+    content = path.read_bytes()
+    assert b"standard_error" in content
+    path.write_bytes(content.replace(b"standard_error", b"\xf3tandard_error"))
+    with pytest.raises(FormatError, match="is not a result file"):
+        load(path)

@@ -103,6 +103,8 @@ LONG = {
     [
         ("persistence", signal.SIGINT),
         ("persistence", signal.SIGTERM),
+        ("persistence", signal.SIGHUP),
+        ("persistence", signal.SIGXCPU),
         ("persistence", signal.SIGKILL),
         ("displacement", signal.SIGTERM),
         ("energy_pulse", signal.SIGINT),
@@ -140,6 +142,15 @@ def test_interrupted_and_resumed_run_gives_the_same_bytes(
     assert program(name, **keywords, resume=True).returncode == 0
     assert (tmp_path / "out.h5").read_bytes() == (tmp_path / "whole.h5").read_bytes()
     assert not list(tmp_path.glob("*checkpoint*"))
+
+
+def test_a_closed_terminal_is_ignored_where_nohup_asks_so(tmp_path: Path) -> None:
+    command = ["nohup", *command_line("persistence", {**LONG["persistence"], "output": "out.h5"})]
+    process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+    time.sleep(0.3)
+    process.send_signal(signal.SIGHUP)
+    assert process.wait(timeout=60) == 0
+    assert (tmp_path / "out.h5").is_file()
 
 
 @pytest.mark.parametrize("damaged", [["checkpoint"], ["checkpoint", "checkpoint.old"]])

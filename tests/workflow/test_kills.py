@@ -3,9 +3,10 @@ and nothing foreign is called made."""
 
 import os
 import random
+import shutil
 import signal
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ import pytest
 from tests.workflow.conftest import Clone
 from tests.workflow.running import kill, processes, running, soon
 
+Tell = Callable[[int, signal.Signals], None]
 KILLS, PANEL = 200, "fig05"
 FRESH = ("panel", f"PANEL={PANEL}", "QUALITY=smoke", "FRESH=yes", "JOBS=1")
 PATIENCE = 120  # seconds until what was told to end has ended
@@ -72,6 +74,44 @@ def test_a_killed_make_is_followed_by_the_next_and_a_running_one_is_not(kept: Cl
     made = kept.make("panel", f"PANEL={PANEL}", "QUALITY=smoke")
     assert made.returncode == 0, made.stdout
     assert kept.products() == products
+
+
+@pytest.mark.parametrize(
+    ("number", "tell"), [(signal.SIGTERM, os.kill), (signal.SIGTERM, os.killpg), (signal.SIGHUP, os.killpg)]
+)
+def test_a_make_that_is_told_to_end_stops_its_jobs(kept: Clone, number: signal.Signals, tell: Tell) -> None:
+    """As by a service manager, by timeout, or by a terminal that is closed; the programs write their checkpoints."""
+    products = kept.products()
+    many = (*FRESH, "REPLICAS=100000")
+    with running(kept, *many) as making:
+        soon(lambda: processes(making.pid, "build/bin/persistence"))
+        time.sleep(0.5)
+        tell(making.pid, number)
+        said, _ = making.communicate(timeout=20)
+        soon(lambda: not processes(making.pid), 20)
+    assert "The same command goes on" in said
+    assert "Failed" not in said
+    assert "Traceback" not in said
+    assert [*(kept.folder / "build/partial").rglob("*.checkpoint")]
+    shutil.rmtree(kept.folder / "build/partial")
+    for place in ("data", "figures"):
+        shutil.rmtree(kept.folder / place / "smoke_replicas=100000", ignore_errors=True)
+    assert kept.products() == products
+
+
+def test_packages_and_products_are_not_removed_under_a_running_make(kept: Clone) -> None:
+    with running(kept, *FRESH) as making:
+        soon(lambda: processes(making.pid, "build/bin/persistence"))
+        foreign = kept.folder / ".venv/lib/foreign.pth"
+        foreign.touch()
+        for goal in ("clean", "runtime"):
+            refused = kept.make(goal)
+            assert (refused.returncode, "Another make is running here" in refused.stdout) == (2, True)
+        foreign.unlink()
+    assert (kept.folder / ".venv/bin/python").exists()
+    assert (kept.folder / "build/bin/persistence").exists()
+    made = kept.make("panel", f"PANEL={PANEL}", "QUALITY=smoke")
+    assert made.returncode == 0, made.stdout
 
 
 def test_a_job_that_outlives_a_killed_make_is_not_joined_by_the_next(kept: Clone) -> None:

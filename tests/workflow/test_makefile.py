@@ -258,6 +258,29 @@ def test_who_may_not_write_is_told_in_one_line(closed: str) -> None:
     assert len(looked) == 5
 
 
+@pytest.mark.parametrize("name", ["a{b}", 'a"b', "a#b", "a\\b", "a[b", "a]b", "a$b", "a\nb", "a b:'%=*ä"])
+def test_a_folder_whose_name_means_something_to_the_tools_is_refused(tmp_path: Path, name: str) -> None:
+    folder = tmp_path / name
+    (folder / "workflow/environment").mkdir(parents=True)
+    for file in ("Makefile", "workflow/environment/arguments.py", "workflow/environment/packages.py"):
+        shutil.copyfile(ROOT / file, folder / file)
+    made = subprocess.run(
+        ["/usr/bin/make", "clean"],
+        cwd=folder,
+        env={"PATH": os.defpath},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+    )
+    if name.startswith("a b"):
+        assert made.returncode == 0, made.stdout
+    else:
+        assert made.returncode == 2
+        assert "the path of this folder has one of" in made.stdout
+        assert made.stdout.count("\n") == 1
+
+
 def test_bad_configuration_is_refused_before_anything_runs(clean: Clone) -> None:
     config = clean.folder / "workflow/config/paper.yaml"
     text = config.read_text()

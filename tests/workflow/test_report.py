@@ -121,6 +121,13 @@ def test_the_gallery_has_every_panel_and_knows_when_it_is_old(kept: Clone) -> No
     assert (made.returncode, f"{forged.name} is not what its job wrote" in made.stdout) == (2, True)
     assert files_below(folder) == before
     forged.write_bytes(content)
+    picture = kept.folder / "figures/smoke/fig07.png"
+    kept_picture = picture.read_bytes()
+    picture.unlink()
+    made = kept.make("gallery", "QUALITY=smoke")
+    assert (made.returncode, "fig07 not made, or not as the lock says" in made.stdout) == (2, True)
+    assert files_below(folder) == before
+    picture.write_bytes(kept_picture)
     append("workflow/figures/fig06.py", "# more\n")(kept)
     assert (
         "docs/gallery: drawn by former code: fig06; make gallery"

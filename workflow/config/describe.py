@@ -8,6 +8,7 @@ import argparse
 import json
 import re
 import subprocess
+import sys
 import textwrap
 from collections import Counter
 from collections.abc import Iterator
@@ -18,7 +19,8 @@ import yaml
 
 from workflow.lib.layout import signature
 from workflow.lib.options import admissible
-from workflow.lib.places import regular
+from workflow.lib.places import regular, write_together
+from workflow.lib.strict_yaml import ConfigurationError
 from workflow.lib.units import UnitsError, parse
 
 ROOT = Path(__file__).parents[2]
@@ -68,7 +70,9 @@ def _with_options(text: str, described: dict[str, dict[str, Any]]) -> str:
         }
         for name, program in described.items()
     }
-    kept = text[: text.index("programs:")]
+    kept, start, _ = text.partition("programs:")
+    if not start:
+        raise ConfigurationError(f"{SCHEMA.relative_to(ROOT)} has no line 'programs:': restore it")
     return kept + yaml.safe_dump(
         {"programs": programs}, default_flow_style=None, sort_keys=False, width=WIDTH
     )
@@ -86,7 +90,11 @@ def _dimension(option: dict[str, Any]) -> dict[str, str]:
 def _with_tables(text: str, described: dict[str, dict[str, Any]]) -> str:
     for name, rows in (("options", _option_rows(described)), ("quantities", _quantity_rows(described))):
         begin, end = f"<!-- {name}, by make describe -->\n", f"<!-- end of {name} -->\n"
-        before, _, rest = text.partition(begin)
+        before, there, rest = text.partition(begin)
+        if not (there and end in rest):
+            raise ConfigurationError(
+                f"{FORMAT.relative_to(ROOT)} has no place for the {name}: restore its line '{begin.strip()}' and its end"
+            )
         table = "".join(f"| {' | '.join(_escaped(cell) for cell in row)} |\n" for row in rows)
         text = before + begin + table + end + rest.partition(end)[2]
     return text
@@ -177,8 +185,11 @@ def main() -> None:
         description="Writes what the programs say of themselves to where it is stated again"
     )
     parser.add_argument("--programs", type=Path, default=ROOT / "build/bin", help="folder of the executables")
-    for path, text in texts(descriptions(parser.parse_args().programs)).items():
-        path.write_text(text)
+    try:
+        files = texts(descriptions(parser.parse_args().programs))
+    except ConfigurationError as error:
+        sys.exit(f"make describe: {error}")
+    write_together({path: text.encode() for path, text in files.items()})
 
 
 if __name__ == "__main__":

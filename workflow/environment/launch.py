@@ -5,7 +5,6 @@ that lies there takes its place, and no file of the project that of a package. S
 """
 
 import contextlib
-import errno
 import os
 import runpy
 import signal
@@ -18,11 +17,6 @@ from pathlib import Path
 from types import CodeType, ModuleType
 
 ROOT = Path(__file__).resolve().parents[2]
-# Of a disk, an output, a file's size, open files, memory: what fails for them is no fault of the module.
-LIMITS = {
-    getattr(errno, name)
-    for name in ("ENOSPC", "EIO", "EDQUOT", "EFBIG", "EMFILE", "ENFILE", "ENOMEM", "EAGAIN")
-}
 FOLDERS = ("workflow", "tests")
 
 
@@ -64,6 +58,9 @@ def launch() -> None:
         sys.exit("Standard output is closed, and nothing could be said; try >/dev/null")
     if sys.stderr is None:  # as what is started by a clock may have it; the next file would take its number
         sys.stderr = os.fdopen(os.open(os.devnull, os.O_WRONLY), "w")
+    from workflow.environment.address_space import require_address_space  # noqa: PLC0415  # found by what this module sets up
+
+    require_address_space()
     try:
         runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)
         sys.stdout.flush()
@@ -73,9 +70,9 @@ def launch() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left is written there
         sys.exit(128 + signal.SIGPIPE)
     except OSError as error:
-        if error.filename is not None:
-            from workflow.lib.places import in_one_line  # noqa: PLC0415  # it is found by what this module sets up
+        from workflow.lib.places import LIMITS, in_one_line  # noqa: PLC0415
 
+        if error.filename is not None:
             sys.exit(in_one_line(error))  # where it was noticed says no more
         if error.errno not in LIMITS:
             raise

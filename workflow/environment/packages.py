@@ -6,13 +6,16 @@ runs before anything is installed.
 """
 
 import argparse
+import fcntl
 import hashlib
 import json
 import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +23,7 @@ ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / ".venv"
 RECORD = FOLDER / "installed.json"
 PYTHON = FOLDER / "bin/python"
+LOCK = ROOT / ".snakemake/alone.lock"  # as workflow/execution/alone.py holds it while a make runs
 
 State = dict[
     str, list[str | int]
@@ -98,28 +102,46 @@ def install(locks: list[str]) -> None:
         if not (ROOT / lock).is_file():
             raise OSError(f"{lock} is no file: put that of the repository there")
     asked = {lock: digest(ROOT / lock) for lock in locks}
-    known = record()
+    known, why = record(), ""
     before, there = known.get("files", {}), known.get("locks", {})
     if PYTHON.exists() and there:
         now = state(before)
         wrong = differing(before, now)
         if wrong:
-            print(f"{wrong[0]} is not what was installed; all packages are installed again")
+            why = f"{wrong[0]} is not what was installed; all packages are installed again"
         elif any(there[lock] != asked.get(lock, there[lock]) for lock in there):
-            print("Locked packages have changed; all are installed again")
+            why = "Locked packages have changed; all are installed again"
         else:
             missing = [lock for lock in locks if lock not in there]
             if missing:
-                add(missing)
-                write({**there, **asked}, state(now))
+                with alone():
+                    add(missing)
+                    write({**there, **asked}, state(now))
             elif now != before and os.access(FOLDER, os.W_OK):
                 write(there, now)
             return
-    if FOLDER.exists():
-        shutil.rmtree(FOLDER)
-    subprocess.run([sys.executable, "-m", "venv", FOLDER], check=True)
-    add(locks)
-    write(asked, state({}))
+    with alone():
+        if why:
+            print(why, flush=True)
+        if FOLDER.exists():
+            shutil.rmtree(FOLDER)
+        subprocess.run([sys.executable, "-m", "venv", FOLDER], check=True)
+        add(locks)
+        write(asked, state({}))
+
+
+@contextmanager
+def alone() -> Iterator[None]:
+    """While no make runs here that uses the packages, or installs them. Leaves if one does."""
+    LOCK.parent.mkdir(exist_ok=True)
+    if LOCK.exists() and not LOCK.is_file():
+        sys.exit(f"{LOCK.relative_to(ROOT)}: no file lies where a file belongs; move it away")
+    with LOCK.open("w") as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            sys.exit("Another make is running here: wait for its end, or stop it")
+        yield
 
 
 def add(locks: list[str]) -> None:
@@ -154,9 +176,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("locks", nargs="*")
     parser.add_argument("--check", action="store_true", help="only say what is not as it was installed")
+    parser.add_argument("--idle", action="store_true", help="only see whether a make is running here")
     options = parser.parse_args()
     if options.check:
         sys.exit(complaint(faults()))
+    if options.idle:
+        with alone():
+            return
     try:
         install(options.locks)
     except (OSError, subprocess.CalledProcessError) as error:

@@ -8,7 +8,6 @@ Snakemake's own locks are files, which stay when it is killed; this one is the s
 
 import fcntl
 import json
-import resource
 import shutil
 import signal
 import sys
@@ -16,7 +15,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from workflow.execution.stopping import stopping
+from workflow.execution.stopping import interrupt, terminate
 from workflow.lib.places import JOBS, in_one_line, require_place
 
 PLACE = Path(".snakemake")
@@ -32,12 +31,9 @@ FOLDERS = (  # of Snakemake's
     "shadow",
     "singularity",
 )
-# Bytes. Below 0.4 GB Snakemake's imports fail in many ways, and libraries try again without end.
-ADDRESS_SPACE = 1 << 30
 
 
 def run() -> None:
-    require_address_space()
     for path in (LOCK, JOBS, *(PLACE / folder / "any" for folder in FOLDERS)):
         require_place(path, Path())
     PLACE.mkdir(exist_ok=True)
@@ -58,15 +54,6 @@ def run() -> None:
         snakemake()
 
 
-def require_address_space() -> None:
-    limit, _ = resource.getrlimit(resource.RLIMIT_AS)
-    if limit != resource.RLIM_INFINITY and limit < ADDRESS_SPACE:
-        sys.exit(
-            f"A process may have {limit >> 20} MB of address space here, and the pipeline needs {ADDRESS_SPACE >> 20}: raise the "
-            f"limit, as by ulimit -v {ADDRESS_SPACE >> 10}"
-        )
-
-
 def remove_damaged_notes() -> None:
     """Of Snakemake's on its outputs, which it does not write at once. Nothing is decided by them."""
     for note in (PLACE / "metadata").rglob("*"):
@@ -82,13 +69,20 @@ def remove_damaged_notes() -> None:
 def snakemake() -> None:
     """What takes a second to import is imported when a key may already be pressed."""
     signal.signal(signal.SIGINT, interrupt)
+    if signal.getsignal(signal.SIGHUP) != signal.SIG_IGN:  # as nohup has it
+        signal.signal(signal.SIGHUP, terminate)
+    signal.signal(signal.SIGTERM, terminate)
     try:
         from snakemake.api import SnakemakeApi  # noqa: PLC0415
         from snakemake.cli import main  # noqa: PLC0415
+        from snakemake.scheduling.job_scheduler import JobScheduler  # noqa: PLC0415
         from snakemake_interface_logger_plugins.registry import LoggerPluginRegistry  # noqa: PLC0415
 
         from workflow.execution import handler  # noqa: PLC0415
 
+        JobScheduler.exit_gracefully = (
+            terminate  # its own for SIGTERM waits for hours until the jobs are done
+        )
         SnakemakeApi.print_exception = told_by(SnakemakeApi.print_exception)
         LoggerPluginRegistry().register_plugin("snakemake_logger_plugin_progress", handler)
         main(sys.argv[1:])
@@ -108,12 +102,6 @@ def told_by(others: Callable[[Any, Exception], None]) -> Callable[[Any, Exceptio
             others(api, error)
 
     return tell
-
-
-def interrupt(*_: object) -> None:
-    """Jobs that end from now on are not said to fail."""
-    stopping.set()
-    raise KeyboardInterrupt
 
 
 if __name__ == "__main__":

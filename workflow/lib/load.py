@@ -144,7 +144,17 @@ def _opened(path: Path) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
             yield file, provenance
     except FormatError as error:
         raise FormatError(f"{path}: {error}") from error
-    except (OSError, AttributeError, KeyError, TypeError, ValueError, RuntimeError, MemoryError) as error:
+    except (
+        OSError,
+        AttributeError,
+        KeyError,
+        TypeError,
+        ValueError,
+        RuntimeError,
+        MemoryError,
+        SystemError,
+    ) as error:
+        # The last is h5py's for a name that is no text.
         raise FormatError(f"{path} is not a result file: {error}") from error
 
 

@@ -13,6 +13,11 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 JOBS = Path(".snakemake/jobs.lock")  # held by the jobs on this machine, each as one of many
+# Of a disk, an output, a file's size, open files, memory: what fails for them is the fault of no file and no module.
+LIMITS = {
+    getattr(errno, name)
+    for name in ("ENOSPC", "EIO", "EDQUOT", "EFBIG", "EMFILE", "ENFILE", "ENOMEM", "EAGAIN")
+}
 KINDS = {stat.S_IFREG: "a file", stat.S_IFDIR: "a folder", stat.S_IFLNK: "a link", stat.S_IFIFO: "a pipe"}
 
 

@@ -7,12 +7,14 @@ variable of the caller's environment reaches the job. Standard library only, as 
 import argparse
 import contextlib
 import fcntl
+import glob
 import hashlib
 import json
 import os
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -25,9 +27,13 @@ from workflow.provenance.node import difference_of_node
 from workflow.provenance.repository import ROOT
 from workflow.provenance.scratch import scratch
 
+ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+TOGETHER = 0.3  # seconds, as of a signal to all processes of a group
 LAUNCH = "workflow/environment/launch.py"
 UNCONVERGED = 4  # exit status of a program that wrote its result and says that the target was not reached
 STATUSES = (0, UNCONVERGED)  # of a program that wrote its result
+ENDED = ".exit{status}-"  # in the name of a result that waits for its entry in the lock
+COST_OF_PART = ".part.cost.json"
 ENVIRONMENT = {
     "PATH": "/usr/local/bin:/usr/bin:/bin",
     "LC_ALL": "C.UTF-8",
@@ -63,22 +69,25 @@ def script_command(
 
 
 def call(command: list[str], allowed: tuple[int, ...] = (0,)) -> int:
-    """Exit status; leaves with it if it is not among the allowed ones. On SIGINT and SIGTERM a program writes its
-    checkpoint, which this process waits for; a terminal sends SIGINT to both. A second signal ends both at once."""
+    """Exit status; leaves with it if it is not among the allowed ones. On SIGINT, SIGTERM and SIGHUP a program writes its
+    checkpoint, which this process waits for; a terminal sends SIGINT to both. A second signal ends both at once, but not one that
+    follows so closely that it has the same cause."""
     # Its files stay open in the child, which so holds the lock of the jobs too.
     child = subprocess.Popen(command, cwd=ROOT, env=ENVIRONMENT, close_fds=False)
-    signals = []
+    first: list[float] = []
 
     def stop(number: int, _: object) -> None:
-        signals.append(number)
-        if len(signals) > 1:
+        now = time.monotonic()
+        if first and now - first[0] > TOGETHER:
             child.kill()
             sys.exit(128 + number)
-        if number == signal.SIGTERM:
+        first.append(now)
+        if number != signal.SIGINT:
             child.send_signal(number)
 
-    signal.signal(signal.SIGINT, stop)
-    signal.signal(signal.SIGTERM, stop)
+    for number in ENDING:
+        if signal.getsignal(number) != signal.SIG_IGN:  # as nohup has it
+            signal.signal(number, stop)
     status = child.wait()
     if status not in allowed:
         sys.exit(status if status > 0 else 128 - status)
@@ -103,48 +112,76 @@ def identity_of(program: str, options: Options) -> str:
     return hashlib.sha256(json.dumps([options, build["build_id"]]).encode()).hexdigest()[:16]
 
 
-def run_program(job: argparse.Namespace, partial: Path, *more: str) -> tuple[dict[str, Any], str, int]:
-    """Build, executable and exit status; the result is then at ended(partial, status). One that an earlier job could not
-    enter into the lock, as on a full disk, is taken as it is. Leaves if the program is not what was built, before and after.
-    """
+def run_program(job: argparse.Namespace, partial: Path, *more: str) -> tuple[dict[str, Any], str, int, Path]:
+    """Build, executable, exit status and the result, which waits for its entry in the lock. One that an earlier job could not
+    enter, as on a full disk, is taken. Leaves if the program is not what was built, before and after."""
     build, executable = built(job.program)
     if not job.here and (difference := difference_of_node(job.program)):
         sys.exit(difference)
     for status in STATUSES:
-        if regular(ended(partial, status)).exists():
-            return build, executable, status
+        if result := waiting(partial, status):
+            return build, executable, status, result
     partial.parent.mkdir(parents=True, exist_ok=True)
     with contextlib.nullcontext(partial) if job.here else scratch(partial) as output:
         command = program_command(job.program, job.options, output)
         status = call([*command, *more, "--progress", "log"], STATUSES)
     if built(job.program) != (build, executable):
         sys.exit(f"build/bin/{job.program} was built again while it ran; run make again")
-    move(partial, ended(partial, status))
-    return build, executable, status
+    result = partial.with_suffix(f"{ENDED.format(status=status)}{file_hash(partial)}{partial.suffix}")
+    move(partial, result)
+    return build, executable, status, result
 
 
-def ended(partial: Path, status: int) -> Path:
-    """Name of a result whose program has ended, until it is entered into the lock; renaming needs no space on the disk."""
-    return partial.with_suffix(f".exit{status}{partial.suffix}")
+def waiting(partial: Path, status: int) -> Path | None:
+    """A result whose program has ended with this status, if one waits. Its name has its hash, as renaming needs no space on the
+    disk; what is not as it was written is removed."""
+    start = partial.with_suffix(ENDED.format(status=status)).name
+    for path in partial.parent.glob(f"{glob.escape(start)}*{partial.suffix}"):
+        if file_hash(regular(path)) == path.stem.removeprefix(start):
+            return path
+        path.unlink()
+    return None
 
 
 def measure_part(job: argparse.Namespace) -> None:
     """Some replicas of a run, on any machine that sees this folder."""
     output = Path(job.output)
     partial = Path("build/partial", *output.parts[2:])
-    _, _, status = run_program(job, partial, "--threads", "1", "--resume", "--part", job.part)
+    *_, result = run_program(job, partial, "--threads", "1", "--resume", "--part", job.part)
     output.parent.mkdir(parents=True, exist_ok=True)
-    move(partial.with_suffix(".part.cost.json"), output.with_suffix(".part.cost.json"))
-    move(ended(partial, status), output)
+    cost = json.loads(partial.with_suffix(COST_OF_PART).read_text()) | {"sha256": file_hash(result)}
+    output.with_suffix(COST_OF_PART).write_text(json.dumps(cost) + "\n")
+    partial.with_suffix(COST_OF_PART).unlink()
+    move(result, output)
+
+
+def require_parts(folder: Path) -> None:
+    """Removes the parts that are not what their jobs wrote, so that they are measured again, and leaves if there are any."""
+    damaged = [path for path in sorted(folder.glob("*.part")) if not whole(path)]
+    for path in damaged:
+        path.unlink()
+    if damaged:
+        names = ", ".join(map(str, damaged))
+        sys.exit(f"{names}: not what the job wrote, and removed; the same command measures it again")
+
+
+def whole(part: Path) -> bool:
+    try:
+        known: object = json.loads(part.with_suffix(COST_OF_PART).read_text())["sha256"]
+        return known == file_hash(regular(part))
+    except (OSError, ValueError, KeyError, TypeError):
+        return False
 
 
 def simulate(job: argparse.Namespace) -> None:
     name = f"{job.quality}/{job.panel}/{job.run}"
     partial = Path(f"build/partial/{name}-{identity_of(job.program, job.options)}.h5")
     more = ["--threads", str(job.threads), "--resume"] if job.replicated else []
+    if job.parts:
+        require_parts(Path(job.parts))
     joined = ["--join", job.parts] if job.parts else []
-    build, executable, status = run_program(job, partial, *more, *joined)
-    result, cost = ended(partial, status), partial.with_suffix(".cost.json")
+    build, executable, status, result = run_program(job, partial, *more, *joined)
+    cost = partial.with_suffix(".cost.json")
     made_by = {"tool": job.program, "options": job.options, "exit": status}
     made_by |= {"build_id": build["build_id"], "executable": executable}
     output = f"data/{name}.h5"

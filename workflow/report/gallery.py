@@ -20,6 +20,7 @@ from PIL.PngImagePlugin import PngInfo
 
 from workflow.claims.data import Data
 from workflow.lib import style
+from workflow.lib.caption import listed
 from workflow.lib.parents import caption_of
 from workflow.lib.places import write_together
 from workflow.lib.plan import QUALITIES, Panel, drawings_of
@@ -90,18 +91,18 @@ def gallery(quality: str, root: Path = ROOT) -> list[str]:
     folder = root / GALLERY
     told, lines, products = [], [], made(root)
     files = {}
-    for panel in data.plan.values():
-        found = best(panel, products)
-        if found is None:
-            told.append(f"{panel.name} has not been made: run make figures")
-            continue
-        quality_there, (_, png, _, csv) = found
-        files[folder / f"{panel.name}.png"] = small(png)
+    pictures = {name: found for name, panel in data.plan.items() if (found := best(panel, products))}
+    if missing := [name for name in data.plan if name not in pictures]:
+        raise ReportError(
+            f"{listed(missing)} not made, or not as the lock says: make figures QUALITY={quality}"
+        )
+    for name, (quality_there, (_, png, _, csv)) in pictures.items():
+        files[folder / f"{name}.png"] = small(png)
         title = csv.read_text().split("\n", 1)[0].removeprefix("# ")
         lines.append(
-            f"## {panel.name}\n\n![{title}]({panel.name}.png)\n\n**{title}** (quality {quality_there}). {caption_of(csv)}\n"
+            f"## {name}\n\n![{title}]({name}.png)\n\n**{title}** (quality {quality_there}). {caption_of(csv)}\n"
         )
-        told.append(f"{panel.name}: quality {quality_there}")
+        told.append(f"{name}: quality {quality_there}")
     claims = [content.claim(one, {}) for one in judgements]
     parents = {"quality": quality, "sources": source_hashes(root)}
     files[folder / "summary.png"] = picture_of_summary(claims, parents)

@@ -47,7 +47,7 @@ TEST(Program, ErrorsLeaveNothingBehind) {
 
 // Runs in a separate process, because a received signal is stored for the rest of the process.
 TEST(ProgramDeathTest, SignalsEndTheRunWithACheckpoint) {
-  for (const int number : {SIGINT, SIGTERM}) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
     const TemporaryFolder folder;
     const auto killed = [number](const Replica& replica) {
       if (replica.key.replica == 3) ::raise(number);

@@ -54,7 +54,7 @@ inline int run_program(Arguments arguments, const MeasureValue& measurement) {
   StudyProgram program("example", "An example");
   const int status =
       program.run(static_cast<int>(pointers.size()), pointers.data(), [&] { return study_of(measurement); });
-  for (const int number : {SIGINT, SIGTERM}) ::signal(number, SIG_DFL);  // restores the default handlers
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) ::signal(number, SIG_DFL);  // as before
   return status;
 }
 
