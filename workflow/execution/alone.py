@@ -80,9 +80,8 @@ def snakemake() -> None:
 
         from workflow.execution import handler  # noqa: PLC0415
 
-        JobScheduler.exit_gracefully = (
-            terminate  # its own for SIGTERM waits for hours until the jobs are done
-        )
+        # Its own for SIGTERM waits until the jobs are done, which may take hours.
+        JobScheduler.exit_gracefully = terminate
         SnakemakeApi.print_exception = told_by(SnakemakeApi.print_exception)
         LoggerPluginRegistry().register_plugin("snakemake_logger_plugin_progress", handler)
         main(sys.argv[1:])
