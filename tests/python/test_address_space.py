@@ -1,37 +1,31 @@
 """A limit of address space is told in one line, by whatever of the project is started."""
 
-import resource
 import subprocess
 import sys
 
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.environment.address_space import require_address_space
+
+
+def limited(kilobytes: int, module: str) -> subprocess.CompletedProcess:
+    command = f"ulimit -v {kilobytes}; exec {sys.executable} -P workflow/environment/launch.py {module} --quality smoke"
+    return subprocess.run(["bash", "-c", command], cwd=ROOT, capture_output=True, text=True, check=False)
 
 
 @pytest.mark.parametrize(
-    ("limit", "enough"),
-    [(250 << 20, False), ((1 << 30) - 1, False), (1 << 30, True), (resource.RLIM_INFINITY, True)],
+    "module", ["workflow.provenance.audit", "workflow.report.gallery", "workflow.execution.alone"]
 )
-def test_too_few_addresses_are_told_beforehand(
-    monkeypatch: pytest.MonkeyPatch, limit: int, enough: bool
-) -> None:
+@pytest.mark.parametrize("kilobytes", [300_000, (1 << 20) - 1])
+def test_too_little_is_told_beforehand(module: str, kilobytes: int) -> None:
     """With 250 MB libraries would try again without end, with 330 Snakemake would end in a traceback."""
-    monkeypatch.setattr(resource, "getrlimit", lambda _: (limit, limit))
-    if enough:
-        require_address_space()
-        return
-    with pytest.raises(SystemExit, match=rf"{limit >> 20} MB .* needs 1024: .* ulimit -v 1048576"):
-        require_address_space()
-
-
-@pytest.mark.parametrize("module", ["workflow.provenance.audit", "workflow.report.gallery"])
-def test_every_reader_tells_it(module: str) -> None:
-    command = (
-        f"ulimit -v 300000; exec {sys.executable} -P workflow/environment/launch.py {module} --quality smoke"
-    )
-    done = subprocess.run(["bash", "-c", command], cwd=ROOT, capture_output=True, text=True, check=False)
+    done = limited(kilobytes, module)
     assert done.returncode == 1
-    assert done.stderr.startswith("A process may have 292 MB of address space here")
+    assert done.stderr.startswith(f"A process may have {kilobytes >> 10} MB of address space here")
+    assert "needs 1024: raise the limit, as by ulimit -v 1048576" in done.stderr
     assert done.stderr.count("\n") == 1
+
+
+def test_enough_is_enough() -> None:
+    done = limited(1 << 20, "workflow.environment.arguments")
+    assert "address space" not in done.stderr

@@ -78,8 +78,9 @@ def run(root: Path, module: str) -> subprocess.CompletedProcess:
     ],
 )
 def test_what_a_user_does_is_no_traceback(tmp_path: Path, said: str, status: int, words: str) -> None:
-    (tmp_path / "workflow/environment").mkdir(parents=True)
-    shutil.copy(ROOT / LAUNCH, tmp_path / LAUNCH)
+    for path in (LAUNCH, "workflow/lib/places.py"):
+        (tmp_path / path).parent.mkdir(parents=True)
+        shutil.copy(ROOT / path, tmp_path / path)
     (tmp_path / "workflow/a.py").write_text(said)
     done = subprocess.run(
         [sys.executable, "-P", LAUNCH, "workflow.a"],

@@ -6,6 +6,7 @@ that lies there takes its place, and no file of the project that of a package. S
 
 import contextlib
 import os
+import resource
 import runpy
 import signal
 import sys
@@ -18,6 +19,8 @@ from types import CodeType, ModuleType
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("workflow", "tests")
+# Bytes. Below 0.4 GB the imports of Snakemake and HDF5 fail in many ways, and libraries try again without end.
+ADDRESS_SPACE = 1 << 30
 
 
 class FromSource(SourceFileLoader):
@@ -51,6 +54,15 @@ class OfTheProject(MetaPathFinder):
 sys.meta_path.insert(0, OfTheProject())
 
 
+def require_address_space() -> None:
+    limit, _ = resource.getrlimit(resource.RLIMIT_AS)
+    if limit != resource.RLIM_INFINITY and limit < ADDRESS_SPACE:
+        sys.exit(
+            f"A process may have {limit >> 20} MB of address space here, and the pipeline needs {ADDRESS_SPACE >> 20}: raise the "
+            f"limit, as by ulimit -v {ADDRESS_SPACE >> 10}"
+        )
+
+
 def launch() -> None:
     """What a user does is no fault of the module: a key that stops it, a reader that goes, a full disk behind the output."""
     del sys.argv[0]
@@ -58,8 +70,6 @@ def launch() -> None:
         sys.exit("Standard output is closed, and nothing could be said; try >/dev/null")
     if sys.stderr is None:  # as what is started by a clock may have it; the next file would take its number
         sys.stderr = os.fdopen(os.open(os.devnull, os.O_WRONLY), "w")
-    from workflow.environment.address_space import require_address_space  # noqa: PLC0415  # found by what this module sets up
-
     require_address_space()
     try:
         runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)
@@ -70,7 +80,7 @@ def launch() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left is written there
         sys.exit(128 + signal.SIGPIPE)
     except OSError as error:
-        from workflow.lib.places import LIMITS, in_one_line  # noqa: PLC0415
+        from workflow.lib.places import LIMITS, in_one_line  # noqa: PLC0415  # it is found by what this module sets up
 
         if error.filename is not None:
             sys.exit(in_one_line(error))  # where it was noticed says no more
