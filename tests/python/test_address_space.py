@@ -1,5 +1,6 @@
 """A limit of address space is told in one line, by whatever of the project is started."""
 
+import shlex
 import subprocess
 import sys
 
@@ -9,7 +10,7 @@ from tests.python.conftest import ROOT
 
 
 def limited(kilobytes: int, module: str) -> subprocess.CompletedProcess:
-    command = f"ulimit -v {kilobytes}; exec {sys.executable} -P workflow/environment/launch.py {module} --quality smoke"
+    command = f"ulimit -v {kilobytes}; exec {shlex.quote(sys.executable)} -P workflow/environment/launch.py {module} --quality smoke"
     return subprocess.run(["bash", "-c", command], cwd=ROOT, capture_output=True, text=True, check=False)
 
 

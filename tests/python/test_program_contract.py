@@ -117,7 +117,8 @@ def test_interrupted_and_resumed_run_gives_the_same_bytes(
     keywords = {key.replace("-", "_"): value for key, value in options.items()}
     assert program(name, **{**keywords, "output": "whole.h5"}).returncode == 0
     command = command_line(name, {**options, "output": "out.h5"})
-    process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+    heeding = ["env", "--default-signal=HUP", *command]  # also where nohup runs the tests
+    process = subprocess.Popen(heeding, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
     checkpoint = tmp_path / "out.h5.checkpoint"
     deadline = time.monotonic() + 30
     while not checkpoint.exists() and time.monotonic() < deadline:

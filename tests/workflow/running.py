@@ -49,7 +49,7 @@ def kill(victims: list[int]) -> None:
 def running(clone: Clone, *arguments: str) -> Iterator[subprocess.Popen]:
     """make in a session of its own, of which nothing is left at the end."""
     with subprocess.Popen(
-        ["/usr/bin/make", *arguments],
+        ["env", "--default-signal=HUP", "/usr/bin/make", *arguments],  # also where nohup runs the tests
         cwd=clone.folder,
         env={"PATH": os.defpath, "HOME": "/"},
         stdout=subprocess.PIPE,

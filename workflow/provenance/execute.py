@@ -86,7 +86,7 @@ def call(command: list[str], allowed: tuple[int, ...] = (0,)) -> int:
             child.send_signal(number)
 
     for number in ENDING:
-        if signal.getsignal(number) != signal.SIG_IGN:  # as nohup has it
+        if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:  # as nohup has it
             signal.signal(number, stop)
     status = child.wait()
     if status not in allowed:
