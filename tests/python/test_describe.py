@@ -2,6 +2,7 @@
 
 import json
 from copy import deepcopy
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -11,6 +12,7 @@ from jsonschema import Draft202012Validator
 from tests.python.conftest import ROOT
 from workflow.config import describe
 from workflow.lib.options import admits
+from workflow.lib.strict_yaml import ConfigurationError
 
 
 @pytest.fixture(scope="module")
@@ -63,3 +65,26 @@ def test_a_quantity_of_some_chains_only(described: dict[str, dict[str, Any]]) ->
     assert "logarithmic_power" in [quantity["name"] for quantity in displacement["quantities"]]
     assert "logarithmic_power" not in displacement["always"]
     assert "alpha" in displacement["always"]
+
+
+@pytest.mark.parametrize(
+    ("file", "mark"),
+    [
+        ("SCHEMA", "programs:"),
+        ("FORMAT", "<!-- options, by make describe -->"),
+        ("FORMAT", "<!-- end of quantities -->"),
+    ],
+)
+def test_a_place_that_is_missing_is_named(
+    described: dict[str, dict[str, Any]],
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    file: str,
+    mark: str,
+) -> None:
+    damaged = tmp_path / "damaged"
+    damaged.write_text(getattr(describe, file).read_text().replace(mark, ""))
+    monkeypatch.setattr(describe, file, damaged)
+    monkeypatch.setattr(describe, "ROOT", tmp_path)
+    with pytest.raises(ConfigurationError, match=r"damaged has no .*restore"):
+        describe.texts(described)

@@ -146,9 +146,13 @@ def test_interrupted_and_resumed_run_gives_the_same_bytes(
 
 
 def test_a_closed_terminal_is_ignored_where_nohup_asks_so(tmp_path: Path) -> None:
-    command = ["nohup", *command_line("persistence", {**LONG["persistence"], "output": "out.h5"})]
+    options = {**LONG["persistence"], "checkpoint-interval": 0.1, "output": "out.h5"}
+    command = ["nohup", *command_line("persistence", options)]
     process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
-    time.sleep(0.3)
+    deadline = time.monotonic() + 30
+    while not (tmp_path / "out.h5.checkpoint").exists() and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert process.poll() is None
     process.send_signal(signal.SIGHUP)
     assert process.wait(timeout=60) == 0
     assert (tmp_path / "out.h5").is_file()

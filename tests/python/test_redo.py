@@ -1,7 +1,10 @@
 """Criteria for equal products of a job: the same bytes, equality up to rounding, or agreement within errors."""
 
+import errno
+import os
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 
 import h5py
 import matplotlib.pyplot as plt
@@ -10,7 +13,8 @@ import pytest
 
 from tests.python.conftest import Program
 from workflow.lib import style
-from workflow.provenance import redo
+from workflow.lib.plan import outputs_of
+from workflow.provenance import audit, redo, verify
 from workflow.provenance.job import Job
 from workflow.provenance.likeness import alike
 from workflow.provenance.redo import SIGNIFICANCE, RedoError, disagreement, redrawn, same_bytes
@@ -177,3 +181,31 @@ def test_only_what_the_lock_names_is_drawn(tmp_path: Path, tool: str, inputs: di
     job = Job(tool, {"configuration": ""}, {}, {}, None, None, "", 0, {}, inputs=inputs)
     with pytest.raises(RedoError, match=words):
         redrawn(job, tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("number", "told"), [(errno.EFBIG, False), (errno.ENOSPC, False), (errno.ENOENT, True)]
+)
+def test_what_the_machine_has_no_room_for_is_no_fault_of_a_product(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, number: int, told: bool
+) -> None:
+    """Neither the audit nor a verification says so of it; a file that is missing is told of."""
+
+    def fail(*_: object) -> None:
+        raise OSError(number, os.strerror(number))
+
+    drawing = SimpleNamespace(outputs=dict.fromkeys(outputs_of("smoke", "fig05"), ""), is_drawing=True)
+    lock = SimpleNamespace(quality="smoke", jobs={"fig05": drawing})
+    monkeypatch.setattr(Path, "is_file", lambda _: True)
+    for module in (audit, verify):
+        monkeypatch.setattr(module, "redrawn", fail)
+    chain = SimpleNamespace(quality="smoke", lock=lock)
+    if told:
+        (link,) = audit.contradictions(chain, "fig05", tmp_path / "a")
+        assert "cannot be drawn again" in link.message
+        assert verify.verdict_on(lock, "fig05", None, tmp_path)[0] is False
+        return
+    with pytest.raises(OSError, match=os.strerror(number)):
+        audit.contradictions(chain, "fig05", tmp_path / "a")
+    with pytest.raises(OSError, match=os.strerror(number)):
+        verify.verdict_on(lock, "fig05", None, tmp_path)

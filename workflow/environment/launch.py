@@ -80,11 +80,11 @@ def launch() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left is written there
         sys.exit(128 + signal.SIGPIPE)
     except OSError as error:
-        from workflow.lib.places import LIMITS, in_one_line  # noqa: PLC0415  # it is found by what this module sets up
+        from workflow.lib.places import in_one_line, is_limit  # noqa: PLC0415  # it is found by what this module sets up
 
         if error.filename is not None:
             sys.exit(in_one_line(error))  # where it was noticed says no more
-        if error.errno not in LIMITS:
+        if not is_limit(error):
             raise
         with contextlib.suppress(OSError):  # where not even that can be opened
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -18,6 +18,7 @@ def interrupt(*_: object) -> None:
 
 def terminate(*_: object) -> None:
     """On a signal that only this process may have received: as on Ctrl-C, the jobs write their checkpoints and end."""
+    stopping.set()
     for job in jobs():
         with suppress(ProcessLookupError):
             os.kill(job, signal.SIGTERM)

@@ -105,8 +105,7 @@ def deviation(values: np.ndarray, errors: np.ndarray, expected: float) -> tuple[
 
 
 def background(result: Result) -> np.ndarray:
-    """C_g beside the peak at every time, on both sides: 0 in equilibrium, but for the small share of a long ring;
-    not where the variance of the momentum of a cell changes (docs/model.md, eq. 55). NaN without a peak."""
+    """Mean of C_g at the distances BESIDE from the peak, on both sides, at every time; NaN without a peak."""
     heights, positions = result["peak"].mean, result["peak_position"].mean
     found = np.full(len(heights), np.nan)
     for k in np.flatnonzero(np.isfinite(heights)):

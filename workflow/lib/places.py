@@ -13,7 +13,6 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 JOBS = Path(".snakemake/jobs.lock")  # held by the jobs on this machine, each as one of many
-# Of a disk, an output, a file's size, open files, memory: what fails for them is the fault of no file and no module.
 LIMITS = {
     getattr(errno, name)
     for name in ("ENOSPC", "EIO", "EDQUOT", "EFBIG", "EMFILE", "ENFILE", "ENOMEM", "EAGAIN")
@@ -86,6 +85,11 @@ def write_together(contents: Mapping[Path, bytes]) -> None:
 def damaged(path: Path, error: Exception) -> OSError:
     """Of a file of the repository, with what was wrong when it was read."""
     return OSError(errno.EINVAL, f"damaged; take it from the repository again ({error!r})", str(path))
+
+
+def is_limit(error: Exception) -> bool:
+    """Whether the machine has no more disk, files or memory, or a limit forbids it: no fault of a file, nor of a module."""
+    return isinstance(error, OSError) and error.errno in LIMITS
 
 
 def in_one_line(error: OSError) -> str:

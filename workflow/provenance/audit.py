@@ -10,7 +10,7 @@ import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from workflow.lib.places import LIMITS
+from workflow.lib.places import is_limit
 from workflow.lib.plan import Quality, load_plan, panel_named, with_used
 from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance import links, product_links, report_links
@@ -154,7 +154,7 @@ def contradictions(chain: Chain, name: str, folder: Path) -> list[Link]:
     try:
         differing = redrawn(chain.lock.jobs[name], folder)
     except (RedoError, OSError) as error:
-        if isinstance(error, OSError) and error.errno in LIMITS:
+        if is_limit(error):
             raise
         return [Link(f"figures/{chain.quality}/{name}.csv", f"cannot be drawn again: {error}", name)]
     return [

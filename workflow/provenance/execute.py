@@ -32,7 +32,6 @@ TOGETHER = 0.3  # seconds, as of a signal to all processes of a group
 LAUNCH = "workflow/environment/launch.py"
 UNCONVERGED = 4  # exit status of a program that wrote its result and says that the target was not reached
 STATUSES = (0, UNCONVERGED)  # of a program that wrote its result
-ENDED = ".exit{status}-"  # in the name of a result that waits for its entry in the lock
 COST_OF_PART = ".part.cost.json"
 ENVIRONMENT = {
     "PATH": "/usr/local/bin:/usr/bin:/bin",
@@ -127,15 +126,20 @@ def run_program(job: argparse.Namespace, partial: Path, *more: str) -> tuple[dic
         status = call([*command, *more, "--progress", "log"], STATUSES)
     if built(job.program) != (build, executable):
         sys.exit(f"build/bin/{job.program} was built again while it ran; run make again")
-    result = partial.with_suffix(f"{ENDED.format(status=status)}{file_hash(partial)}{partial.suffix}")
+    result = partial.with_name(f"{ended(partial, status)}{file_hash(partial)}{partial.suffix}")
     move(partial, result)
     return build, executable, status, result
 
 
+def ended(partial: Path, status: int) -> str:
+    """How the name of a result begins that waits for its entry in the lock; its hash follows, as renaming needs no space on
+    the disk."""
+    return f"{partial.stem}.exit{status}-"
+
+
 def waiting(partial: Path, status: int) -> Path | None:
-    """A result whose program has ended with this status, if one waits. Its name has its hash, as renaming needs no space on the
-    disk; what is not as it was written is removed."""
-    start = partial.with_suffix(ENDED.format(status=status)).name
+    """A result whose program has ended with this status, if one waits; what is not as it was written is removed."""
+    start = ended(partial, status)
     for path in partial.parent.glob(f"{glob.escape(start)}*{partial.suffix}"):
         if file_hash(regular(path)) == path.stem.removeprefix(start):
             return path
@@ -149,10 +153,11 @@ def measure_part(job: argparse.Namespace) -> None:
     partial = Path("build/partial", *output.parts[2:])
     *_, result = run_program(job, partial, "--threads", "1", "--resume", "--part", job.part)
     output.parent.mkdir(parents=True, exist_ok=True)
-    cost = json.loads(partial.with_suffix(COST_OF_PART).read_text()) | {"sha256": file_hash(result)}
+    costs = partial.with_suffix(COST_OF_PART)
+    cost = json.loads(costs.read_text()) | {"sha256": file_hash(result)}
     output.with_suffix(COST_OF_PART).write_text(json.dumps(cost) + "\n")
-    partial.with_suffix(COST_OF_PART).unlink()
     move(result, output)
+    costs.unlink()  # last, as a job that is killed before takes the waiting result, and needs its costs
 
 
 def require_parts(folder: Path) -> None:

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from workflow.lib.load import FormatError
-from workflow.lib.places import LIMITS
+from workflow.lib.places import is_limit
 from workflow.lib.plan import load_plan, outputs_of, panel_named
 from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance.fresh_build import BuildError, FreshBuild
@@ -108,7 +108,7 @@ def verdict_on(lock: Lock, name: str, fresh: FreshBuild, folder: Path) -> Verdic
             return drawing_verdict(job, redrawn(job, folder))
         return run_verdict(job, fresh, lock.builds.get(job.build, {}), folder)
     except (RedoError, FormatError, AttributeError, OSError) as error:  # of a forged file, too
-        if isinstance(error, OSError) and error.errno in LIMITS:
+        if is_limit(error):
             raise
         return False, str(error)
 
