@@ -83,6 +83,7 @@ override MISPLACED := $(if $(WRITING),$(shell for each in $(OPENED); do test ! -
 $(if $(MISPLACED),$(error $(MISPLACED): no file lies where a file belongs; move it away))
 
 override PYTHON := .venv/bin/python -P workflow/environment/launch.py
+override WITHOUT_PACKAGES := python3 -I workflow/environment/launch.py
 YES := yes 1
 EFFORT := $(call quote,$(QUALITY)$(if $(SEED),_seed=$(SEED))$(if $(REPLICAS),_replicas=$(REPLICAS)))
 $(foreach name,JOBS PANEL FILE CRATE SAMPLE PROFILE BATCH ACCOUNT PARTITION SECONDS,$(if $($(name)),$(eval override $(name) := $$(call quote,$$($(name))))))
@@ -127,10 +128,10 @@ crate: build runtime  ## Figures, data, code and runs as an RO-Crate in build/cr
 build: system-packages  ## The executables in build/bin
 	test ! -e build/CMakeCache.txt || grep -qsxF $(call quote,CMAKE_HOME_DIRECTORY:INTERNAL=$(CURDIR)/cpp) build/CMakeCache.txt || \
 	  rm -rf build/CMakeCache.txt build/CMakeFiles build/build.ninja
-	python3 -I workflow/environment/launch.py workflow.environment.build_by_content
+	$(WITHOUT_PACKAGES) workflow.environment.build_by_content
 	test -f build/build.ninja || cmake -S cpp -B build -G Ninja >build/cmake.log || { cat build/cmake.log; exit 1; }
 	ninja -C build --quiet
-	python3 -I workflow/environment/launch.py workflow.environment.build_by_content --built
+	$(WITHOUT_PACKAGES) workflow.environment.build_by_content --built
 
 test: dev build  ## All tests; ends with the count
 	ninja -C build --quiet cpp_tests
@@ -223,7 +224,7 @@ lock: dev  ## Renew the locks of Python packages
 	done
 
 clean:  ## Remove what can be made again, results included
-	python3 -I workflow/environment/packages.py --idle
+	$(WITHOUT_PACKAGES) workflow.environment.packages --idle
 	rm -rf build data/*/ figures/*/ .snakemake .cache
 
 system-packages:
@@ -240,11 +241,11 @@ dev-packages: system-packages
 # For what looks and changes nothing: packages are installed where there are none, and not repaired. Nor is anything of
 # them started that is not as it was installed: it could say of itself that it is.
 installed:
-	test -x .venv/bin/python || python3 -I workflow/environment/packages.py requirements-build.lock requirements.lock
-	python3 -I workflow/environment/packages.py --check
+	test -x .venv/bin/python || $(WITHOUT_PACKAGES) workflow.environment.packages requirements-build.lock requirements.lock
+	$(WITHOUT_PACKAGES) workflow.environment.packages --check
 
 runtime: system-packages
-	python3 -I workflow/environment/packages.py requirements-build.lock requirements.lock
+	$(WITHOUT_PACKAGES) workflow.environment.packages requirements-build.lock requirements.lock
 
 dev: dev-packages
-	python3 -I workflow/environment/packages.py requirements-build.lock requirements.lock requirements-dev.lock
+	$(WITHOUT_PACKAGES) workflow.environment.packages requirements-build.lock requirements.lock requirements-dev.lock

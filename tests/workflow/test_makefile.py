@@ -261,8 +261,12 @@ def test_who_may_not_write_is_told_in_one_line(closed: str) -> None:
 @pytest.mark.parametrize("name", ["a{b}", 'a"b', "a#b", "a\\b", "a[b", "a]b", "a$b", "a\nb", "a b:'%=*ä"])
 def test_a_folder_whose_name_means_something_to_the_tools_is_refused(tmp_path: Path, name: str) -> None:
     folder = tmp_path / name
-    (folder / "workflow/environment").mkdir(parents=True)
-    for file in ("Makefile", "workflow/environment/arguments.py", "workflow/environment/packages.py"):
+    environment = (f"environment/{name}" for name in ("arguments", "launch", "packages"))
+    for file in (
+        "Makefile",
+        *(f"workflow/{module}.py" for module in (*environment, "lib/locks", "lib/places")),
+    ):
+        (folder / file).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(ROOT / file, folder / file)
     made = subprocess.run(
         ["/usr/bin/make", "clean"],

@@ -6,24 +6,22 @@ runs before anything is installed.
 """
 
 import argparse
-import fcntl
 import hashlib
 import json
 import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+
+from workflow.lib.locks import only_make
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / ".venv"
 RECORD = FOLDER / "installed.json"
 PYTHON = FOLDER / "bin/python"
-LOCK = ROOT / ".snakemake/alone.lock"  # as workflow/execution/alone.py holds it while a make runs
 
 State = dict[
     str, list[str | int]
@@ -114,13 +112,13 @@ def install(locks: list[str]) -> None:
         else:
             missing = [lock for lock in locks if lock not in there]
             if missing:
-                with alone():
+                with only_make(ROOT):
                     add(missing)
                     write({**there, **asked}, state(now))
             elif now != before and os.access(FOLDER, os.W_OK):
                 write(there, now)
             return
-    with alone():
+    with only_make(ROOT):
         if why:
             print(why, flush=True)
         if FOLDER.exists():
@@ -128,20 +126,6 @@ def install(locks: list[str]) -> None:
         subprocess.run([sys.executable, "-m", "venv", FOLDER], check=True)
         add(locks)
         write(asked, state({}))
-
-
-@contextmanager
-def alone() -> Iterator[None]:
-    """While no make runs here that uses the packages, or installs them. Leaves if one does."""
-    LOCK.parent.mkdir(exist_ok=True)
-    if LOCK.exists() and not LOCK.is_file():
-        sys.exit(f"{LOCK.relative_to(ROOT)}: no file lies where a file belongs; move it away")
-    with LOCK.open("w") as file:
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            sys.exit("Another make is running here: wait for its end, or stop it")
-        yield
 
 
 def add(locks: list[str]) -> None:
@@ -181,7 +165,7 @@ def main() -> None:
     if options.check:
         sys.exit(complaint(faults()))
     if options.idle:
-        with alone():
+        with only_make(ROOT):
             return
     try:
         install(options.locks)
@@ -190,7 +174,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except KeyboardInterrupt:
-        sys.exit("Stopped.")
+    main()

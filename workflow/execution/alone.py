@@ -1,12 +1,8 @@
 """Runs Snakemake as the only one in this folder, and removes what an interrupted one has left locked.
 
-While a job of a make that was killed still runs, the next make refuses to start, as that job would write its products
-among the new ones. `--logger progress` shows what runs in the project's own words (workflow/execution).
-
-Snakemake's own locks are files, which stay when it is killed; this one is the system's and ends with the process.
+`--logger progress` shows what runs in the project's own words (workflow/execution).
 """
 
-import fcntl
 import json
 import shutil
 import signal
@@ -16,10 +12,10 @@ from pathlib import Path
 from typing import Any
 
 from workflow.execution.stopping import interrupt, terminate
-from workflow.lib.places import JOBS, in_one_line, require_place
+from workflow.lib.locks import only_make, require_no_jobs
+from workflow.lib.places import in_one_line, require_place
 
 PLACE = Path(".snakemake")
-LOCK = PLACE / "alone.lock"
 FOLDERS = (  # of Snakemake's
     "auxiliary",
     "conda",
@@ -34,21 +30,10 @@ FOLDERS = (  # of Snakemake's
 
 
 def run() -> None:
-    for path in (LOCK, JOBS, *(PLACE / folder / "any" for folder in FOLDERS)):
-        require_place(path, Path())
-    PLACE.mkdir(exist_ok=True)
-    with LOCK.open("w") as file:
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            sys.exit("Another make is running here: wait for its end, or stop it")
-        with JOBS.open("w") as jobs:
-            try:
-                fcntl.flock(jobs, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
-                sys.exit(
-                    f"A job of a make that was killed still runs here: wait for its end, or stop it (fuser {JOBS})"
-                )
+    for folder in FOLDERS:
+        require_place(PLACE / folder / "any", Path())
+    with only_make(Path()):
+        require_no_jobs(Path())
         shutil.rmtree(PLACE / "locks", ignore_errors=True)
         remove_damaged_notes()
         snakemake()

@@ -12,7 +12,6 @@ from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
-JOBS = Path(".snakemake/jobs.lock")  # held by the jobs on this machine, each as one of many
 LIMITS = {
     getattr(errno, name)
     for name in ("ENOSPC", "EIO", "EDQUOT", "EFBIG", "EMFILE", "ENFILE", "ENOMEM", "EAGAIN")

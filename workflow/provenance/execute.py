@@ -6,7 +6,6 @@ variable of the caller's environment reaches the job. Standard library only, as 
 
 import argparse
 import contextlib
-import fcntl
 import glob
 import hashlib
 import json
@@ -19,9 +18,10 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from workflow.lib.locks import hold_as_job
 from workflow.lib.options import Options, arguments
 from workflow.lib.parents import PACKAGES, Parents, file_hash
-from workflow.lib.places import JOBS, move, regular
+from workflow.lib.places import move, regular
 from workflow.provenance.lock import LockError, record
 from workflow.provenance.node import difference_of_node
 from workflow.provenance.repository import ROOT
@@ -45,13 +45,6 @@ ENVIRONMENT = {
     "MPLBACKEND": "Agg",
     "MPLCONFIGDIR": str(ROOT / ".cache/matplotlib"),
 }
-
-
-def hold_lock() -> None:
-    """Until this process and the one that it starts have ended."""
-    file = os.open(JOBS, os.O_RDWR | os.O_CREAT)
-    fcntl.flock(file, fcntl.LOCK_SH)
-    os.set_inheritable(file, True)
 
 
 def program_command(program: str, options: Options, output: Path) -> list[str]:
@@ -248,7 +241,7 @@ def main() -> None:
     drawing.add_argument("--data", nargs="+", required=True)
     job = parser.parse_args()
     if job.here:
-        hold_lock()
+        hold_as_job()
     with regular(Path(job.log)).open("w") as log:
         os.dup2(log.fileno(), sys.stderr.fileno())
     try:
