@@ -18,6 +18,7 @@ runpy.run_path(f"{workflow.basedir}/workflow/environment/launch.py")  # no other
 FOLDERS_HERE = {workflow.basedir, f"{workflow.basedir}/workflow", ""}  # where Snakemake looks first
 sys.path[:] = [folder for folder in sys.path if folder not in FOLDERS_HERE]
 from workflow.lib.costs import peak_memory
+from workflow.lib.locks import hold_as_make
 from workflow.lib.parents import caption_of
 from workflow.lib.places import in_one_line, require_place
 from workflow.lib.plan import ConfigurationError, data_of, drawings_of

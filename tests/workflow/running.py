@@ -46,10 +46,12 @@ def kill(victims: list[int]) -> None:
 
 
 @contextlib.contextmanager
-def running(clone: Clone, *arguments: str) -> Iterator[subprocess.Popen]:
-    """make in a session of its own, of which nothing is left at the end."""
+def running(
+    clone: Clone, *arguments: str, tool: tuple[str, ...] = ("/usr/bin/make",)
+) -> Iterator[subprocess.Popen]:
+    """make, or another tool, in a session of its own, of which nothing is left at the end."""
     with subprocess.Popen(
-        ["env", "--default-signal=HUP", "/usr/bin/make", *arguments],  # also where nohup runs the tests
+        ["env", "--default-signal=HUP", *tool, *arguments],  # also where nohup runs the tests
         cwd=clone.folder,
         env={"PATH": os.defpath, "HOME": "/"},
         stdout=subprocess.PIPE,

@@ -10,20 +10,25 @@ from collections.abc import Callable
 import pytest
 
 from tests.workflow.conftest import Clone, append, copy, delete, replace
+from tests.workflow.running import processes, running, soon
 from tests.workflow.test_reruns import stamps
+from workflow.lib.locks import ANOTHER
 from workflow.lib.parents import caption_of
 from workflow.lib.plan import load_plan
 
 PLAN = load_plan("smoke")
 
 
-def snakemake(clone: Clone, *arguments: str) -> str:
+BY_HAND = (".venv/bin/python", "-m", "snakemake", "--config", "quality=smoke")
+
+
+def snakemake(clone: Clone, *arguments: str, status: int = 0) -> str:
     """What it prints; run by hand, with a PATH and nothing else."""
-    command = [".venv/bin/python", "-m", "snakemake", "--config", "quality=smoke", *arguments]
+    command = [*BY_HAND, *arguments]
     environment = {"PATH": os.defpath, "HOME": os.environ.get("HOME", "/"), "OMP_NUM_THREADS": "2"}
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
     done = subprocess.run(command, cwd=clone.folder, env=environment, timeout=900, check=False, **pipes)
-    assert done.returncode == 0, done.stdout
+    assert done.returncode == status, done.stdout
     return done.stdout
 
 
@@ -55,6 +60,18 @@ def test_a_target_concerns_its_own_jobs_only(kept: Clone) -> None:
     snakemake(kept, "--", "figures/smoke/fig03.pdf")
     assert {job for job, inodes in stamps(kept).items() if inodes != places[job]} == {"fig03"}
     assert (kept.folder / "build/replaced/figures/smoke/fig03.csv").is_file()
+
+
+def test_it_does_not_run_beside_make(kept: Clone) -> None:
+    append("workflow/figures/fig03.py", "# more\n")(kept)
+    with running(kept, "panel", "PANEL=fig05", "QUALITY=smoke", "FRESH=yes", "JOBS=1") as making:
+        soon(lambda: processes(making.pid, "build/bin/persistence"))
+        assert ANOTHER in snakemake(kept, "--", "figures/smoke/fig03.pdf", status=1)
+    with running(kept, "panel=fig05", "fresh=yes", "--cores", "1", "--", "panel", tool=BY_HAND) as making:
+        soon(lambda: processes(making.pid, "build/bin/persistence"))
+        made = kept.make("panel", "PANEL=fig03", "QUALITY=smoke")
+    assert made.returncode != 0
+    assert ANOTHER in made.stdout
 
 
 def test_another_quality_is_no_target(clean: Clone) -> None:

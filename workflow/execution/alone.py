@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from workflow.execution.stopping import interrupt, terminate
-from workflow.lib.locks import only_make, require_no_jobs
+from workflow.lib.locks import hold_as_make
 from workflow.lib.places import in_one_line, require_place
 
 PLACE = Path(".snakemake")
@@ -32,11 +32,10 @@ FOLDERS = (  # of Snakemake's
 def run() -> None:
     for folder in FOLDERS:
         require_place(PLACE / folder / "any", Path())
-    with only_make(Path()):
-        require_no_jobs(Path())
-        shutil.rmtree(PLACE / "locks", ignore_errors=True)
-        remove_damaged_notes()
-        snakemake()
+    hold_as_make()
+    shutil.rmtree(PLACE / "locks", ignore_errors=True)
+    remove_damaged_notes()
+    snakemake()
 
 
 def remove_damaged_notes() -> None:

@@ -95,6 +95,7 @@ BATCHES = divide(PANELS, 60 * REQUEST.batch, or_leave(read_timings)) if REQUEST.
 
 onstart:
     if workflow.is_main_process and not workflow.touch:
+        or_leave(hold_as_make)  # as Snakemake may have been called without make
         if REQUEST.batch:
             or_leave(note_libraries, {run.program for panel in PANELS.values() for run in panel.runs})
         for handler in workflow.logger_manager.get_log_handlers():
