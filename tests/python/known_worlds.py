@@ -122,7 +122,14 @@ def kappas(deterministic: float, rare_: float, end: float = 0) -> World:
 
 
 def pulse(panel: str, **given: Any) -> World:
-    return {panel: {"peak": 1, "peak_position": 10, "peak_speed": 300, "odd_part": 0, **given}}
+    """On a ring that has not closed."""
+    shape = {
+        "peak": 1,
+        "peak_raw": 1,
+        "peak_position": 10,
+        "energy_difference": lambda _run, _t, x: (x > 1) & (x < x.max() - 1),
+    }
+    return {panel: {**shape, "peak_speed": 300, "odd_part": 0, **given}}
 
 
 def ballistic(power: float) -> World:
@@ -130,7 +137,8 @@ def ballistic(power: float) -> World:
 
 
 def damped(panel: str, exponent: float, later: float | None = None) -> World:
-    return pulse(panel, damping_exponent=exponent, damping_exponent_from=exponent if later is None else later)
+    fits = {"damping_exponent": exponent, "damping_exponent_from": exponent if later is None else later}
+    return pulse(panel, local_damping_exponent=exponent, **fits)
 
 
 def linked(conductivity: float, shift: float = 0) -> World:

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from tests.python.claim_numbers import DATA, check, freedom, of
-from tests.python.known_results import Fill, Known, axes, quantity, uneven
+from tests.python.known_results import Fill, Known, axes, quantity, truth, uneven
+from tests.python.known_worlds import damped
 from workflow.claims.data import MissingError
 from workflow.claims.judge import FUNCTIONS
 from workflow.figures import ext03
@@ -162,6 +163,16 @@ def test_which_fits_bound_the_damping() -> None:
                 (found,) = evidence.other
                 above = ext03.damping(data.one("ext03", "long"), above=True).exponent
                 assert found.systematic == pytest.approx(max(0.2 * (k in of_sound), abs(0.6 + above)))
+
+
+@pytest.mark.parametrize(
+    ("bend", "told"), [(0, "A power of t describes the height"), (1, "No power of t describes the height")]
+)
+def test_whether_a_power_describes_the_height_is_told(bend: float, told: str) -> None:
+    world = damped("fig09b", 1)["fig09b"] | {"local_damping_exponent": lambda _, t: 1 + bend * t}
+    assert FUNCTIONS["C28"](Known({"fig09b": truth(world, 0.001)})).caveat.startswith(told)
+    closed = truth(world | {"energy_difference": 1}, 0.001)
+    assert "fewer than two exponents" in FUNCTIONS["C28"](Known({"fig09b": closed})).caveat
 
 
 @pytest.mark.parametrize("known", [0, 1, 2, 5])

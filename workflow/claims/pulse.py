@@ -9,7 +9,7 @@ from workflow.claims.data import Data, MissingError, combination, number, where_
 from workflow.claims.evidence import Claim, Evidence
 from workflow.claims.growth import exponent, largest_sizes, sizes
 from workflow.claims.verdict import Number, with_systematic
-from workflow.figures import ext03
+from workflow.figures import ext03, fig10
 from workflow.figures.fig09 import gaussian_start, start
 from workflow.lib.fit import with_error
 from workflow.lib.load import Quantity, Result
@@ -122,10 +122,15 @@ def damping_exponent(data: Data, panel: str) -> Number:
 
 
 def _other_fits(data: Data, panel: str) -> str:
-    fitted = _pulse(data, panel)["damping_exponent_from"]
+    result = _pulse(data, panel)
+    fitted = result["damping_exponent_from"]
     half = len(fitted.mean) // 2
+    drifts, spread = fig10.drift(fig10.tabulate(result))
     rest = number(_from_rest(data, panel), "damping_exponent")
-    return f"Fitted from t = {fitted.axes['from'][half]:g} on it is {_at(fitted, half)}; from the start at rest {with_error(rest.value, rest.error)}."
+    return (
+        f"{'No power of t describes' if drifts else 'A power of t describes'} the height before the ring closes ({spread}). Fitted from "
+        f"t = {fitted.axes['from'][half]:g} on it is {_at(fitted, half)}; from the start at rest {with_error(rest.value, rest.error)}."
+    )
 
 
 def damping_rare(data: Data) -> Evidence:

@@ -58,6 +58,8 @@ def before_closing(table: pd.DataFrame) -> pd.DataFrame:
 def drift(table: pd.DataFrame) -> tuple[bool, str]:
     """Whether the disjoint exponents before the ring closes differ by more than chance, and chi^2 about their mean."""
     pairs = before_closing(table)
+    if len(pairs) < 2:
+        return False, "fewer than two exponents before the ring closes"
     *_, chi_square = mean_of(pairs.exponent_to_next, pairs.exponent_to_next_error)
     freedom = len(pairs) - 1
     return rejected(chi_square, freedom), goodness(chi_square, freedom)
