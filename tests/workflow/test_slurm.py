@@ -115,7 +115,8 @@ def test_a_job_goes_on_from_the_checkpoint_that_left_the_node(cluster: slurm.Clu
         cluster.say("scancel", *cluster.jobs())
         (measured,) = soon(lambda: re.findall(r"interrupted after (\d+) replicas; --resume", told(log)))
         (checkpoint,) = soon(lambda: [*kept.folder.glob(f"build/partial/{run}-*.h5.checkpoint")])
-        again = soon(lambda: "interrupted" not in told(log) and reports(log))
+        # Its turn may come when the other runs of the panel, which were cancelled too, are done.
+        again = soon(lambda: "interrupted" not in told(log) and reports(log), seconds=900)
         assert again[0] > int(measured) > 0
         said, _ = making.communicate(timeout=900)
     assert making.returncode == 0, said
