@@ -70,6 +70,7 @@ def all_figures(wildcards):
     for job in leaving:
         say(f"{job} is not asked for any more{f': moved to {REPLACED}' if executing else ''}")
     if executing and leaving:
+        or_leave(hold_as_make)
         or_leave(retire, QUALITY, leaving)
     return [path for panel in PANELS for path in drawings_of(QUALITY, panel)]
 
