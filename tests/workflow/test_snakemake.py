@@ -63,7 +63,8 @@ def test_a_target_concerns_its_own_jobs_only(kept: Clone) -> None:
 
 
 def test_it_does_not_run_beside_make(kept: Clone) -> None:
-    append("workflow/figures/fig03.py", "# more\n")(kept)
+    products = kept.products()
+    append("data/smoke/fig03/paper.h5", "more")(kept)
     with running(kept, "panel", "PANEL=fig05", "QUALITY=smoke", "FRESH=yes", "JOBS=1") as making:
         soon(lambda: processes(making.pid, "build/bin/persistence"))
         assert ANOTHER in snakemake(kept, "--", "figures/smoke/fig03.pdf", status=1)
@@ -72,6 +73,9 @@ def test_it_does_not_run_beside_make(kept: Clone) -> None:
         made = kept.make("panel", "PANEL=fig03", "QUALITY=smoke")
     assert made.returncode != 0
     assert ANOTHER in made.stdout
+    made = kept.make("figures", "QUALITY=smoke")
+    assert made.returncode == 0, made.stdout
+    assert kept.products() == products
 
 
 def test_another_quality_is_no_target(clean: Clone) -> None:
