@@ -140,8 +140,9 @@ def verify(clone: Clone, share: str = "0.1") -> subprocess.CompletedProcess:
     return run_module(clone, "verify", "--panel", "fig03", "--sample", share)
 
 
+@pytest.mark.long
 def test_programs_are_built_from_their_sources_alone(tampered: Clone) -> None:
-    """Without build, also where no program, hash or entry of the lock contradicts another."""
+    """Without build, also where no program, hash or entry of the lock contradicts another. test_fresh_build is its short form."""
     both(append(PROGRAM, "x"), state_executable)(tampered)
 
     def forge(content: dict) -> None:
