@@ -10,6 +10,7 @@ import math
 import re
 import runpy
 import sys
+from functools import cache
 from pathlib import Path
 
 from snakemake.logging import logger
@@ -24,6 +25,7 @@ from workflow.lib.places import in_one_line, require_place
 from workflow.lib.plan import ConfigurationError, data_of, drawings_of
 from workflow.tradeoff.batches import divide
 from workflow.execution.handler import OF_PROJECT, LogHandler
+from workflow.execution.remaining import foretold
 from workflow.provenance.chain import Chain
 from workflow.provenance.execute import identity_of
 from workflow.provenance.node import note_libraries

@@ -122,8 +122,11 @@ def partial_of(clone: Clone) -> list[Path]:
 
 
 def test_another_seed_and_number_of_replicas_have_a_folder_of_their_own(kept: Clone) -> None:
-    made = kept.make("panel", "PANEL=fig03_inset", "QUALITY=smoke", "SEED=7", "REPLICAS=5")
+    made = kept.make("panel", "PANEL=fig03_inset", "QUALITY=smoke", "SEED=7", "REPLICAS=5", "JOBS=1")
     assert made.returncode == 0, made.stdout
+    runs = (kept.folder / "data/smoke_seed=7_replicas=5/fig03_inset").iterdir()
+    in_turn = [path.stem for path in sorted(runs, key=lambda path: path.stat().st_mtime_ns)]
+    assert {name.split("_")[0] for name in in_turn[:4]} == {"simulation"}  # which takes longest
     run = "fig03_inset/simulation_cells=2.h5"
     own = load(kept.folder / "data/smoke_seed=7_replicas=5" / run).parameters
     standard = load(kept.folder / "data/smoke" / run).parameters

@@ -44,6 +44,7 @@ rule part:
         part="[0-9]+-[0-9]+",
     conda:
         "../environment/conda.yaml"
+    priority: work_of_run
     resources:
         runtime=minutes_of_run,
         mem_mb=memory,
@@ -71,6 +72,7 @@ rule join:
         run=SPLIT,
     conda:
         "../environment/conda.yaml"
+    priority: BEFORE_ANY_RUN
     params:
         program=lambda wildcards: run_of(wildcards).program,
         options=lambda wildcards: json.dumps(run_of(wildcards).options),

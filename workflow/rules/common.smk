@@ -2,6 +2,7 @@
 
 STALE = {}  # job: reason
 HERE = "" if REQUEST.batch else "--here"
+BEFORE_ANY_RUN = 10**9  # as priority; that of a run is its core seconds
 
 
 def say(text):
@@ -36,6 +37,17 @@ def threads_of_run(wildcards):
 def at_once():
     """Cores on this machine, jobs on a cluster."""
     return workflow.resource_settings.nodes if REQUEST.batch else workflow.cores
+
+
+def work_of_run(wildcards):
+    """Core seconds that are foretold, its priority: with the longest first no run is left alone at the end."""
+    job = f"{wildcards.panel}/{wildcards.run}"
+    return BATCHES.seconds[job] if BATCHES else work_here()[job]
+
+
+@cache
+def work_here():
+    return or_leave(foretold, PANELS, [f"{name}/{run.name}" for name, panel in PANELS.items() for run in panel.runs])
 
 
 def group_of_run(wildcards):

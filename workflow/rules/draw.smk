@@ -22,6 +22,7 @@ rule draw:
         "build/benchmarks/{quality}/{panel}.tsv"
     conda:
         "../environment/conda.yaml"
+    priority: BEFORE_ANY_RUN
     params:
         here=HERE,
         configuration=lambda wildcards: PANELS[wildcards.panel].hash(),

@@ -19,6 +19,7 @@ rule simulate:
     conda:
         "../environment/conda.yaml"
     threads: threads_of_run
+    priority: work_of_run
     resources:
         runtime=minutes_of_run,
         mem_mb=memory,
