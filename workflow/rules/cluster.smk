@@ -42,9 +42,9 @@ rule part:
         run=SPLIT,
         identity="[0-9a-f]{16}",
         part="[0-9]+-[0-9]+",
+    priority: work_of_run
     conda:
         "../environment/conda.yaml"
-    priority: work_of_run
     resources:
         runtime=minutes_of_run,
         mem_mb=memory,
@@ -70,9 +70,9 @@ rule join:
         "build/logs/{quality}/{panel}/{run}.log",
     wildcard_constraints:
         run=SPLIT,
+    priority: BEFORE_ANY_RUN
     conda:
         "../environment/conda.yaml"
-    priority: BEFORE_ANY_RUN
     params:
         program=lambda wildcards: run_of(wildcards).program,
         options=lambda wildcards: json.dumps(run_of(wildcards).options),

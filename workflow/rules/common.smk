@@ -47,7 +47,9 @@ def work_of_run(wildcards):
 
 @cache
 def work_here():
-    return or_leave(foretold, PANELS, [f"{name}/{run.name}" for name, panel in PANELS.items() for run in panel.runs])
+    return or_leave(
+        foretold, PANELS, [f"{name}/{run.name}" for name, panel in PANELS.items() for run in panel.runs]
+    )
 
 
 def group_of_run(wildcards):

@@ -20,9 +20,9 @@ rule draw:
         "build/logs/{quality}/{panel}.log",
     benchmark:
         "build/benchmarks/{quality}/{panel}.tsv"
+    priority: BEFORE_ANY_RUN
     conda:
         "../environment/conda.yaml"
-    priority: BEFORE_ANY_RUN
     params:
         here=HERE,
         configuration=lambda wildcards: PANELS[wildcards.panel].hash(),

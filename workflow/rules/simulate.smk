@@ -14,12 +14,12 @@ rule simulate:
         "build/logs/{quality}/{panel}/{run}.log",
     benchmark:
         "build/benchmarks/{quality}/{panel}/{run}.tsv"
+    priority: work_of_run
     group:
         group_of_run
     conda:
         "../environment/conda.yaml"
     threads: threads_of_run
-    priority: work_of_run
     resources:
         runtime=minutes_of_run,
         mem_mb=memory,
