@@ -6,6 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from workflow.figures.ext09 import CUBE_ROOT, LOOKS, range_of, spacings, tabulate
@@ -16,7 +17,6 @@ from workflow.lib.fit import mean_of
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
-FACES = ("white", "0.7")  # of the markers of all drives but the strongest, from the weakest on
 PARAMETERS = 2  # of a + b N^(1/3)
 STATE = {"particle_current": "J_n", "temperature_first": "T_1", "temperature_last": "T_N"}
 STARTS = {
@@ -49,7 +49,8 @@ def exponents(table: pd.DataFrame) -> pd.DataFrame:
         common = set.intersection(*(set(one.cells) for _, one in part.groupby("drive")))
         for drive, one in part[part.cells.isin(common)].groupby("drive"):
             size, slope, error = local_exponents(one.cells, one.kappa, one.kappa_error)
-            columns = {"size": size, "exponent": slope, "exponent_error": error}
+            ends = {"size": size, "first": one.cells.to_numpy()[:-1], "last": one.cells.to_numpy()[1:]}
+            columns = {**ends, "exponent": slope, "exponent_error": error}
             parts.append(pd.DataFrame({"gas": name, "drive": drive, **columns}))
     return pd.concat(parts, ignore_index=True)
 
@@ -106,25 +107,38 @@ def scatter(found: pd.DataFrame) -> tuple[float, int]:
 
 
 def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) -> None:
-    drives = sorted(found.drive.unique())
-    for place, name in enumerate(found.gas.unique()):
+    """A line for every spacing and pair of sizes, the fuller the marker the larger these are."""
+    sizes = sorted(found["size"].unique())
+    largest = found.groupby("gas")["size"].max()
+    shades = dict(zip(sizes, np.linspace(0 if len(sizes) > 1 else 1, 1, len(sizes)), strict=True))
+    for place, ((name, size), one) in enumerate(found.groupby(["gas", "size"], sort=False)):
         marker, color = LOOKS[name]
-        for number, drive in enumerate(drives):
-            one = found[(found.gas == name) & (found.drive == drive)]
-            # Beside each other, or they would hide each other.
-            size = one["size"] * 1.1 ** (number - 1) * 1.03 ** (place - 1)
-            look: style.Look = {"marker": marker, "color": color, "markerfacecolor": [*FACES, color][number]}
-            look["label"] = rf"$\lambda = {spacing[name]}$" if drive == drives[-1] else None
-            axes.errorbar(size, one.exponent, one.exponent_error, **look, **style.POINTS)
-    for drive, face in zip(drives, [*FACES, style.BLACK], strict=False):
-        label = rf"$T_R/T_L = {drive:g}$"
-        axes.plot([], [], "D", color=style.BLACK, markerfacecolor=face, label=label)
-    axes.set(xscale="log", xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, 1))
-    axes.set_xlim(found["size"].min() / 1.6, found["size"].max() * 1.6)
+        look: style.Look = {"marker": marker, "color": color, "markerfacecolor": shaded(color, shades[size])}
+        label = rf"$\lambda = {spacing[name]}$" if size == largest[name] else None
+        # Beside each other, or they would hide each other.
+        drive = one.drive * 1.01 ** (place - (found.groupby(["gas", "size"]).ngroups - 1) / 2)
+        axes.errorbar(
+            drive, one.exponent, one.exponent_error, label=label, **{**style.POINTS, **look, "linestyle": "-"}
+        )
+    for size, (first, last) in found.groupby("size")[["first", "last"]].first().iterrows():
+        face = shaded(style.BLACK, shades[size])
+        axes.plot(
+            [], [], "D", color=style.BLACK, markerfacecolor=face, label=f"$N = {first:g}$ to ${last:g}$"
+        )
+    drives = sorted(found.drive.unique())
+    axes.set(xscale="log", xlabel="$T_R/T_L$", ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, 1))
+    axes.set_xticks(drives, [f"{drive:g}" for drive in drives])
+    axes.set_xticks([], minor=True)
+    axes.margins(x=0.1)
     axes.axhline(1 / 3, **style.GUIDE)
     axes.annotate("1/3", (1.01, 1 / 3), xycoords=("axes fraction", "data"), va="center", size=8)
-    style.label_sizes(axes.xaxis)
     axes.legend(loc="upper left", ncols=2, columnspacing=0.8, handletextpad=0.2)
+
+
+def shaded(color: str, share: float) -> tuple[float, float, float]:
+    """Between white and the colour."""
+    red, green, blue = (1 - share * (1 - part) for part in to_rgb(color))
+    return red, green, blue
 
 
 def draw_starts(axes: Axes, found: pd.DataFrame, symbol: str) -> None:
@@ -168,18 +182,19 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     )
     figure.align_ylabels([axes["b"], axes["c"]])
     style.letter(*axes.values())
-    spread, freedom = scatter(slopes)
     spacing = spacings(results)
+    scatters = [f"{goodness(*scatter(slopes))}, about a common value at every size and spacing"]
     last = slopes[slopes["size"] == slopes.groupby("gas")["size"].transform("max")]
-    ends = "; ".join(
-        f"between the largest sizes at spacing {spacing[name]} {goodness(*scatter(part))}"
-        for name, part in last.groupby("gas")
-    )
+    if slopes["size"].nunique() > 1:
+        scatters += [
+            f"between the largest sizes at spacing {spacing[name]} {goodness(*scatter(part))}"
+            for name, part in last.groupby("gas")
+        ]
     drives = ", ".join(f"{drive:g}" for drive in sorted(slopes.drive.unique()))
     caption = (
-        f"(a) Local exponent of κ for ratios of the baths' temperatures of {drives} (white, grey and full markers, drawn beside each other), at "
-        f"equal pressures: {goodness(spread, freedom)}, "
-        f"about a common value at every size and spacing; {ends}.{laws(table, spacing)} (b, c) κ and J_n from several starts relative to the mean over them, δ: in "
+        f"(a) Local exponent of κ between two sizes for ratios of the baths' temperatures of {drives} at equal pressures, drawn beside "
+        f"each other: {'; '.join(scatters)}."
+        f"{laws(table, spacing)} (b, c) κ and J_n from several starts relative to the mean over them, δ: in "
         "equilibrium with the mean of the baths (warm), with the colder or the hotter one, and empty; for κ "
         f"{goodness(starts.chi_square.sum(), int(starts.freedom.sum()))}, about a common value at every size, the largest "
         f"deviation {100 * starts.deviation.abs().max():.1f} %. {memory(found)} Error bars: standard errors over replicas."
@@ -191,6 +206,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 if __name__ == "__main__":
     pure = (
         "size",
+        "first",
+        "last",
         "exponent",
         "exponent_error",
         "drive",

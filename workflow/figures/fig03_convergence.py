@@ -36,7 +36,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         Error of the kinetic solver against its number of points in momentum, {parameters(results, "gamma", "sigma", *BATHS)}: the
         largest relative error of the currents of particles, energy and momentum. Lines: the program's own estimate, from a
         coarser solution; points: distance from the finest solution of the same γ. The estimate is above the distance, and both fall
-        ever more steeply with the number of points, down to {listed(finest)}. The paper uses {PAPER_POINTS} points and states
+        faster than the powers of usual quadratures with the number of points; the estimates end at {listed(finest)}. The paper uses {PAPER_POINTS} points and states
         no error, so that no point of it can be shown here."""
 
 
