@@ -149,15 +149,10 @@ def deviations_at_16(data: Data) -> Evidence:
 def deviations_vanish(data: Data) -> Evidence:
     """The part of the deviation that has the shape of that of the mean field at N = 2, against N."""
     table, _ = _deviations(data)
-    shape = table[(table.kind == "mean field") & (table.cells == 2)].deviation.to_numpy()
     results = sorted(data.of("fig03_inset", "momentum_flux"), key=lambda one: one.parameters["cells"])
-    sizes, amplitudes = [], []
-    for result in results:
-        part = table[(table.kind == "simulation") & (table.cells == result.parameters["cells"])]
-        error = float(np.sqrt(np.sum((shape * part.error) ** 2)) / (shape @ shape))
-        sizes.append(result.parameters["cells"])
-        amplitudes.append(Number("", float(shape @ part.deviation / (shape @ shape)), error))
-    exponent, law = power(results, sizes, amplitudes, "d ln |F_N - F| / d ln N")
+    found = fig03_inset.amplitudes(table).query("kind == 'simulation'").sort_values("cells")
+    amplitudes = [Number("", one.amplitude, one.error) for one in found.itertuples()]
+    exponent, law = power(results, [*found.cells], amplitudes, "d ln |F_N - F| / d ln N")
     return Evidence(
         [exponent], caveat=f"χ² of the power law {law.chi_square:.1f} with {law.freedom} degrees of freedom."
     )
