@@ -24,7 +24,7 @@ RESOLVED = 3  # standard errors of a trend that is not chance
 AGED: list[tuple[str, str, str, Callable[[float], float], str]] = [
     ("persistence", "mu", r"persistence $\mu$", lambda sigma: np.arccos(sigma) / np.pi, "μ"),
     ("waiting_time", "exponent", r"exponent of $\Psi$", lambda _: -2, "the exponent of Ψ"),
-    ("displacement", "alpha", r"exponent $\alpha$, zero momentum", lambda _: 1, "α"),
+    ("displacement", "alpha", r"exponent $\alpha$, zero total momentum", lambda _: 1, "α"),
 ]
 
 

@@ -126,7 +126,7 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
         for scale, reading, look in readings:
             axes.axhline(height * scale, **style.GUIDE | look)
             axes.text(2, height * scale, f"{name} {reading}", va="bottom", size=8, **look)
-    axes.set(xscale="log", yscale="log", ylim=(5e-5, 0.2))
+    axes.set(xscale="log", yscale="log", ylim=(5e-5, 0.6))
     axes.set(xlabel="number of cells $N$", ylabel=r"$|F_N - F|\,/\,\max F$")
     right = axes.secondary_yaxis("right", functions=(lambda y: y * printed, lambda y: y / printed))
     right.set_ylabel(r"$|F_N - F|$, with $\int F\,dp = 1$")
