@@ -62,7 +62,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     guide = ABOVE * table.variance.iloc[-1] * (time[late] / last) ** 2
     above.plot(time[late], guide, **style.GUIDE)
     above.annotate(
-        "$t^2$", (time.iloc[-1], guide.iloc[-1]), (-8, -1), textcoords="offset points", size=8, ha="right"
+        "$t^2$", (time.iloc[-1], guide.iloc[-1]), (-12, -7), textcoords="offset points", size=8, ha="right"
     )
     middle.errorbar(time, table["share"], table.share_error, **drift)
     below.errorbar(np.sqrt(time * time.shift(-1)), table.slope_to_next, table.slope_to_next_error, **tagged)
