@@ -117,7 +117,11 @@ def kappas(deterministic: float, rare_: float, end: float = 0) -> World:
         size = run.options["cells"]
         return float(size**rare_ if rare(run) else size**deterministic * (1 + end / size))
 
-    both = {"stationary": 1, "kappa": kappa, "kappa_particle": kappa}
+    def current(run: Run) -> float:
+        drop = run.options["temperature-left"] - run.options["temperature-right"]
+        return kappa(run) * float(drop) / run.options["cells"]
+
+    both = {"stationary": 1, "kappa": kappa, "kappa_particle": kappa, "energy_current": current}
     return {"fig08": both, "ext09": both}
 
 

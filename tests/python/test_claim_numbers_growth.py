@@ -30,7 +30,14 @@ def conductivities(run: Run, odd: int = 0) -> dict[str, Quantity]:
         for name in ("kappa", "kappa_particle")
     }
     stationary = replace(found["stationary"], mean=np.array(float(not moving)))
-    return found | kappas | {"stationary": stationary}
+    energy = current(run, (1 + 0.1 * found["energy_current"].mean) * factor)
+    return found | kappas | {"stationary": stationary, "energy_current": energy}
+
+
+def current(run: Run, kappa: np.ndarray) -> Quantity:
+    """Of energy, where kappa has the temperatures of the baths."""
+    drop = run.options["temperature-left"] - run.options["temperature-right"]
+    return quantity(run, "energy_current", kappa * drop / run.options["cells"], np.array(0.01))
 
 
 SOME = Known(dict.fromkeys(("fig08", "fig09a", "fig09b", "ext09"), conductivities))
@@ -46,11 +53,14 @@ def kappa(
 
 
 def last_two(panel: str, sizes: Sequence[int], series: str, data: Known) -> tuple[float, float, float]:
-    """Exponent between two sizes; that by the temperatures of the particles bounds the systematic error."""
+    """Exponent between two sizes; those by the temperatures of the particles and of the baths bound the systematic error."""
     kinds = ("kappa", "kappa_particle")
     found, other = (power(*kappa(panel, sizes, series, data=data, name=name)) for name in kinds)
-    assert abs(other[0] - found[0]) > 1e-3
-    return found[0], found[1], abs(other[0] - found[0])
+    _, (first, second), _ = kappa(panel, sizes, series, data=data, name="energy_current")
+    by_baths = 1 + math.log(second / first) / math.log(sizes[1] / sizes[0])
+    bounds = [abs(one - found[0]) for one in (other[0], by_baths)]
+    assert min(bounds) > 1e-3
+    return found[0], found[1], max(bounds)
 
 
 @pytest.mark.parametrize("odd", [128, 1024])  # so that the one or the other half is the farther off
@@ -91,6 +101,7 @@ def test_conductivity_with_a_finite_limit() -> None:
             )
             return uneven(run) | {
                 "kappa": quantity(run, "kappa", np.array(kappa), np.array(0.01 * kappa)),
+                "energy_current": current(run, np.array(kappa)),
                 "stationary": quantity(run, "stationary", np.array(1.0), None),
             }
 
@@ -116,7 +127,8 @@ def test_an_exponent_takes_two_sizes(few: int) -> None:
 
     def fill(run: Run) -> dict[str, Quantity]:
         still = run.series.startswith("thinning") and run.options["cells"] in (16, 32)[:few]
-        return uneven(run) | {"stationary": quantity(run, "stationary", np.array(float(still)), None)}
+        stationary = quantity(run, "stationary", np.array(float(still)), None)
+        return uneven(run) | {"stationary": stationary, "energy_current": current(run, np.array(1.0))}
 
     substance = FUNCTIONS["C24"](Known({"fig08": conductivities, "ext09": fill})).substance
     assert len(substance) == few
