@@ -22,8 +22,8 @@ def pulse(apart: bool, odd: int = 2) -> Fill:
     def fill(run: Run) -> dict[str, Quantity]:
         found, other = uneven(run), run.name == "rest"
         time = found["peak"].axes["time"]
-        place = 300 * time ** (1.1 + other * (0.04 if apart else 0.03))
-        place[odd] *= 1.02
+        place = 300 * time ** (1.1 + other * (0.08 if apart else 0.05))
+        place[odd] *= 1 if other else 1.02
         place[[0, -1]] = math.nan
         damping = np.array(0.6 + other * (0.065 if apart else 0.05))
         later = damping + 0.002 * np.arange(len(time) - 1)
@@ -98,8 +98,8 @@ def test_way_of_the_peak(apart: bool, odd: int) -> None:
 
     found, rest = slope("gaussian", 0, -1), slope("rest", 0, -1)
     others = [slope("gaussian", *ends) for ends in ((1, -1), (2, -1), (0, -2))] + [rest] * apart
-    error = 0.01 * math.sqrt(2) / math.log(0.04 / 0.0125)
-    assert (abs(rest - found) > 2 * math.sqrt(2) * error) == apart
+    error, error_of_rest = (0.01 * math.sqrt(2) / math.log(last / 0.0125) for last in (0.032, 0.02))
+    assert (abs(rest - found) > 2 * math.hypot(error, error_of_rest)) == apart
     for numbers in (evidence.literal, evidence.substance):
         check(numbers, found, error, max(abs(other - found) for other in others), 511)
 
@@ -140,7 +140,7 @@ def one_fit_off(k: int) -> Fill:
 
     def fill(run: Run) -> dict[str, Quantity]:
         later = np.full(len(uneven(run)["damping_exponent_from"].mean), 0.6)
-        later[k] += 0.2
+        later[k : k + 1] += 0.2
         found = sound(0.6, background=0)(run) if run.program == "correlation" else uneven(run)
         return found | {
             "damping_exponent": quantity(run, "damping_exponent", np.array(0.6), np.array(0.02)),

@@ -78,8 +78,8 @@ def _way(result: Result, first: int, last: int) -> Number:
     """Exponent of the position between two of the times at which there is a moving peak."""
     place = result["peak_position"]
     known = np.flatnonzero(np.isfinite(place.mean))
-    if len(known) < 4:
-        raise MissingError("fewer than four times with a moving peak")
+    if first >= len(known) + last:
+        raise MissingError("too few times with a moving peak")
     ends = known[[first, last]]
     one, two = (number(result, "peak_position", k) for k in ends)
     span = float(np.log(place.axes["time"][ends[1]] / place.axes["time"][ends[0]]))
