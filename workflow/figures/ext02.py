@@ -5,10 +5,12 @@ from collections.abc import Mapping, Sequence
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.figures.ext09 import CUBE_ROOT, LOOKS, range_of, spacings, tabulate
 from workflow.lib import style
+from workflow.lib.caption import listed, number
 from workflow.lib.figure import run
 from workflow.lib.fit import with_error
 from workflow.lib.growth import local_exponents
@@ -22,7 +24,7 @@ TEMPERATURES = {
 }  # that may take the place of T_1 and T_N in eq. 28
 OTHERS = tuple(TEMPERATURES)
 DEFINITIONS = ("", *(f"_{other}" for other in OTHERS))  # as suffixes of columns
-SPREAD: style.Look = {"linewidth": 4, "alpha": 0.25, "zorder": 1}  # of the definitions
+TITLES = {"": "$T_1$, $T_N$"} | {f"_{other}": name for other, name in TEMPERATURES.items()}  # by definition
 
 
 def local(part: pd.DataFrame) -> pd.DataFrame:
@@ -34,9 +36,11 @@ def local(part: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(found)
 
 
-def of_cube_root(part: pd.DataFrame) -> tuple[np.ndarray, np.ndarray] | None:
-    """Local exponents of a + b N^(1/3) as it is fitted in ext. 9."""
-    held = range_of(part, CUBE_ROOT)
+def of_cube_root(part: pd.DataFrame, name: str) -> tuple[np.ndarray, np.ndarray] | None:
+    """Local exponents of a + b N^(1/3) as it is fitted in ext. 9, for a definition of kappa."""
+    held = range_of(
+        part.assign(kappa=part[f"kappa{name}"], kappa_error=part[f"kappa{name}_error"]), CUBE_ROOT
+    )
     if held is None:
         return None
     size = part.cells[part.cells >= held.first].to_numpy(dtype=float)
@@ -82,35 +86,48 @@ def otherwise(table: pd.DataFrame, spacing: Mapping[str, str]) -> str:
     return f"; {', '.join(said)}" if said else ""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
-    table = tabulate(results)
-    figure, axes = plt.subplots(figsize=(style.COLUMN, style.HEIGHT))
-    tables: list[pd.DataFrame] = []
-    said, spacing = [], spacings(results)
-    for name, part in table.groupby("gas", sort=False):
-        marker, color = LOOKS[name]
+def drive(results: Sequence[Result]) -> str:
+    ratios = {one.parameters["temperature-right"] / one.parameters["temperature-left"] for one in results}
+    return f"T_R/T_L = {listed(number(ratio) for ratio in sorted(ratios))}"
+
+
+def draw_definition(axes: Axes, name: str, table: pd.DataFrame, spacing: Mapping[str, str]) -> None:
+    """Every spacing, with the temperatures of one definition of kappa."""
+    for place, (gas, part) in enumerate(table.groupby("gas", sort=False)):
+        marker, color = LOOKS[gas]
         found = local(part)
-        look = {"marker": marker, "color": color, "label": rf"$\lambda = {spacing[name]}$", **style.POINTS}
-        beside = BESIDE ** len(tables)
-        axes.errorbar(beside * found["size"], found.exponent, found.exponent_error, **look)
-        others = found[[f"exponent{name}" for name in DEFINITIONS]]
-        axes.vlines(beside * found["size"], others.min(axis=1), others.max(axis=1), color=color, **SPREAD)
-        if law := of_cube_root(part):
+        look = {"marker": marker, "color": color, "label": rf"$\lambda = {spacing[gas]}$", **style.POINTS}
+        size = BESIDE ** (place - 1) * found["size"]
+        axes.errorbar(size, found[f"exponent{name}"], found[f"exponent{name}_error"], **look)
+        if law := of_cube_root(part, name):
             axes.plot(*law, color=color, linestyle=style.DASHES[1])
+    axes.axhline(1 / 3, **style.GUIDE)
+    axes.set(xscale="log", xlabel="number of cells $N$", ylim=(0, None), title=TITLES[name])
+    style.label_sizes(axes.xaxis)
+
+
+def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+    table, spacing = tabulate(results), spacings(results)
+    figure, row = plt.subplots(1, len(DEFINITIONS), sharey=True, figsize=(2 * style.COLUMN, style.HEIGHT))
+    for axes, name in zip(row, DEFINITIONS, strict=True):
+        draw_definition(axes, name, table, spacing)
+    row[0].set_ylabel(r"$d\ln\kappa/d\ln N$")
+    row[-1].annotate("1/3", (1.01, 1 / 3), xycoords=("axes fraction", "data"), va="center", size=8)
+    figure.legend(*row[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(LOOKS))
+    style.letter(*row)
+    tables, said = [], []
+    for name, part in table.groupby("gas", sort=False):
+        found = local(part)
         tables.append(found.assign(gas=name))
         said.append(f"at spacing {spacing[name]} it {glide(part, found)}")
-    axes.axhline(1 / 3, **style.GUIDE)
-    axes.annotate("1/3", (1.01, 1 / 3), xycoords=("axes fraction", "data"), va="center", size=8)
-    axes.set(xscale="log", xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, None))
-    style.label_sizes(axes.xaxis)
-    axes.legend(loc="upper right")
     whole = pd.concat(tables)
     caption = (
-        "Local exponent of the heat conductivity between neighbouring sizes, from the runs of ext. 9 at γ = N: "
-        f"{'; '.join(said)}. At the spacing 1/N of the paper the gas thins out as the chain grows; at fixed spacings large "
+        "Local exponent of the heat conductivity between neighbouring sizes, from the runs of ext. 9 at γ = N, with the temperatures "
+        "of (a) the first and the last scatterer, as in eq. 28, (b) the particles that arrive there, (c) the baths. "
+        f"In (a) {'; '.join(said)}. At the spacing 1/N of the paper the gas thins out as the chain grows; at fixed spacings large "
         "N is the thermodynamic limit. Broken lines: a + b N^(1/3), fitted to the sizes for which it is not rejected, "
-        "whose exponent tends to 1/3. With the temperatures of the arriving particles or of the baths in place of T_1 and "
-        f"T_N (pale bars from the least to the largest of the three) the exponents differ from these by up to {definitions(whole)}{otherwise(table, spacing)}. Error bars: standard errors over replicas; neighbouring points share a size; "
+        f"whose exponent tends to 1/3. The exponents in (b) and (c) differ from those in (a) by up to {definitions(whole)}{otherwise(table, spacing)}; "
+        f"in an infinite chain all would be one. All are those of one drive, {drive(results)}; ext. 12 says how they depend on it. Error bars: standard errors over replicas; neighbouring points share a size; "
         "spacings are drawn beside each other."
     )
     return figure, whole, caption
