@@ -102,7 +102,7 @@ def draw_definition(axes: Axes, name: str, table: pd.DataFrame, spacing: Mapping
         if law := of_cube_root(part, name):
             axes.plot(*law, color=color, linestyle=style.DASHES[1])
     axes.axhline(1 / 3, **style.GUIDE)
-    axes.set(xscale="log", xlabel="number of cells $N$", ylim=(0, None), title=TITLES[name])
+    axes.set(xscale="log", xlabel="number of cells $N$", title=TITLES[name])
     style.label_sizes(axes.xaxis)
 
 
@@ -111,7 +111,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     figure, row = plt.subplots(1, len(DEFINITIONS), sharey=True, figsize=(2 * style.COLUMN, style.HEIGHT))
     for axes, name in zip(row, DEFINITIONS, strict=True):
         draw_definition(axes, name, table, spacing)
-    row[0].set_ylabel(r"$d\ln\kappa/d\ln N$")
+    row[0].set(ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, None))
     row[-1].annotate("1/3", (1.01, 1 / 3), xycoords=("axes fraction", "data"), va="center", size=8)
     figure.legend(*row[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(LOOKS))
     style.letter(*row)
