@@ -82,7 +82,7 @@ def sentence(spacing: str, part: pd.DataFrame) -> str:
     if not held:
         whole = [one for one in fits(part.cells, part.kappa, part.kappa_error, 0) if one.law == POWER]
         rejected = "; ".join(f"power law: {goodness(one.chi_square, one.freedom)}" for one in whole)
-        return f"Spacing {spacing}: no law holds over three sizes or more ({rejected})."
+        return f"Spacing {spacing}: no law holds with two degrees of freedom or more ({rejected})."
     start = min(one.first for one in held.values())
     best = min((one for one in held.values() if one.first == start), key=lambda one: one.criterion)
     shown = [best, *(one for one in held.values() if one.law == CUBE_ROOT and one is not best)]
@@ -159,10 +159,10 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         f"Heat conductivity κ = −J_U N/(T_N − T_1) at γ = N, σ = {options['sigma']:g}, between baths "
         f"({parameters(results, *BATHS)}) that press equally hard, {replicas(results)}, started near the stationary profile, {parameters(results, *WINDOW)}: the "
         "largest chains at fixed spacing relax for less than a wrong profile would take, so that they rest on the start (ext. 12 "
-        "compares starts). At the spacing 1/N the gas thins out as the chain grows; at fixed spacings the "
+        "compares starts and drives). At the spacing 1/N the gas thins out as the chain grows; at fixed spacings the "
         "number of particles per cell is the same for every N. (a) Logarithmic axes. (b) Against the cube root of N: "
         "a straight line is growth as N^(1/3) beside a constant. Lines: each law over the sizes for which it is not "
-        f"rejected at {LEVEL:.0%}. {' '.join(sentences)} Error bars: standard errors over replicas."
+        f"rejected at {LEVEL:.0%}, with two degrees of freedom or more. {' '.join(sentences)} Error bars: standard errors over replicas."
     )
     return figure, pd.concat([table, fitted]), caption
 
