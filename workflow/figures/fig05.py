@@ -59,9 +59,11 @@ def pulls(series: pd.DataFrame) -> str:
     """Largest deviation from the law and chi^2 of all, where the law is not exact."""
     known = series[series.mu_error > 0]
     far = known.loc[known.deviation.abs().idxmax()]
+    ratio = far.scatterer_energy / far.particle_energy
     chi_square = float(((known.deviation / known.mu_error) ** 2).sum())
     return (
         f"n = {int(far.particles_per_cell)}: at most {with_error(far.deviation, far.mu_error)}, at σ = {number(far.sigma)}, "
+        f"where scatterers have {ratio:.0%} of the energy of the particles that they meet; "
         f"χ² = {chi_square:.0f} for {len(known)} points"
     )
 
@@ -94,9 +96,9 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         above.errorbar(series.sigma, series.mu, series.mu_error, label=label, **mark, **style.POINTS)
         below.errorbar(series.sigma, 1e3 * series.deviation, 1e3 * series.mu_error, **mark, **style.POINTS)
         expected = 1e3 * (series.law_at_local_energies - series.law)
-        below.plot(series.sigma, expected, color=mark["color"], linestyle=dashes, zorder=1)
+        label = f"law at local energies, $n = {particles}$"
+        below.plot(series.sigma, expected, color=mark["color"], linestyle=dashes, zorder=1, label=label)
         style.cross_out(above, series.sigma, series.mu, series.converged == NOT_REACHED)
-    below.plot([], [], color="grey", linestyle="dashed", label="law at local energies")
     below.legend(loc="lower left")
     above.set(ylabel=r"persistence $\mu$", xlim=(-1.04, 1.04), ylim=(-0.03, 1.03))
     above.legend(loc="upper right", title=f"$N = {results[0].parameters['cells']}$")
