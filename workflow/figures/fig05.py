@@ -63,7 +63,7 @@ def pulls(series: pd.DataFrame) -> str:
     chi_square = float(((known.deviation / known.mu_error) ** 2).sum())
     return (
         f"n = {int(far.particles_per_cell)}: at most {with_error(far.deviation, far.mu_error)}, at σ = {number(far.sigma)}, "
-        f"where scatterers have {ratio:.0%} of the energy of the particles that they meet; "
+        f"where scatterers have {100 * ratio:.0f} % of the energy of the particles that they meet; "
         f"χ² = {chi_square:.0f} for {len(known)} points"
     )
 
