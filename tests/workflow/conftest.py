@@ -149,8 +149,9 @@ def clean(tmp_path_factory: pytest.TempPathFactory) -> Clone:
 
 @pytest.fixture
 def kept(clean: Clone) -> Iterator[Clone]:
-    """The clean clone, with sources and products as they were when the test is over."""
+    """The clean clone, with sources, products and Snakemake's notes on them as they were when the test is over."""
     places = ("data", "figures", "workflow", "profiles", "cpp", "docs", "README.md", "requirements.lock")
+    places += (".snakemake/metadata",)
     folders = folders_below(clean.folder, places)
     before = {file: file.read_bytes() for place in places for file in files_below(clean.folder / place)}
     yield clean
