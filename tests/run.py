@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 
 REPORTS = Path("build/tests")
 PYTEST = [sys.executable, "-m", "pytest", "-c", "tests/pytest.ini"]
-# Files in the order of the alphabet: by the number of their tests, the few that take longest would come last, one beside none.
+# Files in alphabetical order: pytest-xdist would begin those with the fewest tests last, which take longest, and leave a worker idle.
 PYTEST += ["-n", "2", "--dist", "loadfile", "--no-loadscope-reorder"]
 SUITES = {
     "cpp": ["build/bin/cpp_tests", "--gtest_brief=1", "--gtest_output=xml:{report}"],

@@ -110,6 +110,11 @@ def every_sigma(free: float, zero: float) -> World:
     return {"fig07_inset": {"alpha": lambda run: zero if run.options["zero-total-momentum"] else free}}
 
 
+def drop_per_cell(run: Run) -> float:
+    """Of the temperature, from the left bath to the right one."""
+    return float(run.options["temperature-left"] - run.options["temperature-right"]) / run.options["cells"]
+
+
 def kappas(deterministic: float, rare_: float, end: float = 0) -> World:
     """Powers of N; end: part of kappa by which small chains at gamma = N are off, falling as 1/N."""
 
@@ -118,8 +123,7 @@ def kappas(deterministic: float, rare_: float, end: float = 0) -> World:
         return float(size**rare_ if rare(run) else size**deterministic * (1 + end / size))
 
     def current(run: Run) -> float:
-        drop = run.options["temperature-left"] - run.options["temperature-right"]
-        return kappa(run) * float(drop) / run.options["cells"]
+        return kappa(run) * drop_per_cell(run)
 
     both = {"stationary": 1, "kappa": kappa, "kappa_particle": kappa, "energy_current": current}
     return {"fig08": both, "ext09": both}

@@ -11,6 +11,7 @@ import pytest
 
 from tests.python.claim_numbers import check, freedom, of, power
 from tests.python.known_results import Known, quantity, truth, uneven
+from tests.python.known_worlds import drop_per_cell
 from workflow.claims.data import MissingError
 from workflow.claims.judge import FUNCTIONS
 from workflow.lib.load import Quantity
@@ -36,8 +37,7 @@ def conductivities(run: Run, odd: int = 0) -> dict[str, Quantity]:
 
 def current(run: Run, kappa: np.ndarray) -> Quantity:
     """Of energy, where kappa has the temperatures of the baths."""
-    drop = run.options["temperature-left"] - run.options["temperature-right"]
-    return quantity(run, "energy_current", kappa * drop / run.options["cells"], np.array(0.01))
+    return quantity(run, "energy_current", kappa * drop_per_cell(run), np.array(0.01))
 
 
 SOME = Known(dict.fromkeys(("fig08", "fig09a", "fig09b", "ext09"), conductivities))

@@ -150,7 +150,7 @@ def deviations_vanish(data: Data) -> Evidence:
     """The part of the deviation that has the shape of that of the mean field at N = 2, against N."""
     table, _ = _deviations(data)
     results = sorted(data.of("fig03_inset", "momentum_flux"), key=lambda one: one.parameters["cells"])
-    found = fig03_inset.amplitudes(table).query("kind == 'simulation'").sort_values("cells")
+    found = fig03_inset.amplitudes(table)
     amplitudes = [Number("", one.amplitude, one.error) for one in found.itertuples()]
     exponent, law = power(results, [*found.cells], amplitudes, "d ln |F_N - F| / d ln N")
     return Evidence(

@@ -8,6 +8,7 @@ import numpy as np
 from workflow.claims.data import Data, MissingError, freedom, number, power, where_made
 from workflow.claims.evidence import Claim, Evidence
 from workflow.claims.verdict import Number, with_systematic
+from workflow.figures import ext09
 from workflow.figures.ext11 import tabulate
 from workflow.lib.caption import goodness
 from workflow.lib.fit import PowerLaw, fit_power, with_error
@@ -39,8 +40,7 @@ def _by_particles(run: Result) -> Number:
 
 def _by_baths(run: Result) -> Number:
     """kappa with the temperatures of the baths in place of T_1 and T_N."""
-    left, right = (run.parameters[f"temperature-{end}"] for end in ("left", "right"))
-    return number(run, "energy_current").over((left - right) / run.parameters["cells"])
+    return number(run, "energy_current").over(ext09.drop_per_cell(run))
 
 
 def exponent(

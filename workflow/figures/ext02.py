@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from workflow.figures.ext09 import CUBE_ROOT, LOOKS, range_of, spacings, tabulate
 from workflow.lib import style
-from workflow.lib.caption import listed, number
+from workflow.lib.caption import parameters
 from workflow.lib.figure import run
 from workflow.lib.fit import with_error
 from workflow.lib.growth import local_exponents
@@ -86,16 +86,13 @@ def otherwise(table: pd.DataFrame, spacing: Mapping[str, str]) -> str:
     return f"; {', '.join(said)}" if said else ""
 
 
-def drive(results: Sequence[Result]) -> str:
-    ratios = {one.parameters["temperature-right"] / one.parameters["temperature-left"] for one in results}
-    return f"T_R/T_L = {listed(number(ratio) for ratio in sorted(ratios))}"
-
-
-def draw_definition(axes: Axes, name: str, table: pd.DataFrame, spacing: Mapping[str, str]) -> None:
-    """Every spacing, with the temperatures of one definition of kappa."""
+def draw_definition(
+    axes: Axes, name: str, table: pd.DataFrame, exponents: pd.DataFrame, spacing: Mapping[str, str]
+) -> None:
+    """Every spacing, with the temperatures of one definition of kappa. exponents: as from local()."""
     for place, (gas, part) in enumerate(table.groupby("gas", sort=False)):
         marker, color = LOOKS[gas]
-        found = local(part)
+        found = exponents[exponents.gas == gas]
         look = {"marker": marker, "color": color, "label": rf"$\lambda = {spacing[gas]}$", **style.POINTS}
         size = BESIDE ** (place - 1) * found["size"]
         axes.errorbar(size, found[f"exponent{name}"], found[f"exponent{name}_error"], **look)
@@ -108,26 +105,26 @@ def draw_definition(axes: Axes, name: str, table: pd.DataFrame, spacing: Mapping
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     table, spacing = tabulate(results), spacings(results)
-    figure, row = plt.subplots(1, len(DEFINITIONS), sharey=True, figsize=(2 * style.COLUMN, style.HEIGHT))
-    for axes, name in zip(row, DEFINITIONS, strict=True):
-        draw_definition(axes, name, table, spacing)
-    row[0].set(ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, None))
-    row[-1].annotate("1/3", (1.01, 1 / 3), xycoords=("axes fraction", "data"), va="center", size=8)
-    figure.legend(*row[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(LOOKS))
-    style.letter(*row)
     tables, said = [], []
     for name, part in table.groupby("gas", sort=False):
         found = local(part)
         tables.append(found.assign(gas=name))
         said.append(f"at spacing {spacing[name]} it {glide(part, found)}")
     whole = pd.concat(tables)
+    figure, row = plt.subplots(1, len(DEFINITIONS), sharey=True, figsize=(2 * style.COLUMN, style.HEIGHT))
+    for axes, name in zip(row, DEFINITIONS, strict=True):
+        draw_definition(axes, name, table, whole, spacing)
+    row[0].set(ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, None))
+    row[-1].annotate("1/3", (1.01, 1 / 3), xycoords=("axes fraction", "data"), va="center", size=8)
+    figure.legend(*row[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(LOOKS))
+    style.letter(*row)
     caption = (
         "Local exponent of the heat conductivity between neighbouring sizes, from the runs of ext. 9 at γ = N, with the temperatures "
         "of (a) the first and the last scatterer, as in eq. 28, (b) the particles that arrive there, (c) the baths. "
         f"In (a) {'; '.join(said)}. At the spacing 1/N of the paper the gas thins out as the chain grows; at fixed spacings large "
         "N is the thermodynamic limit. Broken lines: a + b N^(1/3), fitted to the sizes for which it is not rejected, "
         f"whose exponent tends to 1/3. The exponents in (b) and (c) differ from those in (a) by up to {definitions(whole)}{otherwise(table, spacing)}; "
-        f"in an infinite chain all would be one. All are those of one drive, {drive(results)}; ext. 12 says how they depend on it. Error bars: standard errors over replicas; neighbouring points share a size; "
+        f"in an infinite chain all would be one. All are those of one drive, {parameters(results, 'temperature-left', 'temperature-right')}; ext. 12 says how they depend on it. Error bars: standard errors over replicas; neighbouring points share a size; "
         "spacings are drawn beside each other."
     )
     return figure, whole, caption

@@ -48,6 +48,12 @@ def spacings(results: Sequence[Result]) -> dict[str, str]:
     return {gas(result): style.spacing(result)[1] for result in results}
 
 
+def drop_per_cell(result: Result) -> float:
+    """Of the temperature, from the left bath to the right one."""
+    left, right = (float(result.parameters[f"temperature-{side}"]) for side in ("left", "right"))
+    return (left - right) / int(result.parameters["cells"])
+
+
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     """One row per run, sorted by N. kappa_baths has the temperatures of the baths in place of T_1 and T_N."""
     rows = []
@@ -55,8 +61,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         row = {"gas": gas(result), "cells": int(result.parameters["cells"])}
         for name in ("kappa", "kappa_particle", "energy_current", "particle_current"):
             row[name], row[f"{name}_error"] = float(result[name].mean), float(result[name].error)
-        low, high = (float(result.parameters[f"temperature-{side}"]) for side in ("left", "right"))
-        per_current = -int(result.parameters["cells"]) / (high - low)
+        per_current = 1 / drop_per_cell(result)
         row["kappa_baths"] = per_current * float(result["energy_current"].mean)
         row["kappa_baths_error"] = abs(per_current) * float(result["energy_current"].error)
         row["sound"] = result.sound

@@ -111,12 +111,13 @@ def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) 
     sizes = sorted(found["size"].unique())
     largest = found.groupby("gas")["size"].max()
     shades = dict(zip(sizes, np.linspace(0 if len(sizes) > 1 else 1, 1, len(sizes)), strict=True))
-    for place, ((name, size), one) in enumerate(found.groupby(["gas", "size"], sort=False)):
+    lines = found.groupby(["gas", "size"], sort=False)
+    for place, ((name, size), one) in enumerate(lines):
         marker, color = LOOKS[name]
         look: style.Look = {"marker": marker, "color": color, "markerfacecolor": shaded(color, shades[size])}
         label = rf"$\lambda = {spacing[name]}$" if size == largest[name] else None
         # Beside each other, or they would hide each other.
-        drive = one.drive * 1.01 ** (place - (found.groupby(["gas", "size"]).ngroups - 1) / 2)
+        drive = one.drive * 1.01 ** (place - (lines.ngroups - 1) / 2)
         axes.errorbar(
             drive, one.exponent, one.exponent_error, label=label, **{**style.POINTS, **look, "linestyle": "-"}
         )
@@ -184,8 +185,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     style.letter(*axes.values())
     spacing = spacings(results)
     scatters = [f"{goodness(*scatter(slopes))}, about a common value at every size and spacing"]
-    last = slopes[slopes["size"] == slopes.groupby("gas")["size"].transform("max")]
     if slopes["size"].nunique() > 1:
+        last = slopes[slopes["size"] == slopes.groupby("gas")["size"].transform("max")]
         scatters += [
             f"between the largest sizes at spacing {spacing[name]} {goodness(*scatter(part))}"
             for name, part in last.groupby("gas")

@@ -62,26 +62,25 @@ def largest_deviations(table: pd.DataFrame) -> pd.DataFrame:
     )
 
 
-def amplitudes(table: pd.DataFrame) -> pd.DataFrame:
-    """Per kind and N, the part of the deviation that has the shape of that of the mean field of the shortest chain, at its
+def amplitudes(table: pd.DataFrame, kind: str = SIMULATION) -> pd.DataFrame:
+    """Per N, the part of the deviation that has the shape of that of the mean field of the shortest chain, at its
     largest; with its error, for bins as independent. Unlike the largest of noisy bins it has no bias."""
     mean_field = table[table.kind == MEAN_FIELD]
     shape = mean_field[mean_field.cells == mean_field.cells.min()].deviation.to_numpy()
     scale = np.abs(shape).max() / (shape @ shape)
     rows = [
         {
-            "kind": kind,
             "cells": cells,
             "amplitude": scale * float(shape @ part.deviation),
             "error": scale * float(np.sqrt(np.sum((shape * part.error) ** 2))),
         }
-        for (kind, cells), part in table.groupby(["kind", "cells"])
+        for cells, part in table[table.kind == kind].groupby("cells")
     ]
     return pd.DataFrame(rows)
 
 
 def decay(table: pd.DataFrame) -> PowerLaw:
-    part = amplitudes(table).query("kind == @SIMULATION")
+    part = amplitudes(table)
     return fit_power(part.cells, part.amplitude, part.error)
 
 
@@ -108,8 +107,7 @@ def draw_deviations(axes: Axes, table: pd.DataFrame) -> None:
 def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
     """Amplitude of the deviation against N, beside the largest bin; on the right in the normalisation that the paper prints."""
     printed = (table.absolute_as_printed / table.deviation).median()
-    rows = amplitudes(table)
-    points, line = (rows[rows.kind == kind] for kind in (SIMULATION, MEAN_FIELD))
+    points, line = amplitudes(table), amplitudes(table, MEAN_FIELD)
     noisy = largest_deviations(table[table.kind == SIMULATION])
     look = {"marker": "o", "color": style.BLUE, **style.POINTS}
     axes.errorbar(points.cells, points.amplitude, points.error, **look, label=SIMULATION)
@@ -139,8 +137,9 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     runs = [result for result in results if result.provenance["program"] == "momentum_flux"]
     rows = largest_deviations(table[table.kind == SIMULATION])
     found = [f"{with_error(one.deviation, one.error)} at N = {one.cells}" for one in rows.itertuples()]
-    parts = amplitudes(table).query("kind == @SIMULATION")
-    sizes = [f"{with_error(one.amplitude, one.error)} at N = {one.cells}" for one in parts.itertuples()]
+    sizes = [
+        f"{with_error(one.amplitude, one.error)} at N = {one.cells}" for one in amplitudes(table).itertuples()
+    ]
     first, last = (
         with_error(one.absolute_as_printed, one.error * one.absolute_as_printed / one.deviation)
         for one in rows.assign(absolute_as_printed=rows.absolute_as_printed.abs()).iloc[[0, -1]].itertuples()

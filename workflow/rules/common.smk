@@ -47,6 +47,7 @@ def work_of_run(wildcards):
 
 @cache
 def work_here():
+    """By run, from the shipped timings and what was executed here."""
     return or_leave(
         foretold, PANELS, [f"{name}/{run.name}" for name, panel in PANELS.items() for run in panel.runs]
     )
