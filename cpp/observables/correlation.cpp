@@ -107,8 +107,9 @@ Estimator profiles(const Tallies& tallies) {
                     "C_g(r, t): covariance of the momenta of two cells",
                     mean_of(tallies.fields[Conserved::momentum]));
   formulas.quantity("centre", {tallies.time}, "1", "C_n(0, t), the height of the heat peak", centre);
-  formulas.quantity("local_centre_exponent", {geometric_middles(tallies.time.values)}, "1",
-                    "-d ln centre / d ln t between two times",
+  const Axis middle{"middle", "time", "Geometric middle of two neighbouring times",
+                    geometric_middles(tallies.time.values)};
+  formulas.quantity("local_centre_exponent", {middle}, "1", "-d ln centre / d ln t between two times",
                     [=](RecordView mean) { return decay_exponents(tallies.time.values, centre(mean)); });
   return formulas.estimator();
 }

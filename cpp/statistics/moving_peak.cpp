@@ -1,8 +1,11 @@
 #include "statistics/moving_peak.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "numerics/elementary.hpp"
 #include "statistics/collapse.hpp"
 #include "statistics/fit.hpp"
 #include "statistics/jackknife.hpp"
@@ -42,6 +45,26 @@ PeakWindows peak_windows(const Records& records, const Columns& profile, std::si
   for (std::size_t k = 0; k < times; ++k)
     if (std::isnan(known[k])) windows[k].reset();
   return windows;
+}
+
+std::vector<double> octaves(const std::vector<double>& times) {
+  const double first = elementary::log(times.front()), span = elementary::log(times.back()) - first;
+  const double parts = std::max(1.0, std::round(span / std::numbers::ln2));
+  std::vector<double> ends{times.front()};
+  for (int k = 1; k <= parts; ++k) {
+    const double wanted = first + k * span / parts;
+    const double nearest = *std::ranges::min_element(
+        times, {}, [&](double time) { return std::abs(elementary::log(time) - wanted); });
+    if (nearest > ends.back()) ends.push_back(nearest);
+  }
+  return ends;
+}
+
+std::vector<double> geometric_middles(const std::vector<double>& times) {
+  std::vector<double> middles;
+  for (std::size_t k = 0; k + 1 < times.size(); ++k)
+    middles.push_back(std::sqrt(times[k]) * std::sqrt(times[k + 1]));
+  return middles;
 }
 
 MovingPeak::MovingPeak(std::span<const double> profiles, RecordView mean, std::vector<double> times,
@@ -87,8 +110,6 @@ std::vector<double> MovingPeak::speeds() const {
   return values;
 }
 
-std::vector<double> MovingPeak::damping_exponents() const { return decay_exponents(times_, heights_); }
-
 std::vector<double> MovingPeak::exponents_from() const {
   std::vector<double> values;
   for (std::size_t k = 0; k + 1 < times_.size(); ++k)
@@ -104,6 +125,25 @@ double MovingPeak::exponent_from(std::size_t first) const {
     heights.push_back(heights_[k]);
   }
   return times.size() < 2 ? none : -fit_power(times, heights, times.front(), times.back());
+}
+
+std::vector<double> MovingPeak::exponents_by_octave() const {
+  const std::vector<double> ends = octaves(times_);
+  std::vector<double> values;
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k)
+    values.push_back(-fit_power(times_, heights_, ends[k], ends[k + 1]));
+  return values;
+}
+
+double MovingPeak::exponent_drift() const {
+  const std::vector<double> middles = geometric_middles(octaves(times_)), exponents = exponents_by_octave();
+  std::vector<double> times, known;
+  for (std::size_t k = 0; k < exponents.size(); ++k) {
+    if (std::isnan(exponents[k])) continue;
+    times.push_back(middles[k]);
+    known.push_back(exponents[k]);
+  }
+  return known.size() < 2 ? none : fit_logarithm(times, known, times.front(), times.back());
 }
 
 double MovingPeak::collapse() const {

@@ -36,7 +36,7 @@ QUANTITIES: dict[str, dict[str, tuple[str, ...]]] = {
     "energy_pulse": {
         "centre_share": ("time",), "odd_part": ("time", "distance"), "peak": ("time",), "peak_position": ("time",),
         "peak_speed": ("middle",), "damping_exponent": (), "damping_exponent_from": ("from",),
-        "peak_raw": ("time",), "local_damping_exponent": ("middle",), "energy_difference": ("time", "cell"),
+        "peak_raw": ("time",), "damping_drift": (), "energy_difference": ("time", "cell"),
     },
 }  # fmt: skip
 DEFAULTS = {"cells": "continuum", "zero-total-momentum": False}  # where the plan leaves an option out

@@ -146,7 +146,7 @@ def ballistic(power: float) -> World:
 
 def damped(panel: str, exponent: float, later: float | None = None) -> World:
     fits = {"damping_exponent": exponent, "damping_exponent_from": exponent if later is None else later}
-    return pulse(panel, local_damping_exponent=exponent, **fits)
+    return pulse(panel, damping_drift=0, **fits)
 
 
 def linked(conductivity: float, shift: float = 0) -> World:

@@ -166,13 +166,28 @@ def test_which_fits_bound_the_damping() -> None:
 
 
 @pytest.mark.parametrize(
-    ("bend", "told"), [(0, "A power of t describes the height"), (1, "No power of t describes the height")]
+    ("drift", "told"),
+    [
+        (0.02, "A power of t describes"),
+        (-0.05, "No power of t describes"),
+        (math.nan, "A power of t describes"),
+    ],
 )
-def test_whether_a_power_describes_the_height_is_told(bend: float, told: str) -> None:
-    world = damped("fig09b", 1)["fig09b"] | {"local_damping_exponent": lambda _, t: 1 + bend * t}
-    assert FUNCTIONS["C28"](Known({"fig09b": truth(world, 0.001)})).caveat.startswith(told)
-    closed = truth(world | {"energy_difference": 1}, 0.001)
-    assert "fewer than two exponents" in FUNCTIONS["C28"](Known({"fig09b": closed})).caveat
+def test_whether_a_power_describes_the_height_is_told(drift: float, told: str) -> None:
+    def said(**given: float) -> str:
+        rest = truth(damped("fig09b", 1)["fig09b"] | given, 0.001)
+
+        def fill(run: Run) -> dict[str, Quantity]:
+            return {
+                **rest(run),
+                "damping_drift": quantity(run, "damping_drift", np.array(drift), np.array(0.01)),
+            }
+
+        return FUNCTIONS["C28"](Known({"fig09b": fill})).caveat
+
+    assert said().startswith(f"{told} the height: its exponent ")
+    assert ("over too few octaves" in said()) == math.isnan(drift)
+    assert "as the ring has closed" in said(energy_difference=1)
 
 
 @pytest.mark.parametrize("known", [0, 1, 2, 5])

@@ -36,7 +36,7 @@ QUANTITIES = {
     "correlation": {"number_correlation": ["time", "cell"], "energy_correlation": ["time", "cell"],
                     "momentum_correlation": ["time", "cell"], "centre": ["time"], "local_centre_exponent": ["middle"],
                     "peak": ["time"], "peak_position": ["time"], "peak_raw": ["time"], "peak_speed": ["middle"],
-                    "local_damping_exponent": ["middle"], "damping_exponent": [], "damping_exponent_from": ["from"],
+                    "local_damping_exponent": ["until"], "damping_drift": [], "damping_exponent": [], "damping_exponent_from": ["from"],
                     "peak_collapse": []},
     "waiting_time": {"density": ["tau"], "exponent": [], "exponent_by_cut": ["cut"], "exponent_spread": []},
     "displacement": {"variance": ["time"], "absolute_moment": ["time"], "fourth_moment": ["time"], "alpha": [],
@@ -46,7 +46,7 @@ QUANTITIES = {
                "scatterer_energy_mean": ["window"], "decade_slope": ["decade"]},
     "energy_pulse": {"energy_difference": ["time", "cell"], "injected_energy": [], "sum_error": [], "peak": ["time"],
                      "peak_position": ["time"], "peak_raw": ["time"], "centre_share": ["time"],
-                     "odd_part": ["time", "distance"], "peak_speed": ["middle"], "local_damping_exponent": ["middle"],
+                     "odd_part": ["time", "distance"], "peak_speed": ["middle"], "local_damping_exponent": ["until"], "damping_drift": [],
                      "damping_exponent": [], "damping_exponent_from": ["from"], "peak_collapse": []},
 }  # fmt: skip
 

@@ -125,10 +125,10 @@ def _other_fits(data: Data, panel: str) -> str:
     result = _pulse(data, panel)
     fitted = result["damping_exponent_from"]
     half = len(fitted.mean) // 2
-    drifts, spread = fig10.drift(fig10.tabulate(result))
+    drifts, change = fig10.drift(result)
     rest = number(_from_rest(data, panel), "damping_exponent")
     return (
-        f"{'No power of t describes' if drifts else 'A power of t describes'} the height before the ring closes ({spread}). Fitted from "
+        f"{'No power of t describes' if drifts else 'A power of t describes'} the height: its exponent {change}. Fitted from "
         f"t = {fitted.axes['from'][half]:g} on it is {_at(fitted, half)}; from the start at rest {with_error(rest.value, rest.error)}."
     )
 

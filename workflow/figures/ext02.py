@@ -98,7 +98,7 @@ def draw_definition(
         axes.errorbar(size, found[f"exponent{name}"], found[f"exponent{name}_error"], **look)
         if law := of_cube_root(part, name):
             axes.plot(*law, color=color, linestyle=style.DASHES[1])
-    axes.axhline(1 / 3, **style.GUIDE)
+    style.guide_at(axes, 1 / 3, "1/3" if name == DEFINITIONS[-1] else "")
     axes.set(xscale="log", xlabel="number of cells $N$", title=TITLES[name])
     style.label_sizes(axes.xaxis)
 
@@ -115,7 +115,6 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     for axes, name in zip(row, DEFINITIONS, strict=True):
         draw_definition(axes, name, table, whole, spacing)
     row[0].set(ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, None))
-    row[-1].annotate("1/3", (1.01, 1 / 3), xycoords=("axes fraction", "data"), va="center", size=8)
     figure.legend(*row[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(LOOKS))
     style.letter(*row)
     caption = (

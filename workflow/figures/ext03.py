@@ -11,9 +11,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter
 
 from workflow.figures.fig09 import gaussian_start
+from workflow.figures.fig10 import by_octave
 from workflow.lib import style
 from workflow.lib.caption import CHAIN, GAS, WINDOW, goodness, parameters, replicas
 from workflow.lib.figure import run
@@ -44,13 +44,17 @@ def draw_collapse(axes: Axes, result: Result) -> pd.DataFrame:
         x = (np.arange(len(profile)) - positions[k]) / stretch
         near = np.abs(x) < REACH * positions[shown[0]]
         y = profile * stretch
+        error = np.sqrt(folded(correlation.error[k] ** 2) / 2) * stretch
         axes.plot(x[near], y[near] / 1e4, color=color, linestyle=dashes, label=f"$t = {times[k]:g}$")
-        parts.append(pd.DataFrame({"time": times[k], "x": x[near], "y": y[near]}))
+        low, high = (y[near] - error[near]) / 1e4, (y[near] + error[near]) / 1e4
+        axes.fill_between(x[near], low, high, color=color, alpha=0.3, linewidth=0)
+        columns = {"time": times[k], "x": x[near], "y": y[near], "y_error": error[near]}
+        parts.append(pd.DataFrame(columns))
     axes.axhline(0, **style.GUIDE)
     axes.set(xlabel=r"$(r - ct)\,(t_1/t)^{2/3}$")
     axes.set(ylabel=rf"$(t/t_1)^{{2/3}}\,C_g(r, t)\,/\,10^4$ ({style.UNITS})")
     axes.legend(loc="upper left", handlelength=1.6)
-    return pd.concat(parts) if parts else pd.DataFrame(columns=["time", "x", "y"])
+    return pd.concat(parts) if parts else pd.DataFrame(columns=["time", "x", "y", "y_error"])
 
 
 def draw_exponents(axes: Axes, fluctuations: Result, pulse: Result) -> pd.DataFrame:
@@ -59,25 +63,24 @@ def draw_exponents(axes: Axes, fluctuations: Result, pulse: Result) -> pd.DataFr
         (fluctuations, "o", style.BLUE, f"correlations, $N = {fluctuations.parameters['cells']}$"),
         (pulse, "s", style.VERMILLION, f"pulse, $N = {pulse.parameters['cells']}$"),
     ):
-        local = result["local_damping_exponent"]
-        time = local.axes["middle"]
-        used = local.error < LARGEST_ERROR
+        local = (
+            by_octave(result).drop(columns="until").set_axis(["time", "exponent", "exponent_error"], axis=1)
+        )
+        used = local[local.exponent_error < LARGEST_ERROR]
         axes.errorbar(
-            time[used],
-            local.mean[used],
-            local.error[used],
+            used.time,
+            used.exponent,
+            used.exponent_error,
             marker=marker,
             color=color,
             label=text,
             **style.POINTS,
         )
-        columns = {"time": time, "exponent": local.mean, "exponent_error": local.error}
-        parts.append(pd.DataFrame({"source": text, **columns}))
+        parts.append(local.assign(source=text))
     for value, text in ((SOUND, "2/3"), (DIFFUSION, "1/2")):
-        axes.axhline(value, **style.GUIDE)
-        axes.annotate(text, (1.01, value), xycoords=("axes fraction", "data"), va="center", size=8)
+        style.guide_at(axes, value, text)
     axes.set(xscale="log", xlabel="time $t$", ylabel="local damping exponent", ylim=(0.3, 1))
-    axes.xaxis.set_minor_formatter(NullFormatter())
+    style.label_within_decades(axes.xaxis)
     axes.legend(loc="upper left")
     return pd.concat(parts)
 
@@ -86,6 +89,7 @@ def draw_heat(axes: Axes, centre: Quantity) -> pd.DataFrame:
     time = centre.axes["time"]
     axes.errorbar(time, centre.mean, centre.error, marker="o", color=style.BLACK, **style.POINTS)
     axes.set(xscale="log", xlabel="time $t$", ylabel="$C_n(0, t)$", ylim=(0, None))
+    style.label_within_decades(axes.xaxis)
     return pd.DataFrame({"time": time, "centre": centre.mean, "centre_error": centre.error})
 
 
@@ -128,10 +132,15 @@ def damping(result: Result, above: bool = False) -> PowerLaw:
     return fit_power(peak.axes["time"][there], height[there], peak.error[there])
 
 
+def between(times: np.ndarray) -> str:
+    return f"between t = {times[0]:g} and {times[-1]:g}" if len(times) else "at no time"
+
+
 def of_peak(result: Result) -> str:
     """What the height and the speed of the sound peak say."""
     speed = known(result["peak_speed"])
     law, above = damping(result), damping(result, above=True)
+    seen = result["peak"].axes["time"][np.isfinite(result["peak"].mean)]
     tests = []
     for expected, name in ((SOUND, "2/3"), (DIFFUSION, "1/2")):
         found = goodness(*deviation(*known(result["local_damping_exponent"]), expected))
@@ -139,7 +148,7 @@ def of_peak(result: Result) -> str:
     mean, error, _ = mean_of(*speed)
     value, size = deviation(*speed, mean)
     return (
-        f"The height of the peak falls as t^-{with_error(-law.exponent, law.error)} over all times shown, above the background "
+        f"The height of the peak falls as t^-{with_error(-law.exponent, law.error)} {between(seen)}, above the background "
         f"beside it as t^-{with_error(-above.exponent, above.error)}; the local "
         f"exponents against {tests[0]}; against {tests[1]}. The peak moves at {with_error(mean, error)} cells per unit "
         f"time ({goodness(value, size - 1)}, about a constant speed)."
@@ -169,9 +178,9 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         f"which they heat up anyway, {parameters([largest], *WINDOW)}, {replicas([largest])}, from the fluctuations of what has then formed. (a) C_g, the "
         "covariance of the momenta of two cells at distance r and times t apart, about the peak that moves with the speed c, "
         "rescaled with the exponent 2/3 to the first time shown, t_1. (b) Local exponents of the peak's "
-        f"height between neighbouring times, beside those of the energy pulse of fig. 9a. {of_peak(largest)} (c) "
+        f"height, over octaves of time, beside those of the energy pulse of fig. 9a. {of_peak(largest)} (c) "
         f"Covariance of the numbers of particles in one cell at two times. {of_heat(largest)}; heat would keep one exponent, and "
-        "slow particles that have not left their cell make C_n fall as the logarithm of t. Error bars: standard errors over replicas."
+        "slow particles that have not left their cell make C_n fall as the logarithm of t. Bands and bars: standard errors over replicas."
     )
     return figure, pd.concat(tables), caption
 
@@ -182,6 +191,7 @@ if __name__ == "__main__":
         "Sound and heat in the fluctuations of a ring",
         x="1",
         y="momentum^2",
+        y_error="momentum^2",
         exponent="1",
         exponent_error="1",
     )

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from scipy.special import erf
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, ERRORS, WINDOW, number, parameters, replicas
+from workflow.lib.caption import BATHS, ERRORS, WINDOW, goodness, number, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
@@ -85,15 +85,14 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         bins = int(((table.quantity == row.quantity) & (table.gamma == row.gamma)).sum())
         name = "flux" if row.quantity == "flux" else "scatterers"
         distance = with_error(100 * row.distance, 100 * row.distance_error)
-        said.append(
-            f"{name} at γ = {row.gamma} χ² = {row.chi_square:.0f} over {bins} bins, largest distance {distance} %"
-        )
+        fit = goodness(row.chi_square, bins)
+        said.append(f"{name} at γ = {row.gamma} {fit}, largest distance {distance} %")
     chain = ("cells", "cell-length", "sigma")
     return f"""
         Equilibrium: an open chain between equal baths, {parameters(results, *chain, *BATHS, *WINDOW)}, {replicas(results)}, at γ = N
         (circles) and γ = 1 (squares). (a) Flux of the particles that leave at both ends, (b) density of the momenta of the scatterers in
         the end cells, both over the Gaussian at the temperature of the baths and at their rate, minus one, in the bins that hold more
-        than {number(100 * SEEN)} % of all; nothing is fitted. {ERRORS}. Against the Gaussian, with the largest distance of the
+        than {number(100 * SEEN)} % of all; nothing is fitted. {ERRORS}. Against the Gaussian, by χ² over the bins shown, with the largest distance of the
         distribution functions (Kolmogorov and Smirnov): {"; ".join(said)}. The paper states that both are Gaussian."""
 
 
@@ -104,7 +103,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         "steady_profile": (columns[1], end_scatterers, "scatterer_density"),
     }
     tables = []
-    for result in results:
+    for result in sorted(results, key=style.gamma, reverse=True):  # gamma = N first
         axes, curve, name = kinds[result.provenance["program"]]
         shift = 0.2 if style.gamma(result) == "1" else -0.2
         table = plot(axes, result, curve(result), result[name].units, shift)

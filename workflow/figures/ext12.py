@@ -131,8 +131,7 @@ def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) 
     axes.set_xticks(drives, [f"{drive:g}" for drive in drives])
     axes.set_xticks([], minor=True)
     axes.margins(x=0.1)
-    axes.axhline(1 / 3, **style.GUIDE)
-    axes.annotate("1/3", (1.01, 1 / 3), xycoords=("axes fraction", "data"), va="center", size=8)
+    style.guide_at(axes, 1 / 3, "1/3")
     axes.legend(loc="upper left", ncols=2, columnspacing=0.8, handletextpad=0.2)
 
 

@@ -19,7 +19,8 @@ from workflow.lib.fit import PowerLaw, fit_power, with_error
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
-GUIDES = {"N": (1 / 3, r"$N^{1/3}$"), 1: (1, "$N$")}  # the paper's exponents, by gamma
+# The paper's exponents by gamma, as powers of N and as numbers.
+GUIDES = {"N": (1 / 3, r"$N^{1/3}$", "1/3"), 1: (1, "$N$", "1")}
 BELOW = 0.6  # factor by which these lie below the data
 LOOKS = {
     "kappa": (None, "$T$ of scatterers"),
@@ -76,7 +77,7 @@ def draw_sizes(axes: Axes, table: pd.DataFrame, theory: pd.DataFrame) -> None:
         part = table[table.gamma == gamma]
         look = {"marker": marker, "color": color, **style.POINTS}
         axes.errorbar(part.cells, part.kappa, part.kappa_error, label=rf"$\gamma = {gamma}$", **look)
-        slope, name = GUIDES[gamma]
+        slope, name, _ = GUIDES[gamma]
         middle = part.iloc[len(part) // 2]
         guide = BELOW * middle.kappa * (part.cells / middle.cells) ** slope
         axes.plot(part.cells, guide, **style.GUIDE)
@@ -94,7 +95,7 @@ def draw_sizes(axes: Axes, table: pd.DataFrame, theory: pd.DataFrame) -> None:
 def draw_compensated(axes: Axes, table: pd.DataFrame, theory: pd.DataFrame, gamma: str | int) -> None:
     """kappa over the paper's power of N, by the temperatures of scatterers (full) and of particles (open)."""
     marker, color = style.BY_GAMMA[gamma]
-    slope, guide = GUIDES[gamma]
+    slope, guide, _ = GUIDES[gamma]
     part = table[table.gamma == gamma]
     power = part.cells**slope
     for column, (face, name) in LOOKS.items():
@@ -112,7 +113,8 @@ def draw_local(axes: Axes, table: pd.DataFrame) -> None:
         local = exponents(table[table.gamma == gamma])
         look = {"marker": marker, "color": color, **style.POINTS}
         axes.errorbar(local.between, local.exponent_to_next, local.exponent_to_next_error, **look)
-        axes.axhline(GUIDES[gamma][0], **style.GUIDE)
+        slope, _, name = GUIDES[gamma]
+        style.guide_at(axes, slope, name)
     axes.set(ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, None))
 
 

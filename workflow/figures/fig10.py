@@ -1,6 +1,6 @@
 """Fig. 10: height of the moving peak of an energy pulse against time; a: gamma = N, b: gamma = 1.
 
-Below, local exponents from pairs of times of which no two share one. An exponent stands in the legend only where these agree.
+Below, exponents fitted over octaves of time. One over all times stands in the legend only where these do not drift.
 Times without a moving peak, whose height is NaN, are left out; faint: times at which the ring has closed.
 """
 
@@ -16,14 +16,14 @@ from workflow.figures.fig09 import STARTS, draw_marked, look_of, ring_closed, st
 from workflow.lib import style
 from workflow.lib.caption import CHAIN, ERRORS, goodness, listed, number, parameters, replicas
 from workflow.lib.figure import run
-from workflow.lib.fit import mean_of, rejected, with_error
+from workflow.lib.fit import rejected, with_error
 from workflow.lib.load import Result
 
-SLOPES = {"N": (-2 / 3, r"$t^{-2/3}$"), 1: (-1, r"$t^{-1}$")}  # the paper's guides
+SLOPES = {"N": (-2 / 3, r"$t^{-2/3}$", "2/3"), 1: (-1, r"$t^{-1}$", "1")}  # the paper's guides
 
 
 def tabulate(result: Result) -> pd.DataFrame:
-    """One row per time."""
+    """One row per time; the exponent of an octave stands at its last time."""
     peak = result["peak"]
     part = pd.DataFrame({"time": peak.axes["time"], "peak": peak.mean, "peak_error": peak.error}).assign(
         ring_closed=ring_closed(result)
@@ -32,41 +32,39 @@ def tabulate(result: Result) -> pd.DataFrame:
     part["peak_position_error"] = result["peak_position"].error
     for column, name in {
         "exponent_from_here": "damping_exponent_from",
-        "exponent_to_next": "local_damping_exponent",
         "speed_to_next": "peak_speed",
     }.items():  # all but the last time have them
         part[column] = pd.Series(result[name].mean)
         part[f"{column}_error"] = pd.Series(result[name].error)
+    part = part.merge(by_octave(result).rename(columns={"until": "time"}), on="time", how="left")
     part.insert(0, "scatterer_temperature", str(start(result)))
     return part
 
 
-def disjoint(table: pd.DataFrame) -> pd.DataFrame:
-    """Every other pair of neighbouring times, with the exponent between them."""
-    pairs = table.assign(
-        middle=np.sqrt(table.time * table.time.shift(-1)),
-        closed=table.ring_closed.shift(-1, fill_value=False),
-    )
-    return pairs.iloc[:-1:2].dropna(subset="exponent_to_next")
+def by_octave(result: Result) -> pd.DataFrame:
+    """Local exponents, with the last times and the geometric middles of the octaves over which they are fitted."""
+    local, times = result["local_damping_exponent"], result["peak"].axes["time"]
+    until = local.axes["until"]
+    middle = np.sqrt(until * np.append(times[0], until[:-1]))
+    columns = {"octave_exponent": local.mean, "octave_exponent_error": local.error}
+    return pd.DataFrame({"until": until, "octave_middle": middle, **columns})
 
 
-def before_closing(table: pd.DataFrame) -> pd.DataFrame:
-    pairs = disjoint(table)
-    return pairs[~pairs.closed.astype(bool)]
-
-
-def drift(table: pd.DataFrame) -> tuple[bool, str]:
-    """Whether the disjoint exponents before the ring closes differ by more than chance, and chi^2 about their mean."""
-    pairs = before_closing(table)
-    if len(pairs) < 2:
-        return False, "fewer than two exponents before the ring closes"
-    *_, chi_square = mean_of(pairs.exponent_to_next, pairs.exponent_to_next_error)
-    freedom = len(pairs) - 1
-    return rejected(chi_square, freedom), goodness(chi_square, freedom)
+def drift(result: Result) -> tuple[bool, str]:
+    """Whether the exponent changes with ln t by more than chance, and what to say of it."""
+    if ring_closed(result).any():
+        return False, "may change unseen, as the ring has closed"
+    change = result["damping_drift"]
+    value, error = float(change.mean), float(change.error)
+    if not np.isfinite(value):
+        return False, "may change unseen, over too few octaves"
+    chi_square = (value / error) ** 2
+    told = f"changes by {with_error(value, error)} per unit of ln t, {goodness(chi_square, 1)}"
+    return rejected(chi_square, 1), told
 
 
 def draw_peaks(axes: Axes, result: Result, table: pd.DataFrame) -> None:
-    drifts, _ = drift(table)
+    drifts, _ = drift(result)
     law = "" if drifts else rf": $t^{{-{style.with_error(result['damping_exponent'])}}}$"
     values = (table.peak.to_numpy() / 1e3, table.peak_error.to_numpy() / 1e3)
     closed = table.ring_closed.to_numpy()
@@ -74,33 +72,34 @@ def draw_peaks(axes: Axes, result: Result, table: pd.DataFrame) -> None:
     draw_marked(axes, table.time.to_numpy(), values, closed, label=label, **look_of(result))
 
 
-def draw_exponents(axes: Axes, result: Result, table: pd.DataFrame) -> None:
-    pairs = disjoint(table)
-    values = (pairs.exponent_to_next.to_numpy(), pairs.exponent_to_next_error.to_numpy())
-    draw_marked(axes, pairs.middle.to_numpy(), values, pairs.closed.to_numpy(dtype=bool), **look_of(result))
+def draw_exponents(axes: Axes, result: Result) -> None:
+    octaves = by_octave(result)
+    closed = ring_closed(result)[np.isin(result["peak"].axes["time"], octaves.until)]
+    values = (octaves.octave_exponent.to_numpy(), octaves.octave_exponent_error.to_numpy())
+    draw_marked(axes, octaves.octave_middle.to_numpy(), values, closed, **look_of(result))
 
 
-def caption(tables: Sequence[pd.DataFrame], results: Sequence[Result]) -> str:
+def caption(results: Sequence[Result]) -> str:
     said = []
-    for result, table in zip(results, tables, strict=True):
-        drifts, spread = drift(table)
-        pairs = before_closing(table)
+    for result in results:
+        drifts, change = drift(result)
         exponents = [
-            with_error(one.exponent_to_next, one.exponent_to_next_error) for one in pairs.itertuples()
+            with_error(one.octave_exponent, one.octave_exponent_error)
+            for one in by_octave(result).dropna().itertuples()
         ]
         verdict = (
-            f"no power law, local exponents {listed(exponents)} one after another"
+            f"no power law, as the exponent is {listed(exponents)} in one octave after another"
             if drifts
             else f"exponent {style.with_error(result['damping_exponent'])}"
         )
-        said.append(f"{STARTS[start(result)][3]}: {verdict} ({spread})")
+        said.append(f"{STARTS[start(result)][3]}: {verdict}; it {change}")
     slope = SLOPES[results[0].parameters["gamma"]][0]
     return f"""
         Height of the moving peak of the energy difference after a pulse against time, from the runs of fig. 9;
         {parameters(results, *CHAIN, "particles-per-cell", "energy", "pulse-energy")} per degree of freedom, {replicas(results)}. (a) The
         top of a smooth peak fitted to the profile above half of its height, from Gaussian momenta (circles) and from
-        scatterers at rest that have relaxed, as in the paper (squares); faint once the ring has closed. (b) -d ln(peak)/d ln t between two times; no
-        two of these pairs have a time in common. Dashed: the paper's {number(slope)}. {ERRORS}. {"; ".join(said)}."""
+        scatterers at rest that have relaxed, as in the paper (squares); faint once the ring has closed. (b) -d ln(peak)/d ln t, fitted over
+        octaves of time. Dashed: the paper's {number(slope)}. {ERRORS}. {". ".join(said)}."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
@@ -110,13 +109,13 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     tables = [tabulate(result) for result in results]
     for result, table in zip(results, tables, strict=True):
         draw_peaks(above, result, table)
-        draw_exponents(below, result, table)
-    slope, guide = SLOPES[results[0].parameters["gamma"]]
+        draw_exponents(below, result)
+    slope, guide, exponent = SLOPES[results[0].parameters["gamma"]]
     seen = tables[0].dropna(subset="peak")
     if len(seen):
         law = seen.peak.iloc[0] / 1e3 * (seen.time / seen.time.iloc[0]) ** slope
         above.plot(seen.time, law, **style.GUIDE, label=guide)
-    below.axhline(-slope, **style.GUIDE)
+    style.guide_at(below, -slope, exponent)
     above.set(xscale="log", yscale="log", ylabel=rf"peak of $\Delta E\,/\,10^3$ ({style.UNITS})")
     below.set(xlabel="time $t$", ylabel=r"$-d\ln\,\mathrm{peak}/d\ln t$")
     for axis in (above.yaxis, below.xaxis):
@@ -126,10 +125,10 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     figure.legend(*above.get_legend_handles_labels(), loc="outside upper left", ncols=1)
     style.letter(above, below)
     figure.align_ylabels()
-    return figure, pd.concat(tables), caption(tables, results)
+    return figure, pd.concat(tables), caption(results)
 
 
 if __name__ == "__main__":
-    units = {"exponent_from_here": "1", "exponent_to_next": "1", "speed_to_next": "1/time"}
+    units = {"exponent_from_here": "1", "octave_exponent": "1", "speed_to_next": "1/time"}
     errors = {f"{column}_error": unit for column, unit in units.items()}
-    run(draw, "Damping of the moving peak of an energy pulse", **units, **errors)
+    run(draw, "Damping of the moving peak of an energy pulse", octave_middle="time", **units, **errors)

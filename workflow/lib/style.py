@@ -99,6 +99,12 @@ def letter(*panels: Axes, lift: float | None = None) -> None:
         axes.set_title(f"({character})", loc="left", y=None if lift is None else 1, pad=lift)
 
 
+def guide_at(axes: Axes, value: float, name: str) -> None:
+    """A guide across the panel, with its name on the right of the frame."""
+    axes.axhline(value, **GUIDE)
+    axes.annotate(name, (1.01, value), xycoords=("axes fraction", "data"), va="center", size=8)
+
+
 def label_within_decades(axis: Axis) -> None:
     """Ticks at 1, 2 and 5 in plain digits, for logarithmic axes of a decade or two."""
     axis.set_major_locator(LogLocator(subs=(1, 2, 5)))

@@ -67,10 +67,11 @@ def best(panel: Panel, products: Mapping[str, Products]) -> tuple[str, list[Path
 
 
 def picture_of_summary(claims: list[dict[str, Any]], parents: dict[str, Any]) -> bytes:
+    """parents: what is stated in the file; its quality is in the picture too."""
     style.apply()
     described, picture = json.dumps(parents, sort_keys=True), io.BytesIO()
     metadata = {"Description": described, "Software": "lorentz-gas"}
-    summary.draw(claims).savefig(picture, format="png", dpi=130, metadata=metadata)
+    summary.draw(claims, parents["quality"]).savefig(picture, format="png", dpi=130, metadata=metadata)
     return picture.getvalue()
 
 

@@ -16,9 +16,10 @@ from workflow.report.strip import WIDTH, Strip
 LINE, TOP, BOTTOM = 0.31, 0.32, 0.42  # inches
 UP, DOWN, HALF = 0.2, 0.26, 0.24  # of the two lines of a row, and half the height of a band
 KEY = (
-    "Each row has its own scale. Grey: what the claim admits. Points: the numbers that were measured, with intervals in which they lie "
-    "with 95 % for\nall claims together; red those that lie outside the grey. Written is the number that decides, with its name and "
-    "what is admitted. `In substance`: what the\nclaim means holds, and its words do not, which are shown."
+    "Quality {quality}. Each row has its own scale. Grey: what the claim admits. Points: the numbers that were measured, with intervals "
+    "in which they lie\nwith 95 % for all claims together, systematic errors included; red those that lie outside the grey. Written is the "
+    "number that decides, with its\nname and what is admitted. `In substance`: what the claim means holds, and its words do not, which are "
+    "shown."
 )
 COLUMNS = {"quantity": 0.045, "paper": 0.315, "strip": 0.6, "short": 0.72, "verdict": 0.885}  # left ends
 # Characters that the font lacks.
@@ -50,7 +51,7 @@ def typeset(text: str) -> str:
     return re.sub(r"(?<![\w)])-(?=\d)|(?<=\s)-(?=\s)", words.MINUS, text).translate(RAISED | LOWERED)
 
 
-def draw(claims: Sequence[Mapping[str, Any]]) -> Figure:
+def draw(claims: Sequence[Mapping[str, Any]], quality: str) -> Figure:
     """claims: as content.claim() gives them."""
     figure = plt.figure(figsize=(2.6 * style.COLUMN, TOP + LINE * len(claims) + BOTTOM), layout="none")
     rows = len(claims)
@@ -58,7 +59,7 @@ def draw(claims: Sequence[Mapping[str, Any]]) -> Figure:
     foot = BOTTOM / figure.get_figheight()
     text = figure.add_axes((0, foot, 1, 1 - share - foot))
     strips = figure.add_axes((COLUMNS["strip"], foot, 0.115, 1 - share - foot))
-    figure.text(0.01, 0.15 * foot, KEY, size=7)
+    figure.text(0.01, 0.15 * foot, KEY.format(quality=quality), size=7)
     text.set(xlim=(0, 1), ylim=(-0.5, rows - 0.5))
     strips.set(xlim=(0, WIDTH), ylim=(-0.5, rows - 0.5))
     for axes in (text, strips):

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -68,6 +69,33 @@ TEST(MovingPeak, FollowsGaussianPeaks) {
   EXPECT_NEAR(peak.collapse(), 1, 0.02);  // the width grows as t, the height falls as 1/t
 }
 
+// Ends by hand. Mutants: neighbouring times; ends that occur twice where times are sparse; a short octave
+// left at the end; equal parts of t.
+TEST(MovingPeak, OctavesDivideTheTimesEvenly) {
+  using Times = std::vector<double>;
+  EXPECT_EQ(octaves({0.016, 0.02, 0.025, 0.032, 0.04, 0.05, 0.063, 0.08, 0.1, 0.12}),
+            (Times{0.016, 0.032, 0.063, 0.12}));
+  EXPECT_EQ(octaves({0.01, 0.0125, 0.016, 0.02, 0.025, 0.032, 0.04}), (Times{0.01, 0.02, 0.04}));
+  EXPECT_EQ(octaves({0.01, 0.0125, 0.016, 0.02, 0.025}), (Times{0.01, 0.025}));
+  EXPECT_EQ(octaves({0.05, 0.1, 0.2, 0.4}), (Times{0.05, 0.1, 0.2, 0.4}));
+  EXPECT_EQ(octaves({1e-4, 1, 1.1}), (Times{1e-4, 1, 1.1}));
+  EXPECT_EQ(octaves({1, 1.1}), (Times{1, 1.1}));
+  EXPECT_EQ(octaves({1}), (Times{1}));
+}
+
+// Heights 8, 4 and 1 at the times 1, 2 and 4: exponents 1 and 2, which drift by 1/ln 2. Mutants: the same
+// sign as d ln peak; a difference of exponents instead of a slope; a fit over all times.
+TEST(MovingPeak, ExponentsOfOctavesAndTheirDrift) {
+  std::vector<double> mean = profiles();
+  for (std::size_t i = 2 * cells; i < mean.size(); ++i) mean[i] /= 2;
+  const MovingPeak peak = peak_of(mean, windows_of(records_of({mean, mean})));
+  const std::vector<double> exponents = peak.exponents_by_octave();
+  ASSERT_EQ(exponents.size(), 2U);
+  EXPECT_NEAR(exponents[0], 1, 1e-3);
+  EXPECT_NEAR(exponents[1], 2, 1e-3);
+  EXPECT_NEAR(peak.exponent_drift(), 1 / std::numbers::ln2, 3e-3);
+}
+
 // Mutants: the even part; the left side minus the right one; a share of one side.
 TEST(MovingPeak, OddPartAndCentre) {
   const std::vector<double> mean = profiles(1, 0.5);
@@ -95,6 +123,9 @@ TEST(MovingPeak, IsNoneBeforeThePeakHasLeftTheCentre) {
   EXPECT_TRUE(std::isnan(peak.heights()[0]));
   EXPECT_TRUE(std::isnan(peak.speeds()[0]));
   EXPECT_TRUE(std::isnan(peak.exponents_from()[0]));
+  EXPECT_TRUE(std::isnan(peak.exponents_by_octave()[0]));
+  EXPECT_NEAR(peak.exponents_by_octave()[1], 1, 1e-3);
+  EXPECT_TRUE(std::isnan(peak.exponent_drift()));  // of one octave
   EXPECT_NEAR(peak.speeds()[1], 5, 1e-3);
   EXPECT_NEAR(peak.exponent(), 1, 1e-3);
 }
