@@ -25,10 +25,13 @@ RULES = (ROOT / ".clang-tidy", ROOT / "tests/cpp/.clang-tidy")
 
 
 def commands() -> dict[Path, str]:
-    """How each source is compiled. GCC's precompiled header is none for clang; what it holds is included anyway."""
+    """How each source is compiled, without ccache, and without GCC's precompiled header, which is none for clang; what it
+    holds is included anyway."""
     listed = json.loads(subprocess.check_output(["ninja", "-C", BUILD, "-t", "compdb"]))
     return {
-        Path(each["file"]): re.sub(r" -Winvalid-pch -include \S+", "", each["command"])
+        Path(each["file"]): re.sub(
+            r"^.* -E env .*/ccache (?=/)| -Winvalid-pch -include \S+", "", each["command"]
+        )
         for each in listed
         if " -c " in each["command"] and any(Path(each["file"]).is_relative_to(one) for one in FOLDERS)
     }
