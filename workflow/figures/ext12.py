@@ -156,7 +156,7 @@ def draw_starts(axes: Axes, found: pd.DataFrame, symbol: str) -> None:
 
 def label_cases(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) -> None:
     cases = found.groupby(["cells", "gas"], sort=True).groups
-    axes.set_xticks(range(len(cases)), [f"{cells}\n{spacing[name]}" for cells, name in cases])
+    axes.set_xticks(range(len(cases)), [f"{cells}\n${spacing[name]}$" for cells, name in cases])
     axes.tick_params(axis="x", which="both", length=0)
     axes.set_xlabel(r"$N$, $\lambda$")
 

@@ -156,7 +156,8 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
             f"{with_error(end.jump, end.jump_error)} at {end.x}{by_theory(end.kinetic_jump)}"
             for end in part.itertuples()
         ]
-        said.append(f"γ = {gamma}{' with equal rates' * equal}: {listed(jumps)}")
+        rate = f" with ν_L = ν_R = {number(part.nu_left.iloc[0])}" if equal else ""
+        said.append(f"γ = {gamma}{rate}: {listed(jumps)}")
     alike = [end for _, equal, part in cases(table) if equal for end in part.itertuples()]
     known = [end for end in alike if abs(end.jump) > RESOLVED * end.jump_error]
     theory = listed(number(end.kinetic_jump) for end in alike) if alike else ""
@@ -167,9 +168,8 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     )
     return f"""
         Flux distribution F_N(p, x) of the particles behind the first scatterer (solid, circles) and the last (dashed,
-        squares) of an open chain; {parameters(main, *CHAIN, *BATHS, *WINDOW)}, {replicas(runs)}. Black: the mean field, the kinetic
-        equation of the same chain. (a) F_N, (b) the same about the momentum zero, (c) the same minus that F, in per cent of its
-        maximum, (d) jump at momentum zero; black bars in mean field. Jumps at {"; ".join(said)}.
+        squares) of an open chain; {parameters(main, *CHAIN, *BATHS, *WINDOW)}, {replicas(runs)}. Black: F in mean field, by the kinetic
+        equation of the same chain. (a) F_N, (b) the same about the momentum zero, (c) F_N − F in per cent of the maximum of F, (d) jump at momentum zero; black bars in mean field. Jumps at {"; ".join(said)}.
         {ERRORS}; the lines through two bins on either side that give the jumps err by up to {extrapolation_error(table):.2g}, as they do in mean field. The paper has the curves of γ = 1 on top of the kinetic equation, and says that
         at γ = N the jump comes from unequal rates alone{still}."""
 

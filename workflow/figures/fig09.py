@@ -116,13 +116,19 @@ def caption(results: Sequence[Result]) -> str:
     names = ("particles-per-cell", "energy", "pulse-energy")
     rest = [result for result in results if start(result) == 0]
     relaxed = listed(number(result.parameters["relaxation-time"]) for result in rest)
+    still = (
+        "The spike is the energy of the central scatterer, which few particles have hit; beside it the pulse can leave less "
+        "energy than there is without it, as its particles are faster and have gone."
+        if results[0].parameters["gamma"] == 1
+        else ""
+    )
     return f"""
         Energy per cell of a ring with a pulse in the central cell minus that of the same ring without, ΔE(x, t), at several times t;
         {parameters(results, *CHAIN, *names)} per degree of freedom, {replicas(results)} of up to
         {max(int(result.parameters["pairs-per-replica"]) for result in results)} pairs of trajectories. (a) The paper's start: scatterers at rest,
         relaxed for t = {relaxed}; (b) all momenta Gaussian. Bands are errors. (c) Position of the moving peak, with lines from the origin
         through the first positions; (d) its speed between neighbouring times, in cells: {"; ".join(speeds)}. Faint: times at which ΔE
-        opposite to the pulse exceeds {number(100 * CLOSED)} % of its largest value. {ERRORS}. As in the paper two peaks move away symmetrically, beside what stays at the centre."""
+        opposite to the pulse exceeds {number(100 * CLOSED)} % of its largest value. {ERRORS}. As in the paper two peaks move away symmetrically, beside what stays at the centre. {still}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

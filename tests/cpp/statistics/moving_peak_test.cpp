@@ -87,7 +87,7 @@ TEST(MovingPeak, OctavesDivideTheTimesEvenly) {
 // sign as d ln peak; a difference of exponents instead of a slope; a fit over all times.
 TEST(MovingPeak, ExponentsOfOctavesAndTheirDrift) {
   std::vector<double> mean = profiles();
-  for (std::size_t i = 2 * cells; i < mean.size(); ++i) mean[i] /= 2;
+  for (double& value : std::span(mean).last(cells)) value /= 2;
   const MovingPeak peak = peak_of(mean, windows_of(records_of({mean, mean})));
   const std::vector<double> exponents = peak.exponents_by_octave();
   ASSERT_EQ(exponents.size(), 2U);
