@@ -9,6 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import cache
 
 from scipy.stats import t as student
 
@@ -142,6 +143,7 @@ def level_of_each(claims: int) -> float:
     return FAMILY_LEVEL / claims
 
 
+@cache
 def critical(level: float, freedom: float) -> float:
     return float(student.isf(level / 2, freedom))
 

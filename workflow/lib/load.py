@@ -133,7 +133,7 @@ def _opened(path: Path) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
     """The file and its provenance. Raises FormatError for all that goes wrong while it is open."""
     try:
         with h5py.File(regular(path)) as file:
-            if led := file.visititems_links(_leads_elsewhere):
+            if led := file.id.links.visit(_leads_elsewhere, info=True):  # h5py's own visit opens every link
                 raise FormatError(f"{led} is a link, which could lead anywhere")
             provenance = _attributes(file["provenance"])
             if (provenance["format"], provenance["format_version"]) != (FORMAT, FORMAT_VERSION):
@@ -158,8 +158,8 @@ def _opened(path: Path) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
         raise FormatError(f"{path} is not a result file: {error}") from error
 
 
-def _leads_elsewhere(name: str, link: object) -> str | None:
-    return None if isinstance(link, h5py.HardLink) else name
+def _leads_elsewhere(name: bytes, link: h5py.h5l.LinkInfo) -> str | None:
+    return None if link.type == h5py.h5l.TYPE_HARD else name.decode(errors="replace")
 
 
 def _attributes(group: h5py.Group | h5py.Dataset) -> dict[str, Any]:
