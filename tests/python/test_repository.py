@@ -8,7 +8,15 @@ from pathlib import Path
 import pytest
 
 from workflow.provenance import repository
-from workflow.provenance.repository import DamagedError, FileHashes, files_at, no_history, state, untracked
+from workflow.provenance.repository import (
+    DamagedError,
+    FileHashes,
+    files_at,
+    no_history,
+    state,
+    stored_at,
+    untracked,
+)
 
 TRUE, FALSE = "true\n", "false\n"
 
@@ -53,6 +61,21 @@ def test_an_object_that_is_not_what_its_name_says_is_none(root: Path) -> None:
     place.write_bytes(zlib.compress(f"blob {len(FALSE)}\0{FALSE}".encode()))
     with pytest.raises(DamagedError, match=f"git fsck complains: .*{name[2:]}"):
         files_at("HEAD", "a")
+
+
+def test_a_commit_that_lacks_a_file_has_none(root: Path) -> None:
+    name = run(root, "rev-parse", "HEAD:a")
+    (root / ".git/objects" / name[:2] / name[2:]).unlink()
+    assert stored_at("HEAD", "a") is None
+    with pytest.raises(DamagedError, match="git fsck complains: (broken link|missing blob)"):
+        files_at("HEAD", "a")
+
+
+def test_no_pipe_is_waited_for(root: Path) -> None:
+    (root / ".git/HEAD").unlink()
+    os.mkfifo(root / ".git/HEAD")
+    with pytest.raises(OSError, match="a pipe lies where a file belongs"):
+        state()
 
 
 def test_only_a_commit_has_files(root: Path) -> None:

@@ -1,10 +1,12 @@
 """How every figure looks: sizes, fonts, colours that differ also for the colour-blind and in grey."""
 
+from pathlib import Path
 from string import ascii_lowercase
 from typing import Any
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib import font_manager
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
@@ -87,9 +89,14 @@ _SETTINGS: dict[RcKeyType, Any] = {
 
 
 def apply() -> None:
-    """From now on figures are drawn in this style, whatever matplotlibrc says."""
+    """From now on figures are drawn in this style, whatever matplotlibrc says, and with the fonts of matplotlib alone, whatever
+    else is installed or its cached list of fonts says."""
     mpl.rcdefaults()
     mpl.rcParams.update(_SETTINGS)
+    fonts = font_manager.fontManager
+    fonts.ttflist.clear()
+    for path in sorted(Path(mpl.get_data_path(), "fonts/ttf").glob("*.ttf")):
+        fonts.addfont(path)
 
 
 def letter(*panels: Axes, lift: float | None = None) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from workflow.lib.parents import file_hash
-from workflow.lib.places import unfinished
+from workflow.lib.places import regular, unfinished
 
 ROOT = Path(__file__).parents[2]
 PLACES = (".", "data", "figures")
@@ -81,7 +81,9 @@ def write_whole(path: Path, text: str) -> None:
 def run_git(
     *arguments: str, given: bytes = b"", variables: Mapping[str, str] = NOTHING_MORE
 ) -> subprocess.CompletedProcess[bytes] | None:
-    """None where git is not installed. The variables are those of its environment."""
+    """None where git is not installed. The variables are those of its environment. Raises OSError if git would wait for ever."""
+    if (ROOT / ".git").is_dir():
+        regular(ROOT / ".git/HEAD")
     try:
         return subprocess.run(
             ["git", *arguments],
@@ -164,16 +166,38 @@ def paths_of(listed: bytes | None) -> list[str]:
 
 
 def files_at(commit: str, *folders: str) -> dict[str, bytes] | None:
-    """Contents by path at a commit; nothing if the repository does not have it. Read as they are stored, without the filters
-    that a checkout applies; a submodule has none. Raises DamagedError if an object is not what its name says."""
-    if git("cat-file", "-t", commit) != b"commit\n":
+    """Contents by path at a commit; nothing if the repository does not have it. Raises DamagedError if an object is not what its
+    name says."""
+    if not is_commit(commit):
         return None
-    checked = run_git("fsck", "--no-dangling", "--no-progress", commit)
+    if complaint := fsck(commit):
+        raise DamagedError(complaint)
+    return stored_at(commit, *folders)
+
+
+def is_commit(name: str) -> bool:
+    return git("cat-file", "-t", name) == b"commit\n"
+
+
+def fsck(*commits: str) -> str | None:
+    """What is wrong with the repository's objects, all of which are read, and with what the commits need, or without any all
+    branches and tags."""
+    checked = run_git("fsck", "--no-dangling", "--no-progress", "--no-reflogs", *commits)
+    if checked is not None and checked.returncode == 0:
+        return None
+    lines = (checked.stderr + checked.stdout).decode(errors="replace").splitlines() if checked else []
+    said = [line for line in lines if not line.startswith("hint:")]
+    return f"git fsck complains: {(said or ['it does not say of what'])[0]}"
+
+
+def stored_at(commit: str, *folders: str) -> dict[str, bytes] | None:
+    """Contents by path at a commit as they are stored, without the filters that a checkout applies, unchecked; a submodule has
+    none. Nothing if the repository does not have the commit, or not all of it."""
+    if not is_commit(commit):
+        return None
     listed = git("ls-tree", "-r", "-z", "--full-tree", commit, "--", *folders)
-    if listed is None or checked is None or checked.returncode:
-        lines = checked.stderr.decode(errors="replace").splitlines() if checked else []
-        said = [line for line in lines if not line.startswith("hint:")]
-        raise DamagedError(f"git fsck complains: {(said or ['it does not say of what'])[0]}")
+    if listed is None:
+        return None
     entries = [
         (*entry.split(b"\t", 1)[0].split(), entry.split(b"\t", 1)[1])
         for entry in listed.split(b"\0")
@@ -185,8 +209,10 @@ def files_at(commit: str, *folders: str) -> dict[str, bytes] | None:
         return None
     contents, stream = {}, io.BytesIO(packed)
     for _, path in names:
-        size = int(stream.readline().split()[2])
-        contents[path] = stream.read(size)
+        *_, size = stream.readline().split()
+        if size == b"missing":
+            return None
+        contents[path] = stream.read(int(size))
         stream.readline()
     return contents
 

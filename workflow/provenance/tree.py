@@ -25,7 +25,7 @@ from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance.build_id import content_hashes, include_closure, source_hash
 from workflow.provenance.lock import Lock, LockError
 from workflow.provenance.printable import printable
-from workflow.provenance.repository import ROOT, DamagedError, commits, files_at
+from workflow.provenance.repository import ROOT, commits, fsck, stored_at
 
 SHORT = 16  # digits of a hash that are shown
 FEW = 2  # entries of a list that are shown where not all are asked for
@@ -181,7 +181,7 @@ def search(path: str, read: Callable[[Path], Found | None]) -> tuple[str, Found 
     """Where `read` finds something, the working tree or the newest such commit of the path, and what."""
     if (found := read(ROOT)) is not None:
         return HERE, found
-    for commit in commits(path):
+    for commit in commits(path) if fsck() is None else []:  # the audit says what is damaged
         with tempfile.TemporaryDirectory() as folder:
             unpack(commit, path, Path(folder))
             if (found := read(Path(folder))) is not None:
@@ -190,11 +190,7 @@ def search(path: str, read: Callable[[Path], Found | None]) -> tuple[str, Found 
 
 
 def unpack(commit: str, source: str, folder: Path) -> None:
-    try:
-        files = files_at(commit, source) or {}
-    except DamagedError:  # the audit says so
-        return
-    for name, text in files.items():
+    for name, text in (stored_at(commit, source) or {}).items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_bytes(text)
 

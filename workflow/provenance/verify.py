@@ -9,6 +9,7 @@ import argparse
 import hashlib
 import json
 import math
+import signal
 import sys
 import tempfile
 from collections.abc import Iterable
@@ -119,6 +120,7 @@ def main() -> None:
     parser.add_argument("--sample", type=float, default=0.1, help="share of the jobs")
     parser.add_argument("--panel", help="of this panel only")
     options = parser.parse_args()
+    signal.signal(signal.SIGTERM, lambda number, _: sys.exit(128 + number))  # leaves no build behind
     if not 0 < options.sample <= 1:
         parser.error(f"SAMPLE={options.sample} is not a share: choose a number above 0 and up to 1")
     try:

@@ -1,0 +1,25 @@
+"""Figures look the same whatever is installed or configured beside matplotlib."""
+
+from pathlib import Path
+
+import matplotlib as mpl
+import pytest
+from matplotlib import font_manager
+
+from workflow.lib import style
+
+
+@pytest.mark.parametrize("family", ["STIXGeneral", "STIXSizeOneSym", "Times New Roman"])
+def test_no_font_but_those_of_matplotlib_is_taken(family: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As a foreign list of fonts in the cache would have it, or a font that the system calls by the same name."""
+    own = Path(mpl.get_data_path(), "fonts/ttf")
+    foreign = font_manager.FontEntry(fname=str(own / "DejaVuSans.ttf"), name=family)
+    fonts = font_manager.FontManager()
+    fonts.ttflist = [foreign]
+    monkeypatch.setattr(font_manager, "fontManager", fonts)
+    assert Path(fonts.findfont(family)).name == "DejaVuSans.ttf"
+    style.apply()
+    found = [Path(fonts.findfont(name)) for name in ("STIXGeneral", "STIXSizeOneSym", "serif")]
+    assert [path.parent for path in found] == [own] * 3
+    assert [path.stem for path in found] == ["STIXGeneral", "STIXSizOneSymReg", "STIXGeneral"]
+    assert foreign not in fonts.ttflist
