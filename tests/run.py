@@ -6,6 +6,7 @@ Fails if a test fails, if a suite breaks off, or if one of the suites ran no tes
 
 import subprocess
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
@@ -14,11 +15,9 @@ REPORTS = Path("build/tests")
 PYTEST = [sys.executable, "-m", "pytest", "-c", "tests/pytest.ini"]
 # Files in alphabetical order: pytest-xdist would begin those with the fewest tests last, which take longest, and leave a worker idle.
 PYTEST += ["-n", "2", "--dist", "loadfile", "--no-loadscope-reorder"]
-SUITES = {
-    "cpp": ["build/bin/cpp_tests", "--gtest_brief=1", "--gtest_output=xml:{report}"],
-    "python": [*PYTEST, "--durations=25", "tests", "--junitxml={report}"],
-}
+PYTEST += ["--durations=25", "tests", f"--junitxml={REPORTS}/python.xml"]
 LONG, SHORT = "--long", ["-m", "not long"]
+SHARDS = 2  # of the C++ tests, beside each other
 
 
 @dataclass
@@ -53,13 +52,29 @@ def count_report(report: Path) -> Count:
     return count
 
 
-def run_suite(name: str, command: list[str]) -> Count:
-    report = REPORTS / f"{name}.xml"
-    report.unlink(missing_ok=True)
-    status = subprocess.run([part.format(report=report) for part in command], check=False).returncode
-    count = count_report(report)
-    if status != 0 and count.failed == 0:
-        print(f"The {name} tests broke off with status {status}.")
+def cpp_command(shard: int) -> list[str]:
+    """GoogleTest takes from the environment which tests of how many shards it runs."""
+    shards = [f"GTEST_TOTAL_SHARDS={SHARDS}", f"GTEST_SHARD_INDEX={shard}"]
+    return [
+        "env",
+        *shards,
+        "build/bin/cpp_tests",
+        "--gtest_brief=1",
+        f"--gtest_output=xml:{REPORTS}/cpp{shard}.xml",
+    ]
+
+
+def run_suite(name: str, commands: Sequence[Sequence[str]]) -> Count:
+    """Beside each other; their reports are those of the name."""
+    for report in REPORTS.glob(f"{name}*.xml"):
+        report.unlink()
+    running = [subprocess.Popen(command) for command in commands]
+    statuses = [one.wait() for one in running]
+    count = Count()
+    for report in REPORTS.glob(f"{name}*.xml"):
+        count.add(count_report(report))
+    if any(statuses) and count.failed == 0:
+        print(f"The {name} tests broke off with status {max(statuses, key=abs)}.")
         count.failed += 1
     if count.passed + count.failed == 0:
         print(f"No {name} test ran.")
@@ -69,11 +84,11 @@ def run_suite(name: str, command: list[str]) -> Count:
 
 def main() -> int:
     REPORTS.mkdir(parents=True, exist_ok=True)
+    python = PYTEST if LONG in sys.argv else [*PYTEST, *SHORT]
     total = Count()
-    for name, command in SUITES.items():
+    for name, commands in (("cpp", [cpp_command(shard) for shard in range(SHARDS)]), ("python", [python])):
         print(f"{name} tests", flush=True)
-        chosen = SHORT if name == "python" and LONG not in sys.argv else []
-        total.add(run_suite(name, [*command, *chosen]))
+        total.add(run_suite(name, commands))
     print(total)
     return 1 if total.failed else 0
 

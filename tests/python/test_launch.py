@@ -57,11 +57,21 @@ def test_nothing_takes_the_place_of_a_module(tmp_path: Path, put: Callable[[Path
     assert "workflow/lib/none.py is no file" in run(tmp_path, "workflow.lib.none").stderr
 
 
-def run(root: Path, module: str) -> subprocess.CompletedProcess:
-    command = [sys.executable, "-P", LAUNCH, module]
+def run(root: Path, module: str, **variables: str) -> subprocess.CompletedProcess:
+    command, variables = [sys.executable, "-P", LAUNCH, module], {"PATH": os.defpath, **variables}
     return subprocess.run(
-        command, cwd=root, env={"PATH": os.defpath}, capture_output=True, text=True, check=False
+        command, cwd=root, env=variables, capture_output=True, text=True, check=False, timeout=60
     )
+
+
+def test_no_list_of_fonts_is_waited_for(tmp_path: Path) -> None:
+    (tmp_path / "workflow/environment").mkdir(parents=True)
+    shutil.copy(ROOT / LAUNCH, tmp_path / LAUNCH)
+    (tmp_path / "workflow/a.py").write_text("import matplotlib.font_manager")
+    fonts = tmp_path / "fontlist-v390.json"
+    os.mkfifo(fonts)
+    done = run(tmp_path, "workflow.a", MPLCONFIGDIR=str(tmp_path))
+    assert (done.returncode, done.stderr.startswith(f"{fonts} is no file")) == (1, True)
 
 
 @pytest.mark.parametrize(

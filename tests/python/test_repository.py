@@ -67,7 +67,7 @@ def test_a_commit_that_lacks_a_file_has_none(root: Path) -> None:
     name = run(root, "rev-parse", "HEAD:a")
     (root / ".git/objects" / name[:2] / name[2:]).unlink()
     assert stored_at("HEAD", "a") is None
-    with pytest.raises(DamagedError, match="git fsck complains: (broken link|missing blob)"):
+    with pytest.raises(DamagedError, match=r"git fsck complains: (broken link|missing blob)"):
         files_at("HEAD", "a")
 
 

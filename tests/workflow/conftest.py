@@ -117,7 +117,7 @@ def made_as_now() -> bool:
         return False
 
 
-def drawn_into(folder: Path) -> None:
+def drawn_into(folder: Path) -> Clone:
     """The project as it stands, its changes committed, with the figures that it has, if they were made as they would be now.
     Those that are missing or stale are made."""
     subprocess.run(["git", "clone", "--quiet", "--no-checkout", ROOT, folder], check=True)
@@ -127,22 +127,24 @@ def drawn_into(folder: Path) -> None:
         copy_made(ROOT, folder)
     made = clone.make("figures", "QUALITY=smoke")
     assert made.returncode == 0, made.stdout
+    return clone
 
 
 @pytest.fixture(scope="session")
 def clean(tmp_path_factory: pytest.TempPathFactory) -> Clone:
-    """A repository with nothing to commit, built, with every figure at smoke quality. Processes that run tests beside each
-    other draw once and copy."""
-    own = tmp_path_factory.getbasetemp()
-    shared = own.parent if "PYTEST_XDIST_WORKER" in os.environ else own
-    drawn = shared / "drawn"
-    with locked(shared / "drawn.lock"):
+    """A repository with nothing to commit, built, with every figure at smoke quality. Of processes that run tests beside each
+    other the first draws, and the others copy."""
+    own, folder = tmp_path_factory.getbasetemp(), tmp_path_factory.mktemp("clean")
+    drawn = (own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / "drawn"
+    with locked(drawn.with_suffix(".lock")):
         if not drawn.exists():
-            drawn_into(shared / "being drawn")
-            (shared / "being drawn").rename(drawn)
-    clone = clone_into(tmp_path_factory.mktemp("clean"), drawn)
-    shutil.copytree(drawn / ".git", clone.folder / ".git")
-    copy_made(drawn, clone.folder)
+            clone = drawn_into(folder)
+            shutil.copytree(folder / ".git", drawn / ".git")
+            copy_made(folder, drawn)
+            return clone
+    clone = clone_into(folder)
+    shutil.copytree(drawn / ".git", folder / ".git")
+    copy_made(drawn, folder)
     assert clone.make("build").returncode == 0
     return clone
 

@@ -82,10 +82,13 @@ def test_pictures_are_described(page: Page) -> None:
         (replace(HTML, "</h1>", "!</h1>"), f"{HTML}: does not follow from"),
         pytest.param(replace(HTML, '"fig05/', '"fig00/'), f"{HTML}: does not follow from", marks=pytest.mark.long),
         pytest.param(append(MARKDOWN, "more\n"), f"{MARKDOWN}: does not follow from", marks=pytest.mark.long),
-        (delete(MARKDOWN), f"{MARKDOWN}: is missing beside"),
+        pytest.param(delete(MARKDOWN), f"{MARKDOWN}: is missing beside", marks=pytest.mark.long),
         pytest.param(append("data/claims.csv", "\n"), f"{HTML}: does not follow from", marks=pytest.mark.long),
         (append("figures/smoke/fig05.csv", "0"), f"{HTML}: cannot be written again: make report: figures/smoke/fig05.csv"),
-        (in_place_of("workflow/figures/fig05.py", os.mkfifo), f"{HTML}: cannot be written again: workflow/figures/fig05.py is no file"),
+        pytest.param(
+            in_place_of("workflow/figures/fig05.py", os.mkfifo), f"{HTML}: cannot be written again: workflow/figures/fig05.py is no file",
+            marks=pytest.mark.long,
+        ),
     ],
     ids=["page", "costs", "table", "missing", "claims", "panel", "queue"],
 )  # fmt: skip

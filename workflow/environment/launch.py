@@ -63,6 +63,13 @@ def require_address_space() -> None:
         )
 
 
+def require_font_lists() -> None:
+    """matplotlib opens its lists of fonts as soon as it is imported, and would wait for ever at a pipe."""
+    for path in Path(os.environ.get("MPLCONFIGDIR", os.devnull)).glob("fontlist-*.json"):
+        if not path.is_file():
+            sys.exit(f"{path} is no file, and matplotlib would keep its list of fonts there: remove it")
+
+
 def launch() -> None:
     """What a user does is no fault of the module: a key that stops it, a reader that goes, a full disk behind the output."""
     del sys.argv[0]
@@ -71,6 +78,7 @@ def launch() -> None:
     if sys.stderr is None:  # as what is started by a clock may have it; the next file would take its number
         sys.stderr = os.fdopen(os.open(os.devnull, os.O_WRONLY), "w")
     require_address_space()
+    require_font_lists()
     try:
         runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)
         sys.stdout.flush()

@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from scipy.stats import gmean
 
 from workflow.lib import style
 from workflow.lib.caption import BATHS, ERRORS, number, parameters, replicas
@@ -21,28 +22,23 @@ from workflow.lib.load import Result
 FRONT = {"marker": "o", "color": style.BLACK, "markerfacecolor": "white", **style.POINTS}
 
 
-def by_momentum(result: Result) -> pd.DataFrame:
-    """One row per time and bin."""
-    frame = result["weighted_momentum_density"].to_frame().rename(columns={"p": "momentum"})
-    return frame.assign(bins="momentum")
-
-
-def by_speed(result: Result) -> pd.DataFrame:
-    """The same on logarithmic bins, each two of the file's, whose counts are nearly independent."""
-    frame = result["weighted_speed_density"].to_frame().rename(columns={"speed": "momentum"})
-    pair = frame.groupby("time").cumcount() // 2
-    pairs = frame.groupby([frame.time, pair])
+def in_pairs(result: Result, bins: str, quantity: str, axis: str) -> pd.DataFrame:
+    """One row per time and two neighbouring bins of the file, whose counts are nearly independent."""
+    frame = result[quantity].to_frame()
+    pairs = frame.groupby([frame.time, frame.groupby("time").cumcount() // 2])
     joined = pairs[["mean"]].mean()
-    joined["momentum"] = np.exp(np.log(frame.momentum).groupby([frame.time, pair]).mean())
-    squares = (frame.standard_error**2).groupby([frame.time, pair])
-    joined["standard_error"] = np.sqrt(squares.sum()) / squares.count()
-    return joined.reset_index().assign(bins="speed")
+    joined["momentum"] = pairs[axis].agg(gmean if bins == "speed" else "mean")
+    squares = (frame.standard_error**2).groupby(pairs.ngroup()).sum()
+    joined["standard_error"] = np.sqrt(squares.to_numpy()) / pairs.size().to_numpy()
+    return joined.reset_index().assign(bins=bins)
 
 
 def tabulate(result: Result) -> pd.DataFrame:
     """Both, with the front and the height above it at every time."""
     columns = {"mean": "weighted_density", "standard_error": "error"}
-    table = pd.concat([by_momentum(result), by_speed(result)]).rename(columns=columns)
+    of_momentum = in_pairs(result, "momentum", "weighted_momentum_density", "p")
+    of_speed = in_pairs(result, "speed", "weighted_speed_density", "speed")
+    table = pd.concat([of_momentum, of_speed]).rename(columns=columns)
     table = table[["bins", "time", "momentum", "weighted_density", "error"]]
     for name in ("front", "plateau"):
         quantity = result[name]

@@ -82,21 +82,20 @@ def written(answer: list[str]) -> str:
 
 def gallery(quality: str, root: Path = ROOT) -> list[str]:
     """Writes all of it, or nothing; a line per panel. quality: of the answer and the verdicts. Raises ReportError."""
-    data = Data(quality, root)
-    judgements = Products.of(quality, root).judged(data)
+    data, here = Data(quality, root), Products.of(quality, root)
     readme = (root / README).read_text()
     if not BLOCK.search(readme):
         raise ReportError(
             f"{README} has no place for the answer: restore its lines '<!-- ... the answer -->'"
         )
-    folder = root / GALLERY
-    told, lines, products = [], [], made(root)
-    files = {}
+    folder, products = root / GALLERY, made(root)
     pictures = {name: found for name, panel in data.plan.items() if (found := best(panel, products))}
     if missing := [name for name in data.plan if name not in pictures]:
         raise ReportError(
             f"{listed(missing)} not made, or not as the lock says: make figures QUALITY={quality}"
         )
+    judgements = here.judged(data)
+    told, lines, files = [], [], {}
     for name, (quality_there, (_, png, _, csv)) in pictures.items():
         files[folder / f"{name}.png"] = small(png)
         title = csv.read_text().split("\n", 1)[0].removeprefix("# ")
