@@ -29,12 +29,20 @@ def commands() -> dict[Path, str]:
     holds is included anyway."""
     listed = json.loads(subprocess.check_output(["ninja", "-C", BUILD, "-t", "compdb"]))
     return {
-        Path(each["file"]): re.sub(
-            r"^.* -E env .*/ccache (?=/)| -Winvalid-pch -include \S+", "", each["command"]
-        )
+        Path(each["file"]): of_the_compiler(each["command"])
         for each in listed
         if " -c " in each["command"] and any(Path(each["file"]).is_relative_to(one) for one in FOLDERS)
     }
+
+
+def of_the_compiler(command: str) -> str:
+    words = shlex.split(command)
+    launchers = [place for place, word in enumerate(words, 1) if Path(word).name == "ccache"]
+    words = words[max(launchers, default=0) :]
+    if "-Winvalid-pch" in words:  # before -include and the header
+        place = words.index("-Winvalid-pch")
+        del words[place : place + 3]
+    return shlex.join(words)
 
 
 @cache
@@ -52,7 +60,8 @@ def included(command: str) -> list[str]:
     """All files that the compiler reads for a source."""
     words = shlex.split(command.partition(" -MD ")[0])
     rule = subprocess.check_output([*words, "-M", shlex.split(command)[-1]], cwd=BUILD, text=True)
-    return sorted({os.path.normpath(BUILD / name) for name in rule.replace("\\\n", " ").split()[1:]})
+    _, *names = re.split(r"(?<!\\)\s+", rule.replace("\\\n", " ").strip())
+    return sorted({os.path.normpath(BUILD / name.replace("\\ ", " ")) for name in names})
 
 
 def note_of(source: Path) -> Path:

@@ -102,7 +102,7 @@ def caption(table: pd.DataFrame, profiles: Sequence[Result], sizes: Sequence[Res
         time, to the right (full) and to the left (open), with straight lines through them; (b) the same minus the lines, in per cent, whose
         errors are those of the deviations; (c) currents of particles (circles) and energy (squares) minus their mean over all
         bonds, in per cent of it (a current of particles that falls along the chain leaves some there, as the content still grows), without the openings of the chain, where particles are injected, which have far larger errors and are in the table only:
-        what is shown need not be 0 on average. (d) Density of an end cell over a line
+        what is shown need not vanish on average. (d) Density of an end cell over a line
         through the bulk, minus one, at γ = 1 against N, with lines fitted from {FITTED} cells on: {"; ".join(said)}. {ERRORS}. The
         paper states linear rates and uniform currents: the rates deviate by at most {listed(bent)}; and an accumulation that turns singular
         as N grows."""
