@@ -110,6 +110,8 @@ def test_packages_and_products_are_not_removed_under_a_running_make(kept: Clone)
         foreign.unlink()
     assert (kept.folder / ".venv/bin/python").exists()
     assert (kept.folder / "build/bin/persistence").exists()
+    made = kept.make("panel", f"PANEL={PANEL}", "QUALITY=smoke")
+    assert made.returncode == 0, made.stdout
 
 
 def test_a_job_that_outlives_a_killed_make_is_not_joined_by_the_next(kept: Clone) -> None:
