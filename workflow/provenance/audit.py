@@ -112,7 +112,7 @@ def summary(chain: Chain, names: set[str], drawn: int) -> str:
     runs, panels = lock.runs(), len(lock.drawings())
     text = f"{len(runs)} runs, {panels} panels, {len(lock.outputs())} files"
     text += f"; read {len(runs.keys() & names)} of {len(runs)} runs, drew {drawn} of {panels} panels again"
-    named = sorted({job.commit for job in lock.jobs.values() if job.commit and not no_history()})
+    named = [] if no_history() else sorted({job.commit for job in lock.jobs.values() if job.commit})
     compared = [f"{commit[:12]} ({signature(commit)})" for commit in named]
     text += f"; compared with commit {', '.join(compared)}" if compared else "; compared with no commit"
     if elsewhere := [job.machine for job in lock.jobs.values() if job.machine != machine()]:
