@@ -88,7 +88,7 @@ def test_p_values_near_zero_are_bounds() -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "verb"), [(0.02, "rises"), (-0.02, "falls"), (0.002, "does not change beyond errors")]
+    ("change", "verb"), [(0.02, "rises"), (-0.02, "falls"), (0.002, "has no steady trend")]
 )
 def test_a_change_is_named_beyond_three_errors(change: float, verb: str) -> None:
     """Errors of 1 %, from which the ends alone would not tell: 0.36(2) and 0.45(2) where it rises."""

@@ -50,7 +50,7 @@ def test_misfits_of_the_front() -> None:
     scaled = np.log(time) / time
     expected = 1e4 * (5 - scaled.sum() ** 2 / np.sum(scaled**2))
     caveat = FUNCTIONS["C03"](Known({"fig01": fill})).caveat
-    assert f": {expected:.0f} for p₀ ~ 1/t, 0 for" in caveat
+    assert f"{expected:.0f} and 0 at λ = 1/N" in caveat
 
 
 def test_persistence() -> None:
@@ -104,8 +104,9 @@ def test_spreading(claim: str, panel: str, run: str, sigma: float, others: list[
     freedom = DATA.plan[panel].run(run).options["replicas"] - 1
     check(evidence.literal, value, error, abs(relaxed - value).max(), freedom)
     check(evidence.other, *each("ext01", "alpha", *others))
-    if claim == "C18":  # of chains of two contents, which their labels tell
-        assert {number.label.rpartition(", n = ")[2] for number in evidence.other} == {"20", "80"}
+    if claim == "C18":  # of two contents and relaxation times, which their labels tell
+        told = {number.label.rpartition(", n = ")[2] for number in evidence.other}
+        assert told == {"20, t_r = 10", "20, t_r = 1000", "80, t_r = 10"}
 
 
 def test_exponents_and_drifts_of_every_sigma_but_0() -> None:

@@ -15,11 +15,16 @@ ROUNDING = 1e-9  # relative, of the times of a logarithmic grid
 
 
 def _named(results: list[Result], quantity: str, name: str) -> list[Number]:
-    """One number of each run, labelled by name and mass ratio and, where they differ, its particles per cell."""
-    dense = len({one.parameters["particles-per-cell"] for one in results}) > 1
+    """One number of each run, labelled by name and mass ratio and, where they differ, particles per cell and relaxation time."""
+    told = {"particles-per-cell": "n", "relaxation-time": "t_r"}
+    differing = [key for key in told if len({one.parameters[key] for one in results}) > 1]
     labels = [
-        f"{name}, σ = {one.parameters['sigma']:g}"
-        + (f", n = {one.parameters['particles-per-cell']}" if dense else "")
+        ", ".join(
+            [
+                f"{name}, σ = {one.parameters['sigma']:g}",
+                *(f"{told[key]} = {one.parameters[key]:g}" for key in differing),
+            ]
+        )
         for one in results
     ]
     return [number(one, quantity, label=label) for one, label in zip(results, labels, strict=True)]

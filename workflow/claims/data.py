@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from workflow.claims.verdict import Number
+from workflow.claims.verdict import Number, with_systematic
 from workflow.lib.fit import PowerLaw, fit_power
 from workflow.lib.load import FormatError, Index, Result, load
 from workflow.lib.plan import Run, data_path, load_plan
@@ -112,8 +112,17 @@ def combination(numbers: Sequence[Number], weights: Sequence[float], label: str,
 def power(
     results: Sequence[Result], size: Sequence[float], values: Sequence[Number], label: str
 ) -> tuple[Number, PowerLaw]:
-    """Exponent of a power law through independent numbers. Its systematic error is the change without the first of them."""
+    """Exponent of a power law through independent numbers; where they reject one, its name says so. Its systematic error is the
+    change without the first of them."""
     x, y, error = np.asarray(size, float), [one.value for one in values], [one.error for one in values]
     law = fit_power(x, y, error)
     later = fit_power(x[1:], y[1:], error[1:]).exponent if len(x) > 2 else law.exponent
-    return Number(label, law.exponent, law.error, freedom(*results), abs(later - law.exponent)), law
+    exponent = Number(mean_slope(label, law), law.exponent, law.error, freedom(*results))
+    return with_systematic(exponent, [later]), law
+
+
+def mean_slope(label: str, law: PowerLaw) -> str:
+    """What the exponent of a power law is called: no exponent where the points reject the law."""
+    if not law.rejected:
+        return label
+    return f"{label}, a mean slope (χ² = {law.chi_square:.0f} for {law.freedom})"

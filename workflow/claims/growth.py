@@ -5,12 +5,11 @@ from typing import TypeVar
 
 import numpy as np
 
-from workflow.claims.data import Data, MissingError, freedom, number, power, where_made
+from workflow.claims.data import Data, MissingError, freedom, mean_slope, number, power, where_made
 from workflow.claims.evidence import Claim, Evidence
 from workflow.claims.verdict import Number, with_systematic
 from workflow.figures import ext09
 from workflow.figures.ext11 import tabulate
-from workflow.lib.caption import goodness
 from workflow.lib.fit import PowerLaw, fit_power, with_error
 from workflow.lib.growth import fits
 from workflow.lib.load import Result
@@ -93,20 +92,23 @@ def _stationary(runs: Sequence[Result]) -> list[Result]:
     )
 
 
-def finite_limit(data: Data) -> str:
-    """How well a conductivity that stays finite fits ext09 at fixed spacing, over the largest sizes, in words."""
+def laws(data: Data) -> str:
+    """How well every law, one with a finite limit among them, fits ext09 at fixed spacing over the largest sizes, in words."""
     told = []
     fixed = [runs for name, runs in _series(data).items() if name in FIXED]
     for runs in map(largest_sizes, fixed):
         cells = [one.parameters["cells"] for one in runs]
         values = [number(one, "kappa") for one in runs]
         found = fits(cells, [one.value for one in values], [one.error for one in values], cells[0])
-        told += [
-            f"{goodness(one.chi_square, one.freedom)} at spacing {spacing(runs[-1])[1]}, N = {cells[0]} to {cells[-1]}"
-            for one in found
-            if one.law == "constant"
-        ]
-    return f" a + b N^(-1/3), which has a finite limit: {'; '.join(told)}." if told else ""
+        fitted = ", ".join(f"{one.chi_square:.1f} for {ext09.written(one)}" for one in found)
+        told += (
+            [
+                f" At spacing {spacing(runs[-1])[1]}, N = {cells[0]} to {cells[-1]}, χ² is, with {found[0].freedom} degrees of freedom, {fitted}."
+            ]
+            if found
+            else []
+        )
+    return "".join(told)
 
 
 def linear(data: Data) -> Evidence:
@@ -134,7 +136,7 @@ def cube_root(data: Data) -> Evidence:
             *where_made(lambda: without_particle_current(data)),
             *(one for name, one in last.items() if name in FIXED),
         ],
-        caveat=f"Over all sizes {_fit(law)} Between the largest sizes: {told}. At spacing 1/N the gas thins out as N grows, so that size and density change together.{finite_limit(data)}",
+        caveat=f"Over all sizes {_fit(law)} Between the largest sizes: {told}. At spacing 1/N the gas thins out as N grows, so that size and density change together.{laws(data)}",
     )
 
 
@@ -150,9 +152,8 @@ def without_particle_current(data: Data) -> Number:
     values = [*zip(table.cells, table.kappa_0, table.kappa_0_error, strict=True)]
     law, *parts = (fit_power(*np.array(part, float).T) for part in (values, *halves(values)))
     label = f"d ln κ_0/d ln N at J_n = 0 and spacing {FIXED_SPACING}, N = {table.cells.min()} to {table.cells.max()}"
-    return with_systematic(
-        Number(label, law.exponent, law.error, freedom(*runs)), [part.exponent for part in parts]
-    )
+    found = Number(mean_slope(label, law), law.exponent, law.error, freedom(*runs))
+    return with_systematic(found, [part.exponent for part in parts])
 
 
 def _fit(law: PowerLaw) -> str:

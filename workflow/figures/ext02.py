@@ -7,15 +7,17 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
-from workflow.figures.ext09 import CUBE_ROOT, LOOKS, range_of, spacings, tabulate
+from workflow.figures.ext09 import CUBE_ROOT, LINES, LOOKS, MATHS, range_of, spacings, tabulate, written
 from workflow.lib import style
 from workflow.lib.caption import parameters
 from workflow.lib.figure import run
 from workflow.lib.fit import with_error
-from workflow.lib.growth import local_exponents
+from workflow.lib.growth import POWER, Growth, local_exponents
 from workflow.lib.load import Result
 
+SHOWN = (CUBE_ROOT, POWER)  # laws that are drawn
 RESOLVED = 3  # standard errors beyond which a curvature is called one
 BESIDE = 1.07  # factor of the sizes at which neighbouring spacings are drawn, as points would hide each other
 TEMPERATURES = {
@@ -36,16 +38,17 @@ def local(part: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(found)
 
 
-def of_cube_root(part: pd.DataFrame, name: str) -> tuple[np.ndarray, np.ndarray] | None:
-    """Local exponents of a + b N^(1/3) as it is fitted in ext. 9, for a definition of kappa."""
-    held = range_of(
-        part.assign(kappa=part[f"kappa{name}"], kappa_error=part[f"kappa{name}_error"]), CUBE_ROOT
-    )
-    if held is None:
-        return None
-    size = part.cells[part.cells >= held.first].to_numpy(dtype=float)
-    middle, slope, _ = local_exponents(size, held.predicted, np.ones_like(size))
-    return middle, slope
+def fitted(part: pd.DataFrame, name: str, law: str) -> Growth | None:
+    """A law as it is fitted in ext. 9, to the sizes for which it is not rejected, for a definition of kappa."""
+    return range_of(part.assign(kappa=part[f"kappa{name}"], kappa_error=part[f"kappa{name}_error"]), law)
+
+
+def draw_law(axes: Axes, part: pd.DataFrame, name: str, law: str, color: str) -> None:
+    """Its local exponents."""
+    if held := fitted(part, name, law):
+        size = part.cells[part.cells >= held.first].to_numpy(dtype=float)
+        middle, slope, _ = local_exponents(size, held.predicted, np.ones_like(size))
+        axes.plot(middle, slope, color=color, linestyle=LINES[law])
 
 
 def trend(part: pd.DataFrame, column: str) -> str:
@@ -53,7 +56,7 @@ def trend(part: pd.DataFrame, column: str) -> str:
     value, error = part[column], part[f"{column}_error"]
     curve, errors = np.polyfit(np.log(part.cells), np.log(value), 2, w=value / error, cov="unscaled")
     change = curve[0] / np.sqrt(errors[0, 0])
-    return "does not change beyond errors" if abs(change) < RESOLVED else "rises" if change > 0 else "falls"
+    return "has no steady trend" if abs(change) < RESOLVED else "rises" if change > 0 else "falls"
 
 
 def glide(part: pd.DataFrame, found: pd.DataFrame) -> str:
@@ -64,6 +67,17 @@ def glide(part: pd.DataFrame, found: pd.DataFrame) -> str:
         f"{with_error(one.exponent, one.exponent_error)} about N = {one['size']:.0f}" for one in (first, last)
     ]
     return f"{verb}, from {ends[0]} to {ends[1]}"
+
+
+def constant(table: pd.DataFrame, spacing: Mapping[str, str]) -> str:
+    """Where one exponent fits the sizes as well, in words."""
+    held = {name: fitted(part, "", POWER) for name, part in table.groupby("gas", sort=False)}
+    said = [
+        f"{written(law)} from N = {law.first:.0f} on at spacing {spacing[name]}"
+        for name, law in held.items()
+        if law
+    ]
+    return f": in (a) {', '.join(said)}" if said else ""
 
 
 def definitions(found: pd.DataFrame) -> str:
@@ -96,8 +110,8 @@ def draw_definition(
         look = {"marker": marker, "color": color, "label": rf"$\lambda = {spacing[gas]}$", **style.POINTS}
         size = BESIDE ** (place - 1) * found["size"]
         axes.errorbar(size, found[f"exponent{name}"], found[f"exponent{name}_error"], **look)
-        if law := of_cube_root(part, name):
-            axes.plot(*law, color=color, linestyle=style.DASHES[1])
+        for law in SHOWN:
+            draw_law(axes, part, name, law, color)
     style.guide_at(axes, 1 / 3, "1/3" if name == DEFINITIONS[-1] else "")
     axes.set(xscale="log", xlabel="number of cells $N$", title=TITLES[name])
     style.label_sizes(axes.xaxis)
@@ -115,14 +129,17 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     for axes, name in zip(row, DEFINITIONS, strict=True):
         draw_definition(axes, name, table, whole, spacing)
     row[0].set(ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, None))
-    figure.legend(*row[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(LOOKS))
+    points, names = row[0].get_legend_handles_labels()
+    points += [Line2D([], [], color=style.BLACK, linestyle=LINES[law]) for law in SHOWN]
+    names += [MATHS[law] for law in SHOWN]
+    figure.legend(points, names, loc="outside upper center", ncols=len(names))
     style.letter(*row)
     caption = (
         "Local exponent of the heat conductivity between neighbouring sizes, from the runs of ext. 9 at γ = N, with the temperatures "
         "of (a) the first and the last scatterer, as in eq. 28, (b) the particles that arrive there, (c) the baths. "
         f"In (a) {'; '.join(said)}. At the spacing 1/N of the paper the gas thins out as the chain grows; at fixed spacings large "
-        "N is the thermodynamic limit. Broken lines: a + b N^(1/3), fitted to the sizes for which it is not rejected, "
-        f"whose exponent tends to 1/3. The exponents in (b) and (c) differ from those in (a) by up to {definitions(whole)}{otherwise(table, spacing)}; "
+        "N is the thermodynamic limit. Lines: a + b N^(1/3), whose exponent tends to 1/3, and a N^b, which has one exponent, each over the "
+        f"sizes for which it is not rejected{constant(table, spacing)}. The exponents in (b) and (c) differ from those in (a) by up to {definitions(whole)}{otherwise(table, spacing)}; "
         f"in an infinite chain all would be one. All are those of one drive, {parameters(results, 'temperature-left', 'temperature-right')}; ext. 12 says how they depend on it. Error bars: standard errors over replicas; neighbouring points share a size; "
         "spacings are drawn beside each other."
     )

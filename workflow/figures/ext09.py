@@ -95,13 +95,16 @@ def sentence(spacing: str, part: pd.DataFrame) -> str:
         f"{written(one)} from N = {one.first:.0f} on ({goodness(one.chi_square, one.freedom)})"
         for one in shown
     )
-    rivals = [
-        one
-        for one in fits(part.cells, part.kappa, part.kappa_error, best.first)
-        if one.law != best.law and one.parameters <= best.parameters
-    ]
-    against = [f"{written(one)} {one.chi_square:.1f}" for one in rivals]
-    return f"{text}; from N = {best.first:.0f} on χ² is, for {', '.join(against)}." if against else f"{text}."
+    # From the size on from which the law that holds over the widest range does, and all that hold anywhere.
+    firsts = sorted({best.first, max(one.first for one in held.values())})
+    return "; ".join([text, *(rivals(part, first) for first in firsts)]) + "."
+
+
+def rivals(part: pd.DataFrame, first: float) -> str:
+    """How well every law describes the sizes from the first on, in words."""
+    found = fits(part.cells, part.kappa, part.kappa_error, first)
+    against = ", ".join(f"{one.chi_square:.1f} for {written(one)}" for one in found)
+    return f"from N = {first:.0f} on χ² is, with {found[0].freedom} degrees of freedom, {against}"
 
 
 def written(growth: Growth) -> str:
@@ -140,7 +143,7 @@ def draw_cube_roots(axes: Axes, table: pd.DataFrame) -> None:
                 axes.plot(np.cbrt(size), held.predicted, color=color, linestyle=line)
                 shown[law] = Line2D([], [], color=style.BLACK, linestyle=line, label=MATHS[law])
     above = axes.secondary_xaxis("top", functions=(lambda x: np.power(x, 3), np.cbrt))
-    above.set_xticks([size for size in (64, 256, 512, 1024, 2048, 8192) if size <= table.cells.max()])
+    above.set_xticks([size for size in (64, 256, 1024, 2048, 8192) if size <= table.cells.max()])
     axes.tick_params(axis="x", which="both", top=False)
     axes.set(xlabel="$N^{1/3}$", ylabel=r"conductivity $\kappa$", ylim=(0, None))
     above.set_xlabel("$N$", labelpad=1)

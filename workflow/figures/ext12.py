@@ -8,6 +8,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from workflow.figures.ext09 import CUBE_ROOT, LOOKS, range_of, spacings, tabulate
 from workflow.lib import style
@@ -18,6 +19,8 @@ from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
 PARAMETERS = 2  # of a + b N^(1/3)
+BESIDE = 1.12  # factor of the sizes at which neighbouring drives are drawn
+TOP = 0.7  # of the exponents
 STATE = {"particle_current": "J_n", "temperature_first": "T_1", "temperature_last": "T_N"}
 STARTS = {
     "warm": ("s", style.BLACK),
@@ -106,33 +109,19 @@ def scatter(found: pd.DataFrame) -> tuple[float, int]:
     return total, freedom
 
 
-def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) -> None:
-    """A line for every spacing and pair of sizes, the fuller the marker the larger these are."""
-    sizes = sorted(found["size"].unique())
-    largest = found.groupby("gas")["size"].max()
-    shades = dict(zip(sizes, np.linspace(0 if len(sizes) > 1 else 1, 1, len(sizes)), strict=True))
-    lines = found.groupby(["gas", "size"], sort=False)
-    for place, ((name, size), one) in enumerate(lines):
-        marker, color = LOOKS[name]
-        look: style.Look = {"marker": marker, "color": color, "markerfacecolor": shaded(color, shades[size])}
-        label = rf"$\lambda = {spacing[name]}$" if size == largest[name] else None
-        # Beside each other, or they would hide each other.
-        drive = one.drive * 1.01 ** (place - (lines.ngroups - 1) / 2)
-        axes.errorbar(
-            drive, one.exponent, one.exponent_error, label=label, **{**style.POINTS, **look, "linestyle": "-"}
-        )
-    for size, (first, last) in found.groupby("size")[["first", "last"]].first().iterrows():
-        face = shaded(style.BLACK, shades[size])
-        axes.plot(
-            [], [], "D", color=style.BLACK, markerfacecolor=face, label=f"$N = {first:g}$ to ${last:g}$"
-        )
+def draw_exponents(axes: Axes, found: pd.DataFrame, gas: str, spacing: str) -> None:
+    """Of one spacing, against the size: the stronger the drive, the fuller the marker."""
+    marker, color = LOOKS[gas]
     drives = sorted(found.drive.unique())
-    axes.set(xscale="log", xlabel="$T_R/T_L$", ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, 1))
-    axes.set_xticks(drives, [f"{drive:g}" for drive in drives])
-    axes.set_xticks([], minor=True)
-    axes.margins(x=0.1)
+    for place, (drive, share) in enumerate(zip(drives, np.linspace(0, 1, len(drives)), strict=True)):
+        one = found[found.drive == drive]
+        look: style.Look = {"marker": marker, "color": color, "markerfacecolor": shaded(color, share)}
+        size = BESIDE ** (place - (len(drives) - 1) / 2) * one["size"]  # they would hide each other
+        label = f"$T_R/T_L = {drive:g}$"
+        axes.errorbar(size, one.exponent, one.exponent_error, label=label, **style.POINTS, **look)
+    axes.set(xscale="log", xlabel="number of cells $N$", title=rf"$\lambda = {spacing}$", ylim=(0, TOP))
+    style.label_sizes(axes.xaxis)
     style.guide_at(axes, 1 / 3, "1/3")
-    axes.legend(loc="upper left", ncols=2, columnspacing=0.8, handletextpad=0.2)
 
 
 def shaded(color: str, share: float) -> tuple[float, float, float]:
@@ -152,6 +141,7 @@ def draw_starts(axes: Axes, found: pd.DataFrame, symbol: str) -> None:
     axes.axhline(0, **style.GUIDE)
     axes.set_ylabel(rf"$\delta {symbol}$ (%)")
     axes.margins(y=0.25)
+    axes.yaxis.set_major_locator(MaxNLocator(4))
 
 
 def label_cases(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) -> None:
@@ -166,23 +156,22 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     slopes = exponents(table)
     found = {name: deviations(table, name) for name in ("kappa", *STATE)}
     starts, current = found["kappa"], found["particle_current"]
-    figure, axes = plt.subplot_mosaic("ab;ac", figsize=(1.9 * style.COLUMN, style.HEIGHT))
-    draw_exponents(axes["a"], slopes, spacings(results))
-    draw_starts(axes["b"], starts, r"\kappa")
-    draw_starts(axes["c"], current, "J_n")
-    axes["b"].sharex(axes["c"])
-    axes["b"].tick_params(labelbottom=False, length=0, axis="x", which="both")
-    label_cases(axes["c"], current, spacings(results))
-    figure.legend(
-        *axes["b"].get_legend_handles_labels(),
-        loc="outside upper right",
-        ncols=len(STARTS),
-        columnspacing=0.8,
-        handletextpad=0.2,
-    )
-    figure.align_ylabels([axes["b"], axes["c"]])
-    style.letter(*axes.values())
     spacing = spacings(results)
+    figure = plt.figure(figsize=(1.9 * style.COLUMN, 1.5 * style.HEIGHT))
+    above, below = figure.subfigures(2, 1, squeeze=False, height_ratios=[1, 1.1]).ravel()
+    gases = list(slopes.groupby("gas", sort=False))
+    row = above.subplots(1, len(gases), sharey=True, squeeze=False)[0]
+    for axes, (name, part) in zip(row, gases, strict=True):
+        draw_exponents(axes, part, name, spacing[name])
+    row[0].set_ylabel(r"$d\ln\kappa/d\ln N$")
+    strips = below.subplots(2, 1, sharex=True)
+    draw_starts(strips[0], starts, r"\kappa")
+    draw_starts(strips[1], current, "J_n")
+    label_cases(strips[1], current, spacing)
+    for place, axes in ((above, row[0]), (below, strips[0])):
+        place.legend(*axes.get_legend_handles_labels(), loc="outside upper right", ncols=4)
+    below.align_ylabels(strips)
+    style.letter(*row, *strips)
     scatters = [f"{goodness(*scatter(slopes))}, about a common value at every size and spacing"]
     if slopes["size"].nunique() > 1:
         last = slopes[slopes["size"] == slopes.groupby("gas")["size"].transform("max")]
@@ -192,9 +181,9 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         ]
     drives = ", ".join(f"{drive:g}" for drive in sorted(slopes.drive.unique()))
     caption = (
-        f"(a) Local exponent of κ between two sizes for ratios of the baths' temperatures of {drives} at equal pressures, drawn beside "
-        f"each other: {'; '.join(scatters)}."
-        f"{laws(table, spacing)} (b, c) κ and J_n from several starts relative to the mean over them, δ: in "
+        f"Above: local exponent of κ between neighbouring sizes for ratios of the baths' temperatures of {drives} at equal pressures, "
+        f"drawn beside each other: {'; '.join(scatters)}."
+        f"{laws(table, spacing)} Below: κ and J_n from several starts relative to the mean over them, δ: in "
         "equilibrium with the mean of the baths (warm), with the colder or the hotter one, and empty; for κ "
         f"{goodness(starts.chi_square.sum(), int(starts.freedom.sum()))}, about a common value at every size, the largest "
         f"deviation {100 * starts.deviation.abs().max():.1f} %. {memory(found)} Error bars: standard errors over replicas."

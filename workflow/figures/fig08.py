@@ -115,7 +115,7 @@ def draw_local(axes: Axes, table: pd.DataFrame) -> None:
         axes.errorbar(local.between, local.exponent_to_next, local.exponent_to_next_error, **look)
         slope, _, name = GUIDES[gamma]
         style.guide_at(axes, slope, name)
-    axes.set(ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, None))
+    axes.set(ylabel=r"$d\ln\kappa/d\ln N$")
 
 
 def found(table: pd.DataFrame, gamma: str | int) -> str:

@@ -100,10 +100,10 @@ def answer(judgements: Sequence[Judgement], quality: str) -> list[str]:
         if one.outcome is Outcome.CONTRADICTED
     ]
     return [
-        f"Of {len(judgements)} claims, at quality {quality}: {listed}; given what each claim is taken to admit, noise makes any of these verdicts wrong with a probability of at most {FAMILY_LEVEL:.0%}.",
+        f"Of {len(judgements)} claims, at quality {quality}: {listed}; noise makes one of these verdicts or more wrong with a probability of at most {FAMILY_LEVEL:.0%}, given the bands that this report lets each claim admit.",
         f"Contradicted: {'; '.join(against)}." if against else "At this quality no claim is contradicted.",
         f"Heat: κ ∼ N at γ = 1 is {_said(by_id['C23'])}; κ ∼ N^(1/3) at γ = N is {_both(by_id['C24'])}{_at_fixed_density(by_id['C24'])}.",
-        f"Particles: over the paper's times a tagged particle spreads as it says ({_told(by_id['C18'], 'literal')}, an exponent that still rises), but by the drift of a random total momentum, without which there is diffusion ({_told(by_id['C18'], 'other')}); that only energy is conserved is {by_id['C22'].outcome.value}, as total momentum is too.",
+        f"Particles: over the paper's times a tagged particle spreads as it says ({_told(by_id['C18'], 'literal')}, an exponent that still rises), but by the drift of a random total momentum, without which there is diffusion once the chain has relaxed ({_all(by_id['C18'], 'other')}); that only energy is conserved is {by_id['C22'].outcome.value}, as total momentum is too.",
         f"Kinetic equation: that finite chains tend to it is {_said(by_id['C12'])}; that they differ by less than 0.1 % is {_said(by_id['C10'])} in the printed normalisation, and relative to the largest F {_otherwise(by_id['C10'])}.",
     ]
 
@@ -114,14 +114,20 @@ def _told(judgement: Judgement, reading: str) -> str:
     return words.told(found.worst) if found else "not measured"
 
 
+def _all(judgement: Judgement, reading: str) -> str:
+    """Every number of a reading."""
+    found = getattr(judgement, reading)
+    return words.told_all(found) if found else "not measured"
+
+
 def _said(judgement: Judgement) -> str:
     reading = judgement.deciding
     return f"{judgement.outcome.value} ({words.told(reading.worst)})" if reading else judgement.outcome.value
 
 
 def _both(judgement: Judgement) -> str:
-    """With the numbers that decide the words and the substance."""
-    return f"{judgement.outcome.value} ({_told(judgement, 'literal')}; {_told(judgement, 'substance')})"
+    """With the numbers of the words and of the substance."""
+    return f"{judgement.outcome.value} ({_all(judgement, 'literal')}; {_all(judgement, 'substance')})"
 
 
 def _otherwise(judgement: Judgement) -> str:

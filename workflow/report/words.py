@@ -34,6 +34,8 @@ def typeset(text: str) -> Markup:
 
 def value(number: Number) -> str:
     """With the standard error in units of the last digit, and the systematic bound apart."""
+    if not number.error and abs(number.value) < number.systematic:
+        return f"0 to rounding{BOUND}{short(number.systematic)}"
     size = max(abs(number.value), number.error, number.systematic)
     if 0 < size < 1e-3:
         power = math.floor(math.log10(size))
@@ -69,8 +71,9 @@ def p_value(p: float) -> str:
 
 
 def result(reading: Reading) -> str:
-    """The number that decides, and how many were looked at."""
-    several = f", the least certain of {len(reading.numbers)}" if len(reading.numbers) > 1 else ""
+    """The number that decides, and how many were looked at: of a reading that is contradicted, the one farthest from chance."""
+    kind = "clearest" if reading.outcome is Outcome.CONTRADICTED else "least certain"
+    several = f", the {kind} of {len(reading.numbers)}" if len(reading.numbers) > 1 else ""
     return f"{told(reading.worst)}{several}"
 
 
