@@ -82,7 +82,7 @@ def draw_exponents(axes: Axes, table: pd.DataFrame) -> None:
     names = [f"$n = {n}$\n$t_r = {relaxed:g}$" for n, relaxed in places]
     axes.set_xticks(range(len(places)), names)
     axes.tick_params(axis="x", length=0)
-    axes.margins(x=0.25)
+    axes.set_xlim(-0.5, len(places) - 0.5)
 
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
@@ -104,8 +104,8 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     return f"""
         Spreading of a tagged particle in a closed chain, {parameters(used, "cells", "cell-length", "temperature", "gamma")},
         n particles per cell, relaxed for t_r, {replicas(used)}. Above, local slopes of ln ⟨x²⟩ against ln t for the paper's
-        number of particles and the longest relaxation; below, the exponent α of all runs, fitted in the shaded decade, from
-        t = {fitted:g} on. Guides: ballistic and diffusive. {ERRORS}. α with {PAPER}, and with {control}: {"; ".join(said)}. In the paper's ensemble the
+        number of particles and the longest relaxation; below, the exponent α of all runs, about both guides on larger scales, fitted in the
+        shaded decade, from t = {fitted:g} on. Guides: ballistic and diffusive. {ERRORS}. α with {PAPER}, and with {control}: {"; ".join(said)}. In the paper's ensemble the
         total momentum of particles and scatterers is random, and conserved to {conserved:.0e} of the sum of all momenta; the
         superdiffusion that the paper reads from it is this drift, and with {control} it is gone{unequal}. Fits of t times a power of its logarithm to the runs without drift give powers from {least} to {most};
         diffusion has none, and waiting times without a variance leave some for as long as they are watched."""
@@ -116,28 +116,31 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     sigmas = sorted(table[table.kind != PAPER].sigma.unique())
     table = table[table.sigma.isin(sigmas)].reset_index(drop=True)
     figure, rows = plt.subplots(
-        2,
+        3,
         len(sigmas),
         sharey="row",
-        figsize=(style.COLUMN * max(2, 0.4 + 0.6 * len(sigmas)), 1.6 * style.HEIGHT),
-        height_ratios=[1.4, 1],
+        figsize=(style.COLUMN * max(2, 0.4 + 0.6 * len(sigmas)), 1.9 * style.HEIGHT),
+        height_ratios=[1.6, 1, 1],
     )
     options = results[0].parameters
     until = options["observation-time"]
-    for sigma, (above, below) in zip(sigmas, rows.T, strict=True):
+    for sigma, (above, ballistic, diffusive) in zip(sigmas, rows.T, strict=True):
         part = table[table.sigma == sigma]
         draw_slopes(above, like_the_paper(part))
-        draw_exponents(below, part)
+        draw_exponents(ballistic, part[part.kind == PAPER])
+        draw_exponents(diffusive, part[part.kind != PAPER])
         above.axvspan(until / 10 ** options["fit-decades"], until, **style.WINDOW)
         above.text(0.05, 0.92, rf"$\sigma = {sigma:g}$", transform=above.transAxes, va="top")
-        for axes, value in ((axes, value) for axes in (above, below) for value in (1, 2)):
+        for axes, value in ((above, 1), (above, 2), (ballistic, 2), (diffusive, 1)):
             axes.axhline(value, **style.GUIDE)
-    rows[0, 0].set(
-        xlabel=f"time $t$ ({style.UNITS})", ylabel=r"$d\ln\langle x^2\rangle/d\ln t$", ylim=(0.6, 2.4)
-    )
-    rows[1, 0].set(ylabel=r"$\alpha$ of $\langle x^2\rangle \sim t^\alpha$", ylim=(0.6, 2.4))
+    slope = r"$d\ln\langle x^2\rangle/d\ln t$"
+    rows[0, 0].set(xlabel=f"time $t$ ({style.UNITS})", ylabel=slope, ylim=(0.6, 2.4))
+    for axes in rows[1:, 0]:
+        axes.set_ylabel(r"$\alpha$ of $\langle x^2\rangle \sim t^\alpha$")
     style.letter(*rows.flat)
-    figure.legend(*rows[1, 0].get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    (paper, its_name), (control, name) = (axes.get_legend_handles_labels() for axes in rows[1:, 0])
+    figure.legend([*paper, *control], [*its_name, *name], loc="outside upper center", ncols=2)
+    figure.align_ylabels()
     return figure, table, caption(table, results)
 
 

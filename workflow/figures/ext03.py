@@ -148,9 +148,9 @@ def of_peak(result: Result) -> str:
     mean, error, _ = mean_of(*speed)
     value, size = deviation(*speed, mean)
     return (
-        f"The height of the peak falls as t^-{with_error(-law.exponent, law.error)} {between(seen)}, above the background "
-        f"beside it as t^-{with_error(-above.exponent, above.error)}; the local "
-        f"exponents against {tests[0]}; against {tests[1]}. The peak moves at {with_error(mean, error)} cells per unit "
+        f"The height of the peak falls with the mean exponent {with_error(-law.exponent, law.error)} {between(seen)}, above the background "
+        f"beside it with {with_error(-above.exponent, above.error)}; the local "
+        f"exponents, whose errors are correlated, against {tests[0]}; against {tests[1]}. The peak moves at {with_error(mean, error)} cells per unit "
         f"time ({goodness(value, size - 1)}, about a constant speed)."
     )
 

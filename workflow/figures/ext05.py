@@ -65,7 +65,7 @@ def plot_excess(axes: Axes, results: Sequence[Result]) -> pd.DataFrame:
     cells = np.array([int(result.parameters["cells"]) for result in results])
     tables = []
     for end, (name, marker, color, dashes) in enumerate(
-        (("left", "o", style.BLUE, "solid"), ("right", "s", style.VERMILLION, "dashed"))
+        (("left", "v", style.BLACK, "solid"), ("right", "D", style.GREEN, "dashed"))
     ):
         excess = np.array([result["density_excess"].mean[end] for result in results])
         error = np.array([result["density_excess"].error[end] for result in results])

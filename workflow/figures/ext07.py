@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.caption import CHAIN, ERRORS, GAS, listed, parameters, replicas
+from workflow.lib.caption import CHAIN, ERRORS, GAS, listed, number, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import Line, fit_line, with_error
 from workflow.lib.load import Result
@@ -82,6 +82,11 @@ def plot_aged(axes: Axes, table: pd.DataFrame, label: str, expected: float) -> N
 
 def caption(longest: Result, trends: dict[str, Line], results: Sequence[Result]) -> str:
     moving = [name for name, trend in trends.items() if resolved(trend)]
+    (until,) = {
+        result.parameters["observation-time"]
+        for result in results
+        if result.provenance["program"] == "displacement"
+    }
     shown = [f"({letter}) {name}" for letter, name in zip(ascii_lowercase[2:], moving, strict=False)]
     first, last = (style.with_error(longest["decade_slope"], k) for k in (0, -1))
     said = [
@@ -93,7 +98,8 @@ def caption(longest: Result, trends: dict[str, Line], results: Sequence[Result])
         kinetic energy of a scatterer (circles) and of a particle (squares) against the time from the start; (b) slope of the scatterers'
         energy against ln t, decade by decade: {first} in the first and {last} in the last. The paper has a logarithmic growth that
         saturates; the slope falls, and is not zero at the end. {f"{listed(shown)} against the relaxation time, with a line fitted in its logarithm (dotted) and the value expected at equilibrium (dashed)." if shown else ""} Change per unit of
-        the logarithm of the relaxation time: {"; ".join(said)}. {ERRORS}; a trend is resolved beyond {RESOLVED} of them."""
+        the logarithm of the relaxation time: {"; ".join(said)}. α is fitted up to t = {number(until)} here, earlier than in fig. 7 and ext. 1, and
+        falls with the time of the fit where the chain ages. {ERRORS}; a trend is resolved beyond {RESOLVED} of them."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

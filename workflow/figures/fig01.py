@@ -14,9 +14,9 @@ from matplotlib.figure import Figure
 from scipy.stats import gmean
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, ERRORS, number, parameters, replicas
+from workflow.lib.caption import BATHS, ERRORS, listed, parameters, replicas
 from workflow.lib.figure import run
-from workflow.lib.fit import fit_power
+from workflow.lib.fit import fit_power, with_error
 from workflow.lib.load import Result
 
 FRONT = {"marker": "o", "color": style.BLACK, "markerfacecolor": "white", **style.POINTS}
@@ -79,16 +79,23 @@ def said_of_front(result: Result, table: pd.DataFrame) -> str:
 
 def caption(tables: Sequence[pd.DataFrame], results: Sequence[Result]) -> str:
     exponents = [said_of_front(result, table) for result, table in zip(results, tables, strict=True)]
-    ratios = pd.concat([fronts(table) for table in tables]).ratio
+    ratios = [fronts(table).iloc[[0, -1]] for table in tables]
+    ends = [
+        f"from {with_error(*first)} to {with_error(*last)} at λ = {style.spacing(result)[1]}"
+        for (first, last), result in zip(
+            (pair[["ratio", "ratio_error"]].to_numpy() for pair in ratios), results, strict=True
+        )
+    ]
     return f"""
         Filling of an empty chain: number n_t(p) of particles with momentum p inside, per unit momentum, times |p|, at five times t;
         {parameters(results, "cells", "sigma", "gamma", *BATHS)}, {replicas(results)}. The paper does not state the distance λ
         between scatterers; each column has another. Above against p, as in the paper; in the middle both signs together against
         |p| on logarithmic bins, with circles at the front p_0(t), where the density has fallen to half of its height
-        above; below p_0 over λ/2t, which a particle's time of flight to the next scatterer suggests: it is between
-        {number(ratios.min())} and {number(ratios.max())}. {ERRORS}, as bands and bars. Exponents of p_0 ~ t^a:
+        above; below p_0 over λ/2t, which a particle's time of flight to the next scatterer suggests: from the first time to the
+        last {listed(ends)}. {ERRORS}, as bands and bars. Exponents of p_0 ~ t^a:
         {"; ".join(exponents)}; what the first time changes is their systematic error. The paper says that p_0 falls logarithmically.
-        Above p_0 the density is stationary where the chain has filled."""
+        Above p_0 the density is stationary where the chain has filled. What the paper says of this figure is judged at λ =
+        {style.spacing(results[0])[1]}, the spacing of its other open chains."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
@@ -99,6 +106,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         sharex="row",
         height_ratios=[2, 2, 1],
     )
+    results = sorted(results, key=lambda result: style.spacing(result)[0])
     tables = [tabulate(result) for result in results]
     for (above, middle, below), result, table in zip(rows.T, results, tables, strict=True):
         plot_times(above, table[table.bins == "momentum"])

@@ -51,7 +51,7 @@ def draw_number(axes: Axes, table: pd.DataFrame, result: Result) -> None:
         label="$n(t)$",
     )
     dashes = "solid" if straight(result) else "dotted"
-    label = r"$a + b\ln t$" + ("" if straight(result) else ", rejected")
+    label = r"$a + b\,\ln t$" + ("" if straight(result) else ", rejected")
     axes.plot(table.time, table.number_fitted, color=style.BLACK, linestyle=dashes, zorder=3, label=label)
     axes.set(xscale="log", ylabel="particles inside $n(t)$", ylim=(0, None))
     title = rf"$\lambda = {style.spacing(result)[1]}$"
@@ -103,7 +103,8 @@ def caption(results: Sequence[Result]) -> str:
         with the straight line fitted in the shaded window from t = {first:g} to {last:g}, dotted where n is not straight in ln t there;
         below its slope dn/d ln t from each time to the next (circles), and the height of |p| n_t(p) above the front
         (squares), which it should be once the chain has filled. {ERRORS}. Fits: {"; ".join(said)}. The paper states logarithmic
-        growth; where the line is not straight the chain still fills, and the fitted slope is no property of the gas."""
+        growth; where the line is not straight the chain still fills, and the fitted slope is no property of the gas. What n does before
+        the window, a bend or a fall, belongs to the start from an empty chain with scatterers at rest, and is not fitted."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
@@ -114,6 +115,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         figsize=(3 * style.COLUMN, 1.5 * style.HEIGHT),
         height_ratios=[2, 1],
     )
+    results = sorted(results, key=lambda result: style.spacing(result)[0])
     tables = [fitted(result) for result in results]
     for (above, below), result, table in zip(rows.T, results, tables, strict=True):
         draw_number(above, table, result)

@@ -35,7 +35,7 @@ def ends(result: Result) -> str:
     difference = result["temperature_difference"]
     values = [with_error(-difference.mean[k], difference.error[k]) for k in (0, -1)]
     largest = np.nanmax(np.abs(difference.mean / difference.error))
-    return f"γ = {style.gamma(result)}: {values[0]} and {values[1]}; the largest difference of any cell is {largest:.1f} errors"
+    return f"γ = {style.gamma(result)}: {values[0]} and {values[1]}; the largest difference of any cell is {largest:.1f} standard errors"
 
 
 def caption(results: Sequence[Result]) -> str:

@@ -75,8 +75,8 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         {parameters(equal, *BATHS)}, with kurtoses up to {number(kurtosis[EQUAL])}; at σ = 0, where momenta are only exchanged, all halves stay Gaussian,
         with kurtoses up to {number(kurtosis[EXCHANGE])}. Numerical errors, below
         {paper[0].provenance["achieved_error"]:.0e} of the currents, are thinner than a line. The paper has the same jump and halves that are not
-        Gaussian, and says that they are so only if the temperatures are equal: but
-        then unequal rates still make them differ."""
+        Gaussian, and says that they are so only if the temperatures are equal: at σ = 0 they are so at unequal ones, and
+        at equal ones unequal rates still make them differ."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

@@ -18,6 +18,7 @@ from workflow.lib.figure import run
 from workflow.lib.fit import PowerLaw, fit_power, with_error
 from workflow.lib.load import Result
 
+LOWEST, HIGHEST = 6e-4, 0.2  # of the deviations that are shown
 LIMITS = [(1e-3, "0.1 %"), (1e-4, "0.01 %")]  # of the paper
 SIMULATION, MEAN_FIELD = "simulation", "mean field"
 MARKERS = ["o", "s", "^", "D"]  # by N
@@ -111,7 +112,15 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
     noisy = largest_deviations(table[table.kind == SIMULATION])
     look = {"marker": "o", "color": style.BLUE, **style.POINTS}
     axes.errorbar(points.cells, points.amplitude, points.error, **look, label=SIMULATION)
-    axes.plot(noisy.cells, noisy.deviation, "x", color="grey", markersize=4, label="its largest bin")
+    axes.plot(
+        noisy.cells,
+        noisy.deviation,
+        "x",
+        color="0.4",
+        markersize=6,
+        zorder=3,
+        label="simulation, largest bin",
+    )
     axes.plot(line.cells, line.amplitude, color=style.BLACK, label=MEAN_FIELD)
     law = decay(table)
     label = "power law, rejected" if law.rejected else rf"fit, $N^{{{law.text}}}$"
@@ -120,17 +129,19 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
         (1, r"of $\max F$", {}),
         (1 / printed, "as printed", {"color": style.GREEN}),
     ]
+    axes.set(xscale="log", yscale="log", ylim=(LOWEST, HIGHEST))
     for height, name in LIMITS:
         for scale, reading, look in readings:
-            axes.axhline(height * scale, **style.GUIDE | look)
-            axes.text(2, height * scale, f"{name} {reading}", va="bottom", size=8, **look)
-    axes.set(xscale="log", yscale="log", ylim=(5e-5, 0.6))
+            if height * scale > LOWEST:
+                axes.axhline(height * scale, **style.GUIDE | look)
+                axes.text(2, height * scale, f"{name} {reading}", va="bottom", size=8, **look)
     axes.set(xlabel="number of cells $N$", ylabel=r"$|F_N - F|\,/\,\max F$")
     right = axes.secondary_yaxis("right", functions=(lambda y: y * printed, lambda y: y / printed))
     right.set_ylabel(r"$|F_N - F|$, with $\int F\,dp = 1$")
     axes.tick_params(axis="y", which="both", right=False)
     style.label_within_decades(axes.xaxis)
-    axes.legend(loc="upper right")
+    handles, labels = axes.get_legend_handles_labels()
+    axes.legend(handles[::-1], labels[::-1], loc="upper right")
 
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:

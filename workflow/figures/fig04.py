@@ -1,7 +1,7 @@
 """Fig. 4: momentum distribution of the particles at both ends of an open chain; a: gamma = 1, b: gamma = N.
 
-Beside it the surroundings of p = 0, where the distribution jumps, and the jumps of all cases; in b also with equal rates
-at both ends and with gamma = 1. The mean field is the kinetic equation at gamma = 1, and that of N scatterers at gamma = N.
+Beside it the surroundings of p = 0, where the distribution jumps, and the jumps; in b also with equal rates at both ends, and in
+its table and caption at gamma = 1. The mean field is the kinetic equation at gamma = 1, and that of N scatterers at gamma = N.
 """
 
 from collections.abc import Sequence
@@ -19,7 +19,7 @@ from workflow.lib.figure import run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Quantity, Result
 
-EQUAL = r", $\nu_L = \nu_R$"
+EQUAL = "\n$\\nu_L = \\nu_R$"
 RESOLVED = 3  # standard errors
 NEAR = 12  # momenta shown about the jump
 SHOWN = 45
@@ -169,9 +169,9 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     return f"""
         Flux distribution F_N(p, x) of the particles behind the first scatterer (solid, circles) and the last (dashed,
         squares) of an open chain; {parameters(main, *CHAIN, *BATHS, *WINDOW)}, {replicas(runs)}. Black: F in mean field, by the kinetic
-        equation of the same chain. (a) F_N, (b) the same about the momentum zero, (c) F_N − F in per cent of the maximum of F, (d) jump at momentum zero; black bars in mean field. Jumps at {"; ".join(said)}.
+        equation of the same chain. (a) F_N, (b) the same about the momentum zero, (c) F_N − F in per cent of the maximum of F, (d) jump at momentum zero; black bars in mean field. All jumps, at {"; ".join(said)}.
         {ERRORS}; the lines through two bins on either side that give the jumps err by up to {extrapolation_error(table):.2g}, as they do in mean field. The paper has the curves of γ = 1 on top of the kinetic equation, and says that
-        at γ = N the jump comes from unequal rates alone{still}."""
+        at γ = N the jump is much smaller and comes from unequal rates alone{still}."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
@@ -186,7 +186,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     draw_distribution(panels["main"], unequal, SHOWN)
     draw_distribution(panels["near"], unequal, NEAR)
     draw_residuals(panels["residual"], unequal)
-    draw_jumps(panels["jump"], table)
+    draw_jumps(panels["jump"], main)
     panels["main"].text(
         0.95, 0.9, rf"$\gamma = {main.gamma.iloc[0]}$", transform=panels["main"].transAxes, ha="right"
     )

@@ -46,26 +46,20 @@ def tabulate(result: Result) -> pd.DataFrame:
 
 
 def draw_density(axes: Axes, table: pd.DataFrame, power: float = 0, label: str = "") -> None:
-    """Bins with errors; open with an arrow down to zero where the error is too large. Times tau^power."""
+    """Bins with errors; open where the error is large. Times tau^power."""
     sigma = float(table.sigma.iloc[0])
     marker, color, dashes = MARKS[sigma]
     scale = table.tau**power
-    for part, look in (
-        (~table.unsure, {"label": label}),
-        (table.unsure, {"markerfacecolor": "white", "uplims": True}),
-    ):
+    for part, look in ((~table.unsure, {"label": label}), (table.unsure, {"markerfacecolor": "white"})):
         y, error = (scale * table.density)[part], (scale * table.density_error)[part]
-        top = y + error if "uplims" in look else y
-        length = 0.5 * top if "uplims" in look else error
         common = {"marker": marker, "color": color, "markersize": 2.5, **style.POINTS, "capsize": 0}
-        axes.errorbar(table.tau[part], top, length, **common | look)
+        axes.errorbar(table.tau[part], y, error, **common | look)
     axes.plot(table.tau, scale * table.fitted, color=style.BLACK, linestyle=dashes, zorder=5)
 
 
 def mark_outside(axes: Axes, table: pd.DataFrame, power: float, top: float) -> None:
     """Bins whose symbol would lie above the strip."""
-    shown = table.density + table.density_error.where(table.unsure, 0)
-    outside = table.tau[table.tau**power * shown > top]
+    outside = table.tau[table.tau**power * table.density > top]
     _, color, _ = MARKS[float(table.sigma.iloc[0])]
     look: style.Look = {"marker": "^", "color": color, "markerfacecolor": "white", "markersize": 3.5}
     axes.plot(outside, [top] * len(outside), linestyle="none", clip_on=False, zorder=6, **look)
@@ -95,7 +89,7 @@ def caption(tables: Sequence[pd.DataFrame], results: Sequence[Result]) -> str:
         {replicas(results)}. A flight counts with its whole length, which is known when it begins. (a) Ψ; the line through the circles is exact for many particles per cell that start from a Gaussian; in the tail the circles lie {above_line:.0f} % above it, as there are momenta on the scatterers too. (b), (c) Ψ times
         the powers of τ that the paper states. Broken and dotted: power laws of the exponents fitted by maximum likelihood in the shaded tail, from
         {number(options["tail-from"])} thermal flights on: {"; ".join(said)}. {ERRORS}; {unsure} bins known to worse than
-        {number(100 * UNSURE)} % are open, with arrows from one error above; triangles at the upper edges stand for bins above them. The paper gives the inverse cube for equal masses and the
+        {number(100 * UNSURE)} % are open, and those that nothing fell into, more of them the later, are left out, so that what is seen in the last decade lies too high; triangles at the upper edges stand for bins above them. The paper gives the inverse cube for equal masses and the
         inverse square otherwise. For equal masses momenta are only exchanged, and Ψ is a property of the Gaussian start."""
 
 

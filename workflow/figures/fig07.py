@@ -13,6 +13,7 @@ from workflow.lib.figure import run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
+GUIDED = 100  # the guide spans so much of the times
 ABOVE = 4  # factor by which the guide lies above the last point
 
 
@@ -58,7 +59,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     drift = {"marker": "s", "color": style.VERMILLION, "markerfacecolor": "white", **style.POINTS}
     above.errorbar(time, table.variance, table.variance_error, label=r"$\langle x^2\rangle$", **tagged)
     above.errorbar(time, table.centre_of_mass, table.centre_of_mass_error, label="centre of mass", **drift)
-    late = time > last / 1000
+    late = time > last / GUIDED
     guide = ABOVE * table.variance.iloc[-1] * (time[late] / last) ** 2
     above.plot(time[late], guide, **style.GUIDE)
     above.annotate(

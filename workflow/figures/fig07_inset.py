@@ -69,7 +69,8 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         paper's ensemble of random total momentum (circles), the same minus the motion of the centre of mass (triangles), and
         zero total momentum (squares); guides: ballistic and diffusive. (b) The squares alone. {ERRORS}. α is {extremes(free)} with random
         and {extremes(zero)} with zero total momentum; without mass difference it is {at_zero[0]} and {at_zero[1]}. With random total momentum α depends on the times fitted, in which diffusion gives way to drift (fig. 7); what is
-        missing to diffusion without is ageing, as chains that have relaxed longer show (ext. 1). The paper
+        missing to diffusion without is ageing, as chains that have relaxed longer show (ext. 1), or are watched earlier (ext. 7); what is
+        there beyond it without mass difference is the motion of the centre of mass, which scatterers that only exchange momenta let go on. The paper
         reads superdiffusion for all other σ from the first ensemble; without the drift of the conserved total momentum none is left. The
         subtraction of the centre of mass does not remove it, as particles collide at different rates."""
 

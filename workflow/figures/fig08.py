@@ -21,7 +21,7 @@ from workflow.lib.load import Result
 
 # The paper's exponents by gamma, as powers of N and as numbers.
 GUIDES = {"N": (1 / 3, r"$N^{1/3}$", "1/3"), 1: (1, "$N$", "1")}
-BELOW = 0.6  # factor by which these lie below the data
+BELOW = 0.7  # factor by which these lie below the lowest point
 LOOKS = {
     "kappa": (None, "$T$ of scatterers"),
     "kappa_particle": ("white", "$T$ of particles"),
@@ -78,8 +78,8 @@ def draw_sizes(axes: Axes, table: pd.DataFrame, theory: pd.DataFrame) -> None:
         look = {"marker": marker, "color": color, **style.POINTS}
         axes.errorbar(part.cells, part.kappa, part.kappa_error, label=rf"$\gamma = {gamma}$", **look)
         slope, name, _ = GUIDES[gamma]
-        middle = part.iloc[len(part) // 2]
-        guide = BELOW * middle.kappa * (part.cells / middle.cells) ** slope
+        power = part.cells**slope
+        guide = BELOW * (part.kappa / power).min() * power
         axes.plot(part.cells, guide, **style.GUIDE)
         end = (part.cells.iloc[-1], guide.iloc[-1])
         axes.annotate(name, end, (-4, -6), textcoords="offset points", size=8, ha="right", va="top")
