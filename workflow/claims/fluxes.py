@@ -131,7 +131,7 @@ def deviations_small(data: Data) -> Evidence:
         bins,
         other=_bins(table, known, False),
         caveat="In the normalisation printed, with the mean of both rates, F integrates to 1; relative to max F in the other reading. "
-        f"At p = 0 itself {_largest_at_zero(table, 2):.2e} is reached at N = 2 in mean field.",
+        f"Marginal: at p = 0 itself {_largest_at_zero(table, 2):.2e} is reached at N = 2 in mean field.",
     )
 
 
