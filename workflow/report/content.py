@@ -126,8 +126,8 @@ def _said(judgement: Judgement) -> str:
 
 
 def _both(judgement: Judgement) -> str:
-    """With the numbers of the words and of the substance."""
-    return f"{judgement.outcome.value} ({_all(judgement, 'literal')}; {_all(judgement, 'substance')})"
+    """With the numbers that decide the words and the substance."""
+    return f"{judgement.outcome.value} ({_told(judgement, 'literal')}; {_told(judgement, 'substance')})"
 
 
 def _otherwise(judgement: Judgement) -> str:
