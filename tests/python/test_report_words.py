@@ -23,7 +23,7 @@ BAND = Band(-1, 1)
         (Number("", 0.0, 0.0), "0"),
         (Number("", 2e-4, 0.01), "0.000(10)"),
         (Number("", 0.007544, 0.0, systematic=4.61e-12), "0.007544 ± 4.6·10^-12 syst"),
-        (Number("", 4.4e-16, 0.0, systematic=1.5e-13), "(0.0044 ± 1.5 syst)·10^-13"),
+        (Number("", 4.4e-16, 0.0, systematic=1.5e-13), "0 to rounding ± 1.5·10^-13"),
         (Number("", 0.5, math.nan), "0.5"),
     ],
 )

@@ -6,12 +6,14 @@ runs before anything is installed.
 """
 
 import argparse
+import contextlib
 import hashlib
 import json
 import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -30,22 +32,27 @@ State = dict[
 
 def state(known: State) -> State:
     """Of every file; what is not read again is taken from `known`."""
-    names = [
-        os.path.join(folder, name) for folder, folders, files in os.walk(FOLDER) for name in folders + files
-    ]
-    leaves = (name for name in names if os.path.islink(name) or not os.path.isdir(name))
-    paths = sorted(os.path.relpath(name, FOLDER) for name in leaves if name != str(RECORD))
-
-    stamps = {path: stamp(os.path.join(FOLDER, path)) for path in paths}
+    stamps = {path: stamp(status) for path, status in sorted(files_below(str(FOLDER)))}
+    stamps.pop(RECORD.name, None)
+    paths = [*stamps]
     to_read = [path for path in paths if known.get(path, [])[1:] != stamps[path]]
     with ThreadPoolExecutor() as threads:
         digests = dict(zip(to_read, threads.map(lambda path: digest(FOLDER / path), to_read), strict=True))
     return {path: [digests[path], *stamps[path]] if path in digests else known[path] for path in paths}
 
 
-def stamp(path: str) -> list[int]:
+def files_below(folder: str, prefix: str = "") -> Iterator[tuple[str, os.stat_result]]:
+    """What is no folder, links among it, by its path below the first folder. One look at each, as this precedes every command."""
+    with contextlib.suppress(PermissionError), os.scandir(folder) as entries:
+        for entry in entries:
+            if entry.is_dir(follow_symlinks=False):
+                yield from files_below(entry.path, f"{prefix}{entry.name}/")
+            else:
+                yield prefix + entry.name, entry.stat(follow_symlinks=False)
+
+
+def stamp(status: os.stat_result) -> list[int]:
     """What changes with the content."""
-    status = os.lstat(path)
     return [status.st_ino, status.st_size, status.st_ctime_ns]
 
 
