@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cache
 
-from scipy.stats import t as student
+from scipy.special import stdtr, stdtrit  # scipy.stats takes half a second to import
 
 FAMILY_LEVEL = 0.05  # probability that any of the claims gets a wrong verdict by chance
 POWER = 0.95  # with which the deviation that is stated would have been seen
@@ -52,11 +52,11 @@ class Number:
         beyond = max(band.low - self.value, self.value - band.high) - self.systematic
         if not beyond > 0:
             return math.nan if math.isnan(beyond) else 1.0
-        return float(2 * student.sf(beyond / self.error, self.freedom)) if self.error else 0.0
+        return float(2 * stdtr(self.freedom, -beyond / self.error)) if self.error else 0.0
 
     def detectable(self, level: float) -> float:
         """Distance beyond the band that would have been found a contradiction with the probability POWER."""
-        spread = critical(level, self.freedom) + float(student.isf(1 - POWER, self.freedom))
+        spread = critical(level, self.freedom) + critical(2 * (1 - POWER), self.freedom)
         return spread * self.error + self.systematic if self.error else self.systematic
 
 
@@ -145,7 +145,7 @@ def level_of_each(claims: int) -> float:
 
 @cache
 def critical(level: float, freedom: float) -> float:
-    return float(student.isf(level / 2, freedom))
+    return -float(stdtrit(freedom, level / 2))
 
 
 def with_systematic(number: Number, others: Sequence[float]) -> Number:

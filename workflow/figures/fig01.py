@@ -11,7 +11,6 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from scipy.stats import gmean
 
 from workflow.lib import style
 from workflow.lib.caption import BATHS, ERRORS, listed, parameters, replicas
@@ -22,12 +21,16 @@ from workflow.lib.load import Result
 FRONT = {"marker": "o", "color": style.BLACK, "markerfacecolor": "white", **style.POINTS}
 
 
+def geometric_mean(values: pd.Series) -> float:
+    return float(np.exp(np.log(values).mean()))
+
+
 def in_pairs(result: Result, bins: str, quantity: str, axis: str) -> pd.DataFrame:
     """One row per time and two neighbouring bins of the file, whose counts are nearly independent."""
     frame = result[quantity].to_frame()
     pairs = frame.groupby([frame.time, frame.groupby("time").cumcount() // 2])
     joined = pairs[["mean"]].mean()
-    joined["momentum"] = pairs[axis].agg(gmean if bins == "speed" else "mean")
+    joined["momentum"] = pairs[axis].agg(geometric_mean if bins == "speed" else "mean")
     squares = (frame.standard_error**2).groupby(pairs.ngroup()).sum()
     joined["standard_error"] = np.sqrt(squares.to_numpy()) / pairs.size().to_numpy()
     return joined.reset_index().assign(bins=bins)

@@ -162,10 +162,12 @@ def _leads_elsewhere(name: bytes, link: h5py.h5l.LinkInfo) -> str | None:
     return None if link.type == h5py.h5l.TYPE_HARD else name.decode(errors="replace")
 
 
-def _attributes(group: h5py.Group | h5py.Dataset) -> dict[str, Any]:
-    return {
-        name: value.decode() if isinstance(value, bytes) else value for name, value in group.attrs.items()
-    }
+def _attributes(group: h5py.Group) -> dict[str, Any]:
+    return {name: _text(value) for name, value in group.attrs.items()}
+
+
+def _text(value: Any) -> Any:
+    return value.decode() if isinstance(value, bytes) else value
 
 
 def _quantity(group: h5py.Group) -> Quantity:
@@ -174,18 +176,21 @@ def _quantity(group: h5py.Group) -> Quantity:
     axes = axes_of(mean)
     if unknown := group.keys() - {"mean", *names, *axes}:
         raise FormatError(f"{group.name}: {', '.join(sorted(unknown))} belong to no dimension of mean")
-    described = {name: _attributes(group[name]) for name in ("mean", *names, *axes)}
-    units = {name: attributes["units"] for name, attributes in described.items()}
+    stored = {"mean": mean, **{name: group[name] for name in (*names, *axes)}}
+    units, descriptions = (
+        {name: _text(dataset.attrs[attribute]) for name, dataset in stored.items()}
+        for attribute in ("units", "description")
+    )
     for text in units.values():
         parse(text)
-    used = described["mean"].get("control_variates")
+    used = mean.attrs.get("control_variates")
     return Quantity(
         mean[()],
-        **{name: group[name][()] if name in names else None for name in VALUES[1:]},
-        axes={name: group[name][()] for name in axes},
+        **{name: stored[name][()] if name in names else None for name in VALUES[1:]},
+        axes={name: stored[name][()] for name in axes},
         units=units["mean"],
         axis_units={name: units[name] for name in axes},
-        descriptions={name: attributes["description"] for name, attributes in described.items()},
+        descriptions=descriptions,
         control_variates=None if used is None else bool(used),
     )
 

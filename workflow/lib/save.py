@@ -38,7 +38,10 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
         "png": {"Title": text.title, "Software": CREATOR, "Description": described, "Comment": text.caption},
         "svg": {"Title": text.title, "Creator": CREATOR, "Description": described, "Date": None},
     }
-    contents = {kind: _picture(figure, kind, metadata) for kind, metadata in pictures.items()}
+    contents = {}
+    for kind, metadata in pictures.items():
+        contents[kind] = _picture(figure, kind, metadata)
+        figure.set_layout_engine("none")  # that of the first holds for all
     units, numbers = table.split("\n", maxsplit=1)
     contents["csv"] = "\n".join(
         [f"# {text.title}", PARENTS_LINE + described, units, CAPTION_LINE + text.caption, numbers]
