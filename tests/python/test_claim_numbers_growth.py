@@ -119,6 +119,25 @@ def test_conductivity_with_a_finite_limit() -> None:
     assert told(False) == pytest.approx({"0.1": left_over, "0.025": left_over}, abs=0.05)
 
 
+def test_a_start_that_is_not_forgotten_widens_the_bound() -> None:
+    """By half the difference of ln kappa between the cold and the hot start at the largest size that has both, over ln 2."""
+
+    def fill(run: Run, apart: float) -> dict[str, Quantity]:
+        size, start = run.options["cells"], run.options["start"]
+        moved = apart if run.series.startswith("dense") and size == 512 else 0.3 if size == 64 else 0
+        kappa = np.array(100 * (math.exp(moved) if start == "hot" else 1.0))
+        return uneven(run) | {"kappa": quantity(run, "kappa", kappa, 0.01 * kappa)}
+
+    def bounds(apart: float) -> np.ndarray:
+        worlds = {"fig08": conductivities, "ext09": conductivities, "ext12": partial(fill, apart=apart)}
+        evidence = FUNCTIONS["C24"](Known(worlds))
+        return np.array([one.systematic for one in (*evidence.substance, *evidence.other)])
+
+    _, _, dilute, dense = bounds(0.04) - bounds(0.0)  # after fig08 and the spacing 1/N
+    assert dilute == pytest.approx(0)
+    assert dense == pytest.approx(0.02 / math.log(2))
+
+
 @pytest.mark.parametrize("few", [1, 2])
 def test_an_exponent_takes_two_sizes(few: int) -> None:
     """Of ext. 9 that are stationary."""

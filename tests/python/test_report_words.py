@@ -46,6 +46,7 @@ def test_typesetting() -> None:
     assert (
         words.typeset("N^(1/3) at 10^-4 <b>") == "N<sup>1/3</sup> at 10<sup>\N{MINUS SIGN}4</sup> &lt;b&gt;"
     )
+    assert words.typeset("N^0.1922(37) for (2)") == "N<sup>0.1922(37)</sup> for (2)"
     assert words.typeset("T_N - T_1, x-axis, -3") == (
         "T<sub>N</sub> \N{MINUS SIGN} T<sub>1</sub>, x-axis, \N{MINUS SIGN}3"
     )

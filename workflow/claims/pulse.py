@@ -84,7 +84,7 @@ def _way(result: Result, first: int, last: int) -> Number:
     one, two = (number(result, "peak_position", k) for k in ends)
     span = float(np.log(place.axes["time"][ends[1]] / place.axes["time"][ends[0]]))
     error = math.hypot(one.error / one.value, two.error / two.value) / span
-    label = "d ln x_p/d ln t, Gaussian start"
+    label = "d ln x_p/d ln t between the first and the last time, Gaussian start"
     return Number(label, math.log(two.value / one.value) / span, error, one.freedom)
 
 
@@ -116,7 +116,9 @@ def _later(fitted: Quantity) -> list[float]:
 def damping_exponent(data: Data, panel: str) -> Number:
     """Fits that leave out up to half of the times, and the other start, bound the systematic error."""
     result = _pulse(data, panel)
-    found = number(result, "damping_exponent", label="damping exponent, Gaussian start")
+    drifts, _ = fig10.drift(result)
+    label = "damping exponent, Gaussian start" + (", a mean slope" if drifts else "")
+    found = number(result, "damping_exponent", label=label)
     rest = number(_from_rest(data, panel), "damping_exponent")
     return _bounded(found, _later(result["damping_exponent_from"]), rest)
 
@@ -149,8 +151,9 @@ def relation(data: Data) -> Evidence:
         found.append(combination([expected, kappa], [1, -1], f"2 - 1/ξ minus exponent of κ, γ = {gamma}"))
     return Evidence(
         found,
-        caveat="With ξ of the peak, as the paper does; the centre has no constant exponent (ext03). The exponents of κ are those of "
-        f"power laws with χ² of {' and '.join(told)}.",
+        caveat="With ξ of the peak, as the paper does; the centre has no constant exponent (ext03). At γ = N no two of these numbers are "
+        "exponents: both change with the times and sizes over which they are taken, so that the value says nothing by itself. κ is fitted "
+        f"over the largest sizes, with χ² of {' and '.join(told)}.",
     )
 
 

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.caption import CHAIN, ERRORS, GAS, listed, number, parameters, replicas
+from workflow.lib.caption import CHAIN, ERRORS, GAS, goodness, listed, number, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import Line, fit_line, with_error
 from workflow.lib.load import Result
@@ -90,7 +90,7 @@ def caption(longest: Result, trends: dict[str, Line], results: Sequence[Result])
     shown = [f"({letter}) {name}" for letter, name in zip(ascii_lowercase[2:], moving, strict=False)]
     first, last = (style.with_error(longest["decade_slope"], k) for k in (0, -1))
     said = [
-        f"{with_error(trend.slope, trend.error)} of {name}{'' if resolved(trend) else ', which is not resolved'}"
+        f"{with_error(trend.slope, trend.error)} of {name} ({goodness(trend.chi_square, trend.freedom)}){'' if resolved(trend) else ', which is not resolved'}"
         for name, trend in trends.items()
     ]
     return f"""

@@ -14,7 +14,7 @@ from workflow.figures.ext09 import CUBE_ROOT, LOOKS, range_of, spacings, tabulat
 from workflow.lib import style
 from workflow.lib.caption import goodness
 from workflow.lib.figure import run
-from workflow.lib.fit import mean_of
+from workflow.lib.fit import mean_of, rejected
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
@@ -87,14 +87,20 @@ def deviations(table: pd.DataFrame, quantity: str) -> pd.DataFrame:
     return pd.concat(parts, ignore_index=True)
 
 
-def memory(found: Mapping[str, pd.DataFrame]) -> str:
+def memory(found: Mapping[str, pd.DataFrame], spacing: Mapping[str, str]) -> str:
     """Whether the state of the chain knows its start, in words, from the deviations of what describes it."""
-    said = []
+    said, known = [], []
     for quantity, symbol in STATE.items():
         one = found[quantity]
         spread = goodness(one.chi_square.sum(), int(one.freedom.sum()))
         said.append(f"{symbol} {spread}, largest deviation {100 * one.deviation.abs().max():.1f} %")
-    return f"Of the state, likewise: {'; '.join(said)}."
+        known += [
+            f"{symbol} at λ = {spacing[row.gas]}, N = {row.cells} ({goodness(row.chi_square, int(row.freedom))})"
+            for row in one.dropna(subset="chi_square").itertuples()
+            if rejected(row.chi_square, int(row.freedom))
+        ]
+    where = f" Starts are not forgotten by {'; '.join(known)}." if known else ""
+    return f"Of the state, likewise: {'; '.join(said)}.{where}"
 
 
 def scatter(found: pd.DataFrame) -> tuple[float, int]:
@@ -186,7 +192,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         f"{laws(table, spacing)} Below: κ and J_n from several starts relative to the mean over them, δ: in "
         "equilibrium with the mean of the baths (warm), with the colder or the hotter one, and empty; for κ "
         f"{goodness(starts.chi_square.sum(), int(starts.freedom.sum()))}, about a common value at every size, the largest "
-        f"deviation {100 * starts.deviation.abs().max():.1f} %. {memory(found)} Error bars: standard errors over replicas."
+        f"deviation {100 * starts.deviation.abs().max():.1f} %. {memory(found, spacing)} Error bars: standard errors over replicas."
     )
     drawn = [found[name].assign(quantity=name) for name in ("kappa", "particle_current")]
     return figure, pd.concat([slopes, *drawn]), caption

@@ -122,7 +122,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         draw_slopes(below, table, result)
         for axes in (above, below):
             axes.axvspan(*result["plateau"].axes["time"][[0, -1]], **style.WINDOW)
-    rows[1, 0].legend(loc="upper left", handletextpad=0.2)
+    rows[1, 0].legend(loc="lower right", handletextpad=0.2)
     style.letter(*rows.flat)
     return figure, pd.concat(tables), caption(results)
 

@@ -20,6 +20,7 @@ from workflow.lib.fit import rejected, with_error
 from workflow.lib.load import Result
 
 SLOPES = {"N": (-2 / 3, r"$t^{-2/3}$", "2/3"), 1: (-1, r"$t^{-1}$", "1")}  # the paper's guides
+SPAN = 0.12  # of the exponents that are shown on either side of the paper's, at least
 ABOVE = 1.2  # factor by which these lie above the first point
 
 
@@ -99,7 +100,7 @@ def caption(results: Sequence[Result]) -> str:
         Height of the moving peak of the energy difference after a pulse against time, from the runs of fig. 9;
         {parameters(results, *CHAIN, "particles-per-cell", "energy", "pulse-energy")} per degree of freedom, {replicas(results)}. (a) The
         top of a smooth peak fitted to the profile above half of its height, from Gaussian momenta (circles) and from
-        scatterers at rest that have relaxed, as in the paper (squares); faint once the ring has closed. (b) -d ln(peak)/d ln t, fitted over
+        scatterers at rest that have relaxed, as in the paper (squares); faint once the ring has closed. (b) −d ln(peak)/d ln t, fitted over
         octaves of time. Dashed: the paper's {number(slope)}. {ERRORS}. {". ".join(said)}."""
 
 
@@ -117,6 +118,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         law = ABOVE * seen.peak.iloc[0] / 1e3 * (seen.time / seen.time.iloc[0]) ** slope
         above.plot(seen.time, law, **style.GUIDE, label=guide)
     style.guide_at(below, -slope, exponent)
+    low, high = below.get_ylim()
+    below.set_ylim(min(low, -slope - SPAN), max(high, -slope + SPAN))
     above.set(xscale="log", yscale="log", ylabel=rf"peak of $\Delta E\,/\,10^3$ ({style.UNITS})")
     below.set(xlabel="time $t$", ylabel=r"$-d\ln\,\mathrm{peak}/d\ln t$")
     for axis in (above.yaxis, below.xaxis):

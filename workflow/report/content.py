@@ -93,17 +93,18 @@ def answer(judgements: Sequence[Judgement], quality: str) -> list[str]:
     """Five sentences."""
     by_id = {one.claim["id"]: one for one in judgements}
     counts = Counter(one.outcome for one in judgements)
-    listed = ", ".join(f"{counts[outcome]} {outcome.value}" for outcome in Outcome)
+    open_ones = {Outcome.UNDECIDED: _why_open(judgements)}
+    listed = ", ".join(f"{counts[one]} {one.value}{open_ones.get(one, '')}" for one in Outcome)
     against = [
         f"{one.claim['quantity']} ({one.claim['id']}; the paper: {one.claim['paper']})"
         for one in judgements
         if one.outcome is Outcome.CONTRADICTED
     ]
     return [
-        f"Of {len(judgements)} claims, at quality {quality}: {listed}; noise makes one of these verdicts or more wrong with a probability of at most {FAMILY_LEVEL:.0%}, given the bands that this report lets each claim admit.",
+        f"Of {len(judgements)} claims, at quality {quality}: {listed}. The probability that noise makes any verdict wrong is at most {FAMILY_LEVEL:.0%}, given the bands that this report lets each claim admit.",
         f"Contradicted: {'; '.join(against)}." if against else "At this quality no claim is contradicted.",
-        f"Heat: κ ∼ N at γ = 1 is {_said(by_id['C23'])}; κ ∼ N^(1/3) at γ = N is {_both(by_id['C24'])}{_at_fixed_density(by_id['C24'])}.",
-        f"Particles: over the paper's times a tagged particle spreads as it says ({_told(by_id['C18'], 'literal')}, an exponent that still rises), but by the drift of a random total momentum, without which there is diffusion once the chain has relaxed ({_all(by_id['C18'], 'other')}); that only energy is conserved is {by_id['C22'].outcome.value}, as total momentum is too.",
+        f"Heat: κ ∼ N at γ = 1 is {_said(by_id['C23'])}. {_growth(by_id['C24'])}κ ∼ N^(1/3) is {_both(by_id['C24'])}{_at_fixed_density(by_id['C24'])}.",
+        f"Particles: over the paper's times a tagged particle spreads as it says ({_told(by_id['C18'], 'literal')}, an exponent that still rises), but by the drift of a random total momentum, without which there is diffusion ({_relaxed(by_id['C18'])}); that only energy is conserved is {by_id['C22'].outcome.value}, as total momentum is too.",
         f"Kinetic equation: that finite chains tend to it is {_said(by_id['C12'])}; that they differ by less than 0.1 % is {_said(by_id['C10'])} in the printed normalisation, and relative to the largest F {_otherwise(by_id['C10'])}.",
     ]
 
@@ -114,10 +115,30 @@ def _told(judgement: Judgement, reading: str) -> str:
     return words.told(found.worst) if found else "not measured"
 
 
-def _all(judgement: Judgement, reading: str) -> str:
-    """Every number of a reading."""
-    found = getattr(judgement, reading)
-    return words.told_all(found) if found else "not measured"
+def _why_open(judgements: Sequence[Judgement]) -> str:
+    """How many of the open verdicts more replicas would not decide."""
+    readings = [one.deciding for one in judgements if one.outcome is Outcome.UNDECIDED]
+    bounded = sum(one is not None and not words.decidable(one) for one in readings)
+    return f" ({bounded} of these by systematic errors, not by noise)" if bounded else ""
+
+
+def _growth(judgement: Judgement) -> str:
+    """Whether kappa still grows between the largest sizes of ext09 at every spacing."""
+    readings = [one for one in (judgement.substance, judgement.other) if one]
+    last = [
+        (one, reading) for reading in readings for one in reading.numbers if one.label.startswith("ext09")
+    ]
+    if not last or not all(one.interval(reading.share)[0] > 0 for one, reading in last):
+        return "At γ = N "
+    return "At γ = N κ grows with N up to the longest chains at every spacing, as is expected of chains that conserve momentum; "
+
+
+def _relaxed(judgement: Judgement) -> str:
+    """The exponents without drift that are nearest to diffusion and farthest from it."""
+    if not judgement.other:
+        return "not measured"
+    *_, last = numbers = sorted(judgement.other.numbers, key=lambda one: one.value)
+    return f"{words.told(last)}; before the chain has relaxed {words.value(numbers[0])}"
 
 
 def _said(judgement: Judgement) -> str:
@@ -126,8 +147,9 @@ def _said(judgement: Judgement) -> str:
 
 
 def _both(judgement: Judgement) -> str:
-    """With the numbers that decide the words and the substance."""
-    return f"{judgement.outcome.value} ({_told(judgement, 'literal')}; {_told(judgement, 'substance')})"
+    """With the numbers of the words, and the one that decides the substance."""
+    words_by = words.told_all(judgement.literal) if judgement.literal else "not measured"
+    return f"{judgement.outcome.value} ({words_by}; {_told(judgement, 'substance')})"
 
 
 def _otherwise(judgement: Judgement) -> str:
@@ -141,7 +163,7 @@ def _at_fixed_density(judgement: Judgement) -> str:
     if not judgement.other:
         return ""
     return (
-        ", where size and density change together; at fixed density, that the exponent is 1/3 is "
+        " at the paper's spacing, where size and density change together; at fixed density, that the exponent is 1/3 is "
         f"{judgement.other.outcome.value} ({words.told_all(judgement.other)})"
     )
 

@@ -16,10 +16,10 @@ from workflow.report.strip import WIDTH, Strip
 LINE, TOP, BOTTOM = 0.31, 0.32, 0.42  # inches
 UP, DOWN, HALF = 0.2, 0.26, 0.24  # of the two lines of a row, and half the height of a band
 KEY = (
-    "Quality {quality}. Each row has its own scale. Grey: what the claim admits. Points: the numbers that were measured, with intervals "
-    "in which they lie\nwith 95 % for all claims together, systematic errors included; red those that lie outside the grey. Written is the "
-    "number that decides, with its\nname and what is admitted. `In substance`: what the claim means holds, and its words do not, which are "
-    "shown."
+    "Runs of the quality {quality}. Each row has its own scale. Grey: what the claim admits. Points: the numbers that were measured, with "
+    "intervals in which they lie\nwith 95 % for all claims together, systematic errors included; orange diamonds: intervals wholly outside "
+    "the grey. Written is the number that decides,\nwith its name and what is admitted; of what is reproduced in substance, the number that "
+    "decides its words, which are not confirmed."
 )
 COLUMNS = {"quantity": 0.045, "paper": 0.315, "strip": 0.6, "short": 0.72, "verdict": 0.885}  # left ends
 # Characters that the font lacks.
@@ -46,7 +46,11 @@ def draw_strip(axes: Axes, strip: Strip, height: float) -> None:
 
 def typeset(text: str) -> str:
     """Powers after ^, indices after _, minus signs, and what the font lacks, as matplotlib sets them."""
-    text = re.sub(r"\^(?:\(([^)]*)\)|(-?\w+))", lambda found: f"$^{{{found[1] or found[2]}}}$", text)
+    text = re.sub(
+        r"\^(?:\(([^)]*)\)|(-?\d+\.\d+(?:\(\d+\))?|-?\w+))",
+        lambda found: f"$^{{{found[1] or found[2]}}}$",
+        text,
+    )
     text = re.sub(r"_(\w+)", r"$_{\\mathrm{\1}}$", text)
     return re.sub(r"(?<![\w)])-(?=\d)|(?<=\s)-(?=\s)", words.MINUS, text).translate(RAISED | LOWERED)
 

@@ -27,7 +27,11 @@ MINUS = "\N{MINUS SIGN}"
 def typeset(text: str) -> Markup:
     """Powers after ^, indices after _, and minus signs."""
     text = str(escape(text))
-    text = re.sub(r"\^(?:\(([^)]*)\)|(-?\w+))", lambda found: f"<sup>{found[1] or found[2]}</sup>", text)
+    text = re.sub(
+        r"\^(?:\(([^)]*)\)|(-?\d+\.\d+(?:\(\d+\))?|-?\w+))",
+        lambda found: f"<sup>{found[1] or found[2]}</sup>",
+        text,
+    )
     text = re.sub(r"_(\w+)", r"<sub>\1</sub>", text)
     return Markup(re.sub(r"(?<![\w)])-(?=\d)|(?<=\s)-(?=\s)", MINUS, text))
 
@@ -81,9 +85,19 @@ def power(reading: Reading) -> str:
     return f"A deviation of {short(reading.detectable)} beyond the band would have been seen with {POWER:.0%}"
 
 
+def decidable(reading: Reading) -> bool:
+    """Whether more replicas would decide an open reading, if the values stay what they are."""
+    return math.isfinite(_replicas(reading))
+
+
+def _replicas(reading: Reading) -> float:
+    """Factor of them."""
+    return max(map(lambda one: _factor(one, reading), reading.numbers), default=math.inf)
+
+
 def remedy(reading: Reading) -> str:
     """How much more would decide an open reading, if the values stay what they are."""
-    factor = max(map(lambda one: _factor(one, reading), reading.numbers), default=math.inf)
+    factor = _replicas(reading)
     if not math.isfinite(factor):
         return "The systematic error, or a value on the edge of the band, leaves it open: more replicas alone do not decide"
     return f"About {max(2, math.ceil(factor))} times the replicas would decide, if the values stay"

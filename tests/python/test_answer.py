@@ -1,0 +1,52 @@
+"""The first sentences of the report follow from the judgements."""
+
+from collections.abc import Sequence
+
+from workflow.claims.judge import Judgement
+from workflow.claims.verdict import Band, Number, Outcome, Reading
+from workflow.report.content import answer
+
+LEVEL = 0.001
+
+
+def reading(*numbers: Number, low: float = -0.1, high: float = 0.1) -> Reading:
+    return Reading(Band(low, high), numbers, LEVEL)
+
+
+def judgement(claim: str, outcome: Outcome = Outcome.REPRODUCED, **readings: Reading) -> Judgement:
+    given = {"literal": reading(Number("found", 0.0, 0.001))} | readings
+    return Judgement({"id": claim, "quantity": "q", "paper": "p"}, outcome, **given)
+
+
+def told(*others: Judgement) -> Sequence[str]:
+    """Answer with what is given in place of claims that are reproduced."""
+    given = {one.claim["id"]: one for one in others}
+    ids = sorted({"C10", "C12", "C18", "C22", "C23", "C24", *given})
+    return answer([given.get(claim) or judgement(claim) for claim in ids], "paper")
+
+
+def test_open_verdicts_are_told_by_what_leaves_them_open() -> None:
+    noisy = judgement("C01", Outcome.UNDECIDED, literal=reading(Number("a", 0.05, 0.1)))
+    bounded = judgement("C02", Outcome.UNDECIDED, literal=reading(Number("b", 0.05, 0.001, systematic=0.2)))
+    first = told(noisy, bounded)[0]
+    assert "2 undecided at this precision (1 of these by systematic errors, not by noise)" in first
+    assert "by systematic errors" not in told(noisy)[0]
+
+
+def test_growth_is_told_if_every_spacing_shows_it() -> None:
+    def heat(value: float) -> str:
+        last = [
+            Number(f"ext09, spacing {name}", number, 0.01) for name, number in (("1/N", 0.2), ("0.1", value))
+        ]
+        return told(judgement("C24", substance=reading(last[0]), other=reading(last[1])))[2]
+
+    assert "κ grows with N up to the longest chains" in heat(0.2)
+    assert "κ grows with N up to the longest chains" not in heat(0.02)  # two errors above 0
+
+
+def test_diffusion_is_told_with_the_relaxed_chain_first() -> None:
+    other = reading(Number("t_r = 10", 0.94, 0.003), Number("t_r = 1000", 0.995, 0.003))
+    assert (
+        "t_r = 1000: 0.9950(30); before the chain has relaxed 0.9400(30)"
+        in told(judgement("C18", other=other))[3]
+    )
