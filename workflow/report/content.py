@@ -3,7 +3,6 @@
 import base64
 import json
 import re
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -12,7 +11,6 @@ import yaml
 
 from workflow.claims.data import Data, MissingError
 from workflow.claims.judge import Judgement
-from workflow.claims.verdict import FAMILY_LEVEL, Outcome
 from workflow.lib import style
 from workflow.lib.parents import caption_of
 from workflow.lib.plan import Panel, Quality, drawings_of
@@ -87,85 +85,6 @@ def _width(svg: Path) -> float:
     """Of a drawing, in inches."""
     found = re.search(r'<svg [^>]*width="([0-9.]+)pt"', svg.read_text())
     return float(found[1]) / 72 if found else 0.0
-
-
-def answer(judgements: Sequence[Judgement], quality: str) -> list[str]:
-    """Five sentences."""
-    by_id = {one.claim["id"]: one for one in judgements}
-    counts = Counter(one.outcome for one in judgements)
-    open_ones = {Outcome.UNDECIDED: _why_open(judgements)}
-    listed = ", ".join(f"{counts[one]} {one.value}{open_ones.get(one, '')}" for one in Outcome)
-    against = [
-        f"{one.claim['quantity']} ({one.claim['id']}; the paper: {one.claim['paper']})"
-        for one in judgements
-        if one.outcome is Outcome.CONTRADICTED
-    ]
-    return [
-        f"Of {len(judgements)} claims, at quality {quality}: {listed}. The probability that noise makes any verdict wrong is at most {FAMILY_LEVEL:.0%}, given the bands that this report lets each claim admit.",
-        f"Contradicted: {'; '.join(against)}." if against else "At this quality no claim is contradicted.",
-        f"Heat: κ ∼ N at γ = 1 is {_said(by_id['C23'])}. {_growth(by_id['C24'])}κ ∼ N^(1/3) is {_both(by_id['C24'])}{_at_fixed_density(by_id['C24'])}.",
-        f"Particles: over the paper's times a tagged particle spreads as it says ({_told(by_id['C18'], 'literal')}, an exponent that still rises), but by the drift of a random total momentum, without which there is diffusion ({_relaxed(by_id['C18'])}); that only energy is conserved is {by_id['C22'].outcome.value}, as total momentum is too.",
-        f"Kinetic equation: that finite chains tend to it is {_said(by_id['C12'])}; that they differ by less than 0.1 % is {_said(by_id['C10'])} in the printed normalisation, and relative to the largest F {_otherwise(by_id['C10'])}.",
-    ]
-
-
-def _told(judgement: Judgement, reading: str) -> str:
-    """The number that decides a reading."""
-    found = getattr(judgement, reading)
-    return words.told(found.worst) if found else "not measured"
-
-
-def _why_open(judgements: Sequence[Judgement]) -> str:
-    """How many of the open verdicts more replicas would not decide."""
-    readings = [one.deciding for one in judgements if one.outcome is Outcome.UNDECIDED]
-    bounded = sum(one is not None and not words.decidable(one) for one in readings)
-    return f" ({bounded} of these by systematic errors, not by noise)" if bounded else ""
-
-
-def _growth(judgement: Judgement) -> str:
-    """Whether kappa still grows between the largest sizes of ext09 at every spacing."""
-    readings = [one for one in (judgement.substance, judgement.other) if one]
-    last = [
-        (one, reading) for reading in readings for one in reading.numbers if one.label.startswith("ext09")
-    ]
-    if not last or not all(one.interval(reading.share)[0] > 0 for one, reading in last):
-        return "At γ = N "
-    return "At γ = N κ grows with N up to the longest chains at every spacing, as is expected of chains that conserve momentum; "
-
-
-def _relaxed(judgement: Judgement) -> str:
-    """The exponents without drift that are nearest to diffusion and farthest from it."""
-    if not judgement.other:
-        return "not measured"
-    *_, last = numbers = sorted(judgement.other.numbers, key=lambda one: one.value)
-    return f"{words.told(last)}; before the chain has relaxed {words.value(numbers[0])}"
-
-
-def _said(judgement: Judgement) -> str:
-    reading = judgement.deciding
-    return f"{judgement.outcome.value} ({words.told(reading.worst)})" if reading else judgement.outcome.value
-
-
-def _both(judgement: Judgement) -> str:
-    """With the numbers of the words, and the one that decides the substance."""
-    words_by = words.told_all(judgement.literal) if judgement.literal else "not measured"
-    return f"{judgement.outcome.value} ({words_by}; {_told(judgement, 'substance')})"
-
-
-def _otherwise(judgement: Judgement) -> str:
-    """In the reading that does not count."""
-    other = judgement.other
-    return f"{other.outcome.value} ({words.told(other.worst)})" if other else "not measured"
-
-
-def _at_fixed_density(judgement: Judgement) -> str:
-    """What heat does in the thermodynamic limit, where it has been measured."""
-    if not judgement.other:
-        return ""
-    return (
-        " at the paper's spacing, where size and density change together; at fixed density, that the exponent is 1/3 is "
-        f"{judgement.other.outcome.value} ({words.told_all(judgement.other)})"
-    )
 
 
 def findings(judgements: Sequence[Judgement]) -> list[dict[str, Any]]:

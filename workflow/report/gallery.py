@@ -10,7 +10,7 @@ import io
 import json
 import re
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -28,6 +28,7 @@ from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance.repository import ROOT
 from workflow.provenance.status import GALLERY
 from workflow.report import content, summary
+from workflow.report.answer import Sentence, answer
 from workflow.report.sources import Products, ReportError, source_hashes
 
 README = "README.md"
@@ -75,9 +76,11 @@ def picture_of_summary(claims: list[dict[str, Any]], parents: dict[str, Any]) ->
     return picture.getvalue()
 
 
-def written(answer: list[str]) -> str:
-    sentences = "\n".join(f"{number}. {text}" for number, text in enumerate(answer, 1))
-    return f"\n{sentences}\n\n"
+def written(sentences: Sequence[Sentence]) -> str:
+    lines = []
+    for place, (text, numbers) in enumerate(sentences, 1):
+        lines += [f"{place}. {text}", *(f"   - {number}" for number in numbers)]
+    return "\n".join(["", *lines, "", ""])
 
 
 def gallery(quality: str, root: Path = ROOT) -> list[str]:
@@ -110,7 +113,7 @@ def gallery(quality: str, root: Path = ROOT) -> list[str]:
         f"# Gallery\n\nMade by `make gallery`.\n\n![Verdicts on the claims, quality {quality}](summary.png)\n"
     )
     files[folder / "README.md"] = "\n".join([head, *lines]).encode()
-    text = written(content.answer(judgements, quality))
+    text = written(answer(judgements, quality))
     files[root / README] = BLOCK.sub(lambda _: text, readme).encode()
     folder.mkdir(parents=True, exist_ok=True)
     write_together(files)

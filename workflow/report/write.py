@@ -17,6 +17,7 @@ from workflow.lib.plan import Quality
 from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance.repository import ROOT
 from workflow.report import content, words
+from workflow.report.answer import answer
 from workflow.report.sources import Costs, Products, ReportError, measured_costs, parents_in, source_hashes
 
 NAMES = ("report.html", "report.md")
@@ -31,7 +32,7 @@ def pages(quality: str, costs: Costs | None = None, root: Path = ROOT) -> dict[s
     context = {
         "quality": quality,
         "effort": content.effort(Quality.of(quality)),
-        "answer": content.answer(judgements, quality),
+        "answer": answer(judgements, quality),
         "claims": [content.claim(one, costs) for one in judgements],
         "findings": content.findings(judgements),
         "misprints": content.misprints(judgements, data),

@@ -1,0 +1,118 @@
+"""The answer in five sentences, each with the numbers that it rests on."""
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
+
+from workflow.claims.judge import Judgement
+from workflow.claims.verdict import FAMILY_LEVEL, Outcome, Reading
+from workflow.report import words
+
+Claims = Mapping[str, Judgement]  # by id
+NOT_MEASURED = "not measured"
+
+
+class Sentence(NamedTuple):
+    text: str
+    numbers: Sequence[str] = ()
+
+
+def answer(judgements: Sequence[Judgement], quality: str) -> list[Sentence]:
+    claims = {one.claim["id"]: one for one in judgements}
+    return [
+        verdicts(judgements, quality),
+        contradictions(judgements),
+        heat(claims),
+        particles(claims),
+        kinetic(claims),
+    ]
+
+
+def verdicts(judgements: Sequence[Judgement], quality: str) -> Sentence:
+    counts = Counter(one.outcome for one in judgements)
+    remark = {Outcome.UNDECIDED: _left_open(judgements)}
+    listed = ", ".join(f"{counts[one]} {one.value}{remark.get(one, '')}" for one in Outcome)
+    return Sentence(
+        f"Of {len(judgements)} claims, at quality {quality}: {listed}. The probability that noise makes any verdict wrong is at "
+        f"most {FAMILY_LEVEL:.0%}, given the bands that this report lets each claim admit."
+    )
+
+
+def _left_open(judgements: Iterable[Judgement]) -> str:
+    """How many of the open verdicts more replicas would not decide."""
+    readings = [one.deciding for one in judgements if one.outcome is Outcome.UNDECIDED]
+    bounded = sum(one is not None and not words.decidable(one) for one in readings)
+    return f" ({bounded} of these by systematic errors, not by noise)" if bounded else ""
+
+
+def contradictions(judgements: Iterable[Judgement]) -> Sentence:
+    against = [one.claim for one in judgements if one.outcome is Outcome.CONTRADICTED]
+    listed = [f"{one['quantity']} ({one['id']}; the paper: {one['paper']})" for one in against]
+    text = f"Contradicted: {'; '.join(listed)}." if listed else "At this quality no claim is contradicted."
+    return Sentence(text)
+
+
+def heat(claims: Claims) -> Sentence:
+    rare, deterministic = claims["C23"], claims["C24"]
+    fixed = deterministic.other
+    at_fixed = f", and {fixed.outcome.value} at fixed density" if fixed else ""
+    return Sentence(
+        f"Heat: κ ∼ N at γ = 1 is {rare.outcome.value}. At γ = N {_growth(deterministic)}κ ∼ N^(1/3) is "
+        f"{deterministic.outcome.value} at the paper's spacing 1/N, where size and density change together{at_fixed}.",
+        [
+            _worst(rare.deciding),
+            f"spacing 1/N: {'; '.join([_all(deterministic.literal), _worst(deterministic.substance)])}",
+            *([f"fixed density: {_all(fixed)}"] if fixed else []),
+        ],
+    )
+
+
+def _growth(judgement: Judgement) -> str:
+    """Whether kappa still grows between the largest sizes of ext09 at every spacing."""
+    readings = [one for one in (judgement.substance, judgement.other) if one]
+    lowest = [
+        one.interval(reading.share)[0]
+        for reading in readings
+        for one in reading.numbers
+        if one.label.startswith("ext09")
+    ]
+    if not lowest or min(lowest) <= 0:
+        return ""
+    return "κ grows with N up to the longest chains at every spacing, as is expected of chains that conserve momentum; "
+
+
+def particles(claims: Claims) -> Sentence:
+    spreading, conserved = claims["C18"], claims["C22"]
+    return Sentence(
+        "Particles: over the paper's times a tagged particle spreads as it says, with an exponent that still rises, but by the "
+        "drift of a random total momentum, without which there is diffusion; that only energy is conserved is "
+        f"{conserved.outcome.value}, as total momentum is too.",
+        [_worst(spreading.literal), _relaxed(spreading.other)],
+    )
+
+
+def _relaxed(reading: Reading | None) -> str:
+    """The exponents without drift that are nearest to diffusion and farthest from it."""
+    if not reading:
+        return NOT_MEASURED
+    *_, last = numbers = sorted(reading.numbers, key=lambda one: one.value)
+    return f"{words.told(last)}; before the chain has relaxed {words.value(numbers[0])}"
+
+
+def kinetic(claims: Claims) -> Sentence:
+    limit, small = claims["C12"], claims["C10"]
+    relative = small.other.outcome.value if small.other else NOT_MEASURED
+    return Sentence(
+        f"Kinetic equation: that finite chains tend to it is {limit.outcome.value}; that they differ by less than 0.1 % is "
+        f"{small.outcome.value} in the printed normalisation, and relative to the largest F {relative}.",
+        [_worst(limit.deciding), _worst(small.deciding), _worst(small.other)],
+    )
+
+
+def _worst(reading: Reading | None) -> str:
+    """The number that decides."""
+    return words.told(reading.worst) if reading else NOT_MEASURED
+
+
+def _all(reading: Reading | None) -> str:
+    return words.told_all(reading) if reading else NOT_MEASURED
