@@ -1,6 +1,5 @@
 """The summary in one picture: every claim with what it admits, what was measured and the verdict."""
 
-import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -45,14 +44,9 @@ def draw_strip(axes: Axes, strip: Strip, height: float) -> None:
 
 
 def typeset(text: str) -> str:
-    """Powers after ^, indices after _, minus signs, and what the font lacks, as matplotlib sets them."""
-    text = re.sub(
-        r"\^(?:\(([^)]*)\)|(-?\d+\.\d+(?:\(\d+\))?|-?\w+))",
-        lambda found: f"$^{{{found[1] or found[2]}}}$",
-        text,
-    )
-    text = re.sub(r"_(\w+)", r"$_{\\mathrm{\1}}$", text)
-    return re.sub(r"(?<![\w)])-(?=\d)|(?<=\s)-(?=\s)", words.MINUS, text).translate(RAISED | LOWERED)
+    """As matplotlib sets it, with what the font lacks."""
+    set_so = words.set_mathematics(text, "$^{{{}}}$", r"$_{{\mathrm{{{}}}}}$")
+    return set_so.translate(RAISED | LOWERED)
 
 
 def draw(claims: Sequence[Mapping[str, Any]], quality: str) -> Figure:

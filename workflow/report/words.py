@@ -24,16 +24,17 @@ BOUND = " ± "
 MINUS = "\N{MINUS SIGN}"
 
 
+def set_mathematics(text: str, raised: str, lowered: str) -> str:
+    """Powers after ^ and indices after _, in these forms, and minus signs."""
+    power = r"\^(?:\(([^)]*)\)|(-?\d+\.\d+(?:\(\d+\))?|-?\w+))"
+    text = re.sub(power, lambda found: raised.format(found[1] or found[2]), text)
+    text = re.sub(r"_(\w+)", lambda found: lowered.format(found[1]), text)
+    return re.sub(r"(?<![\w)])-(?=\d)|(?<=\s)-(?=\s)", MINUS, text)
+
+
 def typeset(text: str) -> Markup:
-    """Powers after ^, indices after _, and minus signs."""
-    text = str(escape(text))
-    text = re.sub(
-        r"\^(?:\(([^)]*)\)|(-?\d+\.\d+(?:\(\d+\))?|-?\w+))",
-        lambda found: f"<sup>{found[1] or found[2]}</sup>",
-        text,
-    )
-    text = re.sub(r"_(\w+)", r"<sub>\1</sub>", text)
-    return Markup(re.sub(r"(?<![\w)])-(?=\d)|(?<=\s)-(?=\s)", MINUS, text))
+    """As HTML."""
+    return Markup(set_mathematics(str(escape(text)), "<sup>{}</sup>", "<sub>{}</sub>"))
 
 
 def value(number: Number) -> str:
