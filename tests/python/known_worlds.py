@@ -70,6 +70,11 @@ def rates(deviation: float) -> World:
     return profile(rate_right=200, **dict.fromkeys(names, deviation))
 
 
+def jumping(height: float) -> World:
+    """A flux of 10 that changes by so much at p = 0."""
+    return {"fig04b": {"jump": height, "flux": lambda _, place, p: 10 + height * (p > 0)}}
+
+
 def halves(paper: float, exchange: float = 3.07, equal: float = 3.0, jump: float = 4) -> World:
     kurtosis = {"paper": paper, "exchange": exchange, "equal": equal}
     return {"fig03": {"flux_density": 10, "jump": jump, "kurtosis": lambda run, *_: kurtosis[run.name]}}
