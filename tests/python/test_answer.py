@@ -44,6 +44,14 @@ def test_growth_is_told_if_every_spacing_shows_it() -> None:
     assert "κ grows with N up to the longest chains" not in heat(0.02)  # two errors above 0
 
 
+def test_the_kinetic_equation_is_told_for_both_couplings() -> None:
+    far = reading(Number("γ = N, F_30", 0.2, 0.001))
+    *_, (text, numbers) = told(judgement("C12", other=far))
+    assert "that finite chains tend to it is reproduced" in text
+    assert text.endswith("That at γ = N, too, a chain is within 1 % of it is contradicted.")
+    assert numbers[-1] == "γ = N, F_30: 0.2000(10)"
+
+
 def test_diffusion_is_told_with_the_relaxed_chain_first() -> None:
     other = reading(Number("t_r = 10", 0.94, 0.003), Number("t_r = 1000", 0.995, 0.003))
     *_, without_drift = told(judgement("C18", other=other))[3].numbers

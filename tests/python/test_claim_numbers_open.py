@@ -238,6 +238,17 @@ def test_flux_and_jumps_within() -> None:
         freedom=511,
     )
 
+    flux, error = of("fig04b", "deterministic", "flux")
+    theory = DATA.one("fig04b", "mean-field")["flux"]
+    near = [np.abs(theory.axes["x"] - place).argmin() for place in (1 / 30, 1)]
+    value, largest = flux[[1, -1], seen] - theory.mean[near, seen], theory.mean.max()
+    check(
+        FUNCTIONS["C12"](DATA).other,
+        value.ravel() / largest,
+        error[[1, -1], seen].ravel() / largest,
+        freedom=191,
+    )
+
     (deterministic, d_error), (rare, r_error) = (
         of(f"fig04{panel}", run, "jump") for panel, run in (("b", "deterministic"), ("a", "rare"))
     )

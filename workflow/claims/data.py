@@ -67,10 +67,10 @@ class Data:
         return path, self.loaded[path]
 
 
-def where_made(find: Callable[[], Number]) -> list[Number]:
+def where_made(find: Callable[[], Sequence[Number]]) -> Sequence[Number]:
     """For a reading that does not count: empty where a result is missing."""
     try:
-        return [find()]
+        return find()
     except MissingError:
         return []
 

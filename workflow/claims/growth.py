@@ -148,7 +148,7 @@ def cube_root(data: Data) -> Evidence:
         [exponent(part, "d ln κ/d ln N, γ = N")[0] for part in halves(runs)],
         [one for name, one in last.items() if name not in FIXED],
         [
-            *where_made(lambda: without_particle_current(data)),
+            *where_made(lambda: [without_particle_current(data)]),
             *(one for name, one in last.items() if name in FIXED),
         ],
         caveat=f"Over all sizes {_fit(law)} Between the largest sizes: {told}. At spacing 1/N the gas thins out as N grows, so that size and density change together.{laws(data)}",

@@ -70,7 +70,7 @@ def ballistic(data: Data) -> Evidence:
     others = [_way(result, first, last).value for first, last in ((1, -1), (2, -1), (0, -2))]
     rest = _way(other, 0, -1)
     found = _bounded(_way(result, 0, -1), others, rest)
-    told = f"From the start at rest it is {with_error(rest.value, rest.error)}."
+    told = f"From the start at rest, the paper's, it is {with_error(rest.value, rest.error)}, which the systematic bound covers."
     return Evidence([found], [found], caveat=f"{_speeds(result)} {told}")
 
 
@@ -93,7 +93,7 @@ def damping(data: Data) -> Evidence:
     return Evidence(
         [found],
         [found],
-        where_made(lambda: _sound(data)),
+        where_made(lambda: [_sound(data)]),
         caveat=_other_fits(data, "fig09a"),
     )
 
@@ -131,7 +131,7 @@ def _other_fits(data: Data, panel: str) -> str:
     rest = number(_from_rest(data, panel), "damping_exponent")
     return (
         f"{'No power of t describes' if drifts else 'A power of t describes'} the height: its exponent {change}. Fitted from "
-        f"t = {fitted.axes['from'][half]:g} on it is {_at(fitted, half)}; from the start at rest {with_error(rest.value, rest.error)}."
+        f"t = {fitted.axes['from'][half]:g} on it is {_at(fitted, half)}; from the start at rest, the paper's, {with_error(rest.value, rest.error)}: the systematic bound covers both."
     )
 
 

@@ -168,7 +168,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         f"({parameters(results, *BATHS)}) that press equally hard, {replicas(results)}, started near the stationary profile, {parameters(results, *WINDOW)}: the "
         "largest chains at fixed spacing relax for less than a wrong profile would take, so that they rest on the start (ext. 12 "
         "compares starts and drives). At the spacing 1/N the gas thins out as the chain grows; at fixed spacings the "
-        "number of particles per cell is the same for every N. (a) Logarithmic axes. (b) Against the cube root of N: "
+        "number of particles per cell is the same for every N, but for slow ones, which gather as ln t. (a) Logarithmic axes. (b) Against the cube root of N: "
         "a straight line is growth as N^(1/3) beside a constant. Lines: each law over the sizes for which it is not "
         f"rejected at {LEVEL:.0%}, with two degrees of freedom or more. {' '.join(sentences)} Error bars: standard errors over replicas."
     )

@@ -13,6 +13,7 @@ from workflow.lib.figure import run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
+ROUNDING = 1e-9  # relative, of times on a logarithmic grid
 GUIDED = 100  # the guide spans so much of the times
 ABOVE = 4  # factor by which the guide lies above the last point
 
@@ -34,7 +35,7 @@ def tabulate(result: Result) -> pd.DataFrame:
 
 def caption(table: pd.DataFrame, result: Result, window: tuple[float, float]) -> str:
     last = table.iloc[-1]
-    fitted = table[(table.time >= window[0]) & table.slope_to_next.notna()].iloc[[0, -1]]
+    fitted = table[(table.time > window[0] * (1 - ROUNDING)) & table.slope_to_next.notna()].iloc[[0, -1]]
     slopes = [with_error(one.slope_to_next, one.slope_to_next_error) for one in fitted.itertuples()]
     return f"""
         Mean square displacement of a tagged particle (circles) and of the centre of mass of all particles (squares) in a closed chain,

@@ -57,7 +57,7 @@ def heat(claims: Claims) -> Sentence:
     fixed = deterministic.other
     at_fixed = f", and {fixed.outcome.value} at fixed density" if fixed else ""
     return Sentence(
-        f"Heat: κ ∼ N at γ = 1 is {rare.outcome.value}. At γ = N {_growth(deterministic)}κ ∼ N^(1/3) is "
+        f"Heat: κ ∼ N at γ = 1 is {rare.outcome.value}. At γ = N, where every scatterer scatters, {_growth(deterministic)}κ ∼ N^(1/3) is "
         f"{deterministic.outcome.value} at the paper's spacing 1/N, where size and density change together{at_fixed}.",
         [
             _worst(rare.deciding),
@@ -85,7 +85,7 @@ def particles(claims: Claims) -> Sentence:
     spreading, conserved = claims["C18"], claims["C22"]
     return Sentence(
         "Particles: over the paper's times a tagged particle spreads as it says, with an exponent that still rises, but by the "
-        "drift of a random total momentum, without which there is diffusion; that only energy is conserved is "
+        "drift of a random total momentum, without which there is diffusion in the paper's ring of few cells; that only energy is conserved is "
         f"{conserved.outcome.value}, as total momentum is too.",
         [_worst(spreading.literal), _relaxed(spreading.other)],
     )
@@ -101,11 +101,14 @@ def _relaxed(reading: Reading | None) -> str:
 
 def kinetic(claims: Claims) -> Sentence:
     limit, small = claims["C12"], claims["C10"]
-    relative = small.other.outcome.value if small.other else NOT_MEASURED
+    relative, deterministic = (
+        one.other.outcome.value if one.other else NOT_MEASURED for one in (small, limit)
+    )
     return Sentence(
-        f"Kinetic equation: that finite chains tend to it is {limit.outcome.value}; that they differ by less than 0.1 % is "
-        f"{small.outcome.value} in the printed normalisation, and relative to the largest F {relative}.",
-        [_worst(limit.deciding), _worst(small.deciding), _worst(small.other)],
+        "Kinetic equation: at γ = 1, where a particle scatters about once on its way, that finite chains tend to it is "
+        f"{limit.outcome.value}, and that they differ by less than 0.1 % is {small.outcome.value} in the printed normalisation, and "
+        f"relative to the largest F {relative}. That at γ = N, too, a chain is within 1 % of it is {deterministic}.",
+        [_worst(one) for one in (limit.deciding, small.deciding, small.other, limit.other)],
     )
 
 
