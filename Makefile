@@ -66,6 +66,8 @@ override FAULT := $(if $(GIVEN),$(shell $(CHECK)))
 $(if $(FAULT),$(error $(FAULT)))
 $(if $(and $(GIVEN),$(filter-out 0,$(.SHELLSTATUS))),$(error the arguments cannot be checked: python3 is needed))
 
+$(if $(filter panel,$(MAKECMDGOALS)),$(if $(PANEL),,$(error make panel: PANEL is missing; try make panel PANEL=fig05)))
+
 # Who may not write here is told so before anything is tried, and in which folders compiler and Snakemake do not work.
 WRITING := $(filter-out help audit verify provenance status,$(MAKECMDGOALS))
 override hash := \#
@@ -110,7 +112,6 @@ figures: build runtime  ## Build, simulate and draw every figure into figures/QU
 	echo Figures are in figures/$(EFFORT)
 
 panel: build runtime  ## The same for one panel, PANEL=fig05; FRESH=yes simulates it anew
-	$(if $(PANEL),,echo 'make panel: PANEL is missing; try make panel PANEL=fig05'; exit 2)
 	$(SNAKEMAKE) --logger progress -- panel
 	$(if $(COMPARE),$(COMPARE) $(ONLY_PANEL))
 	echo The panel is figures/$(EFFORT)/$(PANEL).pdf, .png, .svg and .csv

@@ -119,23 +119,44 @@ def test_conductivity_with_a_finite_limit() -> None:
     assert told(False) == pytest.approx({"0.1": left_over, "0.025": left_over}, abs=0.05)
 
 
-def test_a_start_that_is_not_forgotten_widens_the_bound() -> None:
-    """By half the difference of ln kappa between the cold and the hot start at the largest size that has both, over ln 2."""
+@pytest.mark.parametrize("apart", [0.04, -0.04])
+def test_a_start_that_is_not_forgotten_widens_the_bound(apart: float) -> None:
+    """By half the difference of ln kappa between the cold and the hot start at the largest size that has them, over ln 2."""
 
-    def fill(run: Run, apart: float) -> dict[str, Quantity]:
+    def fill(run: Run) -> dict[str, Quantity]:
         size, start = run.options["cells"], run.options["start"]
         moved = apart if run.series.startswith("dense") and size == 512 else 0.3 if size == 64 else 0
         kappa = np.array(100 * (math.exp(moved) if start == "hot" else 1.0))
         return uneven(run) | {"kappa": quantity(run, "kappa", kappa, 0.01 * kappa)}
 
-    def bounds(apart: float) -> np.ndarray:
-        worlds = {"fig08": conductivities, "ext09": conductivities, "ext12": partial(fill, apart=apart)}
-        evidence = FUNCTIONS["C24"](Known(worlds))
-        return np.array([one.systematic for one in (*evidence.substance, *evidence.other)])
+    def bounds(**worlds: Callable[[Run], dict[str, Quantity]]) -> dict[str, float]:
+        evidence = FUNCTIONS["C24"](Known({"fig08": conductivities, "ext09": conductivities, **worlds}))
+        return {one.label: one.systematic for one in (*evidence.substance, *evidence.other)}
 
-    _, _, dilute, dense = bounds(0.04) - bounds(0.0)  # after fig08 and the spacing 1/N
-    assert dilute == pytest.approx(0)
-    assert dense == pytest.approx(0.02 / math.log(2))
+    widened, plain = bounds(ext12=fill), bounds()
+    assert {label.partition(", N = ")[0]: widened[label] - plain[label] for label in plain} == pytest.approx({
+        "fig08": 0,
+        "ext09, stronger drive, spacing 1/N": 0,
+        "ext09, stronger drive, spacing 0.025": 0,
+        "ext09, stronger drive, spacing 0.1": 0.02 / math.log(2),
+    })  # fmt: skip
+
+
+def test_an_exponent_is_called_a_mean_slope_where_the_law_is_rejected() -> None:
+    """With errors of a hundredth: of kappa ~ N where every size follows it, and where one is three times as large."""
+
+    def labels(odd: int) -> list[str]:
+        def fill(run: Run) -> dict[str, Quantity]:
+            size = run.options["cells"]
+            kappa = np.array(float(size * (3 if size == odd else 1)))
+            still = quantity(run, "stationary", np.array(1.0), None)
+            return uneven(run) | {"kappa": quantity(run, "kappa", kappa, 0.01 * kappa), "stationary": still}
+
+        return [one.label for one in FUNCTIONS["C23"](Known({"fig08": fill})).literal]
+
+    (straight,), (bent,) = labels(0), labels(512)
+    assert "mean slope" not in straight
+    assert bent.startswith(f"{straight}, a mean slope (χ² = ")
 
 
 @pytest.mark.parametrize("few", [1, 2])

@@ -72,7 +72,8 @@ def running(job: str) -> Running:
 
 def begun() -> Display:
     display = Display()
-    display.begin(3, Remaining({"fig05/a": 1.0, "fig05/b": 1.0, "fig05": 1.0}, cores=1))
+    costs = {"fig05/a": 1.0, "fig05/b": 1.0, "fig05": 1.0}
+    display.begin(costs, Remaining(costs, cores=1))
     return display
 
 
@@ -86,6 +87,15 @@ def test_in_a_pipe_there_is_a_line_per_panel(capsys: pytest.CaptureFixture) -> N
         "fig05: drawn from 2 runs, 3 of 3 done",
         "fig05/b: not stationary: marked in the figure",
     ]
+
+
+def test_a_job_that_was_not_foretold_counts(capsys: pytest.CaptureFixture) -> None:
+    display = begun()
+    for job in ("fig05/a", "fig05/b", "fig06/a", "fig06/a", "fig05"):  # one of them twice
+        display.start(running(job))
+        display.finish_run(running(job), Outcome(""))
+    display.finish_panel(running("fig06"), 1)
+    assert capsys.readouterr().out == "fig06: drawn from 1 run, 5 of 5 done\n"
 
 
 def test_a_failure_is_shown_with_the_end_of_its_log(capsys: pytest.CaptureFixture) -> None:

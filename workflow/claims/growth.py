@@ -87,18 +87,15 @@ def last_exponents(data: Data) -> dict[str, Number]:
 
 
 def memory_of_start(data: Data, series: str) -> float:
-    """Half the difference of ln kappa between a cold and a hot start (ext. 12), at the largest size that has both, over ln 2: what it
-    would change an exponent by if only one of two sizes, a factor of two apart, had it."""
+    """Half the difference of ln kappa between a cold and a hot start (ext. 12), at the largest size that has them, over ln 2: what it
+    would change an exponent by if only one of two sizes, a factor of two apart, had it. 0 where no start was varied."""
     try:
         runs = [one for one in data.of("ext12") if one.path.stem.startswith(f"{series}-start")]
     except MissingError:
         return 0.0
-    starts = {(one.parameters["cells"], one.parameters["start"]): _kappa(one).value for one in runs}
-    both = [cells for cells, start in starts if start == "cold" and (cells, "hot") in starts]
-    if not both:
-        return 0.0
-    cold, hot = (starts[max(both), start] for start in ("cold", "hot"))
-    return abs(math.log(hot / cold)) / 2 / math.log(2)
+    largest = max((one.parameters["cells"] for one in runs), default=0)
+    kappa = {one.parameters["start"]: _kappa(one).value for one in runs if one.parameters["cells"] == largest}
+    return abs(math.log(kappa["hot"] / kappa["cold"])) / 2 / math.log(2) if kappa else 0.0
 
 
 def _stationary(runs: Sequence[Result]) -> list[Result]:

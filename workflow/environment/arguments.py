@@ -79,10 +79,25 @@ def fault(argument: str) -> str | None:
         return f"{name!r} is not an argument of this Makefile: {known}"
     pattern, admitted, example = ADMITTED[name]
     if re.fullmatch(pattern, value):
-        return missing_profile(value) if name == "PROFILE" else None
+        return {"PROFILE": missing_profile, "PANEL": unknown_panel}.get(name, lambda _: None)(value)
     near = difflib.get_close_matches(value.lower(), QUALITIES, 1) if name == "QUALITY" else []
     suggested = f"QUALITY={near[0]}" if near else example
     return f"{name}={value!r} cannot be used: it must be {admitted}; try {suggested}"
+
+
+def unknown_panel(value: str) -> str | None:
+    """By the names that stand in the configuration, which is read as YAML once that can be done, and then judges."""
+    try:
+        text = Path("workflow/config/paper.yaml").read_text("utf-8").partition("\npanels:")[2]
+    except (OSError, UnicodeError):
+        return None
+    known = re.findall(r"^  ([A-Za-z0-9_-]+):", text, re.MULTILINE)
+    if not known or value in known:
+        return None
+    near = difflib.get_close_matches(value, known, 1)
+    return f"PANEL={value} is not known; " + (
+        f"the nearest is {near[0]}" if near else f"there is {', '.join(known)}"
+    )
 
 
 def missing_profile(value: str) -> str | None:

@@ -2,7 +2,7 @@
 
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -43,7 +43,8 @@ class Display:
         self._live = Live(self, console=self._console, auto_refresh=True, transient=True)
         self._remaining: Remaining | None = None
         self._running: dict[str, Running] = {}  # by name
-        self._done = self._total = 0
+        self._jobs: set[str] = set()  # foretold, or begun though they were not
+        self._finished: set[str] = set()
         self._ended = False
         self._failed: dict[str, None] = {}  # names, in their order
         self._doubts: list[str] = []
@@ -59,8 +60,8 @@ class Display:
         except OSError:
             self._console = Console(quiet=True)
 
-    def begin(self, total: int, remaining: Remaining) -> None:
-        self._total, self._remaining = total, remaining
+    def begin(self, jobs: Iterable[str], remaining: Remaining) -> None:
+        self._jobs, self._remaining = set(jobs), remaining
         if self._console.is_terminal:
             self._live.start()
 
@@ -82,7 +83,8 @@ class Display:
 
     def finish_panel(self, running: Running, runs: int) -> None:
         self._finish(running)
-        self.say(f"{running.job}: drawn{f' from {runs} runs' if runs else ''}, {self.state}")
+        drawn = f" from {runs} run{'s' if runs > 1 else ''}" if runs else ""
+        self.say(f"{running.job}: drawn{drawn}, {self.state}")
 
     def fail(self, running: Running, lines: Sequence[str]) -> None:
         self._running.pop(running.name, None)
@@ -102,11 +104,15 @@ class Display:
             self.say(f"{doubt}: marked in the figure")
         if self._failed:
             self.say(
-                f"Failed: {', '.join(self._failed)}; {self._done} of {self._total} done. When the cause is mended, the same "
+                f"Failed: {', '.join(self._failed)}; {self._count}. When the cause is mended, the same "
                 "command goes on with the rest."
             )
-        elif self._done < self._total:
-            self.say(f"Stopped: {self._done} of {self._total} done. The same command goes on.")
+        elif self._finished < self._jobs:
+            self.say(f"Stopped: {self._count}. The same command goes on.")
+
+    @property
+    def _count(self) -> str:
+        return f"{len(self._finished)} of {len(self._jobs)} done"
 
     @property
     def state(self) -> str:
@@ -115,13 +121,13 @@ class Display:
         left = self._remaining.seconds(
             {job: (one.elapsed, one.threads) for job, one in self._running.items()}
         )
-        return f"{self._done} of {self._total} done" + (
-            f", about {clock(left)} left" if self._done < self._total else ""
-        )
+        return self._count + (f", about {clock(left)} left" if self._finished < self._jobs else "")
 
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
         table = Table.grid(padding=(0, 2))
-        table.add_row(ProgressBar(total=self._total, completed=self._done, width=BAR), self.state)
+        table.add_row(
+            ProgressBar(total=len(self._jobs), completed=len(self._finished), width=BAR), self.state
+        )
         yield table
         for one in list(self._running.values()):
             line = " ".join(last_lines(one.log)[-1:])
@@ -129,7 +135,8 @@ class Display:
 
     def _finish(self, running: Running) -> None:
         self._running.pop(running.name, None)
-        self._done += 1
+        self._jobs.add(running.job)
+        self._finished.add(running.job)
         assert self._remaining is not None
         self._remaining.finish(running.job, running.elapsed * running.threads)
 

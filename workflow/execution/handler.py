@@ -41,7 +41,7 @@ class LogHandler(LogHandlerBase):
         self._begun = True
         self._quality, self._plan = quality, plan
         costs = foretold(plan, jobs)
-        self._display.begin(len(costs), Remaining(costs, cores))
+        self._display.begin(costs, Remaining(costs, cores))
 
     def emit(self, record: Record) -> None:
         event = getattr(record, "event", None)
@@ -55,11 +55,12 @@ class LogHandler(LogHandlerBase):
             self._display.say(record.getMessage())
 
     def _is_message(self, record: logging.LogRecord) -> bool:
-        """The project's own, that there is nothing to do, and what goes wrong but for what follows from a job that failed."""
+        """The project's own, that there is nothing to do, and what goes wrong but for what follows from a job that failed or from
+        Ctrl-C."""
         if getattr(record, OF_PROJECT, False) or record.getMessage().startswith(NOTHING):
             return True
         wrong = getattr(record, "event", None) in (None, LogEvent.ERROR) and record.levelno >= logging.WARNING
-        return wrong and not self._display.failing
+        return wrong and not self._display.failing and not stopping.is_set()
 
     def _start(self, record: Record) -> None:
         if record.wildcards:  # the target has none
