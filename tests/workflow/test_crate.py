@@ -80,7 +80,6 @@ def test_equal_inputs_give_equal_bytes_that_name_no_folder(packed: Clone) -> Non
     ("arguments", "words"),
     [
         (("QUALITY=smoke",), ["QUALITY=smoke makes drafts", "choose standard, paper or deep"]),
-        (("PANEL=fig99",), ["PANEL=fig99 is not known; the nearest is fig09b"]),
         ((), ["fig01/paper.h5 is missing", "make figures QUALITY=standard", "PANEL"]),
         (
             ("QUALITY=deep", "PANEL=fig03"),
@@ -90,6 +89,15 @@ def test_equal_inputs_give_equal_bytes_that_name_no_folder(packed: Clone) -> Non
 )
 def test_refusals(packed: Clone, arguments: tuple[str, ...], words: list[str]) -> None:
     assert_refused(packed, ("crate", *arguments), words)
+
+
+def test_an_unknown_panel_is_refused(packed: Clone) -> None:
+    """By make, before anything is packed."""
+    before = (packed.folder / ARCHIVE).read_bytes()
+    made = packed.make("crate", "PANEL=fig99")
+    assert made.returncode == 2
+    assert "PANEL=fig99 is not known; the nearest is fig09b" in made.stdout
+    assert (packed.folder / ARCHIVE).read_bytes() == before
 
 
 @pytest.mark.parametrize(
