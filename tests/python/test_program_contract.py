@@ -228,7 +228,7 @@ def test_progress_lines(persistence: Program) -> None:
     result, warning = persistence(progress="log").stderr.splitlines()
     assert result.startswith("persistence: 4 replicas: mu = ")
     assert warning == "persistence: standard errors from 4 replicas are uncertain by about 41 %"
-    bar = persistence(progress="bar", observation_time=100_000).stderr
+    bar = persistence(progress="bar", observation_time=400_000).stderr
     assert "left" in bar
     assert "\x1b[K" in bar  # erases the line to redraw it
 
