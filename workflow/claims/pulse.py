@@ -28,8 +28,19 @@ def _from_rest(data: Data, panel: str) -> Result:
 
 def _bounded(found: Number, others: Sequence[float], rest: Number) -> Number:
     """With the systematic error by other fits, and by the other start if it differs by more than chance explains."""
-    apart = abs(rest.value - found.value) > APART * math.hypot(rest.error, found.error)
-    return with_systematic(found, [*others, *([rest.value] if apart else [])])
+    return with_systematic(found, [*others, *([rest.value] if _apart(found, rest) else [])])
+
+
+def _apart(found: Number, rest: Number) -> bool:
+    return abs(rest.value - found.value) > APART * math.hypot(rest.error, found.error)
+
+
+def _of_rest(found: Number, rest: Number) -> str:
+    """What the start at rest gives, in words."""
+    covered = (
+        "which the systematic bound covers" if _apart(found, rest) else "no farther off than chance explains"
+    )
+    return f"From the start at rest, the paper's, it is {with_error(rest.value, rest.error)}, {covered}."
 
 
 def peaks_leave(data: Data) -> Evidence:
@@ -70,8 +81,7 @@ def ballistic(data: Data) -> Evidence:
     others = [_way(result, first, last).value for first, last in ((1, -1), (2, -1), (0, -2))]
     rest = _way(other, 0, -1)
     found = _bounded(_way(result, 0, -1), others, rest)
-    told = f"From the start at rest, the paper's, it is {with_error(rest.value, rest.error)}, which the systematic bound covers."
-    return Evidence([found], [found], caveat=f"{_speeds(result)} {told}")
+    return Evidence([found], [found], caveat=f"{_speeds(result)} {_of_rest(found, rest)}")
 
 
 def _way(result: Result, first: int, last: int) -> Number:
@@ -128,10 +138,10 @@ def _other_fits(data: Data, panel: str) -> str:
     fitted = result["damping_exponent_from"]
     half = len(fitted.mean) // 2
     drifts, change = fig10.drift(result)
-    rest = number(_from_rest(data, panel), "damping_exponent")
+    found, rest = (number(one, "damping_exponent") for one in (result, _from_rest(data, panel)))
     return (
         f"{'No power of t describes' if drifts else 'A power of t describes'} the height: its exponent {change}. Fitted from "
-        f"t = {fitted.axes['from'][half]:g} on it is {_at(fitted, half)}; from the start at rest, the paper's, {with_error(rest.value, rest.error)}: the systematic bound covers both."
+        f"t = {fitted.axes['from'][half]:g} on it is {_at(fitted, half)}. {_of_rest(found, rest)}"
     )
 
 
