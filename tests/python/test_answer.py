@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from workflow.claims.growth import STRONG
 from workflow.claims.judge import Judgement
 from workflow.claims.verdict import Band, Number, Outcome, Reading
 from workflow.report.answer import Sentence, answer
@@ -36,7 +37,8 @@ def test_open_verdicts_are_told_by_what_leaves_them_open() -> None:
 def test_growth_is_told_if_every_spacing_shows_it() -> None:
     def heat(value: float) -> str:
         last = [
-            Number(f"ext09, spacing {name}", number, 0.01) for name, number in (("1/N", 0.2), ("0.1", value))
+            Number(f"{STRONG}, spacing {name}", number, 0.01)
+            for name, number in (("1/N", 0.2), ("0.1", value))
         ]
         return told(judgement("C24", substance=reading(last[0]), other=reading(last[1])))[2].text
 

@@ -8,7 +8,7 @@ from workflow.claims.verdict import Band, Number, Reading
 from workflow.lib.fit import with_error
 from workflow.lib.plan import Quality
 from workflow.report import words
-from workflow.report.content import as_script, effort
+from workflow.report.content import as_script
 from workflow.report.strip import WIDTH, strip_of
 
 BAND = Band(-1, 1)
@@ -79,4 +79,4 @@ def test_what_stands_in_a_script_cannot_end_it() -> None:
 
 
 def test_arguments_of_make() -> None:
-    assert effort(Quality.of("standard_seed=7_replicas=200")) == "QUALITY=standard SEED=7 REPLICAS=200"
+    assert Quality.of("standard_seed=7_replicas=200").arguments == "QUALITY=standard SEED=7 REPLICAS=200"

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from scipy.stats import binom
+from scipy.stats import t as student
 
 from workflow.claims.verdict import (
     Band,
@@ -87,6 +88,11 @@ def test_each_case(number: Number, outcome: Outcome) -> None:
     reading = Reading(BAND, (number,), LEVEL)
     assert reading.outcome is outcome
     assert (reading.p_value < LEVEL) == (outcome is Outcome.CONTRADICTED)
+
+
+def test_p_value_is_two_sided_and_beyond_the_bound() -> None:
+    number = Number("0.3 beyond the band, 0.1 beyond its bound", BAND.high + 0.3, 0.05, 31, systematic=0.2)
+    assert number.p_value(BAND) == pytest.approx(2 * student.sf(2, 31))
 
 
 def test_one_contradiction_outweighs_what_is_open_and_what_agrees() -> None:

@@ -9,9 +9,8 @@ from workflow.claims.data import Data, number
 from workflow.claims.evidence import Claim, Evidence
 from workflow.claims.verdict import Number, with_systematic
 from workflow.figures.fig05 import law
+from workflow.figures.fig07 import ROUNDING
 from workflow.lib.load import Result
-
-ROUNDING = 1e-9  # relative, of the times of a logarithmic grid
 
 
 def _named(results: list[Result], quantity: str, name: str) -> list[Number]:

@@ -52,7 +52,7 @@ def front_falls(data: Data) -> Evidence:
     ]
     told = [
         f"{_misfits(data.one('fig01', run))} at λ = {name}"
-        for run, name in {"unit-chain": "1/N", "short": "0.05", "paper": "1"}.items()
+        for run, name in ({"unit-chain": "1/N"} | SPACINGS).items()
     ]
     return Evidence(
         [number(result, "front_exponent", label="d ln p₀ / d ln t")],
@@ -69,7 +69,9 @@ def _rise(result: Result, first: int, last: int) -> Number:
 
 
 def _misfits(result: Result) -> str:
-    time, front = result["front"].axes["time"], result["front"]
+    """Of p_0 ~ 1/t and of p_0 ~ 1/ln t."""
+    front = result["front"]
+    time = front.axes["time"]
     return " and ".join(
         f"{_misfit(front.mean, front.error, law):.0f}" for law in (1 / time, 1 / np.log(time))
     )

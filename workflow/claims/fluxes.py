@@ -153,7 +153,9 @@ def deviations_vanish(data: Data) -> Evidence:
     amplitudes = [Number("", one.amplitude, one.error) for one in found.itertuples()]
     exponent, law = power(results, [*found.cells], amplitudes, "d ln |F_N - F| / d ln N")
     every_scatterer = where_made(
-        lambda: _from_kinetic(data.one("fig04b", "deterministic"), data.one("fig04b", "mean-field"))
+        lambda: _from_kinetic(
+            data.one("fig04b", "deterministic"), data.one("fig04b", "mean-field"), " at γ = N"
+        )
     )
     return Evidence(
         [exponent],
@@ -195,12 +197,12 @@ def on_top_of_kinetic(data: Data) -> Evidence:
     return Evidence(_from_kinetic(data.one("fig04a", "rare"), data.one("fig04a", "kinetic")))
 
 
-def _from_kinetic(simulated: Result, equation: Result) -> list[Number]:
-    """F_N minus F over the largest F, behind the first scatterer and the last."""
+def _from_kinetic(simulated: Result, equation: Result, told: str = "") -> list[Number]:
+    """F_N minus F over the largest F, behind the first scatterer and the last. told: of which chain."""
     flux, kinetic = simulated["flux"], equation["flux"]
     last, scale = len(flux.mean) - 1, float(kinetic.mean.max())
     return [
-        number(simulated, "flux", (bond, k), f"deviation over max F, {name}, p = {p:g}").over(scale, fig04.at(kinetic, bond / last)[k] / scale)
+        number(simulated, "flux", (bond, k), f"deviation over max F{told}, {name}, p = {p:g}").over(scale, fig04.at(kinetic, bond / last)[k] / scale)
         for bond, name in ((1, "x = 1/N"), (last, "x = 1"))
         for k, p in enumerate(flux.axes["momentum"])
         if abs(p) < REACH

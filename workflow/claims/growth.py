@@ -21,6 +21,7 @@ T = TypeVar("T")
 BULK = 16  # smaller chains are mostly ends
 LARGE = 16  # the largest sizes are those within this factor of the largest
 FIXED_SPACING = 0.1  # of ext11
+STRONG = "ext09, stronger drive"  # in the names of its numbers
 FIXED = ("dilute", "dense")  # series of ext09 at fixed spacing; `thinning` has the paper's 1/N
 
 
@@ -77,7 +78,7 @@ def last_exponents(data: Data) -> dict[str, Number]:
     is added what a start that is not forgotten could change."""
 
     def between(name: str, runs: Sequence[Result]) -> Number:
-        label = name if name == "fig08" else f"ext09, stronger drive, spacing {spacing(runs[-1])[1]}"
+        label = name if name == "fig08" else f"{STRONG}, spacing {spacing(runs[-1])[1]}"
         found, *others = (exponent(runs, label, kappa)[0] for kappa in (_kappa, _by_particles, _by_baths))
         defined = with_systematic(found, [one.value for one in others])
         return with_systematic(defined, [defined.value + memory_of_start(data, name)])
@@ -112,14 +113,9 @@ def laws(data: Data) -> str:
         cells = [one.parameters["cells"] for one in runs]
         values = [number(one, "kappa") for one in runs]
         found = fits(cells, [one.value for one in values], [one.error for one in values], cells[0])
-        fitted = ", ".join(f"{one.chi_square:.1f} for {ext09.written(one)}" for one in found)
-        told += (
-            [
-                f" At spacing {spacing(runs[-1])[1]}, N = {cells[0]} to {cells[-1]}, χ² is, with {found[0].freedom} degrees of freedom, {fitted}."
-            ]
-            if found
-            else []
-        )
+        if found:
+            place = f"At spacing {spacing(runs[-1])[1]}, N = {cells[0]} to {cells[-1]}"
+            told.append(f" {place}, {ext09.compared(found)}.")
     return "".join(told)
 
 

@@ -34,11 +34,10 @@ def state(known: State) -> State:
     """Of every file; what is not read again is taken from `known`."""
     stamps = {path: stamp(status) for path, status in sorted(files_below(str(FOLDER)))}
     stamps.pop(RECORD.name, None)
-    paths = [*stamps]
-    to_read = [path for path in paths if known.get(path, [])[1:] != stamps[path]]
+    to_read = [path for path, own in stamps.items() if known.get(path, [])[1:] != own]
     with ThreadPoolExecutor() as threads:
         digests = dict(zip(to_read, threads.map(lambda path: digest(FOLDER / path), to_read), strict=True))
-    return {path: [digests[path], *stamps[path]] if path in digests else known[path] for path in paths}
+    return {path: [digests[path], *own] if path in digests else known[path] for path, own in stamps.items()}
 
 
 def files_below(folder: str, prefix: str = "") -> Iterator[tuple[str, os.stat_result]]:

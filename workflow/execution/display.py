@@ -43,7 +43,7 @@ class Display:
         self._live = Live(self, console=self._console, auto_refresh=True, transient=True)
         self._remaining: Remaining | None = None
         self._running: dict[str, Running] = {}  # by name
-        self._jobs: set[str] = set()  # foretold, or begun though they were not
+        self._jobs: set[str] = set()  # foretold, or finished though they were not
         self._finished: set[str] = set()
         self._ended = False
         self._failed: dict[str, None] = {}  # names, in their order

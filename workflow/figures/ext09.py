@@ -95,16 +95,20 @@ def sentence(spacing: str, part: pd.DataFrame) -> str:
         f"{written(one)} from N = {one.first:.0f} on ({goodness(one.chi_square, one.freedom)})"
         for one in shown
     )
-    # From the size on from which the law that holds over the widest range does, and all that hold anywhere.
+    # The sizes from which on the law of the widest range holds, and every law that holds over any range.
     firsts = sorted({best.first, max(one.first for one in held.values())})
     return "; ".join([text, *(rivals(part, first) for first in firsts)]) + "."
 
 
 def rivals(part: pd.DataFrame, first: float) -> str:
     """How well every law describes the sizes from the first on, in words."""
-    found = fits(part.cells, part.kappa, part.kappa_error, first)
+    return f"from N = {first:.0f} on {compared(fits(part.cells, part.kappa, part.kappa_error, first))}"
+
+
+def compared(found: Sequence[Growth]) -> str:
+    """chi^2 of laws with as many parameters, fitted to the same sizes, in words."""
     against = ", ".join(f"{one.chi_square:.1f} for {written(one)}" for one in found)
-    return f"from N = {first:.0f} on χ² is, with {found[0].freedom} degrees of freedom, {against}"
+    return f"χ² is, with {found[0].freedom} degrees of freedom, {against}"
 
 
 def written(growth: Growth) -> str:

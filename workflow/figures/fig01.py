@@ -80,15 +80,20 @@ def said_of_front(result: Result, table: pd.DataFrame) -> str:
     )
 
 
+def ends_of_front(result: Result, table: pd.DataFrame) -> str:
+    """p_0 over lambda/2t at the first time and at the last."""
+    first, last = fronts(table)[["ratio", "ratio_error"]].iloc[[0, -1]].to_numpy()
+    return f"from {with_error(*first)} to {with_error(*last)} at λ = {style.spacing(result)[1]}"
+
+
+def by_spacing(results: Sequence[Result]) -> list[Result]:
+    """The paper's own first, as 1/N is the shortest."""
+    return sorted(results, key=lambda result: style.spacing(result)[0])
+
+
 def caption(tables: Sequence[pd.DataFrame], results: Sequence[Result]) -> str:
     exponents = [said_of_front(result, table) for result, table in zip(results, tables, strict=True)]
-    ratios = [fronts(table).iloc[[0, -1]] for table in tables]
-    ends = [
-        f"from {with_error(*first)} to {with_error(*last)} at λ = {style.spacing(result)[1]}"
-        for (first, last), result in zip(
-            (pair[["ratio", "ratio_error"]].to_numpy() for pair in ratios), results, strict=True
-        )
-    ]
+    ends = [ends_of_front(result, table) for result, table in zip(results, tables, strict=True)]
     return f"""
         Filling of an empty chain: number n_t(p) of particles with momentum p inside, per unit momentum, times |p|, at five times t;
         {parameters(results, "cells", "sigma", "gamma", *BATHS)}, {replicas(results)}. The paper does not state the distance λ
@@ -109,7 +114,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         sharex="row",
         height_ratios=[2, 2, 1],
     )
-    results = sorted(results, key=lambda result: style.spacing(result)[0])
+    results = by_spacing(results)
     tables = [tabulate(result) for result in results]
     for (above, middle, below), result, table in zip(rows.T, results, tables, strict=True):
         plot_times(above, table[table.bins == "momentum"])

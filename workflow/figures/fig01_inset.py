@@ -11,6 +11,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from workflow.figures.fig01 import by_spacing
 from workflow.lib import style
 from workflow.lib.caption import BATHS, ERRORS, parameters, replicas
 from workflow.lib.figure import run
@@ -115,7 +116,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         figsize=(3 * style.COLUMN, 1.5 * style.HEIGHT),
         height_ratios=[2, 1],
     )
-    results = sorted(results, key=lambda result: style.spacing(result)[0])
+    results = by_spacing(results)
     tables = [fitted(result) for result in results]
     for (above, below), result, table in zip(rows.T, results, tables, strict=True):
         draw_number(above, table, result)

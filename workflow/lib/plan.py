@@ -81,6 +81,12 @@ class Quality:
         seed, replicas = (None if part is None else int(part) for part in parts.groups()[1:])
         return cls(name, parts[1], seed, replicas)
 
+    @property
+    def arguments(self) -> str:
+        """Of make."""
+        given = {"QUALITY": self.base, "SEED": self.seed, "REPLICAS": self.replicas}
+        return " ".join(f"{name}={value}" for name, value in given.items() if value is not None)
+
     def complete(self, panel: str, run: str, options: Options) -> Options:
         """Options of a replicated run with its seed, and with the replicas of this quality."""
         if self.replicas is not None:

@@ -20,7 +20,7 @@ from rich.tree import Tree
 
 from workflow.lib.load import Result, load
 from workflow.lib.parents import PACKAGES, Parents, file_hash
-from workflow.lib.plan import QUALITIES, Panel, is_quality, load_plan, outputs_of
+from workflow.lib.plan import Panel, Quality, is_quality, load_plan, outputs_of
 from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance.build_id import content_hashes, include_closure, source_hash
 from workflow.provenance.lock import Lock, LockError
@@ -38,10 +38,10 @@ BAD_INPUT, NOT_CHECKED = 2, 3  # exit statuses
 Found = TypeVar("Found")
 
 
-def effort(path: str) -> str:
-    """As an argument of make, of the quality in whose folder a product lies."""
-    quality = path.split("/")[1:2]
-    return f" QUALITY={quality[0]}" if quality and quality[0] in QUALITIES else ""
+def remedy(path: str) -> str:
+    """What makes a product again, by the quality in whose folder it lies."""
+    quality = "".join(path.split("/")[1:2])
+    return f"make figures {Quality.of(quality).arguments}" if is_quality(quality) else "make figures"
 
 
 def makers(digest: str) -> tuple[list[str], list[str]]:
@@ -120,7 +120,7 @@ class Ancestry:
         other = (
             "is here with other bytes"
             if (ROOT / name).is_file()
-            else f"is not here: `make figures{effort(name)}` makes it again"
+            else f"is not here: `{remedy(name)}` makes it again"
         )
         node = tree.add(plain(f"{name}  {short(data['sha256'])}  {'is here' if here else other}"))
         if here:

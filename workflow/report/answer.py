@@ -4,6 +4,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
+from workflow.claims.growth import STRONG
 from workflow.claims.judge import Judgement
 from workflow.claims.verdict import FAMILY_LEVEL, Outcome, Reading
 from workflow.report import words
@@ -74,7 +75,7 @@ def _growth(judgement: Judgement) -> str:
         one.interval(reading.share)[0]
         for reading in readings
         for one in reading.numbers
-        if one.label.startswith("ext09")
+        if one.label.startswith(STRONG)
     ]
     if not lowest or min(lowest) <= 0:
         return ""
@@ -92,9 +93,9 @@ def particles(claims: Claims) -> Sentence:
 
 
 def _relaxed(reading: Reading | None) -> str:
-    """The exponents without drift that are nearest to diffusion and farthest from it."""
-    if not reading:
-        return NOT_MEASURED
+    """The exponents without drift that are nearest to diffusion and farthest from it, where noise does not decide which these are."""
+    if not reading or reading.outcome is not Outcome.CONTRADICTED:
+        return _worst(reading)
     *_, last = numbers = sorted(reading.numbers, key=lambda one: one.value)
     return f"{words.told(last)}; before the chain has relaxed {words.value(numbers[0])}"
 

@@ -13,7 +13,7 @@ from workflow.claims.data import Data, MissingError
 from workflow.claims.judge import Judgement
 from workflow.lib import style
 from workflow.lib.parents import caption_of
-from workflow.lib.plan import Panel, Quality, drawings_of
+from workflow.lib.plan import Panel, drawings_of
 from workflow.provenance.lock import Lock
 from workflow.provenance.status import worst_error
 from workflow.report import words
@@ -24,12 +24,6 @@ from workflow.report.strip import strip_of
 HERE = Path(__file__).parent
 WIDE = 1.3  # columns of a journal beyond which a panel has a line of the page for itself
 READINGS = ("literal", "substance", "other")
-
-
-def effort(quality: Quality) -> str:
-    """As arguments of make."""
-    given = {"QUALITY": quality.base, "SEED": quality.seed, "REPLICAS": quality.replicas}
-    return " ".join(f"{name}={value}" for name, value in given.items() if value is not None)
 
 
 def claim(judgement: Judgement, costs: Costs) -> dict[str, Any]:

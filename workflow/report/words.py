@@ -76,7 +76,7 @@ def p_value(p: float) -> str:
 
 
 def result(reading: Reading) -> str:
-    """The number that decides, and how many were looked at: of a reading that is contradicted, the one farthest from chance."""
+    """The number that decides, and how many were looked at: of a reading that is contradicted, the clearest."""
     kind = "clearest" if reading.outcome is Outcome.CONTRADICTED else "least certain"
     several = f", the {kind} of {len(reading.numbers)}" if len(reading.numbers) > 1 else ""
     return f"{told(reading.worst)}{several}"

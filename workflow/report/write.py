@@ -31,7 +31,7 @@ def pages(quality: str, costs: Costs | None = None, root: Path = ROOT) -> dict[s
     costs = measured_costs(quality, data.plan) if costs is None else costs
     context = {
         "quality": quality,
-        "effort": content.effort(Quality.of(quality)),
+        "effort": Quality.of(quality).arguments,
         "answer": answer(judgements, quality),
         "claims": [content.claim(one, costs) for one in judgements],
         "findings": content.findings(judgements),
