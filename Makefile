@@ -131,17 +131,17 @@ build: system-packages  ## The executables in build/bin
 	  rm -rf build/CMakeCache.txt build/CMakeFiles build/build.ninja
 	$(WITHOUT_PACKAGES) workflow.environment.build_by_content
 	test -f build/build.ninja || cmake -S cpp -B build -G Ninja >build/cmake.log || { cat build/cmake.log; exit 1; }
-	ninja -C build --quiet
+	bash workflow/environment/compile.sh
 	$(WITHOUT_PACKAGES) workflow.environment.build_by_content --built
 
 test: dev build  ## All tests; ends with the count
-	ninja -C build --quiet cpp_tests
+	bash workflow/environment/compile.sh cpp_tests
 	$(PYTHON) tests.run
 
 test-long: dev build  ## The same and tests that take minutes, on a Slurm of one node too
 	test -x /usr/sbin/slurmctld || { apt-get update --quiet=2 && \
 	  apt-get install --quiet=2 --yes --no-install-recommends slurm-wlm munge; } || echo 'no Slurm: its tests are skipped'
-	ninja -C build --quiet cpp_tests
+	bash workflow/environment/compile.sh cpp_tests
 	$(PYTHON) tests.run --long
 
 check: lint tidy  ## All that looks at sources without running them
@@ -193,7 +193,7 @@ cost: build runtime  ## CPU and wall time of a quality on this machine, foretold
 	$(PYTHON) workflow.tradeoff.forecast --programs build/bin --quality $(EFFORT) $(ONLY_PANEL) $(if $(PROFILE),--batch $(BATCH))
 
 bench: dev-packages build runtime  ## Cost of an event: engine, reference and floor side by side; programs and bare loops
-	ninja -C build --quiet benchmarks
+	bash workflow/environment/compile.sh benchmarks
 	build/bin/benchmarks --benchmark_repetitions=3 --benchmark_enable_random_interleaving=true \
 	  --benchmark_report_aggregates_only=true --benchmark_out=build/bench.json
 	$(PYTHON) workflow.tradeoff.bench_table build/bench.json
@@ -203,7 +203,7 @@ timings: build runtime  ## Measure the timings that make cost starts from anew, 
 	$(PYTHON) workflow.tradeoff.timings --programs build/bin
 
 tradeoff: dev-packages build runtime  ## Speed against accuracy, measured here: figures/tradeoff
-	ninja -C build --quiet reference_pulse reference_open_chain reference_drift
+	bash workflow/environment/compile.sh reference_pulse reference_open_chain reference_drift
 	$(PYTHON) workflow.tradeoff.kinetic --programs build/bin --output figures/tradeoff/ext06_kinetic
 	$(PYTHON) workflow.tradeoff.accuracy --programs build/bin --output figures/tradeoff/ext06
 	$(PYTHON) workflow.tradeoff.efficiency --programs build/bin --output figures/tradeoff/ext06_efficiency

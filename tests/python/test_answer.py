@@ -14,9 +14,11 @@ def reading(*numbers: Number, low: float = -0.1, high: float = 0.1) -> Reading:
     return Reading(Band(low, high), numbers, LEVEL)
 
 
-def judgement(claim: str, outcome: Outcome = Outcome.REPRODUCED, **readings: Reading) -> Judgement:
+def judgement(
+    claim: str, outcome: Outcome = Outcome.REPRODUCED, remark: str = "", **readings: Reading
+) -> Judgement:
     given = {"literal": reading(Number("found", 0.0, 0.001))} | readings
-    return Judgement({"id": claim, "quantity": "q", "paper": "p"}, outcome, **given)
+    return Judgement({"id": claim, "quantity": "q", "paper": "p"}, outcome, remark=remark, **given)
 
 
 def told(*others: Judgement) -> Sequence[Sentence]:
@@ -46,9 +48,22 @@ def test_growth_is_told_if_every_spacing_shows_it() -> None:
     assert "κ grows with N up to the longest chains" not in heat(0.02)  # two errors above 0
 
 
+def test_heat_tells_what_the_data_allow() -> None:
+    fixed = reading(Number(f"{STRONG}, spacing 0.1", 0.2, 0.01))
+    numbers = told(judgement("C24", other=fixed, remark="a finite limit is rejected"))[2].numbers
+    assert [*numbers[-2:]] == [
+        f"{STRONG}, spacing 0.1: 0.200(10)",
+        "a finite limit is rejected",
+    ]
+    nothing = Judgement(
+        {"id": "C24", "quantity": "q", "paper": "p"}, Outcome.NOT_TESTABLE, caveat="Too few sizes."
+    )
+    assert told(nothing)[2].numbers[1:] == ["Too few sizes"]
+
+
 def test_the_kinetic_equation_is_told_for_both_couplings() -> None:
     far = reading(Number("γ = N, F_30", 0.2, 0.001))
-    *_, (text, numbers) = told(judgement("C12", other=far))
+    *_, (text, numbers, _) = told(judgement("C12", other=far))
     assert "that finite chains tend to it is reproduced" in text
     assert text.endswith("That at γ = N, too, a chain is within 1 % of it is contradicted.")
     assert numbers[-1] == "γ = N, F_30: 0.2000(10)"

@@ -13,7 +13,9 @@ from tests.python.claim_numbers import check, freedom, of, power
 from tests.python.known_results import Known, quantity, truth, uneven
 from tests.python.known_worlds import drop_per_cell
 from workflow.claims.data import MissingError
+from workflow.claims.growth import STRONG, without_limit
 from workflow.claims.judge import FUNCTIONS
+from workflow.lib.growth import Growth
 from workflow.lib.load import Quantity
 from workflow.lib.plan import Run
 
@@ -119,6 +121,19 @@ def test_conductivity_with_a_finite_limit() -> None:
     assert told(False) == pytest.approx({"0.1": left_over, "0.025": left_over}, abs=0.05)
 
 
+def test_a_finite_limit_is_rejected_where_every_spacing_rejects_it() -> None:
+    """98 for 3 degrees of freedom has p = 4e-21, 3 has 0.39."""
+
+    def fitted(chi_square: float) -> list[Growth]:
+        return [Growth("constant", 128, chi_square, 3, 2), Growth("logarithm", 128, 1.0, 3, 2)]
+
+    assert without_limit({"spacing 1": fitted(98), "spacing 2": fitted(70)}) == (
+        "a finite limit at fixed density, a + b N^(-1/3), is rejected: χ² = 98 for 3 at spacing 1; χ² = 70 for 3 at spacing 2"
+    )
+    assert without_limit({"spacing 1": fitted(98), "spacing 2": fitted(3)}) == ""
+    assert without_limit({}) == ""
+
+
 @pytest.mark.parametrize("apart", [0.04, -0.04])
 def test_a_start_that_is_not_forgotten_widens_the_bound(apart: float) -> None:
     """By half the difference of ln kappa between the cold and the hot start at the largest size that has them, over ln 2."""
@@ -135,10 +150,10 @@ def test_a_start_that_is_not_forgotten_widens_the_bound(apart: float) -> None:
 
     widened, plain = bounds(ext12=fill), bounds()
     assert {label.partition(", N = ")[0]: widened[label] - plain[label] for label in plain} == pytest.approx({
-        "fig08": 0,
-        "ext09, stronger drive, spacing 1/N": 0,
-        "ext09, stronger drive, spacing 0.025": 0,
-        "ext09, stronger drive, spacing 0.1": 0.02 / math.log(2),
+        "d ln κ/d ln N, the paper's drive, spacing 1/N": 0,
+        f"{STRONG}, spacing 1/N": 0,
+        f"{STRONG}, spacing 0.025": 0,
+        f"{STRONG}, spacing 0.1": 0.02 / math.log(2),
     })  # fmt: skip
 
 

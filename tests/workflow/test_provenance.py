@@ -84,6 +84,23 @@ def test_an_edited_copy_is_told_apart(clean: Clone, tmp_path: Path) -> None:
     assert second == "What it says of itself, which nothing here confirms:"
 
 
+def test_a_picture_of_the_gallery_is_known_by_the_commit_that_has_it(clean: Clone, tmp_path: Path) -> None:
+    path = "docs/gallery/fig08.png"
+    told = run_module(clean, "tree", path, quality=None)
+    assert told.returncode == 0, told.stdout
+    first, second = told.stdout.splitlines()[:2]
+    assert re.fullmatch(
+        rf"fig08\.png is what commit [0-9a-f]{{16}} has as {path}; no job here wrote it", first
+    )
+    assert second == "What it says of itself:"
+    edited = shutil.copyfile(clean.folder / path, tmp_path / "fig08.png")
+    with edited.open("ab") as file:
+        file.write(b"\0")
+    told = run_module(clean, "tree", str(edited), quality=None)
+    assert told.returncode == 1
+    assert "not what any job here wrote" in told.stdout
+
+
 def test_a_damaged_lock_is_said_and_skipped(clean: Clone) -> None:
     lock = clean.folder / "data/deep/lock.json"
     lock.parent.mkdir()
@@ -205,6 +222,13 @@ def test_a_panel_that_is_unknown_or_no_file_is_refused(tampered: Clone) -> None:
     verified = verify(tampered)
     assert verified.returncode == 1
     assert f"fig03: {PICTURE} is missing or not a file" in verified.stdout
+
+
+def test_status_of_what_is_not_made(clean: Clone) -> None:
+    told = clean.make("status", "QUALITY=deep", "SEED=7").stdout
+    assert told.splitlines()[0] == (
+        "Nothing is made: `make figures QUALITY=deep SEED=7` makes it, `make cost QUALITY=deep SEED=7` foretells what that takes"
+    )
 
 
 def test_status_says_what_is_stale_and_why(kept: Clone) -> None:

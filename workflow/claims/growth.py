@@ -1,7 +1,7 @@
 """Claims on the conductivity against the size (fig. 8, section 6)."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TypeVar
 
 import numpy as np
@@ -12,7 +12,7 @@ from workflow.claims.verdict import Number, with_systematic
 from workflow.figures import ext09
 from workflow.figures.ext11 import tabulate
 from workflow.lib.fit import PowerLaw, fit_power, with_error
-from workflow.lib.growth import fits
+from workflow.lib.growth import Growth, fits
 from workflow.lib.load import Result
 from workflow.lib.style import spacing
 
@@ -21,7 +21,8 @@ T = TypeVar("T")
 BULK = 16  # smaller chains are mostly ends
 LARGE = 16  # the largest sizes are those within this factor of the largest
 FIXED_SPACING = 0.1  # of ext11
-STRONG = "ext09, stronger drive"  # in the names of its numbers
+EXPONENT = "d ln κ/d ln N"  # in the names of numbers
+STRONG = f"{EXPONENT}, stronger drive"  # of ext09
 FIXED = ("dilute", "dense")  # series of ext09 at fixed spacing; `thinning` has the paper's 1/N
 
 
@@ -49,7 +50,7 @@ def exponent(
 ) -> tuple[Number, PowerLaw]:
     """Of the conductivity over these sizes."""
     if len(runs) < 2:
-        raise MissingError("fewer than two sizes")
+        raise MissingError(f"Fewer than two sizes are stationary at this quality ({name})")
     cells = [one.parameters["cells"] for one in runs]
     label = f"{name}, N = {cells[0]} to {cells[-1]}"
     return power(runs, cells, [kappa(one) for one in runs], label)
@@ -78,7 +79,8 @@ def last_exponents(data: Data) -> dict[str, Number]:
     is added what a start that is not forgotten could change."""
 
     def between(name: str, runs: Sequence[Result]) -> Number:
-        label = name if name == "fig08" else f"{STRONG}, spacing {spacing(runs[-1])[1]}"
+        drive = f"{EXPONENT}, the paper's drive" if name == "fig08" else STRONG
+        label = f"{drive}, spacing {spacing(runs[-1])[1]}"
         found, *others = (exponent(runs, label, kappa)[0] for kappa in (_kappa, _by_particles, _by_baths))
         defined = with_systematic(found, [one.value for one in others])
         return with_systematic(defined, [defined.value + memory_of_start(data, name)])
@@ -105,22 +107,31 @@ def _stationary(runs: Sequence[Result]) -> list[Result]:
     )
 
 
-def laws(data: Data) -> str:
-    """How well every law, one with a finite limit among them, fits ext09 at fixed spacing over the largest sizes, in words."""
-    told = []
+def laws(data: Data) -> dict[str, list[Growth]]:
+    """Every law, one with a finite limit among them, fitted to ext09 at fixed spacing over the largest sizes, by spacing and sizes."""
+    fitted = {}
     fixed = [runs for name, runs in _series(data).items() if name in FIXED]
     for runs in map(largest_sizes, fixed):
         cells = [one.parameters["cells"] for one in runs]
-        values = [number(one, "kappa") for one in runs]
-        found = fits(cells, [one.value for one in values], [one.error for one in values], cells[0])
-        if found:
-            place = f"At spacing {spacing(runs[-1])[1]}, N = {cells[0]} to {cells[-1]}"
-            told.append(f" {place}, {ext09.compared(found)}.")
-    return "".join(told)
+        values = [_kappa(one) for one in runs]
+        if found := fits(cells, [one.value for one in values], [one.error for one in values], cells[0]):
+            fitted[f"spacing {spacing(runs[-1])[1]}, N = {cells[0]} to {cells[-1]}"] = found
+    return fitted
+
+
+def without_limit(fitted: Mapping[str, Sequence[Growth]]) -> str:
+    """That the law with a finite limit is rejected at every spacing, in words; nothing if it is not."""
+    bounded = {place: one for place, found in fitted.items() for one in found if one.law == "constant"}
+    if not bounded or max(one.p_value for one in bounded.values()) > ext09.LEVEL:
+        return ""
+    told = "; ".join(
+        f"χ² = {one.chi_square:.0f} for {one.freedom} at {place}" for place, one in bounded.items()
+    )
+    return f"a finite limit at fixed density, {ext09.WORDS['constant']}, is rejected: {told}"
 
 
 def linear(data: Data) -> Evidence:
-    found, law = exponent(largest_sizes(sizes(data, 1)), "d ln κ/d ln N, γ = 1")
+    found, law = exponent(largest_sizes(sizes(data, 1)), f"{EXPONENT}, γ = 1")
     return Evidence([found], caveat=_fit(law))
 
 
@@ -134,17 +145,19 @@ def cube_root(data: Data) -> Evidence:
     """Of the smaller and of the larger half of fig. 8's sizes, which a power law has in common; in substance between the largest
     sizes; at fixed spacing in the other reading: of the conductivity without a particle current, and between the largest sizes."""
     runs = [one for one in sizes(data, "N") if one.parameters["cells"] >= BULK]
-    _, law = exponent(runs, "")
-    last = last_exponents(data)
+    _, law = exponent(runs, f"fig. 8, γ = N, {BULK} cells or more")
+    last, fitted = last_exponents(data), laws(data)
+    compared = "".join(f" At {place}, {ext09.compared(found)}." for place, found in fitted.items())
     told = ", ".join(f"{with_error(one.value, one.error)} ({one.label})" for one in last.values())
     return Evidence(
-        [exponent(part, "d ln κ/d ln N, γ = N")[0] for part in halves(runs)],
+        [exponent(part, f"{EXPONENT}, γ = N, spacing 1/N")[0] for part in halves(runs)],
         [one for name, one in last.items() if name not in FIXED],
         [
             *where_made(lambda: [without_particle_current(data)]),
             *(one for name, one in last.items() if name in FIXED),
         ],
-        caveat=f"Over all sizes {_fit(law)} Between the largest sizes: {told}. At spacing 1/N the gas thins out as N grows, so that size and density change together.{laws(data)}",
+        caveat=f"Over all sizes {_fit(law)} Between the largest sizes: {told}. At spacing 1/N the gas thins out as N grows, so that size and density change together.{compared}",
+        remark=without_limit(fitted),
     )
 
 
@@ -155,7 +168,7 @@ def without_particle_current(data: Data) -> Number:
     moving = {one.parameters["cells"] for one in asked if one["stationary"].mean != 1}
     runs = [one for one in asked if one.parameters["cells"] not in moving]
     if len({one.parameters["cells"] for one in runs}) < 2:
-        raise MissingError("fewer than two sizes")
+        raise MissingError("Fewer than two sizes of ext11 are stationary at this quality")
     table = tabulate(runs)
     values = [*zip(table.cells, table.kappa_0, table.kappa_0_error, strict=True)]
     law, *parts = (fit_power(*np.array(part, float).T) for part in (values, *halves(values)))

@@ -51,7 +51,8 @@ if [ "$(id -u)" -eq 0 ] && command -v apt-get >/dev/null; then
   echo "Installing system packages: ${debian[*]}"
   log=$(mktemp)
   export DEBIAN_FRONTEND=noninteractive
-  if { apt-get update && apt-get install -y --no-install-recommends "${debian[@]}"; } >"$log" 2>&1; then
+  waiting=(-o DPkg::Lock::Timeout=600) # for another installation on this machine
+  if { apt-get update && apt-get install "${waiting[@]}" -y --no-install-recommends "${debian[@]}"; } >"$log" 2>&1; then
     rm "$log"
     exit 0
   fi

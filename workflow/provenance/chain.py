@@ -54,6 +54,11 @@ class Chain:
         changed = self.changed_build(self.lock.jobs[name]) if run else next(self.changed_inputs(name), None)
         return changed or self.changed_request(name)
 
+    def unmade(self, panel: str) -> bool:
+        """Whether nothing of the panel's own is here, neither a result nor a drawing."""
+        jobs = [panel, *(f"{panel}/{run.name}" for run in self.plan[panel].runs)]
+        return not any(self.hashes[path] for job in jobs for path in self.outputs(job))
+
     def planned(self, name: str) -> Run | None:
         panel, _, run = name.partition("/")
         runs = self.plan[panel].runs if panel in self.plan else ()

@@ -222,6 +222,15 @@ def commits(*paths: str) -> list[str]:
     return (git("log", "--all", "--format=%H", "--", *paths) or b"").decode().split()
 
 
+def commit_with(file: Path) -> tuple[str, str] | None:
+    """The commit that first had these bytes, and at which path; nothing where none did."""
+    blob = (git("hash-object", "--no-filters", "--", str(file.absolute())) or b"").decode().strip()
+    log = git("log", "--all", f"--find-object={blob}", "--format=%x01%H", "--name-only") if blob else None
+    *_, first = (log or b"").decode(errors="replace").split("\x01")
+    commit, *paths = first.split("\n\n")
+    return (commit.strip(), paths[0].splitlines()[0]) if paths else None
+
+
 def signature(commit: str) -> str:
     """Whether the commit is signed, and by whom if git can verify it by the settings of its user. Those of the repository
     are not read: who forges its history writes them too."""

@@ -16,7 +16,7 @@ from rich.table import Table
 from workflow.lib.costs import cheapest, cost_file, expected_cost
 from workflow.lib.load import FormatError, load_provenance
 from workflow.lib.parents import ArtefactError, Parents
-from workflow.lib.plan import Panel, data_path, load_plan
+from workflow.lib.plan import Panel, Quality, data_path, load_plan
 from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance.chain import Chain
 from workflow.provenance.printable import printable
@@ -44,7 +44,7 @@ def worst_error(quality: str, panel: Panel) -> str:
 
 def seconds(values: Iterable[float]) -> str:
     total = math.fsum(values)
-    return "unknown" if math.isnan(total) else f"{total:.1f}"
+    return "not known yet" if math.isnan(total) else f"{total:.1f}"
 
 
 def seconds_between(ranges: Sequence[tuple[float, float]]) -> str:
@@ -52,17 +52,20 @@ def seconds_between(ranges: Sequence[tuple[float, float]]) -> str:
     return least if least == most else f"{least} to {most}"
 
 
-def table(quality: str) -> Table:
-    """Raises ConfigurationError."""
+def table(quality: str) -> Table | None:
+    """None where nothing is made yet. Raises ConfigurationError."""
     plan = load_plan(quality)
-    stale = Chain(quality, plan).stale(plan)
+    chain = Chain(quality, plan)
+    stale = chain.stale(plan)
+    if all(chain.unmade(panel) for panel in plan):
+        return None
     start = cheapest()
     result = Table(
         "panel", "state", "largest error", "CPU s, last", "CPU s, next", title=f"Quality {quality}"
     )
     for name, panel in plan.items():
         jobs = [job for job in stale if job.split("/")[0] == name]
-        reason = stale[jobs[0]] if jobs else "fresh"
+        reason = "not made yet" if chain.unmade(name) else stale[jobs[0]] if jobs else "fresh"
         past = [cost for run in panel.runs if (cost := cost_file(quality, name, run.name))]
         waiting = [run for run in panel.runs if f"{name}/{run.name}" in stale]
         result.add_row(
@@ -103,7 +106,13 @@ def main() -> None:
     parser.add_argument("--quality", required=True)
     quality = parser.parse_args().quality
     try:
-        Console(width=None if sys.stdout.isatty() else WIDE).print(table(quality))
+        if panels := table(quality):
+            Console(width=None if sys.stdout.isatty() else WIDE).print(panels)
+        else:
+            given = Quality.of(quality).arguments
+            print(
+                f"Nothing is made: `make figures {given}` makes it, `make cost {given}` foretells what that takes"
+            )
         if jobs := queue():
             print(f"Jobs in the queue: {jobs}")
         for path in untracked():

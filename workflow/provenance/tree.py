@@ -1,8 +1,8 @@
 """Prints whether a file is what a job here wrote, and what it was made from, down to sources, seeds and packages.
 
 Works on a copy anywhere: a lock in data/ knows the file by its hash, the file names its parents by theirs, and the
-repository is asked where these are, in the working tree, in data/ or in a commit. Status 0 if a job wrote this file,
-1 if none did, 3 if none did of which a lock can be read, and others cannot.
+repository is asked where these are, in the working tree, in data/ or in a commit. Status 0 if a job wrote this file or a
+commit has it, as those of the gallery, 1 if neither, 3 if no job did of which a lock can be read, and others cannot.
 """
 
 import argparse
@@ -25,7 +25,7 @@ from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance.build_id import content_hashes, include_closure, source_hash
 from workflow.provenance.lock import Lock, LockError
 from workflow.provenance.printable import printable
-from workflow.provenance.repository import ROOT, commits, fsck, stored_at
+from workflow.provenance.repository import ROOT, commit_with, commits, fsck, stored_at
 
 SHORT = 16  # digits of a hash that are shown
 FEW = 2  # entries of a list that are shown where not all are asked for
@@ -222,10 +222,14 @@ def main() -> None:
     except OSError as error:
         refuse(options.file, error.strerror or str(error))
     found, damaged = makers(digest)
+    committed = None if found else commit_with(options.file)
     console = Console(highlight=False, width=None if sys.stdout.isatty() else UNLIMITED)
     name = plain(options.file.name)
     if found:
         console.print(f"{name} is what {plain(found[0])}")
+    elif committed:
+        commit, path = committed
+        console.print(f"{name} is what commit {short(commit)} has as {plain(path)}; no job here wrote it")
     elif damaged:
         console.print(f"{name} is not what any job wrote whose lock can be read here, and not every one can")
     else:
@@ -236,11 +240,16 @@ def main() -> None:
         tree = Ancestry(options.full).product(options.file)
     except (ValueError, KeyError, AttributeError, OSError) as error:  # a forged file may hold anything
         sys.exit(printable(f"make provenance: {error}"))
+    said = "What it says of itself"
     console.print(
-        "What it was made from:" if found else "What it says of itself, which nothing here confirms:"
+        "What it was made from:"
+        if found
+        else f"{said}:"
+        if committed
+        else f"{said}, which nothing here confirms:"
     )
     console.print(tree)
-    sys.exit(0 if found else NOT_CHECKED if damaged else 1)
+    sys.exit(0 if found or committed else NOT_CHECKED if damaged else 1)
 
 
 if __name__ == "__main__":

@@ -14,8 +14,11 @@ NOT_MEASURED = "not measured"
 
 
 class Sentence(NamedTuple):
+    """panels: those that show it."""
+
     text: str
     numbers: Sequence[str] = ()
+    panels: Sequence[str] = ()
 
 
 def answer(judgements: Sequence[Judgement], quality: str) -> list[Sentence]:
@@ -57,14 +60,16 @@ def heat(claims: Claims) -> Sentence:
     rare, deterministic = claims["C23"], claims["C24"]
     fixed = deterministic.other
     at_fixed = f", and {fixed.outcome.value} at fixed density" if fixed else ""
+    at_fixed_density = [*map(words.told, fixed.numbers), deterministic.remark] if fixed else []
     return Sentence(
         f"Heat: κ ∼ N at γ = 1 is {rare.outcome.value}. At γ = N, where every scatterer scatters, {_growth(deterministic)}κ ∼ N^(1/3) is "
         f"{deterministic.outcome.value} at the paper's spacing 1/N, where size and density change together{at_fixed}.",
         [
             _worst(rare.deciding),
-            f"spacing 1/N: {'; '.join([_all(deterministic.literal), _worst(deterministic.substance)])}",
-            *([f"fixed density: {_all(fixed)}"] if fixed else []),
+            *_readings(deterministic),
+            *filter(None, at_fixed_density),
         ],
+        ["fig08", "ext09", "ext02", "ext11", "ext12"],
     )
 
 
@@ -89,6 +94,7 @@ def particles(claims: Claims) -> Sentence:
         "drift of a random total momentum, without which there is diffusion in the paper's ring of few cells; that only energy is conserved is "
         f"{conserved.outcome.value}, as total momentum is too.",
         [_worst(spreading.literal), _relaxed(spreading.other)],
+        ["fig07", "ext01"],
     )
 
 
@@ -110,6 +116,7 @@ def kinetic(claims: Claims) -> Sentence:
         f"{limit.outcome.value}, and that they differ by less than 0.1 % is {small.outcome.value} in the printed normalisation, and "
         f"relative to the largest F {relative}. That at γ = N, too, a chain is within 1 % of it is {deterministic}.",
         [_worst(one) for one in (limit.deciding, small.deciding, small.other, limit.other)],
+        ["fig03_inset", "fig04a", "fig04b"],
     )
 
 
@@ -118,5 +125,8 @@ def _worst(reading: Reading | None) -> str:
     return words.told(reading.worst) if reading else NOT_MEASURED
 
 
-def _all(reading: Reading | None) -> str:
-    return words.told_all(reading) if reading else NOT_MEASURED
+def _readings(judgement: Judgement) -> list[str]:
+    """The numbers of both readings, or why there are none."""
+    readings = [one for one in (judgement.literal, judgement.substance) if one]
+    found = [words.told(number) for reading in readings for number in reading.numbers]
+    return found or [judgement.caveat.rstrip(".")]

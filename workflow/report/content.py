@@ -58,11 +58,10 @@ def claim(judgement: Judgement, costs: Costs) -> dict[str, Any]:
 def panel(quality: str, panel: Panel, products: Products, costs: Costs) -> dict[str, Any]:
     """A panel as it was drawn. Raises ReportError."""
     *_, svg, csv = [products.file(path) for path in drawings_of(quality, panel.name)]
-    title, _ = csv.read_text().split("\n", 1)
     job = products.lock.jobs[panel.name]
     return {
         "name": panel.name,
-        "title": title.removeprefix("# "),
+        "title": title_of(csv),
         "caption": caption_of(csv),
         "wide": _width(svg) > WIDE * style.COLUMN,
         "picture": base64.b64encode(svg.read_bytes()).decode(),
@@ -75,10 +74,20 @@ def panel(quality: str, panel: Panel, products: Products, costs: Costs) -> dict[
     }
 
 
+def title_of(table: Path) -> str:
+    """Of a panel, by its CSV."""
+    return table.read_text("utf-8").split("\n", 1)[0].removeprefix("# ")
+
+
 def _width(svg: Path) -> float:
     """Of a drawing, in inches."""
     found = re.search(r'<svg [^>]*width="([0-9.]+)pt"', svg.read_text())
     return float(found[1]) / 72 if found else 0.0
+
+
+def terms() -> list[tuple[str, str]]:
+    """Symbols and words with what they mean, in the order in which a reader meets them."""
+    return [(term, meaning) for term, meaning in yaml.safe_load((HERE / "terms.yaml").read_text())]
 
 
 def findings(judgements: Sequence[Judgement]) -> list[dict[str, Any]]:

@@ -1,5 +1,5 @@
-"""Writes docs/gallery, small pictures of all panels and of the verdicts, and the answer at the top of README.md: for those
-who look at the project before they run it.
+"""Writes docs/gallery, small pictures and the tables of all panels and the verdicts, and the answer at the top of README.md: for
+those who look at the project before they run it.
 
 Every panel is taken from the highest quality that is here as its job wrote it. A small picture keeps what the panel says
 of itself, so that `make status` knows when it is older than the code.
@@ -10,7 +10,7 @@ import io
 import json
 import re
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -28,8 +28,9 @@ from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance.repository import ROOT
 from workflow.provenance.status import GALLERY
 from workflow.report import content, summary
-from workflow.report.answer import Sentence, answer
+from workflow.report.answer import answer
 from workflow.report.sources import Products, ReportError, source_hashes
+from workflow.report.templates import written
 
 README = "README.md"
 BLOCK = re.compile(r"(?<=<!-- answer, by make gallery -->\n).*?(?=<!-- end of the answer -->)", re.DOTALL)
@@ -76,13 +77,6 @@ def picture_of_summary(claims: list[dict[str, Any]], parents: dict[str, Any]) ->
     return picture.getvalue()
 
 
-def written(sentences: Sequence[Sentence]) -> str:
-    lines = []
-    for place, (text, numbers) in enumerate(sentences, 1):
-        lines += [f"{place}. {text}", *(f"   - {number}" for number in numbers)]
-    return "\n".join(["", *lines, "", ""])
-
-
 def gallery(quality: str, root: Path = ROOT) -> list[str]:
     """Writes all of it, or nothing; a line per panel. quality: of the answer and the verdicts. Raises ReportError."""
     data, here = Data(quality, root), Products.of(quality, root)
@@ -98,26 +92,35 @@ def gallery(quality: str, root: Path = ROOT) -> list[str]:
             f"{listed(missing)} not made, or not as the lock says: make figures QUALITY={quality}"
         )
     judgements = here.judged(data)
-    told, lines, files = [], [], {}
+    panels, files = [], {}
     for name, (quality_there, (_, png, _, csv)) in pictures.items():
-        files[folder / f"{name}.png"] = small(png)
-        title = csv.read_text().split("\n", 1)[0].removeprefix("# ")
-        lines.append(
-            f"## {name}\n\n![{title}]({name}.png)\n\n**{title}** (quality {quality_there}). {caption_of(csv)}\n"
+        files[folder / png.name] = small(png)
+        files[folder / csv.name] = csv.read_bytes()
+        panels.append(
+            {
+                "name": name,
+                "quality": quality_there,
+                "title": content.title_of(csv),
+                "caption": caption_of(csv),
+            }
         )
-        told.append(f"{name}: quality {quality_there}")
     claims = [content.claim(one, {}) for one in judgements]
     parents = {"quality": quality, "sources": source_hashes(root)}
     files[folder / "summary.png"] = picture_of_summary(claims, parents)
-    head = (
-        f"# Gallery\n\nMade by `make gallery`.\n\n![Verdicts on the claims, quality {quality}](summary.png)\n"
-    )
-    files[folder / "README.md"] = "\n".join([head, *lines]).encode()
-    text = written(answer(judgements, quality))
+    context = {
+        "quality": quality,
+        "answer": answer(judgements, quality),
+        "place_of_panels": f"{GALLERY}/",
+        "terms": content.terms(),
+        "claims": claims,
+        "panels": panels,
+    }
+    files[folder / README] = written("gallery.md", **context).encode()
+    text = written("readme.md", **context)
     files[root / README] = BLOCK.sub(lambda _: text, readme).encode()
     folder.mkdir(parents=True, exist_ok=True)
     write_together(files)
-    return told
+    return [f"{panel['name']}: quality {panel['quality']}" for panel in panels]
 
 
 def main() -> None:

@@ -8,17 +8,16 @@ import argparse
 import sys
 from pathlib import Path
 
-import jinja2
-
 from workflow.claims.data import Data
 from workflow.lib.citation import citation
 from workflow.lib.places import write_together
 from workflow.lib.plan import Quality
 from workflow.lib.strict_yaml import ConfigurationError
 from workflow.provenance.repository import ROOT
-from workflow.report import content, words
+from workflow.report import content
 from workflow.report.answer import answer
 from workflow.report.sources import Costs, Products, ReportError, measured_costs, parents_in, source_hashes
+from workflow.report.templates import written
 
 NAMES = ("report.html", "report.md")
 
@@ -33,6 +32,8 @@ def pages(quality: str, costs: Costs | None = None, root: Path = ROOT) -> dict[s
         "quality": quality,
         "effort": Quality.of(quality).arguments,
         "answer": answer(judgements, quality),
+        "place_of_panels": "",
+        "terms": content.terms(),
         "claims": [content.claim(one, costs) for one in judgements],
         "findings": content.findings(judgements),
         "misprints": content.misprints(judgements, data),
@@ -45,20 +46,7 @@ def pages(quality: str, costs: Costs | None = None, root: Path = ROOT) -> dict[s
         products.file(path)
     parents = {"quality": quality, "products": products.used, "sources": source_hashes(root), "costs": costs}
     context |= {"parents": parents, "parents_script": content.as_script(parents)}
-    return {name: _template(name).render(context) for name in NAMES}
-
-
-def _template(name: str) -> jinja2.Template:
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent),
-        autoescape=name.endswith(".html"),
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-    )
-    environment.filters["typeset"] = words.typeset
-    return environment.get_template(f"{name}.j2")
+    return {name: written(name, **context) for name in NAMES}
 
 
 def main() -> None:

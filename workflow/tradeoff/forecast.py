@@ -16,6 +16,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
+from workflow.lib.caption import listed
 from workflow.lib.costs import cheapest, expected_cost
 from workflow.lib.plan import Panel, Run, load_plan, panel_named, with_used
 from workflow.lib.strict_yaml import ConfigurationError
@@ -103,13 +104,13 @@ def forecast_of(name: str, programs: Path) -> Forecast:
 
 def show(quality: str, plan: dict[str, Panel], panels: Sequence[Panel], forecast: Forecast) -> Table:
     """Raises UnknownCostError."""
-    result = Table("panel", "runs", "executed here", "CPU time", title=f"Quality {quality}")
+    result = Table("panel", "runs", "of these timed here", "CPU time", title=f"Quality {quality}")
     costs: dict[tuple[str, str], Range] = {}
     for panel in panels:
         found = {run.name: forecast.cost(panel.name, run) for run in panel.runs}
         costs |= {(panel.name, run): cost for run, (cost, _) in found.items()}
         known = sum(own for _, own in found.values())
-        text = between(total(cost for cost, _ in found.values())) if found else ""
+        text = between(total(cost for cost, _ in found.values())) if found else f"with {listed(panel.uses)}"
         result.add_row(panel.name, str(len(found)), str(known), text)
     drawings = forecast.elsewhere(DRAWING * len(panels))
     result.add_row("drawing", str(len(panels)), "", between(drawings), end_section=True)
@@ -153,7 +154,10 @@ def main() -> None:
         print(f"make cost: {error}", file=sys.stderr)
         sys.exit(2)
     Console(width=None if sys.stdout.isatty() else WIDE).print(*tables)
-    print("A range holds what machines and timings leave open; other work on this machine comes on top.")
+    print(
+        "A range holds what machines and timings leave open; other work on this machine comes on top. Runs that were timed here "
+        "are foretold from what they took, others from a table of timings that is shipped."
+    )
 
 
 if __name__ == "__main__":
