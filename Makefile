@@ -88,6 +88,7 @@ override PYTHON := .venv/bin/python -P workflow/environment/launch.py
 override WITHOUT_PACKAGES := python3 -I workflow/environment/launch.py
 YES := yes 1
 EFFORT := $(call quote,$(QUALITY)$(if $(SEED),_seed=$(SEED))$(if $(REPLICAS),_replicas=$(REPLICAS)))
+AT_EFFORT := $(if $(filter-out standard,$(QUALITY)), QUALITY=$(QUALITY))$(if $(SEED), SEED=$(SEED))$(if $(REPLICAS), REPLICAS=$(REPLICAS))
 $(foreach name,JOBS PANEL FILE CRATE SAMPLE PROFILE BATCH ACCOUNT PARTITION SECONDS,$(if $($(name)),$(eval override $(name) := $$(call quote,$$($(name))))))
 ON_THIS_MACHINE = --cores $(or $(JOBS),$(shell env -u OMP_NUM_THREADS nproc 2>/dev/null || sysctl -n hw.ncpu))
 ON_A_CLUSTER = --workflow-profile profiles/$(PROFILE) $(if $(JOBS),--jobs $(JOBS)) \
@@ -110,6 +111,7 @@ figures: build runtime  ## Build, simulate and draw every figure into figures/QU
 	$(SNAKEMAKE) --logger progress -- figures
 	$(COMPARE)
 	echo Figures are in figures/$(EFFORT)
+	$(if $(filter report,$(MAKECMDGOALS)),,echo $(call quote,Next: make report$(AT_EFFORT) judges the claims of the paper by them))
 
 panel: build runtime  ## The same for one panel, PANEL=fig05; FRESH=yes simulates it anew
 	$(SNAKEMAKE) --logger progress -- panel
@@ -118,7 +120,7 @@ panel: build runtime  ## The same for one panel, PANEL=fig05; FRESH=yes simulate
 
 report: figures  ## The report that judges the paper's claims: figures/QUALITY/report.html and .md
 	$(PYTHON) workflow.report.write --quality $(EFFORT)
-	echo The report is figures/$(EFFORT)/report.html
+	echo The report is figures/$(EFFORT)/report.html, for a browser, and report.md
 
 gallery: runtime  ## docs/gallery and the answer in README.md, from the best that is here; verdicts of QUALITY
 	$(PYTHON) workflow.report.gallery --quality $(EFFORT)

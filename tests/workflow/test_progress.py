@@ -42,6 +42,7 @@ def test_a_pipe_has_a_line_per_panel(kept: Clone) -> None:
         "fig03 is stale: workflow/figures/fig03.py changed",
         "fig03: drawn from 3 runs, 1 of 1 done",
         "Figures are in figures/smoke",
+        "Next: make report QUALITY=smoke judges the claims of the paper by them",
     ]
 
 

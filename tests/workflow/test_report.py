@@ -138,7 +138,10 @@ def test_the_gallery_has_every_panel_and_knows_when_it_is_old(kept: Clone) -> No
     )
     replace("README.md", "<!-- end of the answer -->", "")(kept)
     made = kept.make("gallery", "QUALITY=smoke")
-    assert (made.returncode, "README.md has no place for the answer" in made.stdout) == (2, True)
+    assert (made.returncode, "README.md has no place for the answer: restore the line" in made.stdout) == (
+        2,
+        True,
+    )
 
 
 PACK = """

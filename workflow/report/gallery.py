@@ -8,7 +8,6 @@ of itself, so that `make status` knows when it is older than the code.
 import argparse
 import io
 import json
-import re
 import sys
 from collections.abc import Mapping
 from contextlib import suppress
@@ -33,7 +32,7 @@ from workflow.report.sources import Products, ReportError, source_hashes
 from workflow.report.templates import written
 
 README = "README.md"
-BLOCK = re.compile(r"(?<=<!-- answer, by make gallery -->\n).*?(?=<!-- end of the answer -->)", re.DOTALL)
+BLOCKS = ("answer", "panels")  # of README.md, each by a template of its own
 COLUMNS, COLORS = 720, 64  # of a small picture
 
 
@@ -77,14 +76,23 @@ def picture_of_summary(claims: list[dict[str, Any]], parents: dict[str, Any]) ->
     return picture.getvalue()
 
 
+def with_blocks(readme: str, context: Mapping[str, Any]) -> str:
+    """README.md with what stands between its marks written anew. Raises ReportError if one is missing."""
+    for name in BLOCKS:
+        first, last = f"<!-- {name}, by make gallery -->\n", f"<!-- end of the {name} -->"
+        before, opened, rest = readme.partition(first)
+        _, closed, after = rest.partition(last)
+        if not (opened and closed):
+            raise ReportError(
+                f"{README} has no place for the {name}: restore the line '{(last if opened else first).strip()}'"
+            )
+        readme = before + first + written(f"readme_{name}.md", **context) + last + after
+    return readme
+
+
 def gallery(quality: str, root: Path = ROOT) -> list[str]:
     """Writes all of it, or nothing; a line per panel. quality: of the answer and the verdicts. Raises ReportError."""
     data, here = Data(quality, root), Products.of(quality, root)
-    readme = (root / README).read_text()
-    if not BLOCK.search(readme):
-        raise ReportError(
-            f"{README} has no place for the answer: restore its lines '<!-- ... the answer -->'"
-        )
     folder, products = root / GALLERY, made(root)
     pictures = {name: found for name, panel in data.plan.items() if (found := best(panel, products))}
     if missing := [name for name in data.plan if name not in pictures]:
@@ -116,8 +124,7 @@ def gallery(quality: str, root: Path = ROOT) -> list[str]:
         "panels": panels,
     }
     files[folder / README] = written("gallery.md", **context).encode()
-    text = written("readme.md", **context)
-    files[root / README] = BLOCK.sub(lambda _: text, readme).encode()
+    files[root / README] = with_blocks((root / README).read_text(), context).encode()
     folder.mkdir(parents=True, exist_ok=True)
     write_together(files)
     return [f"{panel['name']}: quality {panel['quality']}" for panel in panels]
