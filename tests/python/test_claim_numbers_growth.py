@@ -128,7 +128,9 @@ def test_a_finite_limit_is_rejected_where_every_spacing_rejects_it() -> None:
         return [Growth("constant", 128, chi_square, 3, 2), Growth("logarithm", 128, 1.0, 3, 2)]
 
     assert without_limit({"spacing 1": fitted(98), "spacing 2": fitted(70)}) == (
-        "a finite limit at fixed density, a + b N^(-1/3), is rejected: χ² = 98 for 3 at spacing 1; χ² = 70 for 3 at spacing 2"
+        "a finite limit at fixed density, a + b N^(-1/3), is rejected: "
+        "at spacing 1, χ² is, with 3 degrees of freedom, 98.0 for a + b N^(-1/3), 1.0 for a + b ln N; "
+        "at spacing 2, χ² is, with 3 degrees of freedom, 70.0 for a + b N^(-1/3), 1.0 for a + b ln N"
     )
     assert without_limit({"spacing 1": fitted(98), "spacing 2": fitted(3)}) == ""
     assert without_limit({}) == ""

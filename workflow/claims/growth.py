@@ -120,13 +120,11 @@ def laws(data: Data) -> dict[str, list[Growth]]:
 
 
 def without_limit(fitted: Mapping[str, Sequence[Growth]]) -> str:
-    """That the law with a finite limit is rejected at every spacing, in words; nothing if it is not."""
-    bounded = {place: one for place, found in fitted.items() for one in found if one.law == "constant"}
-    if not bounded or max(one.p_value for one in bounded.values()) > ext09.LEVEL:
+    """That the law with a finite limit is rejected at every spacing, beside how the others fit, in words; nothing if it is not."""
+    bounded = [one for found in fitted.values() for one in found if one.law == "constant"]
+    if not bounded or max(one.p_value for one in bounded) > ext09.LEVEL:
         return ""
-    told = "; ".join(
-        f"χ² = {one.chi_square:.0f} for {one.freedom} at {place}" for place, one in bounded.items()
-    )
+    told = "; ".join(f"at {place}, {ext09.compared(found)}" for place, found in fitted.items())
     return f"a finite limit at fixed density, {ext09.WORDS['constant']}, is rejected: {told}"
 
 
