@@ -24,7 +24,7 @@ def judgement(
 def told(*others: Judgement) -> Sequence[Sentence]:
     """Answer with what is given in place of claims that are reproduced."""
     given = {one.claim["id"]: one for one in others}
-    ids = sorted({"C10", "C12", "C18", "C22", "C23", "C24", *given})
+    ids = sorted({"C10", "C12", "C18", "C20", "C22", "C23", "C24", *given})
     return answer([given.get(claim) or judgement(claim) for claim in ids], "paper")
 
 
@@ -67,6 +67,15 @@ def test_the_kinetic_equation_is_told_for_both_couplings() -> None:
     assert "that finite chains tend to it is reproduced" in text
     assert text.endswith("That at γ = N, too, a chain is within 1 % of it is contradicted.")
     assert numbers[-1] == "γ = N, F_30: 0.2000(10)"
+
+
+def test_what_spreads_is_told_by_verdicts() -> None:
+    plain = told()[3].text
+    assert "that this is superdiffusion is reproduced; that only energy is conserved is reproduced." in plain
+    without_drift = judgement("C20", Outcome.CONTRADICTED, substance=reading(Number("α", 0.9, 0.001)))
+    found = told(without_drift, judgement("C22", Outcome.CONTRADICTED))[3].text
+    assert "that this is superdiffusion is contradicted, as what is seen is the drift" in found
+    assert found.endswith("that only energy is conserved is contradicted, as total momentum is too.")
 
 
 def test_diffusion_is_told_with_the_relaxed_chain_first() -> None:

@@ -88,11 +88,17 @@ def _growth(judgement: Judgement) -> str:
 
 
 def particles(claims: Claims) -> Sentence:
-    spreading, conserved = claims["C18"], claims["C22"]
+    spreading, superdiffusive, conserved = claims["C18"], claims["C20"], claims["C22"]
+    drift = (
+        ", as what is seen is the drift of the particles with a random total momentum: without it they do not spread faster "
+        "than by diffusion in the paper's ring of few cells"
+        if superdiffusive.substance and superdiffusive.substance.outcome is Outcome.CONTRADICTED
+        else ""
+    )
+    total = ", as total momentum is too" if conserved.outcome is Outcome.CONTRADICTED else ""
     return Sentence(
-        "Particles: over the paper's times a tagged particle spreads as it says, with an exponent that still rises, but by the "
-        "drift of a random total momentum, without which there is diffusion in the paper's ring of few cells; that only energy is conserved is "
-        f"{conserved.outcome.value}, as total momentum is too.",
+        f"Particles: that ⟨x²⟩ of a tagged particle grows with the paper's exponent over its times is {spreading.outcome.value}; that this "
+        f"is superdiffusion is {superdiffusive.outcome.value}{drift}; that only energy is conserved is {conserved.outcome.value}{total}.",
         [_worst(spreading.literal), _relaxed(spreading.other)],
         ["fig07", "ext01"],
     )
