@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 
-from workflow.claims.growth import STRONG
 from workflow.claims.judge import Judgement
 from workflow.claims.verdict import Band, Number, Outcome, Reading
 from workflow.report.answer import Sentence, answer
@@ -36,37 +35,54 @@ def test_open_verdicts_are_told_by_what_leaves_them_open() -> None:
     assert "by systematic errors" not in told(noisy)[0].text
 
 
-def test_growth_is_told_if_every_spacing_shows_it() -> None:
-    def heat(value: float) -> str:
-        last = [
-            Number(f"{STRONG}, spacing {name}", number, 0.01)
-            for name, number in (("1/N", 0.2), ("0.1", value))
-        ]
-        return told(judgement("C24", substance=reading(last[0]), other=reading(last[1])))[2].text
-
-    assert "κ grows with N up to the longest chains" in heat(0.2)
-    assert "κ grows with N up to the longest chains" not in heat(0.02)  # two errors above 0
+def kappa(value: float, name: str = "b") -> Number:
+    return Number(name, value, 0.01)
 
 
-def test_heat_tells_what_the_data_allow() -> None:
-    fixed = reading(Number(f"{STRONG}, spacing 0.1", 0.2, 0.01))
-    numbers = told(judgement("C24", other=fixed, remark="a finite limit is rejected"))[2].numbers
-    assert [*numbers[-2:]] == [
-        f"{STRONG}, spacing 0.1: 0.200(10)",
-        "a finite limit is rejected",
-    ]
+def heat(deterministic: Judgement) -> Sentence:
+    return told(deterministic)[2]
+
+
+def test_growth_at_fixed_density_is_told_if_every_spacing_shows_it() -> None:
+    def at_fixed_density(value: float, remark: str = "") -> str:
+        other = reading(kappa(0.2), kappa(value))
+        return heat(judgement("C24", other=other, remark=remark)).text.partition(" At fixed density ")[2]
+
+    assert at_fixed_density(0.2) == (
+        "it is contradicted: κ grows up to the longest chains, as is expected of chains that conserve momentum."
+    )
+    assert at_fixed_density(0.2, "how laws fit").endswith(
+        "and a limit that is approached as N^(-1/3) is rejected."
+    )
+    assert at_fixed_density(0.02, "how laws fit") == "it is contradicted."  # two errors above 0
+
+
+def test_an_exponent_that_falls_through_the_band_is_told() -> None:
+    def falls(*last: float) -> bool:
+        numbers = judgement(
+            "C24", literal=reading(kappa(0.5), kappa(0.0)), substance=reading(*map(kappa, last))
+        )
+        return "the exponent falls through 1/3" in heat(numbers).text
+
+    assert falls(-0.5)
+    assert not falls(0.0)
+
+
+def test_numbers_stand_beside_what_is_admitted_or_the_reason_why_there_are_none() -> None:
+    given = judgement("C24", other=reading(kappa(0.2)), remark="how laws fit")
+    assert heat(given).numbers[-2:] == ["b: 0.200(10) (admitted −0.1 to 0.1)", "how laws fit"]
     nothing = Judgement(
         {"id": "C24", "quantity": "q", "paper": "p"}, Outcome.NOT_TESTABLE, caveat="Too few sizes."
     )
-    assert told(nothing)[2].numbers[1:] == ["Too few sizes"]
+    assert heat(nothing).numbers[1:] == ["Too few sizes"]
 
 
 def test_the_kinetic_equation_is_told_for_both_couplings() -> None:
     far = reading(Number("γ = N, F_30", 0.2, 0.001))
     *_, (text, numbers, _) = told(judgement("C12", other=far))
     assert "that finite chains tend to it is reproduced" in text
-    assert text.endswith("That at γ = N, too, a chain is within 1 % of it is contradicted.")
-    assert numbers[-1] == "γ = N, F_30: 0.2000(10)"
+    assert text.endswith("at γ = N: that a chain is within 1 % of it is contradicted.")
+    assert numbers[-1] == "γ = N, F_30: 0.2000(10) (admitted −0.1 to 0.1)"
 
 
 def test_what_spreads_is_told_by_verdicts() -> None:
@@ -81,4 +97,6 @@ def test_what_spreads_is_told_by_verdicts() -> None:
 def test_diffusion_is_told_with_the_relaxed_chain_first() -> None:
     other = reading(Number("t_r = 10", 0.94, 0.003), Number("t_r = 1000", 0.995, 0.003))
     *_, without_drift = told(judgement("C18", other=other))[3].numbers
-    assert without_drift == "t_r = 1000: 0.9950(30); before the chain has relaxed 0.9400(30)"
+    assert without_drift == (
+        "t_r = 1000: 0.9950(30); before the chain has relaxed 0.9400(30) (superdiffusion: −0.1 to 0.1)"
+    )

@@ -13,7 +13,7 @@ from tests.python.claim_numbers import check, freedom, of, power
 from tests.python.known_results import Known, quantity, truth, uneven
 from tests.python.known_worlds import drop_per_cell
 from workflow.claims.data import MissingError
-from workflow.claims.growth import STRONG, without_limit
+from workflow.claims.growth import without_limit
 from workflow.claims.judge import FUNCTIONS
 from workflow.lib.growth import Growth
 from workflow.lib.load import Quantity
@@ -128,7 +128,7 @@ def test_a_finite_limit_is_rejected_where_every_spacing_rejects_it() -> None:
         return [Growth("constant", 128, chi_square, 3, 2), Growth("logarithm", 128, 1.0, 3, 2)]
 
     assert without_limit({"spacing 1": fitted(98), "spacing 2": fitted(70)}) == (
-        "a finite limit at fixed density, a + b N^(-1/3), is rejected: "
+        "a finite limit that is approached as N^(-1/3) is rejected at fixed density: "
         "at spacing 1, χ² is, with 3 degrees of freedom, 98.0 for a + b N^(-1/3), 1.0 for a + b ln N; "
         "at spacing 2, χ² is, with 3 degrees of freedom, 70.0 for a + b N^(-1/3), 1.0 for a + b ln N"
     )
@@ -152,10 +152,10 @@ def test_a_start_that_is_not_forgotten_widens_the_bound(apart: float) -> None:
 
     widened, plain = bounds(ext12=fill), bounds()
     assert {label.partition(", N = ")[0]: widened[label] - plain[label] for label in plain} == pytest.approx({
-        "d ln κ/d ln N, the paper's drive, spacing 1/N": 0,
-        f"{STRONG}, spacing 1/N": 0,
-        f"{STRONG}, spacing 0.025": 0,
-        f"{STRONG}, spacing 0.1": 0.02 / math.log(2),
+        "d ln κ/d ln N, T_R/T_L = 1.5, spacing 1/N": 0,
+        "d ln κ/d ln N, T_R/T_L = 4, spacing 1/N": 0,
+        "d ln κ/d ln N, T_R/T_L = 4, spacing 0.025": 0,
+        "d ln κ/d ln N, T_R/T_L = 4, spacing 0.1": 0.02 / math.log(2),
     })  # fmt: skip
 
 

@@ -52,6 +52,18 @@ def test_typesetting() -> None:
     )
 
 
+def test_bands_and_names_of_claims() -> None:
+    bands = (Band(-0.5, 1), Band(0, math.inf), Band(-math.inf, -1))
+    assert [words.admitted(one) for one in bands] == ["−0.5 to 1", "above 0", "below −1"]
+    assert words.linked("C03, C3 and AC030", "[{0}](#{1})") == "[C03](#c03), C3 and AC030"
+    assert words.linked(words.typeset("a < b, C03"), "<a>{0}</a>") == "a &lt; b, <a>C03</a>"
+
+
+def test_what_no_run_would_decide_is_not_foretold() -> None:
+    edge = Reading(BAND, (Number("", 1 - 1e-9, 0.1),), 0.05)
+    assert words.remedy(edge).startswith("More than 10000 times")
+
+
 def test_more_replicas_decide_what_chance_leaves_open() -> None:
     """An interval of half width 2 about 0 has to shrink to 1, which four times the replicas do."""
     open_ = Reading(BAND, (Number("", 0.0, 2 / 1.959964),), 0.05)

@@ -60,8 +60,9 @@ def test_every_link_leads_somewhere(clone: Clone, page: Page) -> None:
     assert page.links
     for link in page.links:
         assert link[1:] in page.ids if link.startswith("#") else (folder / link).is_file(), link
-    for link in re.findall(r"\]\(([^)]*)\)", (clone.folder / MARKDOWN).read_text()):
-        assert (folder / link).is_file(), link
+    text = (clone.folder / MARKDOWN).read_text()
+    for link in re.findall(r"\]\(([^)]*)\)", text):
+        assert f'id="{link[1:]}"' in text if link.startswith("#") else (folder / link).is_file(), link
 
 
 def test_every_claim_and_panel_is_there(clone: Clone, page: Page) -> None:

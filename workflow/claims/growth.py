@@ -22,7 +22,6 @@ BULK = 16  # smaller chains are mostly ends
 LARGE = 16  # the largest sizes are those within this factor of the largest
 FIXED_SPACING = 0.1  # of ext11
 EXPONENT = "d ln κ/d ln N"  # in the names of numbers
-STRONG = f"{EXPONENT}, stronger drive"  # of ext09
 FIXED = ("dilute", "dense")  # series of ext09 at fixed spacing; `thinning` has the paper's 1/N
 
 
@@ -79,26 +78,37 @@ def last_exponents(data: Data) -> dict[str, Number]:
     is added what a start that is not forgotten could change."""
 
     def between(name: str, runs: Sequence[Result]) -> Number:
-        drive = f"{EXPONENT}, the paper's drive" if name == "fig08" else STRONG
-        label = f"{drive}, spacing {spacing(runs[-1])[1]}"
+        left, right = (runs[-1].parameters[f"temperature-{side}"] for side in ("left", "right"))
+        label = f"{EXPONENT}, T_R/T_L = {right / left:.2g}, spacing {spacing(runs[-1])[1]}"
         found, *others = (exponent(runs, label, kappa)[0] for kappa in (_kappa, _by_particles, _by_baths))
         defined = with_systematic(found, [one.value for one in others])
-        return with_systematic(defined, [defined.value + memory_of_start(data, name)])
+        memory, _ = memory_of_start(data, name)
+        return with_systematic(defined, [defined.value + memory])
 
     series = {"fig08": sizes(data, "N")} | _series(data)
     return {name: between(name, runs[-2:]) for name, runs in series.items() if len(runs) > 1}
 
 
-def memory_of_start(data: Data, series: str) -> float:
+def memory_of_start(data: Data, series: str) -> tuple[float, int]:
     """Half the difference of ln kappa between a cold and a hot start (ext. 12), at the largest size that has them, over ln 2: what it
-    would change an exponent by if only one of two sizes, a factor of two apart, had it. 0 where no start was varied."""
+    would change an exponent by if only one of two sizes, a factor of two apart, had it; and that size. 0 where no start was varied."""
     try:
         runs = [one for one in data.of("ext12") if one.path.stem.startswith(f"{series}-start")]
     except MissingError:
-        return 0.0
+        return 0.0, 0
     largest = max((one.parameters["cells"] for one in runs), default=0)
     kappa = {one.parameters["start"]: _kappa(one).value for one in runs if one.parameters["cells"] == largest}
-    return abs(math.log(kappa["hot"] / kappa["cold"])) / 2 / math.log(2) if kappa else 0.0
+    return (abs(math.log(kappa["hot"] / kappa["cold"])) / 2 / math.log(2) if kappa else 0.0), largest
+
+
+def starts(data: Data) -> str:
+    """Up to which size starts were varied at fixed spacing, in words; nothing where none was."""
+    largest = max(memory_of_start(data, series)[1] for series in FIXED)
+    return (
+        f"; starts were varied there up to N = {largest} (ext12), and what they change is in the bounds"
+        if largest
+        else ""
+    )
 
 
 def _stationary(runs: Sequence[Result]) -> list[Result]:
@@ -120,12 +130,13 @@ def laws(data: Data) -> dict[str, list[Growth]]:
 
 
 def without_limit(fitted: Mapping[str, Sequence[Growth]]) -> str:
-    """That the law with a finite limit is rejected at every spacing, beside how the others fit, in words; nothing if it is not."""
+    """That the law with a finite limit is rejected at every spacing, beside how the others fit, in words; nothing if it is not.
+    Laws that come to a limit more slowly are not tested."""
     bounded = [one for found in fitted.values() for one in found if one.law == "constant"]
     if not bounded or max(one.p_value for one in bounded) > ext09.LEVEL:
         return ""
     told = "; ".join(f"at {place}, {ext09.compared(found)}" for place, found in fitted.items())
-    return f"a finite limit at fixed density, {ext09.WORDS['constant']}, is rejected: {told}"
+    return f"a finite limit that is approached as N^(-1/3) is rejected at fixed density: {told}"
 
 
 def linear(data: Data) -> Evidence:
@@ -145,6 +156,7 @@ def cube_root(data: Data) -> Evidence:
     runs = [one for one in sizes(data, "N") if one.parameters["cells"] >= BULK]
     _, law = exponent(runs, f"fig. 8, γ = N, {BULK} cells or more")
     last, fitted = last_exponents(data), laws(data)
+    limit = without_limit(fitted)
     compared = "".join(f" At {place}, {ext09.compared(found)}." for place, found in fitted.items())
     told = ", ".join(f"{with_error(one.value, one.error)} ({one.label})" for one in last.values())
     return Evidence(
@@ -155,7 +167,7 @@ def cube_root(data: Data) -> Evidence:
             *(one for name, one in last.items() if name in FIXED),
         ],
         caveat=f"Over all sizes {_fit(law)} Between the largest sizes: {told}. At spacing 1/N the gas thins out as N grows, so that size and density change together.{compared}",
-        remark=without_limit(fitted),
+        remark=limit + starts(data) if limit else "",
     )
 
 

@@ -144,5 +144,10 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     return figure, table, caption(table, results)
 
 
+def title(results: Sequence[Result]) -> str:
+    (control,) = {*shown(tabulate(results)).kind} - {PAPER}
+    return f"Local exponent of the spreading of a tagged particle, with {control} beside the paper's start"
+
+
 if __name__ == "__main__":
-    run(draw, "Local exponent of the spreading of a tagged particle", slope="1", slope_error="1")
+    run(draw, title, slope="1", slope_error="1")

@@ -9,7 +9,17 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from workflow.figures.ext09 import CUBE_ROOT, LINES, LOOKS, MATHS, range_of, spacings, tabulate, written
+from workflow.figures.ext09 import (
+    CUBE_ROOT,
+    LINES,
+    LOOKS,
+    MATHS,
+    by_spacing,
+    range_of,
+    spacings,
+    tabulate,
+    written,
+)
 from workflow.lib import style
 from workflow.lib.caption import parameters
 from workflow.lib.figure import run
@@ -136,14 +146,14 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     style.letter(*row)
     caption = (
         "Local exponent of the heat conductivity between neighbouring sizes, from the runs of ext. 9 at γ = N, with the temperatures "
-        "of (a) the first and the last scatterer, as in eq. 28, (b) the particles that arrive there, (c) the baths. "
+        "of (a) the first and the last scatterer, as in the paper, (b) the particles that arrive there, (c) the baths. "
         f"In (a), by the curvature of ln κ in ln N over all sizes, {'; '.join(said)}. At the spacing 1/N of the paper the gas thins out as the chain grows; at fixed spacings large "
         "N is the thermodynamic limit. Lines: a + b N^(1/3), whose exponent tends to 1/3, and a N^b, which has one exponent, each over the "
         f"sizes for which it is not rejected{constant(table, spacing)}. The exponents in (b) and (c) differ from those in (a) by up to {definitions(whole)}{otherwise(table, spacing)}; "
         f"in an infinite chain all would be one. All are those of one drive, {parameters(results, 'temperature-left', 'temperature-right')}; ext. 12 says how they depend on it. Error bars: standard errors over replicas; neighbouring points share a size; "
         "spacings are drawn beside each other."
     )
-    return figure, whole, caption
+    return figure, by_spacing(whole, spacing), caption
 
 
 if __name__ == "__main__":

@@ -48,6 +48,11 @@ def spacings(results: Sequence[Result]) -> dict[str, str]:
     return {gas(result): style.spacing(result)[1] for result in results}
 
 
+def by_spacing(table: pd.DataFrame, spacing: Mapping[str, str]) -> pd.DataFrame:
+    """As it is published: with the spacing in place of the name of the gas."""
+    return table.assign(gas=table.gas.map(spacing)).rename(columns={"gas": "spacing"})
+
+
 def drop_per_cell(result: Result) -> float:
     """Of the temperature, from the left bath to the right one."""
     left, right = (float(result.parameters[f"temperature-{side}"]) for side in ("left", "right"))
@@ -64,7 +69,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         per_current = 1 / drop_per_cell(result)
         row["kappa_baths"] = per_current * float(result["energy_current"].mean)
         row["kappa_baths_error"] = abs(per_current) * float(result["energy_current"].error)
-        row["sound"] = result.sound
+        row["usable"] = result.sound
         rows.append(row)
     return pd.DataFrame(rows).sort_values("cells", ignore_index=True)
 
@@ -121,7 +126,7 @@ def draw_powers(axes: Axes, table: pd.DataFrame, spacing: Mapping[str, str]) -> 
         label = rf"$\lambda = {spacing[name]}$"
         look = {"marker": marker, "color": color, **style.POINTS}
         axes.errorbar(part.cells, part.kappa, part.kappa_error, label=label, **look)
-        style.cross_out(axes, part.cells.to_numpy(), part.kappa.to_numpy(), ~part.sound.to_numpy())
+        style.cross_out(axes, part.cells.to_numpy(), part.kappa.to_numpy(), ~part.usable.to_numpy())
     size = np.array([table.cells.min(), table.cells.max()], dtype=float)
     guide = 0.5 * table.kappa.min() * (size / size[0]) ** (1 / 3)
     axes.plot(size, guide, **style.GUIDE)
@@ -176,7 +181,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         "a straight line is growth as N^(1/3) beside a constant. Lines: each law over the sizes for which it is not "
         f"rejected at {LEVEL:.0%}, with two degrees of freedom or more. {' '.join(sentences)} Error bars: standard errors over replicas."
     )
-    return figure, pd.concat([table, fitted]), caption
+    return figure, by_spacing(pd.concat([table, fitted]), spacing), caption
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from workflow.figures.ext09 import LOOKS, gas, spacings
+from workflow.figures.ext09 import LOOKS, by_spacing, gas, spacings
 from workflow.lib import style
 from workflow.lib.caption import BATHS, goodness, parameters, replicas
 from workflow.lib.figure import run
@@ -75,7 +75,7 @@ def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
     random = np.random.default_rng(0)
     drawn = np.stack([run.drawn(random) for run in runs], axis=2)
     matrix, spread = currents @ inverse, drawn @ inverse
-    row: dict[str, float] = {"sound": all(run.sound for run in runs)}
+    row: dict[str, float] = {"usable": all(run.sound for run in runs)}
     for index, name in enumerate(COEFFICIENTS):
         place = divmod(index, 2)
         row[name], row[f"{name}_error"] = matrix[place], spread[:, *place].std()
@@ -114,7 +114,7 @@ def growth(part: pd.DataFrame, column: str) -> str:
 
 
 def crossed(table: pd.DataFrame) -> str:
-    unsound = int((~table.sound.astype(bool)).sum())
+    unsound = int((~table.usable.astype(bool)).sum())
     return (
         f" Crosses: {unsound} points of which a run is not stationary or missed its target error."
         if unsound
@@ -132,7 +132,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         left.errorbar(part.cells, part.L_nn, part.L_nn_error, label=rf"$\lambda = {spacing[name]}$", **look)
         right.errorbar(part.cells, part.kappa_0, part.kappa_0_error, **look)
         for axes, column in ((left, part.L_nn), (right, part.kappa_0)):
-            style.cross_out(axes, part.cells.to_numpy(), column.to_numpy(), ~part.sound.to_numpy(dtype=bool))
+            style.cross_out(axes, part.cells.to_numpy(), column.to_numpy(), ~part.usable.to_numpy(dtype=bool))
         grows = [
             f"{symbol} {growth(part, column)}" for symbol, column in (("L_nn", "L_nn"), ("κ_0", "kappa_0"))
         ]
@@ -165,7 +165,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         f"L_un = L_nu: {goodness(float(np.sum(pulls**2)), len(pulls))}, the farthest off by {100 * worst.asymmetry / worst.L_un:.1f} % "
         f"at N = {worst.cells} and spacing {spacing[worst.gas]}.{crossed(table)} Error bars: standard errors over replicas."
     )
-    return figure, table, caption
+    return figure, by_spacing(table, spacing), caption
 
 
 if __name__ == "__main__":

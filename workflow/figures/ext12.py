@@ -10,9 +10,9 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from workflow.figures.ext09 import CUBE_ROOT, LOOKS, range_of, spacings, tabulate
+from workflow.figures.ext09 import CUBE_ROOT, LOOKS, by_spacing, range_of, spacings, tabulate
 from workflow.lib import style
-from workflow.lib.caption import goodness
+from workflow.lib.caption import WINDOW, goodness, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import mean_of, rejected
 from workflow.lib.growth import local_exponents
@@ -187,7 +187,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         ]
     drives = ", ".join(f"{drive:g}" for drive in sorted(slopes.drive.unique()))
     caption = (
-        f"Above: local exponent of κ between neighbouring sizes for ratios of the baths' temperatures of {drives} at equal pressures, "
+        f"Open chains, {parameters(results, 'sigma', 'gamma', *WINDOW)}, {replicas(results)}. Above: local exponent of κ between neighbouring sizes for ratios of the baths' temperatures of {drives} at equal pressures, "
         f"drawn beside each other: {'; '.join(scatters)}."
         f"{laws(table, spacing)} Below: κ and J_n from several starts relative to the mean over them, δ: in "
         "equilibrium with the mean of the baths (warm), with the colder or the hotter one, and empty; for κ "
@@ -195,7 +195,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         f"deviation {100 * starts.deviation.abs().max():.1f} %. {memory(found, spacing)} Error bars: standard errors over replicas."
     )
     drawn = [found[name].assign(quantity=name) for name in ("kappa", "particle_current")]
-    return figure, pd.concat([slopes, *drawn]), caption
+    return figure, by_spacing(pd.concat([slopes, *drawn]), spacing), caption
 
 
 if __name__ == "__main__":

@@ -199,4 +199,10 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 if __name__ == "__main__":
     kinetic = dict.fromkeys(("kinetic", "kinetic_jump"), "1/(time momentum)")
-    run(draw, "Momentum distribution of the particles at both ends", **kinetic)
+    run(
+        draw,
+        lambda results: (
+            f"Momentum distribution of the particles at both ends, γ = {tabulate(results).gamma.iloc[-1]}"
+        ),
+        **kinetic,
+    )

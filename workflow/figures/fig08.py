@@ -52,20 +52,20 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
             row[name], row[f"{name}_error"] = (
                 float(value) for value in (result[name].mean, result[name].error)
             )
-        row["sound"] = result.sound
+        row["usable"] = result.sound
         rows.append(row)
     return pd.DataFrame(rows).sort_values("cells")
 
 
 def exponent(table: pd.DataFrame) -> PowerLaw:
     """Over the sound points of one gamma."""
-    sound = table[table.sound]
+    sound = table[table.usable]
     return fit_power(sound.cells, sound.kappa, sound.kappa_error)
 
 
 def exponents(table: pd.DataFrame) -> pd.DataFrame:
     """From every sound size of one gamma to the next. Neighbours share a point."""
-    sound = table[table.sound]
+    sound = table[table.usable]
     middle, slope, error = local_exponents(sound.cells, sound.kappa, sound.kappa_error)
     local = sound[["gamma", "cells"]].iloc[:-1]
     return local.assign(between=middle, exponent_to_next=slope, exponent_to_next_error=error)
@@ -83,7 +83,7 @@ def draw_sizes(axes: Axes, table: pd.DataFrame, theory: pd.DataFrame) -> None:
         axes.plot(part.cells, guide, **style.GUIDE)
         end = (part.cells.iloc[-1], guide.iloc[-1])
         axes.annotate(name, end, (-4, -6), textcoords="offset points", size=8, ha="right", va="top")
-        style.cross_out(axes, part.cells.to_numpy(), part.kappa.to_numpy(), ~part.sound.to_numpy())
+        style.cross_out(axes, part.cells.to_numpy(), part.kappa.to_numpy(), ~part.usable.to_numpy())
     color = style.BY_GAMMA["N"][1]
     (line,) = axes.plot(theory.cells, theory.mean_field_kappa, color=color, linestyle="dashed")
     axes.set(xscale="log", yscale="log")
@@ -132,7 +132,7 @@ def found(table: pd.DataFrame, gamma: str | int) -> str:
 
 def caption(table: pd.DataFrame, theory: pd.DataFrame, results: Sequence[Result]) -> str:
     runs = measured(results)
-    crossed = int((~table.sound).sum())
+    crossed = int((~table.usable).sum())
     return f"""
         Heat conductivity κ = −J_U N/(T_N − T_1) of an open chain against its number of cells N, for γ = N (circles) and
         γ = 1 (squares); {parameters(runs, "sigma", *BATHS)}, λ = {runs[0].parameters["cell-length"]}, {replicas(runs)}

@@ -104,14 +104,13 @@ def caption(results: Sequence[Result]) -> str:
     speeds = []
     for result in results:
         known = np.flatnonzero(np.isfinite(result["peak_speed"].mean))
-        first, last = (
-            style.with_error(result["peak_speed"], k) for k in (known[[0, -1]] if len(known) else (0, -1))
-        )
+        ends = [style.with_error(result["peak_speed"], k) for k in known[[0, -1]]] if len(known) else []
+        speed = "from {} to {}".format(*ends) if ends else "not resolved"
         closed = result["peak"].axes["time"][ring_closed(result)]
         end = f"the ring has closed at t = {closed[0]:g}" if len(closed) else "the ring has not closed"
         left = style.with_error(result["centre_share"], -1, 100)
         speeds.append(
-            f"{STARTS[start(result)][3]}: from {first} to {last}, {end}, and {left} % of the energy is left about the centre at last"
+            f"{STARTS[start(result)][3]}: {speed}, {end}, and {left} % of the energy is left about the centre at last"
         )
     names = ("particles-per-cell", "energy", "pulse-energy")
     rest = [result for result in results if start(result) == 0]
@@ -161,4 +160,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 
 if __name__ == "__main__":
-    run(draw, "Energy per cell with a pulse minus without", distance="1")
+    run(
+        draw,
+        lambda pulses: f"Energy per cell with a pulse minus without, {parameters(pulses, 'gamma')}",
+        distance="1",
+    )

@@ -135,4 +135,10 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 if __name__ == "__main__":
     units = {"exponent_from_here": "1", "octave_exponent": "1", "speed_to_next": "1/time"}
     errors = {f"{column}_error": unit for column, unit in units.items()}
-    run(draw, "Damping of the moving peak of an energy pulse", octave_middle="time", **units, **errors)
+    run(
+        draw,
+        lambda pulses: f"Damping of the moving peak of an energy pulse, {parameters(pulses, 'gamma')}",
+        octave_middle="time",
+        **units,
+        **errors,
+    )

@@ -75,6 +75,8 @@ def replicas(results: Sequence[Result]) -> str:
 
 
 def goodness(chi_square: float, freedom: int) -> str:
-    """chi^2 with its degrees of freedom and its p-value."""
+    """chi^2 with its degrees of freedom and its p-value; nothing is tested without any."""
+    if freedom < 1:
+        return "no degree of freedom to test it"
     p = p_value(chi_square, freedom)
     return f"χ² = {chi_square:.1f} for {freedom}, p {f'= {p:.2g}' if p > SMALLEST_P else f'< {SMALLEST_P:g}'}"

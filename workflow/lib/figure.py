@@ -1,7 +1,7 @@
 """The frame of every figure script: reads the runs, draws, saves.
 
-A script defines draw(results) and ends with `run(draw, title)`; it adds the units of the columns that are named
-neither after a quantity nor after an axis or an option.
+A script defines draw(results) and ends with `run(draw, title)`, where a title that differs between its panels is a function of
+the results too; it adds the units of the columns that are named neither after a quantity nor after an axis or an option.
 """
 
 import argparse
@@ -35,10 +35,10 @@ def build(result: Result) -> dict[str, str]:
     return {name: result.provenance[name] for name in names}
 
 
-def run(draw: Draw, title: str, **units: str) -> None:
+def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str) -> None:
     """draw gets the panel's results and returns the figure, the table of what it shows, and its caption: a paragraph of
     plain text that says what is shown and what is to be seen, with numbers from the data."""
-    parser = argparse.ArgumentParser(description=title)
+    parser = argparse.ArgumentParser(description="Draws a panel from its results.")
     parser.add_argument("--data", type=Path, nargs="+", required=True, help="result files of the panel")
     parser.add_argument(
         "--sources", type=Path, nargs="+", required=True, help="this script and what it imports"
@@ -62,4 +62,5 @@ def run(draw: Draw, title: str, **units: str) -> None:
         configuration=options.configuration,
     )
     saved = as_csv(table, inherited(results) | units)
-    save(figure, saved, options.output, Text(title, " ".join(caption.split())), parents)
+    name = title if isinstance(title, str) else title(results)
+    save(figure, saved, options.output, Text(name, " ".join(caption.split())), parents)

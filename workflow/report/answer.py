@@ -4,9 +4,8 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
-from workflow.claims.growth import STRONG
 from workflow.claims.judge import Judgement
-from workflow.claims.verdict import FAMILY_LEVEL, Outcome, Reading
+from workflow.claims.verdict import FAMILY_LEVEL, Band, Number, Outcome, Reading
 from workflow.report import words
 
 Claims = Mapping[str, Judgement]  # by id
@@ -38,7 +37,8 @@ def verdicts(judgements: Sequence[Judgement], quality: str) -> Sentence:
     listed = ", ".join(f"{counts[one]} {one.value}{remark.get(one, '')}" for one in Outcome)
     return Sentence(
         f"Of {len(judgements)} claims, at quality {quality}: {listed}. The probability that noise makes any verdict wrong is at "
-        f"most {FAMILY_LEVEL:.0%}, given the bands that this report lets each claim admit."
+        f"most {FAMILY_LEVEL:.0%}, given the bands that this report lets each claim admit: an interval is "
+        "about four standard errors to either side."
     )
 
 
@@ -58,33 +58,42 @@ def contradictions(judgements: Iterable[Judgement]) -> Sentence:
 
 def heat(claims: Claims) -> Sentence:
     rare, deterministic = claims["C23"], claims["C24"]
-    fixed = deterministic.other
-    at_fixed = f", and {fixed.outcome.value} at fixed density" if fixed else ""
-    at_fixed_density = [*map(words.told, fixed.numbers), deterministic.remark] if fixed else []
     return Sentence(
-        f"Heat: κ ∼ N at γ = 1 is {rare.outcome.value}. At γ = N, where every scatterer scatters, {_growth(deterministic)}κ ∼ N^(1/3) is "
-        f"{deterministic.outcome.value} at the paper's spacing 1/N, where size and density change together{at_fixed}.",
-        [
-            _worst(rare.deciding),
-            *_readings(deterministic),
-            *filter(None, at_fixed_density),
-        ],
+        f"Heat: κ ∼ N at γ = 1 is {rare.outcome.value}. At γ = N, where every scatterer scatters, κ ∼ N^(1/3) is "
+        f"{deterministic.outcome.value} at the paper's spacing 1/N (C24), where size and density change "
+        f"together{_through(deterministic)}.{_at_fixed_density(deterministic)}",
+        [_worst(rare.deciding), *_exponents(deterministic), *filter(None, [deterministic.remark])],
         ["fig08", "ext09", "ext02", "ext11", "ext12"],
     )
 
 
-def _growth(judgement: Judgement) -> str:
-    """Whether kappa still grows between the largest sizes of ext09 at every spacing."""
-    readings = [one for one in (judgement.substance, judgement.other) if one]
-    lowest = [
-        one.interval(reading.share)[0]
-        for reading in readings
-        for one in reading.numbers
-        if one.label.startswith(STRONG)
-    ]
-    if not lowest or min(lowest) <= 0:
+def _through(judgement: Judgement) -> str:
+    """Whether the exponent is above the band in smaller and below it in larger chains."""
+    readings = [one for one in (judgement.literal, judgement.substance) if one]
+    intervals = [(number.interval(one.share), one.band) for one in readings for number in one.numbers]
+    above = any(low > band.high for (low, _), band in intervals)
+    below = any(high < band.low for (_, high), band in intervals)
+    return ": the exponent falls through 1/3" if above and below else ""
+
+
+def _at_fixed_density(judgement: Judgement) -> str:
+    fixed = judgement.other
+    if not fixed:
         return ""
-    return "κ grows with N up to the longest chains at every spacing, as is expected of chains that conserve momentum; "
+    grows = min(one.interval(fixed.share)[0] for one in fixed.numbers) > 0
+    growth = (
+        ": κ grows up to the longest chains, as is expected of chains that conserve momentum" if grows else ""
+    )
+    limit = ", and a limit that is approached as N^(-1/3) is rejected" if grows and judgement.remark else ""
+    return f" At fixed density it is {fixed.outcome.value}{growth}{limit}."
+
+
+def _exponents(judgement: Judgement) -> list[str]:
+    """The numbers of all readings with what is admitted, or why there are none."""
+    readings = [one for one in (judgement.literal, judgement.substance, judgement.other) if one]
+    return [_with_band(number, one.band) for one in readings for number in one.numbers] or [
+        judgement.caveat.rstrip(".")
+    ]
 
 
 def particles(claims: Claims) -> Sentence:
@@ -109,7 +118,7 @@ def _relaxed(reading: Reading | None) -> str:
     if not reading or reading.outcome is not Outcome.CONTRADICTED:
         return _worst(reading)
     *_, last = numbers = sorted(reading.numbers, key=lambda one: one.value)
-    return f"{words.told(last)}; before the chain has relaxed {words.value(numbers[0])}"
+    return f"{words.told(last)}; before the chain has relaxed {words.value(numbers[0])} (superdiffusion: {words.admitted(reading.band)})"
 
 
 def kinetic(claims: Claims) -> Sentence:
@@ -119,8 +128,8 @@ def kinetic(claims: Claims) -> Sentence:
     )
     return Sentence(
         "Kinetic equation: at γ = 1, where a particle scatters about once on its way, that finite chains tend to it is "
-        f"{limit.outcome.value}, and that they differ by less than 0.1 % is {small.outcome.value} in the printed normalisation, and "
-        f"relative to the largest F {relative}. That at γ = N, too, a chain is within 1 % of it is {deterministic}.",
+        f"{limit.outcome.value}; that they differ by less than 0.1 % is {small.outcome.value} if F integrates to one, as is printed, and "
+        f"{relative} relative to the largest F. Another reading, at γ = N: that a chain is within 1 % of it is {deterministic}.",
         [_worst(one) for one in (limit.deciding, small.deciding, small.other, limit.other)],
         ["fig03_inset", "fig04a", "fig04b"],
     )
@@ -128,11 +137,8 @@ def kinetic(claims: Claims) -> Sentence:
 
 def _worst(reading: Reading | None) -> str:
     """The number that decides."""
-    return words.told(reading.worst) if reading else NOT_MEASURED
+    return _with_band(reading.worst, reading.band) if reading else NOT_MEASURED
 
 
-def _readings(judgement: Judgement) -> list[str]:
-    """The numbers of both readings, or why there are none."""
-    readings = [one for one in (judgement.literal, judgement.substance) if one]
-    found = [words.told(number) for reading in readings for number in reading.numbers]
-    return found or [judgement.caveat.rstrip(".")]
+def _with_band(number: Number, band: Band) -> str:
+    return f"{words.told(number)} (admitted {words.admitted(band)})"

@@ -78,6 +78,8 @@ def picture_of_summary(claims: list[dict[str, Any]], parents: dict[str, Any]) ->
 
 def with_blocks(readme: str, context: Mapping[str, Any]) -> str:
     """README.md with what stands between its marks written anew. Raises ReportError if one is missing."""
+    page = f"{GALLERY}/{README}"
+    links = {"panel_link": f"{page}#%s", "claims_page": page}
     for name in BLOCKS:
         first, last = f"<!-- {name}, by make gallery -->\n", f"<!-- end of the {name} -->"
         before, opened, rest = readme.partition(first)
@@ -86,7 +88,7 @@ def with_blocks(readme: str, context: Mapping[str, Any]) -> str:
             raise ReportError(
                 f"{README} has no place for the {name}: restore the line '{(last if opened else first).strip()}'"
             )
-        readme = before + first + written(f"readme_{name}.md", **context) + last + after
+        readme = before + first + written(f"readme_{name}.md", **{**context, **links}) + last + after
     return readme
 
 
@@ -119,6 +121,9 @@ def gallery(quality: str, root: Path = ROOT) -> list[str]:
         "quality": quality,
         "answer": answer(judgements, quality),
         "place_of_panels": f"{GALLERY}/",
+        "panel_link": "#%s",
+        "findings": content.findings(judgements),
+        "misprints": content.misprints(judgements, data),
         "terms": content.terms(),
         "claims": claims,
         "panels": panels,

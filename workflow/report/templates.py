@@ -18,5 +18,5 @@ def written(template: str, **context: Any) -> str:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    environment.filters["typeset"] = words.typeset
+    environment.filters |= {"typeset": words.typeset, "linked": words.linked}
     return environment.get_template(f"{template}.j2").render(context)

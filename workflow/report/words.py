@@ -6,7 +6,7 @@ import re
 from markupsafe import Markup, escape
 
 from workflow.claims.judge import Judgement
-from workflow.claims.verdict import POWER, Number, Outcome, Reading
+from workflow.claims.verdict import POWER, Band, Number, Outcome, Reading
 from workflow.lib.fit import with_error
 
 SIGNS = {
@@ -17,6 +17,7 @@ SIGNS = {
     Outcome.NOT_TESTABLE: "–",
 }
 READINGS = {"literal": "in words", "substance": "in substance", "other": "other reading, does not count"}
+MOST = 10_000  # times the replicas that are foretold
 SMALLEST = -12  # power of ten; p-values below are not told apart
 
 
@@ -35,6 +36,20 @@ def set_mathematics(text: str, raised: str, lowered: str) -> str:
 def typeset(text: str) -> Markup:
     """As HTML."""
     return Markup(set_mathematics(str(escape(text)), "<sup>{}</sup>", "<sub>{}</sub>"))
+
+
+def linked(text: str, link: str) -> str:
+    """With a link at the name of every claim: {0} of it stands for the name, {1} for that in small letters."""
+    found = re.sub(r"\bC\d\d\b", lambda name: link.format(name[0], name[0].lower()), text)
+    return type(text)(found)
+
+
+def admitted(band: Band) -> str:
+    """As in the table of claims."""
+    low, high = (f"{edge:g}".replace("-", MINUS) for edge in (band.low, band.high))
+    if math.isinf(band.high):
+        return f"above {low}"
+    return f"below {high}" if math.isinf(band.low) else f"{low} to {high}"
 
 
 def value(number: Number) -> str:
@@ -101,6 +116,8 @@ def remedy(reading: Reading) -> str:
     factor = _replicas(reading)
     if not math.isfinite(factor):
         return "The systematic error, or a value on the edge of the band, leaves it open: more replicas alone do not decide"
+    if factor > MOST:
+        return f"More than {MOST} times the replicas would be needed to decide, if the values stay: it lies on the edge of the band"
     return f"About {max(2, math.ceil(factor))} times the replicas would decide, if the values stay"
 
 
