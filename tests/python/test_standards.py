@@ -67,6 +67,7 @@ def test_the_paper_is_described_alike() -> None:
         CODECHECK["paper"],
     )
     assert described["name"] == checked["title"] == cited["title"]
+    assert described["identifier"] == checked["reference"] == f"https://doi.org/{cited['doi']}"
     assert names(described["author"]) == names(checked["authors"]) == names(cited["authors"])
     assert described["isPartOf"]["name"] == cited["journal"]
     assert described["datePublished"] == str(cited["year"])
