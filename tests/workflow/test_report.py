@@ -69,7 +69,7 @@ def test_every_claim_and_panel_is_there(clone: Clone, page: Page) -> None:
     claims = [f"C{number:02}" for number in range(1, 35)]
     assert {*claims, *load_plan("smoke")} <= {*page.ids}
     table = (clone.folder / MARKDOWN).read_text()
-    assert [name for name in claims if f"| {name} |" not in table] == []
+    assert [name for name in claims if f"| [{name}](#{name.lower()}) |" not in table] == []
 
 
 def test_pictures_are_described(page: Page) -> None:
