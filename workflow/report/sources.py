@@ -63,8 +63,12 @@ class Products:
 
 def source_hashes(root: Path) -> dict[str, str]:
     """Of modules, templates, the table of claims, the citation and the locked packages."""
+    folder = (root / SCRIPT).parent
     beside = [
-        str(path.relative_to(root)) for path in sorted((root / SCRIPT).parent.iterdir()) if path.is_file()
+        str(path.relative_to(root))
+        for each in (folder, folder / "pages")
+        for path in sorted(each.iterdir())
+        if path.is_file()
     ]
     paths = {*sources_of(SCRIPT), *beside, CLAIMS_FILE, CITATION, PACKAGES}
     return {path: file_hash(root / path) for path in sorted(paths)}

@@ -1,4 +1,4 @@
-"""How what the report says is written: by templates beside this file."""
+"""How what the report says is written: by the templates in pages."""
 
 from pathlib import Path
 from typing import Any
@@ -11,7 +11,7 @@ from workflow.report import words
 def written(template: str, **context: Any) -> str:
     """The template NAME.j2, in which every name of the context is known. Text is escaped in what becomes HTML."""
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent),
+        loader=jinja2.FileSystemLoader(Path(__file__).parent / "pages"),
         autoescape=template.endswith(".html"),
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
