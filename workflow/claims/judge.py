@@ -35,7 +35,9 @@ class Judgement:
 
     @property
     def deciding(self) -> Reading | None:
-        """The reading that the verdict follows from."""
+        """The reading that the verdict follows from. A claim is contradicted in its substance, if it has one."""
+        if self.substance and self.substance.outcome is self.outcome is Outcome.CONTRADICTED:
+            return self.substance
         by_words = self.substance is None or self.literal is None or self.outcome is self.literal.outcome
         return self.literal if by_words else self.substance
 

@@ -44,9 +44,12 @@ def temperatures_coincide(data: Data) -> Evidence:
         local = result["temperature_particle"].mean
         cells = range(len(result["temperature_difference"].mean))
         found += [
-            number(result, "temperature_difference", k, f"relative difference in cell {k + 1}, {name}").over(
-                local[k]
-            )
+            number(
+                result,
+                "temperature_difference",
+                k,
+                f"T of scatterer over that of particles, minus 1, in cell {k + 1}, {name}",
+            ).over(local[k])
             for k in cells
         ]
     return Evidence(

@@ -101,6 +101,11 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         f"{with_error(one.logarithmic_power, one.logarithmic_power_error)} (σ = {number(one.sigma)}, n = {one.particles_per_cell}, t_r = {one.relaxation_time:g})"
         for one in logarithms.iloc[[0, -1]].itertuples()
     )
+    claimed = (
+        " The paper says that random directions give diffusion, α = 1; with waiting times whose density falls as their inverse square α comes to it from below."
+        if control == CONTROLS[1]
+        else ""
+    )
     return f"""
         Spreading of a tagged particle in a closed chain, {parameters(used, "cells", "cell-length", "temperature", "gamma")},
         n particles per cell, relaxed for t_r, {replicas(used)}. Above, local slopes of ln ⟨x²⟩ against ln t for the paper's
@@ -108,7 +113,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         shaded decade, from t = {fitted:g} on. Guides: ballistic and diffusive. {ERRORS}. α with {PAPER}, and with {control}: {"; ".join(said)}. In the paper's ensemble the
         total momentum of particles and scatterers is random, and conserved to {conserved:.0e} of the sum of all momenta; the
         superdiffusion that the paper reads from it is this drift, and with {control} it is gone{unequal}. Fits of t times a power of its logarithm to the runs without drift give powers from {least} to {most};
-        diffusion has none, and waiting times without a variance leave some for as long as they are watched."""
+        diffusion has none, and waiting times without a variance leave some for as long as they are watched.{claimed}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

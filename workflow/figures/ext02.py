@@ -149,8 +149,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         "of (a) the first and the last scatterer, as in the paper, (b) the particles that arrive there, (c) the baths. "
         f"In (a), by the curvature of ln κ in ln N over all sizes, {'; '.join(said)}. At the spacing 1/N of the paper the gas thins out as the chain grows; at fixed spacings large "
         "N is the thermodynamic limit. Lines: a + b N^(1/3), whose exponent tends to 1/3, and a N^b, which has one exponent, each over the "
-        f"sizes for which it is not rejected{constant(table, spacing)}. The exponents in (b) and (c) differ from those in (a) by up to {definitions(whole)}{otherwise(table, spacing)}; "
-        f"in an infinite chain all would be one. All are those of one drive, {parameters(results, 'temperature-left', 'temperature-right')}; ext. 12 says how they depend on it. Error bars: standard errors over replicas; neighbouring points share a size; "
+        f"sizes for which it is not rejected{constant(table, spacing)}. The trend depends on the definition of κ: the exponents in (b) and (c) differ from those in (a) by up to {definitions(whole)}{otherwise(table, spacing)}; "
+        f"in an infinite chain all would be one. Errors are statistical; the report's bounds add the definitions, and what a start that is not forgotten could change (ext. 12). All are those of one drive, {parameters(results, 'temperature-left', 'temperature-right')}; ext. 12 says how they depend on it. Error bars: standard errors over replicas; neighbouring points share a size; "
         "spacings are drawn beside each other."
     )
     return figure, by_spacing(whole, spacing), caption

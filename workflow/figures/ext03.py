@@ -145,13 +145,15 @@ def of_peak(result: Result) -> str:
     for expected, name in ((SOUND, "2/3"), (DIFFUSION, "1/2")):
         found = goodness(*deviation(*known(result["local_damping_exponent"]), expected))
         tests.append(f"{name}: {found}")
-    mean, error, _ = mean_of(*speed)
+    mean, *_ = mean_of(*speed)
     value, size = deviation(*speed, mean)
+    octaves = by_octave(result).octave_exponent.dropna()
     return (
-        f"The height of the peak falls with the mean exponent {with_error(-law.exponent, law.error)} {between(seen)}, above the background "
-        f"beside it with {with_error(-above.exponent, above.error)}; the local "
-        f"exponents, whose errors are correlated, against {tests[0]}; against {tests[1]}. The peak moves at {with_error(mean, error)} cells per unit "
-        f"time ({goodness(value, size - 1)}, about a constant speed)."
+        f"Between octaves the exponent lies between {octaves.min():.3f} and {octaves.max():.3f}: the local exponents, whose errors are correlated, "
+        f"against {tests[0]}; against {tests[1]}. A straight line through the logarithms of all heights {between(seen)} has the mean slope "
+        f"{with_error(-law.exponent, law.error)}, and {with_error(-above.exponent, above.error)} above the background beside the "
+        f"peak. The peak moves at {with_error(speed[0][0], speed[1][0])} cells per unit time at first and {with_error(speed[0][-1], speed[1][-1])} at "
+        f"last ({goodness(value, size - 1)}, about a constant speed)."
     )
 
 
@@ -178,7 +180,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         f"which they heat up anyway, {parameters([largest], *WINDOW)}, {replicas([largest])}, from the fluctuations of what has then formed. (a) C_g, the "
         "covariance of the momenta of two cells at distance r and times t apart, about the peak that moves with the speed c, "
         "rescaled with the exponent 2/3 to the first time shown, t_1. (b) Local exponents of the peak's "
-        f"height, over octaves of time, beside those of the energy pulse of fig. 9a. {of_peak(largest)} (c) "
+        f"height, over octaves of time, beside those of the energy pulse of fig. 10a from Gaussian momenta. {of_peak(largest)} (c) "
         f"Covariance of the numbers of particles in one cell at two times. {of_heat(largest)}; heat would keep one exponent, and "
         "slow particles that have not left their cell make C_n fall as the logarithm of t. Bands and bars: standard errors over replicas."
     )
@@ -188,7 +190,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 if __name__ == "__main__":
     run(
         draw,
-        "Sound and heat in the fluctuations of a ring",
+        "Sound in the fluctuations of a ring, and the number of particles in a cell",
         x="1",
         y="momentum^2",
         y_error="momentum^2",

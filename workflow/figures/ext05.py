@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from workflow.lib import style
 from workflow.lib.caption import BATHS, ERRORS, WINDOW, listed, parameters, replicas
 from workflow.lib.figure import run
-from workflow.lib.fit import fit_line, with_error
+from workflow.lib.fit import LEVEL, fit_line, p_value, with_error
 from workflow.lib.load import Result
 
 FITTED = 20  # cells of the smallest chain in the fit of the excess
@@ -93,9 +93,10 @@ def caption(table: pd.DataFrame, profiles: Sequence[Result], sizes: Sequence[Res
     for result in profiles:
         rows = table[(table.gamma == style.gamma(result)) & table.quantity.isin(SIDES)]
         far = rows.loc[rows.deviation_percent.abs().idxmax()]
-        bent.append(
-            f"{with_error(far.deviation_percent, far.deviation_percent_error)} % at γ = {style.gamma(result)}"
-        )
+        value, error = far.deviation_percent, far.deviation_percent_error
+        unresolved = len(rows) * p_value((value / error) ** 2, 1) > LEVEL  # by Bonferroni
+        remark = ", which chance explains" if unresolved else ""
+        bent.append(f"{with_error(value, error)} % at γ = {style.gamma(result)}{remark}")
     return f"""
         Rates, currents and accumulation in an open chain, {parameters(profiles, "sigma", "cell-length", *BATHS, *WINDOW)},
         {replicas([*profiles, *sizes])}; (a) to (c) {parameters(profiles, "cells")}, large symbols at γ = N and small ones at γ = 1. (a) Arrivals at a scatterer per unit

@@ -107,7 +107,13 @@ def sentence(spacing: str, part: pd.DataFrame) -> str:
 
 def rivals(part: pd.DataFrame, first: float) -> str:
     """How well every law describes the sizes from the first on, in words."""
-    return f"from N = {first:.0f} on {compared(fits(part.cells, part.kappa, part.kappa_error, first))}"
+    found = fits(part.cells, part.kappa, part.kappa_error, first)
+    return f"from N = {first:.0f} on {compared(found)}; not rejected: {', '.join(map(written, kept(found))) or 'none'}"
+
+
+def kept(found: Sequence[Growth]) -> list[Growth]:
+    """Those that are not rejected."""
+    return [one for one in found if not one.p_value < LEVEL]
 
 
 def compared(found: Sequence[Growth]) -> str:
@@ -138,9 +144,26 @@ def draw_powers(axes: Axes, table: pd.DataFrame, spacing: Mapping[str, str]) -> 
     axes.legend(loc="upper left")
 
 
+def draw_departures(axes: Axes, table: pd.DataFrame) -> None:
+    """kappa over a + b N^(1/3), minus 1, over the sizes for which that holds; the other laws, fitted to the same sizes."""
+    for name, part in table.groupby("gas", sort=False):
+        if (held := range_of(part, CUBE_ROOT)) is None:
+            continue
+        marker, color = LOOKS[name]
+        used, expected = part[part.cells >= held.first], np.array(held.predicted)
+        size = np.cbrt(used.cells)
+        departure, error = 100 * (used.kappa / expected - 1), 100 * used.kappa_error / expected
+        axes.errorbar(size, departure, error, marker=marker, color=color, **style.POINTS)
+        for one in fits(part.cells, part.kappa, part.kappa_error, held.first):
+            if one.law != CUBE_ROOT:
+                rival = 100 * (np.array(one.predicted) / expected - 1)
+                axes.plot(size, rival, color=color, linestyle=LINES[one.law], linewidth=0.8)
+    axes.axhline(0, **style.GUIDE)
+    axes.set(xlabel="$N^{1/3}$", ylabel="off " + MATHS[CUBE_ROOT] + " / %")
+
+
 def draw_cube_roots(axes: Axes, table: pd.DataFrame) -> None:
     """kappa against N^(1/3): straight where it grows as N^(1/3) beside a constant. Every law over the sizes for which it holds."""
-    shown: dict[str, Line2D] = {}
     for name, part in table.groupby("gas", sort=False):
         marker, color = LOOKS[name]
         axes.errorbar(
@@ -150,36 +173,53 @@ def draw_cube_roots(axes: Axes, table: pd.DataFrame) -> None:
             if held := range_of(part, law):
                 size = part.cells[part.cells >= held.first]
                 axes.plot(np.cbrt(size), held.predicted, color=color, linestyle=line)
-                shown[law] = Line2D([], [], color=style.BLACK, linestyle=line, label=MATHS[law])
     above = axes.secondary_xaxis("top", functions=(lambda x: np.power(x, 3), np.cbrt))
     above.set_xticks([size for size in (64, 256, 1024, 2048, 8192) if size <= table.cells.max()])
     axes.tick_params(axis="x", which="both", top=False)
-    axes.set(xlabel="$N^{1/3}$", ylabel=r"conductivity $\kappa$", ylim=(0, None))
+    axes.set(ylabel=r"conductivity $\kappa$", ylim=(0, None))
     above.set_xlabel("$N$", labelpad=1)
-    axes.legend(handles=list(shown.values()), loc="upper left")
+    axes.legend(
+        handles=[
+            Line2D([], [], color=style.BLACK, linestyle=line, label=MATHS[law]) for law, line in LINES.items()
+        ],
+        loc="upper left",
+    )
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     table = tabulate(results)
-    figure, row = plt.subplots(1, 2, figsize=(1.9 * style.COLUMN, style.HEIGHT))
+    figure, panels = plt.subplot_mosaic(
+        [["powers", "roots"], ["powers", "departures"]],
+        figsize=(1.9 * style.COLUMN, 1.4 * style.HEIGHT),
+        height_ratios=[1.8, 1],
+    )
+    panels["departures"].sharex(panels["roots"])
+    panels["roots"].tick_params(labelbottom=False)
     spacing = spacings(results)
-    draw_powers(row[0], table, spacing)
-    draw_cube_roots(row[1], table)
-    style.letter(*row, lift=ABOVE)
+    draw_powers(panels["powers"], table, spacing)
+    draw_cube_roots(panels["roots"], table)
+    draw_departures(panels["departures"], table)
+    style.letter(panels["powers"], panels["roots"], lift=ABOVE)
+    panels["departures"].set_title("(c)", loc="left")
     sentences, tables = [], []
     for name, part in table.groupby("gas", sort=False):
         sentences.append(sentence(spacing[name], part))
         tables.append(laws(part).drop(columns="predicted").assign(gas=name))
     fitted = pd.concat(tables).rename(columns={"first": "fitted_from"})
     options = results[0].parameters
+    times = "; ".join(
+        f"at spacing {spacing[name]} {parameters([one for one in results if gas(one) == name], *WINDOW)}"
+        for name in spacing
+    )
     caption = (
         f"Heat conductivity κ = −J_U N/(T_N − T_1) at γ = N, σ = {options['sigma']:g}, between baths "
-        f"({parameters(results, *BATHS)}) that press equally hard, {replicas(results)}, started near the stationary profile, {parameters(results, *WINDOW)}: the "
+        f"({parameters(results, *BATHS)}) that press equally hard, {replicas(results)}, started near the stationary profile, {times}: the "
         "largest chains at fixed spacing relax for less than a wrong profile would take, so that they rest on the start (ext. 12 "
-        "compares starts and drives). At the spacing 1/N the gas thins out as the chain grows; at fixed spacings the "
+        "compares starts and drives; errors here are statistical, and the report's bounds add what a start could still change). At the spacing 1/N the gas thins out as the chain grows; at fixed spacings the "
         "number of particles per cell is the same for every N, but for slow ones, which gather as ln t. (a) Logarithmic axes. (b) Against the cube root of N: "
         "a straight line is growth as N^(1/3) beside a constant. Lines: each law over the sizes for which it is not "
-        f"rejected at {LEVEL:.0%}, with two degrees of freedom or more. {' '.join(sentences)} Error bars: standard errors over replicas."
+        f"rejected at {LEVEL:.0%}, with two degrees of freedom or more. (c) What κ and the other laws, fitted to the same sizes, are off a + b N^(1/3), where that "
+        f"holds; a + b N^(-1/3) has a finite limit. {' '.join(sentences)} Error bars: standard errors over replicas."
     )
     return figure, by_spacing(pd.concat([table, fitted]), spacing), caption
 

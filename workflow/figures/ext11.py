@@ -106,11 +106,12 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 
 def growth(part: pd.DataFrame, column: str) -> str:
-    """Exponent of a power law through all sizes, whether there is one, and the exponent between the two largest."""
+    """Exponent of a power law through all sizes, or that there is none, and the exponents between the smallest and the largest two."""
     law = fit_power(part.cells, part[column], part[f"{column}_error"])
     _, slope, error = local_exponents(part.cells, part[column], part[f"{column}_error"])
-    whole, last = (with_error(*pair) for pair in ((law.exponent, law.error), (slope[-1], error[-1])))
-    return f"{whole} ({goodness(law.chi_square, law.freedom)}), {last} between the largest"
+    first, last = (with_error(slope[k], error[k]) for k in (0, -1))
+    whole = "no single power" if law.rejected else f"N^{with_error(law.exponent, law.error)}"
+    return f"{whole} ({goodness(law.chi_square, law.freedom)}), local exponents from {first} to {last}"
 
 
 def crossed(table: pd.DataFrame) -> str:
@@ -124,44 +125,46 @@ def crossed(table: pd.DataFrame) -> str:
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     table = tabulate(results)
-    figure, (left, right) = plt.subplots(1, 2, figsize=(1.9 * style.COLUMN, style.HEIGHT))
+    figure, (left, right, local) = plt.subplots(1, 3, figsize=(2.1 * style.COLUMN, style.HEIGHT))
     said, spacing = [], spacings(results)
     for name, part in table.groupby("gas", sort=False):
         marker, color = LOOKS[name]
         look = {"marker": marker, "color": color, **style.POINTS}
-        left.errorbar(part.cells, part.L_nn, part.L_nn_error, label=rf"$\lambda = {spacing[name]}$", **look)
+        per_cell = part.L_nn / part.cells
+        label = rf"$\lambda = {spacing[name]}$"
+        left.errorbar(part.cells, per_cell, part.L_nn_error / part.cells, label=label, **look)
         right.errorbar(part.cells, part.kappa_0, part.kappa_0_error, **look)
-        for axes, column in ((left, part.L_nn), (right, part.kappa_0)):
+        local.errorbar(*local_exponents(part.cells, part.kappa_0, part.kappa_0_error), **look)
+        for axes, column in ((left, per_cell), (right, part.kappa_0)):
             style.cross_out(axes, part.cells.to_numpy(), column.to_numpy(), ~part.usable.to_numpy(dtype=bool))
         grows = [
             f"{symbol} {growth(part, column)}" for symbol, column in (("L_nn", "L_nn"), ("κ_0", "kappa_0"))
         ]
-        said.append(f"at spacing {spacing[name]} that of {' and that of '.join(grows)}")
+        said.append(f"at spacing {spacing[name]} {', '.join(grows)}")
     size = np.array([table.cells.min(), table.cells.max()], dtype=float)
-    for axes, slope, values, text in (
-        (left, 1, table.L_nn, "$N$"),
-        (right, 1 / 3, table.kappa_0, "$N^{1/3}$"),
-    ):
-        guide = 0.6 * values.min() * (size / size[0]) ** slope
-        axes.plot(size, guide, **style.GUIDE)
-        axes.text(size[1], 0.85 * guide[1], text, size=8, ha="right", va="top")
-        axes.set(xscale="log", yscale="log", xlabel="number of cells $N$")
+    guide = 0.6 * table.kappa_0.min() * (size / size[0]) ** (1 / 3)
+    right.plot(size, guide, **style.GUIDE)
+    right.text(size[1], 0.85 * guide[1], "$N^{1/3}$", size=8, ha="right", va="top")
+    for axes in (left, right, local):
+        axes.set(xscale="log", xlabel="number of cells $N$")
         style.label_sizes(axes.xaxis)
-        style.label_within_decades(axes.yaxis)
-    left.set(ylabel=rf"$L_{{nn}}$ ({style.UNITS})")
-    right.set(ylabel=rf"$\kappa_0$ at $J_n = 0$ ({style.UNITS})")
-    left.legend(loc="upper left")
-    style.letter(left, right)
+    right.set(yscale="log", ylabel=rf"$\kappa_0$ at $J_n = 0$ ({style.UNITS})")
+    style.label_within_decades(right.yaxis)
+    left.set(ylabel=rf"$L_{{nn}}/N$ ({style.UNITS})", ylim=(0, None))
+    local.set(ylabel=r"$d\ln\kappa_0/d\ln N$", ylim=(0, None))
+    style.guide_at(local, 1 / 3, "1/3")
+    left.legend(loc="lower left")
+    style.letter(left, right, local)
     ratio = table.kappa_0 / table.kappa
     pulls = table.asymmetry / table.asymmetry_error
     worst = table.loc[pulls.abs().idxmax()]
     caption = (
         f"Linear response at γ = N, {parameters(results, 'sigma')}, from a difference of temperature at equal pressure and one "
         f"of pressure at equal temperature ({parameters(results, *BATHS)}), {replicas(results)}: N J_i = Σ L_ik X_k with the forces X_u, the "
-        "difference of the inverse temperatures, and X_n, that of ln(ν/√T). (a) Coefficient of the particle current; without friction in the bulk, as momentum is "
-        "conserved, it would grow in proportion to N, of which finite chains fall a little short. (b) Heat conductivity without a current of "
+        "difference of the inverse temperatures, and X_n, that of ln(ν/√T). (a) Coefficient of the particle current over N; without friction in the bulk, as momentum is "
+        "conserved, it would be constant. (b) Heat conductivity without a current of "
         f"particles, κ_0 = (L_uu - L_un L_nu / L_nn)/T^2, {ratio.min():.1f} to {ratio.max():.1f} times −J_U N/(T_R − T_L) at equal "
-        f"pressure, where particles carry energy against the heat. Exponents over all sizes: {'; '.join(said)}. Onsager's symmetry "
+        f"pressure, where particles carry energy against the heat. (c) Its local exponents between neighbouring sizes, which share one. Growth over all sizes: {'; '.join(said)}. Onsager's symmetry "
         f"L_un = L_nu: {goodness(float(np.sum(pulls**2)), len(pulls))}, the farthest off by {100 * worst.asymmetry / worst.L_un:.1f} % "
         f"at N = {worst.cells} and spacing {spacing[worst.gas]}.{crossed(table)} Error bars: standard errors over replicas."
     )

@@ -10,12 +10,12 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from workflow.figures.ext09 import CUBE_ROOT, LOOKS, by_spacing, range_of, spacings, tabulate
+from workflow.figures.ext09 import CUBE_ROOT, LOOKS, by_spacing, kept, range_of, spacings, tabulate, written
 from workflow.lib import style
-from workflow.lib.caption import WINDOW, goodness, parameters, replicas
+from workflow.lib.caption import WINDOW, goodness, number, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import mean_of, rejected
-from workflow.lib.growth import local_exponents
+from workflow.lib.growth import Growth, fits, local_exponents
 from workflow.lib.load import Result
 
 PARAMETERS = 2  # of a + b N^(1/3)
@@ -66,10 +66,19 @@ def laws(table: pd.DataFrame, spacing: Mapping[str, str]) -> str:
         if warm[warm.gas == name].drive.nunique() > 1 and len(part) > PARAMETERS + 1:
             law = range_of(part, CUBE_ROOT)
             found = (
-                f"from N = {law.first:.0f} on ({goodness(law.chi_square, law.freedom)})" if law else "nowhere"
+                f"from N = {law.first:.0f} on ({goodness(law.chi_square, law.freedom)}{beside(part, law)})"
+                if law
+                else "nowhere"
             )
             said.append(f"at λ = {spacing[name]} and the ratio {drive:g} {found}")
-    return f" a + b N^(1/3) holds {'; '.join(said)}." if said else ""
+    return f" a + b N^(1/3) is not rejected {'; '.join(said)}." if said else ""
+
+
+def beside(part: pd.DataFrame, law: Growth) -> str:
+    """Which other laws hold over the same sizes, in words."""
+    found = kept(fits(part.cells, part.kappa, part.kappa_error, law.first))
+    others = [written(one) for one in found if one.law != law.law]
+    return f"; {' and '.join(others)} as well" if others else "; no other law"
 
 
 def deviations(table: pd.DataFrame, quantity: str) -> pd.DataFrame:
@@ -138,9 +147,9 @@ def shaded(color: str, share: float) -> tuple[float, float, float]:
 
 def draw_starts(axes: Axes, found: pd.DataFrame, symbol: str) -> None:
     places = {key: index for index, key in enumerate(found.groupby(["cells", "gas"], sort=True).groups)}
-    for number, (start, (marker, color)) in enumerate(STARTS.items()):
+    for rank, (start, (marker, color)) in enumerate(STARTS.items()):
         one = found[found.start == start]
-        shift = 0.17 * (number - (len(STARTS) - 1) / 2)
+        shift = 0.17 * (rank - (len(STARTS) - 1) / 2)
         place = [places[cells, name] + shift for cells, name in zip(one.cells, one.gas, strict=True)]
         look = {"marker": marker, "color": color, "label": start, **style.POINTS}
         axes.errorbar(place, 100 * one.deviation, 100 * one.deviation_error, **look)
@@ -185,9 +194,13 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
             f"between the largest sizes at spacing {spacing[name]} {goodness(*scatter(part))}"
             for name, part in last.groupby("gas")
         ]
+    baths = sorted(
+        {(one.parameters["temperature-left"], one.parameters["temperature-right"]) for one in results}
+    )
+    temperatures = "; ".join(f"{number(left)}, {number(right)}" for left, right in baths)
     drives = ", ".join(f"{drive:g}" for drive in sorted(slopes.drive.unique()))
     caption = (
-        f"Open chains, {parameters(results, 'sigma', 'gamma', *WINDOW)}, {replicas(results)}. Above: local exponent of κ between neighbouring sizes for ratios of the baths' temperatures of {drives} at equal pressures, "
+        f"Open chains, {parameters(results, 'sigma', 'gamma', *WINDOW)}, {replicas(results)}; baths of T_L, T_R = {temperatures} with ν√T equal at both ends. Above: local exponent of κ between neighbouring sizes for ratios of the baths' temperatures of {drives} at equal pressures, "
         f"drawn beside each other: {'; '.join(scatters)}."
         f"{laws(table, spacing)} Below: κ and J_n from several starts relative to the mean over them, δ: in "
         "equilibrium with the mean of the baths (warm), with the colder or the hotter one, and empty; for κ "

@@ -77,7 +77,7 @@ def draw_slopes(axes: Axes, table: pd.DataFrame, result: Result) -> None:
         "marker": "s",
         "color": style.VERMILLION,
         "markerfacecolor": "white",
-        "label": r"$|p|\,n_t(p)$",
+        "label": r"$|p|\,[n_t(p) + n_t(-p)]$",
         **style.POINTS,
     }
     axes.errorbar(plateau.axes["time"], plateau.mean, plateau.error, **look)
@@ -102,7 +102,7 @@ def caption(results: Sequence[Result]) -> str:
         Number n(t) of particles in a chain that starts empty, against the logarithm of time, at the distances λ between
         scatterers of fig. 1; {parameters(results, "cells", "sigma", "gamma", *BATHS)}, {replicas(results)}. Above n(t)
         with the straight line fitted in the shaded window from t = {first:g} to {last:g}, dotted where n is not straight in ln t there;
-        below its slope dn/d ln t from each time to the next (circles), and the height of |p| n_t(p) above the front
+        below its slope dn/d ln t from each time to the next (circles), and the height of |p| [n_t(p) + n_t(−p)] above the front
         (squares), which it should be once the chain has filled. {ERRORS}. Fits: {"; ".join(said)}. The paper states logarithmic
         growth; where the line is not straight the chain still fills, and the fitted slope is no property of the gas. What n does before
         the window, a bend or a fall, belongs to the start from an empty chain with scatterers at rest, and is not fitted."""

@@ -67,16 +67,26 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     rows = table[table.case == PAPER].drop_duplicates("x")
     jumps = [f"{one.jump:.4f} at {one.x}" for one in rows.itertuples()]
     kurtosis = table.groupby("case")["kurtosis"].max()
+
+    def leaving(name: str) -> str:
+        """Those that leave: to the left at the left end, to the right at the right one."""
+        part = table[table.case == name]
+        left, right = (
+            part[(part.x == place) & ((part.momentum < 0) == (place == ENDS[0][1]))]["kurtosis"].iloc[0]
+            for _, place, *_ in ENDS
+        )
+        return f"{number(left)} at the left and {number(right)} at the right end"
+
     return f"""
         Flux distribution F(p, x) of the particles at the left (solid) and the right end (dashed) of the system by the kinetic equation,
         {parameters(paper, "sigma", "gamma", *BATHS)}. (a) F; it jumps at momentum zero by {listed(jumps)}. (b) Each half over the Gaussian
-        half of its own rate and second moment: what a bath injects is Gaussian, what leaves is not, with kurtoses <p⁴>/<p²>² up to
-        {number(kurtosis[PAPER])} (a Gaussian has three). Dotted: the same for baths with
-        {parameters(equal, *BATHS)}, with kurtoses up to {number(kurtosis[EQUAL])}; at σ = 0, where momenta are only exchanged, all halves stay Gaussian,
+        half of its own rate and second moment: what a bath injects is Gaussian, what leaves is not, with kurtoses <p⁴>/<p²>² of
+        {leaving(PAPER)} (a Gaussian has three). Dotted: the same for baths with
+        {parameters(equal, *BATHS)}, with kurtoses of {leaving(EQUAL)}; at σ = 0, where momenta are only exchanged, all halves stay Gaussian,
         with kurtoses up to {number(kurtosis[EXCHANGE])}. Numerical errors, below
-        {paper[0].provenance["achieved_error"]:.0e} of the currents, are thinner than a line. The paper has the same jump and halves that are not
-        Gaussian, and says that they are so only if the temperatures are equal: at σ = 0 they are so at unequal ones, and
-        at equal ones unequal rates still make them differ."""
+        {paper[0].provenance["achieved_error"]:.0e} of the currents, are thinner than a line. The paper has the same jump and the same halves, and says that halves are
+        Gaussian only if the temperatures are equal: at σ = 0 they are Gaussian at unequal ones, and at equal ones unequal rates still
+        make them differ from a Gaussian."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

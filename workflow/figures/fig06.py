@@ -88,7 +88,7 @@ def caption(tables: Sequence[pd.DataFrame], results: Sequence[Result]) -> str:
         σ = {number(max(result.parameters["sigma"] for result in results))} (squares); {parameters(results, *chain, *GAS, *WINDOW)},
         {replicas(results)}. A flight counts with its whole length, which is known when it begins. (a) Ψ; the line through the circles is exact for many particles per cell that start from a Gaussian; in the tail the circles lie {above_line:.0f} % above it, as there are momenta on the scatterers too. (b), (c) Ψ times
         the powers of τ that the paper states. Broken and dotted: power laws of the exponents fitted by maximum likelihood in the shaded tail, from
-        {number(options["tail-from"])} thermal flights on: {"; ".join(said)}. {ERRORS}; {unsure} bins known to worse than
+        {number(options["tail-from"])} thermal flights on: {"; ".join(said)}. {ERRORS}; how long the chain has relaxed changes the exponents by more (ext. 7); {unsure} bins known to worse than
         {number(100 * UNSURE)} % are open, and those that nothing fell into, more of them the later, are left out, so that what is seen in the last decade lies too high; triangles at the upper edges stand for bins above them. The paper gives the inverse cube for equal masses and the
         inverse square otherwise. For equal masses momenta are only exchanged, and Ψ is a property of the Gaussian start."""
 

@@ -127,7 +127,8 @@ def caption(results: Sequence[Result]) -> str:
         {max(int(result.parameters["pairs-per-replica"]) for result in results)} pairs of trajectories. (a) The paper's start: scatterers at rest,
         relaxed for t = {relaxed}; (b) all momenta Gaussian. Bands are errors. (c) Position of the moving peak, with lines from the origin
         through the first positions; (d) its speed between neighbouring times, in cells: {"; ".join(speeds)}. Faint: times at which ΔE
-        opposite to the pulse exceeds {number(100 * CLOSED)} % of its largest value. {ERRORS}. As in the paper two peaks move away symmetrically, beside what stays at the centre. {still}"""
+        opposite to the pulse exceeds {number(100 * CLOSED)} % of its largest value. {ERRORS}. As in the paper two peaks move away symmetrically, beside what stays at the centre; a ballistic
+        peak would keep its speed. {still}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

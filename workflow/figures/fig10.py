@@ -1,6 +1,6 @@
 """Fig. 10: height of the moving peak of an energy pulse against time; a: gamma = N, b: gamma = 1.
 
-Below, exponents fitted over octaves of time. The legend says where these drift, so that there is no power law.
+Below, exponents fitted over octaves of time. The legend says where these drift.
 Times without a moving peak, whose height is NaN, are left out; faint: times at which the ring has closed.
 """
 
@@ -67,7 +67,7 @@ def drift(result: Result) -> tuple[bool, str]:
 
 def draw_peaks(axes: Axes, result: Result, table: pd.DataFrame) -> None:
     drifts, _ = drift(result)
-    law = ", no power law" if drifts else ""
+    law = ", exponent drifts" if drifts else ""
     values = (table.peak.to_numpy() / 1e3, table.peak_error.to_numpy() / 1e3)
     closed = table.ring_closed.to_numpy()
     label = STARTS[start(result)][3] + law
@@ -90,7 +90,7 @@ def caption(results: Sequence[Result]) -> str:
             for one in by_octave(result).dropna().itertuples()
         ]
         verdict = (
-            f"no power law, as the exponent is {listed(exponents)} in one octave after another"
+            f"the exponent drifts, {listed(exponents)} in one octave after another, so that its mean over all times, {style.with_error(result['damping_exponent'])}, belongs to these times"
             if drifts
             else f"exponent {style.with_error(result['damping_exponent'])}"
         )
@@ -101,7 +101,7 @@ def caption(results: Sequence[Result]) -> str:
         {parameters(results, *CHAIN, "particles-per-cell", "energy", "pulse-energy")} per degree of freedom, {replicas(results)}. (a) The
         top of a smooth peak fitted to the profile above half of its height, from Gaussian momenta (circles) and from
         scatterers at rest that have relaxed, as in the paper (squares); faint once the ring has closed. (b) −d ln(peak)/d ln t, fitted over
-        octaves of time. Dashed: the paper's {number(slope)}. {ERRORS}. {". ".join(said)}."""
+        octaves of time, to the nearest times recorded. Dashed: the paper's {number(slope)}. {ERRORS}. {". ".join(said)}."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

@@ -33,7 +33,7 @@ from workflow.report.templates import written
 
 README = "README.md"
 BLOCKS = ("answer", "panels")  # of README.md, each by a template of its own
-COLUMNS, COLORS = 720, 64  # of a small picture
+COLUMNS, COLORS = 720, 256  # of a small picture
 
 
 def small(picture: Path) -> bytes:
