@@ -102,7 +102,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         for one in logarithms.iloc[[0, -1]].itertuples()
     )
     claimed = (
-        " The paper says that random directions give diffusion, α = 1; with waiting times whose density falls as their inverse square α comes to it from below."
+        " The paper says that random directions give diffusion; with waiting times whose density falls as their inverse square α comes to it from below."
         if control == CONTROLS[1]
         else ""
     )
