@@ -22,6 +22,7 @@ from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
 DRAWN = 4000  # samples of the currents, for errors good to 1 %
+TOP = 1.15  # of what is drawn from 0 on, over its largest value
 COEFFICIENTS = ("L_uu", "L_un", "L_nu", "L_nn")
 
 
@@ -150,7 +151,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         style.label_sizes(axes.xaxis)
     right.set(yscale="log", ylabel=rf"$\kappa_0$ at $J_n = 0$ ({style.UNITS})")
     style.label_within_decades(right.yaxis)
-    left.set(ylabel=rf"$L_{{nn}}/N$ ({style.UNITS})", ylim=(0, None))
+    left.set(ylabel=rf"$L_{{nn}}/N$ ({style.UNITS})", ylim=(0, TOP * (table.L_nn / table.cells).max()))
     local.set(ylabel=r"$d\ln\kappa_0/d\ln N$", ylim=(0, None))
     style.guide_at(local, 1 / 3, "1/3")
     left.legend(loc="lower left")
