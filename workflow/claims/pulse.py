@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from workflow.claims.data import Data, MissingError, combination, number, where_made
+from workflow.claims.data import Data, MissingError, combination, mean_slope, number, where_made
 from workflow.claims.evidence import Claim, Evidence
 from workflow.claims.growth import exponent, largest_sizes, sizes
 from workflow.claims.verdict import Number, with_systematic
@@ -114,7 +114,9 @@ def _sound(data: Data) -> Number:
     rings = data.of("ext03", "correlation")
     largest = max(rings, key=lambda one: one.parameters["cells"])
     others = [*_later(largest["damping_exponent_from"]), -ext03.damping(largest, above=True).exponent]
-    label = f"sound peak of the fluctuations, N = {largest.parameters['cells']}"
+    label = mean_slope(
+        f"sound peak of the fluctuations, N = {largest.parameters['cells']}", ext03.damping(largest)
+    )
     return with_systematic(number(largest, "damping_exponent", label=label), others)
 
 

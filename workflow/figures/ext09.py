@@ -219,7 +219,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         "number of particles per cell is the same for every N, but for slow ones, which gather as ln t. (a) Logarithmic axes. (b) Against the cube root of N: "
         "a straight line is growth as N^(1/3) beside a constant. Lines: each law over the sizes for which it is not "
         f"rejected at {LEVEL:.0%}, with two degrees of freedom or more. (c) What κ and the other laws, fitted to the same sizes, are off a + b N^(1/3), where that "
-        f"holds; a + b N^(-1/3) has a finite limit. {' '.join(sentences)} Error bars: standard errors over replicas."
+        f"holds; a + b N^(-1/3) has a finite limit. {' '.join(sentences)} What is said of laws is said of this drive alone, and at the largest sizes of this start alone, as "
+        "ext. 12 has other starts in shorter chains only. Error bars: standard errors over replicas."
     )
     return figure, by_spacing(pd.concat([table, fitted]), spacing), caption
 

@@ -112,6 +112,13 @@ def memory(found: Mapping[str, pd.DataFrame], spacing: Mapping[str, str]) -> str
     return f"Of the state, likewise: {'; '.join(said)}.{where}"
 
 
+def conclusion(slopes: pd.DataFrame, table: pd.DataFrame) -> str:
+    """What the laws of ext. 9 rest on."""
+    depends = " Local exponents depend on the drive at these sizes." if rejected(*scatter(slopes)) else ""
+    longest = table[table.start != "warm"].groupby("gas").cells.max()
+    return f"{depends} Starts are compared up to N = {longest.min()} to {longest.max()} only: what ext. 9 says of longer chains rests on its start."
+
+
 def scatter(found: pd.DataFrame) -> tuple[float, int]:
     """chi^2 of the drives' local exponents about their weighted mean at each size and spacing, with its degrees of
     freedom. Neighbouring sizes share an error, so that the p-value is not exact."""
@@ -205,7 +212,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         f"{laws(table, spacing)} Below: κ and J_n from several starts relative to the mean over them, δ: in "
         "equilibrium with the mean of the baths (warm), with the colder or the hotter one, and empty; for κ "
         f"{goodness(starts.chi_square.sum(), int(starts.freedom.sum()))}, about a common value at every size, the largest "
-        f"deviation {100 * starts.deviation.abs().max():.1f} %. {memory(found, spacing)} Error bars: standard errors over replicas."
+        f"deviation {100 * starts.deviation.abs().max():.1f} %. {memory(found, spacing)}{conclusion(slopes, table)} Error bars: standard errors over replicas."
     )
     drawn = [found[name].assign(quantity=name) for name in ("kappa", "particle_current")]
     return figure, by_spacing(pd.concat([slopes, *drawn]), spacing), caption
