@@ -1,77 +1,56 @@
-"""Every figure of the paper: programs write data/<quality>/<panel>/*.h5, scripts draw them.
+"""Every figure of the paper: programs write data/<quality>/<panel>/<run>.h5, scripts render figures/<quality>/<panel>.*
 
-What runs again is decided by content (workflow/provenance/chain.py): all inputs are `ancient`, so that their times do
-not count, and a job that is stale is forced when it enters the DAG. When the run starts, stale products are moved to
-build/replaced; a dry run only names them.
+What reruns is decided by parameters (profiles/default): the options and the build id of a program, the sources and the
+configuration of a script. Time stamps decide nothing.
 """
 
-import json
-import math
-import re
-import runpy
+import os
+import shlex
 import sys
 from functools import cache
-from pathlib import Path
 
-from snakemake.logging import logger
+from workflow.cluster.cost import seconds_of_run
+from workflow.lib.configuration import ConfigurationError, arguments
+from workflow.lib.environment import clean
+from workflow.lib.figure_metadata import PACKAGES, digest_of_files, sources_of
+from workflow.lib.plan import data_of, drawings_of, load_plan, panel_named
+from workflow.provenance.build_id import BuildError, built
 
-runpy.run_path(f"{workflow.basedir}/workflow/environment/launch.py")  # no other file is taken for a module
-FOLDERS_HERE = {workflow.basedir, f"{workflow.basedir}/workflow", ""}  # where Snakemake looks first
-sys.path[:] = [folder for folder in sys.path if folder not in FOLDERS_HERE]
-from workflow.lib.costs import peak_memory
-from workflow.lib.locks import hold_as_make
-from workflow.lib.parents import caption_of
-from workflow.lib.places import in_one_line, require_place
-from workflow.lib.plan import ConfigurationError, data_of, drawings_of
-from workflow.tradeoff.batches import divide
-from workflow.execution.handler import OF_PROJECT, LogHandler
-from workflow.execution.remaining import foretold
-from workflow.provenance.chain import Chain
-from workflow.provenance.execute import identity_of
-from workflow.provenance.node import note_libraries
-from workflow.provenance.repository import ROOT
-from workflow.provenance.lock import collect
-from workflow.provenance.request import Request
-from workflow.provenance.stale import REPLACED, prepare, retire, unasked
-from workflow.tradeoff.timings import read_timings
-
+clean(os.environ)  # a bare `snakemake` gives the same bytes as make
+QUALITY = config.get("quality", "standard")
 try:
-    REQUEST = Request.of(config)
-    for place in ("data", "figures"):  # in which Snakemake looks before a run starts
-        require_place(ROOT / place / REQUEST.quality / "any", ROOT)
-except ConfigurationError as error:
+    PLAN = load_plan(QUALITY)
+    PANEL = config.get("panel") and panel_named(PLAN, config["panel"]).name
+    BUILDS = {run.program: built(run.program)["build_id"] for panel in PLAN.values() for run in panel.runs}
+except (ConfigurationError, BuildError) as error:
     sys.exit(str(error))
-except OSError as error:
-    sys.exit(in_one_line(error))
-QUALITY, PANELS = REQUEST.quality, REQUEST.panels
-CHAIN = Chain(QUALITY, PANELS)
 
 
-include: "workflow/rules/common.smk"
+def products_of(panel):
+    """Results too: Snakemake does not remake a missing intermediate whose products are there."""
+    return [*data_of(PLAN, panel, QUALITY), *drawings_of(QUALITY, panel)]
 
 
 wildcard_constraints:
     quality=QUALITY,
-    panel="|".join(PANELS),
-    run="|".join({re.escape(run.name) for panel in PANELS.values() for run in panel.runs}),
+    panel="[^/]+",
+    run="[^/]+",
 
 
 rule figures:
     input:
-        all_figures,
+        [path for panel in PLAN for path in products_of(panel)],
 
 
 rule panel:
     input:
-        [path for name in REQUEST.asked for path in drawings_of(QUALITY, name)],
+        products_of(PANEL) if PANEL else [],
 
 
 include: "workflow/rules/simulate.smk"
+include: "workflow/rules/draw.smk"
 
 
-if REQUEST.batch:
+if "batch" in config:
 
     include: "workflow/rules/cluster.smk"
-
-
-include: "workflow/rules/draw.smk"

@@ -1,17 +1,19 @@
-"""Writes a panel: PDF, PNG, SVG and the plotted numbers as CSV, each naming its parents by hash.
+"""Writes a panel: PDF, PNG, SVG and the plotted numbers as CSV, each stating its parents, and `<panel>.json`, which states all.
 
-Equal inputs give equal bytes: no file holds a time, a host, a user or an absolute path.
+Equal inputs give equal bytes: no file but the last, which names the commit, has a time, a host, a user or an absolute path.
 """
 
+import hashlib
 import io
-from dataclasses import dataclass
+import json
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from matplotlib.figure import Figure
 
-from workflow.lib.parents import CAPTION_LINE, PARENTS_LINE, Parents
-from workflow.lib.places import write_together
+from workflow.lib.figure_metadata import PARENTS_LINE, Parents, commit
+from workflow.lib.files import write_together
 from workflow.lib.style import FONTS
 
 CREATOR = "lorentz-gas"
@@ -24,7 +26,7 @@ class Text:
 
 
 def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -> None:
-    """Writes stem.pdf, .png, .svg and .csv, all or none. The table is that of columns.as_csv()."""
+    """Writes stem.pdf, .png, .svg, .csv and .json, all or none. The table is that of columns.as_csv()."""
     described = parents.as_json()
     pictures: dict[str, dict[str, Any]] = {
         "pdf": {
@@ -43,9 +45,11 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
         contents[kind] = _picture(figure, kind, metadata)
         figure.set_layout_engine("none")  # that of the first holds for all
     units, numbers = table.split("\n", maxsplit=1)
-    contents["csv"] = "\n".join(
-        [f"# {text.title}", PARENTS_LINE + described, units, CAPTION_LINE + text.caption, numbers]
-    ).encode()
+    head = [f"# {text.title}", units, f"# caption: {text.caption}", PARENTS_LINE + parents.digest()]
+    contents["csv"] = "\n".join([*head, numbers]).encode()
+    hashes = {f"{stem.name}.{kind}": hashlib.sha256(content).hexdigest() for kind, content in contents.items()}
+    record = {"panel": stem.name, "quality": stem.parent.name, **asdict(text), **commit(), "files": hashes}
+    contents["json"] = (json.dumps(record | {"parents": vars(parents)}, indent=1, ensure_ascii=False) + "\n").encode()
     stem.parent.mkdir(parents=True, exist_ok=True)
     write_together({stem.with_suffix(f".{kind}"): content for kind, content in contents.items()})
 

@@ -1,30 +1,51 @@
-"""Identity of an executable: what it was built from, as a hash that names no path, host or time.
+"""Identity of an executable: a hash of its sources, compiler, flags and libraries that names no path, host or time.
 
-The include closure of a source is the source, every file that it includes with quotes (beside the
-file that includes it or else relative to the root, as the compiler finds it), and for each included
-header `x.hpp` the source `x.cpp` beside it, transitively.
-Writes OUTPUT.json for the pipeline and OUTPUT.cpp for the executable, each only if it changes, and
-a dependency file for the build. Standard library only: the build runs before anything is installed.
+The include closure of a source is the source, every file that it includes with quotes (beside the file that includes it or
+else relative to the root, as the compiler finds it), and for each included header `x.hpp` the source `x.cpp` beside it,
+transitively. CMake runs this module with the system's Python, 3.8 or later, so it uses the standard library only; it writes
+OUTPUT.json for the pipeline and OUTPUT.cpp for the executable, each only if it changes, and a dependency file.
 """
+
+from __future__ import annotations
 
 import argparse
 import hashlib
 import json
 import os
 import re
-import sys
 from pathlib import Path
 from typing import Any
 
+ROOT = Path(__file__).resolve().parents[2]
 IDENTITY = ("program", "version", "source_hash", "compiler", "flags", "libraries")
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
+
+
+class BuildError(ValueError):
+    """There is no executable of the present sources."""
+
+
+def built(program: str) -> dict[str, Any]:
+    """The identity of build/bin/PROGRAM: build_id, source_hash, compiler, flags, libraries, sources. Raises BuildError."""
+    try:
+        identity: dict[str, Any] = json.loads((ROOT / f"build/id/{program}.json").read_text("utf-8"))
+    except (OSError, ValueError) as error:
+        raise BuildError(f"build/bin/{program} is missing: run make build") from error
+    if sources_of_program(program) != identity["source_hash"]:
+        raise BuildError(f"build/bin/{program} is not built from the present sources: run make build")
+    return identity
+
+
+def sources_of_program(program: str, root: Path = ROOT / "cpp") -> str:
+    """The source hash of a program as its sources are now. Raises FileNotFoundError."""
+    return source_hash(content_hashes(root, include_closure(root, f"observables/{program}.cpp")))
 
 
 def include_closure(root: Path, source: str) -> list[str]:
     """Paths relative to root of all project files that `source` is built from, sorted.
 
-    Raises FileNotFoundError if the source is not there. Quoted includes that are not files below
-    the root belong to libraries and are left to the library versions.
+    Raises FileNotFoundError if the source is missing. Quoted includes that are not files below the root belong to
+    libraries and are covered by the library versions.
     """
     closure: set[str] = set()
     pending = [source]
@@ -41,17 +62,12 @@ def include_closure(root: Path, source: str) -> list[str]:
 
 
 def _included(root: Path, source: str, name: str) -> str | None:
-    places = (os.path.normpath(Path(source).parent / name), os.path.normpath(name))
-    return next((place for place in places if (root / place).is_file()), None)
-
-
-def content_hash(path: Path) -> str:
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
+    candidates = (os.path.normpath(Path(source).parent / name), os.path.normpath(name))
+    return next((path for path in candidates if (root / path).is_file()), None)
 
 
 def content_hashes(root: Path, closure: list[str]) -> dict[str, str]:
-    return {name: content_hash(root / name) for name in closure}
+    return {name: hashlib.sha256((root / name).read_bytes()).hexdigest() for name in closure}
 
 
 def source_hash(contents: dict[str, str]) -> str:
@@ -61,7 +77,7 @@ def source_hash(contents: dict[str, str]) -> str:
 
 
 def build_id(identity: dict[str, str]) -> str:
-    """sha256 over what the executable was built from; what else the mapping holds does not count."""
+    """sha256 over the fields of IDENTITY."""
     named = {name: identity[name] for name in IDENTITY}
     return hashlib.sha256(json.dumps(named, sort_keys=True).encode()).hexdigest()
 
@@ -73,10 +89,8 @@ def write_if_changed(path: Path, text: str) -> None:
 
 
 def cpp_source(identity: dict[str, Any]) -> str:
-    fields = ",\n".join(
-        f"    {json.dumps(identity[name])}"
-        for name in ("version", "source_hash", "build_id", "compiler", "flags", "libraries")
-    )
+    names = ("version", "source_hash", "build_id", "compiler", "flags", "libraries")
+    fields = ",\n".join(f"    {json.dumps(identity[name])}" for name in names)
     return (
         f'#include "program/build_info.hpp"\n\nconst lorentz::BuildInfo lorentz::build_info{{\n{fields}}};\n'
     )
@@ -99,7 +113,7 @@ def main() -> None:
         "flags": options.flags.replace(";", " "),
         "libraries": options.libraries,
     }
-    identity |= {"build_id": build_id(identity), "sources": contents}
+    identity.update(build_id=build_id(identity), sources=contents)
 
     write_if_changed(Path(f"{options.output}.json"), json.dumps(identity, indent=2) + "\n")
     write_if_changed(Path(f"{options.output}.cpp"), cpp_source(identity))
@@ -109,7 +123,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except KeyboardInterrupt:
-        sys.exit("Stopped.")
+    main()

@@ -1,36 +1,34 @@
-"""One panel from its runs: figures/<quality>/<panel>.{pdf,png,svg,csv}."""
+"""One panel from its results: figures/<quality>/<panel>.{pdf,png,svg,csv,json}."""
+
+
+def script_of(panel):
+    return f"workflow/figures/{PLAN[panel].script}.py"
+
+
+@cache
+def sources_digest(script):
+    return digest_of_files([*sources_of(script), PACKAGES])
 
 
 rule draw:
     input:
-        data=data_of_panel,
-        sources=ancient(lambda wildcards: CHAIN.sources(wildcards.panel)),
-        lock=ancient("requirements.lock"),
+        lambda wildcards: data_of(PLAN, wildcards.panel, QUALITY),
     output:
-        pdf="figures/{quality}/{panel}.pdf",
+        multiext("figures/{quality}/{panel}", ".pdf", ".svg", ".csv", ".json"),
         png=report(
             "figures/{quality}/{panel}.png",
             caption="../report/caption.rst",
             category="{quality}",
             labels={"panel": "{panel}"},
         ),
-        svg="figures/{quality}/{panel}.svg",
-        csv="figures/{quality}/{panel}.csv",
     log:
         "build/logs/{quality}/{panel}.log",
-    benchmark:
-        "build/benchmarks/{quality}/{panel}.tsv"
-    priority: BEFORE_ANY_RUN
-    conda:
-        "../environment/conda.yaml"
     params:
-        here=HERE,
-        configuration=lambda wildcards: PANELS[wildcards.panel].hash(),
-        # For the report. What depends on an output is not among the parameters whose change Snakemake looks for.
-        caption=lambda wildcards, output: caption_of(Path(output.csv)),
+        script=lambda wildcards: PLAN[wildcards.panel].script,
+        sources=lambda wildcards: sources_digest(script_of(wildcards.panel)),
+        configuration=lambda wildcards: PLAN[wildcards.panel].hash(),
+        stem=lambda wildcards: f"figures/{QUALITY}/{wildcards.panel}",
+    priority: 10**9  # before any run
     shell:
-        """
-        .venv/bin/python -I -S workflow/environment/launch.py workflow.provenance.execute draw {params.here} --log {log:q} \
-            --quality {wildcards.quality:q} --panel {wildcards.panel:q} \
-            --configuration {params.configuration:q} --sources {input.sources:q} --data {input.data:q}
-        """
+        ".venv/bin/python -P -m workflow.figures.{params.script} --configuration {params.configuration}"
+        " --output {params.stem:q} --data {input:q} 2> {log:q}"

@@ -1,0 +1,1 @@
+"""Progress of make figures."""

@@ -1,0 +1,11 @@
+#!/bin/bash
+# Runs a command unless another one that was started in this way still runs in this folder. The lock is the kernel's: it
+# ends with the processes that hold it, however they end.
+mkdir -p build && exec 9>build/lock || exit
+message=$(flock --nonblock --conflict-exit-code 75 9 2>&1)
+case $? in
+  0) ;;
+  75) echo 'Another make runs in this folder: wait until it ends.' >&2; exit 1 ;;
+  *) echo "No locks here (${message##*: }): do not run two makes at once in this folder." >&2 ;;
+esac
+exec "$@"
