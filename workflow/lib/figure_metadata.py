@@ -67,6 +67,14 @@ class Parents:
         except (ValueError, TypeError) as error:
             raise MetadataError(f"other metadata than this version writes: {error}") from error
 
+    def inputs(self) -> dict[str, str]:
+        """Every file that the figure was made from, with its hash."""
+        return (
+            {path: one["sha256"] for path, one in self.data.items()}
+            | self.sources
+            | {PACKAGES: self.packages}
+        )
+
     def as_json(self) -> str:
         return json.dumps(vars(self), sort_keys=True)
 
@@ -116,13 +124,18 @@ def commit() -> dict[str, Any]:
     try:
         tracked = _git("ls-files", "Snakefile")
         changed = _git("status", "--porcelain", "--untracked-files=no", "--", ".")
-        return {"commit": _git("rev-parse", "HEAD") if tracked else None, "clean": not changed if tracked else None}
+        return {
+            "commit": _git("rev-parse", "HEAD") if tracked else None,
+            "clean": not changed if tracked else None,
+        }
     except (OSError, subprocess.CalledProcessError):
         return {"commit": None, "clean": None}
 
 
 def _git(*arguments: str) -> str:
-    done = subprocess.run(["git", "--no-optional-locks", "-C", ROOT, *arguments], capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        ["git", "--no-optional-locks", "-C", ROOT, *arguments], capture_output=True, text=True, check=True
+    )
     return done.stdout.strip()
 
 
@@ -140,7 +153,9 @@ def embedded(path: Path) -> str:
     """What the file states of its parents: their JSON, or the digest of it in a CSV. Raises MetadataError, OSError."""
     readers = {".csv": _of_table, ".svg": _of_svg, ".png": _of_png, ".pdf": _of_pdf}
     if path.suffix not in readers:
-        raise MetadataError(f"{path.name}: only {', '.join(readers)} and .h5 files state where they come from")
+        raise MetadataError(
+            f"{path.name}: only {', '.join(readers)} and .h5 files state where they come from"
+        )
     try:
         return readers[path.suffix](path)
     except OSError:

@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from matplotlib.figure import Figure
+from workflow.lib.files import write_together
 
 from workflow.lib.figure_metadata import PARENTS_LINE, Parents, commit
-from workflow.lib.files import write_together
 from workflow.lib.style import FONTS
 
 CREATOR = "lorentz-gas"
@@ -47,9 +47,13 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
     units, numbers = table.split("\n", maxsplit=1)
     head = [f"# {text.title}", units, f"# caption: {text.caption}", PARENTS_LINE + parents.digest()]
     contents["csv"] = "\n".join([*head, numbers]).encode()
-    hashes = {f"{stem.name}.{kind}": hashlib.sha256(content).hexdigest() for kind, content in contents.items()}
+    hashes = {
+        f"{stem.name}.{kind}": hashlib.sha256(content).hexdigest() for kind, content in contents.items()
+    }
     record = {"panel": stem.name, "quality": stem.parent.name, **asdict(text), **commit(), "files": hashes}
-    contents["json"] = (json.dumps(record | {"parents": vars(parents)}, indent=1, ensure_ascii=False) + "\n").encode()
+    contents["json"] = (
+        json.dumps(record | {"parents": vars(parents)}, indent=1, ensure_ascii=False) + "\n"
+    ).encode()
     stem.parent.mkdir(parents=True, exist_ok=True)
     write_together({stem.with_suffix(f".{kind}"): content for kind, content in contents.items()})
 

@@ -1,57 +1,97 @@
-"""Compares runs with those that they replaced, or those of another seed or number of replicas with the quality's own.
+"""Compares results with those before a rerun from scratch, or of another seed or number of replicas with the quality's own.
 
-Prints a line per run: the same bytes, within errors, or not; status 1 if one is not.
+Status 1 if a result differs by more than its errors.
 """
 
 import argparse
+import shutil
+import subprocess
 import sys
 from pathlib import Path
 
-from workflow.lib.load import FormatError
+import numpy as np
+from scipy.special import stdtr
+
+from workflow.lib.figure_metadata import ROOT, file_hash
+from workflow.lib.load import Quantity, load
 from workflow.lib.plan import Quality, data_path, load_plan, with_used
-from workflow.provenance.redo import agreement, same_bytes
-from workflow.provenance.repository import ROOT
-from workflow.provenance.stale import REPLACED
+
+BEFORE = Path("build/before")
+SIGNIFICANCE = 1e-4  # of the largest deviation in a result
+COMPUTED = 1e6  # degrees of freedom of a discretisation error
 
 
-def verdict(one: Path, other: Path) -> tuple[bool, str]:
-    """Whether two files of a run agree, and in what sense."""
-    if not other.is_file():
-        return True, f"nothing to compare with: {other.relative_to(ROOT)} is missing"
-    if same_bytes(one, other):
-        return True, "the same bytes"
-    try:
-        within, words = agreement(one, other)
-    except FormatError as error:
-        return False, f"cannot be compared: {error}"
-    return within, f"other bytes, {words}"
+def keep(quality: str) -> None:
+    """Links to the results that a rerun replaces; programs write new files and rename them."""
+    shutil.rmtree(ROOT / BEFORE, ignore_errors=True)
+    if (ROOT / "data" / quality).is_dir():
+        (ROOT / BEFORE).mkdir(parents=True)
+        for options in ("-al", "-a"):  # copies, where there are no hard links
+            done = subprocess.run(
+                ["cp", options, ROOT / "data" / quality, ROOT / BEFORE], capture_output=True, check=False
+            )
+            if done.returncode == 0:
+                break
+
+
+def p_value(one: Path, other: Path) -> float:
+    """Of the largest difference between two results, by Student's distribution and the number of values; 0 where they are not of
+    the same quantities and shapes. Raises FormatError."""
+    first, second = load(one).quantities, load(other).quantities
+    pairs = [(quantity, second.get(name)) for name, quantity in first.items()]
+    if first.keys() != second.keys() or any(b is None or a.mean.shape != b.mean.shape for a, b in pairs):
+        return 0.0
+    rarest = [tail for a, b in pairs if b is not None for tail in _tails(a, b)]
+    return min(1.0, len(rarest) * min(rarest)) if rarest else 1.0
+
+
+def _tails(a: Quantity, b: Quantity) -> np.ndarray:
+    """Two-sided probability of each difference, where both values have an error."""
+    computed = a.standard_error is None
+    one, other = (q.discretisation_error if computed else q.error for q in (a, b))
+    error, difference = np.atleast_1d(np.hypot(one, other)), np.atleast_1d(np.abs(a.mean - b.mean))
+    replicas = (
+        np.full(error.shape, COMPUTED) if computed else np.atleast_1d(np.minimum(a.replicas, b.replicas))
+    )
+    known = (error > 0) & np.isfinite(difference) & (replicas > 1)
+    return np.asarray(2 * stdtr(2 * (replicas[known] - 1.0), -difference[known] / error[known]))
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--quality", required=True)
-    parser.add_argument("--panel", help="only the runs that this panel shows")
-    options = parser.parse_args()
-    quality, plan = Quality.of(options.quality), load_plan(options.quality)
-    own = quality.name == quality.base
-    shared = (
-        ""
-        if own or quality.seed is not None
-        else "; the first replicas are the same, so deviations are small"
+    parser.add_argument("--panel", help="only the results that this panel shows")
+    parser.add_argument(
+        "--keep", action="store_true", help="keep the present results for a comparison after the rerun"
     )
-    print(f"Compared with {REPLACED if own else f'data/{quality.base}'}{shared}:")
-    agree: list[bool] = []
-    for panel in with_used(plan, options.panel) if options.panel else plan.values():
+    options = parser.parse_args()
+    if options.keep:
+        keep(options.quality)
+        return
+    quality, plan = Quality.of(options.quality), load_plan(options.quality)
+    against = BEFORE / quality.name if quality.name == quality.base else Path("data") / quality.base
+    panels = with_used(plan, options.panel) if options.panel else plan.values()
+    values: dict[str, float] = {}
+    for panel in panels:
         for run in panel.runs:
-            path = data_path(quality.name, panel.name, run.name)
-            other = f"{REPLACED}/{path}" if own else data_path(quality.base, panel.name, run.name)
-            within, words = verdict(ROOT / path, ROOT / other)
-            agree.append(within)
-            print(f"  {panel.name}/{run.name}: {words}")
-    if not all(agree):
-        sys.exit(
-            f"{agree.count(False)} of {len(agree)} runs do not agree with those that they are compared with."
-        )
+            path, other = (
+                data_path(quality.name, panel.name, run.name),
+                against / panel.name / f"{run.name}.h5",
+            )
+            if (ROOT / other).is_file():
+                same = file_hash(ROOT / path) == file_hash(ROOT / other)
+                values[path] = 1.0 if same else p_value(ROOT / path, ROOT / other)
+    if not values:
+        print(f"No results in {against} to compare with")
+        return
+    differing = {path: p for path, p in values.items() if p <= SIGNIFICANCE}
+    agree = len(values) - len(differing)
+    print(
+        f"{agree} of {len(values)} results agree with those in {against}, smallest p = {min(values.values()):.2g}"
+    )
+    for path, p in differing.items():
+        print(f"  {path}: p = {p:.2g}")
+    sys.exit(1 if differing else 0)
 
 
 if __name__ == "__main__":

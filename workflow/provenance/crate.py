@@ -1,144 +1,183 @@
 """Packs code, configuration, data, figures and the runs that made them into a Workflow Run RO-Crate.
 
-Equal inputs give equal bytes. Run by make: python -m workflow.provenance.crate --quality QUALITY.
+Equal inputs give equal bytes: no time of day, host, user or folder is named.
 """
 
 import argparse
+import shlex
 import shutil
+import subprocess
 import sys
+from collections.abc import Iterable
+from datetime import date
 from pathlib import Path
+from typing import Any
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
+from rocrate.model import ContextEntity, Entity
 from rocrate.rocrate import ROCrate
 
-from workflow.lib.plan import Panel, Quality, load_plan, panel_named, with_used
-from workflow.lib.strict_yaml import ConfigurationError
-from workflow.provenance import report_links
-from workflow.provenance.chain import Chain
-from workflow.provenance.crate_graph import crate_of
-from workflow.provenance.job import Job
-from workflow.provenance.lock import Lock, LockError, builds_of
-from workflow.provenance.repository import ROOT, git
+from workflow.lib.citation import citation
+from workflow.lib.configuration import ConfigurationError, arguments
+from workflow.lib.figure_metadata import PACKAGES, ROOT, file_hash, read_panel
+from workflow.lib.plan import data_of, data_path, drawings_of, panel_named, with_used
+from workflow.provenance.checks import Products
 
-PLACE = ROOT / "build/crate"
-DRAFT = "smoke"
-NAMED = 5  # stale jobs that a refusal names
-# What belongs to the project where git cannot tell.
-FOLDERS = ("cpp", "docs", "profiles", "tests", "workflow")
-FILES = (
-    "Makefile",
-    "Snakefile",
-    "requirements.lock",
-    "requirements-build.lock",
-    "requirements-dev.lock",
-    ".clang-format",
-    ".clang-tidy",
-    ".ruff.toml",
-)
-PAPERS = (
-    "README.md",
-    "CHANGELOG.md",
-    "CITATION.cff",
-    "codecheck.yml",
-    "codemeta.json",
-    "LICENSE",
-    "LICENSES/MIT.txt",
-    "REUSE.toml",
-    ".gitignore",
-    "data/README.md",
-    "data/claims.csv",
-    "figures/README.md",
-)
+FOLDER = ROOT / "build/crate"
+RUN = "https://w3id.org/ro/wfrun"
+PROFILES = {
+    f"{RUN}/process/0.5": "Process Run Crate",
+    f"{RUN}/workflow/0.5": "Workflow Run Crate",
+    "https://w3id.org/workflowhub/workflow-ro-crate/1.0": "Workflow RO-Crate",
+}
+TYPES = {".csv": "text/csv", ".h5": "application/x-hdf5", ".json": "application/json", ".md": "text/markdown"}
+TYPES |= {".pdf": "application/pdf", ".png": "image/png", ".svg": "image/svg+xml", ".html": "text/html"}
 
 
-class CrateError(ValueError):
-    """There is nothing that can be packed; the message says why and what to do."""
+def new_crate(quality: str) -> ROCrate:
+    """Without files; name, authors, version and licence are those of CITATION.cff and LICENSE."""
+    crate, cited, licence = ROCrate(version="1.1"), citation(ROOT), (ROOT / "LICENSE").read_text()
+    crate.metadata.extra_terms |= {"sha256": "https://w3id.org/ro/terms/workflow-run#sha256"}
+    crate.name = cited["title"]
+    crate.description = (
+        f"Code, configuration, data and figures at quality {quality}, and the runs that made them"
+    )
+    crate.datePublished = date.fromisoformat(str(cited["date-released"]))
+    text = {"@type": "CreativeWork", "name": licence.partition("\n")[0], "description": licence}
+    crate.license = add(crate, f"https://spdx.org/licenses/{cited['license']}", text)
+    root = crate.root_dataset
+    root["version"] = cited["version"]
+    names = [one.get("name") or f"{one['given-names']} {one['family-names']}" for one in cited["authors"]]
+    kinds = ["Person" if "family-names" in one else "Organization" for one in cited["authors"]]
+    authors = enumerate(zip(kinds, names, strict=True), 1)
+    root["author"] = compact(
+        [add(crate, f"#author-{i}", {"@type": kind, "name": name}) for i, (kind, name) in authors]
+    )
+    root["conformsTo"] = [
+        add(crate, url, {"@type": "CreativeWork", "name": name, "version": url.rpartition("/")[2]})
+        for url, name in PROFILES.items()
+    ]
+    return crate
 
 
-def chosen_jobs(lock: Lock, plan: dict[str, Panel], panel: str | None, remedy: str) -> dict[str, Job]:
-    """Jobs of the panel, or of all, runs before the drawing that shows them. Raises CrateError if one is stale."""
-    panels = [panel] if panel else list(plan)
-    stale = Chain(lock.quality, plan, lock).stale(panels)
-    if stale:
-        named = [f"\n  {job}: {reason}" for job, reason in list(stale.items())[:NAMED]]
-        more = f"\n  and {len(stale) - NAMED} more" if len(stale) > NAMED else ""
-        hint = "" if panel else "; with PANEL=fig05 one panel is packed alone"
-        raise CrateError(
-            f"products are missing or stale:{''.join(named)}{more}\nMake them with {remedy}{hint}"
+def pack(products: Products, panels: list[str]) -> ROCrate:
+    """The panels, the results that they show, and all sources."""
+    quality, plan, crate = products.quality, products.plan, new_crate(products.quality)
+    shown = {one.name: one for name in panels for one in with_used(plan, name)}
+    scripts = {name: f"workflow/figures/{plan[name].script}.py" for name in panels}
+    data = {path for name in panels for path in data_of(plan, name, quality)}
+    figures = {path for name in panels for path in drawings_of(quality, name)}
+    files = {
+        path: add_file(crate, path, path in scripts.values())
+        for path in sorted({*project_files(), *data, *figures})
+    }
+    files["README.md"]["about"] = crate.root_dataset
+
+    def action(
+        name: str, tool: Entity, command: str, inputs: Iterable[str], outputs: Iterable[str]
+    ) -> Entity:
+        properties = {"@type": "CreateAction", "name": name, "instrument": tool, "description": command}
+        properties["object"] = [files[path] for path in inputs]
+        properties["result"] = compact([files[path] for path in outputs])
+        return add(crate, f"#{name}", properties)
+
+    settings = ["workflow/config/paper.yaml", f"workflow/config/quality/{quality.partition('_')[0]}.yaml"]
+    command = f"make figures QUALITY={quality}"
+    actions = [
+        action("workflow", files["Snakefile"], command, [*settings, PACKAGES], sorted({*data, *figures}))
+    ]
+    for panel in shown.values():
+        for run in panel.runs:
+            properties = {"@type": "SoftwareApplication", "name": run.program}
+            properties["isBasedOn"] = files[f"cpp/observables/{run.program}.cpp"]
+            tool = crate.get(f"#program/{run.program}") or add(crate, f"#program/{run.program}", properties)
+            command = shlex.join([run.program, *arguments(run.options)])
+            output = data_path(quality, panel.name, run.name)
+            actions.append(action(f"job/{panel.name}/{run.name}", tool, command, settings, [output]))
+    for name, script in scripts.items():
+        inputs = read_panel(ROOT / drawings_of(quality, name)[-1])["parents"].inputs()
+        actions.append(
+            action(f"job/{name}", files[script], f"Renders {name}", inputs, drawings_of(quality, name))
         )
-    runs = [f"{one.name}/{run.name}" for name in panels for one in with_used(plan, name) for run in one.runs]
-    return {name: lock.jobs[name] for name in dict.fromkeys([*runs, *panels])}
+    crate.root_dataset["mentions"] = actions
+    return crate
 
 
-def written_report(chain: Chain) -> list[str]:
-    """Paths of the report, none if there is none. Raises CrateError if it does not follow from the products."""
-    for link in report_links.report(chain):
-        raise CrateError(f"{link.path} {link.message}")
-    return [path for path in report_links.paths(chain.quality) if chain.hashes[path]]
+def add(crate: ROCrate, identifier: str, properties: dict[str, Any]) -> Entity:
+    return crate.add(ContextEntity(crate, identifier, properties))
 
 
-def source_files(lock: Lock, jobs: dict[str, Job]) -> set[str]:
-    """The project's files, and what the jobs were made from, tracked by git or not; relative paths."""
-    scripts = [path for job in jobs.values() for path in job.sources]
-    builds = builds_of(jobs.values())
-    built = [f"cpp/{path}" for build_id in builds for path in lock.builds[build_id]["sources"]]
-    return {*project_files(), *scripts, *built}
+def add_file(crate: ROCrate, path: str, is_script: bool) -> Entity:
+    properties: dict[str, Any] = {"name": path, "sha256": file_hash(ROOT / path)}
+    properties["encodingFormat"] = TYPES.get(Path(path).suffix, "text/plain")
+    if path == "Snakefile" or is_script:
+        properties["version"] = crate.root_dataset["version"]
+    if path == "Snakefile":
+        described = {"properties": properties, "main": True, "lang": "snakemake", "record_size": True}
+        return crate.add_workflow(ROOT / path, path, **described)
+    if is_script:
+        properties |= {"@type": ["File", "SoftwareSourceCode"], "programmingLanguage": "Python"}
+    return crate.add_file(ROOT / path, path, properties=properties, record_size=True)
+
+
+def compact(values: list[Entity]) -> Entity | list[Entity]:
+    """RO-Crate wants no list where there is one value."""
+    return values[0] if len(values) == 1 else values
 
 
 def project_files() -> list[str]:
-    if (ROOT / ".git").exists() and (listed := git("ls-files", "-z")):
-        return [path for path in listed.decode().split("\0") if (ROOT / path).is_file()]
-    below = [path for folder in FOLDERS for path in (ROOT / folder).rglob("*") if path.is_file()]
-    sources = [str(path.relative_to(ROOT)) for path in below if "__pycache__" not in path.parts]
-    return [*FILES, *PAPERS, *sources]
+    """What git tracks; without a repository of the project, every file that is neither a product nor hidden."""
+    done = subprocess.run(["git", "-C", ROOT, "ls-files", "-z"], capture_output=True, text=True, check=False)
+    tracked = [path for path in done.stdout.split("\0") if path and (ROOT / path).is_file()]
+    paths = [str(path.relative_to(ROOT)) for path in sorted(ROOT.rglob("*")) if path.is_file()]
+    return (
+        tracked
+        if "Snakefile" in tracked
+        else [
+            path
+            for path in paths
+            if not path.startswith((".", "build/", "data/", "figures/")) and "__pycache__" not in path
+        ]
+    )
 
 
-def write(crate: ROCrate, folder: Path, archive: Path) -> None:
-    """Writes both beside their places and renames them, so that neither is ever there by half."""
-    unfinished, zipped = (path.with_name(f"{path.name}.tmp") for path in (folder, archive))
+def write(crate: ROCrate, folder: Path) -> Path:
+    """The folder and the zip archive beside it, each written under another name and renamed."""
+    unfinished, archive = (
+        folder.with_name(f"{folder.name}.tmp"),
+        folder.with_name(f"lorentz-gas-{folder.name}.zip"),
+    )
     shutil.rmtree(unfinished, ignore_errors=True)
     crate.write(unfinished)
-    with ZipFile(zipped, "w") as content:
+    with ZipFile(archive.with_suffix(".tmp"), "w") as content:
         for path in sorted(path for path in unfinished.rglob("*") if path.is_file()):
             entry = ZipInfo(str(path.relative_to(unfinished)))  # its time is the same for every file
             entry.external_attr = 0o644 << 16
             content.writestr(entry, path.read_bytes(), ZIP_DEFLATED)
     shutil.rmtree(folder, ignore_errors=True)
     unfinished.replace(folder)
-    zipped.replace(archive)
-
-
-def pack(quality: str, panel: str | None) -> Path:
-    """The archive. Raises CrateError, LockError or ConfigurationError."""
-    plan = load_plan(quality)
-    if Quality.of(quality).base == DRAFT:
-        raise CrateError(
-            f"QUALITY={DRAFT} makes drafts, which are not packed: choose standard, paper or deep"
-        )
-    if panel:
-        panel_named(plan, panel)
-    remedy = f"make {f'panel PANEL={panel}' if panel else 'figures'} QUALITY={quality}"
-    try:
-        lock = Lock.read(quality)
-    except LockError as error:
-        raise CrateError(f"{error}, so nobody knows what made the products: {remedy} writes it") from error
-    jobs = chosen_jobs(lock, plan, panel, remedy)
-    report = [] if panel else written_report(Chain(quality, plan, lock))
-    archive = PLACE / f"lorentz-gas-{quality}.zip"
-    write(crate_of(lock, jobs, source_files(lock, jobs), report, remedy), PLACE / quality, archive)
-    return archive
+    return archive.with_suffix(".tmp").replace(archive)
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="Packs products and their history into an RO-Crate")
+    parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--quality", required=True)
-    parser.add_argument("--panel", help="this panel only, with the runs that it uses")
+    parser.add_argument("--panel", help="this panel and the results that it shows")
     options = parser.parse_args()
     try:
-        archive = pack(options.quality, options.panel)
-    except (CrateError, ConfigurationError) as error:
-        print(f"make crate: {error}", file=sys.stderr)
+        products = Products(options.quality)
+        panels = [panel_named(products.plan, options.panel).name] if options.panel else [*products.plan]
+    except ConfigurationError as error:
+        print(error, file=sys.stderr)
         sys.exit(2)
+    for fault in (
+        fault
+        for name in panels
+        for one in with_used(products.plan, name)
+        for fault in products.faults(one.name)
+    ):
+        sys.exit(f"{fault.path}: {fault.reason}; run make {'panel' if options.panel else 'figures'} first")
+    archive = write(pack(products, panels), FOLDER / options.quality)
     print(f"The crate is {archive.relative_to(ROOT)}, unpacked in build/crate/{options.quality}")
 
 

@@ -1,9 +1,9 @@
-"""What the report says, from verdicts, products and the lock; how it looks is up to the templates."""
+"""The content of the report, from verdicts and products; its looks are up to the templates."""
 
 import base64
 import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -12,10 +12,8 @@ import yaml
 from workflow.claims.data import Data, MissingError
 from workflow.claims.judge import Judgement
 from workflow.lib import style
-from workflow.lib.parents import caption_of
-from workflow.lib.plan import Panel, drawings_of
-from workflow.provenance.lock import Lock
-from workflow.provenance.status import worst_error
+from workflow.lib.plan import Panel
+from workflow.provenance.checks import worst_error
 from workflow.report import words
 from workflow.report.misprints import NUMBERS
 from workflow.report.sources import Costs, Products, total
@@ -57,26 +55,25 @@ def claim(judgement: Judgement, costs: Costs) -> dict[str, Any]:
 
 def panel(quality: str, panel: Panel, products: Products, costs: Costs) -> dict[str, Any]:
     """A panel as it was drawn. Raises ReportError."""
-    *_, svg, csv = [products.file(path) for path in drawings_of(quality, panel.name)]
-    job = products.lock.jobs[panel.name]
+    record = products.record(panel.name)
+    svg = next(
+        products.file(f"figures/{quality}/{name}") for name in record["files"] if name.endswith(".svg")
+    )
+    for name in record["files"]:
+        products.file(f"figures/{quality}/{name}")
     return {
         "name": panel.name,
-        "title": title_of(csv),
-        "caption": caption_of(csv),
+        "title": record["title"],
+        "caption": record["caption"],
         "wide": _width(svg) > WIDE * style.COLUMN,
         "picture": base64.b64encode(svg.read_bytes()).decode(),
         "uses": panel.uses,
         "runs": len(panel.runs),
         "cost": total(costs, [f"{panel.name}/{run.name}" for run in panel.runs]) if panel.runs else None,
         "error": worst_error(quality, panel),
-        "parents": job.inputs,
-        "outputs": job.outputs,
+        "parents": record["parents"].inputs(),
+        "outputs": record["files"],
     }
-
-
-def title_of(table: Path) -> str:
-    """Of a panel, by its CSV."""
-    return table.read_text("utf-8").split("\n", 1)[0].removeprefix("# ")
 
 
 def _width(svg: Path) -> float:
@@ -124,13 +121,14 @@ def _shown(row: Mapping[str, str], by_id: Mapping[str, Judgement], data: Data) -
         return str(error)
 
 
-def environment(lock: Lock) -> dict[str, Any]:
+def environment(records: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
     """Versions that made the products."""
-    builds = lock.builds.values()
-    python = sorted({job.python for job in lock.drawings().values() if job.python})
-    return {
-        name: sorted({build[name] for build in builds}) for name in ("compiler", "flags", "libraries")
-    } | {"Python": python}
+    parents = [record["parents"] for record in records]
+    builds = [build for one in parents for build in one.builds.values()]
+    names = ("compiler", "flags", "libraries")
+    return {name: sorted({build[name] for build in builds}) for name in names} | {
+        "Python": sorted({one.python for one in parents})
+    }
 
 
 def as_script(content: dict[str, Any]) -> str:

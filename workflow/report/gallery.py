@@ -1,8 +1,7 @@
 """Writes docs/gallery, small pictures and the tables of all panels and the verdicts, and the answer at the top of README.md: for
 those who look at the project before they run it.
 
-Every panel is taken from the highest quality that is here as its job wrote it. A small picture keeps what the panel says
-of itself, so that `make status` knows when it is older than the code.
+Every panel is taken from the highest quality that is here as it was written.
 """
 
 import argparse
@@ -16,22 +15,21 @@ from typing import Any
 
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
+from workflow.lib.files import write_together
 
 from workflow.claims.data import Data
 from workflow.lib import style
 from workflow.lib.caption import listed
-from workflow.lib.parents import caption_of
-from workflow.lib.places import write_together
-from workflow.lib.plan import QUALITIES, Panel, drawings_of
-from workflow.lib.strict_yaml import ConfigurationError
-from workflow.provenance.repository import ROOT
-from workflow.provenance.status import GALLERY
+from workflow.lib.configuration import ConfigurationError
+from workflow.lib.figure_metadata import ROOT
+from workflow.lib.plan import QUALITIES, Panel
 from workflow.report import content, summary
 from workflow.report.answer import answer
 from workflow.report.sources import Products, ReportError, source_hashes
 from workflow.report.templates import written
 
 README = "README.md"
+GALLERY = "docs/gallery"
 BLOCKS = ("answer", "panels")  # of README.md, each by a template of its own
 COLUMNS, COLORS = 720, 256  # of a small picture
 
@@ -50,20 +48,14 @@ def small(picture: Path) -> bytes:
         return content.getvalue()
 
 
-def made(root: Path) -> dict[str, Products]:
-    """By quality, the highest first, where there is a lock that can be read."""
-    found = {}
+def best(panel: Panel, root: Path) -> Products | None:
+    """Of the highest quality at which the panel is here as it was written."""
     for quality in reversed(QUALITIES):
+        products = Products(root, quality)
         with suppress(ReportError):
-            found[quality] = Products.of(quality, root)
-    return found
-
-
-def best(panel: Panel, products: Mapping[str, Products]) -> tuple[str, list[Path]] | None:
-    """The highest quality at which the panel is here as its job wrote it, with the paths of its drawings."""
-    for quality, one in products.items():
-        with suppress(ReportError):
-            return quality, [one.file(path) for path in drawings_of(quality, panel.name)]
+            for name in products.record(panel.name)["files"]:
+                products.file(f"figures/{quality}/{name}")
+            return products
     return None
 
 
@@ -94,25 +86,21 @@ def with_blocks(readme: str, context: Mapping[str, Any]) -> str:
 
 def gallery(quality: str, root: Path = ROOT) -> list[str]:
     """Writes all of it, or nothing; a line per panel. quality: of the answer and the verdicts. Raises ReportError."""
-    data, here = Data(quality, root), Products.of(quality, root)
-    folder, products = root / GALLERY, made(root)
-    pictures = {name: found for name, panel in data.plan.items() if (found := best(panel, products))}
+    data, here, folder = Data(quality, root), Products(root, quality), root / GALLERY
+    pictures = {name: found for name, panel in data.plan.items() if (found := best(panel, root))}
     if missing := [name for name in data.plan if name not in pictures]:
         raise ReportError(
-            f"{listed(missing)} not made, or not as the lock says: make figures QUALITY={quality}"
+            f"{listed(missing)}: not made, or not as it was written; run make figures QUALITY={quality}"
         )
     judgements = here.judged(data)
     panels, files = [], {}
-    for name, (quality_there, (_, png, _, csv)) in pictures.items():
-        files[folder / png.name] = small(png)
-        files[folder / csv.name] = csv.read_bytes()
+    for name, products in pictures.items():
+        stem, record = root / "figures" / products.quality / name, products.record(name)
+        files[folder / f"{name}.png"] = small(stem.with_suffix(".png"))
+        for kind in (".csv", ".json"):
+            files[folder / f"{name}{kind}"] = stem.with_suffix(kind).read_bytes()
         panels.append(
-            {
-                "name": name,
-                "quality": quality_there,
-                "title": content.title_of(csv),
-                "caption": caption_of(csv),
-            }
+            {key: record[key] for key in ("title", "caption")} | {"name": name, "quality": products.quality}
         )
     claims = [content.claim(one, {}) for one in judgements]
     parents = {"quality": quality, "sources": source_hashes(root)}

@@ -1,4 +1,4 @@
-"""Where the report's content comes from: products that are what their jobs wrote, sources, and what the runs cost."""
+"""Where the report's content comes from: products that are as they were written, sources, and the cost of the runs."""
 
 import json
 import re
@@ -7,14 +7,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from workflow.cluster.cost import recorded_seconds
+
 from workflow.claims.data import Data
 from workflow.claims.judge import CLAIMS_FILE, Judgement, judge_all
 from workflow.lib.citation import CITATION
-from workflow.lib.costs import cost_file
-from workflow.lib.parents import PACKAGES, file_hash
+from workflow.lib.figure_metadata import PACKAGES, MetadataError, file_hash, read_panel, sources_of
+from workflow.lib.load import FormatError, load_provenance, results_digest
 from workflow.lib.plan import Panel
-from workflow.provenance.lock import Lock, LockError
-from workflow.provenance.sources import sources_of
 
 SCRIPT = "workflow/report/write.py"
 PARENTS = re.compile(r'<script type="application/json" id="parents">(.*?)</script>', re.DOTALL)
@@ -28,37 +28,47 @@ class ReportError(ValueError):
 
 @dataclass
 class Products:
-    """Files that jobs wrote. Every one that is asked for is compared with the lock, and remembered with its hash."""
+    """Figures that are as the record of their panel states, and results that have the values that were written. Each one
+    that is used is remembered with its hash."""
 
     root: Path
-    lock: Lock
+    quality: str
     used: dict[str, str] = field(default_factory=dict)
-
-    @classmethod
-    def of(cls, quality: str, root: Path) -> "Products":
-        """Raises ReportError if there is no lock that can be read."""
-        try:
-            return cls(root, Lock.read(quality))
-        except LockError as error:
-            raise ReportError(f"{error}: run make figures") from error
+    records: dict[str, dict[str, Any]] = field(
+        default_factory=dict
+    )  # of panels, as read_panel() returns them
 
     def judged(self, data: Data) -> list[Judgement]:
-        """All claims, by files that are what their jobs wrote. Raises ReportError."""
+        """All claims. Raises ReportError if a result that they rest on is not as it was written."""
         judgements = judge_all(data)
         for path in {path for judgement in judgements for path in judgement.data}:
             self.file(path)
         return judgements
 
+    def record(self, panel: str) -> dict[str, Any]:
+        """Raises ReportError."""
+        if panel not in self.records:
+            path = self.root / f"figures/{self.quality}/{panel}.json"
+            try:
+                self.records[panel] = read_panel(path)
+            except (OSError, MetadataError) as error:
+                raise ReportError(f"{panel} is not made, or damaged: run make figures ({error})") from error
+        return self.records[panel]
+
     def file(self, path: str) -> Path:
-        """Raises ReportError if it is not what its job wrote."""
-        recorded, place = self.lock.outputs().get(path), self.root / path
-        found = file_hash(place) if place.is_file() else None
-        if found is None or found != recorded:
-            raise ReportError(
-                f"{path} is {'missing' if found is None else 'not what its job wrote'}: run make figures"
-            )
-        self.used[path] = found
-        return place
+        """Raises ReportError if it is missing or not as it was written."""
+        here = self.root / path
+        try:
+            if path.startswith("figures/"):
+                whole = self.record(here.stem)["files"].get(here.name) == file_hash(here)
+            else:
+                whole = load_provenance(here)["results_digest"] == results_digest(here)
+            self.used[path] = file_hash(here)
+        except (OSError, FormatError) as error:
+            raise ReportError(f"{path} is missing or damaged: run make figures") from error
+        if not whole:
+            raise ReportError(f"{path} is not as it was written: run make audit, then make figures")
+        return here
 
 
 def source_hashes(root: Path) -> dict[str, str]:
@@ -76,9 +86,9 @@ def source_hashes(root: Path) -> dict[str, str]:
 
 def measured_costs(quality: str, plan: Mapping[str, Panel]) -> Costs:
     """Those that are known, to three digits."""
-    names = [(panel.name, run.name) for panel in plan.values() for run in panel.runs]
-    found = {f"{panel}/{run}": cost_file(quality, panel, run) for panel, run in names}
-    return {name: float(f"{cost['cpu_seconds']:.3g}") for name, cost in found.items() if cost}
+    runs = [(panel.name, run) for panel in plan.values() for run in panel.runs]
+    found = {f"{panel}/{run.name}": recorded_seconds(quality, panel, run) for panel, run in runs}
+    return {name: float(f"{seconds:.3g}") for name, seconds in found.items() if seconds}
 
 
 def parents_in(report: Path) -> dict[str, Any]:

@@ -1,19 +1,20 @@
 """Writes figures/<quality>/report.html and report.md from the products of one quality.
 
-Reads only products that are what their jobs wrote, and names every file that it has read by hash; the CPU seconds of the
-runs are stated facts. With equal inputs the report has equal bytes, so that `make audit` writes it again and compares.
+It names every file that it reads by hash; the CPU seconds of the runs are stated facts. With equal inputs the report has equal
+bytes: `make audit` writes it again and compares.
 """
 
 import argparse
 import sys
 from pathlib import Path
 
+from workflow.lib.files import write_together
+
 from workflow.claims.data import Data
 from workflow.lib.citation import citation
-from workflow.lib.places import write_together
+from workflow.lib.configuration import ConfigurationError
+from workflow.lib.figure_metadata import ROOT
 from workflow.lib.plan import Quality
-from workflow.lib.strict_yaml import ConfigurationError
-from workflow.provenance.repository import ROOT
 from workflow.report import content
 from workflow.report.answer import answer
 from workflow.report.sources import Costs, Products, ReportError, measured_costs, parents_in, source_hashes
@@ -25,7 +26,7 @@ NAMES = ("report.html", "report.md")
 def pages(quality: str, costs: Costs | None = None, root: Path = ROOT) -> dict[str, str]:
     """Text by name of the file. Without costs those that were measured here are stated. Raises ReportError."""
     data = Data(quality, root)
-    products = Products.of(quality, root)
+    products = Products(root, quality)
     judgements = products.judged(data)
     costs = measured_costs(quality, data.plan) if costs is None else costs
     context = {
@@ -39,7 +40,7 @@ def pages(quality: str, costs: Costs | None = None, root: Path = ROOT) -> dict[s
         "findings": content.findings(judgements),
         "misprints": content.misprints(judgements, data),
         "panels": [content.panel(quality, one, products, costs) for one in data.plan.values()],
-        "environment": content.environment(products.lock),
+        "environment": content.environment(products.records.values()),
         "citation": citation(root),
         "cost": sum(costs.values()),
     }

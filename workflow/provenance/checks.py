@@ -1,0 +1,209 @@
+"""Whether results and figures follow from the present sources, parameters, build and packages.
+
+A fault is `broken`, what was found to differ, or `not checked`, what could not be compared here.
+"""
+
+import math
+import tomllib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache, cached_property
+from importlib import metadata
+from itertools import zip_longest
+from pathlib import Path
+from typing import Any
+
+from workflow.lib.configuration import at_size
+from workflow.lib.figure_metadata import (
+    BUILD,
+    PACKAGES,
+    ROOT,
+    MetadataError,
+    Parents,
+    embedded,
+    file_hash,
+    read_panel,
+    sources_of,
+)
+from workflow.lib.load import FormatError, load_parameters, load_provenance, results_digest
+from workflow.lib.plan import Panel, Run, data_of, data_path, drawings_of, load_plan
+from workflow.provenance.build_id import BuildError, built, sources_of_program
+
+SIZES = (2, 3, 5)  # at which two polynomials in N are compared
+
+
+@dataclass(frozen=True)
+class Fault:
+    path: str
+    reason: str
+    broken: bool = True
+
+    def __str__(self) -> str:
+        return f"{'broken' if self.broken else 'not checked'}: {self.path}: {self.reason}"
+
+
+class Products:
+    """The results and figures of one quality. Raises ConfigurationError."""
+
+    def __init__(self, quality: str) -> None:
+        self.quality, self.plan = quality, load_plan(quality)
+
+    def is_made(self, panel: str) -> bool:
+        """Whether any product of the panel is there; a folder without a panel, as of a crate of another, is no fault."""
+        paths = [
+            *drawings_of(self.quality, panel),
+            *(data_path(self.quality, panel, run.name) for run in self.plan[panel].runs),
+        ]
+        return any((ROOT / path).exists() for path in paths)
+
+    def faults(self, panel: str) -> Iterator[Fault]:
+        """Of the panel and of its own results, the results first."""
+        for run in self.plan[panel].runs:
+            if fault := self.fault_of_result(panel, run):
+                yield fault
+        if fault := self.fault_of_figure(self.plan[panel]):
+            yield fault
+
+    def fault_of_result(self, panel: str, run: Run) -> Fault | None:
+        path = data_path(self.quality, panel, run.name)
+        if not (ROOT / path).exists():
+            return Fault(path, "is missing")
+        try:
+            (ROOT / path).open("rb").close()
+        except OSError as error:
+            return Fault(path, f"cannot be read: {error.strerror}", broken=False)
+        try:
+            stated, parameters = load_provenance(ROOT / path), load_parameters(ROOT / path)
+            digest = results_digest(ROOT / path)
+        except FormatError as error:
+            return Fault(path, str(error).removeprefix(f"{ROOT / path}").strip(": "))
+        if stated["results_digest"] != digest:
+            return Fault(path, "its values are not those that were written: edited or damaged")
+        for name, value in run.options.items():
+            if name in parameters and not _agree(value, parameters[name]):
+                return Fault(
+                    path, f"stale: --{name} is {parameters[name]} in it and {value} in the configuration"
+                )
+        return _fault_of_build(path, run.program, stated)
+
+    def fault_of_figure(self, panel: Panel) -> Fault | None:
+        *files, record = drawings_of(self.quality, panel.name)
+        if missing := [path for path in (*files, record) if not (ROOT / path).exists()]:
+            return Fault(missing[0], "is missing")
+        try:
+            stated = read_panel(ROOT / record)
+            for path in files:
+                if file_hash(ROOT / path) != stated["files"].get(Path(path).name):
+                    return Fault(
+                        path, f"is not the file that {Path(record).name} names: edited, damaged or replaced"
+                    )
+            return self._fault_of_parents(panel, stated["parents"], files)
+        except MetadataError as error:
+            return Fault(record, str(error))
+        except OSError as error:
+            return Fault(str(error.filename or record), f"cannot be read: {error.strerror}", broken=False)
+
+    def _fault_of_parents(self, panel: Panel, parents: Parents, files: list[str]) -> Fault | None:
+        for path in files:
+            if embedded(ROOT / path) not in (parents.as_json(), parents.digest()):
+                return Fault(path, "states other parents than the record of the panel")
+        picture = files[0]
+        if {*parents.data} != {*data_of(self.plan, panel.name, self.quality)}:
+            return Fault(picture, "stale: it shows other runs than those of the configuration")
+        if parents.configuration != panel.hash():
+            return Fault(picture, "stale: the configuration of the panel has changed")
+        for path, one in parents.data.items():
+            if not (ROOT / path).exists():
+                return Fault(picture, f"{path}, which it shows, is missing")
+            if _hash(ROOT / path) != one["sha256"]:
+                return Fault(picture, f"stale: it shows another {path}")
+        present = {path: _hash(ROOT / path) for path in sources_of(f"workflow/figures/{panel.script}.py")}
+        changed = [
+            path
+            for path in present.keys() | parents.sources.keys()
+            if present.get(path) != parents.sources.get(path)
+        ]
+        if parents.packages != _hash(ROOT / PACKAGES):
+            changed.append(PACKAGES)
+        return Fault(picture, f"stale: {min(changed)} has changed") if changed else None
+
+    def obsolete(self) -> Iterator[Fault]:
+        """Results and figures of this quality that the configuration does not name."""
+        known = {
+            path
+            for panel in self.plan
+            for path in (*data_of(self.plan, panel, self.quality), *drawings_of(self.quality, panel))
+        }
+        for pattern in (f"data/{self.quality}/*/*.h5", f"figures/{self.quality}/*.pdf"):
+            for path in sorted(str(one.relative_to(ROOT)) for one in ROOT.glob(pattern)):
+                if path not in known:
+                    yield Fault(path, "is not in the plan: obsolete or misplaced; remove it")
+
+
+@cache
+def _hash(path: Path) -> str:
+    return file_hash(path)
+
+
+def _fault_of_build(path: str, program: str, stated: dict[str, Any]) -> Fault | None:
+    if stated["program"] != program:
+        return Fault(path, f"was written by {stated['program']}, not by {program}")
+    if stated["source_hash"] != _source_hash(program):
+        return Fault(path, f"stale: the sources of {program} have changed")
+    try:
+        build = built(program)
+    except BuildError:  # no build here, as in an unpacked crate: the sources decide
+        return None
+    for name in BUILD:
+        if build[name] != stated[name]:
+            reason = (
+                f"by another {name.removesuffix('s')}, {stated[name]}, than the build here, {build[name]}"
+            )
+            return Fault(path, reason, broken=False)
+    return None
+
+
+_source_hash = cache(sources_of_program)
+
+
+def _agree(option: Any, stated: Any) -> bool:
+    """Whether an option of the configuration has the value that a file states in canonical form."""
+    if str(option) == str(stated):
+        return True
+    pairs = [*zip_longest(str(option).split(","), str(stated).split(","), fillvalue="nan")]
+    return all(at_size(one, size) == at_size(other, size) for one, other in pairs for size in SIZES)
+
+
+class Installed:
+    """The Python packages that are installed, against uv.lock."""
+
+    @cached_property
+    def difference(self) -> str | None:
+        """The first package of another version than the locked one."""
+        locked = {
+            one["name"]: one.get("version") for one in tomllib.loads((ROOT / PACKAGES).read_text())["package"]
+        }
+        for package in metadata.distributions():
+            name = package.metadata["Name"].lower().replace("_", "-").replace(".", "-")
+            if name in locked and package.version != locked[name]:
+                return f"{name} {package.version} is installed, {PACKAGES} has {locked[name]}"
+        return None
+
+
+INSTALLED = Installed()
+
+
+def worst_error(quality: str, panel: Panel) -> str:
+    """The largest error of the panel's results; of those that had a target, error and target."""
+    errors, aimed = [], []
+    for run in panel.runs:
+        try:
+            provenance = load_provenance(ROOT / data_path(quality, panel.name, run.name))
+            achieved, target = (float(provenance[name]) for name in ("achieved_error", "target_error"))
+        except (FormatError, KeyError, TypeError, ValueError):
+            continue
+        if target > 0:
+            aimed.append((achieved / target, f"{achieved:.1e} of {target:.0e}"))
+        elif not math.isnan(achieved):
+            errors.append((achieved, f"{achieved:.1e}"))
+    return "; ".join(max(found)[1] for found in (errors, aimed) if found)

@@ -1,0 +1,40 @@
+"""Renders a panel once more, elsewhere, and compares bytes."""
+
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from workflow.lib.environment import clean
+from workflow.lib.figure_metadata import ROOT, file_hash, read_panel
+from workflow.lib.plan import data_of, drawings_of
+from workflow.provenance.checks import INSTALLED, Fault, Products
+
+
+def redraw(products: Products, panel: str) -> Fault | None:
+    """The first file that gets other bytes than the one that is there."""
+    files = [path for path in drawings_of(products.quality, panel) if not path.endswith(".json")]
+    drawn_with = read_panel(ROOT / files[0].replace(".pdf", ".json"))["parents"].python
+    here = f"{sys.version_info.major}.{sys.version_info.minor}"
+    if drawn_with != here:
+        return Fault(files[0], f"rendered by Python {drawn_with}, and this is {here}", broken=False)
+    if INSTALLED.difference:
+        return Fault(files[0], f"other packages: {INSTALLED.difference}", broken=False)
+    with tempfile.TemporaryDirectory() as folder:
+        stem = Path(folder) / products.quality / panel
+        plan = products.plan
+        environment = dict(os.environ)
+        clean(environment)
+        done = subprocess.run(
+            [sys.executable, "-P", "-m", f"workflow.figures.{plan[panel].script}", "--output", stem]
+            + ["--configuration", plan[panel].hash(), "--data", *data_of(plan, panel, products.quality)],
+            cwd=ROOT, env=environment, capture_output=True, text=True, check=False,
+        )  # fmt: skip
+        if done.returncode:
+            last = (done.stderr.strip().splitlines() or ["no message"])[-1]
+            return Fault(files[0], f"cannot be rendered: {last}")
+        for path in files:
+            if file_hash(ROOT / path) != file_hash(stem.parent / Path(path).name):
+                return Fault(path, "rendered from its parents it gets other bytes")
+    return None
