@@ -1,9 +1,7 @@
 """The tutorial is followed to the letter, and what it says of paper.yaml is so."""
 
-import os
 import re
 import shutil
-import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -36,19 +34,7 @@ def follow(clone: Clone, block: re.Match) -> str:
             file.write(block["text"])
         return ""
     assert block["kind"] == "sh"
-    command = ["bash", "-e", "-c", block["text"]]
-    done = subprocess.run(
-        command,
-        cwd=clone.folder,
-        env={"PATH": os.defpath, "HOME": os.environ.get("HOME", "/")},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        timeout=600,
-        check=False,
-    )
-    assert done.returncode == 0, f"{block['text']}\n{done.stdout}"
-    return done.stdout
+    return clone.run("bash", "-e", "-c", block["text"]).stdout
 
 
 def test_every_step(own: Clone) -> None:
