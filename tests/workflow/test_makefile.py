@@ -1,6 +1,5 @@
 """make as users meet it: other environments, moved folders, other Pythons, machines without locks, mistyped options."""
 
-import json
 import os
 import shutil
 import subprocess
@@ -8,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.workflow.conftest import ROOT, Clone, append, clone_into, copy_made
+from tests.workflow.conftest import ROOT, Clone, clone_into, copy_made, share_build
 from workflow.lib.plan import load_plan
 
 NOBODY = 65534  # a user without a home and without a name
@@ -35,8 +34,7 @@ HOSTILE = {
 def moved(clean: Clone, tmp_path_factory: pytest.TempPathFactory) -> Clone:
     """A built copy of the project in a folder with a space in its name, to which it was moved."""
     first = clone_into(tmp_path_factory.mktemp("first") / "project")
-    (first.folder / "build").mkdir()
-    shutil.copytree(ROOT / "build/ccache", first.folder / "build/ccache", dirs_exist_ok=True)
+    share_build(first)
     copy_made(clean.folder, first.folder)
     first.make("build")
     folder = tmp_path_factory.mktemp("second") / "a path with spaces"
