@@ -1,39 +1,38 @@
-"""Writes what programs say of themselves (`PROGRAM --describe`) to where it is stated again: their options to
-schema.yaml, tables of options and quantities to docs/format.md, quantities to docs/format.schema.json.
-
-Run by `make describe`.
+"""Writes what the programs declare (`PROGRAM --describe`) to the files that state it again: the schema of the options,
+and in docs the tables of options and quantities and the schema of the quantities. Run by `make describe`.
 """
 
 import argparse
 import json
 import re
 import subprocess
-import sys
 import textwrap
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import yaml
-
+from workflow.lib.files import write_together
 from workflow.lib.layout import signature
-from workflow.lib.options import admissible
-from workflow.lib.places import regular, write_together
-from workflow.lib.strict_yaml import ConfigurationError
-from workflow.lib.units import UnitsError, parse
+from workflow.lib.units import SCHEMA, UnitsError, parse
 
 ROOT = Path(__file__).parents[2]
-SCHEMA = ROOT / "workflow/config/schema.yaml"
 FORMAT = ROOT / "docs/format.md"
 FORMAT_SCHEMA = ROOT / "docs/format.schema.json"
-LIMITS = ("type", "minimum", "exclusive_minimum", "maximum", "word", "choices")
+NUMBER = r"([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?"
+LIMITS = {  # keyword of a JSON Schema, and words
+    "minimum": ("minimum", "at least"),
+    "exclusive_minimum": ("exclusiveMinimum", "above"),
+    "maximum": ("maximum", "at most"),
+}
 OF_THE_MACHINE = {"threads": "processors"}  # defaults that differ between machines
 WIDTH = 118
 
+Described = dict[str, dict[str, Any]]  # by program
 
-def descriptions(programs: Path) -> dict[str, dict[str, Any]]:
-    """By program. A quantity that only some chains have is in the description with a flag; `always` names the rest."""
+
+def descriptions(programs: Path) -> Described:
+    """A quantity that only some chains have is in the description with a flag; `always` names the rest."""
     described = {}
     for name in sorted(path.stem for path in (ROOT / "cpp/observables").glob("*.cpp")):
         plain = _describe(programs / name)
@@ -46,57 +45,90 @@ def descriptions(programs: Path) -> dict[str, dict[str, Any]]:
     return described
 
 
-def texts(described: dict[str, dict[str, Any]]) -> dict[Path, str]:
+def texts(described: Described) -> dict[Path, str]:
     """The files as they have to be."""
-    return {
-        SCHEMA: _with_options(SCHEMA.read_text(), described),
-        FORMAT: _with_tables(FORMAT.read_text(), described),
-        FORMAT_SCHEMA: _with_quantities(regular(FORMAT_SCHEMA).read_text(), described),
-    }
-
-
-def _describe(program: Path, *options: str) -> dict[str, Any]:
-    said = subprocess.run([program, *options, "--describe"], check=True, capture_output=True).stdout
-    description: dict[str, Any] = json.loads(said)
-    return description
-
-
-def _with_options(text: str, described: dict[str, dict[str, Any]]) -> str:
-    programs = {
-        name: {
-            option["name"]: {key: option[key] for key in LIMITS if key in option} | _dimension(option)
-            for option in program["options"]
-            if option["affects_results"]
-        }
+    options = {
+        name: {o["name"]: schema(o) for o in program["options"] if o["affects_results"]}
         for name, program in described.items()
     }
-    kept, start, _ = text.partition("programs:")
-    if not start:
-        raise ConfigurationError(f"{SCHEMA.relative_to(ROOT)} has no line 'programs:': restore it")
-    return kept + yaml.safe_dump(
-        {"programs": programs}, default_flow_style=None, sort_keys=False, width=WIDTH
+    text = "JSON Schemas of the programs' options, written by make describe"
+    rules = [
+        {
+            "if": {"properties": {"program": {"const": name}}},
+            "then": {"properties": {"quantities": _quantities(one)}},
+        }
+        for name, one in described.items()
+    ]
+    return {
+        SCHEMA: _compact({"title": text, "programs": options}) + "\n",
+        FORMAT: _with_tables(FORMAT.read_text(), described),
+        FORMAT_SCHEMA: _compact(json.loads(FORMAT_SCHEMA.read_text()) | {"allOf": rules}) + "\n",
+    }
+
+
+def schema(option: dict[str, Any]) -> dict[str, Any]:
+    """JSON Schema of an option. Patterns say what ranges cannot, and the program checks the rest. `allowed` is for messages
+    and tables, `units` for the columns of tables."""
+    noun, _, other = option["type"].partition(" or ")
+    if noun in ("flag", "text"):
+        return (
+            {"type": "boolean", "allowed": "true or false"}
+            if noun == "flag"
+            else {"type": "string", "allowed": "text"}
+        )
+    if noun == "choice":
+        return {"enum": option["choices"], "allowed": " or ".join(option["choices"])}
+    limits = {LIMITS[name][0]: option[name] for name in LIMITS if name in option}
+    words = " and ".join(f"{LIMITS[name][1]} {option[name]:.15g}" for name in LIMITS if name in option)
+    allowed, number = (
+        f"{noun} {words}".strip(),
+        NUMBER if {"minimum", "exclusiveMinimum"} & {*limits} else f"-?{NUMBER}",
+    )
+    pattern = None
+    if noun == "numbers":
+        pattern, allowed = f"{number}(,{number})*", f"{allowed}, ascending, separated by commas"
+    elif "word" in option:
+        pattern, allowed = option["word"], f"{allowed}, or {option['word']}"
+    elif other:
+        term = rf"{number}(N(\^2)?)?"
+        pattern, allowed = (
+            rf"{term}(\+{term})*",
+            f"{allowed}, or a sum of such, each alone or followed by N or N^2",
+        )
+    kind = noun.rstrip("s")
+    found = {"type": [kind, "string"], "pattern": f"^({pattern})$"} if pattern else {"type": kind}
+    return (
+        found
+        | limits
+        | {"allowed": allowed}
+        | ({"units": option["units"]} if _is_dimension(option["units"]) else {})
     )
 
 
-def _dimension(option: dict[str, Any]) -> dict[str, str]:
-    """Units, unless the option is a pure number, a word, or has those of another quantity."""
-    units = option.get("units", "1")
+def _is_dimension(units: str) -> bool:
+    """Not of pure numbers, nor of an error in the units of its quantity."""
     try:
-        return {"units": units} if parse(units) != parse("1") else {}
+        return parse(units) != parse("1")
     except UnitsError:
-        return {}
+        return False
 
 
-def _with_tables(text: str, described: dict[str, dict[str, Any]]) -> str:
+def _describe(program: Path, *options: str) -> dict[str, Any]:
+    written = subprocess.run([program, *options, "--describe"], check=True, capture_output=True).stdout
+    description: dict[str, Any] = json.loads(written)
+    return description
+
+
+def _with_tables(text: str, described: Described) -> str:
     for name, rows in (("options", _option_rows(described)), ("quantities", _quantity_rows(described))):
-        begin, end = f"<!-- {name}, by make describe -->\n", f"<!-- end of {name} -->\n"
-        before, there, rest = text.partition(begin)
-        if not (there and end in rest):
-            raise ConfigurationError(
-                f"{FORMAT.relative_to(ROOT)} has no place for the {name}: restore its line '{begin.strip()}' and its end"
-            )
         table = "".join(f"| {' | '.join(_escaped(cell) for cell in row)} |\n" for row in rows)
-        text = before + begin + table + end + rest.partition(end)[2]
+        before, begin, rest = text.partition(f"<!-- {name}, by make describe -->\n")
+        _, end, after = rest.partition(f"<!-- end of {name} -->\n")
+        if not end:
+            raise ValueError(
+                f"{FORMAT} has no lines '<!-- {name}, by make describe -->' and '<!-- end of {name} -->'"
+            )
+        text = before + begin + table + end + after
     return text
 
 
@@ -105,8 +137,8 @@ def _escaped(cell: str) -> str:
     return re.sub(r"[|<]", r"\\\g<0>", cell)
 
 
-def _option_rows(described: dict[str, dict[str, Any]]) -> Iterator[tuple[str, ...]]:
-    """What most programs share stands first, once."""
+def _option_rows(described: Described) -> Iterator[tuple[str, ...]]:
+    """Options that most programs share come first."""
     users = Counter(json.dumps(option) for program in described.values() for option in program["options"])
     shared = [option for option, count in users.items() if count > len(described) / 2]
     yield ("program", "option", "values", "default", "units", "meaning")
@@ -123,10 +155,16 @@ def _option_rows(described: dict[str, dict[str, Any]]) -> Iterator[tuple[str, ..
 def _option_cells(option: dict[str, Any]) -> tuple[str, ...]:
     default = OF_THE_MACHINE.get(option["name"], option["default"])
     shown = json.dumps(default).strip('"') if not isinstance(default, float) else f"{default:.10g}"
-    return f"`--{option['name']}`", admissible(option), shown, option.get("units", ""), option["description"]
+    return (
+        f"`--{option['name']}`",
+        schema(option)["allowed"],
+        shown,
+        option.get("units", ""),
+        option["description"],
+    )
 
 
-def _quantity_rows(described: dict[str, dict[str, Any]]) -> Iterator[tuple[str, ...]]:
+def _quantity_rows(described: Described) -> Iterator[tuple[str, ...]]:
     yield ("program", "quantity", "units", "meaning")
     yield ("---",) * 4
     for name, program in described.items():
@@ -134,17 +172,6 @@ def _quantity_rows(described: dict[str, dict[str, Any]]) -> Iterator[tuple[str, 
             axes = ", ".join(axis["name"] for axis in quantity["axes"])
             label = f"`{quantity['name']}`{f' [{axes}]' if axes else ''}"
             yield ("" if i else f"`{name}`", label, quantity["units"], quantity["description"])
-
-
-def _with_quantities(text: str, described: dict[str, dict[str, Any]]) -> str:
-    rules = [
-        {
-            "if": {"properties": {"program": {"const": name}}},
-            "then": {"properties": {"quantities": _quantities(program)}},
-        }
-        for name, program in described.items()
-    ]
-    return _compact(json.loads(text) | {"allOf": rules}) + "\n"
 
 
 def _quantities(program: dict[str, Any]) -> dict[str, Any]:
@@ -180,17 +207,8 @@ def _compact(value: Any, indent: int = 0, used: int = 0) -> str:
     )
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(
-        description="Writes what the programs say of themselves to where it is stated again"
-    )
-    parser.add_argument("--programs", type=Path, default=ROOT / "build/bin", help="folder of the executables")
-    try:
-        files = texts(descriptions(parser.parse_args().programs))
-    except ConfigurationError as error:
-        sys.exit(f"make describe: {error}")
-    write_together({path: text.encode() for path, text in files.items()})
-
-
 if __name__ == "__main__":
-    main()
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--programs", type=Path, default=ROOT / "build/bin", help="folder of the executables")
+    files = texts(descriptions(parser.parse_args().programs))
+    write_together({path: text.encode() for path, text in files.items()})
