@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from workflow.lib.configuration import at_size
 from workflow.lib.load import Result
-from workflow.lib.options import at_size
 from workflow.lib.plan import Run
 from workflow.tradeoff import frame, reference
 from workflow.tradeoff.measure import execute, planned, shortened

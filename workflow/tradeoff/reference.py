@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from workflow.lib.options import Options
+from workflow.lib.configuration import Options
 
 # What a line of reference_open_chain begins with, and the number of values per cell and besides.
 COLUMNS = {
