@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pandas as pd
 
-from workflow.lib.options import at_size
+from workflow.lib.configuration import at_size
 from workflow.lib.plan import Run
 from workflow.tradeoff.measure import Done, execute, planned, simulate
 

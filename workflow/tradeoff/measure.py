@@ -7,8 +7,8 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+from workflow.lib.configuration import arguments
 from workflow.lib.load import Result, load
-from workflow.lib.options import arguments
 from workflow.lib.plan import Run, load_plan
 
 PROGRAMS = Path(__file__).parents[2] / "build/bin"
