@@ -61,7 +61,7 @@ class Known(Data):
     def _load(self, panel: str, run: str) -> tuple[str, Result]:
         path = data_path(self.quality, panel, run)
         if panel not in self.fills:
-            raise MissingError(f"{path} is missing or damaged")
+            raise MissingError(f"{path} is missing, damaged or unreadable")
         if path not in self.loaded:
             planned = self.plan[panel].run(run)
             planned = replace(planned, options=DEFAULTS | planned.options)

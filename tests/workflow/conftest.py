@@ -1,90 +1,107 @@
+"""Copies of the project in folders of their own, with every figure at smoke quality, for tests that change them."""
+
 import contextlib
 import fcntl
-import json
 import os
+import re
 import shutil
 import subprocess
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
-from workflow.lib.parents import file_hash
-
 ROOT = Path(__file__).parents[2]
-CHEAP = ("PANEL=fig03", "QUALITY=standard")  # a second, at a quality that is packed
+MADE = ("data/smoke", "figures/smoke", ".snakemake/metadata", "build/bin", "build/id", "build/benchmarks")
+OUTPUT = re.compile(r"^\s*output: (.*)$", re.MULTILINE)
+Done = subprocess.CompletedProcess[str]
 
 
 @dataclass
 class Clone:
-    """A copy of the tracked files in a folder of its own, with the installed Python packages linked."""
+    """A copy of the project with an environment of its own."""
 
     folder: Path
 
-    def make(self, *arguments: str, environment: dict[str, str] | None = None) -> subprocess.CompletedProcess:
-        plain = {"PATH": os.defpath, "HOME": os.environ.get("HOME", "/")}
-        return subprocess.run(
-            ["/usr/bin/make", *arguments],
+    def run(self, *command: str, status: int | None = 0, **environment: str) -> Done:
+        """With a PATH, a HOME and what is given. status: that is expected, None for any."""
+        plain = {"PATH": f"{os.defpath}:{ROOT / '.cache/uv/bin'}", "HOME": os.environ.get("HOME", "/")}
+        done = subprocess.run(
+            command,
             cwd=self.folder,
-            env=plain if environment is None else environment,
+            env=plain | environment,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
             timeout=900,
             check=False,
         )
+        assert status in (None, done.returncode), done.stdout
+        return done
+
+    def make(self, *arguments: str, status: int | None = 0, **environment: str) -> Done:
+        return self.run("/usr/bin/make", *arguments, status=status, **environment)
+
+    def snakemake(self, *arguments: str, status: int | None = 0) -> str:
+        """What a bare snakemake prints."""
+        command = (".venv/bin/snakemake", "--config", "quality=smoke", *arguments)
+        return self.run(*command, status=status, TERM="dumb").stdout
+
+    def module(self, name: str, *arguments: str, status: int | None = 0) -> str:
+        """What `python -m workflow.NAME` prints."""
+        return self.run(".venv/bin/python", "-P", "-m", f"workflow.{name}", *arguments, status=status).stdout
+
+    def stale(self, target: str = "figures") -> set[str]:
+        """Jobs that would run, `panel/run` or `panel`."""
+        outputs = OUTPUT.findall(self.snakemake("--dry-run", target))
+        paths = [one.split(",")[0].strip() for one in outputs]
+        return {"/".join(Path(path).with_suffix("").parts[2:]) for path in paths}
 
     def git(self, *arguments: str) -> None:
         author = ["-c", "user.name=Nobody", "-c", "user.email=nobody@example.org"]
-        day = {"GIT_COMMITTER_DATE": "2011-02-03T23:30:00-0500", "PATH": os.defpath}
-        subprocess.run(["git", *author, *arguments], cwd=self.folder, env=day, check=True)
+        subprocess.run(["git", *author, *arguments], cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
 
     def commit(self) -> None:
         self.git("add", "--all")
         self.git("commit", "--quiet", "--allow-empty", "--message", "all")
 
     def products(self) -> dict[str, bytes]:
-        """Data and figures by path, without the lock, which names the commit, and what is tracked."""
-        files = [path for place in ("data", "figures") for path in (self.folder / place).rglob("*")]
+        """Results and figures by path."""
+        files = [
+            path for place in ("data/smoke", "figures/smoke") for path in (self.folder / place).rglob("*")
+        ]
         return {
             str(path.relative_to(self.folder)): path.read_bytes()
             for path in files
-            if path.is_file() and path.name not in ("lock.json", "README.md", "claims.csv")
+            if path.is_file() and not path.name.endswith(".cost.json") and path.parent.name != "report"
         }
 
 
 def clone_into(folder: Path, source: Path = ROOT) -> Clone:
-    tracked = subprocess.check_output(
-        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=source, text=True
-    )
-    for name in filter(None, tracked.split("\0")):
+    """The tracked and the new files of a project, without a repository, and its packages."""
+    command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    for name in filter(None, subprocess.check_output(command, cwd=source, text=True).split("\0")):
         if (source / name).is_file():
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(source / name, folder / name)
-    # Copies, as every hard link would change the time of change by which changed packages are noticed.
-    shutil.copytree(ROOT / ".venv", folder / ".venv", symlinks=True)
-    share_objects(folder)
-    return Clone(folder)
+    clone = Clone(folder)
+    clone.run("bash", "workflow/environment/setup.sh", "dev")
+    return clone
 
 
-def configure(folder: Path) -> None:
-    """With the project's own objects: nothing is compiled twice."""
-    cache = f"-DCOMPILER_CACHE={ROOT / 'build/ccache'}"
-    run_silently(folder, "cmake", "-S", "cpp", "-B", "build", "-G", "Ninja", cache)
+def share_build(clone: Clone) -> None:
+    """The compiler's cache of the project, so that make build compiles nothing twice."""
+    if not (clone.folder / "build/ccache").exists() and (ROOT / "build/ccache").is_dir():
+        (clone.folder / "build").mkdir(exist_ok=True)
+        (clone.folder / "build/ccache").symlink_to(ROOT / "build/ccache")
 
 
-def share_objects(folder: Path) -> None:
-    """Has a clone configured as make would find it, so that it does not configure again without the shared objects."""
-    by_content = ["python3", "-I", "workflow/environment/launch.py", "workflow.environment.build_by_content"]
-    (folder / "build").mkdir(exist_ok=True)
-    run_silently(folder, *by_content)
-    configure(folder)
-    run_silently(folder, *by_content, "--built")
-
-
-def run_silently(folder: Path, *command: str) -> None:
-    subprocess.run(command, cwd=folder, env={"PATH": os.defpath}, check=True, stdout=subprocess.DEVNULL)
+def copy_made(source: Path, target: Path) -> None:
+    for place in MADE:
+        if (source / place).is_dir():
+            without = shutil.ignore_patterns("report.*", "cpp_tests", "benchmarks", "reference_*")
+            shutil.copytree(source / place, target / place, dirs_exist_ok=True, ignore=without)
 
 
 @contextlib.contextmanager
@@ -94,100 +111,53 @@ def locked(path: Path) -> Iterator[None]:
         yield
 
 
-MADE = ("data/smoke", "figures/smoke", ".snakemake", "build/logs", "build/costs", "build/benchmarks")
-
-
-def copy_made(source: Path, target: Path) -> None:
-    """Products and what is known of their jobs; not the report, which no figure needs."""
-    for place in MADE:
-        if (source / place).is_dir():
-            without = shutil.ignore_patterns("report.*")
-            shutil.copytree(source / place, target / place, dirs_exist_ok=True, ignore=without)
-
-
-def made_as_now() -> bool:
-    """Whether all products of the project were made by the pipeline that is there now, from what was committed."""
-    try:
-        jobs = json.loads((ROOT / "data/smoke/lock.json").read_text())["jobs"].values()
-        used = {item for job in jobs for item in job["pipeline"].items()}
-        return not any(job["dirty"] for job in jobs) and all(
-            file_hash(ROOT / path) == own for path, own in used
-        )
-    except (OSError, ValueError, KeyError):
-        return False
-
-
-def drawn_into(folder: Path) -> Clone:
-    """The project as it stands, its changes committed, with the figures that it has, if they were made as they would be now.
-    Those that are missing or stale are made."""
-    subprocess.run(["git", "clone", "--quiet", "--no-checkout", ROOT, folder], check=True)
-    clone = clone_into(folder)
-    clone.commit()
-    if made_as_now():
-        copy_made(ROOT, folder)
-    made = clone.make("figures", "QUALITY=smoke")
-    assert made.returncode == 0, made.stdout
-    return clone
-
-
 @pytest.fixture(scope="session")
 def clean(tmp_path_factory: pytest.TempPathFactory) -> Clone:
-    """A repository with nothing to commit, built, with every figure at smoke quality. Of processes that run tests beside each
-    other the first draws, and the others copy."""
-    own, folder = tmp_path_factory.getbasetemp(), tmp_path_factory.mktemp("clean")
-    drawn = (own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / "drawn"
-    with locked(drawn.with_suffix(".lock")):
-        if not drawn.exists():
-            clone = drawn_into(folder)
-            shutil.copytree(folder / ".git", drawn / ".git")
-            copy_made(folder, drawn)
-            return clone
+    """A repository with nothing to commit and every figure at smoke quality. Of the workers the first makes what the project
+    lacks, and the others copy it."""
+    folder = tmp_path_factory.mktemp("clean")
+    own = tmp_path_factory.getbasetemp()
+    shared = (own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / "made"
     clone = clone_into(folder)
-    shutil.copytree(drawn / ".git", folder / ".git")
-    copy_made(drawn, folder)
-    assert clone.make("build").returncode == 0
+    clone.git("init", "--quiet")
+    clone.commit()
+    with locked(shared.with_suffix(".lock")):
+        copy_made(shared if shared.exists() else ROOT, folder)
+        if not shared.exists():
+            clone.snakemake("figures")
+            copy_made(folder, shared)
     return clone
 
 
 @pytest.fixture
 def kept(clean: Clone) -> Iterator[Clone]:
-    """The clean clone, with sources, products and Snakemake's notes on them as they were when the test is over."""
-    places = ("data", "figures", "workflow", "profiles", "cpp", "docs", "README.md", "requirements.lock")
-    places += (".snakemake/metadata",)
-    folders = folders_below(clean.folder, places)
+    """The clean clone, with sources, products and Snakemake's records as they were when the test is over."""
+    places = (
+        "data",
+        "figures",
+        "workflow",
+        "profiles",
+        "cpp",
+        "docs",
+        "README.md",
+        "uv.lock",
+        ".snakemake/metadata",
+    )
     before = {file: file.read_bytes() for place in places for file in files_below(clean.folder / place)}
     yield clean
     for file in {file for place in places for file in files_below(clean.folder / place)} - before.keys():
         file.unlink()
     for file, content in before.items():
         if not file.exists() or file.read_bytes() != content:
+            file.parent.mkdir(parents=True, exist_ok=True)
             file.write_bytes(content)
-    for folder in sorted(folders_below(clean.folder, places) - folders, reverse=True):
-        folder.rmdir()
-
-
-def folders_below(root: Path, places: Iterable[str]) -> set[Path]:
-    return {folder for place in places for folder in (root / place).rglob("*") if folder.is_dir()}
 
 
 def files_below(place: Path) -> list[Path]:
-    return [file for file in (place, *place.rglob("*")) if file.is_file()]
+    return [file for file in (place, *place.rglob("*")) if file.is_file() and "__pycache__" not in file.parts]
 
 
 Edit = Callable[[Clone], object]  # something done to a clone
-
-
-def side_by_side(concerned: Mapping[str, Iterable[str]]) -> list[list[str]]:
-    """Names in few groups, so that what those of a group concern is disjoint and can be told apart when all are done at
-    once. One by one they are done by the long tests."""
-    groups: list[tuple[list[str], set[str]]] = []
-    for name, concerns in concerned.items():
-        names, taken = next((group for group in groups if group[1].isdisjoint(concerns)), ([], set()))
-        if not names:
-            groups.append((names, taken))
-        names.append(name)
-        taken.update(concerns)
-    return [names for names, _ in groups]
 
 
 def append(path: str, text: str) -> Edit:
@@ -214,14 +184,3 @@ def copy(source: str, target: str) -> Edit:
 
 def delete(path: str) -> Edit:
     return lambda clone: (clone.folder / path).unlink()
-
-
-@pytest.fixture(scope="module")
-def packed(clean: Clone) -> Iterator[Clone]:
-    """With the cheap panel and its crate; without them afterwards."""
-    for target in ("panel", "crate"):
-        made = clean.make(target, *CHEAP)
-        assert made.returncode == 0, made.stdout
-    yield clean
-    for place in ("data/standard", "figures/standard", "build/crate"):
-        shutil.rmtree(clean.folder / place)

@@ -1,144 +1,163 @@
-"""Every tampering is found, and the first broken link is named; a clean run has none."""
+"""make audit, verify and provenance: what they find, what they cannot check, and copies elsewhere."""
 
-import py_compile
-import subprocess
-import sys
+import json
+import shutil
+import zipfile
 from pathlib import Path
 
+import h5py
 import pytest
 
-from tests.workflow.conftest import Clone, Edit, replace, side_by_side
-from tests.workflow.forgeries import APART, TAMPERINGS, UNCHECKED
-from tests.workflow.tampering import PICTURE, audit, run_module, tampered
-from workflow.lib.plan import load_plan
+from tests.workflow.conftest import ROOT, Clone, Edit, append, copy, delete, replace
+from workflow.lib.figure_metadata import file_hash
 
-__all__ = ["tampered"]  # a fixture
-
-
-@pytest.mark.parametrize("part", [["PANEL=fig08"], pytest.param([], marks=pytest.mark.long)])
-def test_clean_run_has_no_broken_link(clean: Clone, part: list[str]) -> None:
-    audited = clean.make("audit", "QUALITY=smoke", *part)
-    assert audited.returncode == 0, audited.stdout
-    assert "Every link holds" in audited.stdout
+RESULT = "data/smoke/fig03/paper.h5"
+FIGURE = "figures/smoke/fig03"
 
 
-def test_what_is_not_asked_for_any_more_leaves_no_trace(kept: Clone) -> None:
-    replace("workflow/config/paper.yaml", "sigma: [-0.99, -0.9, -0.75", "sigma: [-0.9, -0.75")(kept)
-    made = kept.make("figures", "QUALITY=smoke")
-    assert "fig05/dense_sigma=-0.99 is not asked for any more: moved to build/replaced" in made.stdout
-    assert (kept.folder / "build/replaced/data/smoke/fig05/dense_sigma=-0.99.h5").is_file()
-    audited = kept.make("audit", "QUALITY=smoke", "PANEL=fig05")
-    assert "Nothing is broken" in audited.stdout
-    assert "with uncommitted changes" in audited.stdout
+def audit(clone: Clone, *arguments: str, status: int = 0) -> str:
+    return clone.module("provenance.audit", "--quality", "smoke", *arguments, status=status)
 
 
-def at_once(cases: dict[str, tuple[Edit, str]]) -> list:
-    """Groups of those that touch neither the lock nor what an audit needs to go on, and the others; each by itself is long."""
-    apart = {name for name in cases if any(word in name for word in APART)}
-    groups = side_by_side({name: {words} for name, (_, words) in cases.items() if name not in apart})
-    alone = [[name] for name in cases]
-    kept_short = [names for names in alone if names[0] in apart]
-    long = [pytest.param(names, marks=pytest.mark.long) for names in alone if names[0] not in apart]
-    return [*groups, *kept_short, *long]
+def edit_value(clone: Clone) -> None:
+    with h5py.File(clone.folder / RESULT, "r+") as file:
+        file["results/particle_current/mean"][...] *= 1.001
 
 
-@pytest.mark.parametrize("names", at_once(TAMPERINGS), ids=", ".join)
-def test_tampering_is_found_and_named(tampered: Clone, names: list[str]) -> None:
-    for name in names:
-        TAMPERINGS[name][0](tampered)
-    audited = audit(tampered)
-    assert audited.returncode == 1
-    assert "Traceback" not in audited.stdout
-    told = audited.stdout.splitlines()
-    for name in names:
-        assert any(line.startswith(TAMPERINGS[name][1]) for line in told), name
-    first = [TAMPERINGS[name][1] for name in names]
-    assert any(f"the first is {path}" in audited.stdout for path in first)
+def edit_option(clone: Clone) -> None:
+    with h5py.File(clone.folder / RESULT, "r+") as file:
+        file["parameters"].attrs["sigma"] = 0.25
 
 
-@pytest.mark.parametrize("names", at_once(UNCHECKED), ids=", ".join)
-def test_what_cannot_be_checked_is_said(tampered: Clone, names: list[str]) -> None:
-    for name in names:
-        UNCHECKED[name][0](tampered)
-    assert_unchecked(tampered, *(UNCHECKED[name][1] for name in names))
+def edit_record(clone: Clone) -> None:
+    """The figure and its record, so that they agree."""
+    append(f"{FIGURE}.csv", "1,2,3\n")(clone)
+    path = clone.folder / f"{FIGURE}.json"
+    record = json.loads(path.read_text())
+    record["files"]["fig03.csv"] = file_hash(clone.folder / f"{FIGURE}.csv")
+    path.write_text(json.dumps(record))
 
 
-@pytest.mark.parametrize("shallow", [True, False])
-def test_without_history_commits_are_not_checked(clean: Clone, shallow: bool) -> None:
-    git, hidden = clean.folder / ".git", clean.folder / "build/git"
-    if shallow:
-        (git / "shallow").write_bytes(subprocess.check_output(["git", "rev-parse", "HEAD"], cwd=clean.folder))
-    else:
-        git.rename(hidden)
-    try:
-        reason = "the repository is shallow" if shallow else "this is no repository that git reads"
-        assert_unchecked(clean, f"sources against their commits ({reason})")
-    finally:
-        if shallow:
-            (git / "shallow").unlink()
-        else:
-            hidden.rename(git)
+def halve(path: str) -> Edit:
+    def edit(clone: Clone) -> None:
+        content = (clone.folder / path).read_bytes()
+        (clone.folder / path).write_bytes(content[: len(content) // 2])
+
+    return edit
 
 
-def assert_unchecked(clone: Clone, *cases: str) -> None:
-    audited = audit(clone)
-    assert audited.returncode == 3, audited.stdout
-    for words in cases:
-        assert f"not checked: {words}" in audited.stdout
-    assert audited.stdout.endswith("Nothing is broken, but not every link could be checked\n")
+BROKEN: dict[str, tuple[Edit, str]] = {
+    "value edited": (edit_value, f"{RESULT}: its values are not those that were written"),
+    "option edited": (edit_option, f"{RESULT}: stale: --sigma is 0.25 in it and 0.5"),
+    "result copied in part": (halve(RESULT), f"{RESULT}: "),
+    "result exchanged": (copy("data/smoke/fig03/equal.h5", RESULT), f"{RESULT}: stale: --temperature-left"),
+    "result missing": (delete(RESULT), f"{RESULT}: is missing"),
+    "table edited": (append(f"{FIGURE}.csv", "1,2,3\n"), f"{FIGURE}.csv: is not the file that fig03.json names"),
+    "table and record edited": (edit_record, f"{FIGURE}.csv: rendered from its parents it gets other bytes"),
+    "picture exchanged": (copy("figures/smoke/fig05.png", f"{FIGURE}.png"), f"{FIGURE}.png: is not the file"),
+    "record copied in part": (halve(f"{FIGURE}.json"), f"{FIGURE}.json: "),
+    "figure missing": (delete(f"{FIGURE}.svg"), f"{FIGURE}.svg: is missing"),
+    "script": (append("workflow/figures/fig03.py", "# more\n"), "stale: workflow/figures/fig03.py has changed"),
+    "packages": (append("uv.lock", "# more\n"), "stale: uv.lock has changed"),
+    "C++ source": (append("cpp/boltzmann/solver.cpp", "// more\n"), "stale: the sources of boltzmann have changed"),
+    "parameter": (
+        replace("workflow/config/paper.yaml", "momentum-bins: 240", "momentum-bins: 238"),
+        "stale: --momentum-bins is 240 in it and 238",
+    ),
+}
 
 
-def test_a_foreign_package_is_found(clean: Clone) -> None:
-    folder = next((clean.folder / ".venv/lib").glob("python*/site-packages"))
-    (folder / "numpy.pth").write_text("")
-    try:
-        audited = audit(clean)
-    finally:
-        (folder / "numpy.pth").unlink()
-    assert audited.returncode == 1
-    assert f"the first is {(folder / 'numpy.pth').relative_to(clean.folder)}" in audited.stdout
+@pytest.mark.parametrize("name", BROKEN)
+def test_what_is_broken_is_named(kept: Clone, name: str) -> None:
+    edit, message = BROKEN[name]
+    edit(kept)
+    assert f"broken: {message}" in audit(kept, "--panel", "fig03", status=1).replace("fig03.pdf: stale", "stale")
 
 
-def test_packages_are_not_started_unless_they_are_as_installed(clean: Clone, tmp_path: Path) -> None:
-    """They could switch off what checks them."""
-    (place,) = (clean.folder / ".venv/lib").glob("python*/site-packages")
-    (place / "a.pth").write_text(f"import pathlib; pathlib.Path({str(tmp_path / 'started')!r}).touch()\n")
-    try:
-        made = [clean.make(goal) for goal in ("audit", "verify", "status")]
-        made.append(clean.make("provenance", f"FILE={PICTURE}"))
-    finally:
-        (place / "a.pth").unlink()
-    for one in made:
-        assert one.returncode != 0
-        assert "a.pth' is not what was installed" in one.stdout
-    assert not (tmp_path / "started").exists()
+def test_all_of_it_holds(clean: Clone) -> None:
+    assert audit(clean).endswith(" 0 broken, 0 not checked, all else holds\n")
 
 
-def test_byte_compiled_modules_of_the_project_are_not_used_to_draw(tampered: Clone, tmp_path: Path) -> None:
-    false = tmp_path / "style.py"
-    false.write_text("raise SystemExit(5)\n")
-    compiled = tampered.folder / f"workflow/lib/__pycache__/style.{sys.implementation.cache_tag}.pyc"
-    compiled.parent.mkdir(exist_ok=True)
-    py_compile.compile(
-        str(false), str(compiled), invalidation_mode=py_compile.PycInvalidationMode.UNCHECKED_HASH
+def test_what_is_not_in_the_plan_is_named(kept: Clone) -> None:
+    copy(RESULT, "data/smoke/fig03/mine.h5")(kept)
+    assert "data/smoke/fig03/mine.h5: is not in the plan" in audit(kept, status=1)
+
+
+def test_other_packages_and_compilers_are_not_checked(kept: Clone) -> None:
+    (lock := kept.folder / "uv.lock").write_text(lock.read_text())
+    path = kept.folder / "build/id/boltzmann.json"
+    former = path.read_text()
+    path.write_text(json.dumps(json.loads(former) | {"compiler": "another"}))
+    told = audit(kept, "--panel", "fig03", status=3)
+    path.write_text(former)
+    assert f"not checked: {RESULT}: by another compiler" in told
+    (metadata,) = kept.folder.glob(".venv/lib/python3*/site-packages/matplotlib-*.dist-info/METADATA")
+    former = metadata.read_text()
+    metadata.unlink()  # uv links installed files to its cache
+    metadata.write_text(former.replace("\nVersion: ", "\nVersion: 1", 1))
+    told = audit(kept, "--panel", "fig03", status=3)
+    metadata.write_text(former)
+    assert f"not checked: {FIGURE}.pdf: other packages: matplotlib" in told
+
+
+@pytest.mark.parametrize("surrounding", [False, True])
+def test_a_crate_unpacked_elsewhere_holds(clean: Clone, tmp_path: Path, surrounding: bool) -> None:
+    """Of one panel with `=` in the names of its runs, without a repository or inside another."""
+    clean.module("provenance.crate", "--quality", "smoke", "--panel", "fig06")
+    if surrounding:
+        Clone(tmp_path).git("init", "--quiet")
+    with zipfile.ZipFile(clean.folder / "build/crate/lorentz-gas-smoke.zip") as archive:
+        archive.extractall(tmp_path / "thesis")
+    crate = Clone(tmp_path / "thesis")
+    shutil.copytree(ROOT / ".cache", crate.folder / ".cache", ignore=shutil.ignore_patterns("mypy"))
+    told = crate.make("audit", "QUALITY=smoke").stdout
+    assert told.endswith("1 panels with their results: 0 broken, 0 not checked, all else holds\n")
+    assert "Not made at quality smoke: fig01, " in told
+
+
+def test_verify_reruns_a_panel(kept: Clone) -> None:
+    """With a fresh build that is already there."""
+    shutil.copytree(kept.folder / "build/bin", kept.folder / "build/fresh", dirs_exist_ok=True)
+    told = kept.module(
+        "provenance.verify", "--quality", "smoke", "--sample", "1", "--panel", "fig03", "--programs", "build/fresh"
     )
-    audited = audit(tampered)
-    assert audited.returncode == 0, audited.stdout
+    assert told.endswith("3 results rerun: 0 differ\n")
+    edit_value(kept)
+    told = kept.module(
+        "provenance.verify", "--quality", "smoke", "--sample", "1", "--panel", "fig03", "--programs", "build/fresh", status=1
+    )
+    assert f"{RESULT}: other bytes" in told
 
 
-def test_the_summary_says_how_much_was_drawn_again(clean: Clone) -> None:
-    panels = len(load_plan("smoke"))
-    assert f"drew 1 of {panels} panels again" in audit(clean).stdout
+@pytest.mark.parametrize("kind", ["pdf", "png", "svg", "csv"])
+def test_where_a_copy_comes_from(clean: Clone, tmp_path: Path, kind: str) -> None:
+    copied = shutil.copyfile(clean.folder / f"{FIGURE}.{kind}", tmp_path / f"a copy.{kind}")
+    told = clean.module("provenance.tree", str(copied), "--full")
+    identity = json.loads((clean.folder / "build/id/boltzmann.json").read_text())
+    paths = (RESULT, "uv.lock", "workflow/figures/fig03.py", "workflow/lib/style.py")
+    wanted = [identity["source_hash"], *(file_hash(clean.folder / path) for path in paths)]
+    assert all(f"{digest[:16]}  same here" in told for digest in wanted)
+    assert told.startswith(f"a copy.{kind} is {FIGURE}.{kind}, rendered at commit ")
+    assert "(clean)" in told
+    with copied.open("ab") as file:
+        file.write(b"\n")
+    told = clean.module("provenance.tree", str(copied), status=1)
+    assert "is not a file of any panel here" in told
+    assert "panel fig03 at quality smoke" in told
 
 
-def test_an_unknown_panel_is_refused_with_the_nearest(clean: Clone) -> None:
-    refused = audit(clean, "--panel", "figg03")
-    assert refused.returncode == 2
-    assert refused.stdout.count("\n") == 1
-    assert "fig03" in refused.stdout
+def test_where_a_result_comes_from(kept: Clone) -> None:
+    told = kept.module("provenance.tree", RESULT)
+    assert told.startswith("paper.h5 has the values that were written\n")
+    assert "program boltzmann: " in told
+    edit_value(kept)
+    assert "does not have the values" in kept.module("provenance.tree", RESULT, status=1)
 
 
-def test_an_unknown_quality_is_refused(clean: Clone) -> None:
-    refused = run_module(clean, "audit", quality="../smoke")
-    assert refused.returncode == 2
-    assert "QUALITY=../smoke is not known" in refused.stdout
+def test_what_states_no_parents_is_refused_in_a_line(clean: Clone, tmp_path: Path) -> None:
+    (tmp_path / "x.pdf").write_text("nothing")
+    (tmp_path / "x.txt").write_text("nothing")
+    for name, status in (("x.pdf", 1), ("x.txt", 1), ("missing.pdf", 2)):
+        told = clean.module("provenance.tree", str(tmp_path / name), status=status)
+        assert len(told.splitlines()) == 1
+        assert name in told

@@ -62,8 +62,8 @@ class Data:
         if path not in self.loaded:
             try:
                 self.loaded[path] = load(self.root / path)
-            except FormatError as error:
-                raise MissingError(f"{path} is missing or damaged") from error
+            except (FormatError, OSError) as error:
+                raise MissingError(f"{path} is missing, damaged or unreadable") from error
         return path, self.loaded[path]
 
 

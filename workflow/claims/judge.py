@@ -10,8 +10,8 @@ from workflow.claims import closed, filling, fluxes, growth, profiles, pulse
 from workflow.claims.data import Data, MissingError
 from workflow.claims.evidence import Claim, Evidence
 from workflow.claims.verdict import Band, Outcome, Reading, combined, level_of_each
+from workflow.lib.configuration import ConfigurationError
 from workflow.lib.load import NOT_REACHED
-from workflow.lib.places import damaged, regular
 
 CLAIMS_FILE = "data/claims.csv"
 READINGS = ["literal", "substance", "other"]
@@ -48,17 +48,16 @@ class Judgement:
 
 
 def read_claims(root: Path) -> list[dict[str, str]]:
-    """Raises OSError if the table is missing or damaged."""
-    path = regular(root / CLAIMS_FILE)
+    """Raises ConfigurationError, OSError."""
     try:
-        table = pd.read_csv(path, dtype=str, keep_default_na=False)[COLUMNS]
+        table = pd.read_csv(root / CLAIMS_FILE, dtype=str, keep_default_na=False)[COLUMNS]
         rows: list[dict[str, str]] = table.to_dict("records")
         if sorted(row["id"] for row in rows) != sorted(FUNCTIONS):
-            raise ValueError("not the claims that are judged here")
+            raise ValueError("its ids are not those of workflow/claims")
         for band in (row[reading] for row in rows for reading in READINGS if row[reading]):
             Band.of(band)
     except (ValueError, KeyError) as error:  # pandas' own are of the first kind
-        raise damaged(path, error) from error
+        raise ConfigurationError(f"{CLAIMS_FILE} is damaged: {error}") from error
     return rows
 
 

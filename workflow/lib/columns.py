@@ -12,8 +12,7 @@ import pandas as pd
 from pandas.api.types import is_bool_dtype
 
 from workflow.lib.load import Result
-from workflow.lib.option_units import option_units
-from workflow.lib.units import UnitsError, parse
+from workflow.lib.units import UnitsError, option_units, parse
 
 UNITS_LINE = "# units: "
 
@@ -50,12 +49,16 @@ def _units(table: pd.DataFrame, known: Mapping[str, str]) -> dict[str, str]:
     numbers = [name for name in table if not _is_label(table[name])]
     without = [name for name in numbers if name not in known]
     if without:
+        declared = ", ".join(f'{name}="1"' for name in without)
         raise UnitsError(
-            f"the columns {', '.join(without)} have no units: name them after a quantity, or declare their units "
-            "where the script calls run()"
+            f"no units of the columns {', '.join(without)}; name them after a quantity, or declare their units in the "
+            f"script: run(draw, title, {declared})"
         )
     units = {name: known[name] for name in numbers}
-    for text in units.values():
+    for name, text in units.items():
         for each in table[text.removeprefix(BY_ROW)].unique() if text.startswith(BY_ROW) else [text]:
-            parse(each)
+            try:
+                parse(each)
+            except UnitsError as error:
+                raise UnitsError(f"column {name}: {error}") from error
     return units

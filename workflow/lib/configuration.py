@@ -1,172 +1,225 @@
-"""paper.yaml and quality/*.yaml as they are read: checked against schema.yaml, which says what they may hold."""
+"""The configuration: paper.yaml and quality/*.yaml, checked against the options that the programs declare.
+
+schema.json, written by `make describe`, has a JSON Schema of every option of every program.
+"""
 
 import json
+import math
+import re
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from jsonschema import Draft202012Validator
+from jsonschema import Draft202012Validator, ValidationError
+from ruamel.yaml import YAML
+from ruamel.yaml.error import MarkedYAMLError, YAMLError
+from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
 
-from workflow.lib.options import Options, admissible, admits
-from workflow.lib.strict_yaml import ConfigurationError, Document, nearest, read
+from workflow.lib.files import in_one_line
+from workflow.lib.nearest import nearest
+from workflow.lib.units import SCHEMA
 
-__all__ = ["Admissible", "ConfigurationError", "load_checked", "nearest", "paper_schema", "quality_schema"]
+Options = dict[str, Any]  # by name without dashes: a number, text, or a bool for a flag
+Schema = dict[str, Any]
 
-FOLDER = Path(__file__).parents[1] / "config"
+FOLDER = SCHEMA.parent
+EFFORT = ("cells", "max-replicas", "pairs-per-replica", "replicas", "target-absolute", "target-error")
+ALSO_PHYSICS = ("cells", "target-error")  # in panels that show the dependence on the size or on the accuracy
+OF_SERIES: Schema = {"program": True, "replicated": {"type": "boolean", "allowed": "true or false"}}
+TERM = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?:(N)(?:\^(2))?)?", re.ASCII)
+
+
+class ConfigurationError(ValueError):
+    """One line per error: file, line, column, key, problem, and what is allowed."""
 
 
 @dataclass(frozen=True)
-class Admissible:
-    """Options that the configuration may give, by program. A place is `paper.yaml: panels.fig05.common`."""
+class Document:
+    """A YAML file."""
 
-    programs: dict[str, dict[str, dict[str, Any]]]
-    effort: tuple[str, ...]
-    not_physics: tuple[str, ...]
-    folder: Path
+    name: str
+    text: str
+    content: Any
 
-    @classmethod
-    def of(cls, folder: Path) -> "Admissible":
+    def check(self, schema: Schema) -> None:
         """Raises ConfigurationError."""
-        return cls(**load_checked(folder / "schema.yaml", admissible_schema()), folder=folder)
+        found: dict[tuple[Any, ...], str] = {}
+        for error in Draft202012Validator(schema).iter_errors(self.content):
+            for keys, problem in _problems(error):
+                found.setdefault(keys, problem)
+        if found:
+            lines = sorted((*self._position(keys), self.complaint(keys, found[keys])) for keys in found)
+            raise ConfigurationError("\n".join(line for *_, line in lines))
 
-    def check_physics(self, program: str, options: Options, place: str) -> None:
-        names = [name for name in self.programs[program] if name not in self.not_physics]
-        self._check(program, options, names, place)
+    def complaint(self, keys: Iterable[Any], problem: str) -> str:
+        keys = tuple(keys)
+        line, column = self._position(keys)
+        name = ".".join(map(str, keys))
+        return f"{self.name}:{line}:{column}: {name}{': ' if name else ''}{problem}"
 
-    def check_effort(self, program: str, options: Options, place: str) -> None:
-        """No replicas leave a series out."""
-        names = [name for name in self.programs[program] if name in self.effort]
-        given = {name: value for name, value in options.items() if (name, value) != ("replicas", 0)}
-        self._check(program, given, names, place)
-
-    def check_program(self, program: str | None, place: str) -> None:
-        if program not in self.programs:
-            missing = "program is missing" if program is None else f"there is no program {program}"
-            hint = "" if program is None else nearest(program, self.programs)
-            allowed = ", ".join(self.programs)
-            text = f"{missing}{hint} (allowed: {allowed}; `make describe` adds new ones)"
-            raise self._complaint(place, text)
-
-    def _check(self, program: str, options: Options, names: list[str], place: str) -> None:
-        for name, given in options.items():
-            here = f"{place}.{name}"
-            if name not in names:
-                text = (
-                    f"{program} has no such option here{nearest(name, names)} (allowed: {', '.join(names)})"
-                )
-                raise self._complaint(here, text, given)
-            if isinstance(given, list):
-                if not given or any(given.count(value) > 1 for value in given):
-                    text = "the list is empty or repeats a value (allowed: different ones)"
-                    raise self._complaint(here, text, given)
-                for i, value in enumerate(given):
-                    self._check_value(program, name, value, f"{here}.{i}")
-            else:
-                self._check_value(program, name, given, here)
-
-    def _check_value(self, program: str, name: str, value: object, place: str) -> None:
-        option = self.programs[program][name]
-        if not admits(option, value):
-            text = f"{program} does not accept it (allowed: {admissible(option)})"
-            raise self._complaint(place, text, value)
-
-    def _complaint(self, place: str, text: str, value: object = None) -> ConfigurationError:
-        """With line and column, for which the file is read once more."""
-        name, _, keys = place.partition(": ")
-        path = self.folder / name if name == "paper.yaml" else self.folder / "quality" / name
-        return read(path).complaint(keys.split("."), text, "" if value is None else json.dumps(value))
+    def _position(self, keys: Iterable[Any]) -> tuple[int, int]:
+        """Line and column of a key or of an item; of a merged key, those of the mapping that has it."""
+        node, mark = _yaml().compose(self.text), None
+        for key in keys:
+            found = _member(node, key)
+            if found is None:
+                break
+            mark, node = found
+        return (mark.line + 1, mark.column + 1) if mark else (1, 1)
 
 
-def load_checked(path: Path, schema: dict[str, Any]) -> dict[str, Any]:
-    """Raises ConfigurationError."""
-    document = read(path)
-    errors = sorted(
-        Draft202012Validator(schema).iter_errors(document.content),
-        key=lambda error: len(error.absolute_path),
-    )
-    if errors:
-        deepest = errors[-1]
-        while deepest.context:  # of the alternatives, the last is a list of values
-            deepest = max(deepest.context, key=lambda error: len(error.absolute_path))
-        raise _complaint(document, deepest)
-    content: dict[str, Any] = document.content
-    return content
+def read(folder: Path, name: str) -> Document:
+    """A YAML 1.2 file; duplicate keys are refused. Raises ConfigurationError."""
+    try:
+        text = (folder / name).read_text("utf-8")
+        return Document(name, text, _yaml().load(text))
+    except OSError as error:
+        raise ConfigurationError(in_one_line(error)) from error
+    except MarkedYAMLError as error:
+        mark, problem = error.problem_mark, str(error.problem)
+        if "'\\t'" in problem:
+            problem = "a tab; indent with spaces"
+        raise ConfigurationError(f"{name}:{mark.line + 1}:{mark.column + 1}: {problem}") from error
+    except (YAMLError, UnicodeDecodeError) as error:
+        raise ConfigurationError(f"{name}: {' '.join(str(error).split())}") from error
 
 
-def _complaint(document: Document, error: Any) -> ConfigurationError:
-    keys = [str(part) for part in error.absolute_path]
-    if error.validator == "additionalProperties":
-        known = [*error.schema["properties"]]
-        name = next(name for name in error.instance if name not in known)
-        text = f"there is no such key here{nearest(name, known)} (allowed: {', '.join(known)})"
-        return document.complaint([*keys, name], text)
-    limits = {
-        name: error.schema[name]
-        for name in ("type", "minimum", "exclusiveMinimum", "maximum", "enum", "const", "pattern")
-        if isinstance(error.schema, dict) and name in error.schema
+def load_configuration(quality: str, folder: Path = FOLDER) -> tuple[Document, Document]:
+    """paper.yaml and quality/<quality>.yaml. Raises ConfigurationError."""
+    programs: dict[str, Schema] = json.loads(SCHEMA.read_text())["programs"]
+    paper, efforts = read(folder, "paper.yaml"), read(folder, f"quality/{quality}.yaml")
+    paper.check(_panels(programs))
+    paper.check(_physics(paper.content, programs))
+    efforts.check(_efforts(paper.content, programs))
+    return paper, efforts
+
+
+def programs_of(panel: dict[str, Any]) -> dict[str, str]:
+    """The program of every series."""
+    return {
+        name: series.get("program", panel.get("program")) for name, series in panel.get("series", {}).items()
     }
-    allowed = ", ".join(f"{name} {value}" for name, value in limits.items())
-    plain = not isinstance(error.instance, (dict, list))
-    text = error.message + (f" (allowed: {allowed})" if allowed else "")
-    return document.complaint(keys, text, json.dumps(error.instance) if plain else "")
 
 
-def admissible_schema() -> dict[str, Any]:
-    """Of schema.yaml itself."""
-    number, text = {"type": "number"}, {"type": "string"}
-    texts = {"type": "array", "items": text}
-    option = _object(
-        {name: number for name in ("minimum", "exclusive_minimum", "maximum")}
-        | {"type": text, "word": text, "units": text, "choices": texts},
-        required=("type",),
-    )
-    options = {"type": "object", "additionalProperties": option}
-    properties = {"effort": texts, "not_physics": texts}
-    properties["programs"] = {"type": "object", "additionalProperties": options}
-    return _object(properties, required=tuple(properties))
+def arguments(options: Options) -> list[str]:
+    """The words of a command line."""
+    words = []
+    for name, value in options.items():
+        if value is not False:
+            words += [f"--{name}"] if value is True else [f"--{name}", str(value)]
+    return words
 
 
-def paper_schema() -> dict[str, Any]:
-    """Without the options, which depend on the program."""
-    program = {"type": "string"}
-    series = {"type": "object", "properties": {"program": program, "replicated": {"type": "boolean"}}}
+def at_size(value: object, size: float) -> float:
+    """The value of a number or of a polynomial in N, such as 50+0.0004N^2; nan if it is neither."""
+    terms = [TERM.fullmatch(term) for term in re.split(r"(?<![eE])\+", str(value))]
+    return sum(float(term[1]) * size ** int(term[3] or bool(term[2])) if term else math.nan for term in terms)
+
+
+def _panels(programs: dict[str, Schema]) -> Schema:
+    """The structure of paper.yaml, without the options."""
+    program = {"enum": [*programs]}
     panel = _object(
         {
             "program": program,
-            "script": {"type": "string", "pattern": "^[a-z0-9_]+$"},
+            "script": {"type": "string", "pattern": "^[a-z0-9_]+$", "allowed": "letters, digits and _"},
             "uses": {"type": "array", "items": {"type": "string"}, "minItems": 1, "uniqueItems": True},
             "common": {"type": "object"},
-            "series": _named(series),
+            "series": _named({"type": "object", "properties": OF_SERIES | {"program": program}}),
         }
     )
-    panel["anyOf"] = [{"required": ["series"]}, {"required": ["uses"]}]
-    return _object({"panels": _named(panel)}, required=("panels",))
+    panel["if"] = {"not": {"required": ["program"]}}
+    panel["then"] = {"properties": {"series": {"additionalProperties": {"required": ["program"]}}}}
+    return _object({"panels": _named(panel)}) | {"required": ["panels"]}
 
 
-def quality_schema(paper: dict[str, Any]) -> dict[str, Any]:
-    """The panels and series of the paper, without the options."""
-    effort = {"type": "object"}
+def _physics(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
+    """Of paper.yaml: the options of every series that are not effort."""
+    elsewhere = {name: "belongs into quality/*.yaml" for name in EFFORT if name not in ALSO_PHYSICS}
+    elsewhere["seed"] = "follows from the names of panel and run; `make panel SEED=7` chooses another"
+    common = {name: _options(name, options, elsewhere) for name, options in programs.items()}
+    series = {name: one | {"properties": OF_SERIES | one["properties"]} for name, one in common.items()}
+    panels = {}
+    for name, panel in paper["panels"].items():
+        used = programs_of(panel)
+        each = {"properties": {one: series[program] for one, program in used.items()}}
+        every = {"allOf": [True, *(common[program] for program in sorted({*used.values()}))]}
+        panels[name] = {"properties": {"common": every, "series": each}}
+    return {"properties": {"panels": {"properties": panels}}}
+
+
+def _efforts(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
+    """Of quality/*.yaml: the effort of every series; 0 replicas leave a series out."""
+    physics = {name for options in programs.values() for name in options if name not in EFFORT}
+    elsewhere = dict.fromkeys(physics, "belongs into paper.yaml")
+    series = {name: _options(name, options, elsewhere) for name, options in programs.items()}
     panels = {
-        name: _object({series: effort for series in panel.get("series", {})})
+        name: _object({one: series[program] for one, program in programs_of(panel).items()})
         for name, panel in paper["panels"].items()
     }
-    return _object({"default": effort, "panels": _object(panels)}, required=("default",))
+    default = {"type": "object", "allOf": [series[name] for name in programs if "replicas" in programs[name]]}
+    return _object({"default": default, "panels": _object(panels)}) | {"required": ["default"]}
 
 
-def _object(properties: dict[str, Any], required: tuple[str, ...] = ()) -> dict[str, Any]:
-    return {
-        "type": "object",
-        "properties": properties,
-        "required": list(required),
-        "additionalProperties": False,
+def _options(program: str, options: Schema, elsewhere: dict[str, str]) -> Schema:
+    """Options of a program, each with a value or with a list of different ones."""
+    several = {"minItems": 1, "uniqueItems": True}
+    if "replicas" in options:
+        options = options | {"replicas": options["replicas"] | {"minimum": 0}}
+    schemas = {
+        name: {"if": {"type": "array"}, "then": {"items": option} | several, "else": option}
+        for name, option in options.items()
+        if name not in elsewhere
     }
+    return _object(schemas) | {"title": program, "elsewhere": elsewhere}
 
 
-def _named(values: dict[str, Any]) -> dict[str, Any]:
-    """A mapping from names, which become parts of file names, to values."""
-    return {
-        "type": "object",
-        "propertyNames": {"pattern": "^[A-Za-z0-9-]+(_[A-Za-z0-9-]+)*$"},
-        "additionalProperties": values,
-        "minProperties": 1,
+def _object(properties: Schema) -> Schema:
+    return {"type": "object", "properties": properties, "additionalProperties": False}
+
+
+def _named(values: Schema) -> Schema:
+    """A mapping from names, which become parts of file names."""
+    name = {
+        "type": "string",
+        "pattern": "^[A-Za-z0-9-]+(_[A-Za-z0-9-]+)*$",
+        "allowed": "letters, digits, - and _",
     }
+    return {"type": "object", "propertyNames": name, "additionalProperties": values, "minProperties": 1}
+
+
+def _problems(error: ValidationError) -> Iterator[tuple[tuple[Any, ...], str]]:
+    """Keys, and the problem with what they name."""
+    keys, schema = tuple(error.absolute_path), error.schema
+    assert isinstance(schema, dict)
+    value = json.dumps(error.instance, default=str)
+    if error.validator == "additionalProperties":
+        for name in error.instance.keys() - schema["properties"].keys():
+            unknown = f"{schema['title']} has no such option" if "title" in schema else "unknown key"
+            remedy = nearest(str(name), schema["properties"])
+            yield (*keys, name), schema.get("elsewhere", {}).get(name, f"{unknown}; {remedy}")
+    elif error.validator == "enum":
+        yield keys, f"{value} is unknown; {nearest(str(error.instance), schema['enum'])}"
+    elif "allowed" in schema:
+        yield keys, f"{value} is invalid; allowed: {schema['allowed']}"
+    else:
+        yield keys, error.message
+
+
+def _yaml() -> YAML:
+    return YAML(typ="safe", pure=True)
+
+
+def _member(node: Node | None, key: Any) -> tuple[Any, Node] | None:
+    """Where a member of a mapping or sequence starts, and the member; also of a mapping that is merged into it."""
+    if isinstance(node, SequenceNode):
+        return (node.value[key].start_mark, node.value[key])
+    if not isinstance(node, MappingNode):
+        return None
+    members = {name.value: (name.start_mark, value) for name, value in node.value}
+    if str(key) in members or "<<" not in members:
+        return members.get(str(key))
+    merged = members["<<"][1]
+    parts = merged.value if isinstance(merged, SequenceNode) else [merged]
+    return next((found for part in parts if (found := _member(part, key))), None)

@@ -7,8 +7,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from workflow.lib.configuration import Options, at_size
 from workflow.lib.load import FormatError, load_parameters
-from workflow.lib.options import Options, at_size
 from workflow.lib.plan import QUALITIES, Run, data_path
 
 ROOT = Path(__file__).parents[2]

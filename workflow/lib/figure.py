@@ -39,7 +39,7 @@ def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str
         style.apply()
         figure, table, caption = draw(results)
         saved = as_csv(table, inherited(results) | units)
-    except (FormatError, UnitsError) as error:
+    except (FormatError, OSError, UnitsError) as error:
         sys.exit(str(error))
     parents = Parents.of(str(script.relative_to(ROOT)), options.output, options.configuration, results)
     name = title if isinstance(title, str) else title(results)

@@ -14,7 +14,6 @@ import numpy as np
 from jsonschema import Draft202012Validator, FormatChecker
 
 from workflow.lib.load import NOT_REACHED
-from workflow.lib.places import regular
 from workflow.lib.units import UnitsError, parse
 
 FORMATS = FormatChecker(formats=())
@@ -96,7 +95,7 @@ def _plain(value: Any) -> Any:
 
 
 def _against_schema(described: dict[str, Any]) -> list[str]:
-    validator = Draft202012Validator(json.loads(regular(SCHEMA).read_text()), format_checker=FORMATS)
+    validator = Draft202012Validator(json.loads(SCHEMA.read_text()), format_checker=FORMATS)
     errors = sorted(validator.iter_errors(described), key=lambda error: [str(part) for part in error.path])
     return [
         f"{'/'.join(['', *(str(part) for part in error.path if part != 'members')]) or '/'}: {error.cause or error.message}"

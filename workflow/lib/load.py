@@ -1,8 +1,10 @@
 """Reads the files that the programs write; the layout is described in docs/format.md."""
 
+import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
@@ -10,14 +12,13 @@ import h5py
 import numpy as np
 import pandas as pd
 
-from workflow.lib.places import regular
 from workflow.lib.units import parse
 
 if TYPE_CHECKING:
     import xarray
 
 FORMAT = "lorentz-gas"
-FORMAT_VERSION = 2
+FORMAT_VERSION = 3
 NOT_REACHED = "not reached"
 VALUES = ("mean", "standard_error", "discretisation_error", "count")  # of a quantity, besides its axes
 
@@ -25,7 +26,7 @@ Index = SupportsIndex | tuple[SupportsIndex, ...]  # of a value among those of a
 
 
 class FormatError(ValueError):
-    """The file is not a result of this project, or of a version that this loader does not know."""
+    """The file is missing, damaged, not a result of this project, or lacks what is read from it."""
 
 
 @dataclass(frozen=True)
@@ -96,6 +97,10 @@ class Result:
     quantities: dict[str, Quantity]
 
     def __getitem__(self, name: str) -> Quantity:
+        if name not in self.quantities:
+            near = get_close_matches(name, self.quantities, 1, cutoff=0)[0]
+            there = ", ".join(self.quantities)
+            raise FormatError(f"{self.path} has no quantity {name}; did you mean {near}? There are {there}")
         return self.quantities[name]
 
     @property
@@ -105,61 +110,64 @@ class Result:
 
     @property
     def sound(self) -> bool:
-        """Whether the target error was not missed and the chain was stationary. Raises KeyError where that is not tested."""
+        """Whether the target error was not missed and the chain was stationary. Raises FormatError where that is not tested."""
         return bool(self.converged != NOT_REACHED and self["stationary"].mean == 1)
 
 
-def load(path: Path) -> Result:
-    """One result file. Raises FormatError if it is not one."""
+def load(path: Path | str) -> Result:
+    """One result file. Raises FormatError, and OSError if the file cannot be read."""
     with _opened(path) as (file, provenance):
         quantities = {name: _quantity(group) for name, group in file["results"].items()}
-        return Result(path, _attributes(file["parameters"]), provenance, quantities)
+        return Result(Path(path), _attributes(file["parameters"]), provenance, quantities)
 
 
-def load_parameters(path: Path) -> dict[str, Any]:
-    """Of one result file, without its results. Raises FormatError."""
+def load_parameters(path: Path | str) -> dict[str, Any]:
+    """Of one result file, without its results. Raises FormatError, OSError."""
     with _opened(path) as (file, _):
         return _attributes(file["parameters"])
 
 
-def load_provenance(path: Path) -> dict[str, Any]:
-    """Of one result file, without its results. Raises FormatError."""
+def load_provenance(path: Path | str) -> dict[str, Any]:
+    """Of one result file, without its results. Raises FormatError, OSError."""
     with _opened(path) as (_, provenance):
         return provenance
 
 
+def results_digest(path: Path | str) -> str:
+    """CRC-32 of all results, as the program states it in /provenance when it writes them: of the path and the little-endian
+    values of every dataset, in the order of the paths. Raises FormatError, OSError."""
+    datasets: dict[str, h5py.Dataset] = {}
+    digest = 0
+    with _opened(path) as (file, _):
+        file["results"].visititems(lambda _, node: datasets.update({node.name: node}))
+        for name, dataset in sorted(datasets.items()):
+            if isinstance(dataset, h5py.Dataset):
+                values = np.asarray(dataset[()], dtype=dataset.dtype.newbyteorder("<"))
+                digest = zlib.crc32(values.tobytes(), zlib.crc32(name.encode(), digest))
+    return f"{digest:08x}"
+
+
 @contextmanager
-def _opened(path: Path) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
-    """The file and its provenance. Raises FormatError for all that goes wrong while it is open."""
+def _opened(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
+    """The file and its provenance. Results are written under another name and renamed, so that no lock is needed."""
     try:
-        with h5py.File(regular(path)) as file:
-            if led := file.id.links.visit(_leads_elsewhere, info=True):  # h5py's own visit opens every link
-                raise FormatError(f"{led} is a link, which could lead anywhere")
-            provenance = _attributes(file["provenance"])
-            if (provenance["format"], provenance["format_version"]) != (FORMAT, FORMAT_VERSION):
+        with h5py.File(path, locking=False) as file:
+            provenance = _attributes(file["provenance"]) if "provenance" in file else {}
+            if provenance.get("format") != FORMAT:
+                raise FormatError("not a result of this project")
+            if (version := provenance.get("format_version")) != FORMAT_VERSION:
                 raise FormatError(
-                    f"the format is {provenance['format']} {provenance['format_version']}, "
-                    f"not {FORMAT} {FORMAT_VERSION}; make the file again"
+                    f"format version {version}, not {FORMAT_VERSION}; remake it with make figures"
                 )
             yield file, provenance
+    except FileNotFoundError as error:
+        raise FormatError(f"{path} is missing") from error
     except FormatError as error:
         raise FormatError(f"{path}: {error}") from error
-    except (
-        OSError,
-        AttributeError,
-        KeyError,
-        TypeError,
-        ValueError,
-        RuntimeError,
-        MemoryError,
-        SystemError,
-    ) as error:
-        # The last is h5py's for a name that is no text.
-        raise FormatError(f"{path} is not a result file: {error}") from error
-
-
-def _leads_elsewhere(name: bytes, link: h5py.h5l.LinkInfo) -> str | None:
-    return None if link.type == h5py.h5l.TYPE_HARD else name.decode(errors="replace")
+    except (OSError, KeyError, RuntimeError, ValueError) as error:
+        if isinstance(error, OSError) and error.errno:  # unreadable, which is no fault of its content
+            raise
+        raise FormatError(f"{path} is damaged, or not a result file: {error}") from error
 
 
 def _attributes(group: h5py.Group) -> dict[str, Any]:
@@ -202,6 +210,6 @@ def axes_of(dataset: h5py.Dataset) -> list[str]:
         if len(names) != 1 or Path(names[0]).parent != Path(dataset.parent.name):
             raise FormatError(
                 f"{dataset.name}: each dimension needs one dimension scale of {dataset.parent.name}, not {attached}; "
-                "make the file again"
+                "remake it with make figures"
             )
     return [Path(name).name for (name,) in attached]

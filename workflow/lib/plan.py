@@ -3,7 +3,6 @@
 import hashlib
 import itertools
 import json
-import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,19 +10,16 @@ from typing import Any
 
 from workflow.lib.configuration import (
     FOLDER,
-    Admissible,
     ConfigurationError,
-    load_checked,
-    paper_schema,
-    quality_schema,
+    Options,
+    load_configuration,
+    programs_of,
 )
-from workflow.lib.option_units import option_units
-from workflow.lib.options import Options
-from workflow.lib.strict_yaml import nearest, read
+from workflow.lib.nearest import nearest
+from workflow.lib.units import option_units
 
-KINDS = ("pdf", "png", "svg", "csv")
+KINDS = ("pdf", "png", "svg", "csv", "json")
 QUALITIES = ("smoke", "standard", "paper", "deep")
-MOST = 1000  # runs of a series
 STOPPING = ("target-error", "target-absolute", "max-replicas")  # options that add replicas to a run
 
 
@@ -35,7 +31,7 @@ class Run:
     program: str
     options: Options
     replicated: bool = True  # over independent replicas; False for a deterministic program
-    series: str = ""  # of the configuration, whose values the name goes on with
+    series: str = ""  # of the configuration; the name adds its values
 
 
 @dataclass(frozen=True)
@@ -77,7 +73,7 @@ class Quality:
         """Raises ConfigurationError."""
         parts = re.fullmatch(r"([a-z]+)(?:_seed=(0|[1-9][0-9]*))?(?:_replicas=([1-9][0-9]*))?", name)
         if not parts or parts[1] not in QUALITIES:
-            raise ConfigurationError(f"QUALITY={name} is not known: choose one of {', '.join(QUALITIES)}")
+            raise ConfigurationError(f"{name} is not a quality; choose one of {', '.join(QUALITIES)}")
         seed, replicas = (None if part is None else int(part) for part in parts.groups()[1:])
         return cls(name, parts[1], seed, replicas)
 
@@ -97,33 +93,20 @@ class Quality:
         }
 
 
-def is_quality(name: str) -> bool:
-    try:
-        Quality.of(name)
-    except ConfigurationError:
-        return False
-    return True
-
-
 def load_plan(name: str, folder: Path = FOLDER) -> dict[str, Panel]:
     """All panels at one quality, by name. Raises ConfigurationError."""
     quality = Quality.of(name)
-    paper = load_checked(folder / "paper.yaml", paper_schema())
-    efforts = load_checked(folder / "quality" / f"{quality.base}.yaml", quality_schema(paper))
-    admissible = Admissible.of(folder)
-    for panel_name, panel in paper["panels"].items():
-        _check(panel_name, panel, efforts, f"{quality.base}.yaml", admissible)
-    panels = {name: _panel(name, panel, efforts, quality) for name, panel in paper["panels"].items()}
+    paper, efforts = load_configuration(quality.base, folder)
+    effort = efforts.content
+    panels = {name: _panel(name, panel, effort, quality) for name, panel in paper.content["panels"].items()}
     for panel in panels.values():
         if not panel.runs and not panel.uses:
-            raise read(folder / "paper.yaml").complaint(
-                ("panels", panel.name), f"has no runs at quality {name}"
-            )
+            text = f"no runs at quality {name}, and no panel whose runs it uses"
+            raise ConfigurationError(paper.complaint(("panels", panel.name), text))
         for number, used in enumerate(panel.uses):
             if used not in panels or not panels[used].runs:
-                keys = ("panels", panel.name, "uses", str(number))
-                text = f"{used} has no runs{nearest(used, {*panels} - {panel.name})}"
-                raise read(folder / "paper.yaml").complaint(keys, text)
+                text = f"{used} has no runs; {nearest(used, {*panels} - {panel.name, used})}"
+                raise ConfigurationError(paper.complaint(("panels", panel.name, "uses", number), text))
     return panels
 
 
@@ -131,8 +114,7 @@ def panel_named(plan: dict[str, Panel], name: str) -> Panel:
     """Raises ConfigurationError, with the nearest name."""
     if name in plan:
         return plan[name]
-    known = nearest(name, plan) or f"; choose one of {', '.join(plan)}"
-    raise ConfigurationError(f"PANEL={name} is not known{known}")
+    raise ConfigurationError(f"{name} is not a panel; {nearest(name, plan)}")
 
 
 def with_used(plan: dict[str, Panel], name: str) -> list[Panel]:
@@ -153,51 +135,17 @@ def drawings_of(quality: str, panel: str) -> list[str]:
     return [f"figures/{quality}/{panel}.{kind}" for kind in KINDS]
 
 
-def outputs_of(quality: str, job: str) -> list[str]:
-    """Paths of what a job makes: a run, `panel/run`, or the drawing of a panel, `panel`."""
-    panel, _, run = job.partition("/")
-    return [data_path(quality, panel, run)] if run else drawings_of(quality, panel)
-
-
-def _check(
-    name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: str, admissible: Admissible
-) -> None:
-    """Every option that a run of the panel is given is one that its program has, with a value that it accepts."""
-    place = f"paper.yaml: panels.{name}"
-    for series, own in panel.get("series", {}).items():
-        program = own.get("program", panel.get("program"))
-        admissible.check_program(program, f"{place}.series.{series}")
-        given = {**panel.get("common", {}), **_options(own)}.values()
-        if (runs := math.prod(len(value) for value in given if isinstance(value, list))) > MOST:
-            text = f"it has {runs} runs (allowed: at most {MOST})"
-            raise read(admissible.folder / "paper.yaml").complaint(("panels", name, "series", series), text)
-        admissible.check_physics(program, panel.get("common", {}), f"{place}.common")
-        admissible.check_physics(program, _options(own), f"{place}.series.{series}")
-        if own.get("replicated", True):
-            admissible.check_effort(program, efforts["default"], f"{quality}: default")
-        effort = _effort(efforts, name, series)
-        admissible.check_effort(program, effort, f"{quality}: panels.{name}.{series}")
-
-
-def _options(series: dict[str, Any]) -> dict[str, Any]:
-    return {key: value for key, value in series.items() if key not in ("program", "replicated")}
-
-
-def _effort(efforts: dict[str, Any], panel: str, series: str) -> dict[str, Any]:
-    effort: dict[str, Any] = efforts.get("panels", {}).get(panel, {}).get(series, {})
-    return effort
-
-
 def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Quality) -> Panel:
     runs = []
-    for series, own in panel.get("series", {}).items():
-        replicated = own.get("replicated", True)
+    for series, program in programs_of(panel).items():
+        own = dict(panel["series"][series])
+        own.pop("program", None)
+        replicated = own.pop("replicated", True)
         default = efforts["default"] if replicated else {}
-        effort = {**default, **_effort(efforts, name, series)}
-        options = {**panel.get("common", {}), **_options(own), **effort}
+        effort = efforts.get("panels", {}).get(name, {}).get(series, {})
+        options = {**panel.get("common", {}), **own, **default, **effort}
         if options.get("replicas") == 0:
             continue
-        program = own.get("program", panel.get("program"))
         listed = [key for key, value in options.items() if isinstance(value, list)]
         for values in itertools.product(*(options[key] for key in listed)):
             chosen = dict(zip(listed, values, strict=True))
@@ -209,7 +157,7 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Q
 
 
 def _in_name(value: object) -> str:
-    """A value as it stands in the name of a file: 1/N as 1perN."""
+    """A value in the name of a file: 1perN for 1/N."""
     return str(value).replace("/", "per")
 
 

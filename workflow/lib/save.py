@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from matplotlib.figure import Figure
-from workflow.lib.files import write_together
 
 from workflow.lib.figure_metadata import PARENTS_LINE, Parents, commit
+from workflow.lib.files import write_together
 from workflow.lib.style import FONTS
 
 CREATOR = "lorentz-gas"

@@ -9,8 +9,13 @@ With m = k_B = 1 a momentum is a length over a time, energy and temperature are 
 computer's, which has nothing to do with the time of the model.
 """
 
+import json
 import re
+from functools import cache
+from pathlib import Path
 from typing import NamedTuple
+
+SCHEMA = Path(__file__).parents[1] / "config/schema.json"
 
 
 class UnitsError(ValueError):
@@ -44,11 +49,23 @@ def parse(text: str) -> Units:
     quotient = _QUOTIENT.fullmatch(text)
     if quotient is None:
         raise UnitsError(
-            f"'{text}' is not a product, nor one over another such as 'energy/(time temperature)'"
+            f"'{text}' is neither a product of units nor a quotient of two, as in 'energy/(time temperature)'"
         )
     above, single, several = quotient.groups()
     below = _product(single or several or "1", text)
     return Units(*(a - b for a, b in zip(_product(above, text), below, strict=True)))
+
+
+@cache
+def option_units() -> dict[str, str]:
+    """Units of the programs' options, as the programs declare them; all others are pure numbers."""
+    programs = json.loads(SCHEMA.read_text())["programs"]
+    return {
+        name: option["units"]
+        for options in programs.values()
+        for name, option in options.items()
+        if "units" in option
+    }
 
 
 def _product(factors: str, text: str) -> Units:
@@ -56,7 +73,7 @@ def _product(factors: str, text: str) -> Units:
     for factor in factors.split(" "):
         parts = _FACTOR.fullmatch(factor)
         if parts is None or parts[1] not in WORDS:
-            raise UnitsError(f"'{factor}' in '{text}' is not a power of {', '.join(WORDS)}")
+            raise UnitsError(f"'{factor}' in '{text}' is not a unit; use powers of {', '.join(WORDS)}")
         power = int(parts[2] or 1)
         exponents = Units(*(a + power * b for a, b in zip(exponents, WORDS[parts[1]], strict=True)))
     return exponents

@@ -4,10 +4,12 @@ A fault is `broken`, what was found to differ, or `not checked`, what could not 
 """
 
 import math
+import re
 import tomllib
+from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache
 from importlib import metadata
 from itertools import zip_longest
 from pathlib import Path
@@ -174,23 +176,17 @@ def _agree(option: Any, stated: Any) -> bool:
     return all(at_size(one, size) == at_size(other, size) for one, other in pairs for size in SIZES)
 
 
-class Installed:
-    """The Python packages that are installed, against uv.lock."""
-
-    @cached_property
-    def difference(self) -> str | None:
-        """The first package of another version than the locked one."""
-        locked = {
-            one["name"]: one.get("version") for one in tomllib.loads((ROOT / PACKAGES).read_text())["package"]
-        }
-        for package in metadata.distributions():
-            name = package.metadata["Name"].lower().replace("_", "-").replace(".", "-")
-            if name in locked and package.version != locked[name]:
-                return f"{name} {package.version} is installed, {PACKAGES} has {locked[name]}"
-        return None
-
-
-INSTALLED = Installed()
+@cache
+def other_package() -> str | None:
+    """The first installed package of another version than the locked one."""
+    locked = defaultdict(set)
+    for one in tomllib.loads((ROOT / PACKAGES).read_text())["package"]:
+        locked[one["name"]].add(one.get("version"))
+    for package in metadata.distributions():
+        name = re.sub(r"[-_.]+", "-", package.metadata["Name"]).lower()
+        if name in locked and package.version not in locked[name]:
+            return f"{name} {package.version} is installed, {PACKAGES} has {', '.join(locked[name])}"
+    return None
 
 
 def worst_error(quality: str, panel: Panel) -> str:

@@ -9,7 +9,7 @@ from pathlib import Path
 from workflow.lib.environment import clean
 from workflow.lib.figure_metadata import ROOT, file_hash, read_panel
 from workflow.lib.plan import data_of, drawings_of
-from workflow.provenance.checks import INSTALLED, Fault, Products
+from workflow.provenance.checks import Fault, Products, other_package
 
 
 def redraw(products: Products, panel: str) -> Fault | None:
@@ -19,18 +19,16 @@ def redraw(products: Products, panel: str) -> Fault | None:
     here = f"{sys.version_info.major}.{sys.version_info.minor}"
     if drawn_with != here:
         return Fault(files[0], f"rendered by Python {drawn_with}, and this is {here}", broken=False)
-    if INSTALLED.difference:
-        return Fault(files[0], f"other packages: {INSTALLED.difference}", broken=False)
+    if difference := other_package():
+        return Fault(files[0], f"other packages: {difference}", broken=False)
     with tempfile.TemporaryDirectory() as folder:
         stem = Path(folder) / products.quality / panel
         plan = products.plan
         environment = dict(os.environ)
         clean(environment)
-        done = subprocess.run(
-            [sys.executable, "-P", "-m", f"workflow.figures.{plan[panel].script}", "--output", stem]
-            + ["--configuration", plan[panel].hash(), "--data", *data_of(plan, panel, products.quality)],
-            cwd=ROOT, env=environment, capture_output=True, text=True, check=False,
-        )  # fmt: skip
+        command = [sys.executable, "-P", "-m", f"workflow.figures.{plan[panel].script}", "--output", stem]
+        command += ["--configuration", plan[panel].hash(), "--data", *data_of(plan, panel, products.quality)]
+        done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
         if done.returncode:
             last = (done.stderr.strip().splitlines() or ["no message"])[-1]
             return Fault(files[0], f"cannot be rendered: {last}")

@@ -37,6 +37,7 @@ def main() -> None:
     parser.add_argument("--quality", required=True)
     parser.add_argument("--sample", type=float, required=True, help="fraction of the results")
     parser.add_argument("--panel", help="all results that this panel shows, and its figure")
+    parser.add_argument("--programs", type=Path, help="executables; compiled afresh where none are given")
     options = parser.parse_args()
     quality = options.quality
     try:
@@ -56,13 +57,13 @@ def main() -> None:
     if not runs:
         print(f"No results at quality {quality}: run make figures QUALITY={quality}", file=sys.stderr)
         sys.exit(3)
-    programs = compile_afresh()
+    programs = options.programs or compile_afresh()
     differing = []
     with tempfile.TemporaryDirectory() as folder:
         for number, (panel, run) in enumerate(runs, 1):
             path, again = data_path(quality, panel, run.name), Path(folder) / "again.h5"
             again.unlink(missing_ok=True)
-            command = [programs / run.program, *arguments(run.options), "--output", again]
+            command = [ROOT / programs / run.program, *arguments(run.options), "--output", again]
             done = subprocess.run(command, capture_output=True, text=True, check=False)
             same = done.returncode in WRITTEN and file_hash(again) == file_hash(ROOT / path)
             print(f"{number} of {len(runs)}: {path}: {'same bytes' if same else 'other bytes'}", flush=True)

@@ -7,11 +7,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from workflow.claims.data import Data, MissingError
 from workflow.claims.judge import Judgement
 from workflow.lib import style
+from workflow.lib.configuration import read
 from workflow.lib.plan import Panel
 from workflow.provenance.checks import worst_error
 from workflow.report import words
@@ -84,14 +83,14 @@ def _width(svg: Path) -> float:
 
 def terms() -> list[tuple[str, str]]:
     """Symbols and words with what they mean, in the order in which a reader meets them."""
-    return [(term, meaning) for term, meaning in yaml.safe_load((HERE / "terms.yaml").read_text())]
+    return [(term, meaning) for term, meaning in read(HERE, "terms.yaml").content]
 
 
 def findings(judgements: Sequence[Judgement]) -> list[dict[str, Any]]:
     """Those of findings.yaml that the data bear out."""
     by_id = {one.claim["id"]: one for one in judgements}
     held = []
-    for finding in yaml.safe_load((HERE / "findings.yaml").read_text()):
+    for finding in read(HERE, "findings.yaml").content:
         judgement = by_id[finding["claim"]]
         reading = getattr(judgement, finding["reading"])
         if reading and reading.outcome.value == finding["outcome"]:
@@ -107,7 +106,7 @@ def findings(judgements: Sequence[Judgement]) -> list[dict[str, Any]]:
 
 def misprints(judgements: Sequence[Judgement], data: Data) -> list[dict[str, Any]]:
     by_id = {one.claim["id"]: one for one in judgements}
-    rows = yaml.safe_load((HERE / "misprints.yaml").read_text())
+    rows = read(HERE, "misprints.yaml").content
     return [row | {"shown": _shown(row, by_id, data)} for row in rows]
 
 

@@ -15,13 +15,13 @@ from typing import Any
 
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
-from workflow.lib.files import write_together
 
 from workflow.claims.data import Data
 from workflow.lib import style
 from workflow.lib.caption import listed
 from workflow.lib.configuration import ConfigurationError
 from workflow.lib.figure_metadata import ROOT
+from workflow.lib.files import write_together
 from workflow.lib.plan import QUALITIES, Panel
 from workflow.report import content, summary
 from workflow.report.answer import answer

@@ -8,12 +8,11 @@ import argparse
 import sys
 from pathlib import Path
 
-from workflow.lib.files import write_together
-
 from workflow.claims.data import Data
 from workflow.lib.citation import citation
 from workflow.lib.configuration import ConfigurationError
 from workflow.lib.figure_metadata import ROOT
+from workflow.lib.files import write_together
 from workflow.lib.plan import Quality
 from workflow.report import content
 from workflow.report.answer import answer

@@ -17,9 +17,9 @@ from rich.console import Console
 from rich.table import Table
 
 from workflow.lib.caption import listed
+from workflow.lib.configuration import ConfigurationError
 from workflow.lib.costs import cheapest, expected_cost
 from workflow.lib.plan import Panel, Run, load_plan, panel_named, with_used
-from workflow.lib.strict_yaml import ConfigurationError
 from workflow.tradeoff.batches import Batches, divide
 from workflow.tradeoff.batches import wall as wall_of_jobs
 from workflow.tradeoff.timings import Timings, UnknownCostError, read_timings, reference_seconds

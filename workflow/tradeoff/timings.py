@@ -12,10 +12,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from workflow.lib.configuration import FOLDER
+from workflow.lib.configuration import FOLDER, ConfigurationError, Options
 from workflow.lib.costs import cells, effort, executions
-from workflow.lib.options import Options
-from workflow.lib.places import damaged, regular
 from workflow.lib.plan import Run, load_plan
 from workflow.tradeoff.measure import execute, planned, shortened
 
@@ -59,16 +57,16 @@ def at_size(known: dict[float, float], size: float) -> float:
 
 
 def read_timings(path: Path = TABLE) -> Timings:
-    """Raises OSError if the table is missing or damaged."""
+    """Raises ConfigurationError, OSError."""
     try:
         return _timings(path)
     except (ValueError, KeyError, TypeError, ArithmeticError, csv.Error) as error:
-        raise damaged(path, error) from error
+        raise ConfigurationError(f"{path} is damaged: {error}") from error
 
 
 def _timings(path: Path) -> Timings:
     units: dict[tuple[str, str], dict[float, float]] = defaultdict(dict)
-    with regular(path).open(newline="") as file:
+    with path.open(newline="") as file:
         for row in csv.DictReader(file):
             unit = float(row["cpu_seconds"]) / float(row["effort"])
             units[row["panel"], row["series"]][float(row["cells"])] = unit

@@ -1,0 +1,23 @@
+"""Files that are written whole or not at all."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+
+def write_together(contents: Mapping[Path, bytes]) -> None:
+    """Each file gets its name when all are written, so that a full disk leaves the previous ones. Raises OSError."""
+    files = {path: path.with_name(f"{path.name}.tmp") for path in contents}
+    try:
+        for path, file in files.items():
+            file.write_bytes(contents[path])
+        for path, file in files.items():
+            file.replace(path)
+    finally:
+        for file in files.values():
+            file.unlink(missing_ok=True)
+
+
+def in_one_line(error: OSError) -> str:
+    """The file and the problem with it."""
+    names = [str(name) for name in (error.filename, error.filename2) if name is not None]
+    return f"{' to '.join(names)}: {error.strerror}" if names else str(error)
