@@ -1,12 +1,15 @@
 # `make help` lists the targets. No environment has to be activated, and no variable of the caller's shell changes a result.
-
 QUALITY := standard
 SAMPLE := 0.1
-OPTIONS := QUALITY PANEL JOBS FRESH SEED REPLICAS FILE FULL SAMPLE PROFILE BATCH ACCOUNT PARTITION CXX
+OPTIONS := PANEL FRESH SEED REPLICAS JOBS FILE FULL PROFILE BATCH ACCOUNT PARTITION
+KNOWN := QUALITY SAMPLE $(OPTIONS) CXX
 
-GIVEN := $(foreach name,$(.VARIABLES),$(if $(filter command%,$(origin $(name))),$(name)))
-nearest = $(shell python3 -c 'import difflib, sys; print(*difflib.get_close_matches(sys.argv[1].upper(), sys.argv[2:], 1, 0))' $1 $2)
-$(foreach name,$(filter-out $(OPTIONS),$(GIVEN)),$(error $(name) is not an option; did you mean $(call nearest,$(name),$(OPTIONS))?))
+$(foreach name,$(OPTIONS),$(if $(filter environment,$(origin $(name))),$(eval $(name) :=)))
+nearest = $(shell python3 -c 'import difflib, sys; print(*difflib.get_close_matches(sys.argv[1].upper(), sys.argv[2:], 1, 0))' $1 $(KNOWN))
+$(foreach name,$(filter-out $(KNOWN),$(foreach one,$(.VARIABLES),$(if $(filter command,$(origin $(one))),$(one)))),\
+  $(error $(name) is not an option; did you mean $(call nearest,$(name))?))
+$(if $(filter panel,$(MAKECMDGOALS)),$(if $(PANEL),,$(error PANEL is missing; try make panel PANEL=fig05)))
+$(if $(filter provenance,$(MAKECMDGOALS)),$(if $(FILE),,$(error FILE is missing; try make provenance FILE=figures/standard/fig05.pdf)))
 
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
@@ -25,84 +28,80 @@ export OPENBLAS_NUM_THREADS := 1
 export MPLBACKEND := Agg
 export MPLCONFIGDIR := $(CURDIR)/.cache/matplotlib
 unexport PYTHONPATH PYTHONHOME CFLAGS CXXFLAGS CPPFLAGS LDFLAGS CPATH C_INCLUDE_PATH CPLUS_INCLUDE_PATH LIBRARY_PATH \
-  MATPLOTLIBRC SNAKEMAKE_PROFILE HDF5_PLUGIN_PATH VIRTUAL_ENV
-ifneq ($(shell test -w "$$HOME" || echo no),) # containers whose user has no home
-  export HOME := $(CURDIR)/.cache/home
+  MATPLOTLIBRC SNAKEMAKE_PROFILE HDF5_PLUGIN_PATH VIRTUAL_ENV CMAKE_GENERATOR BASH_ENV
+ifneq ($(shell test -w "$$HOME" || echo no),) # as of a user in a container
+export HOME := $(CURDIR)/.cache
 endif
 
-EFFORT := $(QUALITY)$(if $(SEED),_seed=$(SEED))$(if $(REPLICAS),_replicas=$(REPLICAS))
+EFFORT := $(QUALITY)$(SEED:%=_seed=%)$(REPLICAS:%=_replicas=%)
 PYTHON := .venv/bin/python -m
-SNAKEMAKE = bash workflow/environment/one_at_a_time.sh .venv/bin/snakemake --nolock \
-  $(if $(PROFILE),--workflow-profile profiles/$(PROFILE) $(if $(JOBS),--jobs $(JOBS)),$(if $(JOBS),--cores $(JOBS))) \
-  $(if $(ACCOUNT)$(PARTITION),--default-resources $(ACCOUNT:%=slurm_account=%) $(PARTITION:%=slurm_partition=%)) \
-  $(if $(FRESH),--forceall) --config quality=$(EFFORT) $(PANEL:%=panel=%) $(BATCH:%=batch=%) --
-COMPARE := $(if $(SEED)$(REPLICAS)$(FRESH),$(PYTHON) workflow.provenance.compare --quality $(EFFORT) $(PANEL:%=--panel=%))
-IN_PLACE = [ -d "$${HOME}" ] || mkdir -p "$${HOME}"
+OF := --quality '$(EFFORT)' $(PANEL:%=--panel='%')
+SNAKEMAKE := bash workflow/environment/one_at_a_time.sh .venv/bin/snakemake --nolock $(FRESH:yes=--forceall) \
+  $(if $(PROFILE),--workflow-profile 'profiles/$(PROFILE)' $(JOBS:%=--jobs '%'),$(JOBS:%=--cores '%')) \
+  $(if $(ACCOUNT)$(PARTITION),--default-resources $(ACCOUNT:%=slurm_account='%') $(PARTITION:%=slurm_partition='%')) \
+  --config quality='$(EFFORT)' $(PANEL:%=panel='%') $(BATCH:%=batch='%') --
+COMPARE := $(if $(SEED)$(REPLICAS)$(FRESH),$(PYTHON) workflow.provenance.compare $(OF))
 
 help:  ## This list
 	sed -nE 's/^([a-z-]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 17
 	echo 'Options: QUALITY=smoke|standard|paper|deep  PANEL=fig05  FRESH=yes  SEED=7  REPLICAS=200  JOBS=2'
 	echo 'On a cluster (docs/cluster.md): PROFILE=slurm  BATCH=30  ACCOUNT=physics  PARTITION=short'
-
-figures: build  ## Build, simulate and draw every figure into figures/QUALITY
+figures: build  ## Build, simulate and render every figure: figures/QUALITY/*.pdf, .png, .svg, .csv
 	$(if $(FRESH),$(COMPARE) --keep)
 	$(SNAKEMAKE) figures
 	$(COMPARE)
 	echo 'The figures are in figures/$(EFFORT). Next: make report'
-
-panel: build  ## One panel, PANEL=fig05; with FRESH=yes rerun from scratch and compared
-	$(if $(PANEL),,echo 'PANEL is missing; try make panel PANEL=fig05' >&2; exit 2)
+panel: build  ## One panel, PANEL=fig05; FRESH=yes: rerun from scratch and compare
 	$(if $(FRESH),$(COMPARE) --keep)
 	$(SNAKEMAKE) panel
 	$(COMPARE)
 	echo 'The panel is figures/$(EFFORT)/$(PANEL).pdf, .png, .svg and .csv'
-
 report: figures  ## The paper's claims against the results: figures/QUALITY/report.html
-	$(PYTHON) workflow.report.write --quality $(EFFORT)
-
-gallery: setup  ## docs/gallery and the answer in README.md from the best results that are here
-	$(PYTHON) workflow.report.gallery --quality $(EFFORT)
-
-setup:  ## System packages and .venv
-	bash workflow/environment/system_packages.sh
-	bash workflow/environment/python.sh --no-dev
-
+	$(PYTHON) workflow.report.write --quality '$(EFFORT)'
+	echo 'The report is figures/$(EFFORT)/report.html'
+gallery: setup  ## docs/gallery and the answer in README.md, from the best results here
+	$(PYTHON) workflow.report.gallery --quality '$(EFFORT)'
+setup:  ## System packages, and Python packages in .venv
+	bash workflow/environment/setup.sh
 setup-dev:
-	bash workflow/environment/system_packages.sh dev
-	bash workflow/environment/python.sh
-
+	bash workflow/environment/setup.sh dev
+installed:
+	test -x .venv/bin/python || bash workflow/environment/setup.sh
 build: setup  ## The programs, in build/bin
 	bash workflow/environment/build.sh all
-
-audit: installed  ## Check every result and figure against its sources, parameters, build and packages; PANEL=fig05
-	$(PYTHON) workflow.provenance.audit --quality $(EFFORT) $(PANEL:%=--panel=%)
-
-verify: build  ## Rerun a SAMPLE=0.1 of the results, or PANEL=fig05, with a fresh build and compare bytes
-	$(PYTHON) workflow.provenance.verify --quality $(EFFORT) --sample $(SAMPLE) $(PANEL:%=--panel=%)
-
-provenance: installed  ## Where a file comes from, FILE=figures/standard/fig05.pdf or a copy of it; FULL=yes
-	$(if $(FILE),,echo 'FILE is missing; try make provenance FILE=figures/standard/fig05.pdf' >&2; exit 2)
+audit: installed  ## Check every result and figure against sources, parameters, build and packages
+	$(PYTHON) workflow.provenance.audit $(OF)
+verify: build  ## Compile afresh, rerun a SAMPLE=0.1 of the results, or PANEL=fig05, and compare bytes
+	$(PYTHON) workflow.provenance.verify $(OF) --sample $(SAMPLE)
+provenance: installed  ## Where a file comes from, FILE=figures/standard/fig05.pdf or a copy; FULL=yes
 	$(PYTHON) workflow.provenance.tree $(FULL:yes=--full) -- "$(FILE)"
-
-status: installed  ## Fresh, stale (why) or missing; errors reached, CPU time
-	$(PYTHON) workflow.provenance.status --quality $(EFFORT)
-
+status: installed  ## Fresh, stale (why) or missing; errors; CPU time
+	$(PYTHON) workflow.provenance.status --quality '$(EFFORT)'
 cost: installed  ## Estimated CPU time of a quality, or of PANEL=fig05
-	$(PYTHON) workflow.cluster.cost --quality $(EFFORT) $(PANEL:%=--panel=%) $(BATCH:%=--batch=%)
-
-crate: installed  ## Figures, data, code and their history as an RO-Crate in build/crate; PANEL=fig05
-	$(PYTHON) workflow.provenance.crate --quality $(EFFORT) $(PANEL:%=--panel=%)
-
-test test-long: setup-dev  ## All tests; test-long also those that take minutes
-	bash workflow/environment/build.sh all cpp_tests
-	ctest --test-dir build --output-on-failure --parallel 2 --no-tests=error --quiet --output-log build/ctest.log || { cat build/ctest.log; exit 1; }
-	tail -n 4 build/ctest.log
-	$(PYTHON) pytest -n 2 --dist loadfile $(if $(filter test,$@),-m 'not long')
-
-check: setup-dev build  ## Format, lint, types, docs
+	$(PYTHON) workflow.cluster.cost $(OF) $(BATCH:%=--batch=%)
+crate: installed  ## Figures, data, code and history as an RO-Crate in build/crate; PANEL=fig05
+	$(PYTHON) workflow.provenance.crate $(OF)
+test: setup-dev  ## All tests; make test-long: also those that take minutes
+	bash workflow/environment/test.sh -m 'not long'
+test-long: setup-dev
+	bash workflow/environment/test.sh
+check: setup-dev build docs  ## Format, lint, types, reference
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 .venv/bin/clang-format --dry-run --Werror
-	.venv/bin/ruff check --quiet . && .venv/bin/ruff format --quiet --check .
-	.venv/bin/mypy --no-error-summary
+	.venv/bin/ruff check --quiet . && .venv/bin/ruff format --quiet --check . && .venv/bin/mypy --no-error-summary
 	.venv/bin/snakefmt --no-format-shell --line-length 110 --check --compact-diff Snakefile workflow/rules
 	.venv/bin/snakemake --lint
-	$(MAKE) docs
+format: setup-dev  ## Format every source in place
+	git ls-files -z '*.hpp' '*.cpp' | xargs -0 .venv/bin/clang-format -i
+	.venv/bin/ruff check --quiet --fix . && .venv/bin/ruff format --quiet .
+	.venv/bin/snakefmt --no-format-shell --line-length 110 Snakefile workflow/rules
+describe: build  ## Options and quantities of the programs: schema of the configuration, docs/format.*
+	$(PYTHON) workflow.config.describe
+bench tradeoff: setup-dev build  ## Cost of an event; make tradeoff: accuracy against time
+	$(PYTHON) workflow.tradeoff.$@
+docs: setup-dev  ## Reference of C++ and Python in build/reference
+	mkdir -p build/reference && doxygen docs/Doxyfile
+	PDOC_ALLOW_EXEC=1 .venv/bin/pdoc -o build/reference/python $$(git ls-files 'workflow/*.py' | sed 's|/|.|g; s|\.py$$||')
+clean:  ## Remove what can be made again, results included
+	rm -rf build data/*/ figures/*/ .snakemake .cache .venv
+.PHONY: help figures panel report gallery setup setup-dev installed build audit verify provenance status cost crate test test-long \
+  check format describe bench tradeoff docs clean

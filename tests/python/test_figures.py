@@ -1,33 +1,32 @@
-"""Loading results and saving panels: formats, provenance, reproducible bytes."""
+"""Rendering a panel: reproducible bytes, parents that every file states, tables with the numbers of the results."""
 
+import json
+import resource
 import subprocess
 import sys
 import time
 from pathlib import Path
 
-import h5py
+import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import pytest
 
 from tests.python.conftest import ROOT, Program
 from workflow.figures.fig05 import law, tabulate
-from workflow.lib.load import FormatError, load
-from workflow.lib.parents import ArtefactError, Parents, file_hash
+from workflow.lib.columns import as_csv
+from workflow.lib.figure_metadata import MetadataError, Parents, embedded, file_hash, read_panel, sources_of
+from workflow.lib.load import load
+from workflow.lib.plan import load_plan
+from workflow.lib.save import Text, save
+
+KINDS = ("pdf", "png", "svg", "csv")
+SCRIPT = "workflow/figures/fig05.py"
 
 
-def draw(folder: Path, stem: str, data: list[Path]) -> None:
-    command = [
-        sys.executable,
-        "-P",
-        "workflow/environment/launch.py",
-        "workflow.figures.fig05",
-        "--configuration",
-        "c0ffee",
-    ]
-    command += ["--sources", "workflow/figures/fig05.py", "--lock", "requirements.lock"]
-    command += ["--output", str(folder / stem), "--data", *map(str, data)]
-    subprocess.run(command, cwd=ROOT, check=True)
+def draw(stem: Path, data: list[Path]) -> None:
+    command = [sys.executable, "-P", "-m", "workflow.figures.fig05", "--configuration", "c0ffee"]
+    subprocess.run([*command, "--output", stem, "--data", *data], cwd=ROOT, check=True)
 
 
 @pytest.fixture
@@ -40,49 +39,33 @@ def runs(persistence: Program, tmp_path: Path) -> list[Path]:
     return paths
 
 
-def test_panel_is_byte_stable_and_names_its_parents(runs: list[Path], tmp_path: Path) -> None:
-    draw(tmp_path, "1/smoke/panel", runs)
+def test_panel_is_byte_stable_and_states_its_parents(runs: list[Path], tmp_path: Path) -> None:
+    draw(tmp_path / "1/smoke/panel", runs)
     time.sleep(1.1)  # longer than the resolution of a time stamp
-    draw(tmp_path, "2/smoke/panel", runs)
-    for kind in ("pdf", "png", "svg", "csv"):
-        assert (tmp_path / f"1/smoke/panel.{kind}").read_bytes() == (
-            tmp_path / f"2/smoke/panel.{kind}"
-        ).read_bytes()
-    named = [Parents.of(tmp_path / f"1/smoke/panel.{kind}") for kind in ("pdf", "png", "svg", "csv")]
-    assert all(parents == named[0] for parents in named)
-    parents = named[0]
+    draw(tmp_path / "2/smoke/panel", runs)
+    files = [tmp_path / f"1/smoke/panel.{kind}" for kind in KINDS]
+    assert all(path.read_bytes() == (tmp_path / "2/smoke" / path.name).read_bytes() for path in files)
+    record = read_panel(tmp_path / "1/smoke/panel.json")
+    assert record["files"] == {path.name: file_hash(path) for path in files}
+    parents = record["parents"]
+    assert [embedded(path) for path in files] == [*[parents.as_json()] * 3, parents.digest()]
     assert (parents.panel, parents.quality, parents.configuration) == ("panel", "smoke", "c0ffee")
-    assert {path: data["sha256"] for path, data in parents.data.items()} == {
-        str(path): file_hash(path) for path in runs
-    }
     provenance = load(runs[0]).provenance
-    assert all(data["build_id"] == provenance["build_id"] for data in parents.data.values())
-    assert all(data["seed"] == provenance["seed"] for data in parents.data.values())
+    identity = {"build_id": provenance["build_id"], "seed": provenance["seed"]}
+    assert parents.data == {str(path): {"sha256": file_hash(path)} | identity for path in runs}
     assert parents.builds[provenance["build_id"]]["source_hash"] == provenance["source_hash"]
-    assert parents.sources == {"workflow/figures/fig05.py": file_hash(ROOT / "workflow/figures/fig05.py")}
-    assert parents.packages == file_hash(ROOT / "requirements.lock")
+    assert parents.sources == {path: file_hash(ROOT / path) for path in sources_of(SCRIPT)}
+    assert parents.packages == file_hash(ROOT / "uv.lock")
 
 
-@pytest.mark.parametrize("kind", ["pdf", "png", "svg", "csv", "txt"])
-def test_files_without_parents_are_refused(tmp_path: Path, kind: str) -> None:
-    path = tmp_path / f"x.{kind}"
-    with pytest.raises(ArtefactError, match="names no parents"):
-        Parents.of(path)
-    path.write_text("nothing of the kind\n")
-    with pytest.raises(ArtefactError, match="names no parents"):
-        Parents.of(path)
-
-
-def test_table_holds_what_the_files_hold(runs: list[Path], tmp_path: Path) -> None:
-    draw(tmp_path, "panel", runs)
+def test_table_has_the_numbers_of_the_results(runs: list[Path], tmp_path: Path) -> None:
+    draw(tmp_path / "panel", runs)
     table = pd.read_csv(tmp_path / "panel.csv", comment="#")
     assert len(table) == len(runs)
     for run in runs:
         result = load(run)
-        row = table[
-            (table.particles_per_cell == result.parameters["particles-per-cell"])
-            & (table.sigma == result.parameters["sigma"])
-        ]
+        same = table.particles_per_cell == result.parameters["particles-per-cell"]
+        row = table[same & (table.sigma == result.parameters["sigma"])]
         assert row.mu.item() == pytest.approx(float(result["mu"].mean), rel=1e-11)
         assert row.mu_error.item() == pytest.approx(float(result["mu"].standard_error), rel=1e-11)
 
@@ -97,11 +80,43 @@ def test_law_at_its_limits(runs: list[Path]) -> None:
     assert ((shift < 0) == (hotter == (table.sigma > 0))).all()
 
 
-def test_foreign_files_are_refused(runs: list[Path], tmp_path: Path) -> None:
-    (tmp_path / "text.h5").write_text("no")
-    with pytest.raises(FormatError, match=r"text\.h5"):
-        load(tmp_path / "text.h5")
-    with h5py.File(runs[0], "r+") as file:
-        file["provenance"].attrs["format_version"] = 99
-    with pytest.raises(FormatError, match="99"):
-        load(runs[0])
+@pytest.mark.parametrize("kind", [*KINDS, "txt"])
+def test_a_damaged_or_foreign_file_is_refused_in_a_line(runs: list[Path], tmp_path: Path, kind: str) -> None:
+    draw(tmp_path / "panel", runs)
+    path = tmp_path / f"panel.{kind}"
+    whole = path.read_bytes() if kind != "txt" else b"text"
+    for size in (0, 1, 9, 50):
+        path.write_bytes(whole[:size])
+        with pytest.raises(MetadataError, match=path.name) as raised:
+            embedded(path)
+        assert "\n" not in str(raised.value)
+
+
+@pytest.mark.parametrize("content", ["", "{}", "[1]", '{"parents": {"panel": 5}, "files": {}}'])
+def test_a_damaged_record_is_refused(tmp_path: Path, content: str) -> None:
+    (tmp_path / "x.json").write_text(content)
+    with pytest.raises(MetadataError, match=r"x\.json is not the record of a panel"):
+        read_panel(tmp_path / "x.json")
+    with pytest.raises(MetadataError, match="other metadata"):
+        Parents.parse(json.dumps({"more": 1}))
+
+
+def test_nothing_is_left_where_the_disk_is_full(tmp_path: Path) -> None:
+    figure, _ = plt.subplots()
+    parents = Parents("a", "smoke", {}, {}, {}, "", "", "")
+    limit = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, limit[1]))
+    try:
+        with pytest.raises(OSError, match="File too large"):
+            save(figure, as_csv(pd.DataFrame({"a": [1.0]}), {"a": "1"}), tmp_path / "a", Text("t", "c"), parents)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limit)
+        plt.close(figure)
+    assert [*tmp_path.iterdir()] == []
+
+
+def test_imports_are_followed() -> None:
+    sources = sources_of(SCRIPT)
+    assert {SCRIPT, "workflow/lib/style.py", "workflow/lib/fit.py", "workflow/lib/save.py"} <= {*sources}
+    assert "workflow/lib/growth.py" not in sources
+    assert all((ROOT / f"workflow/figures/{panel.script}.py").is_file() for panel in load_plan("smoke").values())

@@ -14,7 +14,7 @@ from tests.workflow.conftest import Clone
 from workflow.lib import style
 from workflow.lib.columns import BY_ROW, UNITS_LINE, as_csv
 from workflow.lib.load import load
-from workflow.lib.parents import caption_of
+from workflow.lib.figure_metadata import read_panel
 from workflow.lib.plan import data_of, load_plan
 from workflow.lib.units import UnitsError
 
@@ -22,8 +22,8 @@ PLAN = load_plan("smoke")
 
 
 def stated(table: Path) -> dict[str, str]:
-    """Units in the third line."""
-    line = table.read_text().split("\n", maxsplit=3)[2]
+    """Units in the second line."""
+    line = table.read_text().split("\n", maxsplit=2)[1]
     assert line.startswith(UNITS_LINE)
     return json.loads(line.removeprefix(UNITS_LINE))
 
@@ -72,7 +72,7 @@ def test_every_column_scales_as_its_units_say(clean: Clone, panel: str) -> None:
 
 @pytest.mark.parametrize("panel", PLAN)
 def test_every_panel_has_a_caption(clean: Clone, panel: str) -> None:
-    caption = caption_of(clean.folder / f"figures/smoke/{panel}.csv")
+    caption = read_panel(clean.folder / f"figures/smoke/{panel}.json")["caption"]
     assert len(caption) >= 200
     assert caption == " ".join(caption.split())
 

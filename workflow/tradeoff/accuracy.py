@@ -1,9 +1,6 @@
-"""What a second buys: error of every program's target quantity against CPU seconds on one core.
+"""Error against CPU seconds of every sampling program, and how well the cost of a target error is predicted."""
 
-Its products hold measured times, so they change from run to run and do not belong to `make figures`.
-"""
-
-from pathlib import Path
+import re
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -13,14 +10,16 @@ from matplotlib.figure import Figure
 
 from workflow.lib import style
 from workflow.lib.plan import Run
-from workflow.tradeoff import frame
 from workflow.tradeoff.measure import execute, planned, shortened
 
 REPLICAS = (10, 32, 110, 360, 1300)
-PAIRS = 2  # of a replica of the pulse
-TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)  # of what is computed, not sampled
-# A cheap run of every program, and the part of its window that is watched here.
-SETTINGS = {
+FIRST_LOOK, BATCH = (
+    64,
+    16,
+)  # replicas before a program first compares its error with the target; added per batch
+REDUCTION = 4  # the target, as a fraction of the error at the first look, is its inverse
+PREDICTION = re.compile(r"the run ends after (\d+) to (\d+)")  # replicas, in the log of a program
+SETTINGS = {  # a cheap run of every program, and the fraction of its times that is simulated
     "persistence": ("fig05", "paper_sigma=0.5", 0.5),
     "waiting_time": ("fig06", "all_sigma=0.5", 0.5),
     "displacement": ("ext07", "spreading_relaxation-time=1", 0.5),
@@ -30,22 +29,18 @@ SETTINGS = {
     "momentum_flux": ("fig04a", "rare", 0.1),
     "steady_profile": ("fig02_upper", "rare", 0.1),
     "particle_count": ("fig01", "short", 0.005),
-    "boltzmann": ("fig03_convergence", "resolution_gamma=50_target-error=1e-05", 1),
-}
-NAMES = {
-    "mu": r"$\mu$",
-    "exponent": r"exponent of $\Psi(\tau)$",
-    "alpha": r"exponent of $\langle x^2\rangle$",
-    "log_slope": r"slope against $\ln t$",
-    "damping_exponent": "exponent of damping",
-    "kappa": r"$\kappa(N)$",
-    "crossings": "crossings of a bond",
-    "energy_current_mean": "$J_U$",
-    "currents": "currents",
 }
 UNITS = {"cpu_seconds": "second", "mean": "column units"}
-UNITS |= dict.fromkeys(("replicas", "error", "uncertainty"), "1")
-ERRORS = (2e-5, 0.5)  # one axis for all that is sampled
+PREDICTION_UNITS = dict.fromkeys(("seconds_least", "seconds_most", "seconds"), "second")
+
+
+def short_run(program: str) -> Run:
+    panel, name, fraction = SETTINGS[program]
+    run = planned(panel, name)
+    times = [key for key in ("relaxation-time", "observation-time", "times") if key in run.options]
+    changes = {key: shortened(run.options[key], fraction) for key in times}
+    pairs = {"pairs-per-replica": 2} if "pairs-per-replica" in run.options else {}
+    return Run(name, program, run.options | changes | pairs)
 
 
 def amplitude(seconds: np.ndarray, errors: np.ndarray, replicas: np.ndarray) -> float:
@@ -54,77 +49,70 @@ def amplitude(seconds: np.ndarray, errors: np.ndarray, replicas: np.ndarray) -> 
 
 
 def uncertainty(errors: np.ndarray, replicas: np.ndarray) -> np.ndarray:
-    """Standard deviation of a standard error that was estimated from so many replicas."""
+    """Standard deviation of a standard error that was estimated from a number of replicas."""
     deviation: np.ndarray = errors / np.sqrt(2 * (replicas - 1))
     return deviation
 
 
-def window(run: Run, share: float) -> dict[str, object]:
-    """Options that shorten a run: a part of its times, the smallest replicas."""
-    times = ("relaxation-time", "observation-time", "times")
-    changes = {key: shortened(run.options[key], share) for key in times if key in run.options}
-    return changes | ({"pairs-per-replica": PAIRS} if "pairs-per-replica" in run.options else {})
-
-
-def sample(programs: Path, program: str) -> pd.DataFrame:
-    """One row per number of replicas; errors relative to the most precise mean."""
-    panel, name, share = SETTINGS[program]
-    run = planned(panel, name)
-    changes = window(run, share)
+def sampled(program: str) -> pd.DataFrame:
+    """A row per number of replicas; errors are relative to the most precise mean."""
     rows = []
     for replicas in REPLICAS:
-        result, seconds = execute(programs, run, **changes, replicas=replicas)
-        target = result.provenance["target_quantity"]
-        found = result[target]
-        rows.append((program, target, replicas, seconds, found.mean, found.error, found.units))
+        done = execute(short_run(program), replicas=replicas)
+        name = done.result.provenance["target_quantity"]
+        found = done.result[name]
+        rows.append(
+            (program, name, replicas, done.seconds, float(found.mean), float(found.error), found.units)
+        )
     columns = ["program", "quantity", "replicas", "cpu_seconds", "mean", "error", "units"]
     table = pd.DataFrame(rows, columns=columns)
-    table["error"] = (table.error / abs(table["mean"].iloc[-1])).astype(float)
+    table["error"] /= abs(table["mean"].iloc[-1])
     table["uncertainty"] = uncertainty(table.error, table.replicas)
-    return table.dropna()  # too few replicas may leave no error
+    return table.dropna()  # few replicas may not suffice for an error
 
 
-def solve(programs: Path) -> pd.DataFrame:
-    """The kinetic equation: error by the program's own estimate, against the resolution that it needs."""
-    panel, name, _ = SETTINGS["boltzmann"]
-    rows = []
-    for target in TARGETS:
-        result, seconds = execute(programs, planned(panel, name), target_error=target)
-        rows.append(("boltzmann", "currents", seconds, result.provenance["achieved_error"], "1"))
-    return pd.DataFrame(rows, columns=["program", "quantity", "cpu_seconds", "error", "units"])
+def measure() -> pd.DataFrame:
+    return pd.concat([sampled(program) for program in SETTINGS], ignore_index=True)
 
 
 def draw_program(axes: Axes, table: pd.DataFrame) -> None:
+    law = amplitude(*(table[name].to_numpy() for name in ("cpu_seconds", "error", "replicas")))
     axes.errorbar(
-        table.cpu_seconds, table.error, table.uncertainty, marker="o", color=style.BLUE, **style.POINTS
+        table.cpu_seconds, table.error, table.uncertainty, fmt="o", color=style.BLUE, **style.POINTS
     )
-    axes.set(xscale="log", yscale="log")
-    axes.set_title(f"{table.program.iloc[0]}:\n{NAMES[table.quantity.iloc[0]]}", size=8)
+    axes.plot(table.cpu_seconds, law / np.sqrt(table.cpu_seconds), **style.GUIDE)
+    axes.text(0.95, 0.93, f"1 s: {100 * law:.2g} %", transform=axes.transAxes, size=7, ha="right", va="top")
+    axes.set(xscale="log", yscale="log", ylim=(2e-5, 0.5))
+    axes.set_title(f"{table.program.iloc[0]}:\n{table.quantity.iloc[0]}", size=8)
     axes.minorticks_off()
-    if table.replicas.notna().all():
-        law = amplitude(*(table[name].to_numpy() for name in ("cpu_seconds", "error", "replicas")))
-        axes.plot(table.cpu_seconds, law / np.sqrt(table.cpu_seconds), **style.GUIDE)
-        axes.text(
-            0.95, 0.93, f"1 s: {100 * law:.2g} %", transform=axes.transAxes, size=7, ha="right", va="top"
-        )
-        axes.set_ylim(*ERRORS)
 
 
 def draw(table: pd.DataFrame) -> Figure:
-    figure, axes = plt.subplots(2, 5, figsize=(2.1 * style.COLUMN, 1.3 * style.HEIGHT), sharex=True)
-    for one, program in zip(axes.flat, SETTINGS, strict=True):
-        draw_program(one, table[table.program == program])
-    for one in (*axes[0, 1:], *axes[1, 1:-1]):
-        one.tick_params(labelleft=False)
+    size = (2 * style.COLUMN, 2 * style.HEIGHT)
+    figure, axes = plt.subplots(3, 3, figsize=size, sharex=True, sharey=True)
+    for one, (_, part) in zip(axes.flat, table.groupby("program", sort=False), strict=True):
+        draw_program(one, part)
     figure.supxlabel("CPU seconds", size=9)
     figure.supylabel("relative error", size=9)
     return figure
 
 
-def measure(programs: Path) -> pd.DataFrame:
-    sampled = [sample(programs, program) for program in SETTINGS if program != "boltzmann"]
-    return pd.concat([*sampled, solve(programs)], ignore_index=True)
+def predicted(program: str) -> dict[str, object]:
+    """Replicas and CPU seconds by the prediction at the first look at the error, and those needed."""
+    run = short_run(program)
+    first = execute(run, replicas=FIRST_LOOK)
+    target = first.result.provenance["achieved_error"] / REDUCTION
+    whole = execute(run, replicas=BATCH, target_error=target)
+    found = PREDICTION.search(whole.log)
+    if not found:
+        raise ValueError(f"{program} predicts no number of replicas")
+    replicas = {"least": int(found[1]), "most": int(found[2])}
+    row: dict[str, object] = {"program": program, "target": target}
+    row |= {f"replicas_{bound}": count for bound, count in replicas.items()}
+    row["replicas"] = int(whole.result[whole.result.provenance["target_quantity"]].replicas)
+    row |= {f"seconds_{bound}": first.seconds * count / FIRST_LOOK for bound, count in replicas.items()}
+    return row | {"seconds": whole.seconds}
 
 
-if __name__ == "__main__":
-    frame.run(measure, __doc__, UNITS, draw)
+def predictions() -> pd.DataFrame:
+    return pd.DataFrame([predicted(program) for program in SETTINGS])

@@ -1,46 +1,40 @@
-"""What each device saves: error^2 x CPU seconds with it and without, and whether both find the same.
+"""What each method saves: the ratio of error^2 x CPU seconds without it and with it.
 
-The plain estimator is that of the reference simulator or, where a program stores both, the one without the
-device in the same run. Its products hold measured times, so they do not belong to `make figures`.
+The plain estimate is that of the reference simulator or, where a program stores both, of the same run without the method.
 """
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import partial
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from workflow.lib.configuration import at_size
-from workflow.lib.load import Result
 from workflow.lib.plan import Run
-from workflow.tradeoff import frame, reference
-from workflow.tradeoff.measure import execute, planned, shortened
+from workflow.tradeoff.measure import Done, execute, planned, simulate
 
-SHARE = 1 / 8  # of the panels' windows: the reference simulator is slow
-UNITS = dict.fromkeys(("factor", "factor_error", "z", "values"), "1") | {
-    f"{kind}_{name}": units
-    for kind in ("plain", "better")
-    for name, units in (("value", "column units"), ("error", "column units"), ("seconds", "second"))
-}
+FRACTION = 1 / 8  # of the observation time of the panels: the reference simulator is slow
+PULSE_REPLICAS = (50, 60)  # of the reference simulator and of the program
+
+Row = dict[str, object]
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """A number or an array, its standard error, CPU seconds, replicas, and units of the first two."""
-
     value: np.ndarray
     error: np.ndarray
     seconds: float
     replicas: int
-    units: str
 
     @classmethod
-    def of(cls, result: Result, name: str, seconds: float) -> "Estimate":
-        quantity = result[name]
-        return cls(quantity.mean, quantity.error, seconds, int(np.max(quantity.replicas)), quantity.units)
+    def of(cls, done: Done, name: str, index: tuple[object, ...] = ()) -> "Estimate":
+        found = done.result[name]
+        return cls(found.mean[index], found.error[index], done.seconds, int(found.replicas.max()))
+
+    @classmethod
+    def of_sample(cls, sample: np.ndarray, seconds: float) -> "Estimate":
+        """Mean over replicas, the first dimension."""
+        return cls(sample.mean(axis=0), sample.std(axis=0, ddof=1) / len(sample) ** 0.5, seconds, len(sample))
 
 
 def jackknife(statistic: Callable[[np.ndarray], float], rows: np.ndarray) -> tuple[float, float]:
@@ -50,92 +44,95 @@ def jackknife(statistic: Callable[[np.ndarray], float], rows: np.ndarray) -> tup
     return statistic(rows.mean(axis=0)), float(np.sqrt((len(rows) - 1) * np.var(left_out)))
 
 
-def of_sample(sample: np.ndarray, seconds: float, units: str) -> Estimate:
-    """Mean over replicas, the first dimension."""
-    error = sample.std(axis=0, ddof=1) / np.sqrt(len(sample))
-    return Estimate(sample.mean(axis=0), error, seconds, len(sample), units)
+def compared(method: str, quantity: str, plain: Estimate, better: Estimate) -> Row:
+    """Factor: median over the values, with its error from the numbers of replicas. z: largest difference in units of
+    the combined error."""
+    known = (plain.error > 0) & (better.error > 0)
+    ratios = plain.error**2 * plain.seconds / np.where(known, better.error**2 * better.seconds, np.nan)
+    factor = float(np.nanmedian(ratios))
+    relative = np.sqrt(2 / (plain.replicas - 1) + 2 / (better.replicas - 1))
+    z = np.abs(plain.value - better.value)[known] / np.hypot(plain.error, better.error)[known]
+    row = {"method": method, "quantity": quantity, "factor": factor, "factor_error": factor * relative}
+    return row | {"z": float(z.max()), "values": int(known.sum())}
 
 
-def compared(device: str, quantity: str, plain: Estimate, better: Estimate) -> dict[str, object]:
-    """Factor: median, over the values, of the ratio of error^2 x CPU seconds, with its own error from the
-    numbers of replicas. z: largest difference in units of the combined error."""
-    merits = [one.error**2 * one.seconds for one in (plain, better)]
-    seen = (plain.error > 0) & (better.error > 0)
-    factor = float(np.median((merits[0] / merits[1])[seen]))
-    relative = np.sqrt(sum(2 / (one.replicas - 1) for one in (plain, better)))
-    z = np.abs(plain.value - better.value)[seen] / np.hypot(plain.error, better.error)[seen]
-    row = {"device": device, "quantity": quantity, "factor": factor, "factor_error": factor * relative}
-    row |= {"z": float(np.max(z)), "values": int(np.sum(seen)), "units": plain.units}
-    for name, one in (("plain", plain), ("better", better)):
-        row |= {f"{name}_value": float(one.value) if one.value.ndim == 0 else np.nan}
-        row |= {f"{name}_error": float(np.median(one.error[seen])), f"{name}_seconds": one.seconds}
-    return row
-
-
-def conductivity(programs: Path, run: Run, cells: int, replicas: tuple[int, int]) -> Iterator[dict[str, Any]]:
-    """Engine and reference simulator, both from an empty start, with so many cells."""
-    times = [shortened(run.options[name], SHARE if name.startswith("obs") else 1)
-             for name in ("relaxation-time", "observation-time")]  # fmt: skip
-    relaxation, observation = (str(at_size(time, cells)) for time in times)
-    sample, slow = reference.open_chain(programs, run.options, cells, (relaxation, observation), replicas[0])
-    result, fast = execute(programs, run, cells=cells, start="empty", replicas=replicas[1],
-                           relaxation_time=relaxation, observation_time=observation)  # fmt: skip
-    current = sample["energy_current"][:, [0, -1]].mean(axis=1)
-    rows = np.stack([current, *sample["temperature_scatterer"][:, [0, -1]].T], axis=1)
-    kappa, error = (np.array(x) for x in jackknife(lambda row: -row[0] * cells / (row[2] - row[1]), rows))
-    label = f"N = {cells}, gamma = {run.options['gamma']}"
+def conductivity(run: Run, cells: int, replicas: tuple[int, int]) -> Iterator[Row]:
+    """Reference simulator and program, with the given replicas of each, from an empty start."""
+    options = run.options
+    relaxation = at_size(options["relaxation-time"], cells)
+    observation = FRACTION * at_size(options["observation-time"], cells)
+    done = execute(run, cells=cells, start="empty", replicas=replicas[1], relaxation_time=relaxation,
+                   observation_time=observation)  # fmt: skip
+    baths = [options[f"{name}-{side}"] for name in ("nu", "temperature") for side in ("left", "right")]
+    gamma = cells if options["gamma"] == "N" else options["gamma"]
+    bins, seed = (2, 1), 1  # the smallest histogram: bins, largest momentum
+    lines, seconds = simulate("open_chain", cells, 1 / cells, options["sigma"], gamma, *baths, relaxation,
+                              observation, *bins, replicas[0], seed)  # fmt: skip
+    rows = np.array(lines, dtype=float)
+    # Temperatures of the scatterers begin a row; behind four more values per cell and the particle currents of all
+    # bonds there are the energy currents.
+    first, last = rows[:, 0], rows[:, cells - 1]
+    current = rows[:, [6 * cells + 1, 7 * cells + 1]].mean(axis=1)
+    kappa, error = jackknife(lambda row: -row[0] * cells / (row[2] - row[1]),
+                             np.stack([current, first, last], axis=1))  # fmt: skip
     plain = {
-        "kappa": Estimate(kappa, error, slow, len(rows), result["kappa"].units),
-        "energy_current": of_sample(current, slow, result["energy_current"].units),
+        "kappa": Estimate(np.array(kappa), np.array(error), seconds, len(rows)),
+        "energy_current": Estimate.of_sample(current, seconds),
     }
-    for name, estimate in plain.items():
-        yield compared("engine", f"{name}, {label}", estimate, Estimate.of(result, f"{name}_plain", fast))
-        yield compared("control variates", f"{name}, {label}", Estimate.of(result, f"{name}_plain", fast),
-                       Estimate.of(result, name, fast))  # fmt: skip
-        yield compared("both", f"{name}, {label}", estimate, Estimate.of(result, name, fast))
+    for name, reference in plain.items():
+        label = f"{name}, N = {cells}, gamma = {options['gamma']}"
+        engine, controlled = Estimate.of(done, f"{name}_plain"), Estimate.of(done, name)
+        yield compared("engine", label, reference, engine)
+        yield compared("control variates", label, engine, controlled)
+        yield compared("both", label, reference, controlled)
 
 
-def spreading(programs: Path, panel: str, name: str, label: str) -> Iterator[dict[str, Any]]:
-    """<x^2> from one tagged particle, from all, and with the total momentum as a control variate."""
-    result, seconds = execute(programs, planned(panel, name), replicas=50)
-    every, better = (
-        Estimate(quantity.mean[-1], quantity.error[-1], seconds, int(quantity.replicas[-1]), quantity.units)
-        for quantity in (result["variance_plain"], result["variance"])
-    )
-    spread = np.sqrt(result["fourth_moment"].mean[-1] - better.value**2)
+def spreading(panel: str, name: str, label: str) -> Iterator[Row]:
+    """<x^2> at the last time from one tagged particle, from all, and with the total momentum as control variate."""
+    done = execute(planned(panel, name), replicas=50)
+    every, controlled = (Estimate.of(done, quantity, (-1,)) for quantity in ("variance_plain", "variance"))
+    spread = np.sqrt(done.result["fourth_moment"].mean[-1] - controlled.value**2)
     one = replace(every, error=spread / np.sqrt(every.replicas))
-    yield compared("all particles, not one", f"<x^2>, {label}", one, every)
-    yield compared("known total momentum", f"<x^2>, {label}", every, better)
+    yield compared("all particles", f"<x^2>, {label}", one, every)
+    yield compared("known total momentum", f"<x^2>, {label}", every, controlled)
 
 
-def pulse(programs: Path) -> Iterator[dict[str, Any]]:
+def pulse(run: Run) -> Iterator[Row]:
     """Energies in the cells that the pulse has reached, at the first time and the last."""
-    run = planned("fig09a", "gaussian")
-    shared, cost = reference.pulse(programs, run.options, 50, "shared")
-    own, cost_of_own = reference.pulse(programs, run.options, 50, "independent")
-    folded = (shared + shared[:, :, ::-1]) / 2
-    result, seconds = execute(programs, run, replicas=60)
-    _, twice = execute(programs, run, replicas=60, separate=True)
-    quantity = result["energy_difference"]
-    for k, label in ((0, "energies, first time"), (-1, "energies, last time")):
-        reached = quantity.mean[k] > 5 * quantity.error[k]
-        plain, one_start, both_sides = (of_sample(sample[:, k, reached], spent, quantity.units) for sample, spent in
-                                        ((own, cost_of_own), (shared, cost), (folded, cost)))  # fmt: skip
-        found = Estimate(quantity.mean[k][reached], quantity.error[k][reached], seconds, 60, quantity.units)
-        yield compared("one start for both", label, plain, one_start)
+    slow, fast = PULSE_REPLICAS
+    options, times = run.options, run.options["times"].split(",")
+    gamma = options["cells"] if options["gamma"] == "N" else options["gamma"]
+    names = ("energy", "pulse-energy", "pairs-per-replica")
+    words = [
+        options["cells"],
+        options["particles-per-cell"],
+        options["sigma"],
+        gamma,
+        *map(options.get, names),
+    ]
+    samples = {}
+    for start in ("independent", "shared"):
+        lines, seconds = simulate("pulse", *words, slow, 1, start, *times)
+        samples[start] = np.array(lines, dtype=float).reshape(slow, len(times), -1), seconds
+    shared, seconds = samples["shared"]
+    samples["folded"] = (shared + shared[:, :, ::-1]) / 2, seconds
+    done, separate = execute(run, replicas=fast), execute(run, replicas=fast, separate=True)
+    found = done.result["energy_difference"]
+    for k, time in ((0, "first"), (-1, "last")):
+        label, reached = f"energies, {time} time", found.mean[k] > 5 * found.error[k]
+        two_starts, one_start, both_sides = (Estimate.of_sample(sample[:, k, reached], seconds)
+                                             for sample, seconds in samples.values())  # fmt: skip
+        best = Estimate.of(done, "energy_difference", (k, reached))
+        yield compared("one start for both", label, two_starts, one_start)
         yield compared("both sides", label, one_start, both_sides)
-        yield compared("twice only where it differs", label, replace(found, seconds=twice), found)
-        yield compared("engine", label, one_start, found)
-        yield compared("start, twice and engine", label, plain, found)
+        yield compared("twice only where they differ", label, replace(best, seconds=separate.seconds), best)
+        yield compared("engine", label, one_start, best)
+        yield compared("all of these", label, two_starts, best)
 
 
-def measure(programs: Path) -> pd.DataFrame:
-    rows = [*conductivity(programs, planned("fig08", "deterministic_cells=4"), 256, (32, 100))]
-    rows += conductivity(programs, planned("fig08", "rare_cells=32"), 64, (32, 100))
-    rows += spreading(programs, "fig07_inset", "all_sigma=0.45", "random total momentum")
-    rows += spreading(programs, "ext07", "spreading_relaxation-time=10", "no total momentum")
-    return pd.DataFrame([*rows, *pulse(programs)])
-
-
-if __name__ == "__main__":
-    frame.run(measure, __doc__, UNITS, show=partial(pd.DataFrame.to_string, index=False, float_format="%.3g"))
+def measure() -> pd.DataFrame:
+    rows = [*conductivity(planned("fig08", "deterministic_cells=4"), 256, (32, 100))]
+    rows += conductivity(planned("fig08", "rare_cells=32"), 64, (32, 100))
+    rows += spreading("fig07_inset", "all_sigma=0.45", "random total momentum")
+    rows += spreading("ext07", "spreading_relaxation-time=10", "no total momentum")
+    return pd.DataFrame([*rows, *pulse(planned("fig09a", "gaussian"))])

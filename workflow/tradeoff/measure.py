@@ -1,7 +1,7 @@
-"""Runs programs at the settings of panels and says what they found and what they cost."""
+"""Executions of programs and of reference simulators: what they find, and their CPU time."""
 
-import json
 import re
+import resource
 import subprocess
 import tempfile
 from dataclasses import dataclass
@@ -11,46 +11,53 @@ from workflow.lib.configuration import arguments
 from workflow.lib.load import Result, load
 from workflow.lib.plan import Run, load_plan
 
-QUALITY = "smoke"  # whose pairs per replica and target errors are the smallest
+PROGRAMS = Path(__file__).parents[2] / "build/bin"
+QUALITY = "smoke"  # has the fewest pairs per replica and the largest target errors
+NUMBER = re.compile(r"(?<!\^)\d+\.?\d*(e[+-]?\d+)?")  # no exponent of N
+
+
+@dataclass(frozen=True)
+class Done:
+    result: Result
+    seconds: float  # CPU time of the process
+    log: str  # standard error
 
 
 def planned(panel: str, run: str) -> Run:
     return load_plan(QUALITY)[panel].run(run)
 
 
-def shortened(times: float | str, share: float) -> str:
-    """A part of a time, of each of a list, or of every term of a polynomial in N."""
-    return re.sub(
-        r"(?<!\^)\d+\.?\d*(e[+-]?\d+)?", lambda number: f"{share * float(number[0]):.6g}", str(times)
-    )
+def shortened(times: float | str, fraction: float) -> str:
+    """A fraction of a time, of each of a list, or of every term of a polynomial in N."""
+    return NUMBER.sub(lambda number: f"{fraction * float(number[0]):.6g}", str(times))
 
 
-@dataclass(frozen=True)
-class Done:
-    result: Result
-    seconds: float  # CPU time of the process, on one thread
-    said: str  # on standard error
-
-
-def call(program: Path, **options: object) -> Done:
-    """Runs a program once. Underscores of the options stand for dashes; of two options that then are one the last
-    counts. Raises RuntimeError with what the program says if it fails."""
+def call(program: str, **options: object) -> Done:
+    """Underscores in names of options stand for dashes; of equal names the last counts. Raises RuntimeError."""
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder) / "out.h5"
-        named = {key.replace("_", "-"): value for key, value in options.items()} | {"output": output}
-        done = subprocess.run([program, *arguments(named)], check=False, capture_output=True, text=True)
-        if done.returncode not in (0, 4):  # 4: the target was not reached
-            raise RuntimeError(done.stderr)
-        seconds = json.loads(output.with_suffix(".cost.json").read_text())["cpu_seconds"]
+        named = {name.replace("_", "-"): value for name, value in options.items()} | {"output": output}
+        done, seconds = _timed(program, *arguments(named))
         return Done(load(output), seconds, done.stderr)
 
 
-def attempt(programs: Path, run: Run, **changes: object) -> Done:
-    """At the settings of a run, but for the changes; reports its progress."""
+def execute(run: Run, **changes: object) -> Done:
+    """A planned run with changed options, on one thread."""
     threads = {"threads": 1} if run.replicated else {}
-    return call(programs / run.program, **run.options | changes | threads, progress="log")
+    return call(run.program, **run.options | threads | {"progress": "log"} | changes)
 
 
-def execute(programs: Path, run: Run, **changes: object) -> tuple[Result, float]:
-    done = attempt(programs, run, **changes)
-    return done.result, done.seconds
+def simulate(simulator: str, *arguments: object) -> tuple[list[list[str]], float]:
+    """Lines of words that a simulator of tests/cpp/reference prints, and its CPU seconds. Raises RuntimeError."""
+    done, seconds = _timed(f"reference_{simulator}", *arguments)
+    return [line.split() for line in done.stdout.splitlines()], seconds
+
+
+def _timed(program: str, *arguments: object) -> tuple[subprocess.CompletedProcess[str], float]:
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    words = [PROGRAMS / program, *map(str, arguments)]
+    done = subprocess.run(words, check=False, capture_output=True, text=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    if done.returncode not in (0, 4):  # 4: the target error was not reached
+        raise RuntimeError(done.stderr)
+    return done, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime

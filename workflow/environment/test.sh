@@ -1,0 +1,10 @@
+#!/bin/bash
+# C++ tests by ctest and Python tests by pytest, whose arguments these are. The last line counts all of them.
+set -euo pipefail
+bash workflow/environment/build.sh all cpp_tests
+mkdir -p build/tests
+status=0
+ctest --test-dir build --parallel 2 --no-tests=error --output-on-failure --output-junit tests/cpp.xml >build/tests/cpp.log 2>&1 || { status=1; cat build/tests/cpp.log; }
+tail -n 1 build/tests/cpp.log
+.venv/bin/python -m pytest -n 2 --dist loadfile "$@" || status=1
+exit $status
