@@ -22,7 +22,8 @@ from rich.text import Text
 from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 
-from snakemake_logger_plugin_progress.estimates import Remaining, outcome
+from workflow.cluster.cost import DRAWING, seconds_of_run
+from workflow.lib.plan import load_plan, with_used
 
 Record = Any  # a logging.LogRecord with the fields of its event
 
@@ -38,21 +39,23 @@ class LogHandler(LogHandlerBase):
 
     @property
     def writes_to_stream(self) -> bool:
-        requested = self.common_settings
-        return not (requested.dryrun or requested.verbose or requested.debug_dag or requested.printshellcmds)
+        output = self.common_settings
+        return not (output.dryrun or output.verbose or output.debug_dag or output.printshellcmds)
 
     def __post_init__(self) -> None:
         self._console = Console(highlight=False, markup=False, emoji=False, soft_wrap=True)
         self._live = Live(self, console=self._console, transient=True)
         self._early: list[str] = []  # messages until the workflow starts
         self._command = ""
-        self._cores = self._total = 0
-        self._remaining: Remaining | None = None
+        self._jobs: dict[str, int] = {}  # their number by rule
         self._running: dict[int, Record] = {}  # JOB_INFO by number
         self._finished: set[str] = set()
         self._failed: dict[str, None] = {}  # in their order
-        self._notes: list[str] = []
         self._stopped = False
+        self._cores = 0  # none on a cluster, where the time left depends on the queue
+        self._costs: dict[str, float] = {}  # estimated CPU seconds by panel/run
+        self._waiting: list[float] = []  # those of runs that have not started
+        self._estimated = self._taken = 0.0  # CPU seconds of finished jobs
 
     def emit(self, record: Record) -> None:
         if self.writes_to_stream:
@@ -67,12 +70,12 @@ class LogHandler(LogHandlerBase):
         elif event == LogEvent.RESOURCES_INFO:
             self._cores = getattr(record, "cores", self._cores)
         elif event == LogEvent.RUN_INFO:
-            self._begin(record.stats)
+            targets = ("figures", "panel", "total")
+            self._jobs = {rule: number for rule, number in record.stats.items() if rule not in targets}
+            if self._console.is_terminal:
+                self._live.start()
         elif event == LogEvent.JOB_INFO and record.wildcards:  # the target has none
-            self._failed.pop(name_of(record), None)  # a retry
-            self._running[record.jobid] = record
-            if self._remaining:
-                self._remaining.start(name_of(record), record.wildcards["quality"])
+            self._start(record)
         elif event == LogEvent.JOB_FINISHED and record.job_id in self._running:
             self._finish(self._running.pop(record.job_id))
         elif event == LogEvent.JOB_ERROR and record.jobid in self._running:
@@ -80,38 +83,42 @@ class LogHandler(LogHandlerBase):
         elif event in (None, LogEvent.ERROR):
             self._message(record.getMessage(), record.levelno)
 
-    def _begin(self, jobs: dict[str, int]) -> None:
-        """jobs: their number by rule."""
-        runs, drawings = jobs.get("simulate", 0), jobs.get("draw", 0)
-        self._total = sum(jobs.get(rule, 0) for rule in ("simulate", "draw", "part", "join"))
-        if runs + drawings == self._total:  # not on a cluster, where the time left depends on the queue
-            self._remaining = Remaining(
-                runs, drawings, self._cores, re.search(r"\bpanel=(\S+)", self._command)
-            )
-        if self._console.is_terminal:
-            self._live.start()
+    def _start(self, job: Record) -> None:
+        if (
+            not self._costs
+        ):  # Events state how many runs wait, not which: first those without a result, first the longest.
+            plan, panel = load_plan(job.wildcards["quality"]), re.search(r"\bpanel=(\S+)", self._command)
+            panels = with_used(plan, panel[1]) if panel else plan.values()
+            self._costs = {
+                f"{one.name}/{run.name}": seconds_of_run(one.name, run) for one in panels for run in one.runs
+            }
+            made = {run for run in self._costs if Path(f"data/{job.wildcards['quality']}/{run}.h5").exists()}
+            order = sorted(self._costs, key=lambda run: (run in made, -self._costs[run]))
+            self._waiting = [self._costs[run] for run in order][: self._jobs.get("simulate", 0)]
+        del self._waiting[: job.rule_name == "simulate"]
+        self._failed.pop(name_of(job), None)  # a retry
+        self._running[job.jobid] = job
 
     def _finish(self, job: Record) -> None:
         name = name_of(job)
         self._finished.add(name)
-        if self._remaining:
-            self._remaining.finish(name, elapsed(job) * job.threads)
+        self._estimated += self._costs.get(name, DRAWING)
+        self._taken += elapsed(job) * job.threads
         if job.rule_name == "draw":
-            runs = len(job.input)
-            self._console.print(f"{name}: drawn from {runs} run{'s' if runs > 1 else ''}, {self._state}")
+            self._console.print(
+                f"{name}: drawn from {len(job.input)} run{'s'[: len(job.input) - 1]}, {self._state}"
+            )
         elif job.rule_name != "part":
             value, doubts = outcome(Path(job.output[0]))
-            self._notes += [f"{name}: {doubt}: marked in the figure" for doubt in doubts]
-            if self._console.is_terminal:
+            if self._console.is_terminal or doubts:
                 self._console.print(f"{name}: {', '.join([value, *doubts])}, {self._state}")
 
     def _fail(self, job: Record, logs: list[str]) -> None:
         if not self._stopped:
-            name = name_of(job)
-            self._failed[name] = None
-            log = next((log for log in logs if last_lines(log)), logs[0])
+            self._failed[name_of(job)] = None
+            log = next(filter(last_lines, logs), logs[0])
             ending = "ends with:" if last_lines(log) else "is empty: the job was killed, or did not start"
-            heading = f"{name} failed after {clock(elapsed(job))}. {log} {ending}"
+            heading = f"{name_of(job)} failed after {clock(elapsed(job))}. {log} {ending}"
             self._console.print("\n  ".join([heading, *last_lines(log)]))
 
     def _message(self, text: str, level: int) -> None:
@@ -125,42 +132,58 @@ class LogHandler(LogHandlerBase):
         self._live.stop()
         for text in self._early:
             print(text, file=sys.stderr)
-        with suppress(OSError):
-            for text in [*self._notes, *self._ending()]:
-                self._console.print(text)
-        self._early, self._notes, self._command = [], [], ""
-        super().close()
-
-    def _ending(self) -> list[str]:
-        if not self._command or not (self._failed or self._stopped):
-            return []
-        count = f"{len(self._finished)} of {self._total} done"
-        if self._failed:
-            return [
-                f"Failed: {', '.join(self._failed)}; {count}. Fix the cause; the same command goes on with the rest."
-            ]
+        done = f"{len(self._finished)} of {sum(self._jobs.values())} done"
+        advice = "The same command goes on."
         if re.search(r" (--forceall|-F)\b", self._command):
-            return [
-                f"Stopped: {count}. The same command starts again; without FRESH=yes it completes what was interrupted."
-            ]
-        return [f"Stopped: {count}. The same command goes on."]
+            advice = "The same command starts again; without FRESH=yes it completes what was interrupted."
+        with suppress(OSError):
+            if self._failed:
+                self._console.print(f"Failed: {', '.join(self._failed)}; {done}. Fix the cause. {advice}")
+            elif self._stopped:
+                self._console.print(f"Stopped: {done}. {advice}")
+        self._early, self._failed, self._stopped = [], {}, False  # Python closes all handlers once more
+        super().close()
 
     @property
     def _state(self) -> str:
         """12 of 37 done, about 0:00:20 left."""
-        text = f"{len(self._finished)} of {self._total} done"
-        if self._remaining is None or len(self._finished) >= self._total:
-            return text
-        spent = {name_of(job): elapsed(job) * job.threads for job in list(self._running.values())}
-        return f"{text}, about {clock(self._remaining.seconds(spent))} left"
+        done = f"{len(self._finished)} of {sum(self._jobs.values())} done"
+        if not self._cores or len(self._finished) >= sum(self._jobs.values()):
+            return done
+        running = [*self._running.values()]
+        speed = self._taken / self._estimated if self._estimated else 1.0
+        left = [
+            speed * self._costs.get(name_of(job), DRAWING) - elapsed(job) * job.threads for job in running
+        ]
+        drawings = sum(self._jobs.values()) - len(self._finished) - len(running) - len(self._waiting)
+        waiting = speed * (sum(self._waiting) + drawings * DRAWING) + sum(
+            max(seconds, 0.0) for seconds in left
+        )
+        return f"{done}, about {clock(waiting / self._cores)} left"
 
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
         table = Table.grid(padding=(0, 2))
-        table.add_row(ProgressBar(self._total, len(self._finished), width=30), self._state)
+        table.add_row(ProgressBar(sum(self._jobs.values()), len(self._finished), width=30), self._state)
         yield table
-        for job in list(self._running.values()):
+        for job in [*self._running.values()]:
             line = f"  {name_of(job)}  {clock(elapsed(job))}  {' '.join(last_lines(job.log[0])[-1:])}"
             yield Text(line, overflow="ellipsis", no_wrap=True)
+
+
+def outcome(path: Path) -> tuple[str, list[str]]:
+    """mu = 0.3289(30), or of a quantity with many values its error; and why the result is marked, if it is."""
+    from workflow.lib.fit import with_error  # noqa: PLC0415  half a second
+    from workflow.lib.load import NOT_REACHED, load  # noqa: PLC0415
+
+    result = load(path)
+    name = result.provenance["target_quantity"]
+    quantity, stationary = result.quantities.get(name), result.quantities.get("stationary")
+    doubts = ["target error not reached"] if result.converged == NOT_REACHED else []
+    doubts += ["not stationary"] if stationary is not None and (stationary.mean == 0).any() else []
+    if quantity is None or quantity.mean.size > 1:
+        return f"error of {name} {float(result.provenance['achieved_error']):.2g}", doubts
+    error = quantity.error if quantity.discretisation_error is None else quantity.discretisation_error
+    return f"{name} = {with_error(float(quantity.mean), float(error))}", doubts
 
 
 def name_of(job: Record) -> str:
@@ -178,7 +201,6 @@ def clock(seconds: float) -> str:
 
 def last_lines(log: str) -> list[str]:
     """None of a log that is missing."""
-    try:
+    with suppress(OSError):
         return Path(log).read_text(errors="replace").splitlines()[-LAST:]
-    except OSError:
-        return []
+    return []
