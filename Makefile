@@ -39,7 +39,7 @@ OF := --quality '$(EFFORT)' $(PANEL:%=--panel='%')
 SNAKEMAKE := bash workflow/environment/one_at_a_time.sh .venv/bin/snakemake --nolock $(FRESH:yes=--forceall) \
   $(if $(PROFILE),--workflow-profile 'profiles/$(PROFILE)' $(JOBS:%=--jobs '%'),$(JOBS:%=--cores '%')) \
   $(if $(ACCOUNT)$(PARTITION),--default-resources $(ACCOUNT:%=slurm_account='%') $(PARTITION:%=slurm_partition='%')) \
-  --config quality='$(EFFORT)' $(PANEL:%=panel='%') $(BATCH:%=batch='%') --
+  --config quality='$(EFFORT)' $(PANEL:%=panel='%') $(if $(PROFILE)$(BATCH),batch='$(or $(BATCH),30)') --
 COMPARE := $(if $(SEED)$(REPLICAS)$(FRESH),$(PYTHON) workflow.provenance.compare $(OF))
 
 help:  ## This list

@@ -125,7 +125,7 @@ class LogHandler(LogHandlerBase):
         """Errors, but for those that follow from a failed job or from Ctrl-C."""
         self._stopped = self._stopped or text.startswith(STOPPING)
         follows = self._stopped or self._failed or "CalledProcessError" in text  # JOB_ERROR comes next
-        if text.startswith("Nothing to be done") or (level >= logging.WARNING and not follows):
+        if text.startswith("Nothing to be done") or (level >= logging.ERROR and not follows):
             self._console.print(text)
 
     def close(self) -> None:

@@ -1,18 +1,22 @@
-"""A Slurm of one node that listens on loopback only, for tests. It has to be started by root."""
+"""A Slurm of one node that listens on loopback only, for tests. Root has to start it."""
 
 import contextlib
 import os
 import secrets
 import shutil
-import signal
 import socket
 import subprocess
 import tempfile
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TypeVar
 
-from tests.workflow.running import soon
+T = TypeVar("T")
 
+INSTALLED = Path("/etc/slurm/slurm.conf")  # where Slurm's commands look, also those in jobs
+PREFIX = "slurm."  # of a cluster's folder
+PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
 CONFIGURATION = """ClusterName=test
 SlurmctldHost=localhost(127.0.0.1)
 SlurmctldPort={controller}
@@ -30,7 +34,6 @@ SlurmctldLogFile={folder}/slurmctld.log
 SlurmdLogFile={folder}/slurmd.log
 ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
-TaskProlog={folder}/prolog
 SelectType=select/cons_tres
 SelectTypeParameters=CR_Core_Memory
 SchedulerParameters=batch_sched_delay=0,sched_interval=2,bf_interval=2
@@ -40,68 +43,56 @@ KillWait=10
 JobAcctGatherType=jobacct_gather/linux
 AccountingStorageType=accounting_storage/none
 MinJobAge=3600
-NodeName=localhost NodeAddr=127.0.0.1 CPUs={cpus} RealMemory=8000 State=UNKNOWN
+NodeName=localhost NodeAddr=127.0.0.1 CPUs=2 RealMemory=8000 State=UNKNOWN
 PartitionName=test Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 """
 
 
 def available() -> bool:
     programs = ("slurmctld", "slurmd", "munged", "sbatch", "scontrol")
-    return (
-        os.geteuid() == 0
-        and (not os.path.lexists(PLACE) or left_behind())
-        and all(shutil.which(program, path=PATH) for program in programs)
-    )
+    free = not os.path.lexists(INSTALLED) or left_behind()
+    return os.geteuid() == 0 and free and all(shutil.which(program, path=PATH) for program in programs)
 
 
 def left_behind() -> bool:
     """Whether the configuration is that of tests that were killed: its controller is gone."""
-    if not PLACE.is_symlink() or not PLACE.readlink().parent.name.startswith(PREFIX):
+    if not INSTALLED.is_symlink() or not INSTALLED.readlink().parent.name.startswith(PREFIX):
         return False
-    pid = PLACE.readlink().with_name("slurmctld.pid")
+    pid = INSTALLED.readlink().with_name("slurmctld.pid")
     return not (pid.is_file() and Path("/proc", pid.read_text().strip(), "comm").is_file())
 
 
-PLACE = Path("/etc/slurm/slurm.conf")
-PREFIX = "slurm."  # of a cluster's folder
-DISK = Path("/dev/shm")  # what a node's own disk is for the others
-PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
-
-
 class Cluster:
-    def __init__(self, folder: Path, cpus: int) -> None:
-        self.folder = folder
-        self.environment = {"PATH": PATH}
+    def __init__(self, folder: Path) -> None:
+        self._folder, self._munge = folder, folder / "munge"
         self._daemons: dict[str, subprocess.Popen] = {}
-        for name in ("state", "spool", "munge"):
-            (folder / name).mkdir()
-        ports = dict(zip(("controller", "node"), _free_ports(2), strict=True))
-        text = CONFIGURATION.format(folder=folder, cpus=cpus, **ports)
-        (folder / "slurm.conf").write_text(text)
-        prolog = folder / "prolog"
-        prolog.write_text(f"#!/bin/sh\necho export TMPDIR={DISK}\n")
-        prolog.chmod(0o755)
 
     def start(self) -> None:
-        self._install()
-        munge = self.folder / "munge"
-        (munge / "key").write_bytes(secrets.token_bytes(1024))
-        for path, mode in ((munge / "key", 0o400), (munge, 0o755)):
+        for name in ("state", "spool", "munge"):
+            (self._folder / name).mkdir()
+        controller, node = _free_ports(2)
+        text = CONFIGURATION.format(folder=self._folder, controller=controller, node=node)
+        (self._folder / "slurm.conf").write_text(text)
+        INSTALLED.parent.mkdir(exist_ok=True)
+        INSTALLED.unlink(missing_ok=True)  # left behind, or there would be no cluster here
+        INSTALLED.symlink_to(self._folder / "slurm.conf")
+        (self._munge / "key").write_bytes(secrets.token_bytes(1024))
+        for path, mode in ((self._munge / "key", 0o400), (self._munge, 0o755)):
             path.chmod(mode)
             shutil.chown(path, "munge", "munge")
-        files = {
+        names = {
             "key-file": "key",
             "socket": "socket",
             "pid-file": "pid",
             "log-file": "log",
             "seed-file": "seed",
         }
-        self._run("munged", "--foreground", "--force", *(f"--{key}={munge / name}" for key, name in files.items()),
-                  user="munge")  # fmt: skip
-        soon((munge / "socket").exists)
+        files = [f"--{option}={self._munge / name}" for option, name in names.items()]
+        self._run("munged", "--foreground", "--force", *files, user="munge")
+        soon((self._munge / "socket").exists)
         self.start_controller()
         self._run("slurmd", "-D", "-N", "localhost")
-        soon(lambda: "idle" in self.say("sinfo", "--noheader", "--format=%t"))
+        soon(lambda: "idle" in self.command("sinfo", "--noheader", "--format=%t"))
 
     def start_controller(self) -> None:
         self._run("slurmctld", "-D")
@@ -109,41 +100,35 @@ class Cluster:
     def stop_controller(self) -> None:
         self._end("slurmctld")
 
-    def _install(self) -> None:
-        """Where Slurm's commands look for it, as the executor hands no variable to those that it starts in a job."""
-        PLACE.parent.mkdir(exist_ok=True)
-        PLACE.unlink(missing_ok=True)  # left behind, or there would be no cluster here
-        PLACE.symlink_to(self.folder / "slurm.conf")
-
     def stop(self) -> None:
-        """Whatever still runs, as after a test that failed, ends before the daemons that could end it."""
+        """Jobs first, as those of a test that failed, then the daemons that can end them."""
         with contextlib.suppress(subprocess.SubprocessError, AssertionError):
-            self.say("scancel", "--user=root")
-            soon(lambda: not self.say("squeue", "--noheader", "--states=RUNNING,COMPLETING"))
-        PLACE.unlink(missing_ok=True)
+            self.command("scancel", "--user=root")
+            soon(lambda: not self.command("squeue", "--noheader", "--states=RUNNING,COMPLETING"))
+        INSTALLED.unlink(missing_ok=True)
         for name in [*self._daemons][::-1]:
             self._end(name)
 
-    def say(self, *command: str) -> str:
-        """What one of Slurm's commands prints; empty if it fails, as while the controller is away."""
+    def command(self, *words: str) -> str:
+        """Output of a command of Slurm's; empty if it fails, as while the controller is away."""
         done = subprocess.run(
-            command, env=self.environment, capture_output=True, text=True, timeout=60, check=False
+            words, env={"PATH": PATH}, capture_output=True, text=True, timeout=60, check=False
         )
         return done.stdout if done.returncode == 0 else ""
 
     def jobs(self) -> list[str]:
         """Numbers of the jobs that run."""
-        return self.say("squeue", "--noheader", "--states=RUNNING", "--format=%i").split()
+        return self.command("squeue", "--noheader", "--states=RUNNING", "--format=%i").split()
 
     def _run(self, name: str, *arguments: str, user: str | None = None) -> None:
-        with (self.folder / f"{name}.out").open("a") as log:
+        with (self._folder / f"{name}.out").open("a") as log:
             self._daemons[name] = subprocess.Popen(
-                [name, *arguments], env=self.environment, user=user, group=user, stdout=log, stderr=log, start_new_session=True
+                [name, *arguments], env={"PATH": PATH}, user=user, group=user, stdout=log, stderr=log, start_new_session=True
             )  # fmt: skip
 
     def _end(self, name: str) -> None:
         daemon = self._daemons.pop(name)
-        daemon.send_signal(signal.SIGTERM)
+        daemon.terminate()
         try:
             daemon.wait(20)
         except subprocess.TimeoutExpired:
@@ -152,11 +137,11 @@ class Cluster:
 
 
 @contextlib.contextmanager
-def cluster(cpus: int = 2) -> Iterator[Cluster]:
+def cluster() -> Iterator[Cluster]:
     """Below /tmp, as the path of a socket must be short and its folder open to another user."""
     folder = Path(tempfile.mkdtemp(prefix=PREFIX))
     folder.chmod(0o755)
-    one = Cluster(folder, cpus)
+    one = Cluster(folder)
     try:
         one.start()
         yield one
@@ -165,9 +150,18 @@ def cluster(cpus: int = 2) -> Iterator[Cluster]:
         shutil.rmtree(folder, ignore_errors=True)
 
 
+def soon(find: Callable[[], T], seconds: float = 120) -> T:
+    """What is found, once it is true."""
+    deadline = time.monotonic() + seconds
+    while not (found := find()):
+        assert time.monotonic() < deadline, f"not within {seconds:g} seconds"
+        time.sleep(0.05)
+    return found
+
+
 def _free_ports(number: int) -> list[int]:
-    sockets = [socket.create_server(("127.0.0.1", 0)) for _ in range(number)]
-    ports = [one.getsockname()[1] for one in sockets]
-    for one in sockets:
-        one.close()
-    return ports
+    with contextlib.ExitStack() as sockets:
+        return [
+            sockets.enter_context(socket.create_server(("127.0.0.1", 0))).getsockname()[1]
+            for _ in range(number)
+        ]

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from workflow.lib.plan import STOPPING, Panel, Run
 
-OVERHEAD = 2  # seconds of a part besides its work: start of Snakemake
+OVERHEAD = 5  # seconds of a part besides its work: start of Snakemake
 
 
 @dataclass(frozen=True)

@@ -31,10 +31,10 @@ def parts_of_run(wildcards):
 
 
 def minutes(wildcards, attempt):
-    """Twice the estimate, as machines differ."""
+    """Twice the estimate, as machines differ, and one for the start."""
     part = DIVISION.get(f"{wildcards.panel}/{wildcards.run}", [None])[0]
     seconds = part.seconds if part else seconds_of_run(wildcards.panel, run_of(wildcards))
-    return attempt * math.ceil(2 * seconds / 60)
+    return attempt * (1 + math.ceil(2 * seconds / 60))
 
 
 def memory(wildcards, attempt):
@@ -64,7 +64,7 @@ rule part:
     output:
         temp("build/parts/{quality}/{panel}/{run}/{identity}/{batch}_{part}.part"),
     log:
-        "build/logs/{quality}/{panel}/{run}/{identity}_{part}.log",
+        "build/logs/{quality}/{panel}/{run}/{identity}/{batch}_{part}.log",
     wildcard_constraints:
         batch="batch[0-9]+",
         part="[0-9]+-[0-9]+",
