@@ -1,4 +1,4 @@
-"""What make shows on a terminal and in a pipe, and how it stops."""
+"""What Snakemake shows on a terminal and in a pipe, what it shows of a failure, and how it stops."""
 
 import os
 import pty
@@ -11,14 +11,16 @@ import pytest
 from tests.workflow.conftest import Clone, append
 
 CONTROL = re.compile(r"\x1b\[[0-9;?]*[a-zA-Z]")
+PROFILE = "Using workflow specific profile profiles/default for setting default command line arguments."
 
 
-def on_a_terminal(clone: Clone, *arguments: str, until: str = "", patience: float = 120) -> tuple[str, float]:
-    """What is shown, and the seconds that make went on for after Ctrl-C, which is pressed when `until` has been shown."""
+def on_a_terminal(clone: Clone, *arguments: str, until: str = "", patience: float = 300) -> tuple[str, float]:
+    """What is shown, and the seconds from Ctrl-C, which is pressed when `until` has been shown, to the end."""
     process, terminal = pty.fork()
     if process == 0:
         os.chdir(clone.folder)
-        os.execve("/usr/bin/make", ["make", *arguments], {"PATH": os.defpath, "HOME": "/", "TERM": "xterm"})
+        environment = {"PATH": os.defpath, "HOME": "/", "TERM": "xterm"}
+        os.execve(".venv/bin/snakemake", ["snakemake", "--config", *arguments], environment)
     shown, pressed, end = "", 0.0, time.monotonic() + patience
     while time.monotonic() < end:
         if select.select([terminal], [], [], 0.1)[0]:
@@ -36,45 +38,34 @@ def on_a_terminal(clone: Clone, *arguments: str, until: str = "", patience: floa
 
 def test_a_pipe_has_a_line_per_panel(kept: Clone) -> None:
     append("workflow/figures/fig03.py", "# more\n")(kept)
-    made = kept.make("figures", "QUALITY=smoke")
-    said = [line for line in made.stdout.splitlines() if not line.startswith("Using workflow")]
-    assert said == [
-        "fig03 is stale: workflow/figures/fig03.py changed",
-        "fig03: drawn from 3 runs, 1 of 1 done",
-        "Figures are in figures/smoke",
-        "Next: make report QUALITY=smoke judges the claims of the paper by them",
-    ]
+    assert kept.snakemake("figures").splitlines() == [PROFILE, "fig03: drawn from 3 runs, 1 of 1 done"]
 
 
 def test_a_terminal_has_a_line_per_run(kept: Clone) -> None:
-    shown, _ = on_a_terminal(kept, "panel", "PANEL=fig05", "QUALITY=smoke", "FRESH=yes")
-    assert re.search(
-        r"fig05/paper_sigma=0\.5: mu = 0\.3\d+\(\d+\), \d+ of 37 done, about \d:\d\d left", shown
-    )
-    assert "fig05: drawn from 36 runs, 37 of 37 done" in shown
+    shown, _ = on_a_terminal(kept, "quality=smoke", "panel=fig06", "--forceall", "--", "panel")
+    assert re.search(r"fig06/all_sigma=0\.5: error of \w+ \S+, \d of 3 done, about 0:\d\d:\d\d left", shown)
+    assert "fig06: drawn from 2 runs, 3 of 3 done" in shown
 
 
-def test_the_end_of_the_log_that_matters_is_shown(kept: Clone) -> None:
+def test_a_failure_shows_the_end_of_its_log_alone(kept: Clone) -> None:
     append("workflow/figures/fig03.py", 'raise RuntimeError("broken here")\n')(kept)
-    made = kept.make("figures", "QUALITY=smoke")
-    assert made.returncode == 2
-    assert "fig03 failed after" in made.stdout
-    assert "build/logs/smoke/fig03.log ends with:\n" in made.stdout
-    assert made.stdout.count("broken here") == 2  # the line of the source and the message
-    assert "Failed: fig03; 0 of 1 done. When the cause is mended" in made.stdout
+    _, first, *log, last = kept.snakemake("figures", status=1).splitlines()
+    assert re.fullmatch(r"fig03 failed after 0:\d\d:\d\d\. build/logs/smoke/fig03\.log ends with:", first)
+    assert log[-1] == "  RuntimeError: broken here"
+    assert last == "Failed: fig03; 0 of 1 done. Fix the cause. The same command goes on."
 
 
 @pytest.mark.parametrize(
-    ("moment", "words"),
+    ("option", "advice"),
     [
-        ("Using workflow", "Stopped.*The same command goes on"),
-        ("0 of 24 done", r"Stopped: \d+ of 24 done\. The same command goes on"),
+        ("--rerun-incomplete", "The same command goes on"),
+        ("--forceall", "without FRESH=yes it completes what was interrupted"),
     ],
-    ids=["start", "run"],
 )
-def test_interrupted(kept: Clone, moment: str, words: str) -> None:
-    arguments = ("panel", "PANEL=fig08", "QUALITY=standard")
-    shown, seconds = on_a_terminal(kept, *arguments, until=moment)
-    assert re.search(words, shown)
+def test_ctrl_c(kept: Clone, option: str, advice: str) -> None:
+    """And what it advises is so: without --forceall, the interrupted runs are left, and their panel."""
+    arguments = ("quality=standard", "panel=fig08", option, "--", "panel")
+    shown, seconds = on_a_terminal(kept, *arguments, until=r"\d of \d+ done")
+    assert re.search(rf"Stopped: \d+ of \d+ done\..*{advice}", shown)
     assert "Traceback" not in shown
-    assert seconds < 5
+    assert seconds < 10
