@@ -1,8 +1,8 @@
 """Progress of a workflow, from Snakemake's events: a bar, the running jobs, and a line per finished panel.
 
-A logger plugin of Snakemake, chosen by `logger: [progress]` in the profile. Snakemake's own log is in .snakemake/log. Where more is
-requested (--dry-run, --verbose, --printshellcmds, --debug-dag) and where no job runs (--summary, --report, --unlock, ...),
-Snakemake's own messages are shown.
+A logger plugin of Snakemake, chosen by `logger: [progress]` in the profile. Snakemake's own log is in
+.snakemake/log. Where more is requested (--dry-run, --verbose, --printshellcmds, --debug-dag) and where no job runs
+(--summary, --report, --unlock, ...), Snakemake's own messages are shown.
 """
 
 import logging
@@ -28,6 +28,7 @@ from workflow.lib.plan import load_plan, with_used
 Record = Any  # a logging.LogRecord with the fields of its event
 
 LAST = 12  # lines of the log of a failed job
+TARGETS = ("figures", "panel", "total")  # in the numbers of jobs by rule
 STOPPING = ("Terminating processes on user request", "Will exit after finishing", "Cancelling snakemake")
 
 
@@ -47,7 +48,7 @@ class LogHandler(LogHandlerBase):
         self._live = Live(self, console=self._console, transient=True)
         self._early: list[str] = []  # messages until the workflow starts
         self._command = ""
-        self._jobs: dict[str, int] = {}  # their number by rule
+        self._total = self._runs = 0  # numbers of jobs
         self._running: dict[int, Record] = {}  # JOB_INFO by number
         self._finished: set[str] = set()
         self._failed: dict[str, None] = {}  # in their order
@@ -70,8 +71,8 @@ class LogHandler(LogHandlerBase):
         elif event == LogEvent.RESOURCES_INFO:
             self._cores = getattr(record, "cores", self._cores)
         elif event == LogEvent.RUN_INFO:
-            targets = ("figures", "panel", "total")
-            self._jobs = {rule: number for rule, number in record.stats.items() if rule not in targets}
+            self._total = sum(number for rule, number in record.stats.items() if rule not in TARGETS)
+            self._runs = record.stats.get("simulate", 0)
             if self._console.is_terminal:
                 self._live.start()
         elif event == LogEvent.JOB_INFO and record.wildcards:  # the target has none
@@ -84,30 +85,30 @@ class LogHandler(LogHandlerBase):
             self._message(record.getMessage(), record.levelno)
 
     def _start(self, job: Record) -> None:
-        if (
-            not self._costs
-        ):  # Events state how many runs wait, not which: first those without a result, first the longest.
-            plan, panel = load_plan(job.wildcards["quality"]), re.search(r"\bpanel=(\S+)", self._command)
-            panels = with_used(plan, panel[1]) if panel else plan.values()
-            self._costs = {
-                f"{one.name}/{run.name}": seconds_of_run(one.name, run) for one in panels for run in one.runs
-            }
-            made = {run for run in self._costs if Path(f"data/{job.wildcards['quality']}/{run}.h5").exists()}
-            order = sorted(self._costs, key=lambda run: (run in made, -self._costs[run]))
-            self._waiting = [self._costs[run] for run in order][: self._jobs.get("simulate", 0)]
+        if not self._costs:
+            self._estimate(job.wildcards["quality"])
         del self._waiting[: job.rule_name == "simulate"]
         self._failed.pop(name_of(job), None)  # a retry
         self._running[job.jobid] = job
 
+    def _estimate(self, quality: str) -> None:
+        """Events state how many runs wait, not which: those without a result first, the longest first."""
+        plan, panel = load_plan(quality), re.search(r"\bpanel=(\S+)", self._command)
+        panels = with_used(plan, panel[1]) if panel else plan.values()
+        runs = {f"{one.name}/{run.name}": (one.name, run) for one in panels for run in one.runs}
+        self._costs = {name: seconds_of_run(*run) for name, run in runs.items()}
+        made = {name for name in runs if Path(f"data/{quality}/{name}.h5").exists()}
+        order = sorted(runs, key=lambda name: (name in made, -self._costs[name]))
+        self._waiting = [self._costs[name] for name in order][: self._runs]
+
     def _finish(self, job: Record) -> None:
         name = name_of(job)
         self._finished.add(name)
-        self._estimated += self._costs.get(name, DRAWING)
+        self._estimated += self._cost(job)
         self._taken += elapsed(job) * job.threads
         if job.rule_name == "draw":
-            self._console.print(
-                f"{name}: drawn from {len(job.input)} run{'s'[: len(job.input) - 1]}, {self._state}"
-            )
+            runs = "1 run" if len(job.input) == 1 else f"{len(job.input)} runs"
+            self._console.print(f"{name}: drawn from {runs}, {self._state}")
         elif job.rule_name != "part":
             value, doubts = outcome(Path(job.output[0]))
             if self._console.is_terminal or doubts:
@@ -130,40 +131,39 @@ class LogHandler(LogHandlerBase):
 
     def close(self) -> None:
         self._live.stop()
-        for text in self._early:
-            print(text, file=sys.stderr)
-        done = f"{len(self._finished)} of {sum(self._jobs.values())} done"
-        advice = "The same command goes on."
-        if re.search(r" (--forceall|-F)\b", self._command):
-            advice = "The same command starts again; without FRESH=yes it completes what was interrupted."
+        sys.stderr.writelines(f"{text}\n" for text in self._early)
+        done = f"{len(self._finished)} of {self._total} done"
+        forced = re.search(r" (--forceall|-F)\b", self._command)
+        advice = "starts again; without FRESH=yes it completes what was interrupted" if forced else "goes on"
         with suppress(OSError):
             if self._failed:
-                self._console.print(f"Failed: {', '.join(self._failed)}; {done}. Fix the cause. {advice}")
+                self._console.print(
+                    f"Failed: {', '.join(self._failed)}; {done}. Fix the cause. The same command {advice}."
+                )
             elif self._stopped:
-                self._console.print(f"Stopped: {done}. {advice}")
+                self._console.print(f"Stopped: {done}. The same command {advice}.")
         self._early, self._failed, self._stopped = [], {}, False  # Python closes all handlers once more
         super().close()
 
     @property
     def _state(self) -> str:
         """12 of 37 done, about 0:00:20 left."""
-        done = f"{len(self._finished)} of {sum(self._jobs.values())} done"
-        if not self._cores or len(self._finished) >= sum(self._jobs.values()):
+        done = f"{len(self._finished)} of {self._total} done"
+        if not self._cores or len(self._finished) >= self._total:
             return done
         running = [*self._running.values()]
+        drawings = self._total - len(self._finished) - len(running) - len(self._waiting)
+        costs = sum(self._waiting) + drawings * DRAWING + sum(map(self._cost, running))
         speed = self._taken / self._estimated if self._estimated else 1.0
-        left = [
-            speed * self._costs.get(name_of(job), DRAWING) - elapsed(job) * job.threads for job in running
-        ]
-        drawings = sum(self._jobs.values()) - len(self._finished) - len(running) - len(self._waiting)
-        waiting = speed * (sum(self._waiting) + drawings * DRAWING) + sum(
-            max(seconds, 0.0) for seconds in left
-        )
-        return f"{done}, about {clock(waiting / self._cores)} left"
+        left = speed * costs - sum(elapsed(job) * job.threads for job in running)
+        return f"{done}, about {clock(max(left, 0.0) / self._cores)} left"
+
+    def _cost(self, job: Record) -> float:
+        return self._costs.get(name_of(job), DRAWING)
 
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
         table = Table.grid(padding=(0, 2))
-        table.add_row(ProgressBar(sum(self._jobs.values()), len(self._finished), width=30), self._state)
+        table.add_row(ProgressBar(self._total, len(self._finished), width=30), self._state)
         yield table
         for job in [*self._running.values()]:
             line = f"  {name_of(job)}  {clock(elapsed(job))}  {' '.join(last_lines(job.log[0])[-1:])}"

@@ -108,7 +108,7 @@ def test_every_replica_is_in_one_part_and_batches_are_full(quality: str, batch: 
     shared = Counter[int]()
     for part in every:
         shared[part.batch] += part.seconds  # type: ignore[assignment]
-    assert sorted(seconds_of_batches(every)) == sorted(shared.values())
+    assert sorted(seconds_of_batches(division)) == sorted(shared.values())
     assert all(shared[number] <= batch for number, parts in together.items() if parts > 1)
     assert divide(load_plan(quality).values(), batch, seconds_of_run) == division
 

@@ -185,9 +185,7 @@ FILLING = {"particles_per_cell": None, "relaxation_time": 0, "observation_time":
         (
             "persistence",
             {"target_error": 1e-6, "max_replicas": 4},
-            4,
-            "mu = 0.",
-            ["target error not reached"],
+            (4, "mu = 0.", ["target error not reached"]),
         ),
         ("conductivity", {"start": "empty", **FILLING}, (0, "kappa = ", ["not stationary"])),
         ("boltzmann", COMPUTED, (0, "error of currents ", [])),

@@ -6,7 +6,6 @@ and on estimated seconds alone, so that every process on every machine gets the 
 
 import itertools
 import math
-from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
@@ -58,8 +57,8 @@ def can_be_split(run: Run) -> bool:
     return run.replicated and not any(name in run.options for name in STOPPING)
 
 
-def seconds_of_batches(parts: Iterable[Part]) -> list[float]:
-    seconds: Counter[int] = Counter()
-    for part in parts:
-        seconds[part.batch] += part.seconds  # type: ignore[assignment]
-    return list(seconds.values())
+def seconds_of_batches(division: dict[str, list[Part]]) -> list[float]:
+    seconds: dict[int, float] = {}
+    for part in itertools.chain.from_iterable(division.values()):
+        seconds[part.batch] = seconds.get(part.batch, 0.0) + part.seconds
+    return [*seconds.values()]

@@ -1,6 +1,6 @@
-"""CPU seconds of runs: recorded by the programs here, or estimated from those of quality `paper` in config/seconds.csv.
+"""CPU seconds of runs: recorded by the programs here, or estimated from config/seconds.csv.
 
-The table has a row per panel, series and size. Cost is proportional to effort, replicas times simulated time.
+The table has the effort (replicas times simulated time) and the CPU seconds of one execution per panel, series and size.
 """
 
 import argparse
@@ -10,7 +10,6 @@ import json
 import math
 import os
 import sys
-from collections.abc import Iterable
 from datetime import timedelta
 from functools import cache
 from pathlib import Path
@@ -33,7 +32,7 @@ def recorded_seconds(quality: str, panel: str, run: str) -> float | None:
         parts = [[_cost(path) for path in folder.glob("*.cost.json")] for folder in divisions]
     except (OSError, ValueError, KeyError, TypeError):
         return None
-    # Equal numbers of events: the parts of this result. To join them costs next to nothing.
+    # The parts of this result have as many events. Joining them costs next to nothing.
     joined = [sum(part[0] for part in one) for one in parts if sum(part[1] for part in one) == own[1]]
     return max([own[0], *joined])
 
@@ -79,15 +78,12 @@ def cells(options: Options) -> float:
 
 def effort(options: Options) -> float:
     """Replicas, with their pairs, times the simulated time."""
-    times = [
-        str(options.get("times", options.get("observation-time", 1))).rpartition(",")[2],
-        options.get("relaxation-time", 0),
-    ]
+    last = str(options.get("times", options.get("observation-time", 1))).rpartition(",")[2]
     replicas = float(options.get("replicas", 1)) * float(options.get("pairs-per-replica", 1))
-    return replicas * sum(at_size(time, cells(options)) for time in times)
+    return replicas * sum(at_size(time, cells(options)) for time in (last, options.get("relaxation-time", 0)))
 
 
-def wall(jobs: Iterable[float], cores: int) -> timedelta:
+def wall(jobs: list[float], cores: int) -> timedelta:
     """Time until all jobs are done, the longest first."""
     ends = [0.0] * cores
     for seconds in sorted(jobs, reverse=True):
@@ -103,9 +99,7 @@ def main() -> None:
     options = parser.parse_args()
     try:
         plan = load_plan(options.quality)
-        panels = (
-            with_used(plan, panel_named(plan, options.panel).name) if options.panel else list(plan.values())
-        )
+        panels = with_used(plan, panel_named(plan, options.panel).name) if options.panel else [*plan.values()]
     except ConfigurationError as error:
         sys.exit(str(error))
 
@@ -115,13 +109,12 @@ def main() -> None:
         estimated = [estimated_seconds(panel.name, run) or UNKNOWN for run in panel.runs]
         seconds = [one or other for one, other in zip(recorded, estimated, strict=True)]
         jobs += [*seconds, DRAWING]
-        known = f"{len(recorded) - recorded.count(None)} of {len(recorded)} runs"
-        print(f"{panel.name:<18}{wall([*seconds, DRAWING], 1)!s:>17}  {known} recorded here")
+        known = f"{len(seconds) - recorded.count(None)} of {len(seconds)} runs recorded here"
+        print(f"{panel.name:<18}{wall([*seconds, DRAWING], 1)!s:>17}  {known}")
     cores = os.cpu_count() or 1
     print(f"CPU time: {wall(jobs, 1)}. Wall time on {cores} cores here: {wall(jobs, cores)}")
     if options.batch:
-        division = divide(panels, 60 * options.batch, seconds_of_run)
-        batches = seconds_of_batches(part for parts in division.values() for part in parts)
+        batches = seconds_of_batches(divide(panels, 60 * options.batch, seconds_of_run))
         times = ", ".join(f"{wall(batches, cores)} on {cores}" for cores in (100, 1000, 10000))
         print(f"On a cluster: {len(batches)} jobs, {times} cores")
 
