@@ -5,11 +5,11 @@ import io
 from pathlib import Path
 
 import pytest
-
-from tests.python.conftest import Program
 from workflow.execution.display import Display, Running
 from workflow.execution.outcome import LAST, Outcome, last_lines, outcome
 from workflow.execution.remaining import BESIDE, Remaining, clock, foretold
+
+from tests.python.conftest import Program
 from workflow.lib.plan import load_plan
 
 PLAN = load_plan("standard")

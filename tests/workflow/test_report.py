@@ -89,7 +89,9 @@ def test_an_audit_notices_changes(clone: Clone, kept: Clone, name: str) -> None:
 
 def faults(clone: Clone) -> list[str]:
     """Of the report, as the audit finds them."""
-    code = "from workflow.provenance.audit import faults_of_report; print(*faults_of_report('smoke'), sep='\\n')"
+    code = (
+        "from workflow.provenance.audit import faults_of_report; print(*faults_of_report('smoke'), sep='\\n')"
+    )
     return clone.run(".venv/bin/python", "-P", "-c", code).stdout.strip().splitlines()
 
 
