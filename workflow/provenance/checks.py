@@ -71,12 +71,10 @@ class Products:
         if not (ROOT / path).exists():
             return Fault(path, "is missing")
         try:
-            (ROOT / path).open("rb").close()
-        except OSError as error:
-            return Fault(path, f"cannot be read: {error.strerror}", broken=False)
-        try:
             stated, parameters = load_provenance(ROOT / path), load_parameters(ROOT / path)
             digest = results_digest(ROOT / path)
+        except OSError as error:
+            return Fault(path, f"cannot be read: {error.strerror}", broken=False)
         except FormatError as error:
             return Fault(path, str(error).removeprefix(f"{ROOT / path}").strip(": "))
         if stated["results_digest"] != digest:
@@ -196,7 +194,7 @@ def worst_error(quality: str, panel: Panel) -> str:
         try:
             provenance = load_provenance(ROOT / data_path(quality, panel.name, run.name))
             achieved, target = (float(provenance[name]) for name in ("achieved_error", "target_error"))
-        except (FormatError, KeyError, TypeError, ValueError):
+        except (FormatError, OSError, KeyError, TypeError, ValueError):
             continue
         if target > 0:
             aimed.append((achieved / target, f"{achieved:.1e} of {target:.0e}"))
