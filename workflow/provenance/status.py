@@ -27,7 +27,7 @@ def table(quality: str) -> Table:
             state = f"{faults[0].path.rpartition('/')[2]}: {faults[0].reason}" if faults else "fresh"
         else:
             state = "missing"
-        seconds = [recorded_seconds(quality, name, run) for run in panel.runs]
+        seconds = [recorded_seconds(quality, name, run.name) for run in panel.runs]
         cost = f"{sum(filter(None, seconds)):.1f}" if any(seconds) else ""
         result.add_row(name, escape(state), worst_error(quality, panel), cost)
     return result

@@ -87,7 +87,7 @@ def source_hashes(root: Path) -> dict[str, str]:
 def measured_costs(quality: str, plan: Mapping[str, Panel]) -> Costs:
     """Those that are known, to three digits."""
     runs = [(panel.name, run) for panel in plan.values() for run in panel.runs]
-    found = {f"{panel}/{run.name}": recorded_seconds(quality, panel, run) for panel, run in runs}
+    found = {f"{panel}/{run.name}": recorded_seconds(quality, panel, run.name) for panel, run in runs}
     return {name: float(f"{seconds:.3g}") for name, seconds in found.items() if seconds}
 
 
