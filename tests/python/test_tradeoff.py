@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from scipy.stats import chi2
+from workflow.tradeoff.prediction import foretold
 
 from workflow import tradeoff
 from workflow.lib.plan import load_plan
@@ -16,7 +17,6 @@ from workflow.tradeoff.accuracy import amplitude, uncertainty
 from workflow.tradeoff.bias import with_bias
 from workflow.tradeoff.efficiency import Estimate, compared, jackknife
 from workflow.tradeoff.measure import QUALITY, shortened
-from workflow.tradeoff.prediction import foretold
 
 REPLICAS = np.array([10, 100, 1000])
 

@@ -48,7 +48,7 @@ def p_value(one: Path, other: Path) -> float:
 def _tails(a: Quantity, b: Quantity) -> np.ndarray:
     """Two-sided probability of each difference, where both values have an error."""
     computed = a.standard_error is None
-    one, other = (q.discretisation_error if computed else q.error for q in (a, b))
+    one, other = (np.asarray(q.discretisation_error if computed else q.error) for q in (a, b))
     error, difference = np.atleast_1d(np.hypot(one, other)), np.atleast_1d(np.abs(a.mean - b.mean))
     replicas = (
         np.full(error.shape, COMPUTED) if computed else np.atleast_1d(np.minimum(a.replicas, b.replicas))

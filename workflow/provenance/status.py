@@ -8,8 +8,8 @@ from collections import Counter
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
-from workflow.cluster.cost import recorded_seconds
 
+from workflow.cluster.cost import recorded_seconds
 from workflow.lib.configuration import ConfigurationError
 from workflow.lib.figure_metadata import ROOT
 from workflow.provenance.checks import Products, worst_error

@@ -22,8 +22,8 @@ WRITTEN = (0, 4)  # exit statuses of programs that wrote their result
 
 def compile_afresh() -> Path:
     """Folder of the executables, compiled without the compiler's cache."""
-    configure = ["cmake", "-S", "cpp", "-B", FRESH, "-G", "Ninja", "-DCOMPILER_CACHE=none"]
-    for command in (configure, ["ninja", "-C", FRESH, "-t", "clean"], ["ninja", "-C", FRESH]):
+    configure = ["cmake", "-S", "cpp", "-B", str(FRESH), "-G", "Ninja", "-DCOMPILER_CACHE=none"]
+    for command in (configure, ["ninja", "-C", str(FRESH), "-t", "clean"], ["ninja", "-C", str(FRESH)]):
         done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
         if done.returncode:
             sys.exit(
@@ -63,7 +63,7 @@ def main() -> None:
         for number, (panel, run) in enumerate(runs, 1):
             path, again = data_path(quality, panel, run.name), Path(folder) / "again.h5"
             again.unlink(missing_ok=True)
-            command = [ROOT / programs / run.program, *arguments(run.options), "--output", again]
+            command = [str(ROOT / programs / run.program), *arguments(run.options), "--output", str(again)]
             done = subprocess.run(command, capture_output=True, text=True, check=False)
             same = done.returncode in WRITTEN and file_hash(again) == file_hash(ROOT / path)
             print(f"{number} of {len(runs)}: {path}: {'same bytes' if same else 'other bytes'}", flush=True)

@@ -7,10 +7,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from workflow.cluster.cost import recorded_seconds
-
 from workflow.claims.data import Data
 from workflow.claims.judge import CLAIMS_FILE, Judgement, judge_all
+from workflow.cluster.cost import recorded_seconds
 from workflow.lib.citation import CITATION
 from workflow.lib.figure_metadata import PACKAGES, MetadataError, file_hash, read_panel, sources_of
 from workflow.lib.load import FormatError, load_provenance, results_digest
