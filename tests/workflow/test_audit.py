@@ -48,7 +48,7 @@ def halve(path: str) -> Edit:
 
 BROKEN: dict[str, tuple[Edit, str]] = {
     "value edited": (edit_value, f"{RESULT}: its values are not those that were written"),
-    "option edited": (edit_option, f"{RESULT}: stale: --sigma is 0.25 in it and 0.5"),
+    "option edited": (edit_option, f"{RESULT}: stale: --sigma is 0.25 in it, 0.5"),
     "result copied in part": (halve(RESULT), f"{RESULT}: "),
     "result exchanged": (copy("data/smoke/fig03/equal.h5", RESULT), f"{RESULT}: stale: --temperature-left"),
     "result missing": (delete(RESULT), f"{RESULT}: is missing"),
@@ -71,7 +71,7 @@ BROKEN: dict[str, tuple[Edit, str]] = {
     ),
     "parameter": (
         replace("workflow/config/paper.yaml", "momentum-bins: 240", "momentum-bins: 238"),
-        "stale: --momentum-bins is 240 in it and 238",
+        "stale: --momentum-bins is 240 in it, 238",
     ),
 }
 

@@ -7,36 +7,13 @@ holds, 1 if something is broken, 3 if something could not be checked, 2 for bad 
 
 import argparse
 import os
-import subprocess
 import sys
-import tempfile
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 from workflow.lib.configuration import ConfigurationError
-from workflow.lib.figure_metadata import ROOT
 from workflow.lib.plan import panel_named, with_used
 from workflow.provenance.checks import Fault, Products
 from workflow.provenance.redraw import redraw
-
-REPORT = ("report.html", "report.md")
-
-
-def faults_of_report(quality: str) -> Iterator[Fault]:
-    """Where there is a report: written again, it gets the same bytes."""
-    folder = ROOT / "figures" / quality
-    if (folder / REPORT[0]).is_file():
-        with tempfile.TemporaryDirectory() as again:
-            command = [sys.executable, "-P", "-m", "workflow.report.write", "--quality", quality]
-            command += ["--output", again, "--costs-of", str(folder / REPORT[0])]
-            done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
-            for name in REPORT:
-                path = f"figures/{quality}/{name}"
-                if done.returncode:
-                    yield Fault(path, f"stale: {(done.stderr.strip().splitlines() or ['no message'])[-1]}")
-                elif (folder / name).read_bytes() != (Path(again) / name).read_bytes():
-                    yield Fault(path, "written again it gets other bytes: run make report")
 
 
 def audit(quality: str, panel: str | None) -> tuple[list[Fault], list[str], list[str]]:
@@ -60,7 +37,7 @@ def audit(quality: str, panel: str | None) -> tuple[list[Fault], list[str], list
     with ThreadPoolExecutor(os.cpu_count()) as threads:
         faults += filter(None, threads.map(lambda name: redraw(products, name), drawn))
     if not panel:
-        faults += [*products.obsolete(), *faults_of_report(quality)]
+        faults += products.obsolete()
     return faults, made, [name for name in chosen if name not in made]
 
 

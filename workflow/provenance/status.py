@@ -1,9 +1,7 @@
 """Prints for every panel whether it is fresh, stale (why) or missing, its largest error, and the CPU seconds of its runs."""
 
 import argparse
-import subprocess
 import sys
-from collections import Counter
 
 from rich.console import Console
 from rich.markup import escape
@@ -11,7 +9,6 @@ from rich.table import Table
 
 from workflow.cluster.cost import recorded_seconds
 from workflow.lib.configuration import ConfigurationError
-from workflow.lib.figure_metadata import ROOT
 from workflow.provenance.checks import Products, worst_error
 
 WIDE = 150  # columns, where the output is no terminal
@@ -33,18 +30,6 @@ def table(quality: str) -> Table:
     return result
 
 
-def queue() -> str:
-    """By state, the jobs of Slurm that were started here: 12 pending, 3 running. Empty without any, and without Slurm."""
-    command = ["squeue", "--me", "--noheader", "--format=%T %Z"]
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=20, check=False)
-    except (FileNotFoundError, subprocess.TimeoutExpired):
-        return ""
-    jobs = (line.partition(" ") for line in done.stdout.splitlines())
-    states = Counter(state.lower() for state, _, folder in jobs if folder == str(ROOT))
-    return ", ".join(f"{number} {state}" for state, number in sorted(states.items()))
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--quality", required=True)
@@ -53,8 +38,6 @@ def main() -> None:
     except ConfigurationError as error:
         print(error, file=sys.stderr)
         sys.exit(2)
-    if jobs := queue():
-        print(f"Jobs in the queue: {jobs}")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,5 @@
 """Where the report's content comes from: products that are as they were written, sources, and the cost of the runs."""
 
-import json
-import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -16,7 +14,6 @@ from workflow.lib.load import FormatError, load_provenance, results_digest
 from workflow.lib.plan import Panel
 
 SCRIPT = "workflow/report/write.py"
-PARENTS = re.compile(r'<script type="application/json" id="parents">(.*?)</script>', re.DOTALL)
 
 Costs = dict[str, float]  # CPU seconds by panel/run
 
@@ -88,15 +85,6 @@ def measured_costs(quality: str, plan: Mapping[str, Panel]) -> Costs:
     runs = [(panel.name, run) for panel in plan.values() for run in panel.runs]
     found = {f"{panel}/{run.name}": recorded_seconds(quality, panel, run.name) for panel, run in runs}
     return {name: float(f"{seconds:.3g}") for name, seconds in found.items() if seconds}
-
-
-def parents_in(report: Path) -> dict[str, Any]:
-    """What a report says that it was written from. Raises ReportError."""
-    try:
-        found = PARENTS.search(report.read_text())
-        return json.loads(found[1]) if found else {}
-    except (OSError, ValueError) as error:
-        raise ReportError(f"{report} does not say what it was written from: {error}") from error
 
 
 def total(costs: Costs, names: Iterable[str]) -> float | None:
