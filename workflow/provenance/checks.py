@@ -3,8 +3,10 @@
 A fault is `broken`, what was found to differ, or `not checked`, what could not be compared here.
 """
 
+import argparse
 import math
 import re
+import sys
 import tomllib
 from collections import defaultdict
 from collections.abc import Iterator
@@ -15,7 +17,7 @@ from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
-from workflow.lib.configuration import at_size
+from workflow.lib.configuration import ConfigurationError, at_size
 from workflow.lib.figure_metadata import (
     BUILD,
     PACKAGES,
@@ -28,7 +30,7 @@ from workflow.lib.figure_metadata import (
     sources_of,
 )
 from workflow.lib.load import FormatError, load_parameters, load_provenance, results_digest
-from workflow.lib.plan import Panel, Run, data_of, data_path, drawings_of, load_plan
+from workflow.lib.plan import Panel, Run, data_of, data_path, drawings_of, load_plan, panel_named, with_used
 from workflow.provenance.build_id import BuildError, built, sources_of_program
 
 SIZES = (2, 3, 5)  # at which two polynomials in N are compared
@@ -128,6 +130,26 @@ class Products:
             for path in sorted(str(one.relative_to(ROOT)) for one in ROOT.glob(pattern)):
                 if path not in known:
                     yield Fault(path, "is not in the plan: obsolete or misplaced; remove it")
+
+
+def command(
+    description: str | None, **more: dict[str, Any]
+) -> tuple[argparse.Namespace, Products, list[Panel]]:
+    """Options of a command, --quality and --panel among them; the products; the panel with those whose results it shows, or all.
+    Exits with 2 for bad input."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--quality", required=True)
+    parser.add_argument("--panel", help="this panel and the results that it shows")
+    for name, settings in more.items():
+        parser.add_argument(f"--{name}", **settings)
+    options = parser.parse_args()
+    try:
+        products = Products(options.quality)
+        name = options.panel and panel_named(products.plan, options.panel).name
+    except ConfigurationError as error:
+        print(error, file=sys.stderr)
+        sys.exit(2)
+    return options, products, with_used(products.plan, name) if name else [*products.plan.values()]
 
 
 @cache
