@@ -6,7 +6,7 @@ length. Times and momenta have the units of the model, so that a velocity is a m
 
 from dataclasses import dataclass
 from functools import cache
-from math import cos, gamma, inf, pi, sqrt
+from math import cos, erf, gamma, inf, pi, sqrt
 from pathlib import Path
 
 import numpy as np
@@ -158,6 +158,13 @@ class Chain:
 def slow_logarithm(cut: float, temperature: float = 1.0) -> float:
     """Λ [eq. M2] of momenta |p| > cut."""
     return float(exp1(cut**2 / (2 * temperature)) / 2)
+
+
+def logarithm_at(time: float, temperature: float = 1.0, cell_length: float = 1.0) -> float:
+    """Λ(t) [eq. 13] of the particles that move within a time: 1 more than that of the cut λ/t."""
+    cut = cell_length / time
+    slower = sqrt(pi * temperature / 2) * erf(cut / sqrt(2 * temperature)) / cut
+    return slow_logarithm(cut, temperature) + slower
 
 
 def f_kpz(y: ArrayLike) -> np.ndarray:
