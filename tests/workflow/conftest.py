@@ -90,6 +90,13 @@ def clone_into(folder: Path, source: Path = ROOT) -> Clone:
     return clone
 
 
+def share_build(clone: Clone) -> None:
+    """The compiler's cache of the project, so that make build compiles nothing twice."""
+    if not (clone.folder / "build/ccache").exists() and (ROOT / "build/ccache").is_dir():
+        (clone.folder / "build").mkdir(exist_ok=True)
+        (clone.folder / "build/ccache").symlink_to(ROOT / "build/ccache")
+
+
 def copy_made(source: Path, target: Path) -> None:
     for place in MADE:
         if (source / place).is_dir():

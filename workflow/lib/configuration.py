@@ -6,8 +6,9 @@ schema.json, written by `make describe`, has a JSON Schema of every option of ev
 import json
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -22,11 +23,15 @@ from workflow.lib.units import SCHEMA
 
 Options = dict[str, Any]  # by name without dashes: a number, text, or a bool for a flag
 Schema = dict[str, Any]
+Keys = tuple[Any, ...]  # of nested mappings and lists
 
 FOLDER = SCHEMA.parent
 EFFORT = ("cells", "max-replicas", "pairs-per-replica", "replicas", "target-absolute", "target-error")
 ALSO_PHYSICS = ("cells", "target-error")  # in panels that show the dependence on the size or on the accuracy
 OF_SERIES: Schema = {"program": True, "replicated": {"type": "boolean", "allowed": "true or false"}}
+NAME: Schema = {"type": "string", "pattern": "^[A-Za-z0-9_-]+$", "allowed": "letters, digits, _ and -"}
+NAMED: Schema = {"type": "object", "propertyNames": NAME, "minProperties": 1}
+SAFE = YAML(typ="safe", pure=True)
 TERM = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?:(N)(?:\^(2))?)?", re.ASCII)
 
 
@@ -44,42 +49,41 @@ class Document:
 
     def check(self, schema: Schema) -> None:
         """Raises ConfigurationError."""
-        found: dict[tuple[Any, ...], str] = {}
+        found: dict[tuple[int, int], str] = {}  # a mapping that is shared is reported once
         for error in Draft202012Validator(schema).iter_errors(self.content):
             for keys, problem in _problems(error):
-                found.setdefault(keys, problem)
+                found.setdefault(self._position(keys), self.complaint(keys, problem))
         if found:
-            lines = sorted((*self._position(keys), self.complaint(keys, found[keys])) for keys in found)
-            raise ConfigurationError("\n".join(line for *_, line in lines))
+            raise ConfigurationError("\n".join(found[position] for position in sorted(found)))
 
-    def complaint(self, keys: Iterable[Any], problem: str) -> str:
-        keys = tuple(keys)
+    def complaint(self, keys: Keys, problem: str) -> str:
         line, column = self._position(keys)
-        name = ".".join(map(str, keys))
-        return f"{self.name}:{line}:{column}: {name}{': ' if name else ''}{problem}"
+        return f"{self.name}:{line}:{column}: {'.'.join(map(str, keys)) or 'the file'}: {problem}"
 
-    def _position(self, keys: Iterable[Any]) -> tuple[int, int]:
-        """Line and column of a key or of an item; of a merged key, those of the mapping that has it."""
-        node, mark = _yaml().compose(self.text), None
+    @cached_property
+    def _root(self) -> Any:
+        return SAFE.compose(self.text)
+
+    def _position(self, keys: Keys) -> tuple[int, int]:
+        """Line and column of a key or an item; of a merged key, those in the mapping that has it."""
+        node, position = self._root, (1, 1)
         for key in keys:
-            found = _member(node, key)
-            if found is None:
-                break
-            mark, node = found
-        return (mark.line + 1, mark.column + 1) if mark else (1, 1)
+            if found := _member(node, key):
+                mark, node = found
+                position = mark.line + 1, mark.column + 1
+        return position
 
 
 def read(folder: Path, name: str) -> Document:
     """A YAML 1.2 file; duplicate keys are refused. Raises ConfigurationError."""
     try:
         text = (folder / name).read_text("utf-8")
-        return Document(name, text, _yaml().load(text))
+        return Document(name, text, SAFE.load(text))
     except OSError as error:
         raise ConfigurationError(in_one_line(error)) from error
     except MarkedYAMLError as error:
         mark, problem = error.problem_mark, str(error.problem)
-        if "'\\t'" in problem:
-            problem = "a tab; indent with spaces"
+        problem = "a tab; indent with spaces" if "'\\t'" in problem else problem
         raise ConfigurationError(f"{name}:{mark.line + 1}:{mark.column + 1}: {problem}") from error
     except (YAMLError, UnicodeDecodeError) as error:
         raise ConfigurationError(f"{name}: {' '.join(str(error).split())}") from error
@@ -97,9 +101,7 @@ def load_configuration(quality: str, folder: Path = FOLDER) -> tuple[Document, D
 
 def programs_of(panel: dict[str, Any]) -> dict[str, str]:
     """The program of every series."""
-    return {
-        name: series.get("program", panel.get("program")) for name, series in panel.get("series", {}).items()
-    }
+    return {one: own.get("program", panel.get("program")) for one, own in panel.get("series", {}).items()}
 
 
 def arguments(options: Options) -> list[str]:
@@ -120,18 +122,19 @@ def at_size(value: object, size: float) -> float:
 def _panels(programs: dict[str, Schema]) -> Schema:
     """The structure of paper.yaml, without the options."""
     program = {"enum": [*programs]}
+    series = {"type": "object", "properties": OF_SERIES | {"program": program}}
     panel = _object(
         {
             "program": program,
-            "script": {"type": "string", "pattern": "^[a-z0-9_]+$", "allowed": "letters, digits and _"},
+            "script": NAME,
             "uses": {"type": "array", "items": {"type": "string"}, "minItems": 1, "uniqueItems": True},
             "common": {"type": "object"},
-            "series": _named({"type": "object", "properties": OF_SERIES | {"program": program}}),
+            "series": NAMED | {"additionalProperties": series},
         }
     )
     panel["if"] = {"not": {"required": ["program"]}}
     panel["then"] = {"properties": {"series": {"additionalProperties": {"required": ["program"]}}}}
-    return _object({"panels": _named(panel)}) | {"required": ["panels"]}
+    return _object({"panels": NAMED | {"additionalProperties": panel}}) | {"required": ["panels"]}
 
 
 def _physics(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
@@ -179,22 +182,12 @@ def _object(properties: Schema) -> Schema:
     return {"type": "object", "properties": properties, "additionalProperties": False}
 
 
-def _named(values: Schema) -> Schema:
-    """A mapping from names, which become parts of file names."""
-    name = {
-        "type": "string",
-        "pattern": "^[A-Za-z0-9-]+(_[A-Za-z0-9-]+)*$",
-        "allowed": "letters, digits, - and _",
-    }
-    return {"type": "object", "propertyNames": name, "additionalProperties": values, "minProperties": 1}
-
-
-def _problems(error: ValidationError) -> Iterator[tuple[tuple[Any, ...], str]]:
+def _problems(error: ValidationError) -> Iterator[tuple[Keys, str]]:
     """Keys, and the problem with what they name."""
     keys, schema = tuple(error.absolute_path), error.schema
     assert isinstance(schema, dict)
     value = json.dumps(error.instance, default=str)
-    if error.validator == "additionalProperties":
+    if error.validator == "additionalProperties" and isinstance(error.instance, dict):
         for name in error.instance.keys() - schema["properties"].keys():
             unknown = f"{schema['title']} has no such option" if "title" in schema else "unknown key"
             remedy = nearest(str(name), schema["properties"])
@@ -207,19 +200,13 @@ def _problems(error: ValidationError) -> Iterator[tuple[tuple[Any, ...], str]]:
         yield keys, error.message
 
 
-def _yaml() -> YAML:
-    return YAML(typ="safe", pure=True)
-
-
 def _member(node: Node | None, key: Any) -> tuple[Any, Node] | None:
     """Where a member of a mapping or sequence starts, and the member; also of a mapping that is merged into it."""
-    if isinstance(node, SequenceNode):
-        return (node.value[key].start_mark, node.value[key])
     if not isinstance(node, MappingNode):
-        return None
+        return (node.value[key].start_mark, node.value[key]) if isinstance(node, SequenceNode) else None
     members = {name.value: (name.start_mark, value) for name, value in node.value}
     if str(key) in members or "<<" not in members:
         return members.get(str(key))
     merged = members["<<"][1]
     parts = merged.value if isinstance(merged, SequenceNode) else [merged]
-    return next((found for part in parts if (found := _member(part, key))), None)
+    return next(filter(None, (_member(part, key) for part in parts)), None)

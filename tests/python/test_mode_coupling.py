@@ -1,0 +1,308 @@
+"""Mode coupling: the Euler currents by computer algebra, f_KPZ by Fredholm determinants, limits of everything else."""
+
+from dataclasses import replace
+from functools import cache
+from math import gamma, pi, sin, sqrt
+
+import numpy as np
+import pytest
+import sympy
+from scipy.integrate import quad
+from scipy.special import airy
+from sympy import Expr, Matrix, Rational, Symbol, exp, integrate, oo, simplify
+
+from workflow.lib import mode_coupling
+from workflow.lib.mode_coupling import Chain, f_kpz, levy, logarithm_at, slow_logarithm
+
+CHAINS = [Chain(1.6, 3), Chain(0.8, 1 / 3), Chain(3, 3, 2.5, 0.4), Chain(0.07, 10, 0.3, 2.0)]
+
+z, T, M, length, flux = (Symbol(name, positive=True) for name in ("z", "T", "M", "lambda", "F0"))
+w, p, slow = Symbol("w", real=True), Symbol("p", positive=True), Symbol("Lambda", positive=True)
+
+
+def second_order(expression: Expr) -> Expr:
+    return sympy.series(expression, w, 0, 3).removeO()
+
+
+def moment(power: int, sign: int) -> Expr:
+    """Of |p|^power over both halves of the flux exp(-(p-w)²/2T), the left one with a sign, to second order in w."""
+    expanded = second_order(exp((2 * p * w - w**2) / (2 * T)))
+    both = expanded + sign * expanded.subs(w, -w)
+    return sympy.expand(integrate(sympy.expand(both * p**power * exp(-(p**2) / (2 * T))), (p, 0, oo)))
+
+
+def fields_and_currents() -> tuple[Matrix, Matrix]:
+    """n, g, e per length and their currents [eqs. M2 to M8], in z, T and w."""
+    # The only divergent term of n is that of 1/|p|; its finite rest is moment(1).
+    rest = integrate(p * exp(-(p**2) / (2 * T)), (p, 0, oo)) * w**2 / T**2
+    number = z * (2 * slow * (1 - w**2 / (2 * T)) + rest)
+    momentum = z * moment(0, -1) + M * w / length
+    energy = z * moment(1, 1) / 2 + (T + M * w**2) / (2 * length)
+    return Matrix([number, momentum, energy]), z * Matrix([moment(0, -1), moment(1, 1), moment(2, -1) / 2])
+
+
+def pinned() -> tuple[Matrix, Matrix]:
+    """g, e and their currents at fixed flux F(0) of slow particles, in T and w: the limit of infinite Λ."""
+    fields, currents = fields_and_currents()
+    at_fixed_flux = {z: flux * second_order(exp(w**2 / (2 * T)))}
+    fields, currents = (x[1:, :].subs(at_fixed_flux).applyfunc(second_order) for x in (fields, currents))
+    return fields, currents
+
+
+def values(chain: Chain) -> dict[Expr, float]:
+    return {
+        z: chain.fugacity,
+        flux: chain.fugacity,
+        T: chain.temperature,
+        M: chain.mass,
+        length: chain.cell_length,
+        slow: chain.slow_logarithm,
+    }
+
+
+def test_euler_currents() -> None:
+    fields, currents = fields_and_currents()
+    expected = Matrix([2 * z * w, 2 * z * T + z * w**2, 2 * z * T * w])
+    assert simplify(currents - expected) == Matrix([0, 0, 0])
+    assert simplify(fields[1] - (2 * z + M / length) * w) == 0
+    _, at_fixed_flux = pinned()
+    assert simplify(at_fixed_flux[0] - 2 * flux * (T + w**2)) == 0
+
+
+@cache
+def normal_modes() -> tuple[Matrix, Matrix, Matrix]:
+    """Fields, their linear combinations of unit variance that move to the right and to the left, and second-order currents."""
+    fields, currents = pinned()
+    at_rest = {w: 0}
+    static = Matrix([fields[0].diff(w), fields[1].diff(T)]).subs(at_rest)  # dg/dw = ρ, de/dT = a
+    inertia, capacity = static
+    right, left = sympy.symbols("right left")
+    drift = sympy.sqrt(T / (2 * inertia)) * (right + left)
+    # Second-order T from e = a T + ρ w²/2, which fixes e to first order in the modes.
+    heating = T * (right - left) / sympy.sqrt(2 * capacity)
+    hot = T + heating - inertia * drift**2 / (2 * capacity)
+    epsilon = Symbol("epsilon")
+    scaled = {right: epsilon * right, left: epsilon * left}
+
+    def order(expression: Expr, power: int) -> Expr:
+        inserted = expression.subs({T: hot, w: drift}, simultaneous=True).subs(scaled, simultaneous=True)
+        return sympy.expand(sympy.series(inserted, epsilon, 0, 3).removeO()).coeff(epsilon, power)
+
+    combine = Matrix(
+        [
+            [1 / sympy.sqrt(inertia * T), 1 / (T * sympy.sqrt(capacity))],
+            [1 / sympy.sqrt(inertia * T), -1 / (T * sympy.sqrt(capacity))],
+        ]
+    ) / sympy.sqrt(2)
+    linear = combine * currents.applyfunc(lambda x: order(x, 1))
+    quadratic = combine * currents.applyfunc(lambda x: order(x, 2))
+    modes = combine * fields.applyfunc(lambda x: order(x, 1))
+    assert simplify(modes - Matrix([right, left])) == Matrix([0, 0])
+    return Matrix([right, left]), linear, quadratic
+
+
+@pytest.mark.parametrize("chain", CHAINS)
+def test_speed_and_couplings(chain: Chain) -> None:
+    modes, linear, quadratic = normal_modes()
+    numbers = values(chain)
+    speeds = linear.jacobian(modes).subs(numbers).evalf()
+    assert np.allclose(np.array(speeds, dtype=float), np.diag([chain.sound_speed, -chain.sound_speed]))
+    current = sympy.Poly(quadratic[0].subs(numbers).evalf(), *modes)
+    found = [float(current.coeff_monomial(x)) for x in (modes[0] ** 2, modes[1] ** 2, modes[0] * modes[1])]
+    own, other, both = chain.couplings
+    assert found == pytest.approx([own, other, 2 * both])
+    assert chain.self_coupling == pytest.approx(2 * sqrt(2) * own)
+
+
+@pytest.mark.parametrize("chain", CHAINS)
+def test_three_fields_with_many_slow_particles(chain: Chain) -> None:
+    """Speed at a finite Λ, and K = dc/dw along the wave for large Λ: what the slow particles pin is F(0), not z."""
+
+    def found(number: float) -> tuple[float, float, float]:
+        fields, currents = fields_and_currents()
+        # dΛ/dT = 1/2T: the cut is a momentum.
+        logarithm = slow + sympy.log(T / Symbol("T0", positive=True)) / 2
+        state = (z, T, w)
+        numbers = {**values(chain), slow: number, Symbol("T0", positive=True): chain.temperature, w: 0}
+
+        def derivatives(vector: Matrix) -> tuple[np.ndarray, np.ndarray]:
+            first = vector.subs(slow, logarithm).jacobian(state)
+            second = [first.diff(x).subs(numbers).evalf() for x in state]
+            return np.array(first.subs(numbers).evalf(), dtype=float), np.array(second, dtype=float).reshape(
+                3, 3, 3
+            )
+
+        (a, da), (b, db) = derivatives(fields), derivatives(currents)
+        speeds, right = np.linalg.eig(np.linalg.solve(a, b))
+        fastest = int(np.argmax(speeds.real))
+        speed, wave = float(speeds[fastest].real), right[:, fastest].real
+        wave = wave / wave[2]
+        left_speeds, left = np.linalg.eig(np.linalg.solve(a.T, b.T))
+        mirror = left[:, int(np.argmax(left_speeds.real))].real
+        mirror = np.linalg.solve(a.T, a.T @ mirror)
+        change = np.tensordot(wave, db - speed * da, axes=1)
+        return speed, float(mirror @ change @ wave / (mirror @ a @ wave)), float(wave[1])
+
+    for number in (4.0, 9.0):
+        speed, _, heating = found(number)
+        finite = replace(chain, slow_logarithm=number)
+        assert speed == pytest.approx(finite.sound_speed)
+        # J_q = 2 z δT w, with w² = (T/2ρ) φ+² in a wave to the right.
+        current = 2 * chain.fugacity * heating * chain.temperature / (2 * chain.inertia)
+        amplitude = (2 * current / chain.temperature) ** 2 * finite.self_coupling ** (-2 / 3)
+        assert finite.decoupled_heat_amplitude == pytest.approx(mode_coupling.SQUARE_INTEGRAL * amplitude)
+    _, steepening, _ = found(300.0)
+    to_first_order = replace(chain, slow_logarithm=300.0).steepening
+    assert steepening / chain.steepening - 1 == pytest.approx(to_first_order / chain.steepening - 1, rel=0.1)
+    speed, steepening, _ = found(1e7)
+    assert speed == pytest.approx(chain.sound_speed, rel=1e-5)
+    assert steepening == pytest.approx(chain.steepening, rel=1e-5)
+    inertia = chain.inertia
+    if_z_were_pinned = chain.fugacity / chain.heat_capacity + chain.fugacity / inertia * (
+        1 + chain.fugacity / chain.heat_capacity
+    )
+    assert abs(steepening / if_z_were_pinned - 1) > 0.01
+
+
+def test_heat_current() -> None:
+    """J_e - T J_n is Tc/2 times the difference of the squares of the sound modes."""
+    temperature = Symbol("T1", positive=True)
+    inertia, capacity = 2 * flux + M / length, flux + 1 / (2 * length)
+    right, left = sympy.symbols("right left")
+    drift = sympy.sqrt(T / (2 * inertia)) * (right + left)
+    heating = T * (right - left) / sympy.sqrt(2 * capacity)
+    _, currents = fields_and_currents()
+    energy, number = currents[2].subs(T, temperature), currents[0].subs(T, temperature)
+    heat = (energy - T * number).subs({temperature: T + heating, w: drift, z: flux})
+    speed = sympy.sqrt(4 * flux**2 * T / (capacity * inertia))
+    assert simplify(heat - T * speed / 2 * (right**2 - left**2)) == 0
+
+
+@pytest.mark.parametrize("chain", CHAINS)
+def test_drude_weight(chain: Chain) -> None:
+    """<J_n Π>²/<Π²> per length, where <J_n Π> = dJ_n/dw T and <Π²> = dg/dw T."""
+    fields, currents = fields_and_currents()
+    weight = (currents[0].diff(w) ** 2 / fields[1].diff(w) * T).subs({**values(chain), w: 0})
+    assert chain.drude_weight == pytest.approx(float(weight))
+
+
+def test_slow_logarithm() -> None:
+    expected, _ = quad(lambda q: np.exp(-(q**2) / 5) / q, 0.01, 30, limit=200)
+    assert slow_logarithm(0.01, 2.5) == pytest.approx(expected)
+    # Slower ones count by the part of a cell that they cross.
+    expected, _ = quad(lambda q: np.exp(-(q**2) / 5) * min(300.0, 1 / q), 0, 30, points=[1 / 300], limit=200)
+    assert logarithm_at(120, 2.5, 0.4) == pytest.approx(expected)
+
+
+def test_moments_of_f_kpz() -> None:
+    y = np.linspace(-4, 4, 8001)
+    f, step = f_kpz(y), y[1] - y[0]
+    assert np.all(f[1:-1] > 0)
+    assert f.sum() * step == pytest.approx(1, abs=1e-7)
+    assert (y**2 * f).sum() * step == pytest.approx(mode_coupling.SECOND_MOMENT, abs=1e-6)
+    assert (f**2).sum() * step == pytest.approx(mode_coupling.SQUARE_INTEGRAL, abs=1e-6)
+
+
+def baik_rains(s: float, position: float) -> float:
+    """Integral up to s of the distribution of the height at a position w > 0, by the Fredholm determinant of Baik, Ferrari and
+    Péché (Commun. Pure Appl. Math. 63, 1017, 2010, theorem 1.2) with Gauss's rule (Bornemann, Math. Comp. 79, 871, 2010)."""
+
+    def interval(start: float, end: float) -> tuple[np.ndarray, np.ndarray]:
+        x, weight = np.polynomial.legendre.leggauss(40)
+        return start + (end - start) * (x + 1) / 2, (end - start) / 2 * weight
+
+    square = position**2
+    y, of_y = interval(s, max(14 - square, s + 6))
+    x, of_x = interval(0, max(16 - s - square, 6))
+    kernel = airy(y[:, None] + x + square)[0]
+    weighted = kernel * of_x
+    root = np.sqrt(of_y)
+    operator = np.eye(len(y)) - root[:, None] * (weighted @ kernel.T) * root
+    gauge = np.exp(-2 * position**3 / 3)
+    first = gauge * (kernel.T @ (of_y * np.exp(-position * y)))
+    phi = weighted @ first - kernel @ (of_x * np.exp(position * x))
+    psi = np.exp(position * y) / gauge - weighted @ np.exp(-position * x)
+    mean = s + first @ (of_x * np.exp(-position * x)) - (root * psi) @ np.linalg.solve(operator, root * phi)
+    return float(np.linalg.det(operator) * mean)
+
+
+def height_variance(position: float) -> float:
+    nodes, weights = np.polynomial.legendre.leggauss(60)
+    reach = 10 + 3 * position
+    return float(
+        sum(
+            reach * weight * (baik_rains(s, position) - max(s, 0))
+            for side in (-1, 1)
+            for s, weight in zip(reach * (side + nodes) / 2, weights, strict=True)
+        )
+    )
+
+
+def test_f_kpz_against_fredholm_determinants() -> None:
+    """f_KPZ is a quarter of the second derivative of the variance, which at 0 is that of Baik and Rains."""
+    variance = height_variance(0)
+    assert variance == pytest.approx(1.1503944782, abs=1e-8)
+    for position in (0.5, 1.0, 1.5):
+        integral, _ = quad(lambda y, end=position: (end - y) * float(f_kpz(y)), 0, position, epsabs=1e-11)
+        assert height_variance(position) == pytest.approx(variance + 4 * integral, abs=2e-7)
+
+
+def test_levy() -> None:
+    assert levy(0) == pytest.approx(gamma(1 + 3 / 5) / pi)
+    far = 200.0
+    tail = gamma(1 + 5 / 3) * sin(5 * pi / 6) / pi * far ** (-8 / 3)
+    assert levy(far) == pytest.approx(tail, rel=0.01)
+    x = np.linspace(-3, 3, 7)
+    assert levy(x, 2) == pytest.approx(np.exp(-(x**2) / 4) / (2 * sqrt(pi)))
+
+
+@pytest.mark.parametrize("chain", CHAINS)
+def test_sums_of_peaks(chain: Chain) -> None:
+    time = 40.0 * chain.cell_length / sqrt(chain.temperature)
+    width = (chain.self_coupling * time) ** (2 / 3)
+    x = chain.sound_speed * time + width * np.linspace(-4, 4, 4001)
+    assert chain.sound_peak(x, time).sum() * (x[1] - x[0]) == pytest.approx(
+        chain.inertia * chain.temperature / 2
+    )
+    narrow = replace(chain, slow_logarithm=8.0)
+    x = (narrow.heat_spreading * time) ** (3 / 5) * np.linspace(-150, 150, 1501)
+    assert narrow.heat_peak(x, time).sum() * (x[1] - x[0]) == pytest.approx(1, abs=1e-3)
+
+
+def test_variance_of_heat_is_the_double_integral_of_its_correlation() -> None:
+    chain, time, diffusion = Chain(1.6, 3), 50.0, 0.7
+    correlation, _ = quad(lambda s: 2 * (time - s) * chain.heat_amplitude * s ** (-2 / 3), 0, time)
+    assert chain.heat_variance(time, diffusion) == pytest.approx(correlation + 2 * diffusion * time, rel=1e-6)
+    step = 1e-4
+    slope = np.diff(np.log(chain.heat_variance(time * np.exp([-step, step]), diffusion))) / (2 * step)
+    assert chain.local_exponent(time, diffusion) == pytest.approx(float(slope[0]), rel=1e-6)
+
+
+def test_conductivity_is_the_integral_of_the_correlation() -> None:
+    chain = replace(Chain(1.6, 3), cell_length=0.5)
+    cells, opening = 200, 0.8
+    transit = opening * cells * chain.cell_length / chain.sound_speed
+    per_length, _ = quad(lambda s: chain.heat_amplitude * s ** (-2 / 3), 0, transit)
+    assert chain.conductivity(cells, opening) == pytest.approx(per_length / chain.cell_length, rel=1e-6)
+
+
+def test_units() -> None:
+    """A change of the unit of length by 2 and of that of time by 3 changes numbers as their units say."""
+    length_unit, time_unit = 2.0, 3.0
+    momentum = length_unit / time_unit
+    before, after = Chain(0.9, 3, 1.7, 0.6), Chain(0.9, 3, 1.7 * momentum**2, 0.6 * length_unit)
+    assert after.sound_speed == pytest.approx(before.sound_speed * momentum)
+    assert after.sound_speed_in_cells == pytest.approx(before.sound_speed_in_cells / time_unit)
+    # λ_s^(2/3) t^(2/3) is a length.
+    assert after.self_coupling == pytest.approx(before.self_coupling * length_unit**1.5 / time_unit)
+    # T² A t^(-2/3) is an energy current squared per length, and currents here are sums of p·energy.
+    unit = (momentum * momentum**2) ** 2 / length_unit / momentum**4 * time_unit ** (2 / 3)
+    assert after.heat_amplitude == pytest.approx(before.heat_amplitude * unit)
+
+
+def test_speed_in_units_of_cells_and_thermal_velocity() -> None:
+    """At ζ = 1.6 and M = 3: c² = 8ζ²/((2ζ+M)(2ζ+1))."""
+    zeta = Rational(8, 5)
+    assert Chain(1.6, 3).sound_speed == pytest.approx(
+        float(sympy.sqrt(8 * zeta**2 / ((2 * zeta + 3) * (2 * zeta + 1))))
+    )

@@ -1,0 +1,171 @@
+"""The scaling function f_KPZ of sound peaks, computed from scratch; writes f_kpz.csv in about ten minutes.
+
+    python -m workflow.lib.f_kpz > workflow/lib/f_kpz.csv
+
+After Prähofer and Spohn (J. Stat. Phys. 115, 255, 2004). u is the Hastings-McLeod solution of Painlevé II,
+u'' = 2u^3 + su with u ~ -Ai(s) for s -> infinity, F(s) the Tracy-Widom distribution of GUE, and a, b solve
+
+    da/dw = u^2 a - (u' + wu) b,  db/dw = (u' - wu) a + (w^2 - s - u^2) b,  a(s, 0) = -b(s, 0) = exp(int_s^inf u).
+
+The height of a stationary KPZ surface at position w has the distribution d/ds [F(s + w^2) g(s + w^2, w)], with
+g(s, w) = int_{-inf}^s a(x, w) a(x, -w) dx. Its mean is 0. Twice integrated by parts, its variance is
+
+    V(w) = 2 int a(x, w) a(x, -w) H(x) dx - (X - w^2)^2,  H(x) = int_x^X F,  X beyond the distribution,
+
+and f_KPZ = V''/4. The Hastings-McLeod solution is unstable, and a and b are power series in w with large terms of both
+signs: the numbers have 150 digits. mpmath is a requirement of development only.
+"""
+
+import sys
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+from mpmath import airyai, exp, mp, mpf, quad
+
+DIGITS = 150
+FIRST, LAST = -11, 40  # range of x; exp(-FIRST^3/12) and what is beyond LAST are below 1e-40 for w <= END
+PANEL = 1  # width of a panel in x
+NODES = 20  # of Gauss's rule in a panel
+ORDER = 70  # of Taylor series in x
+END, STEP = 4, mpf(1) / 20  # of the table, in w
+NEGLIGIBLE = mpf(10) ** -40
+
+Series = list[mpf]
+
+
+class Node(NamedTuple):
+    """Of the integral over x."""
+
+    x: mpf
+    weight: mpf
+    u: mpf
+    slope: mpf  # u'
+    tail: mpf  # int_x^inf u
+    h: mpf  # H(x)
+
+
+def product(a: Series, b: Series) -> Series:
+    return [sum((a[j] * b[n - j] for j in range(n + 1)), mpf(0)) for n in range(min(len(a), len(b)))]
+
+
+def integral(a: Series, value: mpf) -> Series:
+    return [value] + [term / (n + 1) for n, term in enumerate(a)]
+
+
+def at(series: Series, x: mpf) -> mpf:
+    value = mpf(0)
+    for term in reversed(series):
+        value = value * x + term
+    return value
+
+
+def painleve(s: mpf, u: mpf, derivative: mpf) -> Series:
+    """Taylor series about s of the solution of u'' = 2u^3 + su."""
+    series, squares = [u, derivative], []
+    for n in range(ORDER):
+        squares.append(sum(series[j] * series[n - j] for j in range(n + 1)))
+        cube = sum(squares[j] * series[n - j] for j in range(n + 1))
+        total = 2 * cube + s * series[n] + (series[n - 1] if n else 0)
+        series.append(total / ((n + 1) * (n + 2)))
+    return series
+
+
+def nodes() -> Iterator[Node]:
+    """From LAST down to FIRST."""
+    abscissas, weights = gauss()
+    s = mpf(LAST)
+    u, derivative = -airyai(s), -airyai(s, derivative=1)
+    tail, log_f, h = -quad(airyai, [s, s + 4, s + 12]), mpf(0), mpf(0)
+    half = mpf(PANEL) / 2
+    while s > FIRST:
+        of_u = painleve(s, u, derivative)
+        of_derivative = [(n + 1) * term for n, term in enumerate(of_u[1:])]
+        square = product(of_u, of_u)
+        fourth, kinetic = product(square, square), product(of_derivative, of_derivative)
+        # (ln F)' = u'^2 - s u^2 - u^4; F' = (ln F)' F
+        slope = [
+            kinetic[n] - fourth[n] - s * square[n] - (square[n - 1] if n else 0) for n in range(len(kinetic))
+        ]
+        of_f = [exp(log_f)]
+        for n in range(ORDER):
+            of_f.append(sum(slope[j] * of_f[n - j] for j in range(n + 1)) / (n + 1))
+        of_tail = [-term for term in integral(of_u, -tail)]
+        of_log, of_h = integral(slope, log_f), [-term for term in integral(of_f, -h)]
+        for abscissa, weight in zip(abscissas, weights, strict=True):
+            d = -half * (1 + abscissa)
+            local = (at(series, d) for series in (of_u, of_derivative, of_tail, of_h))
+            yield Node(s + d, half * weight, *local)
+        d = mpf(-PANEL)
+        tail, log_f, h = at(of_tail, d), at(of_log, d), at(of_h, d)
+        s, u, derivative = s + d, at(of_u, d), at(of_derivative, d)
+
+
+def gauss() -> tuple[list[mpf], list[mpf]]:
+    """Gauss-Legendre rule on [-1, 1]: roots by Newton's method from those in double precision."""
+    abscissas, weights = [], []
+    for start in np.polynomial.legendre.leggauss(NODES)[0]:
+        x = mpf(float(start))
+        for _ in range(6):
+            before, value = mpf(1), x
+            for n in range(2, NODES + 1):
+                before, value = value, ((2 * n - 1) * x * value - (n - 1) * before) / n
+            derivative = NODES * (before - x * value) / (1 - x * x)
+            x -= value / derivative
+        abscissas.append(x)
+        weights.append(2 / ((1 - x * x) * derivative**2))
+    return abscissas, weights
+
+
+def in_powers_of_w(node: Node) -> tuple[Series, Series]:
+    """a(x, w) and b(x, w)."""
+    x, u, slope = node.x, node.u, node.slope
+    a, b = [exp(node.tail)], [-exp(node.tail)]
+    n = 0
+    while n < 40 or max(abs(a[n]), abs(b[n]), abs(a[n - 1]), abs(b[n - 1])) * mpf(END) ** n > NEGLIGIBLE:
+        last_a, last_b = (a[n - 1], b[n - 1]) if n else (0, 0)
+        last_but_one = b[n - 2] if n > 1 else 0
+        a.append((u * u * a[n] - slope * b[n] - u * last_b) / (n + 1))
+        b.append((slope * a[n] - u * last_a - (x + u * u) * b[n] + last_but_one) / (n + 1))
+        n += 1
+    return a, b
+
+
+def with_derivatives(a: mpf, b: mpf, w: mpf, node: Node) -> tuple[mpf, mpf, mpf]:
+    """a and its first two derivatives in w."""
+    x, u, slope = node.x, node.u, node.slope
+    da = u * u * a - (slope + w * u) * b
+    db = (slope - w * u) * a + (w * w - x - u * u) * b
+    return a, da, u * u * da - u * b - (slope + w * u) * db
+
+
+def table() -> tuple[list[mpf], list[mpf]]:
+    """w and f_KPZ(w)."""
+    positions = [n * STEP for n in range(round(END / STEP) + 1)]
+    sums = [mpf(0)] * len(positions)
+    for node in nodes():
+        of_a, of_b = in_powers_of_w(node)
+        for k, w in enumerate(positions):
+            (a, da, d2a), (c, dc, d2c) = (
+                with_derivatives(at(of_a, v), at(of_b, v), v, node) for v in (w, -w)
+            )
+            sums[k] += node.weight * node.h * (d2a * c - 2 * da * dc + a * d2c)
+    return positions, [
+        (2 * total + 4 * LAST - 12 * w * w) / 4 for total, w in zip(sums, positions, strict=True)
+    ]
+
+
+def main() -> None:
+    mp.dps = DIGITS
+    print(
+        "# f_KPZ, the scaling function of stationary KPZ growth (Praehofer and Spohn 2004), for y >= 0; it is even."
+    )
+    print("# Made by workflow/lib/f_kpz.py. All digits are certain.")
+    print("y,f")
+    for w, f in zip(*table(), strict=True):
+        print(f"{float(w):.2f},{float(f):.12e}")
+    sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,190 @@
+"""Predictions of nonlinear fluctuating hydrodynamics for the chain at γ = N [mode_coupling.md].
+
+Lengths, not cells, unless a name says so: c is a length over a time, densities and the variance of the heat are per
+length. Times and momenta have the units of the model, so that a velocity is a momentum.
+"""
+
+from dataclasses import dataclass
+from functools import cache
+from math import cos, erf, gamma, inf, pi, sqrt
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.interpolate import CubicSpline
+from scipy.special import exp1
+
+# Of f_KPZ (Prähofer and Spohn, J. Stat. Phys. 115, 255, 2004), and recomputed from f_kpz.csv by the tests.
+SECOND_MOMENT = 0.510523
+SQUARE_INTEGRAL = 0.389813
+
+
+@dataclass(frozen=True)
+class Chain:
+    """A closed chain in equilibrium: ζ = zλ, where F(p) = z exp(-p²/2T) is the flux, the mass M of the scatterers, T and λ.
+
+    slow_logarithm is Λ, half the integral of exp(-p²/2T)/|p| over all populated p: infinite, or that of a cut.
+    """
+
+    zeta: float
+    mass: float
+    temperature: float = 1.0
+    cell_length: float = 1.0
+    slow_logarithm: float = inf
+
+    @property
+    def fugacity(self) -> float:
+        """z."""
+        return self.zeta / self.cell_length
+
+    @property
+    def inertia(self) -> float:
+        """ρ [eq. M4]: momentum per length and drift w."""
+        return 2 * self.fugacity + self.mass / self.cell_length
+
+    @property
+    def heat_capacity(self) -> float:
+        """a [eq. M9]: energy per length and temperature at a fixed flux of slow particles."""
+        return self.fugacity + 1 / (2 * self.cell_length)
+
+    @property
+    def sound_speed(self) -> float:
+        """c [eq. M13], a length over a time."""
+        pressure, capacity = self.fugacity + self._release, self.heat_capacity + self._release
+        return sqrt(4 * self.fugacity * self.temperature * pressure / (self.inertia * capacity))
+
+    @property
+    def sound_speed_in_cells(self) -> float:
+        return self.sound_speed / self.cell_length
+
+    @property
+    def steepening(self) -> float:
+        """K = dc/dw [eq. M12] along a sound wave, to first order in 1/Λ [eq. M14]."""
+        zeta, mass = self.zeta, self.mass
+        correction = (mass - 6 * zeta**2 - zeta) / (
+            2 * zeta * (2 * mass * zeta + mass + 8 * zeta**2 + 6 * zeta + 1)
+        )
+        of_many = self.fugacity / self.heat_capacity + 2 * self.fugacity / self.inertia
+        return of_many * (1 + correction / self.slow_logarithm)
+
+    @property
+    def _release(self) -> float:
+        """b [eq. M13]: T dz/dT in a sound wave, by which the slow particles are released; 0 if there are infinitely many."""
+        return 1 / (2 * self.cell_length * (2 * self.slow_logarithm - 1))
+
+    @property
+    def couplings(self) -> tuple[float, float, float]:
+        """G++, G-- and G+- [eq. M16] of the right-moving sound mode: to itself, to the other one, and to both; Λ infinite."""
+        unit = sqrt(self.temperature / (2 * self.inertia))
+        own, heat = self.fugacity / self.inertia, self.fugacity / (2 * self.heat_capacity)
+        return unit * (own + heat), unit * (own - 3 * heat), unit * (own - heat)
+
+    @property
+    def self_coupling(self) -> float:
+        """λ_s [eq. M17]: the peak has the width (λ_s t)^(2/3)."""
+        return self.steepening * sqrt(self.temperature / self.inertia)
+
+    @property
+    def heat_amplitude(self) -> float:
+        """A [eqs. M25, M26] of <J_q(t) J_q(0)> per length = T² A t^(-2/3)."""
+        return 8 / 9 * SECOND_MOMENT * self._amplitude_scale
+
+    @property
+    def decoupled_heat_amplitude(self) -> float:
+        """A if φ+ were Gaussian [eq. M27], as mode coupling assumes: 14 % less."""
+        return SQUARE_INTEGRAL * self._amplitude_scale
+
+    @property
+    def _amplitude_scale(self) -> float:
+        hot = self.fugacity / (self.fugacity + self._release)
+        return float((hot * self.sound_speed) ** 2 * self.self_coupling ** (-2 / 3))
+
+    @property
+    def drude_weight(self) -> float:
+        """Long-time limit of <J_n(t) J_n(0)> per length [eq. M30]."""
+        return 4 * self.fugacity**2 * self.temperature / self.inertia
+
+    @property
+    def peak_area(self) -> float:
+        """Of each sound peak of C_g per length [eq. M19]."""
+        return self.inertia * self.temperature / 2
+
+    def sound_peak(self, x: ArrayLike, time: float) -> np.ndarray:
+        """C_g per length of the peak that moves to the right [eq. M19]."""
+        width = (self.self_coupling * time) ** (2 / 3)
+        offset = (np.asarray(x, dtype=float) - self.sound_speed * time) / width
+        peak: np.ndarray = self.peak_area * f_kpz(offset) / width
+        return peak
+
+    def heat_variance(self, time: ArrayLike, diffusion: float = 0.0) -> np.ndarray:
+        """<Q(t)²> per length [eq. M28]."""
+        t = np.asarray(time, dtype=float)
+        variance: np.ndarray = (
+            4.5 * self.temperature**2 * self.heat_amplitude * t ** (4 / 3) + 2 * diffusion * t
+        )
+        return variance
+
+    def local_exponent(self, time: ArrayLike, diffusion: float = 0.0) -> np.ndarray:
+        """d ln <Q²> / d ln t."""
+        normal = 2 * diffusion * np.asarray(time, dtype=float) / self.heat_variance(time, diffusion)
+        exponent: np.ndarray = 4 / 3 - normal / 3
+        return exponent
+
+    def conductivity(self, cells: ArrayLike, opening: float, background: float = 0.0) -> np.ndarray:
+        """κ_0 of an open chain, per cell [eq. M33]: sound is lost after the time opening × length/c."""
+        transit = opening * self.cell_length * np.asarray(cells, dtype=float) / self.sound_speed
+        kappa: np.ndarray = background + 3 * self.heat_amplitude / self.cell_length * np.cbrt(transit)
+        return kappa
+
+    @property
+    def heat_susceptibility(self) -> float:
+        """Variance of e - Tn per length [eq. M23]; grows with the slow particles."""
+        slow = self.fugacity * (2 * self.slow_logarithm - 1)
+        return self.temperature**2 * (slow + 1 / (2 * self.cell_length))
+
+    @property
+    def heat_spreading(self) -> float:
+        """D_h of exp(-D_h |k|^(5/3) t) [eq. M29], the Fourier transform of the heat peak."""
+        per_susceptibility = self.temperature**2 * self.heat_amplitude / self.heat_susceptibility
+        return float(per_susceptibility * gamma(1 / 3) * cos(pi / 6) * self.sound_speed ** (-1 / 3))
+
+    def heat_peak(self, x: ArrayLike, time: float) -> np.ndarray:
+        """Density of the heat peak, of area 1."""
+        width = (self.heat_spreading * time) ** (3 / 5)
+        peak: np.ndarray = levy(np.asarray(x, dtype=float) / width) / width
+        return peak
+
+
+def slow_logarithm(cut: float, temperature: float = 1.0) -> float:
+    """Λ [eq. M2] of momenta |p| > cut."""
+    return float(exp1(cut**2 / (2 * temperature)) / 2)
+
+
+def logarithm_at(time: float, temperature: float = 1.0, cell_length: float = 1.0) -> float:
+    """Λ(t) [eq. 13] of the particles that move within a time: 1 more than that of the cut λ/t."""
+    cut = cell_length / time
+    slower = sqrt(pi * temperature / 2) * erf(cut / sqrt(2 * temperature)) / cut
+    return slow_logarithm(cut, temperature) + slower
+
+
+def f_kpz(y: ArrayLike) -> np.ndarray:
+    """Scaling function of stationary KPZ growth, even and of integral 1; below 1e-10 beyond the table, and 0 there."""
+    distance = np.abs(np.asarray(y, dtype=float))
+    spline = _spline()
+    return np.where(distance < spline.x[-1], spline(np.minimum(distance, spline.x[-1])), 0.0)
+
+
+@cache
+def _spline() -> CubicSpline:
+    y, f = np.loadtxt(Path(__file__).with_name("f_kpz.csv"), delimiter=",", skiprows=3).T
+    return CubicSpline(np.concatenate([-y[:0:-1], y]), np.concatenate([f[:0:-1], f]))
+
+
+def levy(x: ArrayLike, order: float = 5 / 3) -> np.ndarray:
+    """Symmetric stable density of the order 5/3: Fourier transform of exp(-|k|^order)."""
+    # k = s^3 makes the integrand smooth at 0, where the trapezoidal rule would notice |k|^order.
+    s = np.linspace(0, 2.4, 6000)
+    weight = 3 * s**2 * np.exp(-(s ** (3 * order))) * (s[1] - s[0]) / pi
+    phase = np.multiply.outer(np.asarray(x, dtype=float), s**3)
+    density: np.ndarray = np.cos(phase) @ weight
+    return density
