@@ -15,7 +15,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.python.conftest import ROOT
 from tests.python.scale import ROUNDING, SCALES, Scale, agree
 from workflow.lib.columns import as_csv
 from workflow.lib.load import Result
@@ -132,11 +131,10 @@ COUNTS = {
 def measured(case: str) -> tuple[Result, ...]:
     """Results in the default units, then in those of SCALES."""
     program, options = CASES[case]
-    path = ROOT / "build/bin" / program
-    plain = call(path, **options, progress="none").result
+    plain = call(program, **options, progress="none").result
     given_or_not = {name: value for name, value in plain.parameters.items() if name in option_units()}
     scaled = [
-        call(path, **options | {name: scale.option(name, value) for name, value in given_or_not.items()},
+        call(program, **options | {name: scale.option(name, value) for name, value in given_or_not.items()},
              progress="none").result
         for scale in SCALES
     ]  # fmt: skip
