@@ -1,1 +1,206 @@
-"""Progress of make figures."""
+"""Progress of a workflow, from Snakemake's events: a bar, the running jobs, and a line per finished panel.
+
+A logger plugin of Snakemake, chosen by `logger: [progress]` in the profile. Snakemake's own log is in .snakemake/log. Where more is
+requested (--dry-run, --verbose, --printshellcmds, --debug-dag) and where no job runs (--summary, --report, --unlock, ...),
+Snakemake's own messages are shown.
+"""
+
+import logging
+import re
+import sys
+import time
+from contextlib import suppress
+from datetime import timedelta
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console, ConsoleOptions, RenderResult
+from rich.live import Live
+from rich.progress_bar import ProgressBar
+from rich.table import Table
+from rich.text import Text
+from snakemake_interface_logger_plugins.base import LogHandlerBase
+from snakemake_interface_logger_plugins.common import LogEvent
+
+from workflow.cluster.cost import DRAWING, seconds_of_run
+from workflow.lib.plan import load_plan, with_used
+
+Record = Any  # a logging.LogRecord with the fields of its event
+
+LAST = 12  # lines of the log of a failed job
+STOPPING = ("Terminating processes on user request", "Will exit after finishing", "Cancelling snakemake")
+
+
+class LogHandler(LogHandlerBase):
+    writes_to_file = False
+    has_filter = False  # Snakemake's, which obeys --quiet
+    has_formatter = False
+    needs_rulegraph = False
+
+    @property
+    def writes_to_stream(self) -> bool:
+        output = self.common_settings
+        return not (output.dryrun or output.verbose or output.debug_dag or output.printshellcmds)
+
+    def __post_init__(self) -> None:
+        self._console = Console(highlight=False, markup=False, emoji=False, soft_wrap=True)
+        self._live = Live(self, console=self._console, transient=True)
+        self._early: list[str] = []  # messages until the workflow starts
+        self._command = ""
+        self._jobs: dict[str, int] = {}  # their number by rule
+        self._running: dict[int, Record] = {}  # JOB_INFO by number
+        self._finished: set[str] = set()
+        self._failed: dict[str, None] = {}  # in their order
+        self._stopped = False
+        self._cores = 0  # none on a cluster, where the time left depends on the queue
+        self._costs: dict[str, float] = {}  # estimated CPU seconds by panel/run
+        self._waiting: list[float] = []  # those of runs that have not started
+        self._estimated = self._taken = 0.0  # CPU seconds of finished jobs
+
+    def emit(self, record: Record) -> None:
+        if self.writes_to_stream:
+            with suppress(OSError):  # stdout is full or closed: the jobs go on
+                self._show(record, getattr(record, "event", None))
+
+    def _show(self, record: Record, event: LogEvent | None) -> None:
+        if event == LogEvent.WORKFLOW_STARTED:
+            self._command, self._early = record.cmd, []
+        elif not self._command:
+            self._early.append(self.format(record))
+        elif event == LogEvent.RESOURCES_INFO:
+            self._cores = getattr(record, "cores", self._cores)
+        elif event == LogEvent.RUN_INFO:
+            targets = ("figures", "panel", "total")
+            self._jobs = {rule: number for rule, number in record.stats.items() if rule not in targets}
+            if self._console.is_terminal:
+                self._live.start()
+        elif event == LogEvent.JOB_INFO and record.wildcards:  # the target has none
+            self._start(record)
+        elif event == LogEvent.JOB_FINISHED and record.job_id in self._running:
+            self._finish(self._running.pop(record.job_id))
+        elif event == LogEvent.JOB_ERROR and record.jobid in self._running:
+            self._fail(self._running.pop(record.jobid), record.log)
+        elif event in (None, LogEvent.ERROR):
+            self._message(record.getMessage(), record.levelno)
+
+    def _start(self, job: Record) -> None:
+        if (
+            not self._costs
+        ):  # Events state how many runs wait, not which: first those without a result, first the longest.
+            plan, panel = load_plan(job.wildcards["quality"]), re.search(r"\bpanel=(\S+)", self._command)
+            panels = with_used(plan, panel[1]) if panel else plan.values()
+            self._costs = {
+                f"{one.name}/{run.name}": seconds_of_run(one.name, run) for one in panels for run in one.runs
+            }
+            made = {run for run in self._costs if Path(f"data/{job.wildcards['quality']}/{run}.h5").exists()}
+            order = sorted(self._costs, key=lambda run: (run in made, -self._costs[run]))
+            self._waiting = [self._costs[run] for run in order][: self._jobs.get("simulate", 0)]
+        del self._waiting[: job.rule_name == "simulate"]
+        self._failed.pop(name_of(job), None)  # a retry
+        self._running[job.jobid] = job
+
+    def _finish(self, job: Record) -> None:
+        name = name_of(job)
+        self._finished.add(name)
+        self._estimated += self._costs.get(name, DRAWING)
+        self._taken += elapsed(job) * job.threads
+        if job.rule_name == "draw":
+            self._console.print(
+                f"{name}: drawn from {len(job.input)} run{'s'[: len(job.input) - 1]}, {self._state}"
+            )
+        elif job.rule_name != "part":
+            value, doubts = outcome(Path(job.output[0]))
+            if self._console.is_terminal or doubts:
+                self._console.print(f"{name}: {', '.join([value, *doubts])}, {self._state}")
+
+    def _fail(self, job: Record, logs: list[str]) -> None:
+        if not self._stopped:
+            self._failed[name_of(job)] = None
+            log = next(filter(last_lines, logs), logs[0])
+            ending = "ends with:" if last_lines(log) else "is empty: the job was killed, or did not start"
+            heading = f"{name_of(job)} failed after {clock(elapsed(job))}. {log} {ending}"
+            self._console.print("\n  ".join([heading, *last_lines(log)]))
+
+    def _message(self, text: str, level: int) -> None:
+        """Errors, but for those that follow from a failed job or from Ctrl-C."""
+        self._stopped = self._stopped or text.startswith(STOPPING)
+        follows = self._stopped or self._failed or "CalledProcessError" in text  # JOB_ERROR comes next
+        if text.startswith("Nothing to be done") or (level >= logging.WARNING and not follows):
+            self._console.print(text)
+
+    def close(self) -> None:
+        self._live.stop()
+        for text in self._early:
+            print(text, file=sys.stderr)
+        done = f"{len(self._finished)} of {sum(self._jobs.values())} done"
+        advice = "The same command goes on."
+        if re.search(r" (--forceall|-F)\b", self._command):
+            advice = "The same command starts again; without FRESH=yes it completes what was interrupted."
+        with suppress(OSError):
+            if self._failed:
+                self._console.print(f"Failed: {', '.join(self._failed)}; {done}. Fix the cause. {advice}")
+            elif self._stopped:
+                self._console.print(f"Stopped: {done}. {advice}")
+        self._early, self._failed, self._stopped = [], {}, False  # Python closes all handlers once more
+        super().close()
+
+    @property
+    def _state(self) -> str:
+        """12 of 37 done, about 0:00:20 left."""
+        done = f"{len(self._finished)} of {sum(self._jobs.values())} done"
+        if not self._cores or len(self._finished) >= sum(self._jobs.values()):
+            return done
+        running = [*self._running.values()]
+        speed = self._taken / self._estimated if self._estimated else 1.0
+        left = [
+            speed * self._costs.get(name_of(job), DRAWING) - elapsed(job) * job.threads for job in running
+        ]
+        drawings = sum(self._jobs.values()) - len(self._finished) - len(running) - len(self._waiting)
+        waiting = speed * (sum(self._waiting) + drawings * DRAWING) + sum(
+            max(seconds, 0.0) for seconds in left
+        )
+        return f"{done}, about {clock(waiting / self._cores)} left"
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        table = Table.grid(padding=(0, 2))
+        table.add_row(ProgressBar(sum(self._jobs.values()), len(self._finished), width=30), self._state)
+        yield table
+        for job in [*self._running.values()]:
+            line = f"  {name_of(job)}  {clock(elapsed(job))}  {' '.join(last_lines(job.log[0])[-1:])}"
+            yield Text(line, overflow="ellipsis", no_wrap=True)
+
+
+def outcome(path: Path) -> tuple[str, list[str]]:
+    """mu = 0.3289(30), or of a quantity with many values its error; and why the result is marked, if it is."""
+    from workflow.lib.fit import with_error  # noqa: PLC0415  half a second
+    from workflow.lib.load import NOT_REACHED, load  # noqa: PLC0415
+
+    result = load(path)
+    name = result.provenance["target_quantity"]
+    quantity, stationary = result.quantities.get(name), result.quantities.get("stationary")
+    doubts = ["target error not reached"] if result.converged == NOT_REACHED else []
+    doubts += ["not stationary"] if stationary is not None and (stationary.mean == 0).any() else []
+    if quantity is None or quantity.mean.size > 1:
+        return f"error of {name} {float(result.provenance['achieved_error']):.2g}", doubts
+    error = quantity.error if quantity.discretisation_error is None else quantity.discretisation_error
+    return f"{name} = {with_error(float(quantity.mean), float(error))}", doubts
+
+
+def name_of(job: Record) -> str:
+    """panel, panel/run or panel/run/replicas."""
+    return "/".join(job.wildcards[key] for key in ("panel", "run", "part") if key in job.wildcards)
+
+
+def elapsed(job: Record) -> float:
+    return time.time() - float(job.created)
+
+
+def clock(seconds: float) -> str:
+    return str(timedelta(seconds=round(seconds)))
+
+
+def last_lines(log: str) -> list[str]:
+    """None of a log that is missing."""
+    with suppress(OSError):
+        return Path(log).read_text(errors="replace").splitlines()[-LAST:]
+    return []

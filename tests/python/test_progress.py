@@ -1,139 +1,210 @@
-"""What make figures shows: what came out, what is left, what went wrong."""
+"""The display, by Snakemake's events."""
 
 import errno
 import io
+import logging
+import time
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
+from snakemake_interface_logger_plugins.common import LogEvent
 
+import snakemake_logger_plugin_progress as progress
+from snakemake_logger_plugin_progress import LAST, LogHandler, last_lines, outcome
 from tests.python.conftest import Program
-from workflow.execution.display import Display, Running
-from workflow.execution.outcome import LAST, Outcome, last_lines, outcome
-from workflow.execution.remaining import BESIDE, Remaining, clock, foretold
-from workflow.lib.plan import load_plan
 
-PLAN = load_plan("standard")
+Captured = pytest.CaptureFixture[str]
 
 
-@pytest.mark.parametrize(
-    ("seconds", "text"), [(0, "0:00"), (0.2, "0:01"), (59.5, "1:00"), (61, "1:01"), (3723, "1:02:03")]
-)
-def test_clock(seconds: float, text: str) -> None:
-    assert clock(seconds) == text
+def emit(
+    handler: LogHandler, event: LogEvent | None, message: str = "", level: int = logging.INFO, **fields: Any
+) -> None:
+    record = logging.LogRecord("snakemake", level, "", 0, message, (), None)
+    vars(record).update(event=event, **fields)
+    handler.emit(record)
 
 
-def test_remaining_time_follows_what_finished_jobs_took() -> None:
-    remaining = Remaining({"a": 10.0, "b": 10.0, "c": 20.0, "d": 20.0}, cores=2)
-    assert remaining.seconds({}) == 30
-    remaining.finish("a", 20.0)  # this machine takes twice as long
-    assert remaining.seconds({}) == 50
-    assert remaining.seconds({"b": (4.0, 2)}) == 46  # 12 core seconds of b, 40 of c and of d
-    remaining.finish("c", 40.0)
-    remaining.finish("d", 40.0)
-    assert remaining.seconds({"b": (4.0, 1)}) == 16  # no core helps the last job
-    assert remaining.seconds({"b": (400.0, 1)}) == 0
-    remaining.finish("b", 20.0)
-    assert remaining.seconds({}) == 0
+def handler_of(**output: bool) -> LogHandler:
+    settings = dict.fromkeys(("dryrun", "verbose", "debug_dag", "printshellcmds"), False) | output
+    return LogHandler(SimpleNamespace(**settings), None)
 
 
-def test_every_job_of_the_plan_is_foretold() -> None:
-    jobs = [f"{panel.name}/{run.name}" for panel in PLAN.values() for run in panel.runs] + list(PLAN)
-    costs = foretold(PLAN, jobs)
-    assert list(costs) == jobs
-    assert sum(cost == BESIDE for cost in costs.values()) == 0
+@pytest.fixture
+def handler(monkeypatch: pytest.MonkeyPatch) -> LogHandler:
+    """Two runs of 8 s and a drawing on one core."""
+    monkeypatch.setattr(progress, "seconds_of_run", lambda *_: 8)
+    monkeypatch.setattr(
+        progress, "outcome", lambda path: ("mu = 0.3289(30)", ["not stationary"] * (path.stem == "b"))
+    )
+    return begun(handler_of())
 
 
-def test_outcome_of_a_run(program: Program, tmp_path: Path) -> None:
-    assert program("persistence", observation_time=50, replicas=8).returncode == 0
-    assert outcome(tmp_path / "out.h5").text.startswith("mu = 0.")
-    assert outcome(tmp_path / "out.h5").doubts == ()
-    assert program("persistence", target_error=1e-6, max_replicas=4).returncode == 4
-    assert outcome(tmp_path / "out.h5").doubts == ("target error not reached",)
-    filling = {"particles_per_cell": None, "relaxation_time": 0, "observation_time": 2, "replicas": 128}
-    assert program("conductivity", start="empty", **filling).returncode == 0
-    assert outcome(tmp_path / "out.h5").doubts == ("not stationary",)
-    computed = dict.fromkeys(("particles_per_cell", "relaxation_time", "observation_time", "replicas"))
-    assert program("boltzmann", **computed).returncode == 0
-    assert outcome(tmp_path / "out.h5").text.startswith("error of currents ")
-    (tmp_path / "out.h5").write_bytes(b"no result")
-    assert outcome(tmp_path / "out.h5") == Outcome("")
+def begun(handler: LogHandler, command: str = "snakemake --config panel=fig05") -> LogHandler:
+    emit(handler, LogEvent.WORKFLOW_STARTED, cmd=command)
+    emit(handler, LogEvent.RESOURCES_INFO, cores=1)
+    emit(handler, LogEvent.RUN_INFO, stats={"simulate": 2, "draw": 1, "panel": 1, "total": 4})
+    return handler
 
 
-def test_last_lines(tmp_path: Path) -> None:
+def start(handler: LogHandler, number: int, run: str = "", log: str = "none.log") -> None:
+    wildcards = {"quality": "smoke", "panel": "fig05"} | ({"run": run} if run else {})
+    rule, inputs = ("simulate", []) if run else ("draw", ["a.h5", "b.h5"])
+    emit(handler, LogEvent.JOB_INFO, jobid=number, rule_name=rule, wildcards=wildcards, input=inputs, output=[f"{run}.h5"],
+         log=[log], threads=1)  # fmt: skip
+
+
+def finish(handler: LogHandler, *numbers: int) -> None:
+    for number in numbers:
+        emit(handler, LogEvent.JOB_FINISHED, job_id=number)
+
+
+def interrupt(handler: LogHandler) -> None:
+    emit(handler, None, "Terminating processes on user request, this might take some time.")
+    emit(handler, LogEvent.ERROR, "RuleException: CalledProcessError", logging.ERROR)
+    emit(handler, LogEvent.JOB_ERROR, jobid=1, log=["a.log"])
+
+
+def test_a_pipe_has_a_line_per_panel_and_per_doubt(handler: LogHandler, capsys: Captured) -> None:
+    for number, run in enumerate(["a", "b", ""]):
+        start(handler, number, run)
+    finish(handler, 0, 1, 2)
+    emit(handler, LogEvent.JOB_FINISHED, job_id=99)  # the target
+    handler.close()
+    shown = capsys.readouterr().out.splitlines()
+    assert shown[0].startswith("fig05/b: mu = 0.3289(30), not stationary, 2 of 3 done, about 0:00:")
+    assert shown[1:] == ["fig05: drawn from 2 runs, 3 of 3 done"]
+
+
+def test_time_left_follows_what_finished_jobs_took(
+    handler: LogHandler, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    now = time.time()
+    start(handler, 0, "a")
+    monkeypatch.setattr(time, "time", lambda: now + 16)
+    monkeypatch.setattr(progress, "DRAWING", 4)
+    handler._costs = {"fig05/a": 8, "fig05/b": 8}
+    finish(handler, 0)  # this machine takes twice as long
+    assert handler._state == "1 of 3 done, about 0:00:24 left"
+
+
+@pytest.mark.parametrize("lines", [["[bold] disk full"], []])
+def test_a_failure_is_shown_with_the_end_of_its_log(
+    handler: LogHandler, capsys: Captured, tmp_path: Path, lines: list
+) -> None:
+    """And without what Snakemake adds to it."""
     log = tmp_path / "a.log"
-    assert last_lines(log) == []
-    log.write_bytes(b"".join(b"%d \xff\n" % number for number in range(100)))
-    assert last_lines(log) == [f"{number} \ufffd" for number in range(100 - LAST, 100)]
+    log.write_text("\n".join(lines))
+    start(handler, 1, "a", str(log))
+    emit(handler, LogEvent.ERROR, "RuleException: CalledProcessError in file", logging.ERROR)
+    emit(handler, LogEvent.JOB_ERROR, jobid=1, log=[str(log)])
+    emit(handler, None, "Exiting because a job execution failed.", logging.ERROR)
+    handler.close()
+    handler.close()
+    first, *log_lines, last = capsys.readouterr().out.splitlines()
+    assert first.endswith("ends with:" if lines else "is empty: the job was killed, or did not start")
+    assert log_lines == [f"  {line}" for line in lines]
+    assert last == "Failed: fig05/a; 0 of 3 done. Fix the cause. The same command goes on."
 
 
-def running(job: str) -> Running:
-    return Running(job, 0.0, 1, Path("a.log"))
-
-
-def begun() -> Display:
-    display = Display()
-    costs = {"fig05/a": 1.0, "fig05/b": 1.0, "fig05": 1.0}
-    display.begin(costs, Remaining(costs, cores=1))
-    return display
-
-
-def test_in_a_pipe_there_is_a_line_per_panel(capsys: pytest.CaptureFixture) -> None:
-    display = begun()
-    display.finish_run(running("fig05/a"), Outcome("mu = 0.3289(30)"))
-    display.finish_run(running("fig05/b"), Outcome("mu = 0.3289(30)", ("not stationary",)))
-    display.finish_panel(running("fig05"), 2)
-    display.end()
-    assert capsys.readouterr().out.splitlines() == [
-        "fig05: drawn from 2 runs, 3 of 3 done",
-        "fig05/b: not stationary: marked in the figure",
-    ]
-
-
-def test_a_job_that_was_not_foretold_counts(capsys: pytest.CaptureFixture) -> None:
-    display = begun()
-    for job in ("fig05/a", "fig05/b", "fig06/a", "fig06/a", "fig05"):  # one of them twice
-        display.start(running(job))
-        display.finish_run(running(job), Outcome(""))
-    display.finish_panel(running("fig06"), 1)
-    assert capsys.readouterr().out == "fig06: drawn from 1 run, 5 of 5 done\n"
-
-
-def test_a_failure_is_shown_with_the_end_of_its_log(capsys: pytest.CaptureFixture) -> None:
-    display = begun()
-    display.fail(running("fig05/a"), ["[bold] disk full"])
-    display.end()
-    display.end()
-    _, line, end = capsys.readouterr().out.splitlines()
-    assert line == "  [bold] disk full"
-    assert end.startswith("Failed: fig05/a; 0 of 3 done. When the cause is mended, the same command goes on")
-
-
-def test_a_failure_that_left_no_word_says_so(capsys: pytest.CaptureFixture) -> None:
-    display = begun()
-    display.fail(running("fig05/a"), [])
-    assert capsys.readouterr().out.endswith("a.log is empty: it was killed, or never began\n")
-
-
-def test_what_is_stopped_says_how_to_go_on(capsys: pytest.CaptureFixture) -> None:
-    display = begun()
-    display.finish_run(running("fig05/a"), Outcome(""))
-    display.end()
-    assert capsys.readouterr().out == "Stopped: 1 of 3 done. The same command goes on.\n"
-
-
-def test_nothing_is_said_where_nothing_began(capsys: pytest.CaptureFixture) -> None:
-    Display().end()
+def test_a_retry_has_not_failed(handler: LogHandler, capsys: Captured) -> None:
+    start(handler, 1, "a")
+    emit(handler, LogEvent.JOB_ERROR, jobid=1, log=["none.log"])
+    start(handler, 1, "a")
+    capsys.readouterr()
+    handler.close()
     assert capsys.readouterr().out == ""
 
 
-def test_nobody_reads_what_is_shown(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The jobs go on."""
+def test_other_errors_are_shown(handler: LogHandler, capsys: Captured) -> None:
+    emit(handler, LogEvent.ERROR, "MissingInputException", logging.ERROR)
+    emit(handler, None, "Nothing to be done (all requested files are present and up to date).")
+    emit(handler, None, "Select jobs to execute...")
+    assert capsys.readouterr().out.splitlines() == [
+        "MissingInputException",
+        "Nothing to be done (all requested files are present and up to date).",
+    ]
 
+
+@pytest.mark.parametrize(
+    ("command", "advice"),
+    [
+        ("snakemake figures", "The same command goes on."),
+        (
+            "snakemake --forceall figures",
+            "The same command starts again; without FRESH=yes it completes what was interrupted.",
+        ),
+    ],
+)
+def test_ctrl_c(capsys: Captured, command: str, advice: str) -> None:
+    handler = begun(handler_of(), command)
+    start(handler, 1, "a")
+    interrupt(handler)
+    handler.close()
+    assert capsys.readouterr().out == f"Stopped: 0 of 3 done. {advice}\n"
+
+
+def test_without_a_workflow_messages_are_those_of_snakemake(capsys: Captured) -> None:
+    for start_workflow, expected in ((lambda _: None, "Unlocked working directory.\n"), (begun, "")):
+        handler = handler_of()
+        emit(handler, None, "Unlocked working directory.")
+        start_workflow(handler)
+        handler.close()
+        assert capsys.readouterr().err == expected
+
+
+@pytest.mark.parametrize("output", ["dryrun", "verbose", "debug_dag", "printshellcmds"])
+def test_other_output_is_left_to_snakemake(capsys: Captured, output: str) -> None:
+    handler = begun(handler_of(**{output: True}))
+    emit(handler, LogEvent.ERROR, "wrong", logging.ERROR)
+    handler.close()
+    assert not handler.writes_to_stream
+    assert capsys.readouterr().out == ""
+
+
+def test_the_jobs_go_on_where_stdout_is_full(handler: LogHandler, monkeypatch: pytest.MonkeyPatch) -> None:
     class Full(io.StringIO):
         def write(self, _: str) -> int:
             raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr("sys.stdout", Full())
-    display = Display()
-    display.say("once")
-    display.say("twice")
+    emit(handler, LogEvent.ERROR, "wrong", logging.ERROR)
+    interrupt(handler)
+    handler.close()
+
+
+COMPUTED = dict.fromkeys(("particles_per_cell", "relaxation_time", "observation_time", "replicas"))
+FILLING = {"particles_per_cell": None, "relaxation_time": 0, "observation_time": 2, "replicas": 128}
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "expected"),
+    [
+        ("persistence", {"observation_time": 50, "replicas": 8}, (0, "mu = 0.", [])),
+        (
+            "persistence",
+            {"target_error": 1e-6, "max_replicas": 4},
+            4,
+            "mu = 0.",
+            ["target error not reached"],
+        ),
+        ("conductivity", {"start": "empty", **FILLING}, (0, "kappa = ", ["not stationary"])),
+        ("boltzmann", COMPUTED, (0, "error of currents ", [])),
+    ],
+)
+def test_outcome(
+    program: Program, tmp_path: Path, name: str, options: dict, expected: tuple[int, str, list]
+) -> None:
+    status, value, doubts = expected
+    assert program(name, **options).returncode == status
+    shown = outcome(tmp_path / "out.h5")
+    assert shown[0].startswith(value)
+    assert shown[1] == doubts
+
+
+def test_last_lines(tmp_path: Path) -> None:
+    log = tmp_path / "a.log"
+    assert last_lines(str(log)) == []
+    log.write_bytes(b"".join(b"%d \xff\n" % number for number in range(100)))
+    assert last_lines(str(log)) == [f"{number} \ufffd" for number in range(100 - LAST, 100)]

@@ -9,16 +9,14 @@ import numpy as np
 import pandas as pd
 import pytest
 from scipy.stats import chi2
+from workflow.tradeoff.prediction import foretold
 
 from workflow import tradeoff
-from workflow.lib import costs
-from workflow.lib.costs import effort, expected_cost, scaled
-from workflow.lib.plan import Run, load_plan
+from workflow.lib.plan import load_plan
 from workflow.tradeoff.accuracy import amplitude, uncertainty
 from workflow.tradeoff.bias import with_bias
 from workflow.tradeoff.efficiency import Estimate, compared, jackknife
 from workflow.tradeoff.measure import QUALITY, shortened
-from workflow.tradeoff.prediction import foretold
 
 REPLICAS = np.array([10, 100, 1000])
 
@@ -79,43 +77,6 @@ def test_bias_is_the_difference_from_the_last_row_of_a_knob() -> None:
     assert list(table.bias) == pytest.approx([0.5, 0, 0])
     assert list(table.bias_error) == pytest.approx([0.25, 0.2, 0.1])
     assert list(table.careful) == [False, True, True]
-
-
-@pytest.mark.parametrize(
-    ("changes", "factor"), [({"replicas": 8}, 4), ({"pairs-per-replica": 48}, 3), ({"times": "1,6"}, 1.75)]
-)
-def test_effort_is_what_cost_is_proportional_to(changes: dict, factor: float) -> None:
-    options = {"replicas": 2, "pairs-per-replica": 16, "times": "1,3", "relaxation-time": "0.25N", "cells": 4}
-    assert effort(options | changes) == pytest.approx(factor * effort(options))
-
-
-def cost(effort: float) -> float:
-    return 0.05 + 0.01 * effort
-
-
-@pytest.mark.parametrize("share", [0.1, 1, 16])
-def test_cost_is_foretold_as_a_range(share: float) -> None:
-    """The start of a program takes at most as long as the cheapest execution."""
-    for start in (0.05, 0.07):
-        least, most = scaled(cost(8), share, start)
-        assert least <= cost(8 * share) * (1 + 1e-12)
-        assert most >= cost(8 * share) * (1 - 1e-12)
-    assert share == 1 or scaled(cost(8), share, 0) != pytest.approx(
-        (cost(8 * share),) * 2
-    )  # mutant: no start
-
-
-def test_cost_is_foretold_by_the_nearest_execution(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The options of that execution count, not those of the present plan."""
-    known = [
-        ({"replicas": 2, "observation-time": 5.0}, 1.0),
-        ({"replicas": 16, "observation-time": 5.0}, 6.0),
-    ]
-    monkeypatch.setattr(costs, "executions", lambda _panel, _run: iter(known))
-    assert expected_cost("", Run("", "", {"replicas": 32}), 0) == (12, 12)
-    assert expected_cost("", Run("", "", {"replicas": 1}), 0.2) == pytest.approx((0.5, 0.6))
-    monkeypatch.setattr(costs, "executions", lambda _panel, _run: iter([]))
-    assert np.isnan(expected_cost("", Run("", "", {"replicas": 1}), 0)).all()
 
 
 def named_runs(panels: Collection[str]) -> Iterator[tuple[str, str]]:

@@ -1,85 +1,83 @@
-"""A run that would take a job of a cluster too long: its replicas in parts, measured apart and joined here.
+"""Runs as jobs of a cluster: their replicas are measured in parts, and joined on the login node to the result of one execution.
 
-Parts lie under a name that changes with build and options, as checkpoints do, so that a run with others starts anew.
+The inputs of a run are no part of its identity (profiles): a result that was joined is fresh on one machine too.
 """
 
-# Runs of a group that have nothing to do with each other are put into one job by `group-components: [batch=…]`.
-workflow.parent_groupids.update({name: "batch" for name in BATCHES.groups.values()})
-NONE = "(?!)"  # matches no name
-SPLIT = "|".join(sorted({re.escape(job.partition("/")[2]) for job in BATCHES.parts})) or NONE
+import hashlib
+import math
+import re
+
+from workflow.cluster.batches import divide
+
+DIVISION = divide(PLAN.values(), 60 * float(config["batch"]), seconds_of_run)
 
 
 localrules:
+    figures,
+    panel,
     join,
     draw,
 
 
-ruleorder: join > simulate
+ruleorder: join > single > simulate
 
 
 def parts_of_run(wildcards):
-    """At least one, as a run that is not split may have the name of one that is."""
-    job = f"{wildcards.panel}/{wildcards.run}"
-    force_if_stale(job)
-    run = run_of(wildcards)
-    parts = BATCHES.parts.get(job) or (f"0-{run.options['replicas'] - 1}",)
-    folder = f"build/parts/{QUALITY}/{job}-{identity_of(run.program, run.options)}"
-    paths = [f"{folder}/{part}.part" for part in parts]
-    if REQUEST.fresh and workflow.is_main_process:
-        workflow.dag.forcefiles.update(paths)
-    return paths
+    """None of a run that cannot be split, and has the name of one in another panel that can."""
+    run, name = run_of(wildcards), f"{wildcards.panel}/{wildcards.run}"
+    parts = [part.name for part in DIVISION.get(name, [])]
+    identity = hashlib.sha256(f"{run.options} {BUILDS[run.program]} {parts}".encode()).hexdigest()[:16]
+    return [f"build/parts/{QUALITY}/{name}/{identity}/{part}.part" for part in parts]
+
+
+def minutes(wildcards, attempt):
+    """Twice the estimate, as machines differ."""
+    part = DIVISION.get(f"{wildcards.panel}/{wildcards.run}", [None])[0]
+    seconds = part.seconds if part else seconds_of_run(wildcards.panel, run_of(wildcards))
+    return attempt * math.ceil(2 * seconds / 60)
+
+
+def memory(wildcards, attempt):
+    """MB; the longest chains take 100, Snakemake 200."""
+    return 500 * 2**attempt
+
+
+use rule simulate as join with:
+    input:
+        parts_of_run,
+    wildcard_constraints:
+        run="|".join(sorted({re.escape(name.partition("/")[2]) for name in DIVISION})),
+    threads: 1
+    priority: 10**9
+
+
+use rule simulate as single with:
+    threads: 1
+    group: "{panel}"
+    resources:
+        runtime=minutes,
+        mem_mb=memory,
+        slots=1,
 
 
 rule part:
-    input:
-        build_id=ancient(build_id_of_run),
     output:
-        part=temp("build/parts/{quality}/{panel}/{run}-{identity}/{part}.part"),
-        cost=temp("build/parts/{quality}/{panel}/{run}-{identity}/{part}.part.cost.json"),
+        temp("build/parts/{quality}/{panel}/{run}/{identity}/{batch}_{part}.part"),
     log:
-        "build/logs/{quality}/{panel}/{run}-{identity}/{part}.log",
+        "build/logs/{quality}/{panel}/{run}/{identity}_{part}.log",
     wildcard_constraints:
-        run=SPLIT,
-        identity="[0-9a-f]{16}",
+        batch="batch[0-9]+",
         part="[0-9]+-[0-9]+",
-    priority: work_of_run
-    conda:
-        "../environment/conda.yaml"
+    params:
+        program=lambda wildcards: run_of(wildcards).program,
+        options=lambda wildcards: shlex.join(arguments(run_of(wildcards).options)),
+    threads: 1
+    priority: lambda wildcards: seconds_of_run(wildcards.panel, run_of(wildcards))
+    group: "{batch}"
     resources:
-        runtime=minutes_of_run,
+        runtime=minutes,
         mem_mb=memory,
         slots=1,
-    params:
-        program=lambda wildcards: run_of(wildcards).program,
-        options=lambda wildcards: json.dumps(run_of(wildcards).options),
     shell:
-        """
-        .venv/bin/python -I -S workflow/environment/launch.py workflow.provenance.execute part --log {log:q} \
-            --program {params.program:q} --options {params.options:q} --part {wildcards.part:q} --output {output.part:q}
-        """
-
-
-rule join:
-    input:
-        build_id=ancient(build_id_of_run),
-        parts=parts_of_run,
-        costs=lambda wildcards: [f"{part}.cost.json" for part in parts_of_run(wildcards)],
-    output:
-        "data/{quality}/{panel}/{run}.h5",
-    log:
-        "build/logs/{quality}/{panel}/{run}.log",
-    wildcard_constraints:
-        run=SPLIT,
-    priority: BEFORE_ANY_RUN
-    conda:
-        "../environment/conda.yaml"
-    params:
-        program=lambda wildcards: run_of(wildcards).program,
-        options=lambda wildcards: json.dumps(run_of(wildcards).options),
-        folder=lambda wildcards, input: str(Path(input.parts[0]).parent),
-    shell:
-        """
-        .venv/bin/python -I -S workflow/environment/launch.py workflow.provenance.execute simulate --log {log:q} \
-            --quality {wildcards.quality:q} --panel {wildcards.panel:q} --run {wildcards.run:q} \
-            --program {params.program:q} --options {params.options:q} --threads 1 --replicated --parts {params.folder:q}
-        """
+        "build/bin/{params.program} {params.options} --part {wildcards.part} --threads 1 --resume"
+        " --checkpoint-interval 600 --progress log --output {output:q} 2> {log:q}"

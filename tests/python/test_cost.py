@@ -1,0 +1,120 @@
+"""Costs: recorded seconds, estimates against executions, division of runs among the jobs of a cluster."""
+
+import itertools
+import json
+from collections import Counter
+from dataclasses import replace
+from datetime import timedelta
+from pathlib import Path
+
+import pytest
+
+from workflow.cluster import cost
+from workflow.cluster.batches import OVERHEAD, divide, seconds_of_batches
+from workflow.cluster.cost import effort, estimated_seconds, recorded_seconds, seconds_of_run, wall
+from workflow.lib.plan import QUALITIES, Panel, Run, load_plan
+
+TOLERANCE = 1.5  # of an estimate, over sizes, replicas and windows
+# CPU seconds of whole runs of quality standard, on the machine of the table.
+EXECUTED = {
+    "fig05": {"dense_sigma=0.75": 1.50, "paper_sigma=0.5": 0.34},
+    "fig07_inset": {"all_sigma=0.3": 0.78, "zero-momentum_sigma=0.75": 0.84},
+    "fig08": {
+        "deterministic_cells=16": 1.29,
+        "deterministic_cells=128": 7.27,
+        "large": 29.4,
+        "rare_cells=512": 10.5,
+    },
+    "ext09": {"dense_cells=64": 6.21, "dense_cells=256": 27.0, "dilute_cells=128": 11.1},
+    "ext11": {"dense-pressure_cells=16": 5.85, "thinning-temperature_cells=64": 15.5},
+    "ext12": {"dense-weak_cells=64": 5.67, "dense-strong_cells=64": 6.16},
+}
+
+
+@pytest.mark.parametrize("panel", EXECUTED)
+def test_estimates_against_executions(panel: str) -> None:
+    plan = load_plan("standard")[panel]
+    for name, seconds in EXECUTED[panel].items():
+        assert 1 / TOLERANCE < (estimated_seconds(panel, plan.run(name)) or 0) / seconds < TOLERANCE, name
+
+
+@pytest.mark.parametrize("quality", QUALITIES)
+def test_every_run_has_an_estimate(quality: str) -> None:
+    assert all(
+        estimated_seconds(name, run) for name, panel in load_plan(quality).items() for run in panel.runs
+    )
+
+
+def test_an_unknown_series() -> None:
+    run = replace(load_plan("smoke")["fig05"].runs[0], series="mine")
+    assert estimated_seconds("fig05", run) is None
+    assert seconds_of_run("fig05", run) == cost.UNKNOWN
+
+
+@pytest.mark.parametrize(
+    ("options", "expected"),
+    [
+        ({"cells": "continuum"}, 1),
+        ({"cells": 20, "replicas": 3, "observation-time": 10, "relaxation-time": "5+0.05N"}, 48),
+        ({"replicas": 2, "pairs-per-replica": 4, "times": "0.1,0.5", "observation-time": 9}, 4),
+    ],
+)
+def test_effort(options: dict, expected: float) -> None:
+    assert effort(options) == pytest.approx(expected)
+
+
+def test_recorded_seconds(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of the parts, if their events are those of the result; parts of another division or of other options do not count."""
+    monkeypatch.setattr(cost, "ROOT", tmp_path)
+
+    def record(path: str, seconds: float, events: int) -> None:
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / path).write_text(json.dumps({"cpu_seconds": seconds, "events": events}))
+
+    assert recorded_seconds("smoke", "fig05", "a") is None
+    record("data/smoke/fig05/a.cost.json", 0.1, 30)
+    record("build/parts/smoke/fig05/a/old/batch0_0-3.part.cost.json", 9.0, 29)
+    assert recorded_seconds("smoke", "fig05", "a") == 0.1
+    record("build/parts/smoke/fig05/a/new/batch0_0-1.part.cost.json", 2.0, 10)
+    record("build/parts/smoke/fig05/a/new/batch1_2-3.part.cost.json", 3.0, 20)
+    assert recorded_seconds("smoke", "fig05", "a") == 5.0
+    (tmp_path / "data/smoke/fig05/a.cost.json").write_text("{")
+    assert recorded_seconds("smoke", "fig05", "a") is None
+
+
+def test_wall_time() -> None:
+    assert wall([3, 3, 2, 2, 2], 2) == timedelta(seconds=7)  # 3 + 2 + 2 beside 3 + 2; the best is 6
+    assert wall([5, 1, 1], 100) == timedelta(seconds=5)
+    assert wall([], 3) == timedelta(0)
+
+
+@pytest.mark.parametrize("quality", ["smoke", "paper", "deep"])
+@pytest.mark.parametrize("batch", [60.0, 1800.0])
+def test_every_replica_is_in_one_part_and_batches_are_full(quality: str, batch: float) -> None:
+    plan = load_plan(quality)
+    division = divide(plan.values(), batch, seconds_of_run)
+    runs = {
+        f"{panel.name}/{run.name}": run for panel in plan.values() for run in panel.runs if run.replicated
+    }
+    assert division.keys() == runs.keys()
+    for name, parts in division.items():
+        assert [parts[0].first, parts[-1].last] == [0, runs[name].options["replicas"] - 1]
+        assert all(one.last + 1 == other.first for one, other in itertools.pairwise(parts))
+        sizes = [part.last - part.first + 1 for part in parts]
+        assert max(sizes) - min(sizes) <= 1
+        assert max(sizes) == 1 or parts[0].seconds <= batch + OVERHEAD
+    every = [part for parts in division.values() for part in parts]
+    together = Counter(part.batch for part in every)
+    shared = Counter[int]()
+    for part in every:
+        shared[part.batch] += part.seconds  # type: ignore[assignment]
+    assert sorted(seconds_of_batches(every)) == sorted(shared.values())
+    assert all(shared[number] <= batch for number, parts in together.items() if parts > 1)
+    assert divide(load_plan(quality).values(), batch, seconds_of_run) == division
+
+
+@pytest.mark.parametrize(("options", "parts"), [({}, 10), ({"target-error": 0.1}, 0), ({"replicas": 4}, 4)])
+def test_number_of_parts(options: dict, parts: int) -> None:
+    """A run with a target error is not split: its number of replicas is not known beforehand."""
+    run = Run("all", "persistence", {"replicas": 100, **options})
+    assert len(divide([Panel("one", "one", (run,))], 100.0, lambda *_: 1000.0).get("one/all", ())) == parts

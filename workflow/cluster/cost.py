@@ -1,0 +1,130 @@
+"""CPU seconds of runs: recorded by the programs here, or estimated from those of quality `paper` in config/seconds.csv.
+
+The table has a row per panel, series and size. Cost is proportional to effort, replicas times simulated time.
+"""
+
+import argparse
+import csv
+import heapq
+import json
+import math
+import os
+import sys
+from collections.abc import Iterable
+from datetime import timedelta
+from functools import cache
+from pathlib import Path
+
+from workflow.cluster.batches import divide, seconds_of_batches
+from workflow.lib.configuration import ConfigurationError, Options, at_size
+from workflow.lib.plan import Run, load_plan, panel_named, with_used
+
+ROOT = Path(__file__).parents[2]
+TABLE = ROOT / "workflow/config/seconds.csv"  # panel, series, cells, effort, cpu_seconds
+UNKNOWN = 900.0  # seconds of a run whose series is not in the table
+DRAWING = 4.0  # CPU seconds of a drawing
+
+
+def recorded_seconds(quality: str, panel: str, run: str) -> float | None:
+    """CPU seconds of the execution that wrote the result, or of the parts that were joined into it; None if not recorded."""
+    try:
+        own = _cost(ROOT / f"data/{quality}/{panel}/{run}.cost.json")
+        divisions = [*(ROOT / f"build/parts/{quality}/{panel}/{run}").glob("*")]
+        parts = [[_cost(path) for path in folder.glob("*.cost.json")] for folder in divisions]
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+    # Equal numbers of events: the parts of this result. To join them costs next to nothing.
+    joined = [sum(part[0] for part in one) for one in parts if sum(part[1] for part in one) == own[1]]
+    return max([own[0], *joined])
+
+
+def _cost(path: Path) -> tuple[float, int]:
+    cost = json.loads(path.read_text())
+    return float(cost["cpu_seconds"]), int(cost["events"])
+
+
+def seconds_of_run(panel: str, run: Run) -> int:
+    """Estimated CPU seconds, at least 1. All machines of a cluster have to agree, so recorded ones do not count."""
+    return max(1, round(estimated_seconds(panel, run) or UNKNOWN))
+
+
+def estimated_seconds(panel: str, run: Run) -> float | None:
+    """None for a series that is not in the table. Other sizes follow the power law through the nearest two."""
+    known, size = _table().get((panel, run.series), {}), cells(run.options)
+    if size in known:
+        return effort(run.options) * known[size]
+    if len(known) < 2:
+        return None
+    near, next_to_it = sorted(known, key=lambda one: abs(math.log(one / size)))[:2]
+    power = math.log(known[next_to_it] / known[near]) / math.log(next_to_it / near)
+    return effort(run.options) * float(known[near] * (size / near) ** power)
+
+
+@cache
+def _table() -> dict[tuple[str, str], dict[float, float]]:
+    """CPU seconds per unit of effort, by panel and series, and size."""
+    table: dict[tuple[str, str], dict[float, float]] = {}
+    with TABLE.open(newline="") as file:
+        for row in csv.DictReader(file):
+            series = table.setdefault((row["panel"], row["series"]), {})
+            series[float(row["cells"])] = float(row["cpu_seconds"]) / float(row["effort"])
+    return table
+
+
+def cells(options: Options) -> float:
+    """1 in the continuum, and for options without cells."""
+    number = options.get("cells", 1)
+    return 1 if number == "continuum" else float(number)
+
+
+def effort(options: Options) -> float:
+    """Replicas, with their pairs, times the simulated time."""
+    times = [
+        str(options.get("times", options.get("observation-time", 1))).rpartition(",")[2],
+        options.get("relaxation-time", 0),
+    ]
+    replicas = float(options.get("replicas", 1)) * float(options.get("pairs-per-replica", 1))
+    return replicas * sum(at_size(time, cells(options)) for time in times)
+
+
+def wall(jobs: Iterable[float], cores: int) -> timedelta:
+    """Time until all jobs are done, the longest first."""
+    ends = [0.0] * cores
+    for seconds in sorted(jobs, reverse=True):
+        heapq.heapreplace(ends, ends[0] + seconds)
+    return timedelta(seconds=round(max(ends)))
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--quality", required=True)
+    parser.add_argument("--panel", help="this panel and those whose runs it shows")
+    parser.add_argument("--batch", type=float, help="minutes of a job on a cluster")
+    options = parser.parse_args()
+    try:
+        plan = load_plan(options.quality)
+        panels = (
+            with_used(plan, panel_named(plan, options.panel).name) if options.panel else list(plan.values())
+        )
+    except ConfigurationError as error:
+        sys.exit(str(error))
+
+    jobs: list[float] = []
+    for panel in panels:
+        recorded = [recorded_seconds(options.quality, panel.name, run.name) for run in panel.runs]
+        estimated = [estimated_seconds(panel.name, run) or UNKNOWN for run in panel.runs]
+        seconds = [one or other for one, other in zip(recorded, estimated, strict=True)]
+        jobs += [*seconds, DRAWING]
+        known = f"{len(recorded) - recorded.count(None)} of {len(recorded)} runs"
+        print(f"{panel.name:<18}{wall([*seconds, DRAWING], 1)!s:>17}  {known} recorded here")
+    cores = os.cpu_count() or 1
+    print(f"CPU time: {wall(jobs, 1)}. Wall time on {cores} cores here: {wall(jobs, cores)}")
+    if options.batch:
+        division = divide(panels, 60 * options.batch, seconds_of_run)
+        batches = seconds_of_batches(part for parts in division.values() for part in parts)
+        times = ", ".join(f"{wall(batches, cores)} on {cores}" for cores in (100, 1000, 10000))
+        print(f"On a cluster: {len(batches)} jobs, {times} cores")
+
+
+if __name__ == "__main__":
+    main()
