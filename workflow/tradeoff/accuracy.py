@@ -68,8 +68,7 @@ def measure() -> pd.DataFrame:
 
 
 def draw(table: pd.DataFrame) -> Figure:
-    size = (2 * style.COLUMN, 2 * style.HEIGHT)
-    figure, axes = plt.subplots(3, 3, figsize=size, sharex=True, sharey=True)
+    figure, axes = plt.subplots(3, 3, figsize=(2 * style.COLUMN, 2 * style.HEIGHT), sharex=True, sharey=True)
     sampled = table.dropna(subset="replicas").groupby(["program", "quantity"], sort=False)
     for one, ((program, quantity), rows) in zip(axes.flat, sampled, strict=True):
         seconds, error, replicas = rows[["cpu_seconds", "error", "replicas"]].to_numpy().T

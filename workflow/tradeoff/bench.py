@@ -53,13 +53,12 @@ def cost(run: Run, replicas: int) -> tuple[float, float]:
 
 def whole_program(name: str) -> dict[str, object]:
     """Medians of runs that alternate with those of the bare loop."""
-    panel, _, one = name.partition("/")
-    run = planned(panel, one)
+    run = planned(*name.split("/"))
     least = 2  # replicas for which there are errors
     replicas = max(least, round(least * SECONDS / cost(run, least)[0]))
     pairs = [[cost(each, replicas)[1] for each in (run, bare(run))] for _ in range(REPETITIONS)]
     program, loop = np.median(pairs, axis=0)
-    row = {"program": run.program, "panel": panel, "gamma": run.options.get("gamma", "N")}
+    row = {"program": run.program, "run": name, "gamma": run.options.get("gamma", "N")}
     return row | {"program ns": program, "bare loop ns": loop, "program/loop": program / loop}
 
 

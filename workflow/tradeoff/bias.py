@@ -1,7 +1,4 @@
-"""Bias of settings: the results at several values of a setting, relative to those at the most careful value.
-
-Settings that a result file or a figure's table varies itself, as the times fitted in fig10, are not measured here.
-"""
+"""Bias of settings: the results at several values of a setting, relative to those at the most careful value."""
 
 from collections.abc import Iterator, Sequence
 
@@ -11,7 +8,7 @@ import pandas as pd
 from workflow.lib.units import option_units
 from workflow.tradeoff.measure import execute, planned
 
-UNITS = {"value": "column value_units", "result": "column units", "error": "column units"}
+UNITS = {"value": "column value_units", "result": "column units", "result_error": "column units"}
 
 
 def varied(
@@ -23,14 +20,15 @@ def varied(
         found = execute(planned(panel, name), **changes, **{setting: value}).result[quantity]
         mean, error = (float(np.ravel(numbers)[0]) for numbers in (found.mean, found.error))
         units = {"value_units": option_units().get(setting, "1"), "units": found.units}
-        yield head | {"value": value, "result": mean, "error": error} | units
+        yield head | {"value": value, "result": mean, "result_error": error} | units
 
 
 def with_bias(table: pd.DataFrame) -> pd.DataFrame:
     """Difference relative to the last row of a setting and quantity, the most careful; errors combined as if independent."""
     of = ["panel", "start", "setting", "quantity"]
-    last = table.groupby(of)[["result", "error"]].transform("last")
-    error = np.where(table.duplicated(of, keep="last"), np.hypot(table.error, last.error), table.error)
+    last = table.groupby(of)[["result", "result_error"]].transform("last")
+    both = np.hypot(table.result_error, last.result_error)
+    error = both.where(table.duplicated(of, keep="last"), table.result_error)
     return table.assign(bias=table.result / last.result - 1, bias_error=error / abs(last.result))
 
 
@@ -41,7 +39,6 @@ def measure() -> pd.DataFrame:
     for start in ("warm", "empty"):
         rows += varied(*edge, start=start, observation_time=50, replicas=240)
     rows += varied("fig04a", "rare", "jump", "momentum-bins", (10, 20, 50, 100, 200), replicas=60)
-    rows += varied(
-        "ext07", "spreading_relaxation-time=10", "alpha", "fit-decades", (2, 1.5, 1, 0.5), replicas=240
-    )
+    decades = (2, 1.5, 1, 0.5)
+    rows += varied("ext07", "spreading_relaxation-time=10", "alpha", "fit-decades", decades, replicas=240)
     return with_bias(pd.DataFrame(rows))

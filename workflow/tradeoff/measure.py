@@ -5,6 +5,7 @@ import resource
 import subprocess
 import tempfile
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +26,7 @@ class Done:
     log: str  # standard error
 
 
+@cache
 def planned(panel: str, run: str) -> Run:
     return load_plan(QUALITY)[panel].run(run)
 
@@ -49,15 +51,15 @@ def execute(run: Run, **changes: object) -> Done:
     return call(run.program, **run.options | {"progress": "log"} | threads | changes)
 
 
-def simulate(simulator: str, *arguments: object) -> tuple[np.ndarray, float]:
+def simulate(simulator: str, *words: object) -> tuple[np.ndarray, float]:
     """Lines and columns printed by a simulator of tests/cpp/reference, and its CPU seconds. Raises RuntimeError."""
-    done, seconds = _timed(f"reference_{simulator}", [str(argument) for argument in arguments])
+    done, seconds = _timed(f"reference_{simulator}", [str(word) for word in words])
     return np.array([line.split() for line in done.stdout.splitlines()]), seconds
 
 
-def _timed(program: str, arguments: list[str]) -> tuple[subprocess.CompletedProcess[str], float]:
+def _timed(program: str, words: list[str]) -> tuple[subprocess.CompletedProcess[str], float]:
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = subprocess.run([PROGRAMS / program, *arguments], check=False, capture_output=True, text=True)
+    done = subprocess.run([PROGRAMS / program, *words], check=False, capture_output=True, text=True)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     if done.returncode not in (0, 4):  # 4: the target error was not reached
         raise RuntimeError(done.stderr)

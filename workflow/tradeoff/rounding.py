@@ -11,16 +11,17 @@ from workflow.lib import style
 from workflow.tradeoff.measure import call, planned, simulate
 
 LONGEST = 8  # log10 of the events of the longest runs
-LOOKS = dict(zip((0.5, 0.3, -0.9, 1 - 1e-12), zip("osv^", style.SEQUENCE[:4], strict=True), strict=True))
+SIGMAS = ("0.5", "0.3", "-0.9", "0.999999999999")
+LOOKS = dict(zip(SIGMAS, zip("osv^", style.SEQUENCE[:4], strict=True), strict=True))
 
 
 def drifts() -> Iterator[tuple[object, ...]]:
     """Closed chains of 10^5 to 10^LONGEST events. The mean of R magnitudes has a relative error of 0.75/sqrt(R)."""
-    for sigma in LOOKS:
+    for sigma in SIGMAS:
         rate = 4000.0  # events per unit time; it falls as energy goes over to the scatterers
         for power in np.arange(5, LONGEST + 0.25, 0.5):
             replicas, time = int(np.clip(10 ** (8 - power), 2, 16)), 10**power / rate
-            result = call("persistence", sigma=repr(sigma), relaxation_time=0, observation_time=time,
+            result = call("persistence", sigma=sigma, relaxation_time=0, observation_time=time,
                           replicas=replicas, progress="none").result  # fmt: skip
             events = result.provenance["events"] / replicas
             rate = events / time
@@ -41,7 +42,7 @@ def draw(table: pd.DataFrame) -> Figure:
     for (name, sigma), rows in table.groupby(["quantity", "sigma"]):
         marker, colour = LOOKS[sigma]
         energy = name == "energy_drift"
-        look: style.Look = {"label": rf"$\sigma$ = {sigma:.12g}"} if energy else {"markerfacecolor": "white"}
+        look: style.Look = {"label": rf"$\sigma = {sigma}$"} if energy else {"markerfacecolor": "white"}
         axes.errorbar(rows.events, rows.drift, rows.error, color=colour, marker=marker, linewidth=0.8, **look)
     events = np.array([table.events.min(), table.events.max()])
     walk = 2.0**-53 * np.sqrt(events)
