@@ -153,7 +153,7 @@ def test_another_seed_has_a_folder_of_its_own_and_is_compared(kept: Clone) -> No
         (("panel",), "PANEL is missing; try make panel PANEL=fig05"),
         (("provenance",), "FILE is missing; try make provenance FILE=figures/standard/fig05.pdf"),
         (("audit", "PANEL=fig5"), "fig5 is not a panel; did you mean fig05?"),
-        (("status", "QUALITY=best"), "QUALITY=best"),
+        (("status", "QUALITY=best"), "best is not a quality; choose one of smoke, standard, paper, deep"),
     ],
 )
 def test_mistyped_options_get_a_line(clean: Clone, arguments: tuple[str, ...], line: str) -> None:
