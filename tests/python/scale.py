@@ -6,8 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from workflow.lib.load import Quantity, Result
-from workflow.lib.option_units import option_units
-from workflow.lib.units import parse
+from workflow.lib.units import option_units, parse
 
 COEFFICIENT = re.compile(r"(?<![\^\d.])\d[\d.]*(?:e[-+]?\d+)?")  # not the exponent of N
 ROUNDING = 1e-9  # relative to the largest value of a dataset

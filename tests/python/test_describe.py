@@ -1,4 +1,4 @@
-"""What the programs say of themselves is what the tracked files state; a new option or quantity gets there by itself."""
+"""The tracked files state what the programs declare; a new option or quantity gets there by `make describe`."""
 
 import json
 from copy import deepcopy
@@ -6,32 +6,52 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import yaml
 from jsonschema import Draft202012Validator
 
 from tests.python.conftest import ROOT
 from workflow.config import describe
-from workflow.lib.options import admits
-from workflow.lib.strict_yaml import ConfigurationError
 
 
 @pytest.fixture(scope="module")
-def described() -> dict[str, dict[str, Any]]:
+def described() -> describe.Described:
     return describe.descriptions(ROOT / "build/bin")
 
 
-def test_the_tracked_files_are_up_to_date(described: dict[str, dict[str, Any]]) -> None:
+def test_the_tracked_files_are_up_to_date(described: describe.Described) -> None:
     stale = [path.name for path, text in describe.texts(described).items() if path.read_text() != text]
     assert stale == [], "run `make describe`"
 
 
-def test_every_default_is_admitted(described: dict[str, dict[str, Any]]) -> None:
+def test_the_schema_of_an_option_is_valid_and_accepts_the_default(described: describe.Described) -> None:
     for name, program in described.items():
         for option in program["options"]:
-            assert admits(option, option["default"]), (name, option)
+            schema = describe.schema(option)
+            Draft202012Validator.check_schema(schema)
+            assert Draft202012Validator(schema).is_valid(option["default"]), (name, option)
 
 
-def test_a_new_option_and_quantity(described: dict[str, dict[str, Any]]) -> None:
+@pytest.mark.parametrize(
+    ("option", "accepted", "refused"),
+    [
+        ({"type": "integer", "minimum": 1}, [1, 7], [0, 1.5, True, "1"]),
+        ({"type": "number", "minimum": -1.0, "maximum": 1.0}, [-1, 0.5], [2, "0.5", True]),
+        ({"type": "number or word", "exclusive_minimum": 0.0, "word": "1/N"}, [1, "1/N"], [0, "N", "1", "11/N"]),
+        ({"type": "numbers", "exclusive_minimum": 0.0}, [1, "0.1,2e-3,.5"], [0, "1,", "-1,2", "1;2", ""]),
+        ({"type": "numbers"}, ["-1,2"], ["--1"]),
+        ({"type": "number or polynomial in N", "minimum": 0.0}, [3, "3", "0.05N", "50+1e-3N^2", "1+2N"],
+         [-1, "N", "-2N", "2N^3", "1/N", "1+-2N", "1e+N"]),
+        ({"type": "choice", "choices": ["warm", "cold"]}, ["warm"], ["tepid", True]),
+        ({"type": "flag"}, [True, False], ["yes", 1]),
+        ({"type": "text"}, ["a"], [1]),
+    ],
+)  # fmt: skip
+def test_values_of_an_option(option: dict[str, Any], accepted: list[object], refused: list[object]) -> None:
+    validator = Draft202012Validator(describe.schema(option | {"units": "1"}))
+    assert [value for value in accepted if not validator.is_valid(value)] == []
+    assert [value for value in refused if validator.is_valid(value)] == []
+
+
+def test_a_new_option_and_quantity(described: describe.Described) -> None:
     new = deepcopy(described)
     option = {"name": "colour", "type": "choice", "choices": ["red", "blue"], "default": "red"}
     new["persistence"]["options"].append(option | {"description": "Of |it|", "affects_results": True})
@@ -41,8 +61,8 @@ def test_a_new_option_and_quantity(described: dict[str, dict[str, Any]]) -> None
     new["persistence"]["always"].append("hue")
     texts = describe.texts(new)
 
-    options = yaml.safe_load(texts[describe.SCHEMA])["programs"]
-    assert options["persistence"]["colour"] == {"type": "choice", "choices": ["red", "blue"]}
+    options = json.loads(texts[describe.SCHEMA])["programs"]
+    assert options["persistence"]["colour"] == {"enum": ["red", "blue"], "allowed": "red or blue"}
     assert "colour" not in options["ageing"]
     assert "|  | `--colour` | red or blue | red |  | Of \\|it\\| |" in texts[describe.FORMAT]
     assert "|  | `hue` [cell] | 1/time | How |" in texts[describe.FORMAT]
@@ -60,31 +80,19 @@ def test_a_new_option_and_quantity(described: dict[str, dict[str, Any]]) -> None
     assert "unexpected" in complaints(right | {"hue": "1/time [cell in length]", "shade": "1"})[0]
 
 
-def test_a_quantity_of_some_chains_only(described: dict[str, dict[str, Any]]) -> None:
+def test_a_quantity_of_some_chains_only(described: describe.Described) -> None:
     displacement = described["displacement"]
     assert "logarithmic_power" in [quantity["name"] for quantity in displacement["quantities"]]
     assert "logarithmic_power" not in displacement["always"]
     assert "alpha" in displacement["always"]
 
 
-@pytest.mark.parametrize(
-    ("file", "mark"),
-    [
-        ("SCHEMA", "programs:"),
-        ("FORMAT", "<!-- options, by make describe -->"),
-        ("FORMAT", "<!-- end of quantities -->"),
-    ],
-)
-def test_a_place_that_is_missing_is_named(
-    described: dict[str, dict[str, Any]],
-    monkeypatch: pytest.MonkeyPatch,
-    tmp_path: Path,
-    file: str,
-    mark: str,
+def test_a_table_without_its_marks(
+    described: describe.Described, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    damaged = tmp_path / "damaged"
-    damaged.write_text(getattr(describe, file).read_text().replace(mark, ""))
-    monkeypatch.setattr(describe, file, damaged)
-    monkeypatch.setattr(describe, "ROOT", tmp_path)
-    with pytest.raises(ConfigurationError, match=r"damaged has no .*restore"):
+    monkeypatch.setattr(describe, "FORMAT", tmp_path / "format.md")
+    describe.FORMAT.write_text("<!-- options, by make describe -->\n")
+    with pytest.raises(
+        ValueError, match="lacks '<!-- options, by make describe -->' or '<!-- end of options -->'"
+    ):
         describe.texts(described)

@@ -8,7 +8,7 @@ from scipy.stats import binom, chi2
 
 from tests.python.conftest import Program
 from workflow.lib.load import load
-from workflow.tradeoff.prediction import FORETOLD
+from workflow.tradeoff.accuracy import PREDICTION
 
 SEEDS = 50
 REPLICAS = 24
@@ -79,17 +79,17 @@ def test_standard_error_over_seeds_where_a_target_ends_the_run(
 ) -> None:
     """The smallest batches that have an error. tests/cpp/program/stopping_rule_test.cpp measures the effect of the
     rule on means and errors; this test covers programs, with control variates where they have some."""
-    found, foretold = [], []
+    found, predicted = [], []
     for seed in range(SEEDS):
         done = program(name, seed=seed, replicas=2, progress="log", **options)
         assert done.returncode == 0
         result = load(tmp_path / "out.h5")[quantity]
         found.append((float(result.mean), float(result.standard_error), int(result.count)))
-        foretold.append([int(bound) for bound in FORETOLD.search(done.stderr).groups()])
+        predicted.append([int(bound) for bound in PREDICTION.search(done.stderr).groups()])
     values, errors, counts = np.array(found).T
-    least, most = np.array(foretold).T
-    as_foretold = np.count_nonzero((least <= counts) & (counts <= most))
-    assert binom.cdf(as_foretold, SEEDS, 0.95) > 5e-4
+    least, most = np.array(predicted).T
+    as_predicted = np.count_nonzero((least <= counts) & (counts <= most))
+    assert binom.cdf(as_predicted, SEEDS, 0.95) > 5e-4
     # Mutant: the middle of the range, with half the spacing of the looks, an eighth, on either side.
     middle = np.sqrt(least * most)
     assert binom.cdf(np.count_nonzero(abs(counts - middle) < middle / 16), SEEDS, 0.95) < 5e-4

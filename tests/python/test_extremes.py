@@ -160,6 +160,45 @@ def test_mirrored_baths_mirror_the_kinetic_equation(sigma: float, gamma: float, 
         assert abs(one + other) <= error + other_error
 
 
+@pytest.mark.parametrize("sign", [1, -1])
+def test_scatterers_close_to_sigma_1_gain_in_proportion(sign: int) -> None:
+    """From rest, an energy in proportion to 1 - sigma^2 to first order."""
+
+    def gain(k: int) -> float:
+        sigma = sign * (1 - 10.0**-k)
+        result = execute("persistence", {"sigma": repr(sigma), "relaxation-time": 0, "observation-time": 1})[
+            2
+        ]
+        return float(result["scatterer_energy"].mean) / ((1 - abs(sigma)) * (1 + abs(sigma)))
+
+    assert [gain(k) for k in (13, 14, 15)] == pytest.approx([gain(16)] * 3, rel=4e-10)
+    assert gain(8) != pytest.approx(gain(16), rel=4e-10)
+
+
+@pytest.mark.parametrize(("cells", "time", "limit"), [(1, 1e5, 4e-16), (10**6, 0.05, 3e-14)])
+def test_smallest_and_largest_chains_conserve_energy_and_momentum(
+    cells: int, time: float, limit: float
+) -> None:
+    chain = {"cells": cells, "particles-per-cell": 1, "relaxation-time": 0, "observation-time": time}
+    result = execute("persistence", {**chain, "replicas": 2})[2]
+    assert max(float(result[name].mean) for name in ("energy_drift", "momentum_drift")) < limit
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"gamma": 0},
+        {"gamma": 1e-300},
+        {"gamma": 1e-10},
+        {"nu-left": 0},
+        {"temperature-left": 1, "temperature-right": 1e8},
+    ],
+)
+def test_kinetic_currents_are_constant_in_extreme_limits(options: dict[str, object]) -> None:
+    result = execute("boltzmann", {"gamma": 1, "coarsening": 2, "target-error": 1e-6, **options})[2]
+    assert result["current_spread"].mean < 2e-15
+
+
 REFUSED = [
     ("persistence", {"observation-time": 1e300}, "--observation-time"),
     ("persistence", {"temperature": 1e301}, "--temperature"),

@@ -108,7 +108,13 @@ def test_nothing_is_left_where_the_disk_is_full(tmp_path: Path) -> None:
     resource.setrlimit(resource.RLIMIT_FSIZE, (1000, limit[1]))
     try:
         with pytest.raises(OSError, match="File too large"):
-            save(figure, as_csv(pd.DataFrame({"a": [1.0]}), {"a": "1"}), tmp_path / "a", Text("t", "c"), parents)
+            save(
+                figure,
+                as_csv(pd.DataFrame({"a": [1.0]}), {"a": "1"}),
+                tmp_path / "a",
+                Text("t", "c"),
+                parents,
+            )
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limit)
         plt.close(figure)
@@ -119,4 +125,6 @@ def test_imports_are_followed() -> None:
     sources = sources_of(SCRIPT)
     assert {SCRIPT, "workflow/lib/style.py", "workflow/lib/fit.py", "workflow/lib/save.py"} <= {*sources}
     assert "workflow/lib/growth.py" not in sources
-    assert all((ROOT / f"workflow/figures/{panel.script}.py").is_file() for panel in load_plan("smoke").values())
+    assert all(
+        (ROOT / f"workflow/figures/{panel.script}.py").is_file() for panel in load_plan("smoke").values()
+    )

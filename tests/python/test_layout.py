@@ -144,7 +144,7 @@ def test_measured_and_computed_files_have_no_fault(result: Path, program: Progra
         (
             attribute("results/density/tau", "units", "furlong"),
             [
-                "/results/density/tau/attributes/units/value: 'furlong' in 'furlong' is not a power of 1, length"
+                "/results/density/tau/attributes/units/value: 'furlong' in 'furlong' is not a unit; use powers of 1, length"
             ],
         ),
         (

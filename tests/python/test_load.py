@@ -1,14 +1,25 @@
 """The loader takes the order of the dimensions from the dimension scales, and names units of all that it returns."""
 
-import os
-from collections.abc import Mapping
+import errno
+import zlib
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
 
-from workflow.lib.load import FORMAT, FORMAT_VERSION, FormatError, Quantity, load
+from tests.python.conftest import Program
+from workflow.lib.load import (
+    FORMAT,
+    FORMAT_VERSION,
+    FormatError,
+    Quantity,
+    load,
+    load_parameters,
+    load_provenance,
+    results_digest,
+)
 
 TIME, CELL = np.array([1.0, 2.0, 4.0]), np.array([0.5, 1.5, 2.5])
 MEAN = np.arange(9.0).reshape(3, 3)  # a square: lengths do not tell its dimensions apart
@@ -42,50 +53,37 @@ def energy(path: Path) -> Quantity:
     return load(path)["energy"]
 
 
-def test_a_square_has_its_dimensions_in_the_order_of_its_scales(tmp_path: Path, measured: dict) -> None:
-    write(tmp_path / "a.h5", {"time": TIME, "cell": CELL}, measured)
-    write(tmp_path / "b.h5", {"cell": CELL, "time": TIME}, measured)
-    assert list(energy(tmp_path / "a.h5").axes) == ["time", "cell"]
-    assert list(energy(tmp_path / "b.h5").axes) == ["cell", "time"]
-    assert energy(tmp_path / "a.h5").to_xarray()["mean"].sel(time=4, cell=0.5) == MEAN[2, 0]
-    assert energy(tmp_path / "b.h5").to_xarray()["mean"].sel(time=4, cell=0.5) == MEAN[0, 2]
+def test_dimensions_follow_their_scales(tmp_path: Path, measured: dict) -> None:
+    axes = {"time": TIME, "cell": CELL}
+    write(tmp_path / "a.h5", axes, measured)
+    write(tmp_path / "b.h5", dict(reversed(axes.items())), measured)
+    one, other = (energy(tmp_path / name).to_xarray() for name in ("a.h5", "b.h5"))
+    assert one["mean"].dims == ("time", "cell")
+    assert other["mean"].dims == ("cell", "time")
+    assert one["mean"].sel(time=4, cell=0.5) == MEAN[2, 0]
+    assert other["mean"].sel(time=4, cell=0.5) == MEAN[0, 2]
 
 
-def test_xarray_has_units_and_descriptions(tmp_path: Path, measured: dict) -> None:
+def test_xarray_and_frame(tmp_path: Path, measured: dict) -> None:
     write(tmp_path / "a.h5", {"time": TIME, "cell": CELL}, measured)
-    dataset = energy(tmp_path / "a.h5").to_xarray()
-    assert set(dataset.data_vars) == {"mean", "standard_error", "count"}
-    assert all(dataset[name].dims == ("time", "cell") for name in dataset.data_vars)
+    dataset, frame = energy(tmp_path / "a.h5").to_xarray(), energy(tmp_path / "a.h5").to_frame()
+    units = {"time": "time", "cell": "1", "mean": "energy", "standard_error": "energy", "count": "1"}
+    assert [*frame] == [*units]
     for name, array in {**measured, "time": TIME, "cell": CELL}.items():
         np.testing.assert_array_equal(dataset[name], array)
-    units = {"mean": "energy", "standard_error": "energy", "count": "1", "time": "time", "cell": "1"}
-    for name, text in units.items():
-        assert dataset[name].attrs == {"units": text, "description": f"what {name} is"}
-
-
-def test_frame_has_a_row_per_value(tmp_path: Path, measured: dict) -> None:
-    write(tmp_path / "a.h5", {"time": TIME, "cell": CELL}, measured)
-    frame = energy(tmp_path / "a.h5").to_frame()
-    assert list(frame) == ["time", "cell", "mean", "standard_error", "count"]
-    assert len(frame) == 9
+        assert dataset[name].attrs == {"units": units[name], "description": f"what {name} is"}
     row = frame[(frame.time == 4) & (frame.cell == 0.5)]
     assert row[["mean", "standard_error", "count"]].to_numpy().tolist() == [[MEAN[2, 0], MEAN[2, 0] / 10, 7]]
-    assert frame.attrs["units"] == {
-        "time": "time",
-        "cell": "1",
-        "mean": "energy",
-        "standard_error": "energy",
-        "count": "1",
-    }
+    assert frame.attrs["units"] == units
     assert frame.attrs["description"]["mean"] == "what mean is"
 
 
-def test_a_number_and_what_is_computed(tmp_path: Path) -> None:
+def test_a_computed_number(tmp_path: Path) -> None:
     write(tmp_path / "a.h5", {}, {"mean": np.array(2.0), "discretisation_error": np.array(0.5)})
-    frame, dataset = energy(tmp_path / "a.h5").to_frame(), energy(tmp_path / "a.h5").to_xarray()
-    assert frame.to_dict("records") == [{"mean": 2.0, "discretisation_error": 0.5}]
-    assert dataset["mean"].dims == ()
-    assert dataset["discretisation_error"] == 0.5
+    assert energy(tmp_path / "a.h5").to_frame().to_dict("records") == [
+        {"mean": 2.0, "discretisation_error": 0.5}
+    ]
+    assert energy(tmp_path / "a.h5").to_xarray()["mean"].dims == ()
 
 
 def test_dimensions_without_a_scale_of_their_own_are_refused(tmp_path: Path, measured: dict) -> None:
@@ -112,29 +110,83 @@ def test_what_belongs_to_no_dimension_is_refused(tmp_path: Path, measured: dict)
         load(tmp_path / "a.h5")
 
 
-@pytest.mark.parametrize("link", [h5py.ExternalLink("b.h5", "/results"), h5py.SoftLink("/parameters")])
-def test_no_link_is_followed(tmp_path: Path, measured: dict, link: object) -> None:
-    for name in ("a.h5", "b.h5"):
-        write(tmp_path / name, {"time": TIME, "cell": CELL}, measured)
-    with h5py.File(tmp_path / "a.h5", "r+") as file:
-        del file["results"]
-        file["results"] = link
-    with pytest.raises(FormatError, match="results is a link"):
-        load(tmp_path / "a.h5")
+def test_text_names_a_file_too(tmp_path: Path, measured: dict) -> None:
+    write(tmp_path / "a.h5", {"time": TIME, "cell": CELL}, measured)
+    assert load(str(tmp_path / "a.h5")).path == tmp_path / "a.h5"
 
 
-def test_no_pipe_is_waited_for(tmp_path: Path) -> None:
-    os.mkfifo(tmp_path / "a.h5")
-    with pytest.raises(FormatError, match="a pipe lies where a file belongs"):
-        load(tmp_path / "a.h5")
+def test_an_unknown_quantity_is_named_with_those_that_there_are(tmp_path: Path, measured: dict) -> None:
+    write(tmp_path / "a.h5", {"time": TIME, "cell": CELL}, measured)
+    with pytest.raises(
+        FormatError, match=r"a\.h5 has no quantity enrgy; did you mean energy\? There are energy$"
+    ):
+        load(tmp_path / "a.h5")["enrgy"]
 
 
-def test_a_name_that_is_no_text_is_no_result(tmp_path: Path, measured: dict) -> None:
-    """One bit flipped in the name of a dataset, which h5py tells as an error of the system."""
+def attribute(name: str, value: object) -> Callable[[Path], object]:
+    def change(path: Path) -> None:
+        with h5py.File(path, "r+") as file:
+            file["provenance"].attrs[name] = value
+
+    return change
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (Path.unlink, " is missing"),
+        (lambda path: path.write_bytes(path.read_bytes()[:3000]), " is damaged, or not a result file: "),
+        (lambda path: path.write_text("text"), " is damaged, or not a result file: "),
+        (lambda path: h5py.File(path, "w").close(), ": not a result of this project"),
+        (attribute("format", "another"), ": not a result of this project"),
+        (attribute("format_version", 2), ": format version 2, not 3; remake it with make figures"),
+    ],
+)
+def test_what_is_no_result(
+    tmp_path: Path, measured: dict, change: Callable[[Path], object], words: str
+) -> None:
     path = tmp_path / "a.h5"
     write(path, {"time": TIME, "cell": CELL}, measured)
-    content = path.read_bytes()
-    assert b"standard_error" in content
-    path.write_bytes(content.replace(b"standard_error", b"\xf3tandard_error"))
-    with pytest.raises(FormatError, match="is not a result file"):
-        load(path)
+    change(path)
+    for read in (load, load_parameters, load_provenance, results_digest):
+        with pytest.raises(FormatError) as error:
+            read(path)
+        assert str(error.value).startswith(f"{path}{words}")
+        assert "\n" not in str(error.value)
+
+
+def test_unreadable_is_not_damaged(tmp_path: Path, measured: dict, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As root may read everything, h5py is made to fail as it does where permission is denied."""
+
+    def denied(*_: object, **__: object) -> None:
+        raise PermissionError(
+            errno.EACCES, "Unable to synchronously open file (unable to open file: errno = 13)"
+        )
+
+    monkeypatch.setattr(h5py, "File", denied)
+    with pytest.raises(PermissionError, match=r"Permission denied: 'a\.h5'"):
+        load("a.h5")
+
+
+def test_the_digest_of_results_by_hand_and_of_any_change(tmp_path: Path, measured: dict) -> None:
+    path = tmp_path / "a.h5"
+    write(path, {"time": TIME, "cell": CELL}, measured)
+    parts = {
+        "cell": CELL,
+        "count": measured["count"],
+        "mean": MEAN,
+        "standard_error": MEAN / 10,
+        "time": TIME,
+    }
+    content = b"".join(
+        f"/results/energy/{name}".encode() + values.tobytes() for name, values in parts.items()
+    )
+    assert results_digest(path) == f"{zlib.crc32(content):08x}"
+    with h5py.File(path, "r+") as file:
+        file["results/energy/mean"][1, 2] += 1e-9
+    assert results_digest(path) != f"{zlib.crc32(content):08x}"
+
+
+def test_the_digest_is_the_one_that_a_program_states(persistence: Program, tmp_path: Path) -> None:
+    assert persistence().returncode == 0
+    assert results_digest(tmp_path / "out.h5") == load_provenance(tmp_path / "out.h5")["results_digest"]

@@ -12,7 +12,7 @@ from scipy.special import airy
 from sympy import Expr, Matrix, Rational, Symbol, exp, integrate, oo, simplify
 
 from workflow.lib import mode_coupling
-from workflow.lib.mode_coupling import Chain, f_kpz, levy, slow_logarithm
+from workflow.lib.mode_coupling import Chain, f_kpz, levy, logarithm_at, slow_logarithm
 
 CHAINS = [Chain(1.6, 3), Chain(0.8, 1 / 3), Chain(3, 3, 2.5, 0.4), Chain(0.07, 10, 0.3, 2.0)]
 
@@ -189,6 +189,9 @@ def test_drude_weight(chain: Chain) -> None:
 def test_slow_logarithm() -> None:
     expected, _ = quad(lambda q: np.exp(-(q**2) / 5) / q, 0.01, 30, limit=200)
     assert slow_logarithm(0.01, 2.5) == pytest.approx(expected)
+    # Slower ones count by the part of a cell that they cross.
+    expected, _ = quad(lambda q: np.exp(-(q**2) / 5) * min(300.0, 1 / q), 0, 30, points=[1 / 300], limit=200)
+    assert logarithm_at(120, 2.5, 0.4) == pytest.approx(expected)
 
 
 def test_moments_of_f_kpz() -> None:

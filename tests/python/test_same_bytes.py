@@ -9,7 +9,7 @@ import h5py
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.lib.options import arguments
+from workflow.lib.configuration import arguments
 from workflow.lib.plan import Run, load_plan
 
 # Processor features by which the C library selects its functions at run time.

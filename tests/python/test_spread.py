@@ -11,8 +11,8 @@ import pytest
 from scipy.stats import chi2, f
 
 from tests.python.conftest import ROOT
+from workflow.lib.configuration import arguments
 from workflow.lib.load import load
-from workflow.lib.options import arguments
 from workflow.lib.plan import Run, load_plan
 from workflow.tradeoff.measure import shortened
 

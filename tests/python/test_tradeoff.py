@@ -1,98 +1,180 @@
-"""The arithmetic of speed against accuracy: laws, comparisons, differences from the careful setting."""
+"""Trade-off: laws and comparisons on known samples, each measurement in short, and the results with and without a method."""
 
 import ast
-from collections.abc import Collection, Iterator
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
 import pytest
-from scipy.stats import chi2
 
-from workflow import tradeoff
 from workflow.lib.plan import load_plan
-from workflow.tradeoff.accuracy import amplitude, uncertainty
-from workflow.tradeoff.bias import with_bias
-from workflow.tradeoff.efficiency import Estimate, compared, jackknife
-from workflow.tradeoff.measure import QUALITY, shortened
-from workflow.tradeoff.prediction import foretold
+from workflow.tradeoff import accuracy, bench, bias, efficiency, measure, rounding, tradeoff
+from workflow.tradeoff.efficiency import Estimate
 
 REPLICAS = np.array([10, 100, 1000])
+SIGMAS = 4  # combined standard errors that two estimates of one quantity may differ by
 
 
 def test_amplitude_of_the_law_and_of_noisy_errors() -> None:
     seconds = np.array([0.1, 1, 10])
-    assert amplitude(seconds, 3 / np.sqrt(seconds), REPLICAS) == pytest.approx(3)
+    assert accuracy.amplitude(seconds, 3 / np.sqrt(seconds), REPLICAS) == pytest.approx(3)
     # The least precise point has a negligible weight.
-    assert amplitude(seconds, 3 / np.sqrt(seconds) * [2, 1, 1], REPLICAS) == pytest.approx(3, rel=0.01)
+    noisy = 3 / np.sqrt(seconds) * [2, 1, 1]
+    assert accuracy.amplitude(seconds, noisy, REPLICAS) == pytest.approx(3, rel=0.01)
 
 
 def test_uncertainty_over_samples() -> None:
     samples = np.random.default_rng(1).normal(size=(4000, 10))
     errors = samples.std(axis=1, ddof=1) / np.sqrt(10)
-    ratio = np.var(errors) / np.mean(uncertainty(errors, 10) ** 2)
+    ratio = np.var(errors) / np.mean(accuracy.uncertainty(errors, 10) ** 2)
     assert 0.9 < ratio < 1.1
     assert not 0.9 < 2 * ratio < 1.1  # mutant: without the 2
 
 
 @pytest.mark.parametrize(
-    ("times", "share", "part"), [(400, 0.1, "40"), ("20N", 0.5, "10N"), ("2,6", 0.5, "1,3")]
+    ("times", "fraction", "part"),
+    [(400, 0.1, "40"), ("20N", 0.5, "10N"), ("2,6", 0.5, "1,3"), ("4N^2", 0.5, "2N^2")],
 )
-def test_shortened(times: float | str, share: float, part: str) -> None:
-    assert shortened(times, share) == part
-
-
-def test_jackknife_of_a_ratio_over_samples() -> None:
-    generator = np.random.default_rng(1)
-    pulls = []
-    for _ in range(400):
-        rows = generator.normal([3, 2], 0.1, size=(20, 2))
-        value, error = jackknife(lambda row: row[0] / row[1], rows)
-        pulls.append((value - 1.5) / error)
-    low, high = chi2.ppf([5e-4, 1 - 5e-4], 400)
-    assert low < np.sum(np.square(pulls)) < 19 / 17 * high  # squared Student variables have the mean 19/17
-    assert not low < np.sum(np.square(pulls)) / 1.5**2 < 19 / 17 * high  # mutant: errors too large
+def test_shortened(times: float | str, fraction: float, part: str) -> None:
+    assert measure.shortened(times, fraction) == part
 
 
 def test_compared() -> None:
-    plain = Estimate(np.array([1.0, 1.0]), np.array([0.3, 0.0]), 2, 101, "energy")
-    better = Estimate(np.array([1.5, 9.0]), np.array([0.4, 0.1]), 0.5, 51, "energy")
-    row = compared("device", "quantity", plain, better)
+    plain = Estimate(np.array([1.0, 1.0]), np.array([0.3, 0.0]), 101, 2)
+    better = Estimate(np.array([1.5, 9.0]), np.array([0.4, 0.1]), 51, 0.5)
+    row = efficiency.compared("method", "quantity", plain, better)
     assert row["factor"] == pytest.approx(0.09 * 2 / (0.16 * 0.5))
     assert row["factor_error"] == pytest.approx(row["factor"] * np.sqrt(0.02 + 0.04))
-    assert row["units"] == "energy"
     assert row["z"] == pytest.approx(1)  # a value without an error is not compared
     assert row["values"] == 1
 
 
-def test_foretold_is_what_is_said_first() -> None:
-    said = "p: 64 replicas: mu = 1 +- 1, not reached; the run ends after 640 to 900\n"
-    assert foretold(said + said.replace("640", "700")) == (640, 900)
+def test_average_over_samples() -> None:
+    samples = np.random.default_rng(1).normal(size=(20, 4000))
+    estimate = efficiency.averaged(samples, 1)
+    pulls = estimate.value / estimate.error
+    assert np.var(pulls) == pytest.approx(
+        19 / 17, rel=0.1
+    )  # of Student's variable with 19 degrees of freedom
 
 
-def test_bias_is_the_difference_from_the_last_row_of_a_knob() -> None:
-    rows = {"knob": ["a", "a", "b"], "quantity": "q", "value": [3.0, 2.0, 7.0], "error": [0.3, 0.4, 0.7]}
-    table = with_bias(pd.DataFrame(rows))
+def test_bias_is_relative_to_the_last_value_of_a_setting() -> None:
+    rows = {"panel": "p", "start": "", "quantity": "q", "setting": ["a", "a", "b"]}
+    table = bias.with_bias(pd.DataFrame(rows | {"result": [3.0, 2.0, 7.0], "result_error": [0.3, 0.4, 0.7]}))
     assert list(table.bias) == pytest.approx([0.5, 0, 0])
     assert list(table.bias_error) == pytest.approx([0.25, 0.2, 0.1])
-    assert list(table.careful) == [False, True, True]
 
 
-def named_runs(panels: Collection[str]) -> Iterator[tuple[str, str]]:
-    """Pairs of adjacent constants in these modules: the name of a panel and that of a run."""
-    for module in Path(tradeoff.__path__[0]).glob("*.py"):
+def test_every_row_of_the_bias_has_the_setting_that_it_states(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Programs are replaced: the result is the logarithm of the option that is varied."""
+
+    def execute(_run: object, **changes: object) -> SimpleNamespace:
+        (value,) = (float(changes[name]) for name in changes if "-" in name)
+        found = SimpleNamespace(mean=np.log(value), error=0.1, units="1")
+        return SimpleNamespace(result=dict.fromkeys(("mu", "temperature_first", "jump", "alpha"), found))
+
+    monkeypatch.setattr(bias, "execute", execute)
+    table = bias.measure()
+    assert table.result.to_numpy() == pytest.approx(np.log(table.value.to_numpy(dtype=float)))
+    assert set(table.setting) == {"relaxation-time", "momentum-bins", "fit-decades"}
+    assert set(table.start) == {"", "warm", "empty"}
+
+
+def test_error_falls_with_replicas(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By the law 1/sqrt(replicas), in a program at its setting; every program has a panel in the figure."""
+    monkeypatch.setattr(accuracy, "REPLICAS", (30, 480))
+    monkeypatch.setattr(accuracy, "TARGETS", (1e-2, 1e-4))
+    table = accuracy.errors("persistence")
+    few, many = table.itertuples()
+    ratio, error = np.log(few.error / many.error), np.sqrt(1 / (2 * 29) + 1 / (2 * 479))
+    assert abs(ratio - np.log(4)) < SIGMAS * error
+    assert abs(ratio - np.log(16)) > SIGMAS * error  # mutant: 1/replicas
+    assert many.cpu_seconds > few.cpu_seconds > 0
+    assert (accuracy.errors("boltzmann").error.to_numpy() <= accuracy.TARGETS).all()
+    monkeypatch.setattr(accuracy, "errors", lambda program: table.assign(program=program))
+    assert len(accuracy.draw(accuracy.measure().query("program != 'boltzmann'")).axes) == 9
+
+
+def test_named_runs_are_planned() -> None:
+    """Adjacent constants of a module, and names with a slash, that begin with a panel."""
+    panels = load_plan(measure.QUALITY)
+    names = {tuple(name.split("/")) for name in bench.RUNS}
+    for module in Path(tradeoff.__file__).parent.glob("*.py"):
         for node in ast.walk(ast.parse(module.read_text())):
             values = node.args if isinstance(node, ast.Call) else getattr(node, "elts", [])
-            constants = [value.value if isinstance(value, ast.Constant) else None for value in values]
-            for panel, name in pairwise(constants):
-                if panel in panels and isinstance(name, str):
-                    yield panel, name
+            names |= {*pairwise(value.value if isinstance(value, ast.Constant) else None for value in values)}
+    named = {(panel, name) for panel, name in names if panel in panels}
+    assert len(named) > 15
+    assert all(panels[panel].run(name) for panel, name in named)
+    for program, (panel, name, _) in accuracy.SETTINGS.items():
+        assert panels[panel].run(name).program == program
 
 
-def test_every_run_that_is_named_is_planned() -> None:
-    panels = load_plan(QUALITY)
-    names = set(named_runs(panels))
-    assert len(names) > 10
-    for panel, name in names:
-        assert panels[panel].run(name).name == name
+def test_results_with_and_without_a_method() -> None:
+    """Engine against the reference simulator, control variates against the plain means, all particles against one."""
+    rows = [*efficiency.conductivity(measure.planned("fig08", "deterministic_cells=4"), 8, (40, 40))]
+    assert [row["method"] for row in rows] == ["engine", "control variates", "both", "control variates"]
+    one, known = efficiency.spreading("ext07", "spreading_relaxation-time=1", "label")
+    assert all(row["z"] < SIGMAS for row in [*rows, one, known])
+    assert one["factor"] > 10  # of some hundred particles
+
+
+def test_pulse_with_and_without_methods() -> None:
+    run = measure.planned("fig09a", "gaussian")
+    short = {"cells": 21, "particles-per-cell": 5, "pairs-per-replica": 4, "times": "0.016,0.05"}
+    rows = [*efficiency.pulse(replace(run, options=run.options | short), (50, 60))]
+    assert [row["method"] for row in rows] == ["one start for both", "engine", "both"]
+    assert all(row["z"] < SIGMAS + np.log(row["values"]) for row in rows)  # the largest of so many
+    assert rows[0]["factor"] > 1
+
+
+def test_prediction_of_a_target_error() -> None:
+    row = accuracy.predicted("persistence")
+    assert accuracy.FIRST_LOOK < row["least"] <= row["most"]
+    assert row["least"] / 2 < row["replicas"] < 2 * row["most"]
+    assert row["least_seconds"] / row["least"] == pytest.approx(row["most_seconds"] / row["most"])
+
+
+def test_products(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A table with units, printed, and its figure; of the drift, whose growth stays below that of one-sided rounding."""
+    monkeypatch.setattr(rounding, "LONGEST", 5.5)
+    tradeoff.make("ext08", tmp_path / "new folder")
+    lines = (tmp_path / "new folder/ext08.csv").read_text().splitlines()
+    assert lines[0].startswith("# units: ")
+    assert len(lines) == 2 + 2 * 2 * len(rounding.SIGMAS)
+    assert "energy_drift" in capsys.readouterr().out
+    assert all((tmp_path / f"new folder/ext08.{kind}").stat().st_size > 1000 for kind in ("pdf", "png"))
+    drift = pd.read_csv(tmp_path / "new folder/ext08.csv", comment="#")
+    assert (drift.drift < 2.0**-53 * np.sqrt(drift.events)).all()
+
+
+def test_floating_point_types() -> None:
+    table = rounding.measure_types().set_index("type")
+    limits = {"float": 1e-2, "double": 1e-11, "long_double": 1e-16}
+    assert all(0 < table.relative_change[name] < limit for name, limit in limits.items())
+
+
+def test_table_of_benchmarks() -> None:
+    def entry(loop: str, rate: float, aggregate: str = "median") -> dict[str, object]:
+        name = f"closed_{loop}/cells:11/particles_per_cell:20/gamma:0/iterations:100/repeats:3"
+        return {"run_name": name, "aggregate_name": aggregate, "items_per_second": rate, "particles": 220}
+
+    other = {"run_name": "short_run/freeze:1", "aggregate_name": "median", "items_per_second": 1.0}
+    entries = [entry("engine", 1e8), entry("engine", 1, "mean"), entry("reference", 2e7), entry("floor", 2e8)]
+    (row,) = bench.event_loops([*entries, other]).to_dict("records")
+    assert (row["gamma"], row["size"]) == ("N", "cells:11/particles_per_cell:20")
+    assert (row["engine"], row["reference/engine"], row["engine/floor"]) == pytest.approx((10, 5, 2))
+
+
+def test_bare_loops_have_the_options_of_the_chain() -> None:
+    bare = bench.bare(measure.planned("fig01", "paper"))
+    assert bare.program == "bare_open_chain"
+    assert bare.options.keys().isdisjoint(bench.OF_OBSERVERS)
+    assert (
+        bare.options["observation-time"] == measure.planned("fig01", "paper").options["times"].split(",")[-1]
+    )

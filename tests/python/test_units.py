@@ -10,15 +10,15 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
+import pandas as pd
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.python.conftest import ROOT
 from tests.python.scale import ROUNDING, SCALES, Scale, agree
+from workflow.lib.columns import as_csv
 from workflow.lib.load import Result
-from workflow.lib.option_units import option_units
-from workflow.lib.units import WORDS, Units, UnitsError, parse
+from workflow.lib.units import WORDS, Units, UnitsError, option_units, parse
 from workflow.tradeoff.measure import call
 
 factors = st.lists(st.tuples(st.sampled_from(sorted(WORDS)), st.integers(1, 12)), min_size=1, max_size=4)
@@ -53,24 +53,27 @@ def test_dimensions(text: str, length: int, time: int) -> None:
 
 @pytest.mark.parametrize(
     ("text", "words"),
-    [
-        ("furlong", "'furlong' in 'furlong' is not a power of 1, length, time"),
-        ("energy^0", "'energy^0'"),
-        ("energy^-1", "'energy^-1'"),
-        ("energy  time", "'' in 'energy  time'"),
-        ("Energy", "'Energy'"),
-        ("", "'' is not a product"),
-        ("1/time/time", "'1/time/time' is not a product"),
-        ("1/time momentum", "not a product"),  # ambiguous denominator
-        ("(energy)", "not a product"),
-        ("1/()", "not a product"),
-        ("k_B T", "'k_B'"),
-    ],
-)
+    [("furlong", "'furlong' in 'furlong' is not a unit; use powers of 1, length, time"), ("energy^0", "'energy^0'"),
+     ("energy^-1", "'energy^-1'"), ("energy  time", "'' in 'energy  time'"), ("Energy", "'Energy'"), ("k_B T", "'k_B'"),
+     ("", "'' is neither a product"), ("1/time/time", "'1/time/time' is neither a product"),
+     ("1/time momentum", "neither a product"), ("(energy)", "neither a product"), ("1/()", "neither a product")],
+)  # fmt: skip
 def test_other_texts_are_refused(text: str, words: str) -> None:
     with pytest.raises(UnitsError) as error:
         parse(text)
     assert words in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("known", "words"),
+    [
+        ({}, 'the columns n have no units; .* run\\(draw, title, n="1"\\)'),
+        ({"n": "m"}, "column n: 'm' in 'm' is not a unit"),
+    ],
+)
+def test_a_column_without_units_or_with_unknown_ones(known: dict[str, str], words: str) -> None:
+    with pytest.raises(UnitsError, match=words):
+        as_csv(pd.DataFrame({"n": [1.5], "label": ["a"]}), known)
 
 
 def test_scale() -> None:
@@ -128,11 +131,10 @@ COUNTS = {
 def measured(case: str) -> tuple[Result, ...]:
     """Results in the default units, then in those of SCALES."""
     program, options = CASES[case]
-    path = ROOT / "build/bin" / program
-    plain = call(path, **options, progress="none").result
+    plain = call(program, **options, progress="none").result
     given_or_not = {name: value for name, value in plain.parameters.items() if name in option_units()}
     scaled = [
-        call(path, **options | {name: scale.option(name, value) for name, value in given_or_not.items()},
+        call(program, **options | {name: scale.option(name, value) for name, value in given_or_not.items()},
              progress="none").result
         for scale in SCALES
     ]  # fmt: skip

@@ -48,21 +48,30 @@ def halve(path: str) -> Edit:
 
 BROKEN: dict[str, tuple[Edit, str]] = {
     "value edited": (edit_value, f"{RESULT}: its values are not those that were written"),
-    "option edited": (edit_option, f"{RESULT}: stale: --sigma is 0.25 in it and 0.5"),
+    "option edited": (edit_option, f"{RESULT}: stale: --sigma is 0.25 in it, 0.5"),
     "result copied in part": (halve(RESULT), f"{RESULT}: "),
     "result exchanged": (copy("data/smoke/fig03/equal.h5", RESULT), f"{RESULT}: stale: --temperature-left"),
     "result missing": (delete(RESULT), f"{RESULT}: is missing"),
-    "table edited": (append(f"{FIGURE}.csv", "1,2,3\n"), f"{FIGURE}.csv: is not the file that fig03.json names"),
+    "table edited": (
+        append(f"{FIGURE}.csv", "1,2,3\n"),
+        f"{FIGURE}.csv: is not the file that fig03.json names",
+    ),
     "table and record edited": (edit_record, f"{FIGURE}.csv: rendered from its parents it gets other bytes"),
     "picture exchanged": (copy("figures/smoke/fig05.png", f"{FIGURE}.png"), f"{FIGURE}.png: is not the file"),
     "record copied in part": (halve(f"{FIGURE}.json"), f"{FIGURE}.json: "),
     "figure missing": (delete(f"{FIGURE}.svg"), f"{FIGURE}.svg: is missing"),
-    "script": (append("workflow/figures/fig03.py", "# more\n"), "stale: workflow/figures/fig03.py has changed"),
+    "script": (
+        append("workflow/figures/fig03.py", "# more\n"),
+        "stale: workflow/figures/fig03.py has changed",
+    ),
     "packages": (append("uv.lock", "# more\n"), "stale: uv.lock has changed"),
-    "C++ source": (append("cpp/boltzmann/solver.cpp", "// more\n"), "stale: the sources of boltzmann have changed"),
+    "C++ source": (
+        append("cpp/boltzmann/solver.cpp", "// more\n"),
+        "stale: the sources of boltzmann have changed",
+    ),
     "parameter": (
         replace("workflow/config/paper.yaml", "momentum-bins: 240", "momentum-bins: 238"),
-        "stale: --momentum-bins is 240 in it and 238",
+        "stale: --momentum-bins is 240 in it, 238",
     ),
 }
 
@@ -71,7 +80,9 @@ BROKEN: dict[str, tuple[Edit, str]] = {
 def test_what_is_broken_is_named(kept: Clone, name: str) -> None:
     edit, message = BROKEN[name]
     edit(kept)
-    assert f"broken: {message}" in audit(kept, "--panel", "fig03", status=1).replace("fig03.pdf: stale", "stale")
+    assert f"broken: {message}" in audit(kept, "--panel", "fig03", status=1).replace(
+        "fig03.pdf: stale", "stale"
+    )
 
 
 def test_all_of_it_holds(clean: Clone) -> None:
@@ -119,12 +130,29 @@ def test_verify_reruns_a_panel(kept: Clone) -> None:
     """With a fresh build that is already there."""
     shutil.copytree(kept.folder / "build/bin", kept.folder / "build/fresh", dirs_exist_ok=True)
     told = kept.module(
-        "provenance.verify", "--quality", "smoke", "--sample", "1", "--panel", "fig03", "--programs", "build/fresh"
+        "provenance.verify",
+        "--quality",
+        "smoke",
+        "--sample",
+        "1",
+        "--panel",
+        "fig03",
+        "--programs",
+        "build/fresh",
     )
     assert told.endswith("3 results rerun: 0 differ\n")
     edit_value(kept)
     told = kept.module(
-        "provenance.verify", "--quality", "smoke", "--sample", "1", "--panel", "fig03", "--programs", "build/fresh", status=1
+        "provenance.verify",
+        "--quality",
+        "smoke",
+        "--sample",
+        "1",
+        "--panel",
+        "fig03",
+        "--programs",
+        "build/fresh",
+        status=1,
     )
     assert f"{RESULT}: other bytes" in told
 

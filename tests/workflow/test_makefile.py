@@ -52,7 +52,9 @@ def test_a_moved_folder_and_an_unusual_environment_change_nothing(clean: Clone, 
             (moved.folder / path).unlink()
     moved.make("panel", "PANEL=fig03", "QUALITY=smoke", **HOSTILE)
     after = moved.products()
-    assert {path for path in after if after[path] != products[path]} <= {"figures/smoke/fig03.json"}  # the commit
+    assert {path for path in after if after[path] != products[path]} <= {
+        "figures/smoke/fig03.json"
+    }  # the commit
 
 
 def test_an_environment_without_interpreter_is_renewed(moved: Clone) -> None:
@@ -151,7 +153,7 @@ def test_another_seed_has_a_folder_of_its_own_and_is_compared(kept: Clone) -> No
         (("panel",), "PANEL is missing; try make panel PANEL=fig05"),
         (("provenance",), "FILE is missing; try make provenance FILE=figures/standard/fig05.pdf"),
         (("audit", "PANEL=fig5"), "fig5 is not a panel; did you mean fig05?"),
-        (("status", "QUALITY=best"), "QUALITY=best"),
+        (("status", "QUALITY=best"), "best is not a quality; choose one of smoke, standard, paper, deep"),
     ],
 )
 def test_mistyped_options_get_a_line(clean: Clone, arguments: tuple[str, ...], line: str) -> None:
@@ -162,7 +164,9 @@ def test_mistyped_options_get_a_line(clean: Clone, arguments: tuple[str, ...], l
 
 
 def test_an_unknown_panel_gets_a_line(clean: Clone) -> None:
-    assert clean.snakemake("panel", "--config", "panel=fig5", status=1).strip().endswith("did you mean fig05?")
+    assert (
+        clean.snakemake("panel", "--config", "panel=fig5", status=1).strip().endswith("did you mean fig05?")
+    )
 
 
 def test_missing_system_packages_are_named_for_those_without_rights(tmp_path: Path) -> None:
@@ -177,9 +181,16 @@ def test_missing_system_packages_are_named_for_those_without_rights(tmp_path: Pa
     assert done.returncode == 1
     for command in ("sudo apt-get install", "sudo dnf install", "brew install"):
         line = next(line for line in done.stderr.splitlines() if command in line)
-        assert {"cmake", "hdf5"} <= {word for name in line.split() for word in (name, name.removeprefix("lib"), "hdf5" if "hdf5" in name else "")}
+        assert {"cmake", "hdf5"} <= {
+            word
+            for name in line.split()
+            for word in (name, name.removeprefix("lib"), "hdf5" if "hdf5" in name else "")
+        }
 
 
 def test_help_names_every_target(clean: Clone) -> None:
     told = clean.make("help").stdout
-    assert all(f"make {target}" in told for target in ("figures", "panel", "report", "audit", "verify", "status", "crate"))
+    assert all(
+        f"make {target}" in told
+        for target in ("figures", "panel", "report", "audit", "verify", "status", "crate")
+    )

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from tests.workflow.conftest import Clone, Edit, append, files_below, replace
+from tests.workflow.conftest import Clone, files_below, replace
 from tests.workflow.webpage import Page
 from workflow.lib.figure_metadata import embedded, read_panel
 from workflow.lib.plan import load_plan
@@ -71,30 +71,6 @@ def test_every_claim_and_panel_is_there(clone: Clone, page: Page) -> None:
 def test_pictures_are_described(page: Page) -> None:
     assert len(page.pictures) > len(load_plan("smoke"))
     assert all(picture.get("alt") or picture.get("aria-label") for picture in page.pictures)
-
-
-EDITS: dict[str, tuple[Edit, str]] = {
-    "page": (replace(HTML, "</h1>", "!</h1>"), f"{HTML}: written again it gets other bytes"),
-    "claims": (append("data/claims.csv", "\n"), f"{HTML}: written again it gets other bytes"),
-    "panel": (append("figures/smoke/fig05.csv", "0"), f"{HTML}: stale: "),
-}
-
-
-@pytest.mark.parametrize("name", EDITS)
-def test_an_audit_notices_changes(clone: Clone, kept: Clone, name: str) -> None:
-    edit, message = EDITS[name]
-    edit(kept)
-    assert message in "\n".join(map(str, faults(kept)))
-
-
-def faults(clone: Clone) -> list[str]:
-    """Of the report, as the audit finds them."""
-    code = "from workflow.provenance.audit import faults_of_report; print(*faults_of_report('smoke'), sep='\\n')"
-    return clone.run(".venv/bin/python", "-P", "-c", code).stdout.strip().splitlines()
-
-
-def test_an_audit_of_a_new_report_finds_nothing(clone: Clone) -> None:
-    assert faults(clone) == []
 
 
 def gallery(clone: Clone, status: int = 0) -> str:

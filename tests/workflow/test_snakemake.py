@@ -17,7 +17,12 @@ def test_it_gives_the_bytes_of_make_in_any_environment(kept: Clone) -> None:
     paths = [path for path in before if "fig03/" in path or "fig03." in path]
     for path in paths:
         (kept.folder / path).unlink()
-    settings = {"OMP_NUM_THREADS": "2", "PYTHONHASHSEED": "7", "MATPLOTLIBRC": "/nonexistent", "TZ": "Asia/Kathmandu"}
+    settings = {
+        "OMP_NUM_THREADS": "2",
+        "PYTHONHASHSEED": "7",
+        "MATPLOTLIBRC": "/nonexistent",
+        "TZ": "Asia/Kathmandu",
+    }
     kept.run(".venv/bin/snakemake", "--config", "quality=smoke", "--", "figures/smoke/fig03.pdf", **settings)
     after = kept.products()
     assert {path for path in before if before[path] != after[path]} <= {"figures/smoke/fig03.json"}
@@ -35,7 +40,9 @@ def test_a_dry_run_names_what_would_run_and_changes_nothing(kept: Clone) -> None
 def test_a_file_is_a_target(kept: Clone) -> None:
     append("workflow/lib/style.py", "# more\n")(kept)
     assert kept.stale("figures/smoke/fig03.pdf") == {"fig03"}
-    assert "No rule to produce figures/standard/fig03" in kept.snakemake("figures/standard/fig03.pdf", status=1)
+    assert "No rule to produce figures/standard/fig03" in kept.snakemake(
+        "figures/standard/fig03.pdf", status=1
+    )
 
 
 def test_the_summary_has_every_file(clean: Clone) -> None:
@@ -48,7 +55,12 @@ def test_the_summary_has_every_file(clean: Clone) -> None:
 @pytest.mark.parametrize(
     ("change", "old", "new", "path"),
     [
-        ("params", "fig06: {all: {replicas: 8}}", "fig06: {all: {replicas: 9}}", "workflow/config/quality/smoke.yaml"),
+        (
+            "params",
+            "fig06: {all: {replicas: 8}}",
+            "fig06: {all: {replicas: 9}}",
+            "workflow/config/quality/smoke.yaml",
+        ),
         ("code", "--output {params.stem:q}", " --output {params.stem:q}", "workflow/rules/draw.smk"),
     ],
 )

@@ -13,8 +13,8 @@ from tests.python.scale import ROUNDING, SCALES, agree
 from tests.workflow.conftest import Clone
 from workflow.lib import style
 from workflow.lib.columns import BY_ROW, UNITS_LINE, as_csv
-from workflow.lib.load import load
 from workflow.lib.figure_metadata import read_panel
+from workflow.lib.load import load
 from workflow.lib.plan import data_of, load_plan
 from workflow.lib.units import UnitsError
 

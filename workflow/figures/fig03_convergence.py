@@ -4,15 +4,33 @@ from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
 from workflow.lib.caption import BATHS, listed, parameters
-from workflow.lib.convergence import CURRENTS, distance_from_finest, draw_errors
 from workflow.lib.figure import run
 from workflow.lib.load import Result
 
 PAPER_POINTS = 4200
+CURRENTS = ("particle_current", "energy_current", "momentum_flux")
+
+
+def distance_from_finest(table: pd.DataFrame) -> pd.Series:
+    """Largest relative difference of the three currents from those of the last row of the same gamma."""
+    finest = table.groupby("gamma")[list(CURRENTS)].transform("last")
+    return (table[list(CURRENTS)] / finest - 1).abs().max(axis=1)
+
+
+def draw_errors(axes: Axes, table: pd.DataFrame) -> None:
+    """The program's own estimate as lines, the distance from the finest as points."""
+    looks = [("o", style.BLUE, "solid"), ("s", style.VERMILLION, "dashed")]
+    for (gamma, part), (marker, color, dashes) in zip(table.groupby("gamma"), looks, strict=True):
+        label = rf"$\gamma = {gamma:g}$"
+        axes.plot(part.points, part.estimate, color=color, linestyle=dashes, label=f"{label}, estimate")
+        seen = part[part.distance > 0]
+        axes.plot(seen.points, seen.distance, marker, color=color, label=f"{label}, distance from the finest")
+    axes.set(xscale="log", yscale="log", ylabel="relative error of the currents")
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
@@ -43,7 +61,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     table = tabulate(results)
     figure, axes = plt.subplots(figsize=(style.COLUMN, style.HEIGHT))
-    draw_errors(axes, table, "points")
+    draw_errors(axes, table)
     style.label_within_decades(axes.xaxis)
     axes.set(xlabel="points in momentum")
     axes.legend(loc="lower left")

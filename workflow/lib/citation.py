@@ -11,7 +11,7 @@ NEEDED = ("title", "version", "license", "authors")
 
 def citation(root: Path) -> dict[str, Any]:
     """CITATION.cff. Raises ConfigurationError."""
-    cited: dict[str, Any] = read(root, CITATION).content
+    cited: dict[str, Any] = read(root, CITATION).content or {}
     if lacking := [name for name in NEEDED if not cited.get(name)]:
         raise ConfigurationError(f"{CITATION} has no {', '.join(lacking)}")
     return cited

@@ -51,7 +51,7 @@ def _units(table: pd.DataFrame, known: Mapping[str, str]) -> dict[str, str]:
     if without:
         declared = ", ".join(f'{name}="1"' for name in without)
         raise UnitsError(
-            f"no units of the columns {', '.join(without)}; name them after a quantity, or declare their units in the "
+            f"the columns {', '.join(without)} have no units; name them after a quantity, or declare their units in the "
             f"script: run(draw, title, {declared})"
         )
     units = {name: known[name] for name in numbers}

@@ -156,10 +156,9 @@ def embedded(path: Path) -> str:
         raise MetadataError(
             f"{path.name}: only {', '.join(readers)} and .h5 files state where they come from"
         )
+    path.open("rb").close()
     try:
         return readers[path.suffix](path)
-    except OSError:
-        raise
     except Exception as error:  # a damaged file may raise anything in the libraries that read pictures
         first = (str(error).splitlines() or [type(error).__name__])[0]
         raise MetadataError(f"{path.name} does not state where it comes from: {first}") from error

@@ -1,5 +1,6 @@
 """Reads the files that the programs write; the layout is described in docs/format.md."""
 
+import os
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -166,7 +167,7 @@ def _opened(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
         raise FormatError(f"{path}: {error}") from error
     except (OSError, KeyError, RuntimeError, ValueError) as error:
         if isinstance(error, OSError) and error.errno:  # unreadable, which is no fault of its content
-            raise
+            raise OSError(error.errno, os.strerror(error.errno), str(path)) from error
         raise FormatError(f"{path} is damaged, or not a result file: {error}") from error
 
 

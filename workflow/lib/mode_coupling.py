@@ -6,7 +6,7 @@ length. Times and momenta have the units of the model, so that a velocity is a m
 
 from dataclasses import dataclass
 from functools import cache
-from math import cos, gamma, inf, pi, sqrt
+from math import cos, erf, gamma, inf, pi, sqrt
 from pathlib import Path
 
 import numpy as np
@@ -86,12 +86,12 @@ class Chain:
 
     @property
     def heat_amplitude(self) -> float:
-        """A [eqs. M24, M25] of <J_q(t) J_q(0)> per length = T² A t^(-2/3)."""
+        """A [eqs. M25, M26] of <J_q(t) J_q(0)> per length = T² A t^(-2/3)."""
         return 8 / 9 * SECOND_MOMENT * self._amplitude_scale
 
     @property
     def decoupled_heat_amplitude(self) -> float:
-        """A if φ+ were Gaussian [eq. M26], as mode coupling assumes: 14 % less."""
+        """A if φ+ were Gaussian [eq. M27], as mode coupling assumes: 14 % less."""
         return SQUARE_INTEGRAL * self._amplitude_scale
 
     @property
@@ -101,7 +101,7 @@ class Chain:
 
     @property
     def drude_weight(self) -> float:
-        """Long-time limit of <J_n(t) J_n(0)> per length [eq. M29]."""
+        """Long-time limit of <J_n(t) J_n(0)> per length [eq. M30]."""
         return 4 * self.fugacity**2 * self.temperature / self.inertia
 
     @property
@@ -117,7 +117,7 @@ class Chain:
         return peak
 
     def heat_variance(self, time: ArrayLike, diffusion: float = 0.0) -> np.ndarray:
-        """<Q(t)²> per length [eq. M27]."""
+        """<Q(t)²> per length [eq. M28]."""
         t = np.asarray(time, dtype=float)
         variance: np.ndarray = (
             4.5 * self.temperature**2 * self.heat_amplitude * t ** (4 / 3) + 2 * diffusion * t
@@ -131,20 +131,20 @@ class Chain:
         return exponent
 
     def conductivity(self, cells: ArrayLike, opening: float, background: float = 0.0) -> np.ndarray:
-        """κ_0 of an open chain, per cell [eq. M32]: sound is lost after the time opening × length/c."""
+        """κ_0 of an open chain, per cell [eq. M33]: sound is lost after the time opening × length/c."""
         transit = opening * self.cell_length * np.asarray(cells, dtype=float) / self.sound_speed
         kappa: np.ndarray = background + 3 * self.heat_amplitude / self.cell_length * np.cbrt(transit)
         return kappa
 
     @property
     def heat_susceptibility(self) -> float:
-        """Variance of e - Tn per length [eq. M22]; grows with the slow particles."""
+        """Variance of e - Tn per length [eq. M23]; grows with the slow particles."""
         slow = self.fugacity * (2 * self.slow_logarithm - 1)
         return self.temperature**2 * (slow + 1 / (2 * self.cell_length))
 
     @property
     def heat_spreading(self) -> float:
-        """D_h of exp(-D_h |k|^(5/3) t) [eq. M28], the Fourier transform of the heat peak."""
+        """D_h of exp(-D_h |k|^(5/3) t) [eq. M29], the Fourier transform of the heat peak."""
         per_susceptibility = self.temperature**2 * self.heat_amplitude / self.heat_susceptibility
         return float(per_susceptibility * gamma(1 / 3) * cos(pi / 6) * self.sound_speed ** (-1 / 3))
 
@@ -158,6 +158,13 @@ class Chain:
 def slow_logarithm(cut: float, temperature: float = 1.0) -> float:
     """Λ [eq. M2] of momenta |p| > cut."""
     return float(exp1(cut**2 / (2 * temperature)) / 2)
+
+
+def logarithm_at(time: float, temperature: float = 1.0, cell_length: float = 1.0) -> float:
+    """Λ(t) [eq. 13] of the particles that move within a time: 1 more than that of the cut λ/t."""
+    cut = cell_length / time
+    slower = sqrt(pi * temperature / 2) * erf(cut / sqrt(2 * temperature)) / cut
+    return slow_logarithm(cut, temperature) + slower
 
 
 def f_kpz(y: ArrayLike) -> np.ndarray:

@@ -5,83 +5,31 @@ figure is the one that its record names, and gets the same bytes when it is rend
 holds, 1 if something is broken, 3 if something could not be checked, 2 for bad input.
 """
 
-import argparse
 import os
-import subprocess
 import sys
-import tempfile
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
-from workflow.lib.configuration import ConfigurationError
-from workflow.lib.figure_metadata import ROOT
-from workflow.lib.plan import panel_named, with_used
-from workflow.provenance.checks import Fault, Products
+from workflow.provenance.checks import command
 from workflow.provenance.redraw import redraw
-
-REPORT = ("report.html", "report.md")
-
-
-def faults_of_report(quality: str) -> Iterator[Fault]:
-    """Where there is a report: written again, it gets the same bytes."""
-    folder = ROOT / "figures" / quality
-    if (folder / REPORT[0]).is_file():
-        with tempfile.TemporaryDirectory() as again:
-            command = [sys.executable, "-P", "-m", "workflow.report.write", "--quality", quality]
-            command += ["--output", again, "--costs-of", str(folder / REPORT[0])]
-            done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
-            for name in REPORT:
-                path = f"figures/{quality}/{name}"
-                if done.returncode:
-                    yield Fault(path, f"stale: {(done.stderr.strip().splitlines() or ['no message'])[-1]}")
-                elif (folder / name).read_bytes() != (Path(again) / name).read_bytes():
-                    yield Fault(path, "written again it gets other bytes: run make report")
-
-
-def audit(quality: str, panel: str | None) -> tuple[list[Fault], list[str], list[str]]:
-    """Faults; the panels that are there and those that are not. Raises ConfigurationError."""
-    products = Products(quality)
-    if panel:
-        chosen = list(
-            dict.fromkeys(
-                one.name for one in with_used(products.plan, panel_named(products.plan, panel).name)
-            )
-        )
-    else:
-        chosen = list(products.plan)
-    made = [name for name in chosen if products.is_made(name)]
-    faults = [fault for name in made for fault in products.faults(name)]
-    drawn = [
-        name
-        for name in made
-        if panel in (None, name) and products.fault_of_figure(products.plan[name]) is None
-    ]
-    with ThreadPoolExecutor(os.cpu_count()) as threads:
-        faults += filter(None, threads.map(lambda name: redraw(products, name), drawn))
-    if not panel:
-        faults += [*products.obsolete(), *faults_of_report(quality)]
-    return faults, made, [name for name in chosen if name not in made]
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--quality", required=True)
-    parser.add_argument("--panel", help="this panel and the results that it shows")
-    options = parser.parse_args()
-    try:
-        faults, made, missing = audit(options.quality, options.panel)
-    except ConfigurationError as error:
-        print(error, file=sys.stderr)
-        sys.exit(2)
+    options, products, panels = command(__doc__)
+    made = [panel for panel in panels if products.is_made(panel.name)]
+    faults = [fault for panel in made for fault in products.faults(panel.name)]
+    chosen = [panel for panel in made if options.panel in (None, panel.name)]
+    whole = [panel.name for panel in chosen if products.fault_of_figure(panel) is None]
+    with ThreadPoolExecutor(os.cpu_count()) as threads:
+        faults += filter(None, threads.map(lambda name: redraw(products, name), whole))
+    if not options.panel:
+        faults += products.obsolete()
     for fault in faults:
         print(fault)
-    broken = sum(fault.broken for fault in faults)
-    if missing:
+    if missing := [panel.name for panel in panels if panel not in made]:
         print(f"Not made at quality {options.quality}: {', '.join(missing)}")
-    print(
-        f"{len(made)} panels with their results: {broken} broken, {len(faults) - broken} not checked, all else holds"
-    )
+    broken = sum(fault.broken for fault in faults)
+    unchecked = len(faults) - broken
+    print(f"{len(made)} panels with their results: {broken} broken, {unchecked} not checked, all else holds")
     sys.exit(1 if broken else 3 if faults or not made else 0)
 
 

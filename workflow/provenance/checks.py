@@ -3,8 +3,10 @@
 A fault is `broken`, what was found to differ, or `not checked`, what could not be compared here.
 """
 
+import argparse
 import math
 import re
+import sys
 import tomllib
 from collections import defaultdict
 from collections.abc import Iterator
@@ -15,7 +17,7 @@ from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
-from workflow.lib.configuration import at_size
+from workflow.lib.configuration import ConfigurationError, at_size
 from workflow.lib.figure_metadata import (
     BUILD,
     PACKAGES,
@@ -28,7 +30,7 @@ from workflow.lib.figure_metadata import (
     sources_of,
 )
 from workflow.lib.load import FormatError, load_parameters, load_provenance, results_digest
-from workflow.lib.plan import Panel, Run, data_of, data_path, drawings_of, load_plan
+from workflow.lib.plan import Panel, Run, data_of, data_path, drawings_of, load_plan, panel_named, with_used
 from workflow.provenance.build_id import BuildError, built, sources_of_program
 
 SIZES = (2, 3, 5)  # at which two polynomials in N are compared
@@ -52,11 +54,8 @@ class Products:
 
     def is_made(self, panel: str) -> bool:
         """Whether any product of the panel is there; a folder without a panel, as of a crate of another, is no fault."""
-        paths = [
-            *drawings_of(self.quality, panel),
-            *(data_path(self.quality, panel, run.name) for run in self.plan[panel].runs),
-        ]
-        return any((ROOT / path).exists() for path in paths)
+        data = [data_path(self.quality, panel, run.name) for run in self.plan[panel].runs]
+        return any((ROOT / path).exists() for path in [*data, *drawings_of(self.quality, panel)])
 
     def faults(self, panel: str) -> Iterator[Fault]:
         """Of the panel and of its own results, the results first."""
@@ -71,12 +70,10 @@ class Products:
         if not (ROOT / path).exists():
             return Fault(path, "is missing")
         try:
-            (ROOT / path).open("rb").close()
-        except OSError as error:
-            return Fault(path, f"cannot be read: {error.strerror}", broken=False)
-        try:
             stated, parameters = load_provenance(ROOT / path), load_parameters(ROOT / path)
             digest = results_digest(ROOT / path)
+        except OSError as error:
+            return Fault(path, f"cannot be read: {error.strerror}", broken=False)
         except FormatError as error:
             return Fault(path, str(error).removeprefix(f"{ROOT / path}").strip(": "))
         if stated["results_digest"] != digest:
@@ -84,7 +81,7 @@ class Products:
         for name, value in run.options.items():
             if name in parameters and not _agree(value, parameters[name]):
                 return Fault(
-                    path, f"stale: --{name} is {parameters[name]} in it and {value} in the configuration"
+                    path, f"stale: --{name} is {parameters[name]} in it, {value} in the configuration"
                 )
         return _fault_of_build(path, run.program, stated)
 
@@ -96,9 +93,7 @@ class Products:
             stated = read_panel(ROOT / record)
             for path in files:
                 if file_hash(ROOT / path) != stated["files"].get(Path(path).name):
-                    return Fault(
-                        path, f"is not the file that {Path(record).name} names: edited, damaged or replaced"
-                    )
+                    return Fault(path, f"is not the file that {Path(record).name} names: edited or replaced")
             return self._fault_of_parents(panel, stated["parents"], files)
         except MetadataError as error:
             return Fault(record, str(error))
@@ -119,27 +114,42 @@ class Products:
                 return Fault(picture, f"{path}, which it shows, is missing")
             if _hash(ROOT / path) != one["sha256"]:
                 return Fault(picture, f"stale: it shows another {path}")
-        present = {path: _hash(ROOT / path) for path in sources_of(f"workflow/figures/{panel.script}.py")}
-        changed = [
-            path
-            for path in present.keys() | parents.sources.keys()
-            if present.get(path) != parents.sources.get(path)
-        ]
-        if parents.packages != _hash(ROOT / PACKAGES):
-            changed.append(PACKAGES)
+        sources = [*sources_of(f"workflow/figures/{panel.script}.py"), PACKAGES]
+        present, stated = (
+            {path: _hash(ROOT / path) for path in sources},
+            parents.sources | {PACKAGES: parents.packages},
+        )
+        changed = dict(present.items() ^ stated.items())
         return Fault(picture, f"stale: {min(changed)} has changed") if changed else None
 
     def obsolete(self) -> Iterator[Fault]:
         """Results and figures of this quality that the configuration does not name."""
-        known = {
-            path
-            for panel in self.plan
-            for path in (*data_of(self.plan, panel, self.quality), *drawings_of(self.quality, panel))
-        }
+        known = {path for panel in self.plan for path in data_of(self.plan, panel, self.quality)}
+        known |= {path for panel in self.plan for path in drawings_of(self.quality, panel)}
         for pattern in (f"data/{self.quality}/*/*.h5", f"figures/{self.quality}/*.pdf"):
             for path in sorted(str(one.relative_to(ROOT)) for one in ROOT.glob(pattern)):
                 if path not in known:
                     yield Fault(path, "is not in the plan: obsolete or misplaced; remove it")
+
+
+def command(
+    description: str | None, **more: dict[str, Any]
+) -> tuple[argparse.Namespace, Products, list[Panel]]:
+    """Options of a command, --quality and --panel among them; the products; the panel with those whose results it shows, or all.
+    Exits with 2 for bad input."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--quality", required=True)
+    parser.add_argument("--panel", help="this panel and the results that it shows")
+    for name, settings in more.items():
+        parser.add_argument(f"--{name}", **settings)
+    options = parser.parse_args()
+    try:
+        products = Products(options.quality)
+        name = options.panel and panel_named(products.plan, options.panel).name
+    except ConfigurationError as error:
+        print(error, file=sys.stderr)
+        sys.exit(2)
+    return options, products, with_used(products.plan, name) if name else [*products.plan.values()]
 
 
 @cache
@@ -196,7 +206,7 @@ def worst_error(quality: str, panel: Panel) -> str:
         try:
             provenance = load_provenance(ROOT / data_path(quality, panel.name, run.name))
             achieved, target = (float(provenance[name]) for name in ("achieved_error", "target_error"))
-        except (FormatError, KeyError, TypeError, ValueError):
+        except (FormatError, OSError, KeyError, TypeError, ValueError):
             continue
         if target > 0:
             aimed.append((achieved / target, f"{achieved:.1e} of {target:.0e}"))

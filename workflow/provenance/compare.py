@@ -3,7 +3,6 @@
 Status 1 if a result differs by more than its errors.
 """
 
-import argparse
 import shutil
 import subprocess
 import sys
@@ -14,7 +13,8 @@ from scipy.special import stdtr
 
 from workflow.lib.figure_metadata import ROOT, file_hash
 from workflow.lib.load import Quantity, load
-from workflow.lib.plan import Quality, data_path, load_plan, with_used
+from workflow.lib.plan import Quality, data_path
+from workflow.provenance.checks import command
 
 BEFORE = Path("build/before")
 SIGNIFICANCE = 1e-4  # of the largest deviation in a result
@@ -48,7 +48,7 @@ def p_value(one: Path, other: Path) -> float:
 def _tails(a: Quantity, b: Quantity) -> np.ndarray:
     """Two-sided probability of each difference, where both values have an error."""
     computed = a.standard_error is None
-    one, other = (q.discretisation_error if computed else q.error for q in (a, b))
+    one, other = (np.asarray(q.discretisation_error if computed else q.error) for q in (a, b))
     error, difference = np.atleast_1d(np.hypot(one, other)), np.atleast_1d(np.abs(a.mean - b.mean))
     replicas = (
         np.full(error.shape, COMPUTED) if computed else np.atleast_1d(np.minimum(a.replicas, b.replicas))
@@ -58,19 +58,13 @@ def _tails(a: Quantity, b: Quantity) -> np.ndarray:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--quality", required=True)
-    parser.add_argument("--panel", help="only the results that this panel shows")
-    parser.add_argument(
-        "--keep", action="store_true", help="keep the present results for a comparison after the rerun"
-    )
-    options = parser.parse_args()
+    keeping = {"action": "store_true", "help": "keep the present results for a comparison after the rerun"}
+    options, _, panels = command(__doc__, keep=keeping)
     if options.keep:
         keep(options.quality)
         return
-    quality, plan = Quality.of(options.quality), load_plan(options.quality)
+    quality = Quality.of(options.quality)
     against = BEFORE / quality.name if quality.name == quality.base else Path("data") / quality.base
-    panels = with_used(plan, options.panel) if options.panel else plan.values()
     values: dict[str, float] = {}
     for panel in panels:
         for run in panel.runs:

@@ -3,7 +3,6 @@
 Equal inputs give equal bytes: no time of day, host, user or folder is named.
 """
 
-import argparse
 import shlex
 import shutil
 import subprocess
@@ -18,10 +17,10 @@ from rocrate.model import ContextEntity, Entity
 from rocrate.rocrate import ROCrate
 
 from workflow.lib.citation import citation
-from workflow.lib.configuration import ConfigurationError, arguments
+from workflow.lib.configuration import arguments
 from workflow.lib.figure_metadata import PACKAGES, ROOT, file_hash, read_panel
-from workflow.lib.plan import data_of, data_path, drawings_of, panel_named, with_used
-from workflow.provenance.checks import Products
+from workflow.lib.plan import data_of, data_path, drawings_of, with_used
+from workflow.provenance.checks import Products, command
 
 FOLDER = ROOT / "build/crate"
 RUN = "https://w3id.org/ro/wfrun"
@@ -160,24 +159,11 @@ def write(crate: ROCrate, folder: Path) -> Path:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--quality", required=True)
-    parser.add_argument("--panel", help="this panel and the results that it shows")
-    options = parser.parse_args()
-    try:
-        products = Products(options.quality)
-        panels = [panel_named(products.plan, options.panel).name] if options.panel else [*products.plan]
-    except ConfigurationError as error:
-        print(error, file=sys.stderr)
-        sys.exit(2)
-    for fault in (
-        fault
-        for name in panels
-        for one in with_used(products.plan, name)
-        for fault in products.faults(one.name)
-    ):
+    options, products, panels = command(__doc__)
+    for fault in (fault for panel in panels for fault in products.faults(panel.name)):
         sys.exit(f"{fault.path}: {fault.reason}; run make {'panel' if options.panel else 'figures'} first")
-    archive = write(pack(products, panels), FOLDER / options.quality)
+    names = [options.panel] if options.panel else [panel.name for panel in panels]
+    archive = write(pack(products, names), FOLDER / options.quality)
     print(f"The crate is {archive.relative_to(ROOT)}, unpacked in build/crate/{options.quality}")
 
 

@@ -26,8 +26,14 @@ def redraw(products: Products, panel: str) -> Fault | None:
         plan = products.plan
         environment = dict(os.environ)
         clean(environment)
-        command = [sys.executable, "-P", "-m", f"workflow.figures.{plan[panel].script}", "--output", stem]
-        command += ["--configuration", plan[panel].hash(), "--data", *data_of(plan, panel, products.quality)]
+        command = [sys.executable, "-P", "-m", f"workflow.figures.{plan[panel].script}", "--output"]
+        command += [
+            str(stem),
+            "--configuration",
+            plan[panel].hash(),
+            "--data",
+            *data_of(plan, panel, products.quality),
+        ]
         done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
         if done.returncode:
             last = (done.stderr.strip().splitlines() or ["no message"])[-1]

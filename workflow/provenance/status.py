@@ -1,60 +1,28 @@
 """Prints for every panel whether it is fresh, stale (why) or missing, its largest error, and the CPU seconds of its runs."""
 
-import argparse
-import subprocess
 import sys
-from collections import Counter
 
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
-from workflow.cluster.cost import recorded_seconds
 
-from workflow.lib.configuration import ConfigurationError
-from workflow.lib.figure_metadata import ROOT
-from workflow.provenance.checks import Products, worst_error
+from workflow.cluster.cost import recorded_seconds
+from workflow.provenance.checks import command, worst_error
 
 WIDE = 150  # columns, where the output is no terminal
 
 
-def table(quality: str) -> Table:
-    """Raises ConfigurationError."""
-    products = Products(quality)
-    result = Table("panel", "state", "largest error", "CPU s", title=f"Quality {quality}")
-    for name, panel in products.plan.items():
-        if products.is_made(name):
-            faults = [*products.faults(name)]
-            state = f"{faults[0].path.rpartition('/')[2]}: {faults[0].reason}" if faults else "fresh"
-        else:
-            state = "missing"
-        seconds = [recorded_seconds(quality, name, run) for run in panel.runs]
-        cost = f"{sum(filter(None, seconds)):.1f}" if any(seconds) else ""
-        result.add_row(name, escape(state), worst_error(quality, panel), cost)
-    return result
-
-
-def queue() -> str:
-    """By state, the jobs of Slurm that were started here: 12 pending, 3 running. Empty without any, and without Slurm."""
-    command = ["squeue", "--me", "--noheader", "--format=%T %Z"]
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=20, check=False)
-    except (FileNotFoundError, subprocess.TimeoutExpired):
-        return ""
-    jobs = (line.partition(" ") for line in done.stdout.splitlines())
-    states = Counter(state.lower() for state, _, folder in jobs if folder == str(ROOT))
-    return ", ".join(f"{number} {state}" for state, number in sorted(states.items()))
-
-
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--quality", required=True)
-    try:
-        Console(width=None if sys.stdout.isatty() else WIDE).print(table(parser.parse_args().quality))
-    except ConfigurationError as error:
-        print(error, file=sys.stderr)
-        sys.exit(2)
-    if jobs := queue():
-        print(f"Jobs in the queue: {jobs}")
+    options, products, panels = command(__doc__)
+    table = Table("panel", "state", "largest error", "CPU s", title=f"Quality {options.quality}")
+    for panel in panels:
+        state = "fresh" if products.is_made(panel.name) else "missing"
+        if state == "fresh" and (fault := next(products.faults(panel.name), None)):
+            state = f"{fault.path.rpartition('/')[2]}: {fault.reason}"
+        seconds = [recorded_seconds(options.quality, panel.name, run.name) or 0.0 for run in panel.runs]
+        cost = f"{sum(seconds):.1f}" if any(seconds) else ""
+        table.add_row(panel.name, escape(state), worst_error(options.quality, panel), cost)
+    Console(width=None if sys.stdout.isatty() else WIDE).print(table)
 
 
 if __name__ == "__main__":

@@ -3,17 +3,18 @@
 Exit status: 0 if all get the same bytes, 1 if one does not, 2 for bad input, 3 if there is nothing to compare with.
 """
 
-import argparse
+import os
 import random
+import shutil
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from workflow.lib.configuration import ConfigurationError, arguments
+from workflow.lib.configuration import arguments
 from workflow.lib.figure_metadata import ROOT, file_hash
-from workflow.lib.plan import data_path, panel_named, with_used
-from workflow.provenance.checks import Products
+from workflow.lib.plan import data_path
+from workflow.provenance.checks import command
 from workflow.provenance.redraw import redraw
 
 FRESH = ROOT / "build/verify"
@@ -22,34 +23,19 @@ WRITTEN = (0, 4)  # exit statuses of programs that wrote their result
 
 def compile_afresh() -> Path:
     """Folder of the executables, compiled without the compiler's cache."""
-    configure = ["cmake", "-S", "cpp", "-B", FRESH, "-G", "Ninja", "-DCOMPILER_CACHE=none"]
-    for command in (configure, ["ninja", "-C", FRESH, "-t", "clean"], ["ninja", "-C", FRESH]):
-        done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
-        if done.returncode:
-            sys.exit(
-                f"{done.stdout[-2000:]}{done.stderr[-2000:]}make verify: the programs cannot be compiled"
-            )
+    shutil.rmtree(FRESH, ignore_errors=True)
+    settings = os.environ | {"BUILD": str(FRESH), "CCACHE_DISABLE": "1"}
+    subprocess.run(["bash", "workflow/environment/build.sh", "all"], cwd=ROOT, env=settings, check=True)
     return FRESH / "bin"
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--quality", required=True)
-    parser.add_argument("--sample", type=float, required=True, help="fraction of the results")
-    parser.add_argument("--panel", help="all results that this panel shows, and its figure")
-    parser.add_argument("--programs", type=Path, help="executables; compiled afresh where none are given")
-    options = parser.parse_args()
+    options, products, panels = command(
+        __doc__,
+        sample={"type": float, "required": True, "help": "fraction of the results, without a panel"},
+        programs={"type": Path, "help": "executables; compiled afresh where none are given"},
+    )
     quality = options.quality
-    try:
-        products = Products(quality)
-        panels = (
-            with_used(products.plan, panel_named(products.plan, options.panel).name)
-            if options.panel
-            else products.plan.values()
-        )
-    except ConfigurationError as error:
-        print(error, file=sys.stderr)
-        sys.exit(2)
     runs = [(panel.name, run) for panel in panels for run in panel.runs]
     runs = [(panel, run) for panel, run in runs if (ROOT / data_path(quality, panel, run.name)).is_file()]
     if not options.panel:
@@ -63,8 +49,8 @@ def main() -> None:
         for number, (panel, run) in enumerate(runs, 1):
             path, again = data_path(quality, panel, run.name), Path(folder) / "again.h5"
             again.unlink(missing_ok=True)
-            command = [ROOT / programs / run.program, *arguments(run.options), "--output", again]
-            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            rerun = [str(ROOT / programs / run.program), *arguments(run.options), "--output", str(again)]
+            done = subprocess.run(rerun, capture_output=True, text=True, check=False)
             same = done.returncode in WRITTEN and file_hash(again) == file_hash(ROOT / path)
             print(f"{number} of {len(runs)}: {path}: {'same bytes' if same else 'other bytes'}", flush=True)
             differing += [] if same else [path]

@@ -1,7 +1,6 @@
 """The content of the report, from verdicts and products; its looks are up to the templates."""
 
 import base64
-import json
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -128,8 +127,3 @@ def environment(records: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
     return {name: sorted({build[name] for build in builds}) for name in names} | {
         "Python": sorted({one.python for one in parents})
     }
-
-
-def as_script(content: dict[str, Any]) -> str:
-    """JSON that can stand in a script element: no tag ends it."""
-    return json.dumps(content, sort_keys=True, ensure_ascii=False).replace("<", "\\u003c")

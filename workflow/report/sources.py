@@ -1,23 +1,19 @@
 """Where the report's content comes from: products that are as they were written, sources, and the cost of the runs."""
 
-import json
-import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from workflow.cluster.cost import recorded_seconds
-
 from workflow.claims.data import Data
 from workflow.claims.judge import CLAIMS_FILE, Judgement, judge_all
+from workflow.cluster.cost import recorded_seconds
 from workflow.lib.citation import CITATION
 from workflow.lib.figure_metadata import PACKAGES, MetadataError, file_hash, read_panel, sources_of
 from workflow.lib.load import FormatError, load_provenance, results_digest
 from workflow.lib.plan import Panel
 
 SCRIPT = "workflow/report/write.py"
-PARENTS = re.compile(r'<script type="application/json" id="parents">(.*?)</script>', re.DOTALL)
 
 Costs = dict[str, float]  # CPU seconds by panel/run
 
@@ -87,17 +83,8 @@ def source_hashes(root: Path) -> dict[str, str]:
 def measured_costs(quality: str, plan: Mapping[str, Panel]) -> Costs:
     """Those that are known, to three digits."""
     runs = [(panel.name, run) for panel in plan.values() for run in panel.runs]
-    found = {f"{panel}/{run.name}": recorded_seconds(quality, panel, run) for panel, run in runs}
+    found = {f"{panel}/{run.name}": recorded_seconds(quality, panel, run.name) for panel, run in runs}
     return {name: float(f"{seconds:.3g}") for name, seconds in found.items() if seconds}
-
-
-def parents_in(report: Path) -> dict[str, Any]:
-    """What a report says that it was written from. Raises ReportError."""
-    try:
-        found = PARENTS.search(report.read_text())
-        return json.loads(found[1]) if found else {}
-    except (OSError, ValueError) as error:
-        raise ReportError(f"{report} does not say what it was written from: {error}") from error
 
 
 def total(costs: Costs, names: Iterable[str]) -> float | None:

@@ -1,7 +1,7 @@
 """Writes figures/<quality>/report.html and report.md from the products of one quality.
 
-It names every file that it reads by hash; the CPU seconds of the runs are stated facts. With equal inputs the report has equal
-bytes: `make audit` writes it again and compares.
+It names every file that it reads by hash; the CPU seconds of the runs are stated facts. With equal inputs the report has
+equal bytes.
 """
 
 import argparse
@@ -16,18 +16,18 @@ from workflow.lib.files import write_together
 from workflow.lib.plan import Quality
 from workflow.report import content
 from workflow.report.answer import answer
-from workflow.report.sources import Costs, Products, ReportError, measured_costs, parents_in, source_hashes
+from workflow.report.sources import Products, ReportError, measured_costs, source_hashes
 from workflow.report.templates import written
 
 NAMES = ("report.html", "report.md")
 
 
-def pages(quality: str, costs: Costs | None = None, root: Path = ROOT) -> dict[str, str]:
-    """Text by name of the file. Without costs those that were measured here are stated. Raises ReportError."""
+def pages(quality: str, root: Path = ROOT) -> dict[str, str]:
+    """Text by name of the file. Raises ReportError."""
     data = Data(quality, root)
     products = Products(root, quality)
     judgements = products.judged(data)
-    costs = measured_costs(quality, data.plan) if costs is None else costs
+    costs = measured_costs(quality, data.plan)
     context = {
         "quality": quality,
         "effort": Quality.of(quality).arguments,
@@ -45,26 +45,19 @@ def pages(quality: str, costs: Costs | None = None, root: Path = ROOT) -> dict[s
     }
     for path in data.used:
         products.file(path)
-    parents = {"quality": quality, "products": products.used, "sources": source_hashes(root), "costs": costs}
-    context |= {"parents": parents, "parents_script": content.as_script(parents)}
+    context["parents"] = {"products": products.used, "sources": source_hashes(root)}
     return {name: written(name, **context) for name in NAMES}
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--quality", required=True)
-    parser.add_argument("--output", type=Path, help="folder; figures/QUALITY where none is given")
-    parser.add_argument(
-        "--costs-of", type=Path, help="state the costs that this report states, in place of those here"
-    )
-    options = parser.parse_args()
-    folder = options.output or ROOT / "figures" / options.quality
+    quality = parser.parse_args().quality
     try:
-        costs = parents_in(options.costs_of).get("costs") if options.costs_of else None
-        texts = pages(options.quality, costs)
-        write_together({folder / name: text.encode() for name, text in texts.items()})
+        folder = ROOT / "figures" / quality
+        write_together({folder / name: text.encode() for name, text in pages(quality).items()})
     except (ReportError, ConfigurationError) as error:
-        sys.exit(f"make report: {error}")
+        sys.exit(str(error))
 
 
 if __name__ == "__main__":

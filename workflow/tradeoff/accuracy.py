@@ -1,23 +1,19 @@
-"""Error against CPU seconds of every sampling program, and how well the cost of a target error is predicted."""
+"""Error against CPU seconds of every program, and the prediction of what a target error costs."""
 
 import re
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.plan import Run
-from workflow.tradeoff.measure import execute, planned, shortened
+from workflow.tradeoff.measure import Done, execute, planned, shortened
 
 REPLICAS = (10, 32, 110, 360, 1300)
-FIRST_LOOK, BATCH = (
-    64,
-    16,
-)  # replicas before a program first compares its error with the target; added per batch
-REDUCTION = 4  # the target, as a fraction of the error at the first look, is its inverse
+TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)  # of the kinetic equation, which has no replicas
+FIRST_LOOK = 64  # replicas when a program first compares its error with the target
+REDUCTION = 4  # of the error at the first look, to the target
 PREDICTION = re.compile(r"the run ends after (\d+) to (\d+)")  # replicas, in the log of a program
 SETTINGS = {  # a cheap run of every program, and the fraction of its times that is simulated
     "persistence": ("fig05", "paper_sigma=0.5", 0.5),
@@ -29,18 +25,18 @@ SETTINGS = {  # a cheap run of every program, and the fraction of its times that
     "momentum_flux": ("fig04a", "rare", 0.1),
     "steady_profile": ("fig02_upper", "rare", 0.1),
     "particle_count": ("fig01", "short", 0.005),
+    "boltzmann": ("fig03_convergence", "resolution_gamma=50_target-error=1e-05", 1),
 }
-UNITS = {"cpu_seconds": "second", "mean": "column units"}
-PREDICTION_UNITS = dict.fromkeys(("seconds_least", "seconds_most", "seconds"), "second")
 
 
-def short_run(program: str) -> Run:
+def execute_briefly(program: str, **changes: object) -> Done:
     panel, name, fraction = SETTINGS[program]
     run = planned(panel, name)
     times = [key for key in ("relaxation-time", "observation-time", "times") if key in run.options]
-    changes = {key: shortened(run.options[key], fraction) for key in times}
-    pairs = {"pairs-per-replica": 2} if "pairs-per-replica" in run.options else {}
-    return Run(name, program, run.options | changes | pairs)
+    options: dict[str, object] = {key: shortened(run.options[key], fraction) for key in times}
+    if "pairs-per-replica" in run.options:
+        options["pairs-per-replica"] = 2
+    return execute(run, **options, **changes)
 
 
 def amplitude(seconds: np.ndarray, errors: np.ndarray, replicas: np.ndarray) -> float:
@@ -54,65 +50,48 @@ def uncertainty(errors: np.ndarray, replicas: np.ndarray) -> np.ndarray:
     return deviation
 
 
-def sampled(program: str) -> pd.DataFrame:
-    """A row per number of replicas; errors are relative to the most precise mean."""
+def errors(program: str) -> pd.DataFrame:
+    """Relative errors of the target quantity: a row per number of replicas, or per target."""
+    option, values = ("target-error", TARGETS) if program == "boltzmann" else ("replicas", REPLICAS)
     rows = []
-    for replicas in REPLICAS:
-        done = execute(short_run(program), replicas=replicas)
-        name = done.result.provenance["target_quantity"]
-        found = done.result[name]
-        rows.append(
-            (program, name, replicas, done.seconds, float(found.mean), float(found.error), found.units)
-        )
-    columns = ["program", "quantity", "replicas", "cpu_seconds", "mean", "error", "units"]
-    table = pd.DataFrame(rows, columns=columns)
-    table["error"] /= abs(table["mean"].iloc[-1])
-    table["uncertainty"] = uncertainty(table.error, table.replicas)
-    return table.dropna()  # few replicas may not suffice for an error
+    for value in values:
+        done = execute_briefly(program, **{option: value})
+        provenance = done.result.provenance
+        row = {"program": program, "quantity": provenance["target_quantity"], option: value}
+        rows.append(row | {"cpu_seconds": done.seconds, "error": provenance["achieved_error"]})
+    return pd.DataFrame(rows).dropna()  # few replicas may not suffice for an error
 
 
 def measure() -> pd.DataFrame:
-    return pd.concat([sampled(program) for program in SETTINGS], ignore_index=True)
-
-
-def draw_program(axes: Axes, table: pd.DataFrame) -> None:
-    law = amplitude(*(table[name].to_numpy() for name in ("cpu_seconds", "error", "replicas")))
-    axes.errorbar(
-        table.cpu_seconds, table.error, table.uncertainty, fmt="o", color=style.BLUE, **style.POINTS
-    )
-    axes.plot(table.cpu_seconds, law / np.sqrt(table.cpu_seconds), **style.GUIDE)
-    axes.text(0.95, 0.93, f"1 s: {100 * law:.2g} %", transform=axes.transAxes, size=7, ha="right", va="top")
-    axes.set(xscale="log", yscale="log", ylim=(2e-5, 0.5))
-    axes.set_title(f"{table.program.iloc[0]}:\n{table.quantity.iloc[0]}", size=8)
-    axes.minorticks_off()
+    table = pd.concat(map(errors, SETTINGS), ignore_index=True)
+    return table.assign(uncertainty=uncertainty(table.error, table.replicas))
 
 
 def draw(table: pd.DataFrame) -> Figure:
-    size = (2 * style.COLUMN, 2 * style.HEIGHT)
-    figure, axes = plt.subplots(3, 3, figsize=size, sharex=True, sharey=True)
-    for one, (_, part) in zip(axes.flat, table.groupby("program", sort=False), strict=True):
-        draw_program(one, part)
+    figure, axes = plt.subplots(3, 3, figsize=(2 * style.COLUMN, 2 * style.HEIGHT), sharex=True, sharey=True)
+    sampled = table.dropna(subset="replicas").groupby(["program", "quantity"], sort=False)
+    for one, ((program, quantity), rows) in zip(axes.flat, sampled, strict=True):
+        seconds, error, replicas = rows[["cpu_seconds", "error", "replicas"]].to_numpy().T
+        law = amplitude(seconds, error, replicas)
+        one.errorbar(seconds, error, rows.uncertainty, marker="o", color=style.BLUE, **style.POINTS)
+        one.plot(seconds, law / np.sqrt(seconds), **style.GUIDE)
+        one.set(xscale="log", yscale="log", title=f"{program}: {quantity}\n{100 * law:.2g} % in 1 s")
     figure.supxlabel("CPU seconds", size=9)
     figure.supylabel("relative error", size=9)
     return figure
 
 
 def predicted(program: str) -> dict[str, object]:
-    """Replicas and CPU seconds by the prediction at the first look at the error, and those needed."""
-    run = short_run(program)
-    first = execute(run, replicas=FIRST_LOOK)
+    """Replicas and CPU seconds as predicted at the first look at the error, and those needed."""
+    first = execute_briefly(program, replicas=FIRST_LOOK)
     target = first.result.provenance["achieved_error"] / REDUCTION
-    whole = execute(run, replicas=BATCH, target_error=target)
-    found = PREDICTION.search(whole.log)
-    if not found:
-        raise ValueError(f"{program} predicts no number of replicas")
-    replicas = {"least": int(found[1]), "most": int(found[2])}
-    row: dict[str, object] = {"program": program, "target": target}
-    row |= {f"replicas_{bound}": count for bound, count in replicas.items()}
-    row["replicas"] = int(whole.result[whole.result.provenance["target_quantity"]].replicas)
-    row |= {f"seconds_{bound}": first.seconds * count / FIRST_LOOK for bound, count in replicas.items()}
-    return row | {"seconds": whole.seconds}
+    whole = execute_briefly(program, replicas=16, target_error=target)
+    least, most = map(int, PREDICTION.findall(whole.log)[0])
+    needed = int(whole.result[whole.result.provenance["target_quantity"]].replicas)
+    row = {"program": program, "target": target, "least": least, "most": most, "replicas": needed}
+    scale = first.seconds / FIRST_LOOK
+    return row | {"least_seconds": scale * least, "most_seconds": scale * most, "cpu_seconds": whole.seconds}
 
 
 def predictions() -> pd.DataFrame:
-    return pd.DataFrame([predicted(program) for program in SETTINGS])
+    return pd.DataFrame([predicted(program) for program in SETTINGS if program != "boltzmann"])

@@ -5,7 +5,10 @@ import resource
 import subprocess
 import tempfile
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
+
+import numpy as np
 
 from workflow.lib.configuration import arguments
 from workflow.lib.load import Result, load
@@ -23,6 +26,7 @@ class Done:
     log: str  # standard error
 
 
+@cache
 def planned(panel: str, run: str) -> Run:
     return load_plan(QUALITY)[panel].run(run)
 
@@ -37,26 +41,25 @@ def call(program: str, **options: object) -> Done:
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder) / "out.h5"
         named = {name.replace("_", "-"): value for name, value in options.items()} | {"output": output}
-        done, seconds = _timed(program, *arguments(named))
+        done, seconds = _timed(program, arguments(named))
         return Done(load(output), seconds, done.stderr)
 
 
 def execute(run: Run, **changes: object) -> Done:
     """A planned run with changed options, on one thread."""
     threads = {"threads": 1} if run.replicated else {}
-    return call(run.program, **run.options | threads | {"progress": "log"} | changes)
+    return call(run.program, **run.options | {"progress": "log"} | threads | changes)
 
 
-def simulate(simulator: str, *arguments: object) -> tuple[list[list[str]], float]:
-    """Lines of words that a simulator of tests/cpp/reference prints, and its CPU seconds. Raises RuntimeError."""
-    done, seconds = _timed(f"reference_{simulator}", *arguments)
-    return [line.split() for line in done.stdout.splitlines()], seconds
+def simulate(simulator: str, *words: object) -> tuple[np.ndarray, float]:
+    """Lines and columns printed by a simulator of tests/cpp/reference, and its CPU seconds. Raises RuntimeError."""
+    done, seconds = _timed(f"reference_{simulator}", [str(word) for word in words])
+    return np.array([line.split() for line in done.stdout.splitlines()]), seconds
 
 
-def _timed(program: str, *arguments: object) -> tuple[subprocess.CompletedProcess[str], float]:
+def _timed(program: str, words: list[str]) -> tuple[subprocess.CompletedProcess[str], float]:
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    words = [PROGRAMS / program, *map(str, arguments)]
-    done = subprocess.run(words, check=False, capture_output=True, text=True)
+    done = subprocess.run([PROGRAMS / program, *words], check=False, capture_output=True, text=True)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     if done.returncode not in (0, 4):  # 4: the target error was not reached
         raise RuntimeError(done.stderr)

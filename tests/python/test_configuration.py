@@ -1,0 +1,164 @@
+"""What the configuration refuses: one line per error, with file, line, column, key, problem and remedy."""
+
+import math
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+
+from workflow.lib.configuration import FOLDER, ConfigurationError, arguments, at_size, read
+from workflow.lib.plan import load_plan, panel_named
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    return Path(shutil.copytree(FOLDER, tmp_path / "config"))
+
+
+def refusal(folder: Path) -> list[str]:
+    with pytest.raises(ConfigurationError) as raised:
+        load_plan("smoke", folder)
+    return str(raised.value).split("\n")
+
+
+FIG05 = "panels.fig05.common"
+CELLS = "      cells: 11\n"  # of fig05, the first panel that has it
+PAPER = [
+    (CELLS, "      cells: 0\n", f"7: {FIG05}.cells: 0 is invalid; allowed: integer at least 1 and at most 1"),
+    (CELLS, "      cells: true\n", f"{FIG05}.cells: true is invalid; allowed: integer"),
+    (CELLS, "      cels: 11\n", f"7: {FIG05}.cels: persistence has no such option; did you mean cells?"),
+    (CELLS, "      threads: 2\n", f"{FIG05}.threads: persistence has no such option"),
+    (CELLS, "      replicas: 9\n", f"{FIG05}.replicas: belongs into quality/*.yaml"),
+    (CELLS, "      seed: 9\n", f"{FIG05}.seed: follows from the names of panel and run; `make panel SEED=7`"),
+    (CELLS, "\tcells: 11\n", "1: a tab; indent with spaces"),
+    (CELLS, CELLS + CELLS, '7: found duplicate key "cells"'),
+    (CELLS, "      cells: *none\n", "found undefined alias 'none'"),
+    (
+        "sigma: [-1, -0.99",
+        "sigma: [-1, -3",
+        "paper.sigma.1: -3 is invalid; allowed: number at least -1 and at",
+    ),
+    ("sigma: [0, 0.5]", "sigma: [0.5, 0.5]", "all.sigma: [0.5, 0.5] has non-unique elements"),
+    ("sigma: [0, 0.5]", "sigma: []", "all.sigma: [] should be non-empty"),
+    ("cell-length: 1/N", "cell-length: 1/M", '"1/M" is invalid; allowed: number above 0, or 1/N'),
+    ("start: warm", "start: tepid", '"tepid" is unknown; choose one of empty, warm, cold, hot'),
+    ('"200,600,', '"200;600,', "allowed: numbers above 0, ascending, separated by commas"),
+    (
+        ": 0.05N",
+        ": -0.05N",
+        "allowed: number at least 0, or a sum of such, each alone or followed by N or N^2",
+    ),
+    ("momentum: true", "momentum: yes", '"yes" is invalid; allowed: true or false'),
+    ("program: persistence", "program: persistance", '"persistance" is unknown; did you mean persistence?'),
+    ("    program: persistence\n", "", "fig05.series.paper: 'program' is a required property"),
+    ("  fig05:", "  fig 05:", 'panels: "fig 05" is invalid; allowed: letters, digits'),
+    ("    script: fig04\n", "    skript: fig04\n", "panels.fig04a.skript: unknown key; did you mean script?"),
+    (
+        "    uses: [fig09a]",
+        "    uses: [fig09]",
+        "panels.fig10a.uses.0: fig09 has no runs; did you mean fig09",
+    ),
+    ("    uses: [fig09a]", "    uses: [ext02]", "panels.fig10a.uses.0: ext02 has no runs"),
+    (
+        "    uses: [fig09a]",
+        "    common: {}",
+        "panels.fig10a: no runs at quality smoke, and no panel whose runs",
+    ),
+    ("panels:", "panel:", "1: the file: 'panels' is a required property"),
+]
+SMOKE = [
+    ("{replicas: 4}", "{replicas: -1}", "default.replicas: -1 is invalid; allowed: integer at least 1"),
+    ("{replicas: 4}", "{replica: 4}", "has no such option; did you mean replicas?"),
+    ("{replicas: 4}", "{sigma: 0.5}", "default.sigma: belongs into paper.yaml"),
+    (
+        "    dense: {replicas",
+        "    denser: {replicas",
+        "panels.fig05.denser: unknown key; did you mean dense?",
+    ),
+    ("  fig05:", "  fig99:", "panels.fig99: unknown key; did you mean fig"),
+    ("dense: {", "dense: {pairs-per-replica: 2, ", "pairs-per-replica: persistence has no such option"),
+]
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "words"),
+    [("paper.yaml", *each) for each in PAPER] + [("quality/smoke.yaml", *each) for each in SMOKE],
+)
+def test_a_mistake_is_reported_in_one_line(folder: Path, file: str, old: str, new: str, words: str) -> None:
+    before, found, after = (folder / file).read_text().partition(old)
+    assert found
+    (folder / file).write_text(before + new + after)
+    lines = refusal(folder)
+    assert all(re.match(rf"{file}:[0-9]+:[0-9]+: ", line) for line in lines)
+    assert any(words in line for line in lines)
+
+
+def test_the_position_of_a_mistake_and_the_order_of_two(folder: Path) -> None:
+    """A mapping that others merge is reported once, where it is."""
+    (folder / "paper.yaml").write_text(
+        "panels:\n  a:\n    program: persistence\n    common: &shared {cells: 1,\n      sigma: 2}\n"
+        "    series:\n      x: {<<: *shared}\n      y: {gamma: 0, <<: *shared}\n"
+    )
+    (folder / "quality/smoke.yaml").write_text("default: {replicas: 4}\n")
+    first, second = refusal(folder)
+    assert first.startswith("paper.yaml:5:7: panels.a.common.sigma: 2 is invalid")
+    assert second.startswith("paper.yaml:8:11: panels.a.series.y.gamma: 0 is invalid")
+
+
+def test_yaml_of_version_1_2(tmp_path: Path) -> None:
+    (tmp_path / "a.yaml").write_text(
+        "a: 011\nb: yes\nc: 5:00\nd: 1e3\ne: &e {f: 1, g: 2}\nh: {<<: *e, g: 3}\n"
+    )
+    assert read(tmp_path, "a.yaml").content == {
+        **{"a": 11, "b": "yes", "c": "5:00", "d": 1000.0},
+        **{"e": {"f": 1, "g": 2}, "h": {"f": 1, "g": 3}},
+    }
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [(None, "No such file"), (b"", "None is not of type 'object'"), (b"- 1", "[1] is not of type 'object'"),
+     (b"a: \xff", "'utf-8' codec can't decode byte 0xff"), (b"a: \x07", "special characters are not allowed"),
+     (b"a: 1\n---\nb: 1", "but found another document")],
+)  # fmt: skip
+def test_a_file_that_is_no_configuration(folder: Path, content: bytes | None, words: str) -> None:
+    (folder / "paper.yaml").unlink()
+    if content is not None:
+        (folder / "paper.yaml").write_bytes(content)
+    (line,) = refusal(folder)
+    assert "paper.yaml" in line
+    assert words in line
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("fig5", "fig5 is not a panel; did you mean fig05?"),
+        ("xyz", "xyz is not a panel; choose one of fig01, "),
+    ],
+)
+def test_an_unknown_panel(name: str, words: str) -> None:
+    with pytest.raises(ConfigurationError) as raised:
+        panel_named(load_plan("smoke"), name)
+    assert str(raised.value).startswith(words)
+
+
+@pytest.mark.parametrize("name", ["best", "smoke_seed=07", "smoke_replicas=0", "smoke_seed=1_seed=2"])
+def test_an_unknown_quality(name: str) -> None:
+    with pytest.raises(ConfigurationError, match=f"{name} is not a quality; choose one of smoke, standard"):
+        load_plan(name)
+
+
+def test_arguments() -> None:
+    options = {"sigma": -0.5, "zero-total-momentum": True, "random-direction": False, "gamma": "N; touch x"}
+    assert arguments(options) == ["--sigma", "-0.5", "--zero-total-momentum", "--gamma", "N; touch x"]
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [(7, 7), ("5e1", 50), ("0.05N", 0.5), ("400+0.02N^2", 402), ("1e-3N^2+2N+1", 21.1), ("-1", -1),
+     ("N", math.nan), ("1/N", math.nan), ("2N^3", math.nan), ("particles", math.nan)],
+)  # fmt: skip
+def test_a_number_or_polynomial_at_a_size(text: object, value: float) -> None:
+    assert at_size(text, 10) == pytest.approx(value, rel=1e-15, nan_ok=True)

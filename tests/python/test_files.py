@@ -1,0 +1,33 @@
+"""Files are written together or not at all."""
+
+from pathlib import Path
+
+import pytest
+
+from workflow.lib.citation import CITATION, citation
+from workflow.lib.configuration import ConfigurationError
+from workflow.lib.files import in_one_line, write_together
+
+
+def test_a_failure_leaves_the_previous_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    one, other = tmp_path / "one", tmp_path / "other"
+    write_together({one: b"1", other: b"2"})
+    write = Path.write_bytes
+
+    def full(path: Path, content: bytes) -> int:
+        if path.name.startswith("other"):
+            raise OSError(28, "No space left on device", str(path))
+        return write(path, content)
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    with pytest.raises(OSError, match="No space left") as error:
+        write_together({one: b"3", other: b"4"})
+    assert in_one_line(error.value) == f"{other}.tmp: No space left on device"
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == {"one": b"1", "other": b"2"}
+
+
+@pytest.mark.parametrize("text", ["title: a", "title: [", ""])
+def test_a_damaged_citation(tmp_path: Path, text: str) -> None:
+    (tmp_path / CITATION).write_text(text)
+    with pytest.raises(ConfigurationError, match=rf"^{CITATION}"):
+        citation(tmp_path)
