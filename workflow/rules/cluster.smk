@@ -47,13 +47,14 @@ use rule simulate as join with:
         parts_of_run,
     wildcard_constraints:
         run="|".join(sorted({re.escape(name.partition("/")[2]) for name in DIVISION})),
-    threads: 1
     priority: 10**9
+    threads: 1
 
 
 use rule simulate as single with:
+    group:
+        "{panel}"
     threads: 1
-    group: "{panel}"
     resources:
         runtime=minutes,
         mem_mb=memory,
@@ -68,16 +69,17 @@ rule part:
     wildcard_constraints:
         batch="batch[0-9]+",
         part="[0-9]+-[0-9]+",
-    params:
-        program=lambda wildcards: run_of(wildcards).program,
-        options=lambda wildcards: shlex.join(arguments(run_of(wildcards).options)),
-    threads: 1
     priority: lambda wildcards: seconds_of_run(wildcards.panel, run_of(wildcards))
-    group: "{batch}"
+    group:
+        "{batch}"
+    threads: 1
     resources:
         runtime=minutes,
         mem_mb=memory,
         slots=1,
+    params:
+        program=lambda wildcards: run_of(wildcards).program,
+        options=lambda wildcards: shlex.join(arguments(run_of(wildcards).options)),
     shell:
         "build/bin/{params.program} {params.options} --part {wildcards.part} --threads 1 --resume"
         " --checkpoint-interval 600 --progress log --output {output:q} 2> {log:q}"

@@ -10,6 +10,15 @@ def sources_digest(script):
     return digest_of_files([*sources_of(script), PACKAGES])
 
 
+def runs_shown_by(panel):
+    """Their configurations and builds: inputs that an earlier, interrupted invocation remade are no trigger."""
+    panels = with_used(PLAN, panel)
+    return [
+        *(one.hash() for one in panels),
+        *sorted({BUILDS[run.program] for one in panels for run in one.runs}),
+    ]
+
+
 rule draw:
     input:
         lambda wildcards: data_of(PLAN, wildcards.panel, QUALITY),
@@ -23,12 +32,13 @@ rule draw:
         ),
     log:
         "build/logs/{quality}/{panel}.log",
+    priority: 10**9  # before any run
     params:
         script=lambda wildcards: PLAN[wildcards.panel].script,
         sources=lambda wildcards: sources_digest(script_of(wildcards.panel)),
+        runs=lambda wildcards: runs_shown_by(wildcards.panel),
         configuration=lambda wildcards: PLAN[wildcards.panel].hash(),
         stem=lambda wildcards: f"figures/{QUALITY}/{wildcards.panel}",
-    priority: 10**9  # before any run
     shell:
         ".venv/bin/python -P -m workflow.figures.{params.script} --configuration {params.configuration}"
         " --output {params.stem:q} --data {input:q} 2> {log:q}"

@@ -16,14 +16,16 @@ rule simulate:
         "build/logs/{quality}/{panel}/{run}.log",
     benchmark:
         "build/benchmarks/{quality}/{panel}/{run}.tsv"
+    priority: lambda wildcards: seconds_of_run(wildcards.panel, run_of(wildcards))  # the longest first
+    threads: lambda wildcards: max(1, workflow.cores // len(PLAN[wildcards.panel].runs))
     params:
         program=lambda wildcards: run_of(wildcards).program,
         options=lambda wildcards: shlex.join(arguments(run_of(wildcards).options)),
         build=lambda wildcards: BUILDS[run_of(wildcards).program],
-        resume=lambda wildcards, threads: f"--threads {threads} --resume" if run_of(wildcards).replicated else "",
+        resume=lambda wildcards, threads: (
+            f"--threads {threads} --resume" if run_of(wildcards).replicated else ""
+        ),
         join=lambda wildcards, input: shlex.join(["--join", os.path.dirname(input[0])]) if input else "",
-    threads: lambda wildcards: max(1, workflow.cores // len(PLAN[wildcards.panel].runs))
-    priority: lambda wildcards: seconds_of_run(wildcards.panel, run_of(wildcards))  # the longest first
     shell:
         "build/bin/{params.program} {params.options} {params.resume} {params.join} --progress log --output {output:q}"
         " 2> {log:q} || [ $? = 4 ]"
