@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-MADE = ("data/smoke", "figures/smoke", ".snakemake/metadata", "build/bin", "build/id", "build/benchmarks")
+MADE = ("data/smoke", "figures/smoke", ".snakemake/metadata", "build/bin", "build/id")
 OUTPUT = re.compile(r"^\s*output: (.*)$", re.MULTILINE)
 Done = subprocess.CompletedProcess[str]
 

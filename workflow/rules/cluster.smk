@@ -13,8 +13,6 @@ DIVISION = divide(PLAN.values(), 60 * float(config["batch"]), seconds_of_run)
 
 
 localrules:
-    figures,
-    panel,
     join,
     draw,
 
@@ -37,11 +35,6 @@ def minutes(wildcards, attempt):
     return attempt * (1 + math.ceil(2 * seconds / 60))
 
 
-def memory(wildcards, attempt):
-    """MB; the longest chains take 100, Snakemake 200."""
-    return 500 * 2**attempt
-
-
 use rule simulate as join with:
     input:
         parts_of_run,
@@ -57,11 +50,11 @@ use rule simulate as single with:
     threads: 1
     resources:
         runtime=minutes,
-        mem_mb=memory,
+        mem_mb=lambda wildcards, attempt: 500 * 2**attempt,
         slots=1,
 
 
-rule part:
+use rule simulate as part with:
     output:
         temp("build/parts/{quality}/{panel}/{run}/{identity}/{batch}_{part}.part"),
     log:
@@ -69,17 +62,12 @@ rule part:
     wildcard_constraints:
         batch="batch[0-9]+",
         part="[0-9]+-[0-9]+",
-    priority: lambda wildcards: seconds_of_run(wildcards.panel, run_of(wildcards))
     group:
         "{batch}"
     threads: 1
     resources:
         runtime=minutes,
-        mem_mb=memory,
+        mem_mb=lambda wildcards, attempt: 500 * 2**attempt,
         slots=1,
     params:
-        program=lambda wildcards: run_of(wildcards).program,
-        options=lambda wildcards: shlex.join(arguments(run_of(wildcards).options)),
-    shell:
-        "build/bin/{params.program} {params.options} --part {wildcards.part} --threads 1 --resume"
-        " --checkpoint-interval 600 --progress log --output {output:q} 2> {log:q}"
+        join=lambda wildcards: f"--part {wildcards.part} --checkpoint-interval 600",

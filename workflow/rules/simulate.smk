@@ -14,10 +14,6 @@ rule simulate:
         "data/{quality}/{panel}/{run}.h5",
     log:
         "build/logs/{quality}/{panel}/{run}.log",
-    benchmark:
-        "build/benchmarks/{quality}/{panel}/{run}.tsv"
-    priority: lambda wildcards: seconds_of_run(wildcards.panel, run_of(wildcards))  # the longest first
-    threads: lambda wildcards: max(1, workflow.cores // len(PLAN[wildcards.panel].runs))
     params:
         program=lambda wildcards: run_of(wildcards).program,
         options=lambda wildcards: shlex.join(arguments(run_of(wildcards).options)),
