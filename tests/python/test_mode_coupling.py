@@ -306,3 +306,50 @@ def test_speed_in_units_of_cells_and_thermal_velocity() -> None:
     assert Chain(1.6, 3).sound_speed == pytest.approx(
         float(sympy.sqrt(8 * zeta**2 / ((2 * zeta + 3) * (2 * zeta + 1))))
     )
+
+
+@pytest.mark.parametrize("chain", CHAINS)
+def test_amplitude_from_the_width_of_the_sound_peak(chain: Chain) -> None:
+    """G++² times the covariance of φ+² is half the second derivative of the peak's squared width; J_q = Tc/2 (φ+² - φ-²)."""
+    time = 30.0 * chain.cell_length / sqrt(chain.temperature)
+    x = chain.sound_speed * time + 6 * (chain.self_coupling * time) ** (2 / 3) * np.linspace(-1, 1, 8001)
+    step = 0.02 * time
+
+    def squared_width(at: float) -> float:
+        peak = chain.sound_peak(x, at)
+        return float(peak @ (x - chain.sound_speed * at) ** 2 / peak.sum())
+
+    curvature = squared_width(time + step) - 2 * squared_width(time) + squared_width(time - step)
+    squares = curvature / step**2 / 2 / chain.couplings[0] ** 2
+    heat = (chain.temperature * chain.sound_speed / 2) ** 2 * 2 * squares
+    expected = chain.temperature**2 * chain.heat_amplitude * time ** (-2 / 3)
+    assert heat == pytest.approx(expected, rel=1e-3)
+
+
+def test_heat_peak_from_the_heat_current() -> None:
+    """The decay rate of a Fourier mode is k² times the integral of the current's correlation, which moves with ±c."""
+    chain, k = Chain(1.6, 3, slow_logarithm=6.0), 0.1
+    # s = r^3 removes the singularity; a factor exp(-0.001 s) makes the integral converge.
+    decays, _ = quad(
+        lambda r: 3 * np.cos(chain.sound_speed * k * r**3) * np.exp(-1e-3 * r**3), 0, 20, limit=2000
+    )
+    rate = k**2 * chain.temperature**2 * chain.heat_amplitude / chain.heat_susceptibility * decays
+    assert chain.heat_spreading * k ** (5 / 3) == pytest.approx(rate, rel=0.02)
+
+
+@pytest.mark.parametrize("number", [3.0, 8.0])
+def test_heat_susceptibility(number: float) -> None:
+    """Variance of e - Tn per length: particles are a Poisson process of density F/|p|, scatterers have one degree of freedom."""
+    chain = Chain(1.2, 3, 1.7, 0.5, number)
+    rest, _ = quad(
+        lambda q: (
+            ((q**2 / 2 - chain.temperature) ** 2 - chain.temperature**2)
+            / q
+            * np.exp(-(q**2) / (2 * chain.temperature))
+        ),
+        0,
+        20,
+    )
+    particles = 2 * chain.fugacity * (chain.temperature**2 * number + rest)
+    scatterers = chain.temperature**2 / (2 * chain.cell_length)
+    assert chain.heat_susceptibility == pytest.approx(particles + scatterers)
