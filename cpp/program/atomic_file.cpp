@@ -118,15 +118,6 @@ void write_atomically(const std::string& path, const std::string& content) {
   write_atomically(path, std::as_bytes(std::span(content)));
 }
 
-void replace_atomically(const std::string& path, const std::string& former,
-                        std::span<const std::byte> content) {
-  TemporaryFile file(path);
-  file.write(content);
-  file.flush();
-  std::rename(path.c_str(), former.c_str());  // there may be none
-  file.commit();
-}
-
 void require_writable(const std::string& path, std::size_t size) {
   remove_leftovers(path);
   TemporaryFile(path).reserve(size);

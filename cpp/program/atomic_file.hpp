@@ -11,11 +11,6 @@ namespace lorentz {
 void write_atomically(const std::string& path, std::span<const std::byte> content);
 void write_atomically(const std::string& path, const std::string& content);
 
-/// The same, and renames the file that it replaces, if any, to `former`. At every moment one of the two is
-/// whole.
-void replace_atomically(const std::string& path, const std::string& former,
-                        std::span<const std::byte> content);
-
 /// Throws UsageError if write_atomically(path, ...) could not write `size` bytes now; leaves no file, and
 /// removes temporary ones of processes that were killed. Called before a long run, so that the run does not
 /// fail at its end.

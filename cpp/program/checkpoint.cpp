@@ -10,46 +10,31 @@
 #include "program/errors.hpp"
 
 namespace lorentz {
-namespace {
-
-bool exists(const std::string& path) {
-  std::error_code unknown;
-  return std::filesystem::exists(path, unknown);
-}
-
-}  // namespace
 
 Checkpoint::Checkpoint(const std::string& output, RecordFile format)
-    : path_(output + ".checkpoint"), former_(path_ + ".old"), format_(std::move(format)) {}
+    : path_(output + ".checkpoint"), format_(std::move(format)) {}
 
 void Checkpoint::save(const FinishedReplicas& finished) const {
-  if (!finished.empty()) replace_atomically(path_, former_, format_.content(finished));
+  if (!finished.empty()) write_atomically(path_, format_.content(finished));
 }
 
 FinishedReplicas Checkpoint::load(const std::function<void(const std::string&)>& warn) const {
-  std::string damaged;
-  for (const std::string& path : paths()) {
-    if (!exists(path)) continue;
-    const RecordFile::State state = format_.state(path);
-    if (state == RecordFile::State::of_another_run && damaged.empty())
-      throw UsageError(fmt::format(
-          "'{}' cannot be resumed: it belongs to another build or other parameters. Remove it to start "
-          "anew.",
-          path));
-    if (state == RecordFile::State::whole) {
-      if (!damaged.empty()) warn(fmt::format("{} is damaged; the run resumes from '{}'", damaged, path));
-      return format_.read(path);
-    }
-    damaged += fmt::format("{}'{}'", damaged.empty() ? "" : ", ", path);
+  std::error_code unknown;
+  if (!std::filesystem::exists(path_, unknown)) return {};
+  switch (format_.state(path_)) {
+    case RecordFile::State::whole:
+      return format_.read(path_);
+    case RecordFile::State::of_another_run:
+      warn(fmt::format("'{}' is of other options or another build and is ignored; the run starts anew",
+                       path_));
+      return {};
+    case RecordFile::State::damaged:
+      break;
   }
-  if (!damaged.empty())
-    warn(fmt::format("nothing can be resumed from {}: damaged, or of another run; the run starts anew",
-                     damaged));
-  return {};
+  throw UsageError(
+      fmt::format("'{}' cannot be resumed: the file is damaged. Remove it, or leave out --resume.", path_));
 }
 
-void Checkpoint::remove() const {
-  for (const std::string& path : paths()) ::unlink(path.c_str());
-}
+void Checkpoint::remove() const { ::unlink(path_.c_str()); }
 
 }  // namespace lorentz

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <functional>
 #include <string>
 
@@ -9,27 +8,24 @@
 namespace lorentz {
 
 /// File beside the output with the finished replicas of a run, from which an interrupted run resumes with the
-/// loss of at most the replicas in progress. The one before it is kept, so that a whole one exists at every
-/// moment after the first.
+/// loss of at most the replicas in progress.
 class Checkpoint {
  public:
-  /// A checkpoint of another run is rejected.
   Checkpoint(const std::string& output, RecordFile format);
 
   const std::string& path() const { return path_; }
-  std::array<std::string, 2> paths() const { return {path_, former_}; }  // the newest first
 
-  /// Throws UsageError if the file cannot be written; the two before it then stay.
+  /// Throws UsageError if the file cannot be written; the one before it then remains.
   void save(const FinishedReplicas& finished) const;
 
-  /// The replicas of the newest file that is whole; none if there is no such file. Calls warn with one line
-  /// if a damaged file is passed over. Throws UsageError if the newest file is whole and of another run.
+  /// The saved replicas; none without a file, nor from one of another run, of which it warns with one line.
+  /// Throws UsageError if the file is damaged.
   FinishedReplicas load(const std::function<void(const std::string&)>& warn) const;
 
   void remove() const;
 
  private:
-  std::string path_, former_;
+  std::string path_;
   RecordFile format_;
 };
 

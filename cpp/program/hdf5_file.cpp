@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 #include <hdf5_hl.h>
+#include <zlib.h>
 
 #include <algorithm>
+#include <bit>
 #include <functional>
 #include <numeric>
 #include <stdexcept>
@@ -102,6 +104,18 @@ void Hdf5Writer::write(const std::string& path, const Shape& shape, hid_t memory
                            H5Dclose);
   if (size > 0)
     check(H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write a dataset");
+  static_assert(std::endian::native == std::endian::little, "values are stored as they are in memory");
+  const std::size_t bytes = size * H5Tget_size(memory_type);
+  const auto crc = ::crc32_z(0, reinterpret_cast<const Bytef*>(path.data()), path.size());
+  checksums_[path] = {::crc32_z(crc, static_cast<const Bytef*>(values), bytes), path.size() + bytes};
+}
+
+std::string Hdf5Writer::digest(const std::string& group) const {
+  unsigned long digest = 0;
+  for (const auto& [path, checksum] : checksums_)
+    if (path.starts_with(group + '/'))
+      digest = ::crc32_combine(digest, checksum.crc, static_cast<z_off_t>(checksum.bytes));
+  return fmt::format("{:08x}", digest);
 }
 
 void Hdf5Writer::dataset(const std::string& path, const Shape& shape, std::span<const double> values) {
@@ -189,15 +203,22 @@ std::vector<std::uint64_t> Hdf5Reader::counts(const std::string& dataset) const 
   return read<std::uint64_t>(dataset, H5T_STD_U64LE);
 }
 
-std::string Hdf5Reader::text_attribute(const std::string& object, const std::string& name) const {
-  const hid_t id = H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-  if (id < 0) throw UsageError(fmt::format("'{}' has no attribute {} at {}.", path_, name, object));
-  const Hdf5Handle attribute(id, H5Aclose);
-  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
-  const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
-  require(H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 &&
-              elements(space, H5Tget_size(type), name) == 1,
-          name);
+std::optional<AttributeValue> Hdf5Reader::attribute(const std::string& object,
+                                                    const std::string& name) const {
+  if (H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) <= 0) return {};
+  const Hdf5Handle attribute(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                             H5Aclose);
+  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
+  require(elements(space, H5Tget_size(type), name) == 1, name);
+  const auto read = [&](auto value) {
+    require(H5Aread(attribute, type, &value) >= 0, name);
+    return value;
+  };
+  if (H5Tequal(type, H5T_IEEE_F64LE) > 0) return read(double{});
+  if (H5Tequal(type, H5T_STD_I64LE) > 0) return read(std::int64_t{});
+  if (H5Tequal(type, H5T_STD_U64LE) > 0) return read(std::uint64_t{});
+  if (H5Tequal(type, boolean_type()) > 0) return read(std::int8_t{}) != 0;
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0) return {};
   std::string text(H5Tget_size(type), '\0');
   require(H5Aread(attribute, type, text.data()) >= 0, name);
   return text.substr(0, text.find('\0'));

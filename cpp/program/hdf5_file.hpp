@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -49,6 +51,10 @@ class Hdf5Writer {
   /// Attaches a dimension scale to a dimension of a dataset.
   void attach_scale(const std::string& dataset, std::size_t dimension, const std::string& scale);
 
+  /// CRC-32 over the datasets below a group, in ascending order of their paths, as 8 hexadecimal digits: of
+  /// each, the path and then the values as they are stored, row-major and little-endian.
+  std::string digest(const std::string& group) const;
+
   /// Bytes of the file.
   std::vector<std::byte> image();
 
@@ -56,7 +62,14 @@ class Hdf5Writer {
   void write(const std::string& path, const Shape& shape, hid_t memory_type, hid_t file_type,
              const void* values, std::size_t size);
 
+  /// CRC-32 of a number of bytes.
+  struct Checksum {
+    unsigned long crc;
+    std::size_t bytes;
+  };
+
   Hdf5Handle file_;
+  std::map<std::string, Checksum> checksums_;  // of path and values, by path
 };
 
 /// Reads files of Hdf5Writer. Throws UsageError, which names the file, if something is missing or otherwise
@@ -67,7 +80,8 @@ class Hdf5Reader {
 
   std::vector<double> doubles(const std::string& dataset) const;
   std::vector<std::uint64_t> counts(const std::string& dataset) const;
-  std::string text_attribute(const std::string& object, const std::string& name) const;
+  /// None if there is no such attribute, or it has no type that Hdf5Writer writes.
+  std::optional<AttributeValue> attribute(const std::string& object, const std::string& name) const;
 
  private:
   template <class Value>

@@ -6,14 +6,17 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <filesystem>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 
 #include "program/atomic_file.hpp"
 #include "program/build_info.hpp"
 #include "program/interruption.hpp"
+#include "program/parts.hpp"
 #include "program/results.hpp"
 #include "program/standard_streams.hpp"
 
@@ -67,6 +70,8 @@ Program::Program(const std::string& name, const std::string& description)
     : options_(name, description), description_(description) {
   options_.text("--output", output_, "HDF5 file to write, whole or not at all (required)",
                 Options::Role::runtime);
+  options_.flag("--overwrite", overwrite_, "Replace an output of other options or of another build",
+                Options::Role::runtime);
   options_.choice("--progress", progress_, {"auto", "bar", "log", "none"},
                   "Display of progress on standard error", Options::Role::runtime);
   options_.flag("--describe", describe_, "Print options and quantities as JSON, then exit",
@@ -93,6 +98,30 @@ void Program::print_description(const std::vector<Description>& quantities) cons
   print(all.dump(2) + '\n');
 }
 
+/// Throws UsageError if there is an output and it is no result of these options and this build.
+void Program::require_replaceable() const {
+  std::error_code unknown;
+  if (overwrite_ || output_.ends_with(Part::suffix) || !std::filesystem::exists(output_, unknown)) return;
+  const auto refuse = [this](const std::string& why) {
+    throw UsageError(fmt::format(
+        "'{}' exists and is {}. Choose another --output, or replace it with --overwrite.", output_, why));
+  };
+  std::optional<Hdf5Reader> file;
+  try {
+    file.emplace(output_);
+  } catch (const UsageError&) {
+    refuse("no result of this program");
+  }
+  const auto holds = [&](const std::string& group, const std::string& name, const AttributeValue& value) {
+    return file->attribute(group, name) == value;
+  };
+  if (!holds("/provenance", "program", options_.program())) refuse("no result of this program");
+  if (!holds("/provenance", "build_id", std::string(build_info.build_id)))
+    refuse("a result of another build of this program");
+  for (const Parameter& each : options_.parameters())
+    if (!holds("/parameters", each.name, each.value)) refuse("a result with another --" + each.name);
+}
+
 void Program::write_result(const Outcome& outcome) const {
   Hdf5Writer file;
   file.group("/parameters");
@@ -102,7 +131,7 @@ void Program::write_result(const Outcome& outcome) const {
   file.group("/provenance");
   const std::vector<Parameter> provenance = {
       {"format", std::string("lorentz-gas")},
-      {"format_version", std::int64_t{2}},
+      {"format_version", std::int64_t{3}},
       {"program", options_.program()},
       {"source_hash", std::string(build_info.source_hash)},
       {"build_id", std::string(build_info.build_id)},
@@ -120,6 +149,7 @@ void Program::write_result(const Outcome& outcome) const {
   for (const Parameter& entry : provenance) file.attribute("/provenance", entry.name, entry.value);
 
   write_results(file, outcome.results);
+  file.attribute("/provenance", "results_digest", file.digest("/results"));
   write_atomically(output_, file.image());
 }
 
@@ -148,6 +178,7 @@ ExitStatus Program::run_or_throw(int argc, char** argv, const Describe& describe
     options_.require_not_configuration(path);
     require_writable(path, space_asked_for);
   }
+  require_replaceable();
   watch_for_signals();
 
   Progress progress(options_.program(), progress_);

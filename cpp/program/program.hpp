@@ -52,6 +52,7 @@ class Program {
  private:
   ExitStatus run_or_throw(int argc, char** argv, const Describe& describe, const Compute& compute);
   void print_description(const std::vector<Description>& quantities) const;
+  void require_replaceable() const;
   void write_result(const Outcome& outcome) const;
   void write_output(const Outcome& outcome, const std::string& cost) const;
 
@@ -59,6 +60,7 @@ class Program {
   std::string description_;
   bool describe_ = false;
   std::string output_;
+  bool overwrite_ = false;
   std::string progress_ = "auto";
 };
 

@@ -72,7 +72,7 @@ std::vector<std::byte> RecordFile::content(const FinishedReplicas& finished) con
 
 RecordFile::State RecordFile::state(const std::string& path) const {
   if (!is_whole(path)) return State::damaged;
-  const bool belongs = Hdf5Reader(path).text_attribute("/replicas", "identity") == identity_;
+  const bool belongs = Hdf5Reader(path).attribute("/replicas", "identity") == AttributeValue(identity_);
   return belongs ? State::whole : State::of_another_run;
 }
 

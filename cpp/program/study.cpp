@@ -98,7 +98,7 @@ class StudyRun {
         target_(absolute_ ? parameters.target_absolute : parameters.target_error),
         deadline_(parameters.time_limit > 0 ? later(parameters.time_limit) : Clock::time_point::max()),
         rule_{.batch = parameters.replicas, .most = parameters.max_replicas} {
-    for (const std::string& path : checkpoint_.paths()) program.options().require_not_configuration(path);
+    program.options().require_not_configuration(checkpoint_.path());
   }
 
   Outcome run() try {

@@ -32,7 +32,7 @@ def program(tmp_path: Path) -> Program:
     def run(name: str, **options: object) -> subprocess.CompletedProcess:
         named = {key.replace("_", "-"): value for key, value in options.items()}
         return subprocess.run(
-            command_line(name, {"output": "out.h5", "progress": "none", **named}),
+            command_line(name, {"output": "out.h5", "overwrite": True, "progress": "none", **named}),
             cwd=tmp_path,
             env={"PATH": os.defpath},
             capture_output=True,

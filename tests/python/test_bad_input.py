@@ -100,14 +100,13 @@ def test_cost_file_that_cannot_be_written(persistence: Program, tmp_path: Path) 
         ("x.toml", "hard"),
         ("x.cost.json", "x.h5"),
         ("x.h5.checkpoint", "x.h5"),
-        ("x.h5.checkpoint.old", "x.h5"),
     ],
 )
 def test_the_configuration_file_is_not_written_over(
     persistence: Program, tmp_path: Path, config: str, output: str
 ) -> None:
     (tmp_path / "folder").mkdir()
-    for name in ("x.toml", "x.cost.json", "x.h5.checkpoint", "x.h5.checkpoint.old"):
+    for name in ("x.toml", "x.cost.json", "x.h5.checkpoint"):
         (tmp_path / name).write_text("sigma = 0.25\n")
     (tmp_path / "symbolic").symlink_to("x.toml")
     (tmp_path / "hard").hardlink_to(tmp_path / "x.toml")

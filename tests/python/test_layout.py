@@ -166,7 +166,7 @@ def test_measured_and_computed_files_have_no_fault(result: Path, program: Progra
             ["/provenance/attributes/build_id", "does not match"],
         ),
         (attribute("provenance", "source_hash", "G" * 64), ["/provenance/attributes/source_hash"]),
-        (attribute("provenance", "format_version", np.int64(1)), ["format_version", "2 was expected"]),
+        (attribute("provenance", "format_version", np.int64(1)), ["format_version", "3 was expected"]),
         (attribute("provenance", "seed", 1.0), ["/provenance/attributes/seed/dtype"]),
         (attribute("provenance", "host", "here"), ["/provenance/attributes", "'host' was unexpected"]),
         (without_attribute("provenance", "streams"), ["'streams' is a required property"]),

@@ -4,6 +4,7 @@ import json
 import signal
 import subprocess
 import time
+import zlib
 from pathlib import Path
 
 import h5py
@@ -15,10 +16,10 @@ from workflow.lib.load import load
 
 PROVENANCE = {
     "format", "format_version", "program", "source_hash", "build_id", "compiler", "flags", "libraries", "seed",
-    "streams", "events", "target_quantity", "target_error", "achieved_error", "converged",
+    "streams", "events", "target_quantity", "target_error", "achieved_error", "converged", "results_digest",
 }  # fmt: skip
 NOT_PARAMETERS = {"threads", "progress", "config", "describe", "output", "resume", "checkpoint-interval"}
-NOT_PARAMETERS |= {"time-limit", "part", "join"}
+NOT_PARAMETERS |= {"time-limit", "part", "join", "overwrite"}
 
 
 def test_layout(persistence: Program, tmp_path: Path) -> None:
@@ -64,6 +65,30 @@ def test_file_names_no_place_and_no_time(persistence: Program, tmp_path: Path) -
         subprocess.check_output(["hostname"]).strip().decode(),
     ):
         assert text.encode() not in content
+
+
+def digest(file: h5py.File) -> str:
+    """The digest of a file's results, as docs/format.md defines it."""
+    names: list[str] = []
+    file.visit(names.append)
+    crc = 0
+    for path in sorted(f"/{name}" for name in names if isinstance(file[name], h5py.Dataset)):
+        crc = zlib.crc32(file[path][()].tobytes(), zlib.crc32(path.encode(), crc))
+    return f"{crc:08x}"
+
+
+OF_CHAINS = ("particles_per_cell", "relaxation_time", "observation_time", "replicas")
+
+
+@pytest.mark.parametrize("name", ["persistence", "waiting_time", "boltzmann"])
+def test_results_have_a_digest(program: Program, tmp_path: Path, name: str) -> None:
+    assert program(name, **(dict.fromkeys(OF_CHAINS) if name == "boltzmann" else {})).returncode == 0
+    stored = load(tmp_path / "out.h5").provenance["results_digest"]
+    with h5py.File(tmp_path / "out.h5", "r+") as file:
+        assert digest(file) == stored
+        values = next(iter(file["results"].values()))["mean"]
+        values[...] = np.nextafter(values[...], np.inf)
+        assert digest(file) != stored
 
 
 def test_cost_is_kept_beside(persistence: Program, tmp_path: Path) -> None:
@@ -137,9 +162,6 @@ def test_interrupted_and_resumed_run_gives_the_same_bytes(
             assert tally.attrs["units"]
             assert tally.attrs["description"]
 
-    other = program(name, **{**keywords, "sigma": 0.1}, resume=True)
-    assert other.returncode == 2
-    assert "other parameters" in other.stderr
     assert program(name, **keywords, resume=True).returncode == 0
     assert (tmp_path / "out.h5").read_bytes() == (tmp_path / "whole.h5").read_bytes()
     assert not list(tmp_path.glob("*checkpoint*"))
@@ -158,32 +180,49 @@ def test_a_closed_terminal_is_ignored_where_nohup_asks_so(tmp_path: Path) -> Non
     assert (tmp_path / "out.h5").is_file()
 
 
-@pytest.mark.parametrize("damaged", [["checkpoint"], ["checkpoint", "checkpoint.old"]])
-def test_damaged_checkpoint_changes_no_result(
-    persistence: Program, tmp_path: Path, damaged: list[str]
-) -> None:
+def test_checkpoints_that_are_not_resumed(persistence: Program, tmp_path: Path) -> None:
     options = {"replicas": 300, "observation-time": 2000, "checkpoint-interval": 0.1, "threads": 1}
     keywords = {key.replace("-", "_"): value for key, value in options.items()}
-    assert persistence(**keywords, output="whole.h5").returncode == 0
     process = subprocess.Popen(command_line("persistence", {**options, "output": "out.h5"}), cwd=tmp_path,
                                stderr=subprocess.DEVNULL)  # fmt: skip
+    path = tmp_path / "out.h5.checkpoint"
     deadline = time.monotonic() + 30
-    while not (tmp_path / "out.h5.checkpoint.old").exists() and time.monotonic() < deadline:
+    while not path.exists() and time.monotonic() < deadline:
         time.sleep(0.01)
     process.terminate()
     assert process.wait(timeout=10) == 128 + signal.SIGTERM
-    for ending in damaged:
-        path = tmp_path / f"out.h5.{ending}"
-        content = bytearray(path.read_bytes())
-        with h5py.File(path) as file:  # one bit of a number, of which HDF5 says nothing
-            content[file["tallies/energy_drift"].id.get_offset()] ^= 1
-        path.write_bytes(content)
-    result = persistence(**keywords, resume=True)
-    assert result.returncode == 0
-    assert result.stderr.count("\n") == 1
-    assert ("starts anew" if len(damaged) == 2 else "resumes from 'out.h5.checkpoint.old'") in result.stderr
-    assert (tmp_path / "out.h5").read_bytes() == (tmp_path / "whole.h5").read_bytes()
+    whole = path.read_bytes()
+
+    content = bytearray(whole)
+    with h5py.File(path) as file:  # one bit of a number, which HDF5 does not notice
+        content[file["tallies/energy_drift"].id.get_offset()] ^= 1
+    path.write_bytes(content)
+    damaged = persistence(**keywords, resume=True)
+    assert damaged.returncode == 2
+    assert "'out.h5.checkpoint' cannot be resumed: the file is damaged. Remove it" in damaged.stderr
+    assert damaged.stderr.count("\n") == 1
+
+    path.write_bytes(whole)
+    options_changed = persistence(resume=True)
+    assert options_changed.returncode == 0
+    assert options_changed.stderr.count("\n") == 1
+    assert "other options or another build" in options_changed.stderr
+    persistence(output="fresh.h5")
+    assert (tmp_path / "out.h5").read_bytes() == (tmp_path / "fresh.h5").read_bytes()
     assert not list(tmp_path.glob("*checkpoint*"))
+
+
+def test_output_of_other_options_is_kept(persistence: Program, tmp_path: Path) -> None:
+    persistence()
+    before = (tmp_path / "out.h5").read_bytes()
+    refused = persistence(sigma=0.25, overwrite=None)
+    assert refused.returncode == 2
+    assert "another --sigma" in refused.stderr
+    assert "--overwrite" in refused.stderr
+    assert (tmp_path / "out.h5").read_bytes() == before
+    assert persistence(overwrite=None).returncode == 0
+    assert persistence(sigma=0.25).returncode == 0
+    assert load(tmp_path / "out.h5").parameters["sigma"] == 0.25
 
 
 def test_target_error_is_reached_in_whole_batches(persistence: Program, tmp_path: Path) -> None:

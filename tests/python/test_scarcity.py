@@ -74,7 +74,7 @@ LARGE = {
 @pytest.mark.parametrize("progress", ["log", "none"])
 def test_a_result_beyond_the_space_leaves_the_former_one(tmp_path: Path, progress: str) -> None:
     (tmp_path / "out.h5").write_bytes(b"former")
-    options = {**LARGE, "progress": progress}
+    options = {**LARGE, "progress": progress, "overwrite": True}
     result = limited(tmp_path, {resource.RLIMIT_FSIZE: 300_000}, options, "momentum_flux")
     assert result.returncode == 2
     assert "error: 'out.h5' cannot be written: " in result.stderr

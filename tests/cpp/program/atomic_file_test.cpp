@@ -47,15 +47,6 @@ TEST(AtomicFile, WritesAndReplaces) {
   }
 }
 
-TEST(AtomicFile, KeepsTheFormerFileUnderAnotherName) {
-  const TemporaryFolder folder;
-  for (const char* content : {"first", "second", "third"})
-    replace_atomically(folder / "file", folder / "former", std::as_bytes(std::span(content, 5)));
-  EXPECT_EQ(content_of(folder / "file"), "third");
-  EXPECT_EQ(content_of(folder / "former"), "secon");
-  EXPECT_EQ(folder.names(), (Names{"file", "former"}));
-}
-
 TEST(AtomicFile, RemovesWhatKilledProcessesLeft) {
   const TemporaryFolder folder;
   const pid_t child = ::fork();

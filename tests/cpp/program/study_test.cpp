@@ -124,11 +124,6 @@ TEST(Study, ResumesToEqualBytes) {
   EXPECT_EQ(folder.names(), (Names{"whole.h5", "whole.cost.json", "parts.h5.checkpoint"}));
   EXPECT_EQ(run(with("parts.h5", {"--resume"}), interrupted_at(9)), 128 + SIGINT);
 
-  // With other parameters resumption is rejected, and the checkpoint stays.
-  EXPECT_EQ(run(with("parts.h5", {"--resume", "--seed", "2"})), 2);
-  EXPECT_NE(complaints.find("other parameters"), std::string::npos) << complaints;
-  EXPECT_TRUE(folder.names().contains("parts.h5.checkpoint"));
-
   std::set<std::uint64_t> measured;
   EXPECT_EQ(run(with("parts.h5", {"--resume"}),
                 [&](const Replica& replica) {
@@ -143,10 +138,43 @@ TEST(Study, ResumesToEqualBytes) {
   EXPECT_EQ(content_of(folder / "fresh.h5"), content_of(folder / "whole.h5"));
 }
 
+TEST(Study, StartsAnewBesideTheCheckpointOfOtherOptions) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run({"--output", folder / "a.h5"}, interrupted_at(5)), 128 + SIGINT);
+  EXPECT_EQ(run({"--output", folder / "a.h5", "--resume", "--seed", "2"}), 0);
+  EXPECT_NE(complaints.find("other options or another build"), std::string::npos) << complaints;
+  EXPECT_EQ(complaints.find('\n'), complaints.size() - 1) << complaints;
+  EXPECT_EQ(run({"--output", folder / "b.h5", "--seed", "2"}), 0);
+  EXPECT_EQ(content_of(folder / "a.h5"), content_of(folder / "b.h5"));
+  EXPECT_EQ(folder.names(), (Names{"a.h5", "a.cost.json", "b.h5", "b.cost.json"}));
+}
+
+TEST(Study, ReplacesNoResultOfOtherOptions) {
+  const TemporaryFolder folder;
+  const auto never = [](const Replica&) -> double { throw std::logic_error("measured"); };
+  const auto expect_refusal = [&](const Arguments& more, const std::string& reason) {
+    Arguments arguments = {"--output", folder / "a.h5"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const std::string before = content_of(folder / "a.h5");
+    EXPECT_EQ(run(arguments, never), 2);
+    EXPECT_NE(complaints.find(reason), std::string::npos) << complaints;
+    EXPECT_NE(complaints.find("--overwrite"), std::string::npos) << complaints;
+    EXPECT_EQ(complaints.find('\n'), complaints.size() - 1) << complaints;
+    EXPECT_EQ(content_of(folder / "a.h5"), before);
+  };
+  EXPECT_EQ(run({"--output", folder / "a.h5"}), 0);
+  EXPECT_EQ(run({"--output", folder / "a.h5", "--threads", "2"}), 0);  // the result is the same
+  expect_refusal({"--seed", "2"}, "another --seed");
+  EXPECT_EQ(run({"--output", folder / "a.h5", "--seed", "2", "--overwrite"}), 0);
+  expect_refusal({}, "another --seed");
+  write_file(folder / "a.h5", "notes");
+  expect_refusal({}, "no result of this program");
+}
+
 // 0.3 / sqrt(R) / 1.5 is far enough below 0.02 near R = 128; up to there a look follows every 8 replicas.
 TEST(Study, StopsAtTheTargetErrorOnABatchBoundary) {
   const TemporaryFolder folder;
-  const Arguments batches = {"--replicas", "8", "--output", folder / "a.h5"};
+  const Arguments batches = {"--overwrite", "--replicas", "8", "--output", folder / "a.h5"};
   const auto with = [&](const Arguments& more) {
     Arguments arguments = batches;
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -200,7 +228,8 @@ TEST(Study, SaysWhereTheRunEnds) {
 TEST(Study, SaysHowUncertainErrorsFromFewReplicasAre) {
   const TemporaryFolder folder;
   const auto said = [&](const char* replicas, const char* progress) {
-    EXPECT_EQ(run({"--replicas", replicas, "--output", folder / "a.h5", "--progress", progress}), 0);
+    EXPECT_EQ(
+        run({"--overwrite", "--replicas", replicas, "--output", folder / "a.h5", "--progress", progress}), 0);
     return complaints;
   };
   const std::string warning = "example: standard errors from 9 replicas are uncertain by about 25 %\n";
