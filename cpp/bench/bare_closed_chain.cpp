@@ -1,6 +1,6 @@
 /// The event loop of a closed chain without an observer, the baseline of the programs' cost.
 #include "program/study.hpp"
-#include "runs/closed_run.hpp"
+#include "sampling/closed_run.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 /// The event loop of an open chain without an observer, the baseline of the programs' cost.
 #include "program/study.hpp"
-#include "runs/open_run.hpp"
+#include "sampling/open_run.hpp"
 
 namespace {
 

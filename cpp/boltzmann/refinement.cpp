@@ -28,11 +28,9 @@ double difference(const KineticProblem& problem, const KineticSolution& coarse, 
 
 }  // namespace
 
-RefinedSolution refine(const KineticProblem& problem, double target, int coarsening,
-                       const Heartbeat& heartbeat) {
+RefinedSolution refine(const KineticProblem& problem, double target, int coarsening) {
   const auto solve = [&](int level, const KineticSolution* guess) {
-    return std::make_unique<KineticSolution>(problem, Resolution::level(level, problem.gamma), guess,
-                                             heartbeat);
+    return std::make_unique<KineticSolution>(problem, Resolution::level(level, problem.gamma), guess);
   };
   RefinedSolution result{nullptr, solve(-coarsening, nullptr), std::numeric_limits<double>::infinity(), 0};
   result.evaluations = result.fine->evaluations();

@@ -18,7 +18,6 @@ struct RefinedSolution {
 /// injected current divided by 1 + gamma if that is larger, because currents may vanish. Refinement also ends
 /// where it no longer reduces the difference, because of rounding, and at the finest level. It begins at
 /// level 0 of Resolution, or `coarsening` levels below to show the convergence. Throws ConvergenceError.
-RefinedSolution refine(
-    const KineticProblem& problem, double target, int coarsening = 0, const Heartbeat& heartbeat = [] {});
+RefinedSolution refine(const KineticProblem& problem, double target, int coarsening = 0);
 
 }  // namespace lorentz

@@ -83,7 +83,7 @@ Resolution Resolution::level(int level, double gamma) {
 }
 
 KineticSolution::KineticSolution(const KineticProblem& problem, const Resolution& resolution,
-                                 const KineticSolution* guess, const Heartbeat& heartbeat)
+                                 const KineticSolution* guess)
     : problem_(with_exchange(problem)),
       equilibrium_(mean(problem.left, problem.right)),
       momenta_(momentum_panels(problem_, resolution.order)),
@@ -91,7 +91,7 @@ KineticSolution::KineticSolution(const KineticProblem& problem, const Resolution
       collision_(problem_.sigma, equilibrium_, momenta_, wave_number_panels(problem_, resolution.order)),
       left_(injected_flux(problem.left, momenta_.nodes()) - injected_flux(equilibrium_, momenta_.nodes())),
       right_(injected_flux(problem.right, momenta_.nodes()) - injected_flux(equilibrium_, momenta_.nodes())) {
-  iterate(guess != nullptr ? resampled(*guess) : first_guess(), heartbeat);
+  iterate(guess != nullptr ? resampled(*guess) : first_guess());
 }
 
 /// Solution for scattering that reverses every momentum, G(p) = F(-p).
@@ -139,7 +139,7 @@ Flux KineticSolution::scatterer_density(const VectorXd& x, const VectorXd& point
   return collision.scatterer_density(points);
 }
 
-void KineticSolution::iterate(Flux flux, const Heartbeat& heartbeat) {
+void KineticSolution::iterate(Flux flux) {
   constexpr int newton_limit = 100, krylov_limit = 200;
   constexpr double rounding = 3e-14;    // relative residual that rounding permits
   constexpr double acceptable = 1e-10;  // relative residual that suffices if it falls no further
@@ -148,10 +148,7 @@ void KineticSolution::iterate(Flux flux, const Heartbeat& heartbeat) {
   const auto as_flux = [&](const VectorXd& vector) -> Flux {
     return vector.reshaped(flux.rows(), flux.cols());
   };
-  const auto count = [&] {
-    heartbeat();
-    ++evaluations_;
-  };
+  const auto count = [&] { ++evaluations_; };
   const LinearMap linearised = [&](const VectorXd& vector) -> VectorXd {
     count();
     const Flux direction = as_flux(vector);

@@ -38,16 +38,12 @@ struct ConvergenceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Called at every evaluation of the collision operator; stops the computation by throwing.
-using Heartbeat = std::function<void()>;
-
 /// Solution of a KineticProblem by Newton's method, with GMRES for the linear systems.
 class KineticSolution {
  public:
   /// `guess`: a solution at another resolution, from which the iteration starts. Throws ConvergenceError.
-  KineticSolution(
-      const KineticProblem& problem, const Resolution& resolution, const KineticSolution* guess = nullptr,
-      const Heartbeat& heartbeat = [] {});
+  KineticSolution(const KineticProblem& problem, const Resolution& resolution,
+                  const KineticSolution* guess = nullptr);
 
   /// F at positions x in [0, 1], one column each. At a scatterer of a chain, the flux of the arriving
   /// particles.
@@ -65,7 +61,7 @@ class KineticSolution {
   Flux resampled(const KineticSolution& other) const;
   Flux arriving(const Transport& transport, const Flux& source) const;
   double size(const Flux& residual) const;
-  void iterate(Flux flux, const Heartbeat& heartbeat);
+  void iterate(Flux flux);
 
   KineticProblem problem_;
   Reservoir equilibrium_;  // E; fluxes are stored as F - E

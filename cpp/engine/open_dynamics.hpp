@@ -70,7 +70,7 @@ class OpenDynamics {
 /// Advances the chain through everything before `until`, in the order of time. The observer may define
 ///   on_collision(const Collision&)
 ///   on_flight(const Path&)               at every departure; those of the start at time 0
-///   on_injection(End, double time, double u)
+///   on_injection(End, double time, double u)  u of the particle that enters, energy-normalised
 ///   on_exit(End, double time, double u)  announced when the last flight begins, so `time` may exceed `until`
 /// and what it does not define costs nothing. The first call tells of the start's flights too, so an observer
 /// that has to know every particle watches from the beginning. heartbeat(time) is called every 65536

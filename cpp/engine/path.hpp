@@ -13,6 +13,9 @@ struct Window {
   double begin, end;
 };
 
+/// Index of a direction; axes of directions have this order.
+enum Direction : std::size_t { leftwards, rightwards };  // NOLINT(cppcoreguidelines-use-enum-class): indices
+
 /// A straight flight in an open chain, known when it begins. Places are those of OpenChain, in half cells;
 /// a mark is a bond or a scatterer, at a whole number.
 struct Path {
@@ -22,7 +25,8 @@ struct Path {
   std::int64_t first, last;   // marks that are reached; a particle that enters reaches the opening at once
   double time_per_place;
 
-  bool rightwards() const { return direction(velocity) > 0; }
+  Direction direction() const { return lorentz::direction(velocity) > 0 ? Direction::rightwards : leftwards; }
+  bool rightwards() const { return direction() == Direction::rightwards; }
   bool reaches(std::int64_t mark) const { return (mark - first) * (mark - last) <= 0; }
   double time_at(std::int64_t mark) const {
     return departure + std::abs(static_cast<double>(mark) - from) * time_per_place;

@@ -10,13 +10,13 @@
 
 namespace lorentz {
 
-/// The start of a flight.
+/// The start of a flight in a closed chain, after every collision.
 struct Departure {
-  double time;
-  std::uint32_t particle;
-  double velocity;     // u
-  std::int64_t cells;  // to the next scattering, with the sign of the velocity
-  double duration;
+  double time;             // of the departure, as in Collision
+  std::uint32_t particle;  // number, from 0
+  double velocity;         // u, energy-normalised; with m = 1 the momentum
+  std::int64_t cells;      // to the next scattering, with the sign of the velocity
+  double duration;         // time to the next scattering; infinite for a particle at rest
 };
 
 /// A collision and the flight that follows it, on a ring of cells.

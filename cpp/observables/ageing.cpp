@@ -8,8 +8,9 @@
 /// saturates. The total energy, whose mean over initial states is known, is a control variate [eq. 33].
 #include <functional>
 
-#include "runs/closed_study.hpp"
-#include "runs/log_times.hpp"
+#include "sampling/closed_run.hpp"
+#include "sampling/log_times.hpp"
+#include "statistics/control_variates.hpp"
 #include "statistics/fit.hpp"
 
 namespace {
@@ -83,7 +84,7 @@ void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& ru
   record[tallies.total_energy] = run.energy_control();
 }
 
-Estimator energies(const Parameters& parameters, const Tallies& tallies) {
+Group energies(const Parameters& parameters, const Tallies& tallies) {
   const std::vector<double>& times = tallies.time.values;
   const std::vector<double> middles = tallies.window.values;
   Axis decade{"decade", "time", "First time of a decade", {}};
@@ -91,14 +92,17 @@ Estimator energies(const Parameters& parameters, const Tallies& tallies) {
   for (std::size_t k = 0; k + per_decade < times.size(); k += per_decade) decade.values.push_back(times[k]);
   const double fit_from = parameters.log_times.fit_from(parameters.observation_time), last = times.back();
 
-  Formulas formulas;
-  formulas.quantity("scatterer_energy", {tallies.time}, "energy", "Mean kinetic energy of a scatterer",
-                    mean_of(tallies.scatterer));
-  formulas.quantity("particle_energy", {tallies.time}, "energy", "Mean kinetic energy of a particle",
-                    mean_of(tallies.particle));
-  formulas.quantity("scatterer_energy_mean", {tallies.window}, "energy",
-                    "Mean kinetic energy of a scatterer over a window", mean_of(tallies.scatterer_window));
-  formulas.quantity(
+  const Columns measured = columns_of({tallies.scatterer, tallies.particle, tallies.scatterer_window});
+  Group group([=](const Records& records) {
+    return reduce_variance(records, {{measured, columns_of({tallies.total_energy})}});
+  });
+  group.quantity("scatterer_energy", {tallies.time}, "energy", "Mean kinetic energy of a scatterer",
+                 mean_of(tallies.scatterer));
+  group.quantity("particle_energy", {tallies.time}, "energy", "Mean kinetic energy of a particle",
+                 mean_of(tallies.particle));
+  group.quantity("scatterer_energy_mean", {tallies.window}, "energy",
+                 "Mean kinetic energy of a scatterer over a window", mean_of(tallies.scatterer_window));
+  group.quantity(
       "decade_slope", {decade}, "energy", "Slope of scatterer_energy_mean against ln t in a decade",
       [=](RecordView mean) {
         std::vector<double> slopes;
@@ -106,14 +110,10 @@ Estimator energies(const Parameters& parameters, const Tallies& tallies) {
           slopes.push_back(fit_logarithm(middles, mean[tallies.scatterer_window], first, 10 * first));
         return slopes;
       });
-  formulas.quantity("log_slope", "energy", "The same over the last --fit-decades decades",
-                    [=](RecordView mean) {
-                      return fit_logarithm(middles, mean[tallies.scatterer_window], fit_from, last);
-                    });
-  const Columns measured = columns_of({tallies.scatterer, tallies.particle, tallies.scatterer_window});
-  return formulas.estimator([=](const Records& records) {
-    return reduce_variance(records, {{measured, columns_of({tallies.total_energy})}});
+  group.quantity("log_slope", "energy", "The same over the last --fit-decades decades", [=](RecordView mean) {
+    return fit_logarithm(middles, mean[tallies.scatterer_window], fit_from, last);
   });
+  return group;
 }
 
 Study ageing(const Parameters& parameters) {

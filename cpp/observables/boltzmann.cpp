@@ -18,9 +18,8 @@
 #include "boltzmann/fields.hpp"
 #include "boltzmann/moments.hpp"
 #include "boltzmann/refinement.hpp"
-#include "program/interruption.hpp"
+#include "observables/boltzmann/kinetic_parameters.hpp"
 #include "program/program.hpp"
-#include "runs/kinetic_parameters.hpp"
 
 namespace {
 
@@ -127,34 +126,41 @@ Results results(const KineticParameters& parameters, const RefinedSolution& solu
   return results;
 }
 
-Outcome solve(const KineticParameters& parameters, Progress& progress) try {
-  const NothingToSave nothing_to_save;
-  const double target = parameters.target_error;
-  const RefinedSolution solution =
-      refine(parameters.problem(), target, static_cast<int>(parameters.coarsening), stop_after_signal);
-  const bool reached = solution.error <= target;
-  if (!reached)
-    progress.say(fmt::format("target not reached: the currents are known to {:.1e}, not to {:.1e}",
-                             solution.error, target));
-  return {.results = results(parameters, solution),
-          .streams = "none",
-          .events = static_cast<std::uint64_t>(solution.evaluations),
-          .target_quantity = "currents",
-          .target_error = target,
-          .achieved_error = solution.error,
-          .convergence = reached ? Convergence::reached : Convergence::not_reached};
-} catch (const ConvergenceError& error) {
-  throw NumericalError(error.what());
-}
+class KineticProgram : public Program {
+ public:
+  KineticProgram() : Program("boltzmann", "Kinetic equation of the open chain, solved to a given accuracy") {
+    declare(options(), parameters_);
+  }
+
+ private:
+  std::vector<Description> quantities() override {
+    validate(parameters_, options().given("--positions"));
+    return descriptions(parameters_);
+  }
+
+  Outcome compute() override try {
+    quantities();
+    const double target = parameters_.target_error;
+    const RefinedSolution solution =
+        refine(parameters_.problem(), target, static_cast<int>(parameters_.coarsening));
+    const bool reached = solution.error <= target;
+    if (!reached)
+      progress().say(fmt::format("target not reached: the currents are known to {:.1e}, not to {:.1e}",
+                                 solution.error, target));
+    return {.results = results(parameters_, solution),
+            .streams = "none",
+            .events = static_cast<std::uint64_t>(solution.evaluations),
+            .target_quantity = "currents",
+            .target_error = target,
+            .achieved_error = solution.error,
+            .convergence = reached ? Convergence::reached : Convergence::not_reached};
+  } catch (const ConvergenceError& error) {
+    throw NumericalError(error.what());
+  }
+
+  KineticParameters parameters_;
+};
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  Program program("boltzmann", "Kinetic equation of the open chain, solved to a given accuracy");
-  KineticParameters parameters;
-  declare(program.options(), parameters);
-  const auto check = [&] { validate(parameters, program.options().given("--positions")); };
-  return program.run(
-      argc, argv, [&] { return check(), descriptions(parameters); },
-      [&](Progress& progress) { return check(), solve(parameters, progress); });
-}
+int main(int argc, char** argv) { return KineticProgram().run(argc, argv); }

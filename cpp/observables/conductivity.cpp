@@ -10,17 +10,19 @@
 /// = N are the only randomness, and for gamma < N the scattering martingales of the end scatterers [eq. 32].
 /// Quantities named *_plain do without. Stationarity is tested by the differences between the halves of the
 /// window [eq. 51], and by blocking, for which blocks must be longer than the correlation time [eq. 50].
+#include <gsl/gsl_statistics_double.h>
+
 #include <cmath>
 #include <functional>
 #include <limits>
 
+#include "observables/conductivity/blocking.hpp"
+#include "observables/conductivity/ends_and_openings.hpp"
+#include "observables/conductivity/hotelling.hpp"
+#include "observables/conductivity/window_means.hpp"
 #include "program/study.hpp"
-#include "runs/ends_and_openings.hpp"
-#include "runs/open_run.hpp"
-#include "runs/window_means.hpp"
-#include "statistics/blocking.hpp"
-#include "statistics/correlation_coefficient.hpp"
-#include "statistics/hotelling.hpp"
+#include "sampling/open_run.hpp"
+#include "statistics/control_variates.hpp"
 
 namespace {
 
@@ -32,7 +34,7 @@ struct Parameters : OpenParameters {
 
 const WindowTallies of_window;
 
-ReducedRecords reduced(const Records& records) {
+Group::Prepared reduced(const Records& records) {
   return reduce_variance(records, {{of_window.measured(), of_window.controls()}});
 }
 
@@ -41,7 +43,7 @@ double rise(double first, double last) {
   return first == last ? std::numeric_limits<double>::quiet_NaN() : last - first;
 }
 
-Formulas<> conductivity_formulas(double cells, const std::string& suffix, const std::string& remark) {
+void add_conductivity(Group& group, double cells, const std::string& suffix, const std::string& remark) {
   const auto per_degree = [](RecordView mean) {
     return -mean[of_window.energy_current] /
            rise(mean[of_window.temperature][0], mean[of_window.temperature][1]);
@@ -50,65 +52,71 @@ Formulas<> conductivity_formulas(double cells, const std::string& suffix, const 
     return mean[of_window.arriving_energy][end] / mean[of_window.arrivals][end];
   };
   const std::string conductivity_units = "energy/(time temperature)";
-  Formulas formulas;
-  formulas.quantity("energy_current" + suffix, "energy/time", "J_U, positive to the right" + remark,
-                    [](RecordView mean) { return mean[of_window.energy_current]; });
-  formulas.quantity("particle_current" + suffix, "1/time", "J_n, positive to the right" + remark,
-                    [](RecordView mean) { return mean[of_window.particle_current]; });
-  formulas.quantity("temperature_first" + suffix, "temperature", "<P^2>/M of the first scatterer" + remark,
-                    [](RecordView mean) { return mean[of_window.temperature][0]; });
-  formulas.quantity("temperature_last" + suffix, "temperature", "<P^2>/M of the last scatterer" + remark,
-                    [](RecordView mean) { return mean[of_window.temperature][1]; });
-  formulas.quantity("kappa" + suffix, conductivity_units, "-J_U N / (T_N - T_1)" + remark,
-                    [=](RecordView mean) { return per_degree(mean) * cells; });
-  formulas.quantity("kappa_printed" + suffix, conductivity_units,
-                    "-J_U / (T_N - T_1), the paper's definition" + remark, per_degree);
-  formulas.quantity("kappa_particle" + suffix, conductivity_units,
-                    "-J_U N / difference of <p^2>/m of the arrivals" + remark, [=](RecordView mean) {
-                      return -mean[of_window.energy_current] /
-                             rise(particle_temperature(mean, 0), particle_temperature(mean, 1)) * cells;
-                    });
-  return formulas;
+  group.quantity("energy_current" + suffix, "energy/time", "J_U, positive to the right" + remark,
+                 [](RecordView mean) { return mean[of_window.energy_current]; });
+  group.quantity("particle_current" + suffix, "1/time", "J_n, positive to the right" + remark,
+                 [](RecordView mean) { return mean[of_window.particle_current]; });
+  group.quantity("temperature_first" + suffix, "temperature", "<P^2>/M of the first scatterer" + remark,
+                 [](RecordView mean) { return mean[of_window.temperature][0]; });
+  group.quantity("temperature_last" + suffix, "temperature", "<P^2>/M of the last scatterer" + remark,
+                 [](RecordView mean) { return mean[of_window.temperature][1]; });
+  group.quantity("kappa" + suffix, conductivity_units, "-J_U N / (T_N - T_1)" + remark,
+                 [=](RecordView mean) { return per_degree(mean) * cells; });
+  group.quantity("kappa_printed" + suffix, conductivity_units,
+                 "-J_U / (T_N - T_1), the paper's definition" + remark, per_degree);
+  group.quantity("kappa_particle" + suffix, conductivity_units,
+                 "-J_U N / difference of <p^2>/m of the arrivals" + remark, [=](RecordView mean) {
+                   return -mean[of_window.energy_current] /
+                          rise(particle_temperature(mean, 0), particle_temperature(mean, 1)) * cells;
+                 });
 }
 
-Formulas<> drifts() {
-  Formulas formulas;
-  formulas.quantity("energy_current_drift", "energy/time", "J_U, second half of the window minus first",
-                    [](RecordView mean) { return mean[of_window.energy_current]; });
-  formulas.quantity("particle_current_drift", "1/time", "J_n, second half minus first",
-                    [](RecordView mean) { return mean[of_window.particle_current]; });
-  formulas.quantity("temperature_first_drift", "temperature", "T_1, second half minus first",
-                    [](RecordView mean) { return mean[of_window.temperature][0]; });
-  formulas.quantity("temperature_last_drift", "temperature", "T_N, second half minus first",
-                    [](RecordView mean) { return mean[of_window.temperature][1]; });
-  return formulas;
+/// Correlation coefficient r over replicas of two tallies with the error of normal records, (1 - r^2)/sqrt(R
+/// - 1); NaN if one does not vary.
+Estimate correlation_coefficient(const Records& records, ScalarTally one, ScalarTally other) {
+  const double* const values = records.values().data();
+  const double found = gsl_stats_correlation(values + one.column, records.width(), values + other.column,
+                                             records.width(), records.size());
+  const double r = std::abs(found) <= 1 ? found : std::numeric_limits<double>::quiet_NaN();
+  return {{r}, {(1 - r * r) / std::sqrt(static_cast<double>(records.size()) - 1)}};
+}
+
+void add_drifts(Group& group) {
+  group.quantity("energy_current_drift", "energy/time", "J_U, second half of the window minus first",
+                 [](RecordView mean) { return mean[of_window.energy_current]; });
+  group.quantity("particle_current_drift", "1/time", "J_n, second half minus first",
+                 [](RecordView mean) { return mean[of_window.particle_current]; });
+  group.quantity("temperature_first_drift", "temperature", "T_1, second half minus first",
+                 [](RecordView mean) { return mean[of_window.temperature][0]; });
+  group.quantity("temperature_last_drift", "temperature", "T_N, second half minus first",
+                 [](RecordView mean) { return mean[of_window.temperature][1]; });
 }
 
 /// Error of J_U by blocking [eq. 50], p-value of the hypothesis that all four drifts are 0 [eq. 51], and
 /// `stationary`: 1 if the p-value exceeds 0.01, so that the test rejects one stationary run in a hundred, and
 /// the blocking has converged.
-Estimator stationarity(const BlockTallies& tallies) {
+void add_stationarity(Group& group, const BlockTallies& tallies) {
   const Axis length{"length", "1", "Part of the window that a block takes", {0.125, 0.25, 0.5, 1}};
-  const std::vector<Description> what{
+  const std::vector<Description> descriptions{
       {"blocking_error", "energy/time", "Error of the plain J_U from blocks", {length}},
       {"drift_p_value", "1", "p-value of the four drifts being 0, by Hotelling's T^2 test"},
       {"stationary", "1", "1: drift_p_value above 0.01, and blocking has converged"}};
-  return {what, [=](const Records& records) {
-            constexpr double level = 0.01, none = std::numeric_limits<double>::quiet_NaN();
-            const ReducedRecords differences = reduced(half_differences(records, tallies));
-            const double p_value =
-                zero_mean_p_value(differences.records, of_window.currents_and_temperatures(),
-                                  differences.control_variates ? of_window.controls().size() : 0);
-            Records currents(block_count);
-            for (std::size_t replica = 0; replica < records.size(); ++replica)
-              currents.append(RecordView(records[replica])[tallies.energy_current]);
-            const Blocking blocks = blocking(currents);
-            const double stationary = p_value > level && blocks.converged() ? 1 : 0;
-            const std::vector<std::uint64_t> count(blocks.error.size(), records.size());
-            return Results{{what[0], blocks.error, blocks.uncertainty, count},
-                           {what[1], {p_value}, {none}, {records.size()}},
-                           {what[2], {stationary}, {none}, {records.size()}}};
-          }};
+  group.statistics(descriptions, [=](const Records& records) {
+    constexpr double level = 0.01, none = std::numeric_limits<double>::quiet_NaN();
+    const Group::Prepared differences = reduced(half_differences(records, tallies));
+    const double p_value = zero_mean_p_value(differences.records, of_window.currents_and_temperatures(),
+                                             *differences.control_variates ? of_window.controls().size() : 0);
+    Records currents(block_count);
+    for (std::size_t replica = 0; replica < records.size(); ++replica)
+      currents.append(RecordView(records[replica])[tallies.energy_current]);
+    const Blocking blocks = blocking(currents);
+    Estimate estimate{blocks.error, blocks.uncertainty};
+    for (const double value : {p_value, p_value > level && blocks.converged() ? 1.0 : 0.0}) {
+      estimate.mean.push_back(value);
+      estimate.standard_error.push_back(none);
+    }
+    return estimate;
+  });
 }
 
 Study conductivity(const Parameters& parameters) {
@@ -121,21 +129,22 @@ Study conductivity(const Parameters& parameters) {
     run.observe(EndsAndOpenings(chain, window)).record(tallies, record);
     return run.events();
   };
-  const auto means = [=](const Records& records) { return window_means(records, tallies); };
-  const auto halves = [=](const Records& records) { return half_differences(records, tallies); };
+  Group corrected([=](const Records& records) { return reduced(window_means(records, tallies)); });
+  Group plain([=](const Records& records) { return Group::Prepared{window_means(records, tallies)}; });
+  Group halves([=](const Records& records) { return reduced(half_differences(records, tallies)); });
+  Group stationary;
+  add_conductivity(corrected, chain.cells, "", "");
+  corrected.statistics({{"current_correlation", "1", "Correlation coefficient over replicas of J_U and J_n"}},
+                       [](const Records& records) {
+                         return correlation_coefficient(records, of_window.energy_current,
+                                                        of_window.particle_current);
+                       });
+  add_conductivity(plain, chain.cells, "_plain", ", without control variates");
+  add_drifts(halves);
+  add_stationarity(stationary, tallies);
   return {.tallies = tallies,
           .measure = measure,
-          .estimators =
-              {conductivity_formulas(chain.cells, "", "").estimator([=](const Records& records) {
-                 return reduced(means(records));
-               }),
-               conductivity_formulas(chain.cells, "_plain", ", without control variates").estimator_of(means),
-               drifts().estimator([=](const Records& records) { return reduced(halves(records)); }),
-               correlation_coefficient(
-                   {"current_correlation", "1", "Correlation coefficient over replicas of J_U and J_n"},
-                   of_window.energy_current, of_window.particle_current,
-                   [=](const Records& records) { return reduced(means(records)); }),
-               stationarity(tallies)},
+          .groups = {corrected, plain, halves, stationary},
           .target = chain.cells > 1 ? "kappa" : "energy_current"};
 }
 

@@ -19,11 +19,10 @@
 #include <cmath>
 #include <functional>
 
+#include "observables/correlation/field_correlations.hpp"
 #include "program/errors.hpp"
-#include "runs/closed_study.hpp"
-#include "runs/field_correlations.hpp"
-#include "runs/limits.hpp"
-#include "runs/peak_quantities.hpp"
+#include "sampling/closed_run.hpp"
+#include "sampling/limits.hpp"
 #include "statistics/fit.hpp"
 #include "statistics/moving_peak.hpp"
 
@@ -82,54 +81,46 @@ void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& ru
     correlations.add(run.chain().phase_point(run.clock(time)));
   }
   for (std::size_t field = 0; field < tallies.fields.size(); ++field)
-    for (std::size_t k = 0; k < parameters.times.size(); ++k) {
-      const std::vector<double> profile = correlations.profile(field, k);
-      std::ranges::copy(profile, record[tallies.fields[field]].subspan(k * profile.size()).begin());
-    }
+    for (std::size_t k = 0; k < parameters.times.size(); ++k)
+      record.set(tallies.fields[field].row(k), correlations.profile(field, k));
 }
 
-Estimator profiles(const Tallies& tallies) {
+Group profiles(const Tallies& tallies) {
   const std::size_t cells = tallies.cell.values.size(), times = tallies.time.values.size();
   const auto centre = [=](RecordView mean) {
     std::vector<double> values;
     for (std::size_t k = 0; k < times; ++k)
-      values.push_back(mean[tallies.fields[Conserved::number]][k * cells + cells / 2]);
+      values.push_back(mean[tallies.fields[Conserved::number].row(k)][cells / 2]);
     return values;
   };
-  Formulas formulas;
-  formulas.quantity("number_correlation", {tallies.time, tallies.cell}, "1",
-                    "C_n(r, t): covariance of the numbers of particles in two cells",
-                    mean_of(tallies.fields[Conserved::number]));
-  formulas.quantity("energy_correlation", {tallies.time, tallies.cell}, "energy^2",
-                    "C_e(r, t): covariance of the energies of two cells",
-                    mean_of(tallies.fields[Conserved::energy]));
-  formulas.quantity("momentum_correlation", {tallies.time, tallies.cell}, "momentum^2",
-                    "C_g(r, t): covariance of the momenta of two cells",
-                    mean_of(tallies.fields[Conserved::momentum]));
-  formulas.quantity("centre", {tallies.time}, "1", "C_n(0, t), the height of the heat peak", centre);
+  Group group;
+  group.quantity("number_correlation", {tallies.time, tallies.cell}, "1",
+                 "C_n(r, t): covariance of the numbers of particles in two cells",
+                 mean_of(tallies.fields[Conserved::number]));
+  group.quantity("energy_correlation", {tallies.time, tallies.cell}, "energy^2",
+                 "C_e(r, t): covariance of the energies of two cells",
+                 mean_of(tallies.fields[Conserved::energy]));
+  group.quantity("momentum_correlation", {tallies.time, tallies.cell}, "momentum^2",
+                 "C_g(r, t): covariance of the momenta of two cells",
+                 mean_of(tallies.fields[Conserved::momentum]));
+  group.quantity("centre", {tallies.time}, "1", "C_n(0, t), the height of the heat peak", centre);
   const Axis middle{"middle", "time", "Geometric middle of two neighbouring times",
                     geometric_middles(tallies.time.values)};
-  formulas.quantity("local_centre_exponent", {middle}, "1", "-d ln centre / d ln t between two times",
-                    [=](RecordView mean) { return decay_exponents(tallies.time.values, centre(mean)); });
-  return formulas.estimator();
+  group.quantity("local_centre_exponent", {middle}, "1", "-d ln centre / d ln t between two times",
+                 [=](RecordView mean) { return decay_exponents(tallies.time.values, centre(mean)); });
+  return group;
 }
 
-Formulas<MovingPeak> sound(const Tallies& tallies, const PeakWindows& windows) {
-  Formulas<MovingPeak> formulas([=](RecordView mean) {
-    return MovingPeak(mean[tallies.fields[Conserved::momentum]], mean, tallies.time.values, windows);
+Group sound_peak(const Tallies& tallies) {
+  const std::vector<double> times = tallies.time.values;
+  const Tally profiles = tallies.fields[Conserved::momentum];
+  Group group;
+  group.quantities(MovingPeak::descriptions(tallies.time, "momentum^2"), [=](const Records& records) {
+    return [=, windows = peak_windows(records, profiles, times.size())](RecordView mean) {
+      return MovingPeak(mean[profiles], times, windows).values();
+    };
   });
-  add_peak_quantities(formulas, tallies.time, "momentum^2");
-  return formulas;
-}
-
-Estimator sound_peak(const Tallies& tallies) {
-  const std::size_t times = tallies.time.values.size();
-  return {sound(tallies, PeakWindows(times)).descriptions(), [=](const Records& records) {
-            return sound(tallies,
-                         peak_windows(records, columns_of({tallies.fields[Conserved::momentum]}), times))
-                .estimator()
-                .estimate(records);
-          }};
+  return group;
 }
 
 Study correlation(const Parameters& parameters) {

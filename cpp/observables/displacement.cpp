@@ -16,10 +16,11 @@
 #include <cmath>
 #include <functional>
 
-#include "runs/closed_study.hpp"
-#include "runs/limits.hpp"
-#include "runs/log_times.hpp"
-#include "runs/tagged_particles.hpp"
+#include "observables/displacement/tagged_particles.hpp"
+#include "sampling/closed_run.hpp"
+#include "sampling/limits.hpp"
+#include "sampling/log_times.hpp"
+#include "statistics/control_variates.hpp"
 #include "statistics/fit.hpp"
 
 namespace {
@@ -66,18 +67,18 @@ void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& ru
 
 /// Plain records replace corrected ones if a corrected mean of squares is negative, as may happen with few
 /// replicas of few particles.
-ReducedRecords controlled(const Records& plain, const Tallies& tallies) {
+Group::Prepared controlled(const Records& plain, const Tallies& tallies) {
   const Columns squares =
       columns_of({tallies.square, tallies.absolute, tallies.fourth, tallies.centre_square});
-  Columns measured = squares;
-  for (const std::size_t column : columns_of({tallies.mean})) measured.push_back(column);
-  const ReducedRecords reduced = reduce_variance(plain, {{measured, columns_of({tallies.momentum_square})}});
+  const Columns measured =
+      columns_of({tallies.square, tallies.absolute, tallies.fourth, tallies.centre_square, tallies.mean});
+  Group::Prepared reduced = reduce_variance(plain, {{measured, columns_of({tallies.momentum_square})}});
   const std::vector<double> means = reduced.records.mean();
   const bool possible = std::ranges::all_of(squares, [&](std::size_t column) { return means[column] >= 0; });
-  return possible ? reduced : ReducedRecords{plain, false};
+  return possible ? reduced : Group::Prepared{plain, false};
 }
 
-std::vector<Estimator> spreading(const Parameters& parameters, const Tallies& tallies) {
+std::vector<Group> spreading(const Parameters& parameters, const Tallies& tallies) {
   const std::vector<double> times = tallies.time.values;
   const Axis middle{"time", "time", "Geometric middle of two neighbouring times",
                     parameters.log_times.grid(times.back()).middles()};
@@ -91,31 +92,28 @@ std::vector<Estimator> spreading(const Parameters& parameters, const Tallies& ta
     return slope(relative);
   };
 
-  Formulas formulas, plain;
-  formulas.quantity("variance", {tallies.time}, "length^2", "<x^2>, no mean subtracted",
-                    mean_of(tallies.square));
-  formulas.quantity("absolute_moment", {tallies.time}, "length", "<|x|>", mean_of(tallies.absolute));
-  formulas.quantity("fourth_moment", {tallies.time}, "length^4", "<x^4>", mean_of(tallies.fourth));
-  formulas.quantity("centre_of_mass", {tallies.time}, "length^2",
-                    "Mean square of the particles' mean displacement", mean_of(tallies.centre_square));
-  formulas.quantity("mean_displacement", {tallies.time}, "length", "<x>; 0 by symmetry",
-                    mean_of(tallies.mean));
-  formulas.quantity("local_slope", {middle}, "1", "d ln <x^2> / d ln t",
-                    [=](RecordView mean) { return local_exponents(times, mean[tallies.square]); });
-  formulas.quantity("alpha", "1", "Slope of ln <x^2> against ln t over the last --fit-decades decades",
-                    alpha);
-  formulas.quantity("alpha_relative", "1", "The same without the part of the centre of mass", alpha_relative);
-  formulas.quantity("alpha_difference", "1", "alpha minus alpha_relative",
-                    [=](RecordView mean) { return alpha(mean) - alpha_relative(mean); });
+  Group group([=](const Records& records) { return controlled(records, tallies); }), plain;
+  group.quantity("variance", {tallies.time}, "length^2", "<x^2>, no mean subtracted",
+                 mean_of(tallies.square));
+  group.quantity("absolute_moment", {tallies.time}, "length", "<|x|>", mean_of(tallies.absolute));
+  group.quantity("fourth_moment", {tallies.time}, "length^4", "<x^4>", mean_of(tallies.fourth));
+  group.quantity("centre_of_mass", {tallies.time}, "length^2",
+                 "Mean square of the particles' mean displacement", mean_of(tallies.centre_square));
+  group.quantity("mean_displacement", {tallies.time}, "length", "<x>; 0 by symmetry", mean_of(tallies.mean));
+  group.quantity("local_slope", {middle}, "1", "d ln <x^2> / d ln t",
+                 [=](RecordView mean) { return local_exponents(times, mean[tallies.square]); });
+  group.quantity("alpha", "1", "Slope of ln <x^2> against ln t over the last --fit-decades decades", alpha);
+  group.quantity("alpha_relative", "1", "The same without the part of the centre of mass", alpha_relative);
+  group.quantity("alpha_difference", "1", "alpha minus alpha_relative",
+                 [=](RecordView mean) { return alpha(mean) - alpha_relative(mean); });
   if (!parameters.drifts())
-    formulas.quantity(
+    group.quantity(
         "logarithmic_power", "1", "b of <x^2> ~ t ln(t/tau)^b over the same times: 0 for t, -1 for t/ln t",
         [=](RecordView mean) { return fit_logarithmic_power(times, mean[tallies.square], fit_from, tau); });
   plain.quantity("variance_plain", {tallies.time}, "length^2", "<x^2>, without the control variate",
                  mean_of(tallies.square));
   plain.quantity("alpha_plain", "1", "alpha, without the control variate", alpha);
-  return {formulas.estimator([=](const Records& records) { return controlled(records, tallies); }),
-          plain.estimator()};
+  return {group, plain};
 }
 
 /// Throws UsageError unless the fourth powers of the displacements at the first and the last time are

@@ -11,9 +11,8 @@
 #include <cmath>
 #include <functional>
 
+#include "observables/energy_pulse/pulse_run.hpp"
 #include "program/study.hpp"
-#include "runs/peak_quantities.hpp"
-#include "runs/pulse_run.hpp"
 #include "statistics/moving_peak.hpp"
 
 namespace {
@@ -48,7 +47,7 @@ std::uint64_t measure(const PulseParameters& parameters, const Tallies& tallies,
       run.run(parameters.times[k]);
       const std::vector<double> difference = run.energy_difference();
       for (std::size_t cell = 0; cell < cells; ++cell)
-        record[tallies.energy_difference][k * cells + cell] += difference[cell] / pairs;
+        record[tallies.energy_difference.row(k)][cell] += difference[cell] / pairs;
       error = std::max(error, run.conservation_error(difference));
     }
     record[tallies.injected_energy] += run.injected_energy() / pairs;
@@ -58,44 +57,43 @@ std::uint64_t measure(const PulseParameters& parameters, const Tallies& tallies,
   return events;
 }
 
-/// Formulas of all quantities, given the windows of the peak fits.
-Formulas<MovingPeak> formulas(const Tallies& tallies, const PeakWindows& windows) {
-  const std::size_t cells = tallies.cell.values.size();
-  const Axis distance = numbered_axis("distance", "Cells from the central one", (cells - 1) / 2, 1);
-  using std::mem_fn;
-
-  Formulas<MovingPeak> pulse([=](RecordView mean) {
-    return MovingPeak(mean[tallies.energy_difference], mean, tallies.time.values, windows);
-  });
-  pulse.quantity("energy_difference", {tallies.time, tallies.cell}, "energy",
-                 "Energy per cell with the pulse minus without",
-                 [=](const MovingPeak& peak) { return mean_of(tallies.energy_difference)(peak.mean()); });
-  pulse.quantity("injected_energy", "energy", "Energy of the pulse",
-                 [=](const MovingPeak& peak) { return peak.mean()[tallies.injected_energy]; });
-  pulse.quantity("sum_error", "1",
+Group spreading(const Tallies& tallies) {
+  const std::vector<double> times = tallies.time.values;
+  const Axis distance =
+      numbered_axis("distance", "Cells from the central one", (tallies.cell.values.size() - 1) / 2, 1);
+  Group group;
+  group.quantity("energy_difference", {tallies.time, tallies.cell}, "energy",
+                 "Energy per cell with the pulse minus without", mean_of(tallies.energy_difference));
+  group.quantity("injected_energy", "energy", "Energy of the pulse",
+                 [=](RecordView mean) { return mean[tallies.injected_energy]; });
+  group.quantity("sum_error", "1",
                  "Largest |sum over cells - injected energy| / total energy, mean over pairs",
-                 [=](const MovingPeak& peak) { return peak.mean()[tallies.sum_error]; });
-  add_peak_quantities(pulse, tallies.time, "energy");
-  pulse.quantity(
-      "centre_share", {tallies.time}, "1", "Part of the injected energy in the central five cells",
-      [=](const MovingPeak& peak) { return peak.centre_shares(peak.mean()[tallies.injected_energy]); });
-  pulse.quantity("odd_part", {tallies.time, distance}, "energy",
-                 "Half of right minus left side: 0 by mirror symmetry", mem_fn(&MovingPeak::odd_parts));
-  return pulse;
+                 [=](RecordView mean) { return mean[tallies.sum_error]; });
+  std::vector<Description> of_peak = MovingPeak::descriptions(tallies.time, "energy");
+  of_peak.push_back(
+      {"centre_share", "1", "Part of the injected energy in the central five cells", {tallies.time}});
+  of_peak.push_back({"odd_part",
+                     "energy",
+                     "Half of right minus left side: 0 by mirror symmetry",
+                     {tallies.time, distance}});
+  group.quantities(of_peak, [=](const Records& records) {
+    return [=, windows = peak_windows(records, tallies.energy_difference, times.size())](RecordView mean) {
+      const MovingPeak peak(mean[tallies.energy_difference], times, windows);
+      std::vector<double> values = peak.values();
+      for (const auto& each : {peak.centre_shares(mean[tallies.injected_energy]), peak.odd_parts()})
+        values.insert(values.end(), each.begin(), each.end());
+      return values;
+    };
+  });
+  return group;
 }
 
 Study energy_pulse(const PulseParameters& parameters) {
   validate(parameters);
   const Tallies tallies(parameters);
-  const PeakWindows none(parameters.times.size());
   return {.tallies = tallies,
           .measure = std::bind_front(measure, parameters, tallies),
-          .estimators = {{formulas(tallies, none).descriptions(),
-                          [=](const Records& records) {
-                            const PeakWindows windows = peak_windows(
-                                records, columns_of({tallies.energy_difference}), parameters.times.size());
-                            return formulas(tallies, windows).estimator().estimate(records);
-                          }}},
+          .groups = {spreading(tallies)},
           .target = "damping_exponent"};
 }
 

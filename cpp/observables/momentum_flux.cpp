@@ -10,11 +10,12 @@
 #include <limits>
 #include <numeric>
 
+#include "observables/momentum_flux/bond_crossings.hpp"
 #include "program/study.hpp"
-#include "runs/bond_crossings.hpp"
-#include "runs/limits.hpp"
-#include "runs/momentum_bins.hpp"
-#include "runs/open_run.hpp"
+#include "sampling/limits.hpp"
+#include "sampling/momentum_bins.hpp"
+#include "sampling/open_run.hpp"
+#include "statistics/control_variates.hpp"
 
 namespace {
 
@@ -41,7 +42,7 @@ struct Flux {
   double bin_width = 0;
 
   double operator()(std::size_t bond, std::size_t bin) const {
-    return mean[tallies.crossings][bin * tallies.bonds() + bond] / bin_width;
+    return mean[tallies.crossings.row(bin)][bond] / bin_width;
   }
   std::vector<double> all() const { return by_bond(tallies.bonds(), tallies.momentum.values.size(), *this); }
 
@@ -63,7 +64,7 @@ struct HalfMoments {
   const BondTallies& tallies;
 
   double sum(std::size_t k, std::size_t bond, std::size_t side) const {
-    return mean[tallies.sums[k]][side * tallies.bonds() + bond];
+    return mean[tallies.sums[k].row(side)][bond];
   }
   double average(std::size_t k, std::size_t bond, std::size_t side) const {
     const double crossings = sum(0, bond, side);
@@ -92,18 +93,22 @@ struct HalfMoments {
   }
 };
 
-std::vector<Estimator> flux_and_shape(const BondTallies& tallies, double bin_width,
-                                      const std::vector<Regression>& by_bin) {
+std::vector<Group> flux_and_shape(const BondTallies& tallies, double bin_width,
+                                  const std::vector<Regression>& by_bin) {
   const std::string units = "1/(time momentum)";
   const std::vector<Axis> bonds{tallies.bond}, bins{tallies.bond, tallies.momentum},
       halves{tallies.bond, tallies.half};
   const auto flux = [=](RecordView mean) { return Flux{mean, tallies, bin_width}; };
 
-  Formulas flux_formulas, plain, moments;
-  flux_formulas.quantity("flux", bins, units, "F_N, crossings per unit time and momentum",
-                         [=](RecordView mean) { return flux(mean).all(); });
-  flux_formulas.quantity("jump", bonds, units, "F_N at p = 0+ minus p = 0-",
-                         [=](RecordView mean) { return flux(mean).jump(); });
+  const Regression by_all{columns_of({tallies.sums[0], tallies.sums[1], tallies.sums[2]}),
+                          columns_of({tallies.injection})};
+  Group fluxes([=](const Records& records) { return reduce_variance(records, by_bin); });
+  Group moments([=](const Records& records) { return reduce_variance(records, {by_all}); });
+  Group plain;
+  fluxes.quantity("flux", bins, units, "F_N, crossings per unit time and momentum",
+                  [=](RecordView mean) { return flux(mean).all(); });
+  fluxes.quantity("jump", bonds, units, "F_N at p = 0+ minus p = 0-",
+                  [=](RecordView mean) { return flux(mean).jump(); });
   plain.quantity("flux_plain", bins, units, "F_N without control variates",
                  [=](RecordView mean) { return flux(mean).all(); });
   moments.quantity("rate", halves, "1/time", "Crossings by direction",
@@ -114,11 +119,7 @@ std::vector<Estimator> flux_and_shape(const BondTallies& tallies, double bin_wid
                    [=](RecordView mean) { return HalfMoments{mean, tallies}.kurtosis(); });
   moments.quantity("crossings", "1/time", "Crossings of a bond, mean over bonds",
                    [=](RecordView mean) { return HalfMoments{mean, tallies}.crossings(); });
-  const Regression by_all{columns_of({tallies.sums[0], tallies.sums[1], tallies.sums[2]}),
-                          columns_of({tallies.injection})};
-  return {flux_formulas.estimator([=](const Records& records) { return reduce_variance(records, by_bin); }),
-          moments.estimator([=](const Records& records) { return reduce_variance(records, {by_all}); }),
-          plain.estimator()};
+  return {fluxes, moments, plain};
 }
 
 Study momentum_flux(const Parameters& parameters) {
@@ -135,11 +136,10 @@ Study momentum_flux(const Parameters& parameters) {
     run.observe(BondCrossings(chain, window, bins)).record(tallies, record);
     return run.events();
   };
-  return {
-      .tallies = tallies,
-      .measure = measure,
-      .estimators = flux_and_shape(tallies, bins.width(), regressions_by_bin(tallies, chain, window, bins)),
-      .target = "crossings"};
+  return {.tallies = tallies,
+          .measure = measure,
+          .groups = flux_and_shape(tallies, bins.width(), regressions_by_bin(tallies, chain, window, bins)),
+          .target = "crossings"};
 }
 
 }  // namespace

@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "observables/particle_count/census.hpp"
+#include "observables/particle_count/front.hpp"
 #include "program/study.hpp"
-#include "runs/census.hpp"
-#include "runs/limits.hpp"
-#include "runs/open_run.hpp"
+#include "sampling/limits.hpp"
+#include "sampling/open_run.hpp"
 #include "statistics/fit.hpp"
-#include "statistics/front.hpp"
 
 namespace {
 
@@ -89,37 +89,37 @@ struct Reading {
   }
 };
 
-Estimator numbers_and_momenta(const CensusTallies& tallies, const CensusGrid& grid, double thermal) {
+Group numbers_and_momenta(const CensusTallies& tallies, const CensusGrid& grid, double thermal) {
   const Axis between{"time", "time", "Geometric middle of two neighbouring times",
                      grid.number_grid.middles()};
-  Formulas<Reading> formulas([=](RecordView mean) { return Reading{mean, tallies, grid, thermal}; });
-  formulas.quantity("weighted_momentum_density", {tallies.time, tallies.p}, "1",
-                    "|p| n_t(p), n_t being particles per unit momentum", [](const Reading& reading) {
-                      return mean_of(reading.tallies.momentum, reading.grid.bins.width())(reading.mean);
-                    });
-  formulas.quantity("weighted_speed_density", {tallies.time, tallies.speed}, "1",
-                    "|p| n_t(p), both signs, on logarithmic bins", std::mem_fn(&Reading::speed_density));
-  formulas.quantity("total_number", {tallies.number_time}, "1", "Particles inside",
-                    [](const Reading& reading) { return mean_of(reading.tallies.number)(reading.mean); });
-  formulas.quantity("number_slope", {between}, "1", "d n / d ln t", std::mem_fn(&Reading::number_slopes));
-  formulas.quantity(
-      "log_slope", "1", "Slope of n against ln t from the first of --times on", [](const Reading& reading) {
-        return reading.late_slope(reading.mean[reading.tallies.number], reading.grid.number_times);
-      });
-  formulas.quantity(
-      "log_curvature", "1", "Slope of dn/d ln t against ln t over the same times; 0 if n ~ ln t",
-      [=](const Reading& reading) { return reading.late_slope(reading.number_slopes(), between.values); });
-  formulas.quantity("plateau", {tallies.time}, "1",
-                    "|p| n_t(p) above the front, both signs: what dn/d ln t should be",
-                    std::mem_fn(&Reading::plateaus));
-  formulas.quantity("front", {tallies.time}, "momentum",
-                    "p_0(t): where |p| n_t(p) has fallen to half of the plateau",
-                    std::mem_fn(&Reading::fronts));
-  formulas.quantity("front_exponent", "1", "Slope of ln p_0 against ln t", [](const Reading& reading) {
-    const std::vector<double>& times = reading.grid.times;
-    return fit_power(times, reading.fronts(), times.front(), times.back());
+  const auto reading = [=](RecordView mean) { return Reading{mean, tallies, grid, thermal}; };
+  Group group;
+  group.quantity("weighted_momentum_density", {tallies.time, tallies.p}, "1",
+                 "|p| n_t(p), n_t being particles per unit momentum",
+                 mean_of(tallies.momentum, grid.bins.width()));
+  group.quantity("weighted_speed_density", {tallies.time, tallies.speed}, "1",
+                 "|p| n_t(p), both signs, on logarithmic bins",
+                 [=](RecordView mean) { return reading(mean).speed_density(); });
+  group.quantity("total_number", {tallies.number_time}, "1", "Particles inside", mean_of(tallies.number));
+  group.quantity("number_slope", {between}, "1", "d n / d ln t",
+                 [=](RecordView mean) { return reading(mean).number_slopes(); });
+  group.quantity(
+      "log_slope", "1", "Slope of n against ln t from the first of --times on",
+      [=](RecordView mean) { return reading(mean).late_slope(mean[tallies.number], grid.number_times); });
+  group.quantity("log_curvature", "1", "Slope of dn/d ln t against ln t over the same times; 0 if n ~ ln t",
+                 [=](RecordView mean) {
+                   return reading(mean).late_slope(reading(mean).number_slopes(), between.values);
+                 });
+  group.quantity("plateau", {tallies.time}, "1",
+                 "|p| n_t(p) above the front, both signs: what dn/d ln t should be",
+                 [=](RecordView mean) { return reading(mean).plateaus(); });
+  group.quantity("front", {tallies.time}, "momentum",
+                 "p_0(t): where |p| n_t(p) has fallen to half of the plateau",
+                 [=](RecordView mean) { return reading(mean).fronts(); });
+  group.quantity("front_exponent", "1", "Slope of ln p_0 against ln t", [=](RecordView mean) {
+    return fit_power(grid.times, reading(mean).fronts(), grid.times.front(), grid.times.back());
   });
-  return formulas.estimator();
+  return group;
 }
 
 Study particle_count(const Parameters& parameters) {
@@ -142,7 +142,7 @@ Study particle_count(const Parameters& parameters) {
   };
   return {.tallies = tallies,
           .measure = measure,
-          .estimators = {numbers_and_momenta(tallies, grid, thermal)},
+          .groups = {numbers_and_momenta(tallies, grid, thermal)},
           .target = "log_slope"};
 }
 

@@ -7,7 +7,7 @@
 /// correlations.
 #include <cstdint>
 
-#include "runs/closed_study.hpp"
+#include "sampling/closed_run.hpp"
 
 namespace {
 
@@ -52,16 +52,14 @@ Study persistence(const ClosedParameters& parameters) {
     record[tallies.particle_energy] = sums.particle_energy;
     record[tallies.scatterer_energy] = sums.scatterer_energy;
   };
-  Formulas formulas;
-  formulas.quantity("mu", "1", "Fraction of scatterings with p' p > 0",
-                    [=](RecordView mean) { return mean[tallies.persistent] / mean[tallies.scatterings]; });
-  formulas.quantity(
-      "particle_energy", "energy", "Mean kinetic energy of a particle as it meets a scatterer",
-      [=](RecordView mean) { return mean[tallies.particle_energy] / mean[tallies.scatterings]; });
-  formulas.quantity(
-      "scatterer_energy", "energy", "Mean kinetic energy of a scatterer as a particle meets it",
-      [=](RecordView mean) { return mean[tallies.scatterer_energy] / mean[tallies.scatterings]; });
-  return closed_study(parameters, tallies, observe, {formulas.estimator()}, "mu");
+  Group group;
+  group.quantity("mu", "1", "Fraction of scatterings with p' p > 0",
+                 [=](RecordView mean) { return mean[tallies.persistent] / mean[tallies.scatterings]; });
+  group.quantity("particle_energy", "energy", "Mean kinetic energy of a particle as it meets a scatterer",
+                 [=](RecordView mean) { return mean[tallies.particle_energy] / mean[tallies.scatterings]; });
+  group.quantity("scatterer_energy", "energy", "Mean kinetic energy of a scatterer as a particle meets it",
+                 [=](RecordView mean) { return mean[tallies.scatterer_energy] / mean[tallies.scatterings]; });
+  return closed_study(parameters, tallies, observe, {group}, "mu");
 }
 
 }  // namespace

@@ -9,16 +9,15 @@
 /// cells and bonds is correlated. The bulk of the density is a line through the middle half of the chain.
 #include <functional>
 
+#include "observables/steady_profile/cell_profile.hpp"
+#include "observables/steady_profile/profile.hpp"
 #include "program/study.hpp"
-#include "runs/cell_profile.hpp"
-#include "runs/open_run.hpp"
-#include "statistics/profile.hpp"
+#include "sampling/open_run.hpp"
+#include "statistics/control_variates.hpp"
 
 namespace {
 
 using namespace lorentz;
-
-constexpr std::size_t right = 0, left = 1;  // directions
 
 struct Parameters : OpenParameters {
   WindowParameters times;
@@ -30,89 +29,86 @@ struct Profile {
   RecordView mean;
   const CellTallies& tallies;
 
-  Values temperature() const { return {mean[tallies.temperature].begin(), mean[tallies.temperature].end()}; }
+  Values temperature() const { return mean_of(tallies.temperature)(mean); }
   Values particle_temperature() const {
-    return combined(tallies.arrivals.size / 2, [this](std::size_t i, std::size_t j) {
-      return (mean[tallies.arriving_squares][i] + mean[tallies.arriving_squares][j]) /
-             (mean[tallies.arrivals][i] + mean[tallies.arrivals][j]);
-    });
+    const auto sum = [](double right, double left) { return right + left; };
+    return combined(combined(tallies.arriving_squares, sum), combined(tallies.arrivals, sum),
+                    std::divides<>());
   }
-  Values rate(std::size_t direction) const {
-    const auto both = mean[tallies.arrivals];
-    const auto one = both.subspan(direction * both.size() / 2, both.size() / 2);
-    return {one.begin(), one.end()};
-  }
-  Values particle_current() const {
-    return combined(tallies.crossings.size / 2, [this](std::size_t i, std::size_t j) {
-      return mean[tallies.crossings][i] - mean[tallies.crossings][j];
-    });
-  }
+  Values rate(Direction direction) const { return mean_of(tallies.arrivals.row(direction))(mean); }
+  Values particle_current() const { return combined(tallies.crossings, std::minus<>()); }
   Values energy_current() const {
-    return combined(tallies.crossings.size / 2, [this](std::size_t i, std::size_t j) {
-      return 0.5 * (mean[tallies.crossing_squares][i] - mean[tallies.crossing_squares][j]);
-    });
+    return combined(tallies.crossing_squares, [](double right, double left) { return 0.5 * (right - left); });
   }
 
  private:
-  /// Values computed from the columns of both directions.
-  template <class Value>
-  static Values combined(std::size_t size, const Value& value) {
+  template <class Operation>
+  static Values combined(std::span<const double> a, std::span<const double> b, const Operation& operation) {
     Values values;
-    for (std::size_t i = 0; i < size; ++i) values.push_back(value(i, size + i));
+    for (std::size_t i = 0; i < a.size(); ++i) values.push_back(operation(a[i], b[i]));
     return values;
+  }
+  /// Of both directions: operation(right, left).
+  template <class Operation>
+  Values combined(Tally tally, const Operation& operation) const {
+    return combined(mean[tally.row(rightwards)], mean[tally.row(leftwards)], operation);
   }
 };
 
-Estimator profiles(const CellTallies& tallies, double bin_width) {
+Group profiles(const CellTallies& tallies, double bin_width) {
   const std::vector<Axis> cell{tallies.cell}, bond{tallies.bond}, end{tallies.end};
-  Formulas<Profile> formulas([=](RecordView mean) { return Profile{mean, tallies}; });
-  const auto density = [=](const Profile& profile) { return DensityProfile(profile.mean[tallies.density]); };
-  using std::mem_fn;
-
-  formulas.quantity("temperature_scatterer", cell, "temperature", "Time average of P^2/M",
-                    mem_fn(&Profile::temperature));
-  formulas.quantity("temperature_particle", cell, "temperature", "<p^2>/m over the arrivals at the scatterer",
-                    mem_fn(&Profile::particle_temperature));
-  formulas.quantity("temperature_difference", cell, "temperature",
-                    "That of the scatterer minus that of the particles", [](const Profile& profile) {
-                      return difference(profile.temperature(), profile.particle_temperature());
-                    });
-  formulas.quantity("density", cell, "1", "Mean number of particles in the cell, frozen ones included",
-                    [=](const Profile& profile) { return mean_of(tallies.density)(profile.mean); });
-  formulas.quantity("density_slope", "1",
-                    "Of the line through the middle half, over the chain and relative to its mean",
-                    [=](const Profile& profile) { return density(profile).slope(); });
-  formulas.quantity("density_excess", end, "1", "Density of an end cell over that line, minus 1",
-                    [=](const Profile& profile) { return density(profile).excess(); });
-  formulas.quantity("rate_right", cell, "1/time", "Arrivals at the scatterer to the right",
-                    [](const Profile& profile) { return profile.rate(right); });
-  formulas.quantity("rate_left", cell, "1/time", "Arrivals at the scatterer to the left",
-                    [](const Profile& profile) { return profile.rate(left); });
-  formulas.quantity("rate_right_deviation", cell, "1/time", "rate_right minus a straight line through it",
-                    [](const Profile& profile) { return minus_line(profile.rate(right)); });
-  formulas.quantity("rate_left_deviation", cell, "1/time", "rate_left minus a straight line through it",
-                    [](const Profile& profile) { return minus_line(profile.rate(left)); });
-  formulas.quantity("particle_current", bond, "1/time", "J_n, positive to the right",
-                    mem_fn(&Profile::particle_current));
-  formulas.quantity("energy_current", bond, "energy/time", "J_U, positive to the right",
-                    mem_fn(&Profile::energy_current));
-  formulas.quantity("particle_current_mean", "1/time", "Mean of J_n over the bonds",
-                    [](const Profile& profile) { return average(profile.particle_current()); });
-  formulas.quantity("energy_current_mean", "energy/time", "Mean of J_U over the bonds",
-                    [](const Profile& profile) { return average(profile.energy_current()); });
-  formulas.quantity("particle_current_deviation", bond, "1/time", "J_n minus its mean over the bonds",
-                    [](const Profile& profile) { return minus_mean(profile.particle_current()); });
-  formulas.quantity("energy_current_deviation", bond, "energy/time", "J_U minus its mean over the bonds",
-                    [](const Profile& profile) { return minus_mean(profile.energy_current()); });
-  formulas.quantity(
-      "scatterer_density", {tallies.end, tallies.momentum}, "1/momentum", "Probability density of P/sqrt(M)",
-      [=](const Profile& profile) { return mean_of(tallies.end_momentum, bin_width)(profile.mean); });
   const Columns measured =
       columns_of({tallies.temperature, tallies.density, tallies.arrivals, tallies.arriving_squares,
                   tallies.crossings, tallies.crossing_squares, tallies.end_momentum});
-  return formulas.estimator([=](const Records& records) {
+  Group group([=](const Records& records) {
     return reduce_variance(records, {{measured, columns_of({tallies.injection})}});
   });
+  const auto of = [&](auto&& formula) {
+    return [=](RecordView mean) { return formula(Profile{mean, tallies}); };
+  };
+  const auto density = [](const Profile& profile) {
+    return DensityProfile(profile.mean[profile.tallies.density]);
+  };
+  using std::mem_fn;
+
+  group.quantity("temperature_scatterer", cell, "temperature", "Time average of P^2/M",
+                 of(mem_fn(&Profile::temperature)));
+  group.quantity("temperature_particle", cell, "temperature", "<p^2>/m over the arrivals at the scatterer",
+                 of(mem_fn(&Profile::particle_temperature)));
+  group.quantity("temperature_difference", cell, "temperature",
+                 "That of the scatterer minus that of the particles", of([](const Profile& profile) {
+                   return difference(profile.temperature(), profile.particle_temperature());
+                 }));
+  group.quantity("density", cell, "1", "Mean number of particles in the cell, frozen ones included",
+                 mean_of(tallies.density));
+  group.quantity("density_slope", "1",
+                 "Of the line through the middle half, over the chain and relative to its mean",
+                 of([=](const Profile& profile) { return density(profile).slope(); }));
+  group.quantity("density_excess", end, "1", "Density of an end cell over that line, minus 1",
+                 of([=](const Profile& profile) { return density(profile).excess(); }));
+  group.quantity("rate_right", cell, "1/time", "Arrivals at the scatterer to the right",
+                 of([](const Profile& profile) { return profile.rate(rightwards); }));
+  group.quantity("rate_left", cell, "1/time", "Arrivals at the scatterer to the left",
+                 of([](const Profile& profile) { return profile.rate(leftwards); }));
+  group.quantity("rate_right_deviation", cell, "1/time", "rate_right minus a straight line through it",
+                 of([](const Profile& profile) { return minus_line(profile.rate(rightwards)); }));
+  group.quantity("rate_left_deviation", cell, "1/time", "rate_left minus a straight line through it",
+                 of([](const Profile& profile) { return minus_line(profile.rate(leftwards)); }));
+  group.quantity("particle_current", bond, "1/time", "J_n, positive to the right",
+                 of(mem_fn(&Profile::particle_current)));
+  group.quantity("energy_current", bond, "energy/time", "J_U, positive to the right",
+                 of(mem_fn(&Profile::energy_current)));
+  group.quantity("particle_current_mean", "1/time", "Mean of J_n over the bonds",
+                 of([](const Profile& profile) { return average(profile.particle_current()); }));
+  group.quantity("energy_current_mean", "energy/time", "Mean of J_U over the bonds",
+                 of([](const Profile& profile) { return average(profile.energy_current()); }));
+  group.quantity("particle_current_deviation", bond, "1/time", "J_n minus its mean over the bonds",
+                 of([](const Profile& profile) { return minus_mean(profile.particle_current()); }));
+  group.quantity("energy_current_deviation", bond, "energy/time", "J_U minus its mean over the bonds",
+                 of([](const Profile& profile) { return minus_mean(profile.energy_current()); }));
+  group.quantity("scatterer_density", {tallies.end, tallies.momentum}, "1/momentum",
+                 "Probability density of P/sqrt(M)", mean_of(tallies.end_momentum, bin_width));
+  return group;
 }
 
 Study steady_profile(const Parameters& parameters) {
@@ -129,7 +125,7 @@ Study steady_profile(const Parameters& parameters) {
   };
   return {.tallies = tallies,
           .measure = measure,
-          .estimators = {profiles(tallies, bins.width())},
+          .groups = {profiles(tallies, bins.width())},
           .target = "energy_current_mean"};
 }
 

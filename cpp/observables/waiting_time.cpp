@@ -12,9 +12,9 @@
 #include <cmath>
 
 #include "numerics/elementary.hpp"
-#include "runs/closed_study.hpp"
+#include "observables/waiting_time/log_sum.hpp"
+#include "sampling/closed_run.hpp"
 #include "statistics/log_grid.hpp"
-#include "statistics/log_sum.hpp"
 
 namespace {
 
@@ -90,7 +90,7 @@ std::vector<double> exponents(std::span<const double> counts, std::span<const do
   return result;
 }
 
-Estimator waiting_times(const Parameters& parameters, const Tallies& tallies) {
+Group waiting_times(const Parameters& parameters, const Tallies& tallies) {
   const LogGrid bins = parameters.bins();
   const std::vector<double> edges = bins.points();
   const Axis cut{"cut", "time", "Shortest waiting time of the tail", {edges.begin(), edges.end() - 1}};
@@ -102,22 +102,22 @@ Estimator waiting_times(const Parameters& parameters, const Tallies& tallies) {
     return exponents(mean[tallies.count], mean[tallies.log_sum], edges);
   };
 
-  Formulas formulas;
-  formulas.quantity("density", {tallies.tau}, "1/time",
-                    "Probability density of the time between two scatterings of a particle",
-                    [=](RecordView mean) { return density(mean[tallies.count], edges); });
-  formulas.quantity("exponent_by_cut", {cut}, "1", "Maximum-likelihood exponent of the tail above the cut",
-                    by_cut);
-  formulas.quantity("exponent", "1", "Exponent of the tail above --tail-from thermal flights",
-                    [=](RecordView mean) { return by_cut(mean)[chosen]; });
-  formulas.quantity(
-      "exponent_spread", "1", "Largest difference of exponents for cuts within a factor of three",
-      [=](RecordView mean) {
-        const std::vector<double> all = by_cut(mean);
-        const auto [low, high] = std::ranges::minmax(std::span(all).subspan(lowest, highest + 1 - lowest));
-        return high - low;
-      });
-  return formulas.estimator();
+  Group group;
+  group.quantity("density", {tallies.tau}, "1/time",
+                 "Probability density of the time between two scatterings of a particle",
+                 [=](RecordView mean) { return density(mean[tallies.count], edges); });
+  group.quantity("exponent_by_cut", {cut}, "1", "Maximum-likelihood exponent of the tail above the cut",
+                 by_cut);
+  group.quantity("exponent", "1", "Exponent of the tail above --tail-from thermal flights",
+                 [=](RecordView mean) { return by_cut(mean)[chosen]; });
+  group.quantity("exponent_spread", "1", "Largest difference of exponents for cuts within a factor of three",
+                 [=](RecordView mean) {
+                   const std::vector<double> all = by_cut(mean);
+                   const auto [low, high] =
+                       std::ranges::minmax(std::span(all).subspan(lowest, highest + 1 - lowest));
+                   return high - low;
+                 });
+  return group;
 }
 
 Study waiting_time(const Parameters& parameters) {

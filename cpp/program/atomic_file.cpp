@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,7 +9,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <regex>
 
 #include "program/errors.hpp"
 
@@ -20,8 +18,7 @@ namespace {
 /// Temporary file that commit() renames to the path and that is otherwise deleted. Throws UsageError.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const std::string& path)
-      : path_(path), temporary_(fmt::format("{}.{}.tmp", path, ::getpid())) {
+  explicit TemporaryFile(const std::string& path) : path_(path), temporary_(path + ".tmp") {
     struct stat status{};
     if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
       fail("it exists and is not a regular file", "Name a file that may be replaced");
@@ -49,32 +46,11 @@ class TemporaryFile {
     if (error != 0) fail(std::strerror(error), "Free space or choose another disk");
   }
 
-  void flush() {
-    const bool flushed = ::fsync(descriptor_) == 0;
-    const bool closed = ::close(descriptor_) == 0;
-    descriptor_ = -1;
-    if (!flushed || !closed) fail(std::strerror(errno), "Free space or choose another disk");
-  }
-
-  /// Call flush() before.
   void commit() {
-    if (std::rename(temporary_.c_str(), path_.c_str()) != 0)
+    if (::fsync(descriptor_) != 0 || std::rename(temporary_.c_str(), path_.c_str()) != 0)
       fail(std::strerror(errno), "Free space or choose another disk");
     committed_ = true;
-    flush_folder();
-  }
-
- private:
-  [[noreturn]] void fail(const std::string& why, const std::string& remedy) {
-    const std::string message = fmt::format("'{}' cannot be written: {}. {}.", path_, why, remedy);
-    if (descriptor_ >= 0) ::close(descriptor_);
-    descriptor_ = -1;
-    ::unlink(temporary_.c_str());  // the destructor does not run when the constructor throws
-    throw UsageError(message);
-  }
-
-  /// Makes the new name last through a power failure, where the file system can.
-  void flush_folder() const {
+    // Makes the new name last through a power failure, where the file system can.
     const std::string folder = std::filesystem::path(path_).parent_path();
     const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) return;
@@ -82,45 +58,24 @@ class TemporaryFile {
     ::close(descriptor);
   }
 
+ private:
+  [[noreturn]] void fail(const std::string& why, const std::string& remedy) {
+    throw UsageError(fmt::format("'{}' cannot be written: {}. {}.", path_, why, remedy));
+  }
+
   std::string path_, temporary_;
   int descriptor_ = -1;
   bool committed_ = false;
 };
-
-/// Whether a name is that of a temporary file, whose process runs here no more.
-bool is_leftover(const std::string& name) {
-  static const std::regex pattern(R"(.*\.(\d{1,9})\.tmp)");
-  std::smatch found;
-  return std::regex_match(name, found, pattern) && ::kill(std::stoi(found[1]), 0) != 0 && errno == ESRCH;
-}
-
-/// Removes what killed processes left of this file, and of files that have its name and a suffix.
-void remove_leftovers(const std::filesystem::path& path) {
-  const std::string start = path.filename().string() + ".";
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    const std::string name = entry.path().filename();
-    if (name.starts_with(start) && is_leftover(name)) std::filesystem::remove(entry.path(), ignored);
-  }
-}
 
 }  // namespace
 
 void write_atomically(const std::string& path, std::span<const std::byte> content) {
   TemporaryFile file(path);
   file.write(content);
-  file.flush();
   file.commit();
 }
 
-void write_atomically(const std::string& path, const std::string& content) {
-  write_atomically(path, std::as_bytes(std::span(content)));
-}
-
-void require_writable(const std::string& path, std::size_t size) {
-  remove_leftovers(path);
-  TemporaryFile(path).reserve(size);
-}
+void require_writable(const std::string& path, std::size_t size) { TemporaryFile(path).reserve(size); }
 
 }  // namespace lorentz

@@ -4,40 +4,49 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
-#include <nlohmann/json.hpp>
+#include <charconv>
+#include <numeric>
 #include <span>
-#include <sstream>
-#include <system_error>
 #include <utility>
 
-#include "program/config_file.hpp"
 #include "program/errors.hpp"
-#include "program/nearest_name.hpp"
-#include "program/standard_streams.hpp"
 
 namespace lorentz {
 
-using nlohmann::json;
-
-/// What distinguishes one option from another; Options::add() puts in what all have in common.
+/// What distinguishes one option from another, and, from Options::add() on, what all have.
 struct Option {
-  json description;                              // an element of describe()
-  std::string admissible;                        // "a number at least 0"; empty for any text
+  std::string type;
+  std::string limits;      // further members of describe(): "minimum", "word", "units", ...
+  std::string admissible;  // "a number at least 0"; empty for any text
   std::function<bool(const std::string&)> read;  // sets the value; false if the text is not admissible
-  std::function<AttributeValue()> recorded;
-  std::string name = {};
+  std::function<AttributeValue()> value;
+  std::string name = {}, help = {};
+  Options::Role role = Options::Role::result;
   bool given = false;
 };
 
 namespace {
 
+std::string json_of(const AttributeValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return as_json(*text);
+  const std::string number = as_text(value);
+  const bool whole = std::holds_alternative<double>(value) && number.find_first_of(".e") == std::string::npos;
+  return whole ? number + ".0" : number;
+}
+
+/// Whole numbers in one width.
 template <class Number>
-json numeric(const std::string& type, const Range<Number>& range, const std::string& units) {
-  json description = {{"type", type}, {"units", units}};
-  if (range.bounded_below()) description[range.open_below ? "exclusive_minimum" : "minimum"] = range.low;
-  if (range.bounded_above()) description["maximum"] = range.high;
-  return description;
+using Recorded = std::conditional_t<std::is_integral_v<Number>, std::uint64_t, double>;
+
+/// The members of describe() that state a range.
+template <class Number>
+std::string limits(const Range<Number>& range) {
+  const auto member = [](const char* name, Number value) {
+    return fmt::format(R"(, "{}": {})", name, json_of(Recorded<Number>{value}));
+  };
+  return (range.bounded_below() ? member(range.open_below ? "exclusive_minimum" : "minimum", range.low)
+                                : "") +
+         (range.bounded_above() ? member("maximum", range.high) : "");
 }
 
 template <class Number>
@@ -53,51 +62,101 @@ std::string number_in(const Range<Number>& range) {
   return (std::is_integral_v<Number> ? "a whole number " : "a number ") + interval(range);
 }
 
+/// Sets the value to a decimal number, rounded to nearest; false if the text is not one in the range.
 template <class Number>
-Option number(Number& value, Range<Number> range, const std::string& units) {
-  constexpr bool whole = std::is_integral_v<Number>;
-  using Recorded = std::conditional_t<whole, std::uint64_t, double>;  // whole numbers in one width
-  return {numeric(whole ? "integer" : "number", range, units), number_in(range),
-          [&value, range](const std::string& text) { return read_number(text, range, value); },
-          [&value] { return AttributeValue(Recorded{value}); }};
+bool read_number(const std::string& text, const Range<Number>& range, Number& value) {
+  const char* begin = text.data() + (text.starts_with('+') && !text.starts_with("+-") ? 1 : 0);
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  return error == std::errc{} && stop == end && range.contains(value);
+}
+
+constexpr std::array<const char*, 3> powers{"", "N", "N^2"};
+
+/// Sets the value to a sum of terms, each with another power of N and a coefficient in the range.
+bool read_polynomial(const std::string& text, const Range<double>& range, Scaled& value) {
+  value = {};
+  std::array<bool, 3> given{};
+  const char* at = text.data() + (text.starts_with('+') ? 1 : 0);
+  const char* const end = text.data() + text.size();
+  for (;; ++at) {
+    double coefficient = 0;
+    const auto [stop, error] = std::from_chars(at, end, coefficient);
+    const char* const next = std::find(stop, end, '+');
+    const auto power =
+        static_cast<std::size_t>(std::ranges::find(powers, std::string(stop, next)) - powers.begin());
+    if (error != std::errc{} || !range.contains(coefficient) || power == powers.size() || given[power])
+      return false;
+    value.coefficients[power] = coefficient;
+    given[power] = true;
+    at = next;
+    if (at == end) return true;
+  }
+}
+
+/// A number where it is constant, else the terms that are not 0.
+AttributeValue polynomial(const Scaled& value) {
+  if (value.coefficients[1] == 0 && value.coefficients[2] == 0) return value.coefficients[0];
+  std::vector<std::string> terms;
+  for (std::size_t power = 0; power < powers.size(); ++power)
+    if (value.coefficients[power] != 0)
+      terms.push_back(fmt::format("{}{}", value.coefficients[power], powers[power]));
+  return fmt::format("{}", fmt::join(terms, "+"));
+}
+
+template <class Number>
+Option number(Number& value, Range<Number> range) {
+  return {.type = std::is_integral_v<Number> ? "integer" : "number",
+          .limits = limits(range),
+          .admissible = number_in(range),
+          .read = [&value, range](const std::string& text) { return read_number(text, range, value); },
+          .value = [&value] { return AttributeValue(Recorded<Number>{value}); }};
 }
 
 /// The number is recorded as floating point, also where it is whole.
 template <class Number>
-Option number_or_word(std::optional<Number>& value, Range<Number> range, const std::string& word,
-                      const std::string& units) {
-  const auto read = [&value, range, word](const std::string& text) {
-    if (text != word) return read_number(text, range, value.emplace());
-    value.reset();
-    return true;
-  };
-  const auto recorded = [&value, word] {
-    return value ? AttributeValue(static_cast<double>(*value)) : AttributeValue(word);
-  };
-  const std::string type = std::is_integral_v<Number> ? "integer or word" : "number or word";
-  Option option{numeric(type, range, units), number_in(range) + ", or " + word, read, recorded};
-  option.description["word"] = word;
-  return option;
+Option number_or_word(std::optional<Number>& value, Range<Number> range, const std::string& word) {
+  return {
+      .type = std::is_integral_v<Number> ? "integer or word" : "number or word",
+      .limits = limits(range) + fmt::format(R"(, "word": {})", as_json(word)),
+      .admissible = number_in(range) + ", or " + word,
+      .read =
+          [&value, range, word](const std::string& text) {
+            if (text != word) return read_number(text, range, value.emplace());
+            value.reset();
+            return true;
+          },
+      .value = [&value,
+                word] { return value ? AttributeValue(static_cast<double>(*value)) : AttributeValue(word); }};
 }
+
+/// Number of letters that differ: Levenshtein distance.
+std::size_t distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j)
+      diagonal = std::exchange(row[j + 1],
+                               std::min({row[j] + 1, row[j + 1] + 1, diagonal + (a[i] == b[j] ? 0 : 1)}));
+  }
+  return row.back();
+}
+
+}  // namespace
 
 std::string as_text(const AttributeValue& value) {
   return std::visit([](const auto& each) { return fmt::format("{}", each); }, value);
 }
 
-/// The value as an option of this type reads it; where no string or array is admissible, as the literal.
-const std::string& text_for(const std::string& type, const ConfigEntry& entry) {
-  const bool word = type != "number" && type != "integer" && type != "flag";
-  const bool fits = entry.form == ConfigEntry::Form::string ? word : type == "numbers";
-  return fits ? entry.text : entry.literal;
+std::string as_json(const std::string& text) {
+  std::string escaped;
+  for (const char each : text) escaped += (each == '"' || each == '\\' ? "\\" : "") + std::string(1, each);
+  return '"' + escaped + '"';
 }
-
-}  // namespace
 
 Options::Options(std::string program, const std::string& description)
     : program_(std::move(program)), app_(std::make_unique<CLI::App>(description, program_)) {
-  app_->add_option("--config", "Read options from a TOML file (keys without the dashes)")
-      ->type_name("")
-      ->take_all();  // parse() refuses an option given twice
   app_->set_version_flag("--version", std::string{}, "Print version and build id, then exit");
   app_->get_formatter()->column_width(36);
   app_->allow_extras();  // parse() refuses them, with the name that is nearest
@@ -105,19 +164,18 @@ Options::Options(std::string program, const std::string& description)
 
 Options::~Options() = default;
 
-void Options::add(const std::string& name, const std::string& help, Role role, Option option) {
-  const AttributeValue preset = option.recorded();
+void Options::add(const std::string& name, const std::string& units, const std::string& help, Role role,
+                  Option option) {
   option.name = name;
-  option.description["name"] = name.substr(2);
-  option.description["description"] = help;
-  option.description["default"] = std::visit([](const auto& value) { return json(value); }, preset);
-  option.description["affects_results"] = role == Role::result;
-  const std::string units = option.description.value("units", "1");
+  option.help = help;
+  option.role = role;
+  if (!units.empty()) option.limits += fmt::format(R"(, "units": {})", as_json(units));
+  option.limits += fmt::format(R"(, "default": {})", json_of(option.value()));
   std::string text = help;
-  if (units != "1") text += fmt::format(" [{}]", units);
+  if (!units.empty() && units != "1") text += fmt::format(" [{}]", units);
   if (!option.admissible.empty())
-    text += fmt::format(" ({}; default {})", option.admissible, as_text(preset));
-  if (option.description["type"] == "flag")
+    text += fmt::format(" ({}; default {})", option.admissible, as_text(option.value()));
+  if (option.type == "flag")
     app_->add_flag(name, help);
   else
     app_->add_option(name, CLI::callback_t{}, text)->type_name("")->take_all();
@@ -126,62 +184,59 @@ void Options::add(const std::string& name, const std::string& help, Role role, O
 
 void Options::real(const std::string& name, double& value, Range<double> range, const std::string& units,
                    const std::string& help, Role role) {
-  add(name, help, role, number(value, range, units));
+  add(name, units, help, role, number(value, range));
 }
 
 void Options::integer(const std::string& name, std::uint32_t& value, Range<std::uint32_t> range,
                       const std::string& help, Role role) {
-  add(name, help, role, number(value, range, "1"));
+  add(name, "1", help, role, number(value, range));
 }
 
 void Options::integer(const std::string& name, std::uint64_t& value, Range<std::uint64_t> range,
                       const std::string& help, Role role) {
-  add(name, help, role, number(value, range, "1"));
+  add(name, "1", help, role, number(value, range));
 }
 
 void Options::real_or_word(const std::string& name, std::optional<double>& value, Range<double> range,
-                           const std::string& word, const std::string& units, const std::string& help,
-                           Role role) {
-  add(name, help, role, number_or_word(value, range, word, units));
+                           const std::string& word, const std::string& units, const std::string& help) {
+  add(name, units, help, Role::result, number_or_word(value, range, word));
 }
 
 void Options::integer_or_word(const std::string& name, std::optional<std::uint32_t>& value,
-                              Range<std::uint32_t> range, const std::string& word, const std::string& help,
-                              Role role) {
-  add(name, help, role, number_or_word(value, range, word, "1"));
+                              Range<std::uint32_t> range, const std::string& word, const std::string& help) {
+  add(name, "1", help, Role::result, number_or_word(value, range, word));
 }
 
-void Options::scaled(const std::string& name, Scaled& value, Range<double> range, char symbol,
-                     const std::string& units, const std::string& help, Role role) {
-  const auto read = [&value, range, symbol](const std::string& text) {
-    return read_polynomial(text, range, symbol, value);
-  };
-  const auto recorded = [&value, symbol] {
-    const auto& [constant, linear, quadratic] = value.coefficients;
-    return linear == 0 && quadratic == 0 ? AttributeValue(constant) : AttributeValue(as_text(value, symbol));
-  };
-  add(name, help, role,
-      {numeric(fmt::format("number or polynomial in {}", symbol), range, units),
-       fmt::format("{0}, or a sum of such, each alone or followed by {1} or {1}^2", number_in(range), symbol),
-       read, recorded});
+void Options::scaled(const std::string& name, Scaled& value, Range<double> range, const std::string& units,
+                     const std::string& help) {
+  add(name, units, help, Role::result,
+      {.type = "number or polynomial in N",
+       .limits = limits(range),
+       .admissible = number_in(range) + ", or a sum of such, each alone or followed by N or N^2",
+       .read = [&value, range](const std::string& text) { return read_polynomial(text, range, value); },
+       .value = [&value] { return polynomial(value); }});
 }
 
 void Options::ascending_list(const std::string& name, std::vector<double>& values, Range<double> range,
-                             const std::string& units, const std::string& help, Role role) {
+                             const std::string& units, const std::string& help) {
   const auto read = [&values, range](const std::string& text) {
     values.clear();
-    std::istringstream items(text + ',');  // getline passes over an empty item after the last comma
-    for (std::string item; std::getline(items, item, ',');) {
+    for (std::size_t begin = 0, end = 0; end != text.size(); begin = end + 1) {
+      end = std::min(text.find(',', begin), text.size());
       double value = 0;
-      if (!read_number(item, range, value) || (!values.empty() && value <= values.back())) return false;
+      if (!read_number(text.substr(begin, end - begin), range, value) ||
+          (!values.empty() && value <= values.back()))
+        return false;
       values.push_back(value);
     }
-    return true;
+    return !values.empty();
   };
-  const auto recorded = [&values] { return AttributeValue(fmt::format("{}", fmt::join(values, ","))); };
-  add(name, help, role,
-      {numeric("numbers", range, units),
-       fmt::format("numbers {}, ascending, separated by commas", interval(range)), read, recorded});
+  add(name, units, help, Role::result,
+      {.type = "numbers",
+       .limits = limits(range),
+       .admissible = fmt::format("numbers {}, ascending, separated by commas", interval(range)),
+       .read = read,
+       .value = [&values] { return AttributeValue(fmt::format("{}", fmt::join(values, ","))); }});
 }
 
 void Options::flag(const std::string& name, bool& value, const std::string& help, Role role) {
@@ -189,8 +244,10 @@ void Options::flag(const std::string& name, bool& value, const std::string& help
     value = text == "true";
     return value || text == "false";
   };
-  add(name, help, role,
-      {{{"type", "flag"}}, "true or false", read, [&value] { return AttributeValue(value); }});
+  add(name, "", help, role,
+      {.type = "flag", .limits = {}, .admissible = "true or false", .read = read, .value = [&value] {
+         return AttributeValue(value);
+       }});
 }
 
 void Options::choice(const std::string& name, std::string& value, const std::vector<std::string>& choices,
@@ -199,11 +256,12 @@ void Options::choice(const std::string& name, std::string& value, const std::vec
     value = text;
     return std::ranges::find(choices, text) != choices.end();
   };
-  add(name, help, role,
-      {{{"type", "choice"}, {"choices", choices}},
-       fmt::format("one of {}", fmt::join(choices, ", ")),
-       read,
-       [&value] { return AttributeValue(value); }});
+  add(name, "", help, role,
+      {.type = "choice",
+       .limits = fmt::format(R"(, "choices": ["{}"])", fmt::join(choices, R"(", ")")),
+       .admissible = fmt::format("one of {}", fmt::join(choices, ", ")),
+       .read = read,
+       .value = [&value] { return AttributeValue(value); }});
 }
 
 void Options::text(const std::string& name, std::string& value, const std::string& help, Role role) {
@@ -211,7 +269,9 @@ void Options::text(const std::string& name, std::string& value, const std::strin
     value = text;
     return true;
   };
-  add(name, help, role, {{{"type", "text"}}, "", read, [&value] { return AttributeValue(value); }});
+  add(name, "", help, role, {.type = "text", .limits = {}, .admissible = {}, .read = read, .value = [&value] {
+                               return AttributeValue(value);
+                             }});
 }
 
 bool Options::given(const std::string& name) const {
@@ -219,102 +279,58 @@ bool Options::given(const std::string& name) const {
                              [&](const Option& option) { return option.given && option.name == name; });
 }
 
-void Options::refuse(const std::string& why) const {
-  throw UsageError(fmt::format("{}. Correct it; '{} --help' lists every option.", why, program_));
-}
-
-std::string Options::nearest(const std::string& name) const {
-  std::vector<std::string> names;
-  for (const Option& option : options_) names.push_back(option.name);
-  return nearest_name("--" + name, names);
-}
-
-void Options::refuse_unknown(const std::string& word) const {
-  if (!word.starts_with('-')) refuse(fmt::format("'{}' is no option and belongs to none", word));
-  const std::string name = word.substr(0, word.find('='));
-  refuse(fmt::format("no option has the name {}; the nearest one is {}", name,
-                     nearest(name.substr(std::min(name.size(), name.find_first_not_of('-'))))));
-}
-
-void Options::read(Option& option, const std::string& text, const std::string& place) {
-  option.given = option.read(text);
-  if (!option.given)
-    refuse(
-        fmt::format("{}{}: '{}' cannot be used: it must be {}", place, option.name, text, option.admissible));
-}
-
-void Options::read_file(const std::string& path) {
-  for (const ConfigEntry& entry : read_config_file(path)) {
-    const auto option = std::ranges::find_if(
-        options_, [&](const Option& each) { return each.description["name"] == entry.key; });
-    if (option == options_.end())
-      refuse(fmt::format("{}: no option has the name '{}'; the nearest one is '{}'", entry.place, entry.key,
-                         nearest(entry.key).substr(2)));
-    if (option->description["type"] == "text" && entry.form != ConfigEntry::Form::string)
-      refuse(fmt::format("{}: {}: '{}' cannot be used: it must be a string", entry.place, option->name,
-                         entry.literal));
-    read(*option, text_for(option->description["type"], entry), entry.place + ": ");
-  }
-}
-
-const std::string* Options::argument(const std::string& name) const {
-  const std::vector<std::string>& values = app_->get_option(name)->results();
-  if (values.size() > 1) refuse(name + " is given more than once");
-  return values.empty() ? nullptr : &values.front();
-}
-
-bool Options::parse(int argc, const char* const* argv, const std::string& version_text) {
+std::optional<std::string> Options::parse(int argc, const char* const* argv, const std::string& version) {
+  const auto refuse = [this](const std::string& why) {
+    throw UsageError(fmt::format("{}. Correct it; '{} --help' lists every option.", why, program_));
+  };
   for (const std::string word : std::span(argv, static_cast<std::size_t>(argc)))
     if (word.starts_with("--") && word.find('=') + 1 == word.size())  // CLI11 would take the next word
       refuse(fmt::format("{} is followed by nothing", word));
   try {
     app_->parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    print(app_->help());
-    return false;
+    return app_->help();
   } catch (const CLI::CallForVersion&) {
-    print(version_text + '\n');
-    return false;
+    return version + '\n';
   } catch (const CLI::ArgumentMismatch& error) {
     const std::string what = error.what();
     refuse(what.substr(0, what.find(':')) + " needs a value");
   } catch (const CLI::ParseError& error) {
     refuse(error.what());
   }
-  for (const std::string& extra : app_->remaining()) refuse_unknown(extra);
-  if (const std::string* path = argument("--config")) read_file(*path);
-  for (Option& option : options_)
-    if (const std::string* text = argument(option.name)) read(option, *text, "");
-  return true;
-}
-
-void Options::require_not_configuration(const std::string& path) const {
-  const std::string* configuration = argument("--config");
-  std::error_code unknown;  // there may be no file of that name yet
-  if (configuration && std::filesystem::equivalent(*configuration, path, unknown))
-    throw UsageError(fmt::format(
-        "'{}' is the configuration file, which the run would replace or remove. Choose another --output.",
-        path));
+  for (const std::string& extra : app_->remaining()) {
+    if (!extra.starts_with('-')) refuse(fmt::format("unexpected argument '{}'", extra));
+    const std::string name = extra.substr(0, extra.find('='));
+    const auto nearest = std::ranges::min_element(
+        options_, {}, [&](const Option& option) { return distance(option.name, name); });
+    refuse(fmt::format("{} is not an option; the nearest one is {}", name, nearest->name));
+  }
+  for (Option& option : options_) {
+    const std::vector<std::string>& values = app_->get_option(option.name)->results();
+    option.given = !values.empty();
+    if (values.size() > 1) refuse(option.name + " is given more than once");
+    if (option.given && !option.read(values.front()))
+      refuse(fmt::format("{}: '{}' cannot be used: it must be {}", option.name, values.front(),
+                         option.admissible));
+  }
+  return {};
 }
 
 std::vector<Parameter> Options::parameters() const {
   std::vector<Parameter> result;
   for (const Option& option : options_)
-    if (option.description["affects_results"]) result.push_back({option.name.substr(2), option.recorded()});
-  std::ranges::sort(result, [](const Parameter& a, const Parameter& b) { return a.name < b.name; });
+    if (option.role == Role::result) result.push_back({option.name.substr(2), option.value()});
+  std::ranges::sort(result, {}, &Parameter::name);
   return result;
 }
 
-json Options::describe() const {
-  json result = json::array();
-  for (const Option& option : options_) result.push_back(option.description);
-  return result;
-}
-
-std::string as_text(const std::vector<Parameter>& parameters) {
-  std::string text;
-  for (const Parameter& each : parameters) text += fmt::format("{} = {}\n", each.name, as_text(each.value));
-  return text;
+std::string Options::describe() const {
+  std::vector<std::string> each;
+  for (const Option& option : options_)
+    each.push_back(fmt::format(R"({{"name": {}, "type": {}, "description": {}{}, "affects_results": {}}})",
+                               as_json(option.name.substr(2)), as_json(option.type), as_json(option.help),
+                               option.limits, option.role == Role::result));
+  return fmt::format("[{}]", fmt::join(each, ",\n"));
 }
 
 }  // namespace lorentz

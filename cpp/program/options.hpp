@@ -1,15 +1,14 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
-
-#include "program/number_text.hpp"
 
 namespace CLI {
 class App;
@@ -17,21 +16,45 @@ class App;
 
 namespace lorentz {
 
-struct Option;
+/// The range of a number: [low, high], or (low, high] if the lower end is excluded.
+template <class Number>
+struct Range {
+  Number low = std::numeric_limits<Number>::lowest();
+  Number high = std::numeric_limits<Number>::max();
+  bool open_below = false;
+
+  bool bounded_below() const { return low != std::numeric_limits<Number>::lowest() || low == 0; }
+  bool bounded_above() const { return high != std::numeric_limits<Number>::max(); }
+  bool contains(Number value) const { return (open_below ? value > low : value >= low) && value <= high; }
+};
+
+inline constexpr Range<double> positive{0, std::numeric_limits<double>::max(), true};
+inline constexpr Range<double> non_negative{0};
+
+/// A polynomial of the second degree in a size of the system, most often a number.
+struct Scaled {
+  std::array<double, 3> coefficients;  // of size^0, size^1, size^2
+
+  double at(double size) const { return coefficients[0] + size * (coefficients[1] + size * coefficients[2]); }
+};
 
 using AttributeValue = std::variant<bool, std::int64_t, std::uint64_t, double, std::string>;
 
-/// The value of an option as it goes into the output file.
+/// The value of an option as it is recorded in the output file.
 struct Parameter {
   std::string name;  // without the leading dashes
   AttributeValue value;
 };
 
-/// The options of one executable. One declaration of each serves the command line, the configuration file,
-/// --help, the check, the record of parameters in the output file and describe().
-///
-/// parse() writes to the values that were declared: they must not be const, nor move. So a class with options
-/// declares them in a function that is not const, and is written to by nothing else.
+std::string as_text(const AttributeValue& value);
+
+/// A string in JSON.
+std::string as_json(const std::string& text);
+
+struct Option;
+
+/// The options of one executable. One declaration of each serves the command line, --help, the check, the
+/// record of parameters in the output file and describe(). parse() writes to the declared values.
 class Options {
  public:
   enum class Role {
@@ -42,7 +65,7 @@ class Options {
   Options(std::string program, const std::string& description);
   ~Options();
 
-  /// The value given is the default. Names carry their leading dashes. Units are a dimension, such as
+  /// The current value is the default. Names have their leading dashes. Units are a dimension, such as
   /// "temperature" or "1/time", or "1".
   void real(const std::string& name, double& value, Range<double> range, const std::string& units,
             const std::string& help, Role role = Role::result);
@@ -52,60 +75,41 @@ class Options {
                const std::string& help, Role role = Role::result);
   /// A number, or a word, for which the value is none: --gamma N.
   void real_or_word(const std::string& name, std::optional<double>& value, Range<double> range,
-                    const std::string& word, const std::string& units, const std::string& help,
-                    Role role = Role::result);
+                    const std::string& word, const std::string& units, const std::string& help);
   void integer_or_word(const std::string& name, std::optional<std::uint32_t>& value,
-                       Range<std::uint32_t> range, const std::string& word, const std::string& help,
-                       Role role = Role::result);
-  /// A number, or a sum of a number and multiples of a size and its square: 0.05N or 50+0.0004N^2 with the
-  /// symbol 'N'.
-  void scaled(const std::string& name, Scaled& value, Range<double> range, char symbol,
-              const std::string& units, const std::string& help, Role role = Role::result);
+                       Range<std::uint32_t> range, const std::string& word, const std::string& help);
+  /// A number, or a sum of a number and multiples of N and N^2, as 50+0.0004N^2.
+  void scaled(const std::string& name, Scaled& value, Range<double> range, const std::string& units,
+              const std::string& help);
   /// Increasing numbers, separated by commas.
   void ascending_list(const std::string& name, std::vector<double>& values, Range<double> range,
-                      const std::string& units, const std::string& help, Role role = Role::result);
+                      const std::string& units, const std::string& help);
   void flag(const std::string& name, bool& value, const std::string& help, Role role = Role::result);
   void choice(const std::string& name, std::string& value, const std::vector<std::string>& choices,
               const std::string& help, Role role = Role::result);
   void text(const std::string& name, std::string& value, const std::string& help, Role role = Role::result);
 
-  /// Whether the command line or the configuration file has the option.
+  /// Whether the command line has the option.
   bool given(const std::string& name) const;
   const std::string& program() const { return program_; }
 
-  /// Reads the command line and the configuration file that it names; the command line has the last word.
-  /// Returns true if the program should go on; false after --help or --version, which print to
-  /// standard output. Throws UsageError.
-  bool parse(int argc, const char* const* argv, const std::string& version_text);
-
-  /// Throws UsageError if a file that is to be written is the configuration file, under whatever name.
-  void require_not_configuration(const std::string& path) const;
+  /// Reads the command line. Returns the text of --help or --version if one is given, after which the program
+  /// ends; none otherwise. Throws UsageError.
+  std::optional<std::string> parse(int argc, const char* const* argv, const std::string& version);
 
   /// Values of all options that determine the result, sorted by name.
   std::vector<Parameter> parameters() const;
 
-  /// The options in the order of declaration: name, type, limits, default, units, description.
-  nlohmann::json describe() const;
+  /// JSON array of the options in the order of declaration: name, type, limits, default, units, description.
+  std::string describe() const;
 
  private:
-  void add(const std::string& name, const std::string& help, Role role, Option option);
-  void read(Option& option, const std::string& text, const std::string& place);
-  void read_file(const std::string& path);
-  [[noreturn]] void refuse(const std::string& why) const;
-  [[noreturn]] void refuse_unknown(const std::string& word) const;
-
-  /// Value on the command line; none without one. Throws UsageError if there are several.
-  const std::string* argument(const std::string& name) const;
-
-  /// Name of the option whose name, without the dashes, is nearest.
-  std::string nearest(const std::string& name) const;
+  void add(const std::string& name, const std::string& units, const std::string& help, Role role,
+           Option option);
 
   std::string program_;
   std::unique_ptr<CLI::App> app_;
   std::vector<Option> options_;
 };
-
-/// One "name = value" line per parameter, numbers with all their digits.
-std::string as_text(const std::vector<Parameter>& parameters);
 
 }  // namespace lorentz

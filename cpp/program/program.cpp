@@ -1,31 +1,29 @@
 #include "program/program.hpp"
 
 #include <fmt/format.h>
+#include <signal.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <chrono>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <new>
-#include <nlohmann/json.hpp>
-#include <optional>
 #include <stdexcept>
-#include <string_view>
 
 #include "program/atomic_file.hpp"
 #include "program/build_info.hpp"
+#include "program/hdf5_file.hpp"
 #include "program/interruption.hpp"
-#include "program/parts.hpp"
-#include "program/results.hpp"
-#include "program/standard_streams.hpp"
+#include "program/record_file.hpp"
 
 namespace lorentz {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr std::size_t space_asked_for = 1 << 18;  // bytes; larger than a typical output file
 
 double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
@@ -48,60 +46,83 @@ std::string cost(Clock::time_point start, std::uint64_t events) {
       seconds(usage.ru_utime) + seconds(usage.ru_stime), usage.ru_maxrss * bytes_per_unit, events);
 }
 
-std::string_view name_of(Convergence convergence) {
-  switch (convergence) {
-    case Convergence::reached:
-      return "reached";
-    case Convergence::not_reached:
-      return "not reached";
-    case Convergence::no_target:
-      return "no target";
-  }
-  throw std::logic_error("unknown state of convergence");
+/// Writes to standard output. Throws UsageError if it is closed or full.
+void print(const std::string& text) {
+  if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
+    throw UsageError(fmt::format(
+        "standard output cannot be written: {}. Redirect it to where there is space.", std::strerror(errno)));
 }
 
-std::string version_text(const std::string& program) {
-  return fmt::format("{} {} (build {})", program, build_info.version, build_info.build_id);
+/// Writes /results/NAME/{mean, standard_error, count} for a measured quantity, {mean, discretisation_error}
+/// for a computed one, and the axes beside them as dimension scales attached to the arrays.
+void write(Hdf5Writer& file, const Quantity& quantity) {
+  const std::string group = "/results/" + quantity.what.name + "/";
+  const std::vector<Axis>& axes = quantity.what.axes;
+  Shape shape;
+  const auto describe = [&](const std::string& array, const std::string& units,
+                            const std::string& description) {
+    file.attribute(group + array, "units", units);
+    file.attribute(group + array, "description", description);
+  };
+  const auto array = [&](const std::string& name, const auto& values, const std::string& units,
+                         const std::string& description) {
+    file.dataset(group + name, shape, values);
+    describe(name, units, description);
+    for (std::size_t i = 0; i < axes.size(); ++i) file.attach_scale(group + name, i, group + axes[i].name);
+  };
+  for (const Axis& axis : axes) {
+    shape.push_back(axis.values.size());
+    file.dataset(group + axis.name, {axis.values.size()}, axis.values);
+    describe(axis.name, axis.units, axis.description);
+    file.make_scale(group + axis.name, axis.name);
+  }
+  const std::string& units = quantity.what.units;
+  array("mean", quantity.mean, units, quantity.what.description);
+  if (quantity.control_variates)
+    file.attribute(group + "mean", "control_variates", *quantity.control_variates);
+  if (quantity.count.empty()) {
+    array("discretisation_error", quantity.standard_error, units,
+          "Difference from a coarser discretisation, and rounding");
+  } else {
+    array("standard_error", quantity.standard_error, units, "Standard error of the mean over replicas");
+    array("count", quantity.count, "1", "Number of replicas that contribute");
+  }
 }
 
 }  // namespace
 
 Program::Program(const std::string& name, const std::string& description)
     : options_(name, description), description_(description) {
-  options_.text("--output", output_, "HDF5 file to write, whole or not at all (required)",
-                Options::Role::runtime);
-  options_.flag("--overwrite", overwrite_, "Replace an output of other options or of another build",
-                Options::Role::runtime);
-  options_.choice("--progress", progress_, {"auto", "bar", "log", "none"},
-                  "Display of progress on standard error", Options::Role::runtime);
-  options_.flag("--describe", describe_, "Print options and quantities as JSON, then exit",
-                Options::Role::runtime);
+  constexpr auto runtime = Options::Role::runtime;
+  options_.text("--output", output_, "HDF5 file to write, whole or not at all (required)", runtime);
+  options_.flag("--overwrite", overwrite_, "Replace an output of other options or of another build", runtime);
+  options_.choice("--progress", progress_style_, {"auto", "bar", "log", "none"},
+                  "Display of progress on standard error", runtime);
+  options_.flag("--describe", describe_, "Print options and quantities as JSON, then exit", runtime);
 }
 
-void Program::print_description(const std::vector<Description>& quantities) const {
-  using nlohmann::json;
-  json described = json::array();
-  for (const Description& what : quantities) {
-    json axes = json::array();
+std::string Program::description_in_json() {
+  std::vector<std::string> described;
+  const auto members = [](const auto& each) {
+    return fmt::format(R"("name": {}, "units": {}, "description": {})", as_json(each.name),
+                       as_json(each.units), as_json(each.description));
+  };
+  for (const Description& what : quantities()) {
+    std::vector<std::string> axes;
     for (const Axis& axis : what.axes)
-      axes.push_back({{"name", axis.name},
-                      {"units", axis.units},
-                      {"description", axis.description},
-                      {"size", axis.values.size()}});
-    described.push_back(
-        {{"name", what.name}, {"units", what.units}, {"description", what.description}, {"axes", axes}});
+      axes.push_back(fmt::format(R"({{{}, "size": {}}})", members(axis), axis.values.size()));
+    described.push_back(fmt::format(R"({{{}, "axes": [{}]}})", members(what), fmt::join(axes, ", ")));
   }
-  const json all = {{"program", options_.program()},
-                    {"description", description_},
-                    {"options", options_.describe()},
-                    {"quantities", described}};
-  print(all.dump(2) + '\n');
+  return fmt::format("{{\"program\": {}, \"description\": {},\n\"options\": {},\n\"quantities\": [{}]}}\n",
+                     as_json(options_.program()), as_json(description_), options_.describe(),
+                     fmt::join(described, ",\n"));
 }
 
 /// Throws UsageError if there is an output and it is no result of these options and this build.
 void Program::require_replaceable() const {
   std::error_code unknown;
-  if (overwrite_ || output_.ends_with(Part::suffix) || !std::filesystem::exists(output_, unknown)) return;
+  if (overwrite_ || output_.ends_with(RecordFile::part_suffix) || !std::filesystem::exists(output_, unknown))
+    return;
   const auto refuse = [this](const std::string& why) {
     throw UsageError(fmt::format(
         "'{}' exists and is {}. Choose another --output, or replace it with --overwrite.", output_, why));
@@ -112,22 +133,22 @@ void Program::require_replaceable() const {
   } catch (const UsageError&) {
     refuse("no result of this program");
   }
-  const auto holds = [&](const std::string& group, const std::string& name, const AttributeValue& value) {
-    return file->attribute(group, name) == value;
-  };
-  if (!holds("/provenance", "program", options_.program())) refuse("no result of this program");
-  if (!holds("/provenance", "build_id", std::string(build_info.build_id)))
+  if (file->attribute("/provenance", "program") != AttributeValue(options_.program()))
+    refuse("no result of this program");
+  if (file->attribute("/provenance", "build_id") != AttributeValue(std::string(build_info.build_id)))
     refuse("a result of another build of this program");
   for (const Parameter& each : options_.parameters())
-    if (!holds("/parameters", each.name, each.value)) refuse("a result with another --" + each.name);
+    if (file->attribute("/parameters", each.name) != each.value)
+      refuse("a result with another --" + each.name);
 }
 
 void Program::write_result(const Outcome& outcome) const {
+  constexpr std::array names{"reached", "not reached", "no target"};
   Hdf5Writer file;
   file.group("/parameters");
   for (const Parameter& parameter : options_.parameters())
     file.attribute("/parameters", parameter.name, parameter.value);
-
+  for (const Quantity& quantity : outcome.results) write(file, quantity);
   file.group("/provenance");
   const std::vector<Parameter> provenance = {
       {"format", std::string("lorentz-gas")},
@@ -144,78 +165,75 @@ void Program::write_result(const Outcome& outcome) const {
       {"target_quantity", outcome.target_quantity},
       {"target_error", outcome.target_error},
       {"achieved_error", outcome.achieved_error},
-      {"converged", std::string(name_of(outcome.convergence))},
+      {"converged", std::string(names.at(static_cast<std::size_t>(outcome.convergence)))},
+      {"results_digest", file.digest("/results")},
   };
   for (const Parameter& entry : provenance) file.attribute("/provenance", entry.name, entry.value);
-
-  write_results(file, outcome.results);
-  file.attribute("/provenance", "results_digest", file.digest("/results"));
   write_atomically(output_, file.image());
 }
 
-void Program::write_output(const Outcome& outcome, const std::string& cost) const try {
-  if (outcome.part.empty())
-    write_result(outcome);
-  else
-    write_atomically(output_, outcome.part);
-  write_atomically(cost_path(output_), cost);
-  outcome.after_writing(true);
-} catch (...) {
-  outcome.after_writing(false);
-  throw;
-}
-
-ExitStatus Program::run_or_throw(int argc, char** argv, const Describe& describe, const Compute& compute) {
+ExitStatus Program::run_or_throw(int argc, char** argv) {
   const Clock::time_point start = Clock::now();
-  if (!options_.parse(argc, argv, version_text(options_.program()))) return ExitStatus::done;
-  if (describe_) {
-    print_description(describe());
+  const std::string version =
+      fmt::format("{} {} (build {})", options_.program(), build_info.version, build_info.build_id);
+  std::optional<std::string> text = options_.parse(argc, argv, version);
+  if (!text && describe_) text = description_in_json();
+  if (text) {
+    print(*text);
     return ExitStatus::done;
   }
   if (output_.empty())
     throw UsageError("--output is missing: the results need a file. Add --output FILE.h5.");
-  for (const std::string& path : {output_, cost_path(output_)}) {
-    options_.require_not_configuration(path);
-    require_writable(path, space_asked_for);
-  }
+  constexpr std::size_t typical_size = 1 << 18;  // bytes
+  for (const std::string& path : {output_, cost_path(output_)}) require_writable(path, typical_size);
   require_replaceable();
-  watch_for_signals();
 
-  Progress progress(options_.program(), progress_);
-  const Outcome outcome = compute(progress);
-  write_output(outcome, cost(start, outcome.events));
+  end_on_signals();
+  progress_.emplace(options_.program(), progress_style_);
+  const Outcome outcome = compute();
+  note_signals();  // what is written now is written to its end
+  try {
+    if (outcome.part.empty())
+      write_result(outcome);
+    else
+      write_atomically(output_, outcome.part);
+    const std::string spent = cost(start, outcome.events);
+    write_atomically(cost_path(output_), std::as_bytes(std::span(spent)));
+  } catch (const UsageError&) {
+    after_writing(false);
+    throw;
+  }
+  after_writing(true);
   return outcome.convergence == Convergence::not_reached ? ExitStatus::not_converged : ExitStatus::done;
 }
 
-int Program::run(int argc, char** argv, const Describe& describe, const Compute& compute) {
-  const auto complain = [this](const char* kind, std::string what) {
+int Program::run(int argc, char** argv) {
+  const auto fail = [this](ExitStatus status, const char* kind, std::string what) {
     std::ranges::replace_if(what, [](unsigned char c) { return std::iscntrl(c); }, ' ');  // one line
-    print_error(fmt::format("{}: {}: {}\n", options_.program(), kind, what));
+    std::fputs(fmt::format("{}: {}: {}\n", options_.program(), kind, what).c_str(), stderr);
+    return static_cast<int>(status);
   };
-  secure_standard_streams();
+  for (const int number : {SIGPIPE, SIGXFSZ}) ::signal(number, SIG_IGN);  // writing then fails with a message
   try {
-    return static_cast<int>(run_or_throw(argc, argv, describe, compute));
+    return static_cast<int>(run_or_throw(argc, argv));
   } catch (const UsageError& error) {
-    complain("error", error.what());
-    return static_cast<int>(ExitStatus::usage);
+    return fail(ExitStatus::usage, "error", error.what());
   } catch (const Interrupted& interruption) {
     return static_cast<int>(ExitStatus::interrupted) + interruption.signal;
   } catch (const std::bad_alloc&) {
-    complain("error", "there is not enough memory. Choose a smaller system, fewer bins or fewer --threads.");
-    return static_cast<int>(ExitStatus::usage);
+    return fail(ExitStatus::usage, "error",
+                "there is not enough memory. Choose a smaller system, fewer bins or fewer --threads.");
   } catch (const std::length_error&) {
-    complain("error",
-             "an array would exceed the largest possible size. Choose a smaller system, fewer bins or fewer "
-             "times.");
-    return static_cast<int>(ExitStatus::usage);
+    return fail(
+        ExitStatus::usage, "error",
+        "an array would exceed the largest possible size. Choose a smaller system, fewer bins or fewer "
+        "times.");
   } catch (const NumericalError& error) {
-    complain("numerical failure", error.what());
-    return static_cast<int>(ExitStatus::numerical_failure);
+    return fail(ExitStatus::numerical_failure, "numerical failure", error.what());
   } catch (const std::exception& error) {
-    complain(
-        "internal error",
+    return fail(
+        ExitStatus::internal_error, "internal error",
         fmt::format("{}. The program is at fault: please report it with the command line.", error.what()));
-    return static_cast<int>(ExitStatus::internal_error);
   }
 }
 

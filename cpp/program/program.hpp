@@ -2,14 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "program/errors.hpp"
 #include "program/options.hpp"
 #include "program/progress.hpp"
-#include "statistics/quantity.hpp"
+#include "statistics/group.hpp"
 
 namespace lorentz {
 
@@ -27,9 +27,6 @@ struct Outcome {
   Convergence convergence = Convergence::not_reached;
   std::size_t replicas = 0;       // used for the results
   std::vector<std::byte> part{};  // content of the output if it is a part of a run, which has no results
-
-  /// Called at the end with whether the results were written.
-  std::function<void(bool)> after_writing = [](bool) {};
 };
 
 /// Common part of every executable: options, one computation, one HDF5 file written atomically, a cost file
@@ -37,31 +34,37 @@ struct Outcome {
 class Program {
  public:
   Program(const std::string& name, const std::string& description);
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+  virtual ~Program() = default;
 
   Options& options() { return options_; }
-  const Options& options() const { return options_; }
-  const std::string& output() const { return output_; }
-
-  using Describe = std::function<std::vector<Description>()>;
-  using Compute = std::function<Outcome(Progress&)>;
 
   /// Parses the command line, computes and writes; with --describe prints options and quantities as JSON
   /// instead. Returns the exit status and never throws: errors are printed on standard error as one line.
-  int run(int argc, char** argv, const Describe& describe, const Compute& compute);
+  int run(int argc, char** argv);
+
+ protected:
+  /// Quantities of the parsed options. Throws UsageError if options that are valid one by one exclude each
+  /// other.
+  virtual std::vector<Description> quantities() = 0;
+  virtual Outcome compute() = 0;
+  /// Called at the end with whether the output was written.
+  virtual void after_writing(bool) {}
+
+  const std::string& output() const { return output_; }
+  Progress& progress() { return *progress_; }
 
  private:
-  ExitStatus run_or_throw(int argc, char** argv, const Describe& describe, const Compute& compute);
-  void print_description(const std::vector<Description>& quantities) const;
+  ExitStatus run_or_throw(int argc, char** argv);
+  std::string description_in_json();
   void require_replaceable() const;
   void write_result(const Outcome& outcome) const;
-  void write_output(const Outcome& outcome, const std::string& cost) const;
 
   Options options_;
-  std::string description_;
-  bool describe_ = false;
-  std::string output_;
-  bool overwrite_ = false;
-  std::string progress_ = "auto";
+  std::string description_, output_, progress_style_ = "auto";
+  bool describe_ = false, overwrite_ = false;
+  std::optional<Progress> progress_;
 };
 
 }  // namespace lorentz

@@ -5,24 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
-
-#include "program/standard_streams.hpp"
 
 namespace lorentz {
 namespace {
-
-using Seconds = std::chrono::duration<double>;
-
-constexpr Seconds bar_interval{0.1};
-constexpr Seconds log_interval{10};
-
-Progress::Style chosen_style(const std::string& name) {
-  if (name == "bar") return Progress::Style::bar;
-  if (name == "log") return Progress::Style::log;
-  if (name == "none") return Progress::Style::none;
-  return ::isatty(STDERR_FILENO) ? Progress::Style::bar : Progress::Style::log;
-}
 
 std::string as_time(double seconds) {
   const auto whole = std::lround(seconds);
@@ -30,23 +17,30 @@ std::string as_time(double seconds) {
   return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
+void print_error(const std::string& text) { std::fputs(text.c_str(), stderr); }
+
 }  // namespace
 
 Progress::Progress(std::string program, const std::string& style)
-    : program_(std::move(program)), style_(chosen_style(style)) {}
+    : program_(std::move(program)),
+      style_(style != "auto"           ? style
+             : ::isatty(STDERR_FILENO) ? "bar"
+                                       : "log") {}
 
-Progress::~Progress() { clear_bar(); }
+Progress::~Progress() {
+  if (bar_drawn_) print_error("\r\x1b[K");
+}
 
 void Progress::show(double done, double wanted, double resumed) {
+  using Seconds = std::chrono::duration<double>;
   const Clock::time_point now = Clock::now();
-  if (style_ == Style::none || now - last_shown_ < (style_ == Style::bar ? bar_interval : log_interval))
-    return;
+  if (style_ == "none" || now - last_shown_ < Seconds(style_ == "bar" ? 0.1 : 10)) return;
   last_shown_ = now;
-  const double elapsed = Seconds(now - start_).count();
   const double fresh = done - resumed;
   const std::string remaining =
-      fresh > 0 ? as_time(elapsed * (wanted - done) / fresh) + " left" : std::string("time left unknown");
-  if (style_ == Style::log) {
+      fresh > 0 ? as_time(Seconds(now - start_).count() * (wanted - done) / fresh) + " left"
+                : std::string("time left unknown");
+  if (style_ == "log") {
     print_error(fmt::format("{}: {:.1f} of {:.0f} replicas, {}\n", program_, done, wanted, remaining));
     return;
   }
@@ -58,16 +52,27 @@ void Progress::show(double done, double wanted, double resumed) {
 }
 
 void Progress::say(const std::string& line) {
-  if (style_ != Style::none) warn(line);
+  if (style_ != "none") warn(line);
 }
 
 void Progress::warn(const std::string& line) {
-  clear_bar();
+  if (std::exchange(bar_drawn_, false)) print_error("\r\x1b[K");
   print_error(fmt::format("{}: {}\n", program_, line));
 }
 
-void Progress::clear_bar() {
-  if (std::exchange(bar_drawn_, false)) print_error("\r\x1b[K");
+std::string with_error(double mean, double error) {
+  if (!(error > 0) || !std::isfinite(mean) || !std::isfinite(error)) return fmt::format("{:.8g}", mean);
+  const double largest = std::max(std::abs(mean), error);
+  const int exponent = static_cast<int>(std::floor(std::log10(largest)));
+  const bool plain = exponent >= -4 && exponent < 6;  // as for {:g}
+  const double scale = plain ? 1 : std::pow(10, exponent);
+  // Two digits, also where rounding carries: 0.0996 has the digits 10, not 100.
+  int decimals = 1 - static_cast<int>(std::floor(std::log10(error / scale)));
+  if (std::round(error / scale * std::pow(10, decimals)) >= 100) --decimals;
+  decimals = std::max(decimals, 0);
+  const double digits = std::round(error / scale * std::pow(10, decimals));
+  return fmt::format("{:.{}f}({:.0f}){}", mean / scale, decimals, digits,
+                     plain ? "" : fmt::format("e{}", exponent));
 }
 
 }  // namespace lorentz

@@ -1,7 +1,6 @@
 #include "program/record_file.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <filesystem>
 #include <fstream>
@@ -16,12 +15,6 @@
 namespace lorentz {
 namespace {
 
-/// CRC-32, which finds every error within 32 neighbouring bits, as eight hexadecimal digits.
-std::string checksum(std::span<const std::byte> content) {
-  const auto* bytes = reinterpret_cast<const Bytef*>(content.data());
-  return fmt::format("{:08x}", ::crc32_z(0, bytes, content.size()));
-}
-
 /// Whether a regular file ends with the checksum of what precedes it.
 bool is_whole(const std::string& path) {
   std::error_code unreadable;
@@ -30,15 +23,14 @@ bool is_whole(const std::string& path) {
   text << std::ifstream(path, std::ios::binary).rdbuf();
   const std::string file = std::move(text).str();
   constexpr std::size_t digits = 8;
-  if (file.size() < digits) return false;
-  const std::span content(file.data(), file.size() - digits);
-  return file.ends_with(checksum(std::as_bytes(content)));
+  return file.size() > digits &&
+         file.ends_with(crc32_of(std::as_bytes(std::span(file.data(), file.size() - digits))));
 }
 
 }  // namespace
 
-RecordFile::RecordFile(std::string identity, std::vector<Description> tallies)
-    : identity_(std::move(identity)), tallies_(std::move(tallies)) {}
+RecordFile::RecordFile(std::string identity, const std::vector<Description>& tallies)
+    : identity_(std::move(identity)), tallies_(tallies) {}
 
 std::vector<std::byte> RecordFile::content(const FinishedReplicas& finished) const {
   std::vector<std::uint64_t> indices, events;
@@ -49,59 +41,67 @@ std::vector<std::byte> RecordFile::content(const FinishedReplicas& finished) con
   Hdf5Writer file;
   file.dataset("/replicas/index", {indices.size()}, indices);
   file.dataset("/replicas/events", {events.size()}, events);
-  std::ptrdiff_t column = 0;
+  file.attribute("/replicas", "identity", identity_);
+  std::size_t column = 0;
   for (const Description& tally : tallies_) {
     std::vector<double> values;
-    const auto size = static_cast<std::ptrdiff_t>(tally.size());
     for (const auto& [index, record] : finished) {
-      const auto first = record.values.begin() + column;
-      values.insert(values.end(), first, first + size);
+      const auto part = std::span(record.values).subspan(column, tally.size());
+      values.insert(values.end(), part.begin(), part.end());
     }
     Shape shape{indices.size()};
     for (const Axis& axis : tally.axes) shape.push_back(axis.values.size());
     file.dataset("/tallies/" + tally.name, shape, values);
     file.attribute("/tallies/" + tally.name, "units", tally.units);
     file.attribute("/tallies/" + tally.name, "description", tally.description);
-    column += size;
+    column += tally.size();
   }
-  file.attribute("/replicas", "identity", identity_);
   std::vector<std::byte> content = file.image();
-  for (const char digit : checksum(content)) content.push_back(static_cast<std::byte>(digit));
+  for (const char digit : crc32_of(content)) content.push_back(static_cast<std::byte>(digit));
   return content;
 }
 
-RecordFile::State RecordFile::state(const std::string& path) const {
-  if (!is_whole(path)) return State::damaged;
-  const bool belongs = Hdf5Reader(path).attribute("/replicas", "identity") == AttributeValue(identity_);
-  return belongs ? State::whole : State::of_another_run;
-}
-
-FinishedReplicas RecordFile::read(const std::string& path) const {
-  if (state(path) != State::whole)
-    throw UsageError(fmt::format("'{}' is damaged, or belongs to another build or other parameters", path));
+std::optional<FinishedReplicas> RecordFile::read(const std::string& path) const {
+  const auto require = [&path](bool whole) {
+    if (!whole)
+      throw UsageError(fmt::format("'{}' cannot be resumed or joined: it is damaged. Remove it.", path));
+  };
+  require(is_whole(path));
   const Hdf5Reader file(path);
-  FinishedReplicas finished;
+  if (file.attribute("/replicas", "identity") != AttributeValue(identity_)) return {};
   const std::vector<std::uint64_t> indices = file.counts("/replicas/index");
   const std::vector<std::uint64_t> events = file.counts("/replicas/events");
-  const auto require = [&path](bool fits) {
-    if (!fits)
-      throw UsageError(
-          fmt::format("'{}' has arrays of other sizes than this program writes. Remove it.", path));
-  };
-  require(!indices.empty() && events.size() == indices.size());
+  require(events.size() == indices.size());
+  FinishedReplicas finished;
   for (std::size_t row = 0; row < indices.size(); ++row) finished[indices[row]].events = events[row];
   require(finished.size() == indices.size());
   for (const Description& tally : tallies_) {
     const std::vector<double> values = file.doubles("/tallies/" + tally.name);
     require(values.size() == indices.size() * tally.size());
-    auto first = values.begin();
-    for (const std::uint64_t index : indices) {
-      std::vector<double>& record = finished[index].values;
-      record.insert(record.end(), first, first + static_cast<std::ptrdiff_t>(tally.size()));
-      first += static_cast<std::ptrdiff_t>(tally.size());
+    for (std::size_t row = 0; row < indices.size(); ++row) {
+      const auto part = std::span(values).subspan(row * tally.size(), tally.size());
+      std::vector<double>& record = finished[indices[row]].values;
+      record.insert(record.end(), part.begin(), part.end());
     }
   }
   return finished;
+}
+
+FinishedReplicas RecordFile::join(const std::string& folder) const {
+  const auto refuse = [](const std::string& what, const std::string& why) {
+    throw UsageError(fmt::format("--join '{}': {}. Measure parts into a folder with --part.", what, why));
+  };
+  std::error_code unreadable;
+  FinishedReplicas joined;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable)) {
+    if (entry.path().extension() != part_suffix) continue;
+    std::optional<FinishedReplicas> part = read(entry.path().string());
+    if (!part) refuse(entry.path().string(), "it is of other options or another build");
+    joined.merge(*part);
+  }
+  if (unreadable) refuse(folder, unreadable.message());
+  if (joined.empty()) refuse(folder, fmt::format("no file there ends with {}", part_suffix));
+  return joined;
 }
 
 }  // namespace lorentz

@@ -1,28 +1,41 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "program/replicas.hpp"
-#include "statistics/description.hpp"
+#include "statistics/tally.hpp"
 
 namespace lorentz {
 
-/// Files with finished replicas of one run: checkpoints and parts. HDF5, and a checksum of what precedes it.
+/// Tallies of a replica, sums whose mean over replicas is meaningful, and its number of events.
+struct ReplicaRecord {
+  std::vector<double> values;
+  std::uint64_t events = 0;
+};
+
+/// Finished replicas by index.
+using FinishedReplicas = std::map<std::uint64_t, ReplicaRecord>;
+
+/// Files with finished replicas of one run, checkpoints and parts: HDF5, and a checksum of what precedes it.
 class RecordFile {
  public:
-  /// identity: everything that the records depend on (parameters and build id). tallies: arrays that make up
-  /// a record.
-  RecordFile(std::string identity, std::vector<Description> tallies);
+  /// identity: everything that the records depend on (parameters and build id).
+  RecordFile(std::string identity, const std::vector<Description>& tallies);
 
   std::vector<std::byte> content(const FinishedReplicas& finished) const;
 
-  enum class State { whole, damaged, of_another_run };
-  State state(const std::string& path) const;
+  /// None if the file is of other options or another build. Throws UsageError if it is damaged.
+  std::optional<FinishedReplicas> read(const std::string& path) const;
 
-  /// Throws UsageError, which names the file, if it is not whole.
-  FinishedReplicas read(const std::string& path) const;
+  /// The replicas of all files NAME.part in a folder. Throws UsageError if there is none, or one is damaged
+  /// or of another run.
+  FinishedReplicas join(const std::string& folder) const;
+
+  static constexpr auto part_suffix = ".part";
 
  private:
   std::string identity_;

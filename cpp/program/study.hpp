@@ -1,45 +1,99 @@
 #pragma once
 
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <cstdint>
+#include <exception>
 #include <functional>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "numerics/stream_key.hpp"
 #include "program/program.hpp"
-#include "program/replica_parameters.hpp"
-#include "program/replicas.hpp"
-#include "statistics/estimator.hpp"
+#include "program/record_file.hpp"
+#include "program/stopping_rule.hpp"
+#include "statistics/group.hpp"
 #include "statistics/tally.hpp"
 
 namespace lorentz {
+
+/// Random streams and heartbeat of one replica, the input of its measurement.
+struct Replica {
+  StreamKey key;  // of all its random numbers
+  /// The measurement calls it often with its completed part in [0, 1]. Throws Interrupted if the run must
+  /// end.
+  std::function<void(double)> heartbeat;
+};
 
 /// Measurement over independent replicas: the tallies of a replica and the quantities estimated from them.
 struct Study {
   TallySchema tallies;
   std::function<std::uint64_t(const Replica&, Record&)> measure;  // fills the record; returns the events
-  std::vector<Estimator> estimators;
+  std::vector<Group> groups;
   std::string target;  // quantity of --target-error
 };
 
-/// Measures until the number of replicas or the target error is reached, or a part of the replicas, with
-/// checkpoints, resumption and time limit. Throws UsageError, NumericalError or Interrupted.
-Outcome run_study(const Study& study, const ReplicaParameters& parameters, const Program& program,
-                  Progress& progress);
-
-/// Main function of an executable that runs a study.
-class StudyProgram {
+/// An executable that runs a study: measures replicas in threads until their number or the target error is
+/// reached, or a part of the replicas, with checkpoints, resumption and time limit. The record of a replica
+/// depends on its index alone, so results do not depend on threads and interruptions.
+class StudyProgram : public Program {
  public:
-  StudyProgram(const std::string& name, const std::string& description) : program_(name, description) {}
+  StudyProgram(const std::string& name, const std::string& description);
 
-  Options& options() { return program_.options(); }
-
-  /// Parses the command line, calls `make` for the study of the parsed parameters and runs it. `make` throws
-  /// UsageError if options that are valid one by one exclude each other. Returns the exit status.
-  int run(int argc, char** argv, const std::function<Study()>& make);
+  /// `make` gives the study of the parsed options. It throws UsageError if options that are valid one by one
+  /// exclude each other. Returns the exit status.
+  int run(int argc, char** argv, std::function<Study()> make);
 
  private:
-  Program program_;
-  ReplicaParameters parameters_;
+  using Clock = std::chrono::steady_clock;
+
+  std::vector<Description> quantities() override;
+  Outcome compute() override;
+  void after_writing(bool written) override;
+
+  void require_consistent();
+  Outcome whole();
+  Outcome part();
+  void measure(std::uint64_t first, std::uint64_t end);
+  void work(std::atomic<double>& fraction, std::uint64_t end);
+  void report(const std::vector<std::atomic<double>>& fractions);
+  Outcome estimate(std::uint64_t wanted) const;
+  bool is_last(const Outcome& outcome, std::uint64_t wanted);
+  void load_checkpoint();
+  bool save(const std::string& prefix);
+  void keep(const std::string& why);
+
+  // Options. Without a target error a run has `replicas_` replicas; with one, batches of that size are added
+  // until the StoppingRule is met.
+  std::uint64_t replicas_ = 16, max_replicas_ = 1'000'000, seed_ = 1;
+  std::uint32_t threads_ = 1;
+  double target_error_ = 0, target_absolute_ = 0;  // 0: none
+  double time_limit_ = 0;                          // seconds; 0: none
+  double checkpoint_interval_ = 60;
+  bool resume_ = false;
+  std::string part_;  // "first-last" of the replicas to measure apart; empty: all
+  std::string join_;  // folder with parts; empty: none
+
+  std::function<Study()> make_;
+  Study study_;
+  std::optional<RecordFile> format_;
+  std::string checkpoint_;  // path
+  Clock::time_point deadline_, next_checkpoint_;
+  std::size_t resumed_ = 0;   // replicas from files
+  std::uint64_t needed_ = 0;  // predicted number of replicas in all
+  bool warned_ = false;       // of a checkpoint that cannot be written
+
+  // Shared by the threads under the mutex.
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  FinishedReplicas finished_;
+  std::uint64_t next_ = 0;  // replica that starts next
+  std::size_t active_ = 0;  // threads
+  std::exception_ptr failure_;
+  std::atomic<bool> failed_{false};
 };
 
 }  // namespace lorentz

@@ -1,12 +1,27 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
-#include "statistics/records.hpp"
+#include "statistics/group.hpp"
 #include "statistics/tally.hpp"
 
 namespace lorentz {
+
+/// Values minus their mean.
+std::vector<double> centred(std::vector<double> x);
+
+/// Columns divided by the norm of their deviations from the mean, without overflow or underflow. A column
+/// that varies by no more than its rounding error becomes 0.
+std::vector<std::vector<double>> standardised(const Records& records, const Columns& columns);
+
+/// Pseudo-inverse of the matrix of scalar products of vectors, and its rank.
+struct PseudoInverse {
+  std::vector<std::vector<double>> elements;
+  std::size_t rank;
+};
+PseudoInverse inverse_of_products(const std::vector<std::vector<double>>& x);
 
 /// Measured columns and the control variates on which they are regressed.
 struct Regression {
@@ -28,17 +43,11 @@ std::optional<Records> regress_out(const Records& records, const Regression& reg
 /// are left out; 1 if none varies.
 double variance_ratio(const Records& a, const Records& b, const Columns& columns);
 
-/// Records after reduce_variance().
-struct ReducedRecords {
-  Records records;
-  bool control_variates = false;  // whether they were used
-};
-
 /// Applies control variates if this is possible and lowers the variance of the measured columns of all
 /// regressions on average; otherwise returns the records unchanged. The decision is common to all columns,
 /// because neighbouring columns belong to one profile. A column that the controls determine, such as the
 /// particles that enter at an opening, stays uncorrected: its corrected value would be the known mean with an
 /// error of 0, which is not a measurement.
-ReducedRecords reduce_variance(const Records& records, const std::vector<Regression>& regressions);
+Group::Prepared reduce_variance(const Records& records, const std::vector<Regression>& regressions);
 
 }  // namespace lorentz

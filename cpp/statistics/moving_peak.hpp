@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "statistics/peak.hpp"
-#include "statistics/records.hpp"
 #include "statistics/tally.hpp"
 
 namespace lorentz {
@@ -15,9 +15,8 @@ namespace lorentz {
 using PeakWindows = std::vector<std::optional<PeakWindow>>;
 
 /// Windows of the mean profile over all replicas. A window is dropped if the fit fails for that mean or for a
-/// leave-one-out mean, whose jackknife error would be NaN. `profile`: columns of the profiles on the ring,
-/// [time, cell].
-PeakWindows peak_windows(const Records& records, const Columns& profile, std::size_t times);
+/// leave-one-out mean, whose jackknife error would be NaN. `profiles`: on the ring, [time, cell].
+PeakWindows peak_windows(const Records& records, Tally profiles, std::size_t times);
 
 /// Ends of the octaves of ascending times > 0: the range is divided evenly in ln t into as many parts as it
 /// has doublings (at least one), and the ends are the nearest of the times. The first is times.front().
@@ -26,15 +25,30 @@ std::vector<double> octaves(const std::vector<double>& times);
 /// Geometric middles of neighbouring times, where local exponents belong.
 std::vector<double> geometric_middles(const std::vector<double>& times);
 
+/// A profile y(x) at one time; x equally spaced and ascending.
+struct Profile {
+  double time;
+  std::vector<double> x, y;
+};
+
+/// Exponent xi for which y = t^-xi f(x/t^xi) describes all profiles best [eq. 46, 48]. The profiles rescaled
+/// to the last time, s = x (t_last/t)^xi and Y = y (t/t_last)^xi, have the least variance about their mean,
+/// averaged over s in [low, high] and relative to the mean square of their mean. The search covers 0.1 <= xi
+/// <= 1.5. Throws std::invalid_argument for fewer than two profiles.
+double collapse_exponent(std::span<const Profile> profiles, double low, double high);
+
 /// Moving peak of a mean profile that spreads on a ring. Arrays have one element per time, per pair of
 /// neighbouring times or per octave; NaN without a peak.
 class MovingPeak {
  public:
   /// profiles: [time, cell], part of the mean record.
-  MovingPeak(std::span<const double> profiles, RecordView mean, std::vector<double> times,
-             const PeakWindows& windows);
+  MovingPeak(std::span<const double> profiles, std::vector<double> times, const PeakWindows& windows);
 
-  RecordView mean() const { return mean_; }
+  /// What is measured of a moving peak: position and height, speed between two times, damping exponents over
+  /// octaves and other ranges of times, and the collapse exponent. `units` are those of the profile.
+  static std::vector<Description> descriptions(const Axis& time, const std::string& units);
+  /// Their values, one after another.
+  std::vector<double> values() const;
 
   std::vector<double> positions() const { return positions_; }
   std::vector<double> heights() const { return heights_; }
@@ -59,7 +73,6 @@ class MovingPeak {
   double exponent_from(std::size_t first) const;
 
   std::span<const double> profiles_;
-  RecordView mean_;
   std::vector<double> times_;
   std::vector<std::vector<double>> sides_;  // folded profile at every time
   std::vector<double> positions_, heights_;

@@ -1,21 +1,57 @@
 #pragma once
 
+#include <gsl/gsl_statistics_double.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <initializer_list>
+#include <numeric>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "statistics/description.hpp"
-
 namespace lorentz {
 
-/// Handle of an array in the record of a replica: its first column and its size.
+/// Coordinates along one dimension of an array.
+struct Axis {
+  std::string name;
+  std::string units;
+  std::string description;
+  std::vector<double> values;
+};
+
+/// Axis of the integers first, first + 1, ...
+inline Axis numbered_axis(const std::string& name, const std::string& description, std::size_t count,
+                          double first = 0) {
+  std::vector<double> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), first);
+  return {name, "1", description, numbers};
+}
+
+/// Name, units and shape of a tally or a quantity: a number, or a row-major array with one dimension per
+/// axis.
+struct Description {
+  std::string name;
+  std::string units;
+  std::string description;
+  std::vector<Axis> axes{};  // none for a number
+
+  std::size_t size() const {
+    std::size_t product = 1;
+    for (const Axis& axis : axes) product *= axis.values.size();
+    return product;
+  }
+};
+
+/// Handle of an array in the record of a replica.
 struct Tally {
-  std::size_t first, size;
+  std::size_t first, size;  // first column, number of columns
+  std::size_t stride = 1;   // columns per step of the first index
+
+  /// Part of an array with two axes: all values at the index i of the first.
+  Tally row(std::size_t i) const { return {first + i * stride, stride}; }
 };
 
 /// Handle of a number in the record of a replica.
@@ -44,7 +80,8 @@ class TallySchema {
   Tally tally(const std::string& name, const std::vector<Axis>& axes, const std::string& units,
               const std::string& description) {
     tallies_.push_back({name, units, description, axes});
-    return {std::exchange(width_, width_ + tallies_.back().size()), tallies_.back().size()};
+    const std::size_t size = tallies_.back().size(), steps = axes.empty() ? 1 : axes.front().values.size();
+    return {std::exchange(width_, width_ + size), size, steps > 0 ? size / steps : 0};
   }
 
   ScalarTally tally(const std::string& name, const std::string& units, const std::string& description) {
@@ -62,34 +99,85 @@ class TallySchema {
 /// Record of a replica, initially 0.
 class Record {
  public:
-  explicit Record(const TallySchema& schema) : values_(schema.width()) {}
+  explicit Record(const TallySchema& schema) : values_(schema.width()), accessed_(schema.width()) {}
 
-  double& operator[](ScalarTally tally) { return values_[tally.column]; }
-  std::span<double> operator[](Tally tally) { return std::span(values_).subspan(tally.first, tally.size); }
+  double& operator[](ScalarTally tally) { return (*this)[Tally(tally)][0]; }
+  std::span<double> operator[](Tally tally) {
+    if (tally.size > 0) accessed_[tally.first] = true;
+    return std::span(values_).subspan(tally.first, tally.size);
+  }
 
   /// Sets an array. Throws std::out_of_range unless the sizes agree.
   void set(Tally tally, std::span<const double> values) {
     if (values.size() != tally.size) throw std::out_of_range("values of another size than the tally");
-    std::ranges::copy(values, values_.begin() + static_cast<std::ptrdiff_t>(tally.first));
+    std::ranges::copy(values, (*this)[tally].begin());
+  }
+
+  /// Throws std::logic_error, which names the tally, if one has never been accessed: its mean would be 0.
+  void require_filled(const TallySchema& schema) const {
+    auto begin = accessed_.begin();
+    for (const Description& each : schema.tallies()) {
+      const auto end = begin + static_cast<std::ptrdiff_t>(each.size());
+      if (begin != end && std::find(begin, end, true) == end)
+        throw std::logic_error("the tally " + each.name + " is declared and never filled");
+      begin = end;
+    }
   }
 
   const std::vector<double>& values() const { return values_; }
 
  private:
   std::vector<double> values_;
+  std::vector<bool> accessed_;  // first columns of tallies and of their rows
 };
 
 /// Read-only view of the mean record of replicas, or of one record.
 class RecordView {
  public:
-  // NOLINTNEXTLINE(cppcoreguidelines-explicit-constructor): any record, of whatever type, can be viewed
+  // NOLINTBEGIN(cppcoreguidelines-explicit-constructor): any record, of whatever type, can be viewed
   RecordView(std::span<const double> values) : values_(values) {}
+  RecordView(const std::vector<double>& values) : values_(values) {}
+  // NOLINTEND(cppcoreguidelines-explicit-constructor)
 
   double operator[](ScalarTally tally) const { return values_[tally.column]; }
   std::span<const double> operator[](Tally tally) const { return values_.subspan(tally.first, tally.size); }
 
  private:
   std::span<const double> values_;
+};
+
+/// Matrix of measurements: one row of sums per replica, in the order of the replicas.
+class Records {
+ public:
+  explicit Records(std::size_t width) : width_(width) {}
+
+  /// Throws std::invalid_argument if the row does not have the width of the others.
+  void append(std::span<const double> row) {
+    if (row.size() != width_) throw std::invalid_argument("a record of another width");
+    rows_.insert(rows_.end(), row.begin(), row.end());
+  }
+
+  std::size_t size() const { return rows_.size() / width_; }
+  std::size_t width() const { return width_; }
+  std::span<const double> operator[](std::size_t replica) const {
+    return std::span(rows_).subspan(replica * width_, width_);
+  }
+  std::span<double> operator[](std::size_t replica) {
+    return std::span(rows_).subspan(replica * width_, width_);
+  }
+  const std::vector<double>& values() const { return rows_; }  // row-major
+
+  /// Mean over replicas; NaN without replicas.
+  std::vector<double> mean() const {
+    std::vector<double> result;
+    for (std::size_t column = 0; column < width_; ++column)
+      result.push_back(gsl_stats_mean(rows_.data() + column, width_, size()));
+    return result;
+  }
+
+ private:
+  std::size_t width_;
+  std::vector<double> rows_;
 };
 
 }  // namespace lorentz

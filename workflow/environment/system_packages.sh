@@ -14,7 +14,6 @@ gsl/gsl_math.h         libgsl-dev          gsl-devel         gsl
 hdf5.h                 libhdf5-dev         hdf5-devel        hdf5
 zlib.h                 zlib1g-dev          zlib-devel        zlib
 CLI/CLI.hpp            libcli11-dev        cli11-devel       cli11
-toml++/toml.h          libtomlplusplus-dev tomlplusplus-devel tomlplusplus
 nlohmann/json.hpp      nlohmann-json3-dev  json-devel        nlohmann-json
 Random123/philox.h     librandom123-dev    Random123-devel   random123
 sleef.h                libsleef-dev        sleef-devel       sleef

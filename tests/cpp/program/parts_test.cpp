@@ -1,5 +1,3 @@
-#include "program/parts.hpp"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -7,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "support/refusal.hpp"
+#include "program/record_file.hpp"
 #include "support/study.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -17,14 +15,6 @@ using namespace lorentz;
 using namespace support;
 
 double not_again(const Replica&) { throw std::logic_error("measured again"); }
-
-TEST(Part, IsARangeOfTheReplicas) {
-  EXPECT_EQ(Part::from("0-0", 1).size(), 1U);
-  EXPECT_EQ(Part::from("3-15", 16).first, 3U);
-  EXPECT_EQ(Part::from("3-15", 16).last, 15U);
-  for (const char* text : {"", "3", "-", "3-", "-3", "4-3", "0-16", "a-b", "0-1-2", "0 - 1", "-1-2", "1.0-2"})
-    EXPECT_NE(refusal([&] { Part::from(text, 16); }).find("0-15"), std::string::npos) << text;
-}
 
 /// A folder with a run in one piece and parts of the same run.
 struct Parts : testing::Test {
@@ -48,6 +38,13 @@ struct Parts : testing::Test {
   }
   bool joined_is_whole() const { return content_of(folder / "joined.h5") == content_of(folder / "whole.h5"); }
 };
+
+TEST_F(Parts, AreRangesOfTheReplicas) {
+  for (const char* text : {"3", "-", "3-", "-3", "4-3", "0-16", "a-b", "0-1-2", "0 - 1", "-1-2", "1.0-2"}) {
+    EXPECT_EQ(run({"--part", text, "--output", folder / "a.part"}, not_again), 2) << text;
+    EXPECT_NE(complaints.find("0-15"), std::string::npos) << complaints;
+  }
+}
 
 TEST_F(Parts, JoinedAreTheBytesOfTheWholeRun) {
   for (const char* part : {"7-15", "0-0", "1-6"}) EXPECT_EQ(measure_part(part), 0);
@@ -89,7 +86,8 @@ TEST_F(Parts, ResumeFromTheirCheckpoint) {
 TEST_F(Parts, OfAnotherRunAreRefused) {
   EXPECT_EQ(measure_part("0-15", measure, {"--seed", "2"}), 0);
   EXPECT_EQ(join_parts(), 2);
-  EXPECT_NE(complaints.find("0-15.part' is damaged, or belongs to another"), std::string::npos) << complaints;
+  EXPECT_NE(complaints.find("0-15.part': it is of other options or another build"), std::string::npos)
+      << complaints;
   EXPECT_FALSE(std::filesystem::exists(folder / "joined.h5"));
 }
 
@@ -106,11 +104,13 @@ TEST_F(Parts, ThatAreNoFilesAreRefused) {
   const std::string part = folder / "parts/0-15.part";
   std::filesystem::create_symlink("0-15.part", part);  // to itself
   EXPECT_EQ(join_parts(), 2);
-  EXPECT_NE(complaints.find("0-15.part' is damaged"), std::string::npos) << complaints;
+  EXPECT_NE(complaints.find("0-15.part' cannot be resumed or joined: it is damaged"), std::string::npos)
+      << complaints;
   std::filesystem::remove(part);
   std::filesystem::create_directory(part);
   EXPECT_EQ(join_parts(), 2);
-  EXPECT_NE(complaints.find("0-15.part' is damaged"), std::string::npos) << complaints;
+  EXPECT_NE(complaints.find("0-15.part' cannot be resumed or joined: it is damaged"), std::string::npos)
+      << complaints;
 }
 
 TEST_F(Parts, AreMissed) {

@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <set>
 #include <stdexcept>
@@ -80,19 +81,22 @@ TEST(ProgramDeathTest, SignalsEndAReplicaThatDoesNotAsk) {
             (std::vector<std::uint64_t>{0, 1, 2}));
 }
 
-TEST(InterruptionDeathTest, WithNothingToSaveEndsWhateverIsDone) {
-  const auto work = [](bool ends) {
-    watch_for_signals();
-    {
-      const NothingToSave nothing_to_save;
-      ::raise(SIGTERM);
-      if (ends) std::this_thread::sleep_for(std::chrono::minutes(5));
-    }
-    for (int i = 0; i < 20; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    std::_Exit(0);
+TEST(InterruptionDeathTest, EndsAComputationWithoutReplicas) {
+  const auto work = [] {
+    end_on_signals();
+    ::raise(SIGTERM);
   };
-  EXPECT_EXIT(work(true), testing::ExitedWithCode(128 + SIGTERM), "");
-  EXPECT_EXIT(work(false), testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(work(), testing::ExitedWithCode(128 + SIGTERM), "");
+}
+
+TEST(Program, PrintsTheErrorInBrackets) {
+  EXPECT_EQ(with_error(0.32080091, 0.0045), "0.3208(45)");
+  EXPECT_EQ(with_error(-0.32080091, 0.00996), "-0.321(10)");
+  EXPECT_EQ(with_error(12.3, 1.5), "12.3(15)");
+  EXPECT_EQ(with_error(41234.5, 1200), "41234(1200)");
+  EXPECT_EQ(with_error(4.1234e-9, 1.2e-11), "4.123(12)e-9");
+  EXPECT_EQ(with_error(0.5, 0), "0.5");
+  EXPECT_EQ(with_error(0.5, std::nan("")), "0.5");
 }
 
 TEST(ProgramDeathTest, SignalsAreNoticedBetweenReplicasTooShortToAsk) {

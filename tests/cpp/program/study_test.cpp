@@ -192,7 +192,7 @@ TEST(Study, StopsAtTheTargetErrorOnABatchBoundary) {
   Records fewer(1);
   for (std::uint64_t index = 0; index < count - 8; ++index)
     fewer.append(std::vector{measure({{1, index}, {}})});
-  const Quantity before = study_of(measure).estimators[0].estimate(fewer)[0];
+  const Quantity before = study_of(measure).groups[0].estimate(fewer)[0];
   EXPECT_FALSE(reached(count - 8, before.mean[0], before.standard_error[0]));
 
   EXPECT_EQ(with({"--target-error", "10"}), 0);  // never with fewer than 64

@@ -1,11 +1,10 @@
-#include "statistics/collapse.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
 #include "numerics/random.hpp"
+#include "statistics/moving_peak.hpp"
 #include "support/sample.hpp"
 
 namespace {

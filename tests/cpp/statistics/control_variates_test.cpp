@@ -99,8 +99,8 @@ TEST(ControlVariates, AreNotUsedWhereTheyCannotBeRegressed) {
   Records lonely(2);  // one record determines the coefficient
   for (int i = 0; i < 20; ++i) lonely.append(std::vector{std::sin(i), i == 3 ? 1. : 0.});
   EXPECT_FALSE(regress_out(lonely, support::on_last(lonely, 1)));
-  const ReducedRecords unchanged = reduce_variance(few, {support::on_last(few, 2)});
-  EXPECT_FALSE(unchanged.control_variates);
+  const Group::Prepared unchanged = reduce_variance(few, {support::on_last(few, 2)});
+  EXPECT_FALSE(*unchanged.control_variates);
   EXPECT_EQ(unchanged.records.values(), few.values());
 }
 
@@ -120,12 +120,12 @@ TEST(ControlVariates, AreUsedOnlyIfTheyHelp) {
     EXPECT_GT(variance_ratio(*regress_out(unrelated, support::on_last(unrelated, 3)), unrelated,
                              support::columns(0, 20)),
               0.9);
-    const ReducedRecords chosen = reduce_variance(unrelated, {support::on_last(unrelated, 3)});
-    used += chosen.control_variates ? 1 : 0;
+    const Group::Prepared chosen = reduce_variance(unrelated, {support::on_last(unrelated, 3)});
+    used += *chosen.control_variates ? 1 : 0;
     EXPECT_LE(variance_ratio(chosen.records, unrelated, support::columns(0, 20)), 1);
   }
   EXPECT_LT(used, 20);
-  EXPECT_TRUE(reduce_variance(noisy(30, 0.5, 1), {support::on_last(noisy(30, 0.5, 1), 2)}).control_variates);
+  EXPECT_TRUE(*reduce_variance(noisy(30, 0.5, 1), {support::on_last(noisy(30, 0.5, 1), 2)}).control_variates);
 }
 
 /// A column that the controls determine would become a constant with an error of 0.
@@ -135,8 +135,8 @@ TEST(ControlVariates, LeaveColumnsThatTheyDetermine) {
   for (std::size_t i = 0; i < source.size(); ++i)
     records.append(
         std::vector{source[i][0], 7 + source[i][1] - 2 * source[i][2], source[i][1], source[i][2]});
-  const ReducedRecords reduced = reduce_variance(records, {support::on_last(records, 2)});
-  EXPECT_TRUE(reduced.control_variates);
+  const Group::Prepared reduced = reduce_variance(records, {support::on_last(records, 2)});
+  EXPECT_TRUE(*reduced.control_variates);
   for (std::size_t i = 0; i < records.size(); ++i) {
     EXPECT_EQ(reduced.records[i][1], records[i][1]);
     EXPECT_NE(reduced.records[i][0], records[i][0]);
@@ -150,7 +150,7 @@ TEST(ControlVariates, AreRegressedGroupByGroup) {
   for (std::size_t i = 0; i < source.size(); ++i)
     records.append(
         std::vector{source[i][0], source[i][1], source[i][2], other[i][0], other[i][1], other[i][2]});
-  const ReducedRecords reduced = reduce_variance(records, {{{0}, {1, 2}}, {{3}, {4, 5}}});
+  const Group::Prepared reduced = reduce_variance(records, {{{0}, {1, 2}}, {{3}, {4, 5}}});
   const Records first = *regress_out(source, support::on_last(source, 2));
   const Records second = *regress_out(other, support::on_last(other, 2));
   for (std::size_t i = 0; i < records.size(); ++i) {

@@ -1,5 +1,3 @@
-#include "statistics/jackknife.hpp"
-
 #include <gsl/gsl_cdf.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "statistics/group.hpp"
 #include "support/sample.hpp"
 
 namespace {
@@ -20,6 +19,10 @@ using namespace lorentz;
 std::vector<double> identity(std::span<const double> mean) { return {mean.begin(), mean.end()}; }
 std::vector<double> ratio(std::span<const double> mean) { return {mean[1] / mean[0]}; }
 
+Estimate jackknife_of(const Records& records, std::vector<double> (*f)(std::span<const double>)) {
+  return jackknife(records, [&](RecordView mean) { return f(mean[Tally{0, records.width()}]); });
+}
+
 // For the mean, the leave-one-out values are the mean plus (mean - x_r)/(R-1), and the jackknife error is the
 // usual standard error.
 TEST(Jackknife, IsTheStandardErrorOfAMean) {
@@ -28,7 +31,7 @@ TEST(Jackknife, IsTheStandardErrorOfAMean) {
   for (const int replicas : {2, 3, 10, 1000}) {
     Records records(1);
     for (int i = 0; i < replicas; ++i) records.append(std::vector{normal(generator)});
-    const Estimate estimate = jackknife(records, identity);
+    const Estimate estimate = jackknife_of(records, identity);
     const support::Sample expected = support::sample(records.values());
     // The mean has rounding errors of 2^-53 of 1000, which multiplies in x_r.
     EXPECT_NEAR(estimate.mean[0], expected.mean, 1e-12);
@@ -43,7 +46,7 @@ TEST(Jackknife, KnowsNoRatioWithoutTheOnlyReplicaThatHasOne) {
     Records records(2);
     for (int i = 1; i < replicas; ++i) records.append(std::vector{0.0, 0.0});
     records.append(std::vector{3.0, 0.7});
-    const Estimate estimate = jackknife(records, ratio);
+    const Estimate estimate = jackknife_of(records, ratio);
     EXPECT_NEAR(estimate.mean[0], 0.7 / 3, 1e-15);
     EXPECT_TRUE(std::isnan(estimate.standard_error[0])) << replicas;
   }
@@ -54,14 +57,14 @@ TEST(Jackknife, HasAnErrorAtEveryMagnitude) {
   for (const double unit : {1e-300, 1e300}) {
     Records records(1);
     for (const double x : {1.0, 2.0, 6.0}) records.append(std::vector{unit * x});
-    EXPECT_NEAR(jackknife(records, identity).standard_error[0] / unit, std::sqrt(7. / 3), 1e-14);
+    EXPECT_NEAR(jackknife_of(records, identity).standard_error[0] / unit, std::sqrt(7. / 3), 1e-14);
   }
 }
 
 TEST(Jackknife, HasNoErrorForOneReplica) {
   Records records(2);
   records.append(std::vector{2.0, 3.0});
-  const Estimate estimate = jackknife(records, ratio);
+  const Estimate estimate = jackknife_of(records, ratio);
   EXPECT_EQ(estimate.mean, std::vector{1.5});
   ASSERT_EQ(estimate.standard_error.size(), 1U);
   EXPECT_TRUE(std::isnan(estimate.standard_error[0]));
@@ -71,18 +74,18 @@ TEST(Jackknife, IsExactlyZeroWithoutSpread) {
   for (const double value : {0.1, 1e-300, 1e300, -7.3}) {
     Records records(1);
     for (int i = 0; i < 7; ++i) records.append(std::vector{value});
-    EXPECT_EQ(jackknife(records, identity).mean, std::vector{value});
-    EXPECT_EQ(jackknife(records, identity).standard_error, std::vector{0.0});
+    EXPECT_EQ(jackknife_of(records, identity).mean, std::vector{value});
+    EXPECT_EQ(jackknife_of(records, identity).standard_error, std::vector{0.0});
   }
 }
 
 TEST(Jackknife, KeepsQuantitiesApart) {
   Records records(2);
   for (const double x : {1.0, 2.0, 4.0}) records.append(std::vector{x, 10 * x * x});
-  const Estimate both = jackknife(records, identity);
+  const Estimate both = jackknife_of(records, identity);
   Records second(1);
   for (const double x : {1.0, 2.0, 4.0}) second.append(std::vector{10 * x * x});
-  EXPECT_EQ(both.standard_error.at(1), jackknife(second, identity).standard_error.at(0));
+  EXPECT_EQ(both.standard_error.at(1), jackknife_of(second, identity).standard_error.at(0));
   EXPECT_THROW(records.append(std::vector{1.0}), std::invalid_argument);
 }
 
@@ -115,7 +118,7 @@ double chi_squared(const std::function<double(const Records&)>& error) {
   return sum;
 }
 
-double jackknife_error(const Records& records) { return jackknife(records, ratio).standard_error[0]; }
+double jackknife_error(const Records& records) { return jackknife_of(records, ratio).standard_error[0]; }
 
 bool plausible(double chi_squared) {
   return std::min(gsl_cdf_chisq_P(chi_squared, repetitions), gsl_cdf_chisq_Q(chi_squared, repetitions)) >
@@ -134,7 +137,7 @@ TEST(Jackknife, WrongErrorsAreImplausible) {
   const auto without_factor = [](const Records& r) { return jackknife_error(r) / std::sqrt(replicas - 1.0); };
   // Mutant: numerator and denominator treated as independent.
   const auto uncorrelated = [](const Records& r) {
-    const Estimate means = jackknife(r, identity);
+    const Estimate means = jackknife_of(r, identity);
     return ratio(means.mean)[0] *
            std::hypot(means.standard_error[0] / means.mean[0], means.standard_error[1] / means.mean[1]);
   };

@@ -31,23 +31,19 @@ std::vector<double> profiles(double factor = 1, double odd = 0) {
   return values;
 }
 
-Columns all_columns() {
-  Columns columns;
-  for (std::size_t i = 0; i < times.size() * cells; ++i) columns.push_back(i);
-  return columns;
-}
-
 Records records_of(std::initializer_list<std::vector<double>> rows) {
   Records records(times.size() * cells);
   for (const std::vector<double>& row : rows) records.append(row);
   return records;
 }
 
-PeakWindows windows_of(const Records& records) { return peak_windows(records, all_columns(), times.size()); }
+PeakWindows windows_of(const Records& records) {
+  return peak_windows(records, Tally{0, records.width()}, times.size());
+}
 
 /// Of a mean record that holds nothing but the profiles, and that lives on.
 MovingPeak peak_of(const std::vector<double>& mean, const PeakWindows& windows) {
-  return {mean, std::span(mean), times, windows};
+  return {mean, times, windows};
 }
 
 // Mutants: the profile not folded; times exchanged; a slope with its sign; a width of t^1/2.

@@ -2,10 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdint>
-#include <cstdlib>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,7 +38,7 @@ struct Example {
     options.real("--relaxation-time", relaxation, non_negative, "time", "Time");
     options.real_or_word("--gamma", gamma, non_negative, "N", "1", "Scatterings");
     options.integer_or_word("--sites", sites, {1, 300}, "continuum", "Sites");
-    options.scaled("--window", window, positive, 'N', "time", "Window");
+    options.scaled("--window", window, positive, "time", "Window");
     options.ascending_list("--times", times, {0, 10}, "time", "Times");
     options.integer("--cells", cells, {1, 100}, "Cells");
     options.integer("--seed", seed, {}, "Seed");
@@ -51,22 +48,13 @@ struct Example {
     options.integer("--threads", threads, {1, 4096}, "Threads", Options::Role::runtime);
   }
 
-  bool parse(const Arguments& arguments) {
+  /// Returns what is printed instead of a run.
+  std::optional<std::string> parse(const Arguments& arguments) {
     std::vector<const char*> pointers = {"example"};
     for (const std::string& argument : arguments) pointers.push_back(argument.c_str());
     return options.parse(static_cast<int>(pointers.size()), pointers.data(), "example 1.0");
   }
 };
-
-/// Ends the process unless all values are in the ranges that were declared.
-inline void require_admissible(const Example& e) {
-  const auto between = [](double low, double value, double high) { return low <= value && value <= high; };
-  const bool admissible = between(-1, e.sigma, 1) && e.temperature > 0 && e.relaxation >= 0 &&
-                          e.gamma.value_or(0) >= 0 && between(1, e.sites.value_or(1), 300) &&
-                          e.window.at(1) > 0 && between(1, e.cells, 100) && between(1, e.threads, 4096) &&
-                          std::ranges::is_sorted(e.times, std::ranges::less_equal());
-  if (!admissible) std::abort();
-}
 
 /// Message of the UsageError.
 inline std::string refusal(const Arguments& arguments) {

@@ -32,15 +32,15 @@ struct ValueTallies : TallySchema {
 /// Study of one number per replica.
 inline Study study_of(const MeasureValue& measurement) {
   const ValueTallies tallies;
-  Formulas formulas;
-  formulas.quantity("value", "1", "A number", [=](RecordView mean) { return mean[tallies.value]; });
+  Group group;
+  group.quantity("value", "1", "A number", [=](RecordView mean) { return mean[tallies.value]; });
   return {.tallies = tallies,
           .measure =
               [=](const Replica& replica, Record& record) {
                 record[tallies.value] = measurement(replica);
                 return 10;
               },
-          .estimators = {formulas.estimator()},
+          .groups = {group},
           .target = "value"};
 }
 

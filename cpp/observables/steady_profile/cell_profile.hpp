@@ -1,0 +1,171 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "engine/observation.hpp"
+#include "engine/open_dynamics.hpp"
+#include "engine/path.hpp"
+#include "sampling/injection_controls.hpp"
+#include "sampling/momentum_bins.hpp"
+#include "statistics/histogram.hpp"
+#include "statistics/range_tally.hpp"
+#include "statistics/tally.hpp"
+#include "statistics/time_integral.hpp"
+
+namespace lorentz {
+
+/// Tallies of the cells and bonds of an open chain, per unit time, with the control variates.
+struct CellTallies : TallySchema {
+  Axis cell, bond, momentum;
+  Axis end{"end", "1", "0: first cell, 1: last", {0, 1}};
+  Axis direction{"direction", "1", "-1: to the left, 1: to the right", {-1, 1}};
+  Tally temperature = tally("temperature", {cell}, "temperature", "Time average of P^2/M of the scatterer");
+  Tally density = tally("density", {cell}, "1", "Time average of the number of particles in the cell");
+  Tally arrivals = tally("arrivals", {direction, cell}, "1/time", "Arrivals at the scatterer");
+  Tally arriving_squares =
+      tally("arriving_squares", {direction, cell}, "momentum^2/time", "Sum of u^2 over arrivals");
+  Tally crossings = tally("crossings", {direction, bond}, "1/time", "Crossings of the bond");
+  Tally crossing_squares =
+      tally("crossing_squares", {direction, bond}, "momentum^2/time", "Sum of u^2 over crossings");
+  Tally end_momentum = tally("end_momentum", {end, momentum}, "1",
+                             "Part of the time that an end scatterer spends in a bin of U");
+  Tally injection = tally("injection", {InjectionControls::axis()}, "1", "Injected, minus its known mean");
+
+  CellTallies(std::size_t cells, const Bins& bins)
+      : cell(numbered_axis("cell", "Cell number, from 0", cells)),
+        bond(numbered_axis("bond", "Bond number; 0 and N are the openings", cells + 1)),
+        momentum{"momentum", "momentum", "P/sqrt(M), middle of the bin", bins.middles()} {}
+};
+
+/// Passages of the marks of a chain in one direction during a window, and the times that particles spend in
+/// the cells [eq. 35].
+///
+/// A flight that lies in the window is added to its range of bonds only: each bond implies one arrival at the
+/// scatterer behind it, if there is one, and a stay of time_per_place in each of its two half cells. Flights
+/// that overlap an end of the window are added mark by mark.
+class CellStream {
+ public:
+  CellStream(const OpenChain& chain, const Window& window)
+      : window_(window),
+        cells_(chain.cells),
+        bonds_(cells_ + 1),
+        marks_(2 * cells_ + 1),
+        residence_(cells_) {}
+
+  void add(const Path& path) {
+    // A path that departs exactly at the beginning of the window may start anywhere in a cell.
+    if (!(path.departure > window_.begin && path.arrival < window_.end)) return add_clipped(path);
+    const Marks marks = marks_in(path, window_);
+    bonds_.add((marks.low + 1) / 2, marks.high / 2, {1, path.velocity * path.velocity, path.time_per_place});
+  }
+
+  /// Arrivals (kind 0) or sums of u^2 over arrivals (kind 1) at every mark; `behind` is the offset from a
+  /// bond to the scatterer behind it.
+  std::vector<double> at_marks(std::size_t kind, std::ptrdiff_t behind) const {
+    std::vector<double> sums = marks_.sums(kind);
+    const std::vector<double> bonds = bonds_.sums(kind);
+    for (std::size_t bond = 0; bond <= cells_; ++bond) {
+      sums[2 * bond] += bonds[bond];
+      const std::size_t scatterer = 2 * bond + static_cast<std::size_t>(behind);
+      if (scatterer < sums.size()) sums[scatterer] += bonds[bond];
+    }
+    return sums;
+  }
+
+  /// Time that particles spend in every cell, summed over particles.
+  std::vector<double> residence() const {
+    std::vector<double> times = residence_.sums();
+    const std::vector<double> halves = bonds_.sums(2);
+    for (std::size_t cell = 0; cell < cells_; ++cell) times[cell] += halves[cell] + halves[cell + 1];
+    return times;
+  }
+
+ private:
+  [[gnu::cold]] void add_clipped(const Path& path) {
+    const Marks marks = marks_in(path, window_);
+    marks_.add(marks.low, marks.high, {1, path.velocity * path.velocity});
+    const Stretch stretch = stretch_in(path, window_);
+    if (stretch.duration > 0) residence_.spread(0.5 * stretch.low, 0.5 * stretch.high, {stretch.duration});
+  }
+
+  Window window_;
+  std::size_t cells_;
+  RangeTally<3> bonds_;
+  RangeTally<2> marks_;
+  RangeTally<> residence_;
+};
+
+/// Observer that fills CellTallies [eq. 26, 27].
+class CellProfile {
+ public:
+  CellProfile(const OpenChain& chain, const Window& window, const Bins& bins)
+      : chain_(chain),
+        window_(window),
+        streams_(2, CellStream(chain, window)),
+        scatterers_(chain.cells, TimeIntegral(Blocks(window.begin, window.end, 1))),
+        last_collision_(2, window.begin),
+        momenta_(2, Histogram(bins)) {}
+
+  void on_flight(const Path& path) { streams_[path.direction()].add(path); }
+
+  void on_collision(const Collision& collision) {
+    advance(collision.scatterer, collision.scatterer_before, collision.time);
+  }
+
+  void on_injection(End end, double, double u) { injections_.add(end, u); }
+
+  void finish(const std::vector<double>& scatterers, double end_time) {
+    for (std::uint32_t cell = 0; cell < chain_.cells; ++cell) advance(cell, scatterers[cell], end_time);
+  }
+
+  void record(const CellTallies& tallies, Record& record) const {
+    const double duration = window_.end - window_.begin;
+    const std::size_t cells = chain_.cells;
+    const std::vector<double> to_right = streams_[rightwards].residence();
+    const std::vector<double> to_left = streams_[leftwards].residence();
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+      record[tallies.temperature][cell] = scatterers_[cell].sums().front() / duration;
+      record[tallies.density][cell] = (to_right[cell] + to_left[cell]) / duration;
+    }
+    for (const Direction side : {leftwards, rightwards}) {
+      for (const std::size_t kind : {0, 1}) {
+        const std::vector<double> at_marks = streams_[side].at_marks(kind, side == rightwards ? 1 : -1);
+        const auto at_scatterers =
+            record[(kind == 0 ? tallies.arrivals : tallies.arriving_squares).row(side)];
+        const auto at_bonds = record[(kind == 0 ? tallies.crossings : tallies.crossing_squares).row(side)];
+        for (std::size_t cell = 0; cell < cells; ++cell)
+          at_scatterers[cell] = at_marks[2 * cell + 1] / duration;
+        for (std::size_t bond = 0; bond <= cells; ++bond) at_bonds[bond] = at_marks[2 * bond] / duration;
+      }
+    }
+    for (const std::size_t end : {0, 1})
+      std::ranges::transform(momenta_[end].weights(), record[tallies.end_momentum.row(end)].begin(),
+                             [duration](double time) { return time / duration; });
+    record.set(tallies.injection, injections_.deviations(chain_, duration));
+  }
+
+ private:
+  /// Adds the time since the last call up to `until`, during which the scatterer had this U.
+  void advance(std::uint32_t cell, double U, double until) {
+    scatterers_[cell].advance(U * U, until);
+    if (cell == 0) advance_end(0, U, until);
+    if (cell + 1 == chain_.cells) advance_end(1, U, until);
+  }
+
+  void advance_end(std::size_t end, double U, double until) {
+    momenta_[end].add(U, until - last_collision_[end]);
+    last_collision_[end] = until;
+  }
+
+  OpenChain chain_;
+  Window window_;
+  std::vector<CellStream> streams_;  // by Direction
+  std::vector<TimeIntegral> scatterers_;
+  std::vector<double> last_collision_;  // of either end scatterer, or the beginning of the window
+  std::vector<Histogram> momenta_;
+  InjectionControls injections_;
+};
+
+}  // namespace lorentz

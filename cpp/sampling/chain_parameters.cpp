@@ -1,0 +1,52 @@
+#include "sampling/chain_parameters.hpp"
+
+#include <limits>
+
+#include "program/errors.hpp"
+
+namespace lorentz {
+
+double ScatteringParameters::mean_scatterings() const {
+  return gamma.value_or(std::numeric_limits<double>::infinity());
+}
+
+void declare(Options& options, ScatteringParameters& parameters, Range<double> gamma_range) {
+  options.integer("--cells", parameters.cells, {1, 100'000'000}, "Number of cells N");
+  options.real("--sigma", parameters.sigma, {-1, 1}, "1", "Mass ratio (M-m)/(M+m)");
+  options.real_or_word("--gamma", parameters.gamma, gamma_range, "N", "1",
+                       "Mean number of scatterings in N cells; N: every scatterer scatters");
+}
+
+void require_probability(std::optional<double> gamma, std::uint32_t cells) {
+  if (gamma && *gamma > cells)
+    throw UsageError(
+        "--gamma exceeds --cells: gamma/N is a probability. Choose more cells or a smaller gamma.");
+}
+
+void declare(Options& options, Reservoir& left, Reservoir& right) {
+  options.real("--nu-left", left.rate, non_negative, "1/time",
+               "Particles injected at the left per unit time");
+  options.real("--nu-right", right.rate, non_negative, "1/time",
+               "Particles injected at the right per unit time");
+  options.real("--temperature-left", left.temperature, positive, "temperature",
+               "Temperature of the left reservoir");
+  options.real("--temperature-right", right.temperature, positive, "temperature",
+               "Temperature of the right reservoir");
+}
+
+ClosedChain ClosedChainParameters::chain() const {
+  return {.cells = scattering.cells,
+          .particles_per_cell = particles_per_cell,
+          .cell_length = cell_length,
+          .sigma = scattering.sigma,
+          .gamma = scattering.mean_scatterings()};
+}
+
+void declare(Options& options, ClosedChainParameters& parameters) {
+  declare(options, parameters.scattering, positive);
+  options.integer("--particles-per-cell", parameters.particles_per_cell, {1, 100'000'000},
+                  "Number of particles per cell n");
+  options.real("--cell-length", parameters.cell_length, positive, "length", "Distance between scatterers");
+}
+
+}  // namespace lorentz

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+
+#include "model/closed_chain.hpp"
+#include "program/options.hpp"
+#include "sampling/chain_parameters.hpp"
+
+namespace lorentz {
+
+/// Parameters of a closed chain, its initial state and its measurement. Defaults: figure 5 of the paper.
+struct ClosedParameters {
+  ClosedChainParameters ring{};
+  bool random_direction = false;     // draw the direction of the particle after a collision
+  double temperature = 500;          // of the particles at the start
+  double scatterer_temperature = 0;  // 0: at rest
+  bool zero_total_momentum = false;
+  double relaxation_time = 100;
+  double observation_time = 100;
+
+  ClosedChain chain() const;
+  double end_time() const { return relaxation_time + observation_time; }
+  double hottest() const;  // the higher one of the two temperatures
+
+  /// Mean over replicas of the square of the total momentum [eq. 21].
+  double mean_square_momentum() const;
+
+  /// Mean over replicas of the total energy [eq. 33]; none with zero total momentum, where it is unknown.
+  std::optional<double> mean_energy() const;
+
+  /// Longest time on a clock of type double that resolves a flight of the hottest particles to 5e-7 of its
+  /// duration.
+  double longest_clock() const;
+
+  /// Time of a flight over one cell at the thermal speed sqrt(temperature).
+  double thermal_flight() const;
+};
+
+/// Declares all options except --random-direction.
+void declare(Options& options, ClosedParameters& parameters);
+
+/// Declares --random-direction, for the programs that offer it.
+void declare_random_direction(Options& options, ClosedParameters& parameters);
+
+/// Throws UsageError if options that are valid one by one exclude each other.
+void validate(const ClosedParameters& parameters);
+
+}  // namespace lorentz

@@ -1,0 +1,67 @@
+#include "sampling/closed_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/closed_start.hpp"
+
+namespace lorentz {
+namespace {
+
+ClosedDynamics start(const ClosedParameters& parameters, const StreamKey& key) {
+  const ClosedChain chain = parameters.chain();
+  const StartTemperatures temperatures{parameters.temperature, parameters.scatterer_temperature};
+  return {chain, closed_chain_start(chain, temperatures, parameters.zero_total_momentum, key),
+          parameters.end_time(), key};
+}
+
+double relative(double change, double scale) { return change == 0 ? 0 : std::abs(change) / scale; }
+
+}  // namespace
+
+Study closed_study(const ClosedParameters& parameters, const ClosedTallies& tallies,
+                   const std::function<void(ClosedRun&, Record&)>& observe, std::vector<Group> groups,
+                   const std::string& target) {
+  validate(parameters);
+  Group& conservation = groups.emplace_back();
+  conservation.quantity("energy_drift", "1", "Mean over replicas of |change of total energy| / total energy",
+                        [=](RecordView mean) { return mean[tallies.energy_drift]; });
+  conservation.quantity("momentum_drift", "1",
+                        "Mean over replicas of |change of total momentum| / sum of all |momenta|",
+                        [=](RecordView mean) { return mean[tallies.momentum_drift]; });
+  const auto measure = [=](const Replica& replica, Record& record) {
+    ClosedRun run(parameters, replica);
+    run.relax();
+    observe(run, record);
+    return run.finish(tallies, record);
+  };
+  return {.tallies = tallies, .measure = measure, .groups = std::move(groups), .target = target};
+}
+
+ClosedRun::ClosedRun(const ClosedParameters& parameters, const Replica& replica)
+    : parameters_(parameters),
+      replica_(replica),
+      chain_(start(parameters, replica.key)),
+      start_(chain_.invariants()),
+      longest_clock_(parameters.longest_clock()) {}
+
+double ClosedRun::momentum_control() const {
+  const double mean = parameters_.mean_square_momentum(), momentum = start_.momentum;
+  return mean > 0 && std::isfinite(momentum) ? momentum * momentum / mean - 1 : 0;
+}
+
+double ClosedRun::energy_control() const {
+  const std::optional<double> mean = parameters_.mean_energy();
+  return mean ? start_.energy / *mean - 1 : 0;
+}
+
+std::uint64_t ClosedRun::finish(const ClosedTallies& tallies, Record& record) const {
+  const Invariants end = chain_.invariants();
+  record[tallies.energy_drift] = relative(end.energy - start_.energy, start_.energy);
+  record[tallies.momentum_drift] =
+      relative(end.momentum - start_.momentum, std::max(start_.momentum_scale, end.momentum_scale));
+  return chain_.events();
+}
+
+}  // namespace lorentz

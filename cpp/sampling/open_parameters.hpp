@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "engine/path.hpp"
+#include "model/open_chain.hpp"
+#include "model/phase_point.hpp"
+#include "numerics/stream_key.hpp"
+#include "program/options.hpp"
+#include "sampling/chain_parameters.hpp"
+
+namespace lorentz {
+
+/// Parameters of an open chain, its reservoirs and its initial state. Defaults: figure 2 of the paper.
+struct OpenParameters {
+  ScatteringParameters scattering{.cells = 30};
+  std::optional<double> cell_length{};  // none: 1/N
+  Reservoir left{220, 900. / 11};
+  Reservoir right{180, 1100. / 9};
+  std::string start = "warm";
+
+  OpenChain chain() const;
+
+  /// State of a replica at time 0; where it has particles, the state after they have entered for the time
+  /// `age` [eq. 12].
+  PhasePoint start_point(double age, const StreamKey& key) const;
+};
+
+/// Parameters of the window of a stationary measurement.
+struct WindowParameters {
+  Scaled relaxation_time{{100, 0, 0}};
+  Scaled observation_time{{1000, 0, 0}};
+
+  Window window(std::uint32_t cells) const;
+};
+
+void declare(Options& options, OpenParameters& parameters);
+void declare(Options& options, WindowParameters& parameters);
+
+/// Throw UsageError if options that are valid one by one exclude each other, for a run until `end`, which the
+/// options `times` determine, or for a window.
+void validate(const OpenParameters& parameters, double end, const std::string& times);
+void validate(const OpenParameters& parameters, const WindowParameters& times);
+
+}  // namespace lorentz

@@ -1,0 +1,136 @@
+#include "statistics/group.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace lorentz {
+namespace {
+
+std::size_t size_of(const std::vector<Description>& descriptions) {
+  std::size_t size = 0;
+  for (const Description& each : descriptions) size += each.size();
+  return size;
+}
+
+/// Appends the described quantities, whose values follow one another from `at` on, which is moved past them.
+void append(Results& results, const std::vector<Description>& what, const Estimate& estimate, std::size_t& at,
+            std::uint64_t replicas, std::optional<bool> control_variates) {
+  for (const Description& each : what) {
+    const auto begin = static_cast<std::ptrdiff_t>(at),
+               end = begin + static_cast<std::ptrdiff_t>(each.size());
+    results.push_back({each,
+                       {estimate.mean.begin() + begin, estimate.mean.begin() + end},
+                       {estimate.standard_error.begin() + begin, estimate.standard_error.begin() + end},
+                       std::vector<std::uint64_t>(each.size(), replicas),
+                       control_variates});
+    at += each.size();
+  }
+}
+
+/// Sets the error of an element that is 0 in every replica, such as an empty bin, to NaN: it is unknown.
+void mask_errors_of_empty_bins(Quantity& quantity) {
+  for (std::size_t i = 0; i < quantity.mean.size() && !quantity.what.axes.empty(); ++i)
+    if (quantity.mean[i] == 0 && quantity.standard_error[i] == 0)
+      quantity.standard_error[i] = std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+Estimate jackknife(const Records& records, const std::function<std::vector<double>(RecordView)>& f) {
+  const std::vector<double> mean = records.mean();
+  const auto replicas = static_cast<double>(records.size());
+  Estimate estimate{f(mean), {}};
+  const std::size_t quantities = estimate.mean.size();
+  if (records.size() < 2) {
+    estimate.standard_error.assign(quantities, std::numeric_limits<double>::quiet_NaN());
+    return estimate;
+  }
+
+  // Extended precision: where only one replica contributes to a sum, the sum without it is exactly 0, and no
+  // ratio of rounding errors occurs.
+  std::vector<long double> sums(mean.size(), 0);
+  for (std::size_t replica = 0; replica < records.size(); ++replica)
+    for (std::size_t i = 0; i < mean.size(); ++i) sums[i] += records[replica][i];
+
+  // Welford's algorithm is stable if the leave-one-out values differ in their last digits only. It
+  // accumulates the root of the sum of squares, because squares of large or small numbers overflow or
+  // underflow.
+  std::vector<double> centre(quantities, 0), root(quantities, 0), without(mean.size());
+  for (std::size_t replica = 0; replica < records.size(); ++replica) {
+    for (std::size_t i = 0; i < mean.size(); ++i)
+      without[i] = static_cast<double>((sums[i] - records[replica][i]) / (replicas - 1));
+    const std::vector<double> value = f(without);
+    for (std::size_t k = 0; k < quantities; ++k) {
+      const double deviation = value[k] - centre[k];
+      centre[k] += deviation / static_cast<double>(replica + 1);
+      root[k] =
+          std::hypot(root[k], std::sqrt(std::abs(deviation)) * std::sqrt(std::abs(value[k] - centre[k])));
+    }
+  }
+  for (const double each : root)
+    estimate.standard_error.push_back(std::sqrt((replicas - 1) / replicas) * each);
+  return estimate;
+}
+
+void Group::quantity(const std::string& name, const std::string& units, const std::string& description,
+                     Number formula) {
+  quantity(name, {}, units, description,
+           [formula = std::move(formula)](RecordView mean) { return std::vector{formula(mean)}; });
+}
+
+void Group::quantity(const std::string& name, const std::vector<Axis>& axes, const std::string& units,
+                     const std::string& description, Array formula) {
+  quantities({{name, units, description, axes}},
+             [formula = std::move(formula)](const Records&) { return formula; });
+}
+
+void Group::quantities(const std::vector<Description>& descriptions,
+                       std::function<Array(const Records&)> formula_for) {
+  formulas_.push_back({descriptions, std::move(formula_for)});
+}
+
+void Group::statistics(const std::vector<Description>& descriptions,
+                       std::function<Estimate(const Records&)> estimate) {
+  statistics_.push_back({descriptions, std::move(estimate)});
+}
+
+std::vector<Description> Group::descriptions() const {
+  std::vector<Description> all;
+  for (const auto& part : formulas_) all.insert(all.end(), part.what.begin(), part.what.end());
+  for (const auto& part : statistics_) all.insert(all.end(), part.what.begin(), part.what.end());
+  return all;
+}
+
+Results Group::estimate(const Records& measured) const {
+  std::optional<Prepared> prepared;
+  if (prepare_) prepared.emplace(prepare_(measured));
+  const Records& records = prepared ? prepared->records : measured;
+  const auto control_variates = prepared ? prepared->control_variates : std::nullopt;
+
+  std::vector<Array> formulas;
+  for (const auto& part : formulas_) formulas.push_back(part.of(records));
+  const Estimate all = jackknife(records, [&](RecordView mean) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < formulas.size(); ++i) {
+      const std::vector<double> more = formulas[i](mean);
+      if (more.size() != size_of(formulas_[i].what))
+        throw std::logic_error("the formula of " + formulas_[i].what.front().name +
+                               " has another size than its axes");
+      values.insert(values.end(), more.begin(), more.end());
+    }
+    return values;
+  });
+  Results results;
+  std::size_t at = 0;
+  for (const auto& part : formulas_) append(results, part.what, all, at, records.size(), control_variates);
+  for (Quantity& quantity : results) mask_errors_of_empty_bins(quantity);
+  for (const auto& part : statistics_) {
+    at = 0;
+    append(results, part.what, part.of(records), at, records.size(), control_variates);
+  }
+  return results;
+}
+
+}  // namespace lorentz

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "statistics/tally.hpp"
+
+namespace lorentz {
+
+/// Estimate of a described array.
+struct Quantity {
+  Description what;
+  std::vector<double> mean, standard_error;  // for a computed quantity the discretisation error
+  std::vector<std::uint64_t> count{};        // replicas that contribute; empty if computed
+  std::optional<bool> control_variates{};    // whether they were used; none if there are none
+};
+
+using Results = std::vector<Quantity>;
+
+/// Values and their standard errors, of the same length. An undefined error is NaN.
+struct Estimate {
+  std::vector<double> mean;
+  std::vector<double> standard_error;
+};
+
+/// f of the mean record with its leave-one-out jackknife error over replicas (Efron & Stein, Ann. Stat. 9,
+/// 586 (1981)), se^2 = (R-1)/R sum_r (f_(r) - mean of f_(r))^2 [eq. 49]. Valid for independent replicas and
+/// smooth f. The bias of f, of order 1/R, is not corrected; se^2 is biased upwards. With fewer than two
+/// replicas the error is NaN.
+Estimate jackknife(const Records& records, const std::function<std::vector<double>(RecordView)>& f);
+
+/// Quantities that are estimated together: from one preparation of the records, by one jackknife. Their
+/// descriptions exist before any record does (--describe).
+class Group {
+ public:
+  /// Records to which the formulas are applied: a part or a transformation of the measured ones, or these
+  /// corrected by control variates.
+  struct Prepared {
+    Records records;
+    std::optional<bool> control_variates{};
+  };
+  using Prepare = std::function<Prepared(const Records&)>;
+
+  /// Formulas of the mean record. The error of an array element that is 0 in all replicas is NaN.
+  using Number = std::function<double(RecordView)>;
+  using Array = std::function<std::vector<double>(RecordView)>;
+
+  /// Without `prepare` the formulas are applied to the records as measured.
+  explicit Group(Prepare prepare = {}) : prepare_(std::move(prepare)) {}
+
+  void quantity(const std::string& name, const std::string& units, const std::string& description,
+                Number formula);
+  void quantity(const std::string& name, const std::vector<Axis>& axes, const std::string& units,
+                const std::string& description, Array formula);
+
+  /// Several quantities with a common formula, which is chosen when the records are known and returns their
+  /// values one after another.
+  void quantities(const std::vector<Description>& descriptions,
+                  std::function<Array(const Records&)> formula_for);
+
+  /// Quantities with their own errors instead of those of the jackknife, one after another.
+  void statistics(const std::vector<Description>& descriptions,
+                  std::function<Estimate(const Records&)> estimate);
+
+  std::vector<Description> descriptions() const;
+
+  /// Throws std::logic_error if a formula gives more or fewer values than described.
+  Results estimate(const Records& measured) const;
+
+ private:
+  template <class Function>
+  struct Part {
+    std::vector<Description> what;
+    std::function<Function(const Records&)> of;
+  };
+  Prepare prepare_;
+  std::vector<Part<Array>> formulas_;
+  std::vector<Part<Estimate>> statistics_;
+};
+
+/// Formula of a quantity that is the mean of a tally divided by `divisor`.
+inline auto mean_of(Tally tally, double divisor = 1) {
+  return [=](RecordView mean) {
+    std::vector<double> values(mean[tally].begin(), mean[tally].end());
+    for (double& value : values) value /= divisor;
+    return values;
+  };
+}
+
+}  // namespace lorentz

@@ -1,0 +1,103 @@
+#include "observables/conductivity/scattering_control.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "support/sample.hpp"
+
+namespace {
+
+using namespace lorentz;
+
+struct Watched {
+  double control[2];  // of both halves of the window
+  double energy;      // mean U^2
+};
+
+struct Arrival {
+  double time, u;
+  bool scattered;
+};
+
+/// Particles arrive as a Poisson process, u is normal, and one in eight is scattered. Each arrival is
+/// registered when the one before it takes place. assumed_sigma: sigma of the control. late: mutant that is
+/// given the momentum after a collision instead of that before.
+Watched watch(double sigma, double assumed_sigma, bool late, std::mt19937_64& generator) {
+  const double c = std::sqrt(1 - sigma * sigma);
+  const Blocks blocks(10, 60, 2);
+  ScatteringControl control({.cells = 8, .sigma = assumed_sigma, .gamma = 1}, blocks);
+  TimeIntegral energy(Blocks(10, 60, 1));
+  std::exponential_distribution<double> interval(10);
+  std::normal_distribution<double> normal;
+  std::bernoulli_distribution scatters(1. / 8);
+  const auto after = [&](double time) {
+    const Arrival next{time + interval(generator), normal(generator), scatters(generator)};
+    if (blocks.contain(next.time)) control.arrival(next.time, next.u, next.scattered);
+    return next;
+  };
+  double momentum = 3;  // far from equilibrium
+  for (Arrival arrival = after(0); arrival.time < 70;) {
+    const Arrival now = arrival;
+    arrival = after(now.time);
+    if (!now.scattered) continue;
+    const double before = momentum;
+    momentum = c * now.u + sigma * before;
+    energy.advance(before * before, now.time);
+    control.advance(late ? momentum : before, now.time);
+  }
+  return {{control.sums()[0], control.sums()[1]}, energy.sums()[0] / 50};
+}
+
+struct Found {
+  double score[2];   // z-scores of the controls' means
+  double explained;  // part of the variance of the mean energy
+};
+
+Found found(double sigma, double assumed_sigma, bool late) {
+  constexpr int samples = 4000;
+  std::mt19937_64 generator(1);
+  std::vector<double> halves[2], controls, energies;
+  for (int i = 0; i < samples; ++i) {
+    const Watched watched = watch(sigma, assumed_sigma, late, generator);
+    for (const int half : {0, 1}) halves[half].push_back(watched.control[half]);
+    controls.push_back(watched.control[0] + watched.control[1]);
+    energies.push_back(watched.energy);
+  }
+  const support::Sample control = support::sample(controls), energy = support::sample(energies);
+  double covariance = 0;  // of the two means
+  for (std::size_t i = 0; i < controls.size(); ++i)
+    covariance += (controls[i] - control.mean) * (energies[i] - energy.mean) / (samples * (samples - 1.));
+  const double correlation = covariance / (control.standard_error * energy.standard_error);
+  return {
+      {support::z_score(support::sample(halves[0]), 0.0), support::z_score(support::sample(halves[1]), 0.0)},
+      correlation * correlation};
+}
+
+// Mutants: the momentum after the collision, which depends on s and gives a nonzero mean; the wrong sign of
+// sigma, which reduces the explained variance only.
+TEST(ScatteringControl, HasMeanZeroAndKnowsTheNoise) {
+  for (const double sigma : {0.5, -0.3, 0.9}) {
+    const Found right = found(sigma, sigma, false), late = found(sigma, sigma, true),
+                reversed = found(sigma, -sigma, false);
+    for (const int half : {0, 1}) {
+      EXPECT_LT(std::abs(right.score[half]), 4) << sigma;
+      EXPECT_LT(std::abs(reversed.score[half]), 4) << sigma;
+      EXPECT_GT(std::abs(late.score[half]), 10) << sigma;
+    }
+    EXPECT_GT(right.explained, 0.75) << sigma;
+    EXPECT_LT(reversed.explained, 0.75) << sigma;
+  }
+}
+
+TEST(ScatteringControl, IsZeroWhereNothingIsLeftToChance) {
+  const Blocks blocks(0, 1, 1);
+  ScatteringControl control({.cells = 8, .gamma = 8}, blocks);
+  control.arrival(0.5, 2, true);
+  control.advance(1, 1);
+  EXPECT_EQ(control.sums()[0], 0);
+}
+
+}  // namespace

@@ -1,0 +1,82 @@
+#include "sampling/closed_parameters.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "support/refusal.hpp"
+
+namespace {
+
+using namespace lorentz;
+using support::refused_as;
+
+TEST(ClosedParameters, DefaultsAreThoseOfFigure5) {
+  const ClosedChain chain = ClosedParameters{}.chain();
+  EXPECT_EQ(chain.cells, 11U);
+  EXPECT_EQ(chain.particles_per_cell, 20U);
+  EXPECT_EQ(chain.cell_length, 1);
+  EXPECT_EQ(chain.sigma, 0.5);
+  EXPECT_TRUE(chain.deterministic());
+  EXPECT_FALSE(chain.random_direction);
+  EXPECT_EQ(ClosedParameters{}.end_time(), 200);
+}
+
+// Mutants: scatterers left out, without their mass, or a mean with zero total momentum.
+TEST(ClosedParameters, MeansOfTheStart) {
+  ClosedParameters parameters;  // 220 particles at 500; M = 3
+  EXPECT_EQ(parameters.mean_square_momentum(), 220 * 500);
+  EXPECT_EQ(parameters.mean_energy(), 110 * 500);
+  parameters.scatterer_temperature = 10;
+  EXPECT_NEAR(parameters.mean_square_momentum(), 220 * 500 + 11 * 10 * 3, 1e-4);
+  EXPECT_EQ(parameters.mean_energy(), 110 * 500 + 55);
+  parameters.zero_total_momentum = true;
+  EXPECT_EQ(parameters.mean_square_momentum(), 0);
+  EXPECT_FALSE(parameters.mean_energy().has_value());
+}
+
+// Mutants: the temperature of the particles in place of the higher one, and the other way round.
+TEST(ClosedParameters, TimesFollowFromSpeeds) {
+  const ClosedParameters parameters{
+      .ring = {.cell_length = 2}, .temperature = 4, .scatterer_temperature = 16};
+  EXPECT_EQ(parameters.hottest(), 16);
+  EXPECT_EQ(parameters.longest_clock(), 0x1p31);
+  EXPECT_EQ(parameters.thermal_flight(), 1);
+}
+
+// Mutant: random_direction not handed on to the chain.
+TEST(ClosedParameters, AreReadFromTheCommandLine) {
+  ClosedParameters parameters;
+  Options options("example", "An example");
+  declare(options, parameters);
+  const char* unknown[] = {"example", "--random-direction"};  // not offered by all programs
+  EXPECT_THROW(options.parse(2, unknown, ""), UsageError);
+
+  Options more("example", "An example");
+  declare(more, parameters);
+  declare_random_direction(more, parameters);
+  const char* words[] = {
+      "example", "--gamma", "3", "--cells", "7", "--random-direction", "--zero-total-momentum"};
+  more.parse(7, words, "");
+  EXPECT_EQ(parameters.chain().gamma, 3);
+  EXPECT_EQ(parameters.chain().cells, 7U);
+  EXPECT_TRUE(parameters.chain().random_direction);
+  EXPECT_TRUE(parameters.zero_total_momentum);
+}
+
+// Mutants: the observation alone in place of the end; flights_of_one_clock in place of flights_of_a_year.
+TEST(ClosedParameters, AreRefusedTogether) {
+  ClosedParameters parameters{.temperature = 1, .relaxation_time = 0, .observation_time = 9e14};
+  EXPECT_NO_THROW(validate(parameters));
+  parameters.relaxation_time = 2e14;
+  EXPECT_TRUE(refused_as("--relaxation-time plus --observation-time: the number of thermal flights",
+                         [&] { validate(parameters); }));
+  parameters = {.temperature = 1, .scatterer_temperature = 1e301};
+  EXPECT_TRUE(refused_as("--temperature, --scatterer-temperature: the highest temperature",
+                         [&] { validate(parameters); }));
+  parameters = {.ring = {.particles_per_cell = 100'000'000}};
+  EXPECT_TRUE(refused_as("--cells times --particles-per-cell", [&] { validate(parameters); }));
+}
+
+}  // namespace

@@ -1,0 +1,136 @@
+#include "sampling/closed_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "support/sample.hpp"
+
+namespace {
+
+using namespace lorentz;
+
+const Replica replica{{1, 0}, [](double) {}};
+
+struct Counter {
+  std::uint64_t collisions = 0;
+  double first = -1, last = -1;
+  void on_collision(const Collision& collision) {
+    if (++collisions == 1) first = collision.time;
+    last = collision.time;
+  }
+};
+
+struct Errors {
+  std::uint64_t events;
+  double energy, momentum;
+};
+
+Errors finished(const ClosedRun& run) {
+  const ClosedTallies tallies;
+  Record record(tallies);
+  const std::uint64_t events = run.finish(tallies, record);
+  return {events, record[tallies.energy_drift], record[tallies.momentum_drift]};
+}
+
+// Particles that are too slow to arrive: nothing happens, and nothing drifts. The clock restarts after 2^32
+// thermal flights of the scatterers, 232 times here. Mutants: the clock not restarted; clock_start_ not
+// moved.
+TEST(ClosedRun, WithoutScatterings) {
+  const ClosedParameters parameters{
+      .temperature = 1e-50, .scatterer_temperature = 1, .relaxation_time = 5e11, .observation_time = 5e11};
+  ClosedRun run(parameters, replica);
+  run.relax();
+  Counter counter;
+  run.observe_until(parameters.end_time(), counter);
+  EXPECT_EQ(counter.collisions, 0U);
+  const double shown = run.clock(parameters.end_time());
+  EXPECT_GT(shown, 0);
+  EXPECT_LE(shown, 0x1p32);
+  EXPECT_EQ(std::fmod(parameters.end_time() - shown, 0x1p32), 0);
+  const Errors errors = finished(run);
+  EXPECT_EQ(errors.events, 0U);
+  EXPECT_EQ(errors.energy, 0);
+  EXPECT_EQ(errors.momentum, 0);
+}
+
+// Mutants: the relaxation observed; a start of 0 energy or momentum in place of that of the chain, which
+// makes the errors 1 and 0.02; events since the relaxation only.
+TEST(ClosedRun, ObservesAfterTheRelaxationAndConserves) {
+  for (const double sigma : {-0.7, 0., 0.5, 0.9}) {
+    const ClosedParameters parameters{
+        .ring = {.scattering = {.cells = 5, .sigma = sigma}}, .relaxation_time = 2, .observation_time = 3};
+    ClosedRun run(parameters, replica);
+    run.relax();
+    const std::uint64_t before = finished(run).events;
+    Counter counter;
+    run.observe_until(parameters.end_time(), counter);
+    const Errors errors = finished(run);
+    EXPECT_GT(before, 1000U);
+    EXPECT_GE(counter.first, 2);
+    EXPECT_LT(counter.last, 5);
+    EXPECT_EQ(errors.events, before + counter.collisions);
+    EXPECT_LT(errors.energy, 1e-12);
+    EXPECT_LT(errors.momentum, 1e-12);
+  }
+}
+
+// Momentum is not conserved if directions are drawn; energy is.
+TEST(ClosedRun, TellsThatNoMomentumIsConserved) {
+  const ClosedParameters parameters{.random_direction = true, .relaxation_time = 0, .observation_time = 1};
+  ClosedRun run(parameters, replica);
+  Counter counter;
+  run.observe_until(parameters.end_time(), counter);
+  EXPECT_GT(counter.collisions, 100U);
+  EXPECT_LT(finished(run).energy, 1e-12);
+  EXPECT_TRUE(std::isnan(finished(run).momentum));
+}
+
+// Over replicas the controls have mean 0, and the variance of a normal square and of a sum of 9 normal
+// squares. Mutants: the mean of the particles alone, by which both are off by far as M = 19; the momentum not
+// squared.
+TEST(ClosedRun, ControlsHaveMeanZero) {
+  const ClosedParameters parameters{
+      .ring = {.scattering = {.cells = 3, .sigma = 0.9}, .particles_per_cell = 2},
+      .temperature = 2,
+      .scatterer_temperature = 5,
+  };
+  std::vector<double> momenta, energies;
+  for (std::uint64_t index = 0; index < 2000; ++index) {
+    const Replica one{{7, index}, [](double) {}};
+    const ClosedRun run(parameters, one);
+    momenta.push_back(run.momentum_control());
+    energies.push_back(run.energy_control());
+  }
+  EXPECT_LT(std::abs(support::z_score(support::sample(momenta), 0)), 4);
+  EXPECT_LT(std::abs(support::z_score(support::sample(energies), 0)), 4);
+  EXPECT_NEAR(support::sample(momenta).standard_error * std::sqrt(2000), std::sqrt(2), 0.2);
+}
+
+// Mutant: a control of -1 where the mean is 0 or not known.
+TEST(ClosedRun, HasNoControlsWithZeroTotalMomentum) {
+  const ClosedParameters parameters{.zero_total_momentum = true};
+  const ClosedRun run(parameters, replica);
+  EXPECT_EQ(run.momentum_control(), 0);
+  EXPECT_EQ(run.energy_control(), 0);
+}
+
+// Mutant: the two exchanged.
+TEST(ConservationErrors, AreMeansOverReplicas) {
+  const ClosedTallies tallies;
+  Records records(tallies.width());
+  for (const double drift : {1., 3.}) {
+    Record record(tallies);
+    record[tallies.energy_drift] = drift;
+    record[tallies.momentum_drift] = 10 * drift;
+    records.append(record.values());
+  }
+  const Study study = closed_study({}, tallies, {}, {}, "energy_drift");
+  const Results results = study.groups.at(0).estimate(records);
+  EXPECT_EQ(results[0].what.name, "energy_drift");
+  EXPECT_EQ(results[0].mean, std::vector{2.});
+  EXPECT_EQ(results[1].mean, std::vector{20.});
+}
+
+}  // namespace

@@ -1,0 +1,39 @@
+#include "sampling/log_times.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/refusal.hpp"
+
+namespace {
+
+using namespace lorentz;
+
+// Mutant: no assignment of the last time, which the grid misses by a rounding for some of these.
+TEST(LogTimes, EndWithTheObservation) {
+  for (const double last : {0.3, 1., 7., 1e3, 12345.678, 1e6}) {
+    const std::vector<double> times = LogTimeParameters{.decades = 3}.times(last);
+    ASSERT_EQ(times.size(), 25U);
+    EXPECT_EQ(times.back(), last);
+    EXPECT_NEAR(times.front() / last, 1e-3, 1e-15);
+    EXPECT_NEAR(times[16] / last, 0.1, 1e-13);  // eight per decade
+  }
+}
+
+// Mutants: without the factor 1 - 1e-9, the first point is left out by a rounding for some; decades in place
+// of fit_decades.
+TEST(LogTimes, FitBeginsWithAPointOfTheGrid) {
+  const LogTimeParameters parameters{.decades = 6, .fit_decades = 2};
+  for (double last = 0.01; last < 1e6; last *= 1.37) {
+    const std::vector<double> times = parameters.times(last);
+    EXPECT_GE(times[times.size() - 17], parameters.fit_from(last)) << last;
+    EXPECT_LT(times[times.size() - 18], parameters.fit_from(last)) << last;
+  }
+}
+
+TEST(LogTimes, HoldTheFit) {
+  validate(LogTimeParameters{.decades = 2, .fit_decades = 2});
+  EXPECT_TRUE(support::refused_as("--fit-decades exceeds --decades",
+                                  [] { validate(LogTimeParameters{.decades = 2, .fit_decades = 2.01}); }));
+}
+
+}  // namespace

@@ -1,0 +1,57 @@
+#include "sampling/momentum_bins.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/refusal.hpp"
+
+namespace {
+
+using namespace lorentz;
+
+// Mutants: the edges on the axis; bins from 0 on.
+TEST(MomentumBins, LieAboutZero) {
+  const MomentumBinParameters parameters{.count = 4, .max = 2};
+  const Axis axis = momentum_axis(parameters.bins());
+  EXPECT_EQ(axis.values, (std::vector{-1.5, -0.5, 0.5, 1.5}));
+  EXPECT_EQ(axis.name, "momentum");
+  EXPECT_EQ(axis.units, "momentum");
+  EXPECT_EQ(parameters.bins().edge(2), 0);
+}
+
+TEST(MomentumBins, AreReadFromTheCommandLine) {
+  MomentumBinParameters parameters;
+  EXPECT_EQ(parameters.bins().count(), 100U);
+  EXPECT_EQ(parameters.bins().edge(100), 60);
+  Options options("example", "An example");
+  declare(options, parameters);
+  const char* words[] = {"example", "--momentum-bins", "6", "--momentum-max", "3"};
+  options.parse(5, words, "");
+  EXPECT_EQ(momentum_axis(parameters.bins()).values, (std::vector{-2.5, -1.5, -0.5, 0.5, 1.5, 2.5}));
+}
+
+// Mutant: validate() empty, so that 7 bins would silently become 6.
+TEST(MomentumBins, AreEven) {
+  EXPECT_NO_THROW(validate(MomentumBinParameters{.count = 6}));
+  EXPECT_TRUE(support::refused_as("--momentum-bins is odd: no edge would lie at 0",
+                                  [] { validate(MomentumBinParameters{.count = 7}); }));
+}
+
+// Mutants: the last edge in place of the width; no lower or no upper limit.
+TEST(MomentumBins, HaveEdgesThatAreNumbers) {
+  const auto check = [](double width) {
+    return support::refusal([&] { validate(MomentumBinParameters{.count = 100'000, .max = 5e4 * width}); });
+  };
+  EXPECT_EQ(check(1.01e-290), "");
+  EXPECT_EQ(check(0.99e290), "");
+  EXPECT_NE(check(0.99e-290), "");
+  EXPECT_EQ(
+      check(1.01e290),
+      "--momentum-max, --momentum-bins: the width of a bin would be 1.01e+290, which is not in [1e-290, "
+      "1e+290]: outside, numbers lose precision or the run does not end. Choose other values or other "
+      "units.");
+  EXPECT_TRUE(std::isfinite(Bins(100'000, 5e4 * 0.99e290).edge(100'000)));
+}
+
+}  // namespace

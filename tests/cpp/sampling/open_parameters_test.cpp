@@ -1,0 +1,114 @@
+#include "sampling/open_parameters.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/refusal.hpp"
+
+namespace {
+
+using namespace lorentz;
+using support::refused_as;
+
+// Mutant: cell_length 1 by default.
+TEST(OpenParameters, DefaultsAreThoseOfFigure2) {
+  const OpenChain chain = OpenParameters{}.chain();
+  EXPECT_EQ(chain.cells, 30U);
+  EXPECT_EQ(chain.cell_length, 1. / 30);
+  EXPECT_TRUE(chain.deterministic());
+  EXPECT_EQ(chain.left.rate, 220);
+  EXPECT_EQ(chain.right.rate, 180);
+  EXPECT_NEAR(chain.left.rate * chain.left.mean_momentum(), chain.right.rate * chain.right.mean_momentum(),
+              1e-9);
+  EXPECT_EQ((OpenParameters{.scattering = {.cells = 5}, .cell_length = 2}.chain().cell_length), 2);
+}
+
+// Mutant: empty and warm exchanged.
+TEST(OpenParameters, Starts) {
+  OpenParameters parameters{.scattering = {.cells = 5}};
+  EXPECT_GT(parameters.start_point(10, {1, 0}).particles.size(), 10U);
+  parameters.start = "empty";
+  const PhasePoint empty = parameters.start_point(10, {1, 0});
+  EXPECT_TRUE(empty.particles.empty());
+  EXPECT_EQ(empty.scatterers, std::vector<double>(5, 0));
+}
+
+// Mutants: cold and hot exchanged; the left reservoir for both.
+TEST(OpenParameters, StartsFromEquilibriumWithOneReservoir) {
+  const auto temperature = [](const OpenParameters& parameters) {
+    double sum = 0;
+    for (const double U : parameters.start_point(10, {1, 0}).scatterers) sum += U * U;
+    return sum / parameters.scattering.cells;
+  };
+  OpenParameters parameters{.scattering = {.cells = 20'000}, .cell_length = 1e-4};
+  constexpr double error = 0.01;  // sqrt(2/cells), relative
+  for (const bool mirrored : {false, true}) {
+    parameters.left.temperature = mirrored ? 900 : 100;
+    parameters.right.temperature = mirrored ? 100 : 900;
+    parameters.start = "cold";
+    EXPECT_NEAR(temperature(parameters), 100, 100 * 4 * error);
+    parameters.start = "hot";
+    EXPECT_NEAR(temperature(parameters), 900, 900 * 4 * error);
+  }
+}
+
+// Mutant: the observation counted from 0.
+TEST(OpenParameters, WindowFollowsTheRelaxation) {
+  const Window window =
+      WindowParameters{.relaxation_time = {{0, 2, 0}}, .observation_time = {{3, 0, 0}}}.window(5);
+  EXPECT_EQ(window.begin, 10);
+  EXPECT_EQ(window.end, 13);
+}
+
+TEST(OpenParameters, AreReadFromTheCommandLine) {
+  OpenParameters parameters;
+  WindowParameters window;
+  Options options("example", "An example");
+  declare(options, parameters);
+  declare(options, window);
+  const char* words[] = {"example", "--gamma",
+                         "0",       "--start",
+                         "empty",   "--cell-length",
+                         "1/N",     "--relaxation-time",
+                         "4N",      "--temperature-right",
+                         "7",       "--nu-left",
+                         "0"};
+  options.parse(13, words, "");
+  EXPECT_EQ(parameters.chain().gamma, 0);
+  EXPECT_EQ(parameters.start, "empty");
+  EXPECT_EQ(parameters.chain().cell_length, 1. / 30);
+  EXPECT_EQ(window.window(30).begin, 120);
+  EXPECT_EQ(parameters.right.temperature, 7);
+  EXPECT_EQ(parameters.left.rate, 0);
+}
+
+// Mutants: a stay as long as the run; the hotter reservoir alone.
+TEST(OpenParameters, AreRefusedTogether) {
+  const auto refused = [](const std::string& beginning, const OpenParameters& parameters, double end) {
+    return refused_as(beginning, [&] { validate(parameters, end, "--times"); });
+  };
+  EXPECT_NO_THROW(validate(OpenParameters{}, 1000, "--times"));
+
+  // 1e8 particles per unit time stay for 50 L/sqrt(T) = 5.5 on a chain of length 1, for 100 on one of
+  // length 30.
+  OpenParameters parameters{.left = {1e8, 900. / 11}};
+  EXPECT_NO_THROW(validate(parameters, 100, "--times"));
+  parameters.cell_length = 1;
+  EXPECT_TRUE(refused("--nu-left, --nu-right: the number of particles inside", parameters, 100));
+
+  EXPECT_TRUE(
+      refused("--nu-left, --nu-right, --times: the number of injected particles", {.left = {1e8, 100}}, 1e8));
+  EXPECT_TRUE(
+      refused("--temperature-left, --temperature-right: the lowest temperature", {.left = {1, 1e-301}}, 1));
+  EXPECT_TRUE(
+      refused("--temperature-left, --temperature-right: the highest temperature", {.right = {1, 1e301}}, 1));
+}
+
+// Mutant: the relaxation in place of the end.
+TEST(OpenParameters, WindowsAreNotTooShort) {
+  const OpenParameters parameters;
+  EXPECT_NO_THROW(validate(parameters, WindowParameters{{1e5}, {1e-4}}));
+  EXPECT_TRUE(refused_as("--relaxation-time, --observation-time: the end of the run over the time",
+                         [&] { validate(parameters, WindowParameters{{1e5}, {1e-6}}); }));
+}
+
+}  // namespace

@@ -1,0 +1,123 @@
+#include "statistics/group.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+namespace {
+
+using namespace lorentz;
+
+struct Tallies : TallySchema {
+  Axis place = numbered_axis("place", "Where", 2);
+  ScalarTally a = tally("a", "1", "A number");
+  ScalarTally b = tally("b", "1", "Another");
+  Tally pair = tally("pair", {place}, "1", "Two, the first always 0");
+};
+
+Records records() {
+  Records result(Tallies().width());
+  for (const double x : {1., 2., 6.}) result.append(std::vector{x, 2 * x + 1, 0., x});
+  return result;
+}
+
+// The error of a mean is s/sqrt(n); that of a ratio is written out with every replica left out.
+// Mutants: the mean of ratios in place of the ratio of means; an error of the records in place of the mean.
+TEST(Group, JackknifeTheMeanRecord) {
+  const Tallies tallies;
+  Group group;
+  group.quantity("mean", "time", "A mean", [=](RecordView mean) { return mean[tallies.a]; });
+  group.quantity("ratio", "1", "A ratio", [=](RecordView mean) { return mean[tallies.a] / mean[tallies.b]; });
+  const Results results = group.estimate(records());
+  ASSERT_EQ(results.size(), 2U);
+  EXPECT_EQ(results[0].what.name, "mean");
+  EXPECT_EQ(results[0].what.units, "time");
+  EXPECT_EQ(results[0].mean, std::vector{3.});
+  EXPECT_NEAR(results[0].standard_error[0], std::sqrt(7. / 3), 1e-14);
+  EXPECT_EQ(results[0].count, std::vector<std::uint64_t>{3});
+  EXPECT_FALSE(results[0].control_variates.has_value());
+
+  const std::vector<double> without = {4 / 9., 3.5 / 8, 1.5 / 4};
+  double mean = 0, squares = 0;
+  for (const double ratio : without) mean += ratio / 3;
+  for (const double ratio : without) squares += (ratio - mean) * (ratio - mean);
+  EXPECT_NEAR(results[1].standard_error[0], std::sqrt(2. / 3 * squares), 1e-14);
+}
+
+// Mutants: 0 as error of an empty bin; NaN for a number that is 0.
+TEST(Group, AnElementThatIsZeroEverywhereHasNoError) {
+  const Tallies tallies;
+  Group group;
+  group.quantity("pair", {tallies.place}, "1", "Two", mean_of(tallies.pair));
+  group.quantity("zero", "1", "A number", [=](RecordView mean) { return mean[tallies.pair][0]; });
+  const Results results = group.estimate(records());
+  EXPECT_EQ(results[0].mean, (std::vector<double>{0, 3}));
+  EXPECT_TRUE(std::isnan(results[0].standard_error[0]));
+  EXPECT_GT(results[0].standard_error[1], 0);
+  EXPECT_EQ(results[1].standard_error, std::vector<double>{0});
+}
+
+// Mutant: the formula chosen for every mean.
+TEST(Group, ChoosesACommonFormulaOnce) {
+  const Tallies tallies;
+  int chosen = 0;
+  Group group;
+  group.quantities({{"once", "1", "It"}, {"twice", "1", "Twice"}}, [&](const Records&) {
+    ++chosen;
+    return [=](RecordView mean) { return std::vector{mean[tallies.a], 2 * mean[tallies.a]}; };
+  });
+  EXPECT_EQ(group.descriptions().size(), 2U);
+  const Results results = group.estimate(records());
+  EXPECT_EQ(results[1].mean, std::vector{6.});
+  EXPECT_EQ(chosen, 1);
+}
+
+// Mutant: a jackknife of the statistic.
+TEST(Group, HasStatisticsWithTheirOwnErrors) {
+  Group group;
+  group.statistics({{"one", "1", "One"}, {"pair", "1", "Two", {numbered_axis("place", "Where", 2)}}},
+                   [](const Records&) { return Estimate{{1, 2, 0}, {0.1, 0.2, 0}}; });
+  const Results results = group.estimate(records());
+  ASSERT_EQ(results.size(), 2U);
+  EXPECT_EQ(results[0].standard_error, std::vector{0.1});
+  EXPECT_EQ(results[1].mean, (std::vector<double>{2, 0}));
+  EXPECT_EQ(results[1].standard_error, (std::vector<double>{0.2, 0}));
+  EXPECT_EQ(results[1].count, (std::vector<std::uint64_t>{3, 3}));
+}
+
+// Mutants: the records as they were; control variates said to be used always.
+TEST(Group, OfCorrectedRecords) {
+  const Tallies tallies;
+  const auto negative = [](const Records& given) {
+    Records result(given.width());
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      std::vector<double> row(given[i].begin(), given[i].end());
+      for (double& value : row) value = -value;
+      result.append(row);
+    }
+    return result;
+  };
+  for (const std::optional<bool> used : {std::optional<bool>(), std::optional(false), std::optional(true)}) {
+    Group corrected([&](const Records& given) { return Group::Prepared{negative(given), used}; });
+    corrected.quantity("mean", "1", "A mean", [=](RecordView mean) { return mean[tallies.a]; });
+    const Results results = corrected.estimate(records());
+    EXPECT_EQ(results[0].mean, std::vector{-3.});
+    EXPECT_EQ(results[0].control_variates, used);
+  }
+}
+
+// Mutant: only the total is compared, so that one value too many and one too few shift names silently.
+TEST(Group, OfAnotherSizeThanTheirAxesAreRefused) {
+  const Tallies tallies;
+  Group group;
+  group.quantity("long", {tallies.place}, "1", "Three values for two places",
+                 [](RecordView) { return std::vector<double>(3); });
+  group.quantity("short", {tallies.place}, "1", "One value for two places",
+                 [](RecordView) { return std::vector<double>(1); });
+  EXPECT_THROW(group.estimate(records()), std::logic_error);
+}
+
+}  // namespace
