@@ -11,7 +11,14 @@ import pytest
 
 from workflow.cluster import cost
 from workflow.cluster.batches import OVERHEAD, divide, seconds_of_batches
-from workflow.cluster.cost import effort, estimated_seconds, recorded_seconds, seconds_of_run, wall
+from workflow.cluster.cost import (
+    effort,
+    estimated_seconds,
+    recorded_seconds,
+    scaled_seconds,
+    seconds_of_run,
+    wall,
+)
 from workflow.lib.plan import QUALITIES, Panel, Run, load_plan
 
 TOLERANCE = 1.5  # of an estimate, over sizes, replicas and windows
@@ -45,10 +52,17 @@ def test_every_run_has_an_estimate(quality: str) -> None:
     )
 
 
-def test_an_unknown_series() -> None:
-    run = replace(load_plan("smoke")["fig05"].runs[0], series="mine")
-    assert estimated_seconds("fig05", run) is None
-    assert seconds_of_run("fig05", run) == cost.UNKNOWN
+def test_an_unknown_series(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An execution at another quality is scaled by effort."""
+    run = load_plan("standard")["fig07"].runs[0]
+    mine = replace(run, series="mine")
+    assert estimated_seconds("fig07", mine) is None
+    assert seconds_of_run("fig07", mine) == cost.UNKNOWN
+    monkeypatch.setattr(cost, "recorded_seconds", lambda quality, *_: 2.0 if quality == "smoke" else None)
+    few = load_plan("smoke")["fig07"].runs[0].options["replicas"]
+    assert scaled_seconds("fig07", mine) == pytest.approx(2 * run.options["replicas"] / few)
+    monkeypatch.setattr(cost, "recorded_seconds", lambda *_: None)
+    assert scaled_seconds("fig07", mine) is None
 
 
 @pytest.mark.parametrize(

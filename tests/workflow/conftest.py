@@ -45,7 +45,7 @@ class Clone:
 
     def snakemake(self, *arguments: str, status: int | None = 0) -> str:
         """What a bare snakemake prints."""
-        command = (".venv/bin/snakemake", "--config", "quality=smoke", *arguments)
+        command = (".venv/bin/snakemake", *arguments, "--config", "quality=smoke")
         return self.run(*command, status=status, TERM="dumb").stdout
 
     def module(self, name: str, *arguments: str, status: int | None = 0) -> str:

@@ -43,7 +43,7 @@ def test_a_pipe_has_a_line_per_panel(kept: Clone) -> None:
 
 def test_a_terminal_has_a_line_per_run(kept: Clone) -> None:
     shown, _ = on_a_terminal(kept, "quality=smoke", "panel=fig06", "--forceall", "--", "panel")
-    assert re.search(r"fig06/all_sigma=0\.5: error of \w+ \S+, \d of 3 done, about 0:\d\d:\d\d left", shown)
+    assert re.search(r"fig06/all_sigma=0\.5: \w+ = \S+, \d of 3 done, about 0:\d\d:\d\d left", shown)
     assert "fig06: drawn from 2 runs, 3 of 3 done" in shown
 
 

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from workflow.cluster.batches import divide, seconds_of_batches
 from workflow.lib.configuration import ConfigurationError, Options, at_size
-from workflow.lib.plan import Run, load_plan, panel_named, with_used
+from workflow.lib.plan import QUALITIES, Run, load_plan, panel_named, with_used
 
 ROOT = Path(__file__).parents[2]
 TABLE = ROOT / "workflow/config/seconds.csv"  # panel, series, cells, effort, cpu_seconds
@@ -57,6 +57,16 @@ def estimated_seconds(panel: str, run: Run) -> float | None:
     near, next_to_it = sorted(known, key=lambda one: abs(math.log(one / size)))[:2]
     power = math.log(known[next_to_it] / known[near]) / math.log(next_to_it / near)
     return effort(run.options) * float(known[near] * (size / near) ** power)
+
+
+def scaled_seconds(panel: str, run: Run) -> float | None:
+    """From an execution here at another quality; None without one."""
+    for quality in QUALITIES:
+        seconds = recorded_seconds(quality, panel, run.name)
+        same = [one for one in load_plan(quality)[panel].runs if one.name == run.name] if seconds else []
+        if seconds and same:
+            return seconds * effort(run.options) / effort(same[0].options)
+    return None
 
 
 @cache
@@ -106,11 +116,13 @@ def main() -> None:
     jobs: list[float] = []
     for panel in panels:
         recorded = [recorded_seconds(options.quality, panel.name, run.name) for run in panel.runs]
-        estimated = [estimated_seconds(panel.name, run) or UNKNOWN for run in panel.runs]
-        seconds = [one or other for one, other in zip(recorded, estimated, strict=True)]
+        seconds = [
+            known or estimated_seconds(panel.name, run) or scaled_seconds(panel.name, run) or UNKNOWN
+            for known, run in zip(recorded, panel.runs, strict=True)
+        ]
         jobs += [*seconds, DRAWING]
-        known = f"{len(seconds) - recorded.count(None)} of {len(seconds)} runs recorded here"
-        print(f"{panel.name:<18}{wall([*seconds, DRAWING], 1)!s:>17}  {known}")
+        source = f"{len(seconds) - recorded.count(None)} of {len(seconds)} runs recorded here"
+        print(f"{panel.name:<18}{wall([*seconds, DRAWING], 1)!s:>17}  {source}")
     cores = os.cpu_count() or 1
     print(f"CPU time: {wall(jobs, 1)}. Wall time on {cores} cores here: {wall(jobs, cores)}")
     if options.batch:
