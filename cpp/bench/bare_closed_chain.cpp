@@ -11,22 +11,16 @@ struct Tallies : ClosedTallies {
 };
 
 Study bare_run(const ClosedParameters& parameters) {
-  validate(parameters);
   const Tallies tallies;
-  const auto measure = [=](const Replica& replica, Record& record) {
-    ClosedRun run(parameters, replica);
+  const auto observe = [=](ClosedRun& run, Record& record) {
     NoObserver nobody;
-    run.observe_until(parameters.end_time(), nobody);
+    run.observe(nobody);
     record[tallies.events] = static_cast<double>(run.chain().events());
-    return run.finish(tallies, record);
   };
-  Formulas formulas;
-  formulas.quantity("events", "1", "Collisions of a replica",
-                    [=](RecordView mean) { return mean[tallies.events]; });
-  return {.tallies = tallies,
-          .measure = measure,
-          .estimators = {formulas.estimator(), conservation_errors(tallies)},
-          .target = "events"};
+  Group group;
+  group.quantity("events", "1", "Collisions of a replica",
+                 [=](RecordView mean) { return mean[tallies.events]; });
+  return closed_study(parameters, tallies, observe, {group}, "events");
 }
 
 }  // namespace

@@ -24,10 +24,9 @@ Study bare_run(const Parameters& parameters) {
     record[tallies.events] = static_cast<double>(run.events());
     return run.events();
   };
-  Formulas formulas;
-  formulas.quantity("events", "1", "Events of a replica",
-                    [=](RecordView mean) { return mean[tallies.events]; });
-  return {.tallies = tallies, .measure = measure, .estimators = {formulas.estimator()}, .target = "events"};
+  Group group;
+  group.quantity("events", "1", "Events of a replica", [=](RecordView mean) { return mean[tallies.events]; });
+  return {.tallies = tallies, .measure = measure, .groups = {group}, .target = "events"};
 }
 
 }  // namespace

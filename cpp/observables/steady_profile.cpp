@@ -69,12 +69,11 @@ Group profiles(const CellTallies& tallies, double bin_width) {
   const auto density = [](const Profile& profile) {
     return DensityProfile(profile.mean[profile.tallies.density]);
   };
-  using std::mem_fn;
 
   group.quantity("temperature_scatterer", cell, "temperature", "Time average of P^2/M",
-                 of(mem_fn(&Profile::temperature)));
+                 of([](const Profile& profile) { return profile.temperature(); }));
   group.quantity("temperature_particle", cell, "temperature", "<p^2>/m over the arrivals at the scatterer",
-                 of(mem_fn(&Profile::particle_temperature)));
+                 of([](const Profile& profile) { return profile.particle_temperature(); }));
   group.quantity("temperature_difference", cell, "temperature",
                  "That of the scatterer minus that of the particles", of([](const Profile& profile) {
                    return difference(profile.temperature(), profile.particle_temperature());
@@ -95,9 +94,9 @@ Group profiles(const CellTallies& tallies, double bin_width) {
   group.quantity("rate_left_deviation", cell, "1/time", "rate_left minus a straight line through it",
                  of([](const Profile& profile) { return minus_line(profile.rate(leftwards)); }));
   group.quantity("particle_current", bond, "1/time", "J_n, positive to the right",
-                 of(mem_fn(&Profile::particle_current)));
+                 of([](const Profile& profile) { return profile.particle_current(); }));
   group.quantity("energy_current", bond, "energy/time", "J_U, positive to the right",
-                 of(mem_fn(&Profile::energy_current)));
+                 of([](const Profile& profile) { return profile.energy_current(); }));
   group.quantity("particle_current_mean", "1/time", "Mean of J_n over the bonds",
                  of([](const Profile& profile) { return average(profile.particle_current()); }));
   group.quantity("energy_current_mean", "energy/time", "Mean of J_U over the bonds",

@@ -196,6 +196,15 @@ Outcome StudyProgram::whole() {
 
 Outcome StudyProgram::part() {
   const auto [first, last] = range_of(part_, replicas_);
+  std::error_code unknown;
+  if (!options().given("--overwrite") && std::filesystem::exists(output(), unknown)) {
+    const std::optional<FinishedReplicas> former = format_->read(output());
+    if (!former || former->begin()->first != first || former->rbegin()->first != last)
+      throw UsageError(fmt::format(
+          "'{}' exists and is of other options, another build or other replicas. Choose another --output, or "
+          "replace it with --overwrite.",
+          output()));
+  }
   needed_ = last - first + 1;
   measure(first, last + 1);
   progress().say(fmt::format("replicas {} to {} are measured, for --join", first, last));

@@ -14,12 +14,12 @@ gsl/gsl_math.h         libgsl-dev          gsl-devel         gsl
 hdf5.h                 libhdf5-dev         hdf5-devel        hdf5
 zlib.h                 zlib1g-dev          zlib-devel        zlib
 CLI/CLI.hpp            libcli11-dev        cli11-devel       cli11
-nlohmann/json.hpp      nlohmann-json3-dev  json-devel        nlohmann-json
 Random123/philox.h     librandom123-dev    Random123-devel   random123
 sleef.h                libsleef-dev        sleef-devel       sleef
 fmt/format.h           libfmt-dev          fmt-devel         fmt
 "
 for_developers='
+nlohmann/json.hpp      nlohmann-json3-dev  json-devel        nlohmann-json
 gtest/gtest.h          libgtest-dev        gtest-devel       googletest
 benchmark/benchmark.h  libbenchmark-dev    google-benchmark-devel google-benchmark
 clang++                clang               clang             llvm

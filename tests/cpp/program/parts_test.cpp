@@ -91,6 +91,20 @@ TEST_F(Parts, OfAnotherRunAreRefused) {
   EXPECT_FALSE(std::filesystem::exists(folder / "joined.h5"));
 }
 
+TEST_F(Parts, OfOtherOptionsOrReplicasAreKept) {
+  const Arguments output{"--output", folder / "a.part"};
+  const auto measure_into = [&](Arguments arguments) {
+    arguments.insert(arguments.end(), output.begin(), output.end());
+    return run(arguments);
+  };
+  EXPECT_EQ(measure_into({"--part", "0-3"}), 0);
+  EXPECT_EQ(measure_into({"--part", "0-3"}), 0);  // the same content
+  EXPECT_EQ(measure_into({"--part", "0-4"}), 2);
+  EXPECT_EQ(measure_into({"--part", "0-3", "--seed", "2"}), 2);
+  EXPECT_NE(complaints.find("--overwrite"), std::string::npos) << complaints;
+  EXPECT_EQ(measure_into({"--part", "0-4", "--overwrite"}), 0);
+}
+
 TEST_F(Parts, DamagedAreRefused) {
   EXPECT_EQ(measure_part("0-15"), 0);
   std::string content = content_of(folder / "parts/0-15.part");
