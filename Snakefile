@@ -26,9 +26,7 @@ except (ConfigurationError, BuildError) as error:
     sys.exit(str(error))
 
 
-def products_of(panel):
-    """Results too: Snakemake does not remake a missing intermediate whose products are there."""
-    return [*data_of(PLAN, panel, QUALITY), *drawings_of(QUALITY, panel)]
+include: "workflow/rules/common.smk"
 
 
 wildcard_constraints:

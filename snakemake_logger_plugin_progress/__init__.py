@@ -115,6 +115,8 @@ class LogHandler(LogHandlerBase):
                 self._console.print(f"{name}: {', '.join([value, *doubts])}, {self._state}")
 
     def _fail(self, job: Record, logs: list[str]) -> None:
+        # After Ctrl-C the programs end before Snakemake reports that it stops.
+        self._stopped = self._stopped or any("interrupted" in line for line in last_lines(logs[0]))
         if not self._stopped:
             self._failed[name_of(job)] = None
             log = next(filter(last_lines, logs), logs[0])

@@ -142,6 +142,7 @@ def kept(clean: Clone) -> Iterator[Clone]:
         "README.md",
         "uv.lock",
         ".snakemake/metadata",
+        "build/id",
     )
     before = {file: file.read_bytes() for place in places for file in files_below(clean.folder / place)}
     yield clean

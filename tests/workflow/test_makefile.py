@@ -65,15 +65,12 @@ def test_an_environment_without_interpreter_is_renewed(moved: Clone) -> None:
     assert "panel" in moved.make("status", "QUALITY=smoke").stdout
 
 
-def test_packages_of_the_user_stay_and_locked_ones_are_restored(moved: Clone) -> None:
+def test_packages_of_the_user_stay_without_a_network(moved: Clone) -> None:
     (packages,) = moved.folder.glob(".venv/lib/python3*/site-packages")
     (packages / "mine.py").write_text("x = 1\n")
-    (metadata,) = packages.glob("jinja2-*.dist-info/METADATA")
-    metadata.parent.rename(packages / "jinja2-1.0.dist-info")
     offline = {"UV_OFFLINE": "1", "http_proxy": "http://localhost:9"}
     assert "Nothing to be done" in moved.make("figures", "QUALITY=smoke", **offline).stdout
     assert (packages / "mine.py").is_file()
-    assert not (packages / "jinja2-1.0.dist-info").exists()
 
 
 def test_sources_from_the_future_are_compiled_once(moved: Clone) -> None:
@@ -136,7 +133,7 @@ def test_rerun_from_scratch_is_compared_in_a_line(kept: Clone) -> None:
 
 def test_another_seed_has_a_folder_of_its_own_and_is_compared(kept: Clone) -> None:
     quality = "smoke_seed=7_replicas=5"
-    kept.snakemake("--config", f"quality={quality}", f"figures/{quality}/fig06.pdf")
+    kept.run(".venv/bin/snakemake", "--config", f"quality={quality}", "--", f"figures/{quality}/fig06.pdf")
     told = kept.module("provenance.compare", "--quality", quality, "--panel", "fig06")
     assert told.startswith("2 of 2 results agree with those in data/smoke, smallest p = 0.")
     provenance = f"data/{quality}/fig06/all_sigma=0.h5"
@@ -164,9 +161,8 @@ def test_mistyped_options_get_a_line(clean: Clone, arguments: tuple[str, ...], l
 
 
 def test_an_unknown_panel_gets_a_line(clean: Clone) -> None:
-    assert (
-        clean.snakemake("panel", "--config", "panel=fig5", status=1).strip().endswith("did you mean fig05?")
-    )
+    command = (".venv/bin/snakemake", "--config", "quality=smoke", "panel=fig5", "--", "panel")
+    assert clean.run(*command, status=1).stdout.strip().endswith("did you mean fig05?")
 
 
 def test_missing_system_packages_are_named_for_those_without_rights(tmp_path: Path) -> None:

@@ -136,6 +136,6 @@ def test_without_records_of_snakemake_a_changed_source_is_named_by_audit_and_sta
 
 
 def test_programs_that_are_older_than_their_sources_are_refused(kept: Clone) -> None:
-    append("cpp/statistics/collapse.hpp", "// more\n")(kept)
+    append("cpp/statistics/peak.hpp", "// more\n")(kept)
     told = kept.snakemake("figures", status=1)
     assert told.strip().splitlines()[-1].endswith("is not built from the present sources: run make build")

@@ -6,6 +6,7 @@ A CSV states one digest of the parents.
 import ast
 import hashlib
 import json
+import logging
 import subprocess
 import sys
 from collections.abc import Iterable, Sequence
@@ -185,4 +186,5 @@ def _of_png(path: Path) -> str:
 def _of_pdf(path: Path) -> str:
     from pypdf import PdfReader  # noqa: PLC0415
 
+    logging.getLogger("pypdf").setLevel(logging.CRITICAL)  # the error says it once
     return str(PdfReader(path).metadata["/Subject"])  # type: ignore[index]

@@ -1,24 +1,6 @@
 """One panel from its results: figures/<quality>/<panel>.{pdf,png,svg,csv,json}."""
 
 
-def script_of(panel):
-    return f"workflow/figures/{PLAN[panel].script}.py"
-
-
-@cache
-def sources_digest(script):
-    return digest_of_files([*sources_of(script), PACKAGES])
-
-
-def runs_shown_by(panel):
-    """Their configurations and builds: inputs that an earlier, interrupted invocation remade are no trigger."""
-    panels = with_used(PLAN, panel)
-    return [
-        *(one.hash() for one in panels),
-        *sorted({BUILDS[run.program] for one in panels for run in one.runs}),
-    ]
-
-
 rule draw:
     input:
         lambda wildcards: data_of(PLAN, wildcards.panel, QUALITY),

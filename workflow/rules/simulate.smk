@@ -5,10 +5,6 @@ checkpoint, with which --resume goes on.
 """
 
 
-def run_of(wildcards):
-    return PLAN[wildcards.panel].run(wildcards.run)
-
-
 rule simulate:
     output:
         "data/{quality}/{panel}/{run}.h5",

@@ -1,0 +1,28 @@
+"""What the rules share: products and runs of panels."""
+
+
+def products_of(panel):
+    """Results too: Snakemake does not remake a missing intermediate whose products are there."""
+    return [*data_of(PLAN, panel, QUALITY), *drawings_of(QUALITY, panel)]
+
+
+def run_of(wildcards):
+    return PLAN[wildcards.panel].run(wildcards.run)
+
+
+def script_of(panel):
+    return f"workflow/figures/{PLAN[panel].script}.py"
+
+
+@cache
+def sources_digest(script):
+    return digest_of_files([*sources_of(script), PACKAGES])
+
+
+def runs_shown_by(panel):
+    """Their configurations and builds: inputs that an earlier, interrupted invocation remade are no trigger."""
+    panels = with_used(PLAN, panel)
+    return [
+        *(one.hash() for one in panels),
+        *sorted({BUILDS[run.program] for one in panels for run in one.runs}),
+    ]
