@@ -159,11 +159,10 @@ void require_consistent(const Parameters& parameters) {
   const double cells = parameters.chain().cells, length = parameters.ring.cell_length;
   const double reach = Sound::of(parameters).reach(times.back()) / length;
   if (parameters.conserves_momentum() && 2 * reach > cells)
-    throw UsageError(
-        fmt::format("--cells: sound travels around the ring within the last of --times. Choose more than "
-                    "{:.0f} cells, or "
-                    "earlier times.",
-                    std::ceil(2 * reach)));
+    throw UsageError(fmt::format(
+        "--cells: sound travels around the ring within the last of --times. Choose at least {:.0f} "
+        "cells, or earlier times.",
+        std::ceil(2 * reach)));
 }
 
 Study heat_current(const Parameters& parameters) {

@@ -31,7 +31,8 @@ struct Scattered {
 
 template <bool launching = false>
 Scattered scattered(const ClosedChain& chain, Flight flight, double w) {
-  const Departure departure = Scattering(chain).operator()<launching>(flight, w, FreeFlight(chain, {1, 0}, 1));
+  const Departure departure =
+      Scattering(chain).operator()<launching>(flight, w, FreeFlight(chain, {1, 0}, chain.particles()));
   return {flight, w, departure};
 }
 
