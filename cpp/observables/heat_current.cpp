@@ -157,6 +157,13 @@ void require_consistent(const Parameters& parameters) {
     throw UsageError("--fit-from leaves fewer than two times to fit. Choose an earlier one, or add times.");
   require_record_size(parameters.observation_time / times.front(), "--observation-time, --times");
   const double cells = parameters.chain().cells, length = parameters.ring.cell_length;
+  const double T = parameters.temperature;
+  require_within(T * length, 1e-100, 1e100, "--temperature, --cell-length",
+                 "the unit of heat, their product");
+  require_within(times.front() * std::sqrt(T) / length, 1e-30, 1e15, "--times",
+                 "the first in units of a thermal flight");
+  require_within(parameters.fugacity.value() * length, 1e-30, 1e9, "--fugacity, --cell-length",
+                 "their product");
   const double reach = Sound::of(parameters).reach(times.back()) / length;
   if (parameters.conserves_momentum() && 2 * reach > cells)
     throw UsageError(fmt::format(

@@ -11,7 +11,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.caption import listed, number, replicas
+from workflow.lib.caption import listed, number, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
@@ -38,7 +38,7 @@ def predicted(result: Result, time: float) -> float:
     """<Q²> per cell without a normal part."""
     if result.parameters["random-direction"] or time < result.parameters["fit-from"]:
         return np.nan
-    return float(chain(result, time).heat_variance(time)) * result.parameters["cell-length"]
+    return float(chain(result, time).heat_variance(time) * result.parameters["cell-length"])
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
@@ -47,7 +47,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     rows = []
     for result in results:
         heat, exponent, gas = result["heat_variance"], result["local_exponent"], chain(result)
-        of_gas = (result.parameters["random-direction"], round(gas.zeta, 6), round(gas.mass, 6))
+        of_gas = (result.parameters["random-direction"], gas.zeta, gas.mass)
         octaves = {
             "middle": exponent.axes["middle"],
             "local_exponent": exponent.mean,
@@ -72,54 +72,60 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     return merged.sort_values([*GAS, "time"], ignore_index=True)
 
 
-def longest(results: Sequence[Result], gas: pd.Series) -> Result:
-    """The run of a gas that covers the longest time; of several the longest ring."""
-    same = [one for one in results if tuple(gas[GAS]) == tuple(tabulate([one]).loc[0, GAS])]
-    return max(same, key=lambda one: (one["heat_variance"].axes["time"][-1], one.parameters["cells"]))
+def label(gas: pd.Series) -> str:
+    random = ", random directions" if gas.random_direction else ""
+    return f"ζ = {number(gas.zeta)}, M = {number(gas.mass)}{random}"
 
 
-def sentence(results: Sequence[Result], part: pd.DataFrame) -> str:
-    """Exponent at the end, and the amplitude relative to the prediction."""
+def last_octave(part: pd.DataFrame) -> str:
+    """Exponent of a gas over the last octave."""
     last = part.dropna(subset="middle").iloc[-1]
-    span = f"{number(last.time)} to {number(part.time[part.time > last.time].min())}"
-    exponent = f"{with_error(last.local_exponent, last.local_exponent_error)} from t = {span}"
-    if last.random_direction:
-        return f"with random directions {exponent}"
-    run = longest(results, part.iloc[0])
-    first, final = run.parameters["fit-from"], run["heat_variance"].axes["time"][-1]
-    theory = chain(run, np.sqrt(first * final)).heat_amplitude
-    ratio = with_error(float(run["amplitude"].mean) / theory, float(run["amplitude"].error) / theory)
-    return f"{exponent}, fitted amplitude {ratio} of the predicted one, at ζ = {number(last.zeta)}, M = {number(last.mass)}"
+    return f"{with_error(last.local_exponent, last.local_exponent_error)} ({label(last)})"
+
+
+def amplitude(results: Sequence[Result]) -> str:
+    """Fitted amplitude of the run over the longest time, relative to the predicted one in the middle of the fit."""
+    sound = [one for one in results if not one.parameters["random-direction"]]
+    longest = max(sound, key=lambda one: one["heat_variance"].axes["time"][-1])
+    first, last = longest.parameters["fit-from"], longest["heat_variance"].axes["time"][-1]
+    gas = chain(longest, np.sqrt(first * last))
+    fitted = longest["amplitude"]
+    ratio = with_error(float(fitted.mean) / gas.heat_amplitude, float(fitted.error) / gas.heat_amplitude)
+    return f"A fit with a normal part over t = {number(first)} to {number(last)} gives {ratio} of the amplitude of mode coupling."
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     table = tabulate(results)
     figure, (left, right) = plt.subplots(1, 2, figsize=(2 * style.COLUMN, style.HEIGHT))
     looks, said = iter(LOOKS), []
-    for (random, zeta, mass), part in table.groupby(GAS, sort=False):
-        look = {**style.POINTS, **(RANDOM if random else next(looks))}
-        label = rf"$\zeta = {number(zeta)}$, $M = {number(mass)}$"
-        value, error = part.heat_variance / part.time, part.heat_variance_error / part.time
-        left.errorbar(part.time, value, error, label=f"{label}, random" if random else label, **look)
+    for _, part in table.groupby(GAS, sort=False):
+        gas = part.iloc[0]
+        look = {**style.POINTS, **(RANDOM if gas.random_direction else next(looks))}
+        left.errorbar(
+            part.time,
+            part.heat_variance / part.time,
+            part.heat_variance_error / part.time,
+            label=label(gas),
+            **look,
+        )
         left.plot(part.time, part.predicted / part.time, color=look["color"])
         right.errorbar(part.middle, part.local_exponent, part.local_exponent_error, **look)
-        said.append(sentence(results, part))
+        said.append(last_octave(part))
     left.set(
         xscale="log", yscale="log", xlabel="time $t$", ylabel=rf"$\langle Q^2 \rangle/Nt$ ({style.UNITS})"
     )
     style.label_within_decades(left.yaxis)
-    left.legend(loc="upper left")
+    left.legend(loc="lower right")
     right.set(xscale="log", xlabel="time $t$", ylabel=r"$d\ln\langle Q^2 \rangle/d\ln t$")
     style.guide_at(right, 4 / 3, "4/3")
     style.guide_at(right, 1, "1")
     style.letter(left, right)
     caption = f"""
-        Mean square of the heat Q that passes in a time t in rings of N cells in equilibrium (γ = N, T = λ = 1,
-        ζ the flux of particles at p → 0, {replicas(results)}). (a) ⟨Q²⟩/Nt; lines: mode coupling without free
-        parameter and without a normal part, ∝ t^(1/3). (b) Local exponents over octaves; diffusion has 1, mode
-        coupling 4/3. Last exponents: {listed(said)}. The prediction holds up to corrections of
-        some ten percent at these times. Heat spreads superdiffusively if momentum is conserved. Error bars: standard
-        errors over replicas."""
+        Heat Q that passes in a time t in rings in equilibrium: flux ζ of slow particles, {parameters(results, "cell-length")},
+        T = {listed(sorted({number(one.parameters["temperature"]) for one in results}))}, {replicas(results)}.
+        (a) Mean square per cell and time. Lines: mode coupling, ∝ t^(1/3), without a fitted parameter and without
+        normal diffusion. Random directions do not conserve momentum. (b) Exponents over octaves; dashed: mode
+        coupling and diffusion. At the end: {", ".join(said)}. {amplitude(results)} Error bars: standard errors over replicas."""
     return figure, table, caption
 
 
