@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from tests.python.conftest import Program
+from tests.python.conftest import ROOT, Program
+from workflow.figures.ext13 import amplitude, last_octave, tabulate
 from workflow.lib.load import Quantity, Result, load
-from workflow.lib.mode_coupling import Chain
+from workflow.lib.mode_coupling import Chain, logarithm_at
 
 NONE = dict.fromkeys(("particles_per_cell", "relaxation_time"))
 T, LENGTH, FUGACITY = 4.0, 0.5, 3.0
@@ -140,3 +141,40 @@ def test_refused(program: Program, tmp_path: Path, options: dict, words: str) ->
     assert words in done.stderr
     assert done.stderr.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
+
+
+def ring(times: list[float], error: float, power: float = 4 / 3, **options: object) -> Result:
+    """Of ζ = 0.8 and M = 1/3, with ⟨Q²⟩ = t^power."""
+    time = np.array(times)
+    units = {"time": "time", "middle": "time"}
+
+    def quantity(mean: np.ndarray, relative: float, **axes: np.ndarray) -> Quantity:
+        count = np.full(mean.shape, 64)
+        return Quantity(mean, relative * np.abs(mean), None, count, axes, "1", units, {}, None)
+
+    middle = np.sqrt(time[1:] * time[:-1])
+    parameters = {"temperature": 1.0, "cell-length": 1.0, "sigma": -0.5, "fugacity": 0.8, "cells": 100, "fit-from": 2.0,
+                  "random-direction": False, "replicas": 64}  # fmt: skip
+    quantities = {
+        "heat_variance": quantity(time**power, error, time=time),
+        "local_exponent": quantity(np.full(len(middle), power), error, middle=middle),
+        "amplitude": quantity(np.array(0.4), error),
+    }
+    return Result(ROOT, parameters | options, {}, quantities)
+
+
+def test_every_time_is_from_the_ring_with_the_smallest_error() -> None:
+    """A short ring ends at t = 4, where the long one takes over its octave."""
+    results = [ring([1, 2, 4], 0.01), ring([2, 4, 8], 0.02, power=1.3)]
+    results.append(ring([1, 2, 4, 8], 0.01, 1, **{"random-direction": True}))
+    table = tabulate(results)
+    sound, random = (table[table.random_direction == drawn] for drawn in (False, True))
+    assert sound.time.tolist() == random.time.tolist() == [1, 2, 4, 8]
+    np.testing.assert_allclose(sound.heat_variance, [1, 2 ** (4 / 3), 4 ** (4 / 3), 8**1.3])
+    np.testing.assert_allclose(sound.local_exponent, [4 / 3, 4 / 3, 1.3, np.nan])
+    np.testing.assert_allclose(sound.middle, [2**0.5, 8**0.5, 32**0.5, np.nan])
+    assert sound.predicted.isna().tolist() == [True, False, False, False]
+    assert random.predicted.isna().all()
+    assert last_octave(sound) == "1.300(26) (ζ = 0.8, M = 1/3)"
+    theory = Chain(0.8, 1 / 3, slow_logarithm=logarithm_at(4)).heat_amplitude
+    assert f" over t = 2 to 8 gives {0.4 / theory:.3f}(" in amplitude(results)
