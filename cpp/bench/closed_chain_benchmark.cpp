@@ -74,7 +74,7 @@ void closed_reference(benchmark::State& state) {
 void closed_floor(benchmark::State& state) {
   const Case of(state);
   const Scattering scatter(of.chain);
-  const FreeFlight free_flight(of.chain, {1, 0});
+  const FreeFlight free_flight(of.chain, {1, 0}, of.chain.particles());
   std::vector<Flight> flights = first_flights(of.chain, of.start, free_flight);
   // Unshuffled, neighbours in memory meet the same scatterer, and each collision waits for the one before.
   std::shuffle(flights.begin(), flights.end(), std::mt19937(1));

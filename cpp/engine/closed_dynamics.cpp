@@ -13,9 +13,8 @@ namespace {
 
 /// Checked first of all members, so that nothing is built from a phase point that does not fit.
 const ClosedChain& checked(const ClosedChain& chain, const PhasePoint& start) {
-  if (start.particles.size() != chain.particles() || start.scatterers.size() != chain.cells)
-    throw std::invalid_argument(
-        "the phase point does not have the chain's numbers of particles and scatterers");
+  if (start.scatterers.size() != chain.cells)
+    throw std::invalid_argument("the phase point does not have the chain's number of scatterers");
   return chain;  // NOLINT(bugprone-return-const-ref-from-parameter): copied at once
 }
 
@@ -26,12 +25,11 @@ ClosedDynamics::ClosedDynamics(const ClosedChain& chain, const PhasePoint& start
     : chain_(checked(chain, start)),
       scatter_(chain),
       scatterers_(scatter_.rule().scaled(start.scatterers)),
-      free_flight_(chain, key),
+      free_flight_(chain, key, start.particles.size()),
       queue_(first_flights(chain, start, free_flight_), expected_rate(chain, start), end_time) {}
 
 std::vector<double> ClosedDynamics::positions_from_targets(double time) const {
   std::vector<double> positions;
-  positions.reserve(particles());
   for (const Flight& flight : queue_.flights())
     positions.push_back(position_from_target(flight, time, chain_.cell_length));
   return positions;

@@ -17,6 +17,7 @@ namespace lorentz {
 /// The dynamics of a closed chain.
 class ClosedDynamics {
  public:
+  /// The number of particles is that of the start.
   /// Arrivals at or after end_time (> 0) are frozen; simulate() goes no further. key: of the random numbers
   /// that gamma < N and a random direction need.
   ClosedDynamics(const ClosedChain& chain, const PhasePoint& start, double end_time, const StreamKey& key);
@@ -26,8 +27,6 @@ class ClosedDynamics {
 
   Invariants invariants() const;
   std::uint64_t events() const { return events_; }
-
-  std::uint32_t particles() const { return chain_.particles(); }
 
   /// Position of every particle relative to the scatterer at the end of its flight: negative while it flies
   /// to the right.

@@ -38,12 +38,12 @@ class GeometricCells {
 /// Reference: Salmon et al., SC11, doi:10.1145/2063384.2063405 (counter-based random numbers).
 class FreeFlight {
  public:
-  FreeFlight(const ClosedChain& chain, const StreamKey& key)
+  FreeFlight(const ClosedChain& chain, const StreamKey& key, std::size_t particles)
       : passing_(!chain.deterministic()),
         random_direction_(chain.random_direction),
         cells_to_scattering_(chain.gamma / chain.cells),
         key_(key),
-        particles_(chain.particles()) {}
+        particles_(static_cast<std::uint32_t>(particles)) {}
 
   /// Nothing is drawn: one cell, direction kept.
   bool deterministic() const { return !passing_ && !random_direction_; }

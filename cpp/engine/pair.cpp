@@ -6,7 +6,7 @@ PairDynamics::PairDynamics(const ClosedChain& chain, const PhasePoint& plain, co
                            double end_time, const StreamKey& key, bool share)
     : chain_(chain),
       scatter_(chain),
-      free_flight_(chain, key),
+      free_flight_(chain, key, chain.particles()),
       indices_(chain.particles(), shared),
       diverged_flights_(1),
       scatterer_diverged_(chain.cells, 0),

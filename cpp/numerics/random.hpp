@@ -21,7 +21,8 @@ enum class Purpose : std::uint64_t {
   direction = 4,  // after a collision, with --random-direction
   injection_left = 5,
   injection_right = 6,
-  initial_chain = 7,  // warm start of an open chain
+  initial_chain = 7,   // warm start of an open chain
+  initial_number = 8,  // of particles, stationary start of a closed chain
 };
 
 /// Counter-based random number generator: Philox4x64-10 with the key (seed, purpose) and the counter (block,

@@ -22,6 +22,7 @@
 #include "observables/correlation/field_correlations.hpp"
 #include "program/errors.hpp"
 #include "sampling/closed_run.hpp"
+#include "sampling/lags.hpp"
 #include "sampling/limits.hpp"
 #include "statistics/fit.hpp"
 #include "statistics/moving_peak.hpp"
@@ -39,20 +40,6 @@ struct Parameters : ClosedParameters {
     temperature = scatterer_temperature = 10'000;
     relaxation_time = 1;
     observation_time = 2;
-  }
-
-  /// The times in units of the first, which is the interval between snapshots. Throws UsageError.
-  std::vector<std::size_t> lags() const {
-    std::vector<std::size_t> lags;
-    for (const double time : times) {
-      const double lag = time / times.front();
-      if (lag > 1e6 || std::abs(lag - std::round(lag)) > 1e-6 * lag)
-        throw UsageError(
-            "--times: every time must be a whole multiple of the first, which is the interval between "
-            "snapshots, and at most 1e6 times it. Choose others.");
-      lags.push_back(static_cast<std::size_t>(std::lround(lag)));
-    }
-    return lags;
   }
 };
 
@@ -73,7 +60,7 @@ struct Tallies : ClosedTallies {
 void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& run, Record& record) {
   const double interval = parameters.times.front();
   const auto snapshots = static_cast<std::size_t>(parameters.observation_time / interval * (1 + 1e-9)) + 1;
-  FieldCorrelations correlations(parameters, parameters.lags());
+  FieldCorrelations correlations(parameters, lags(parameters.times));
   NoObserver nobody;
   for (std::size_t j = 0; j < snapshots; ++j) {
     const double time = parameters.relaxation_time + static_cast<double>(j) * interval;
@@ -131,7 +118,7 @@ Study correlation(const Parameters& parameters) {
   if (parameters.chain().cells < 7)
     throw UsageError("--cells is less than 7: a ring so short has no moving peak. Choose more cells.");
   // Of every snapshot, the transforms of three fields are kept until the longest lag.
-  require_record_size(3.0 * parameters.chain().cells * static_cast<double>(parameters.lags().back() + 1),
+  require_record_size(3.0 * parameters.chain().cells * static_cast<double>(lags(parameters.times).back() + 1),
                       "--cells, --times");
   const Tallies tallies(parameters);
   return closed_study(parameters, tallies, std::bind_front(observe, parameters, tallies),

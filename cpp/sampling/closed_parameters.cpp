@@ -4,14 +4,40 @@
 #include <cmath>
 
 #include "model/collision.hpp"
+#include "program/errors.hpp"
 #include "sampling/limits.hpp"
 
 namespace lorentz {
+namespace {
+
+/// Throws UsageError unless the stationary start can be sampled and its run be simulated.
+void require_stationary(const ClosedParameters& parameters) {
+  const ClosedChain chain = parameters.chain();
+  const StationaryMeasure measure = parameters.stationary_measure();
+  const double relative = measure.slowest / std::sqrt(measure.temperature);
+  if (relative > 1)
+    throw UsageError(
+        "--slowest exceeds the thermal momentum sqrt(--temperature): most particles would be missing. Choose "
+        "a smaller one, or a longer run.");
+  require_within(relative, 1e-100, 1, "--slowest, --temperature", "the least momentum over the thermal one");
+  const double particles = chain.cells * mean_number(chain, measure);
+  if (particles > 1e9)
+    throw UsageError(
+        "--fugacity: more than 1e9 particles would be needed. Choose a smaller one, or fewer --cells.");
+  require_representable({parameters.temperature, chain.cell_length, parameters.end_time(),
+                         particles + chain.cells, flights_of_a_year, "--temperature", "--observation-time"});
+}
+
+}  // namespace
 
 ClosedChain ClosedParameters::chain() const {
   ClosedChain chain = ring.chain();
   chain.random_direction = random_direction;
   return chain;
+}
+
+StationaryMeasure ClosedParameters::stationary_measure() const {
+  return {fugacity.value(), temperature, slowest.value_or(0.01 * ring.cell_length / end_time())};
 }
 
 double ClosedParameters::hottest() const { return std::max(temperature, scatterer_temperature); }
@@ -52,8 +78,16 @@ void declare_random_direction(Options& options, ClosedParameters& parameters) {
                "Draw the direction of a particle after every collision");
 }
 
+void declare_stationary_start(Options& options, ClosedParameters& parameters) {
+  options.real("--fugacity", parameters.fugacity.emplace(1), positive, "1/length",
+               "z of the flux z exp(-p^2/2T) in the stationary state, from which a run starts");
+  options.real_or_word("--slowest", parameters.slowest, positive, "auto", "momentum",
+                       "Least momentum of a particle at the start; auto: 0.01 cell lengths in the whole run");
+}
+
 void validate(const ClosedParameters& parameters) {
   require_probability(parameters.ring.scattering.gamma, parameters.ring.scattering.cells);
+  if (parameters.fugacity) return require_stationary(parameters);
   require_possible(parameters.chain(), parameters.hottest(), parameters.end_time(), flights_of_a_year,
                    "--temperature, --scatterer-temperature", "--relaxation-time plus --observation-time");
 }

@@ -5,12 +5,15 @@
 #include <utility>
 
 #include "engine/closed_start.hpp"
+#include "engine/stationary_start.hpp"
 
 namespace lorentz {
 namespace {
 
 ClosedDynamics start(const ClosedParameters& parameters, const StreamKey& key) {
   const ClosedChain chain = parameters.chain();
+  if (parameters.fugacity)
+    return {chain, stationary_start(chain, parameters.stationary_measure(), key), parameters.end_time(), key};
   const StartTemperatures temperatures{parameters.temperature, parameters.scatterer_temperature};
   return {chain, closed_chain_start(chain, temperatures, parameters.zero_total_momentum, key),
           parameters.end_time(), key};

@@ -71,6 +71,30 @@ def correlated(draw: st.DrawFn) -> dict[str, object]:
 
 
 @st.composite
+def equilibrium(draw: st.DrawFn) -> dict[str, object]:
+    options = draw(closed())
+    for name in (
+        "particles-per-cell",
+        "gamma",
+        "scatterer-temperature",
+        "relaxation-time",
+        "zero-total-momentum",
+    ):
+        options.pop(name, None)
+    flux = draw(st.floats(-2, 1) | st.floats(-300, 300)) - np.log10(
+        float(str(options["cell-length"])) or 1e-300
+    )
+    mantissa, exponent = str(options["observation-time"]).split("e")
+    first = f"{mantissa}e{int(exponent) - 1}"
+    options |= {"cells": draw(st.integers(1, 30)), "fugacity": number(flux), "fit-from": first}
+    options |= {"times": f"{first},{options['observation-time']}"}
+    slow = draw(st.none() | st.floats(-12, 0.5) | st.floats(-300, 300))
+    if slow is not None:
+        options["slowest"] = number(np.log10(float(str(options["temperature"])) or 1e-300) / 2 + slow)
+    return options | ({"random-direction": True} if draw(st.booleans()) else {})
+
+
+@st.composite
 def opened(draw: st.DrawFn) -> dict[str, object]:
     cells = draw(st.integers(1, 4))
     temperature, length = draw(st.floats(-292, 292)), draw(st.floats(-100, 100) | st.floats(-300, 300))
@@ -138,6 +162,7 @@ PROGRAMS = {
     "ageing": aged(),
     "energy_pulse": pulsed(),
     "correlation": correlated(),
+    "heat_current": equilibrium(),
     "steady_profile": binned(),
     "momentum_flux": binned(),
     "conductivity": opened(),

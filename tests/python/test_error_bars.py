@@ -30,6 +30,8 @@ def accepted(statistic: float, replicas: int = REPLICAS) -> bool:
 
 
 OPEN = {"particles_per_cell": None, "relaxation_time": "0.05N"}
+EQUILIBRIUM = {"particles_per_cell": None, "relaxation_time": None, "cells": 30, "observation_time": 64,
+               "times": "1,2,4,8", "fit_from": 2}  # fmt: skip
 PULSE = {
     "cells": 31,
     "particles_per_cell": 20,
@@ -48,6 +50,7 @@ PULSE = {
         ("displacement", "alpha", {"sigma": 0.5, "decades": 2, "observation_time": 20}),
         ("displacement", "alpha", {"sigma": -0.5, "decades": 2, "zero_total_momentum": True}),
         ("ageing", "log_slope", {"sigma": 0.5, "decades": 2, "relaxation_time": 0}),
+        ("heat_current", "amplitude", EQUILIBRIUM),
         ("energy_pulse", "damping_exponent", {**PULSE, "times": "0.008,0.01,0.014,0.02"}),
         ("energy_pulse", "peak_collapse", {**PULSE, "times": "0.008,0.01,0.014,0.02"}),
     ],

@@ -23,6 +23,13 @@ SHORT = {  # options specific to a program
         "observation-time": 1,
         "times": "0.01,0.02,0.04",
     },
+    "heat_current": {
+        "cells": 20,
+        "particles-per-cell": None,
+        "relaxation-time": None,
+        "times": "1,2,4",
+        "fit-from": 1,
+    },
     "energy_pulse": {
         "cells": 21,
         "particles-per-cell": 20,
@@ -38,6 +45,8 @@ QUANTITIES = {
                     "peak": ["time"], "peak_position": ["time"], "peak_raw": ["time"], "peak_speed": ["middle"],
                     "local_damping_exponent": ["until"], "damping_drift": [], "damping_exponent": [], "damping_exponent_from": ["from"],
                     "peak_collapse": []},
+    "heat_current": {"heat_variance": ["time"], "number_variance": ["time"], "local_exponent": ["middle"], "amplitude": [],
+                     "diffusion": []},
     "waiting_time": {"density": ["tau"], "exponent": [], "exponent_by_cut": ["cut"], "exponent_spread": []},
     "displacement": {"variance": ["time"], "absolute_moment": ["time"], "fourth_moment": ["time"], "alpha": [],
                      "centre_of_mass": ["time"], "mean_displacement": ["time"], "local_slope": ["time"], "alpha_relative": [], "alpha_difference": [],

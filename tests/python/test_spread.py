@@ -24,6 +24,7 @@ OTHERS = 5e-3
 IN_PLACE = {  # of the options of a program
     "energy_pulse": {"pairs-per-replica": 1, "relaxation-time": 0},
     "correlation": {"cells": 101, "relaxation-time": 0.1, "observation-time": 0.4, "times": "0.025,0.05,0.1"},
+    "heat_current": {"cells": 20, "observation-time": 8, "times": "1,2,4", "fit-from": 1},
 }
 
 # The quantities of a program on which figures and claims rely; of an array, the last element.
@@ -32,6 +33,7 @@ NUMBERS = {
     "waiting_time": ("exponent",),
     "displacement": ("variance", "alpha"),
     "ageing": ("scatterer_energy_mean", "log_slope"),
+    "heat_current": ("heat_variance", "local_exponent"),
     "correlation": ("energy_correlation", "momentum_correlation", "peak"),
     "conductivity": ("energy_current", "temperature_first", "temperature_last"),
     "steady_profile": ("energy_current_mean", "density", "temperature_difference"),

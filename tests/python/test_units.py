@@ -94,6 +94,7 @@ SOUND = {
     "cells": 101, "particles_per_cell": 20, "temperature": 1e4, "scatterer_temperature": 8e4, "relaxation_time": 0.1,
     "observation_time": 0.4, "times": "0.01,0.02,0.04,0.08", "replicas": 8,
 }  # fmt: skip
+EQUILIBRIUM = {"cells": 20, "observation_time": 8, "times": "0.5,1,2,4", "fit_from": 1, "replicas": 8}
 OPEN = {"cells": 4, "cell_length": 0.25, "relaxation_time": 0.5, "observation_time": 4, "replicas": 16}
 FILLING = {"cells": 5, "times": "10,30,100", "replicas": 4}
 CASES = {
@@ -107,6 +108,8 @@ CASES = {
     "ageing": ("ageing", CLOSED),
     "ageing, rare": ("ageing", CLOSED | {"gamma": 0.5}),
     "correlation": ("correlation", SOUND),
+    "heat_current": ("heat_current", EQUILIBRIUM),
+    "heat_current, random": ("heat_current", EQUILIBRIUM | {"random_direction": True, "slowest": 1e-4}),
     "energy_pulse": ("energy_pulse", PULSE),
     "energy_pulse, rare": ("energy_pulse", PULSE | {"gamma": 1, "relaxation_time": 0.1}),
     "conductivity": ("conductivity", OPEN),

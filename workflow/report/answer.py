@@ -63,7 +63,7 @@ def heat(claims: Claims) -> Sentence:
         f"{deterministic.outcome.value} at the paper's spacing 1/N (C24), where size and density change "
         f"together{_through(deterministic)}.{_at_fixed_density(deterministic)}",
         [_worst(rare.deciding), *_exponents(deterministic), *filter(None, [deterministic.remark])],
-        ["fig08", "ext09", "ext02", "ext11", "ext12"],
+        ["fig08", "ext09", "ext02", "ext11", "ext12", "ext13"],
     )
 
 

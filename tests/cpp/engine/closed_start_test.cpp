@@ -1,6 +1,5 @@
 #include "engine/closed_start.hpp"
 
-#include <gsl/gsl_cdf.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,10 +8,12 @@
 #include <vector>
 
 #include "model/collision.hpp"
+#include "support/plausible.hpp"
 
 namespace {
 
 using namespace lorentz;
+using support::plausible;
 
 const ClosedChain chain{1000, 50, 0.5, 0.3};
 constexpr StartTemperatures temperatures{500, 80};
@@ -24,14 +25,6 @@ PhasePoint start(std::uint64_t seed = 1, std::uint64_t replica = 0, bool zero_to
 /// Position of a particle in its cell, in [0, 1).
 double place(std::size_t index, const Particle& particle) {
   return particle.position / chain.cell_length - static_cast<double>(index / chain.particles_per_cell);
-}
-
-/// Two-sided, as a too small chi^2 is implausible too.
-testing::AssertionResult plausible(double chi_squared, double degrees_of_freedom) {
-  const double below = gsl_cdf_chisq_P(chi_squared, degrees_of_freedom);
-  const double above = gsl_cdf_chisq_Q(chi_squared, degrees_of_freedom);
-  if (std::min(below, above) > 1e-5) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "chi^2 = " << chi_squared << " for " << degrees_of_freedom;
 }
 
 /// chi^2 of 100 equal bins.

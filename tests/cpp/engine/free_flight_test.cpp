@@ -42,14 +42,14 @@ double chi_squared_of_cells(const FreeFlight& free_flight, double p) {
 }
 
 TEST(FreeFlight, CellsAreGeometric) {
-  const FreeFlight free_flight(chain_with(1), {3, 0});
+  const FreeFlight free_flight(chain_with(1), {3, 0}, chain_with(1).particles());
   EXPECT_GT(gsl_cdf_chisq_Q(chi_squared_of_cells(free_flight, 0.2), 19), 1e-4);
   // Mutant: a scattering probability larger by a twentieth.
   EXPECT_LT(gsl_cdf_chisq_Q(chi_squared_of_cells(free_flight, 0.21), 19), 1e-4);
 }
 
 TEST(FreeFlight, DirectionsAreEvenlyDrawn) {
-  const FreeFlight free_flight(chain_with(5, true), {3, 0});
+  const FreeFlight free_flight(chain_with(5, true), {3, 0}, chain_with(5).particles());
   std::vector<double> signs;
   for (std::uint64_t draws = 0; draws < 100000;) {
     double u = 2.5;
@@ -62,7 +62,7 @@ TEST(FreeFlight, DirectionsAreEvenlyDrawn) {
 }
 
 TEST(FreeFlight, DrawsDependOnTheParticleAndItsOwnCountOnly) {
-  const FreeFlight free_flight(chain_with(1), {3, 0});
+  const FreeFlight free_flight(chain_with(1), {3, 0}, chain_with(1).particles());
   double u = 1;
   std::vector<std::int64_t> first, second, other;
   std::uint64_t of_first = 0, of_second = 0, of_other = 0;

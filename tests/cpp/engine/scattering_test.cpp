@@ -31,7 +31,8 @@ struct Scattered {
 
 template <bool launching = false>
 Scattered scattered(const ClosedChain& chain, Flight flight, double w) {
-  const Departure departure = Scattering(chain).operator()<launching>(flight, w, FreeFlight(chain, {1, 0}));
+  const Departure departure =
+      Scattering(chain).operator()<launching>(flight, w, FreeFlight(chain, {1, 0}, chain.particles()));
   return {flight, w, departure};
 }
 
@@ -72,7 +73,7 @@ TEST(Scattering, TheNextFlightGoesToTheNeighbourAhead) {
 // stays negative; the count of draws not handed on.
 TEST(Scattering, FliesAsManyCellsAsAreDrawn) {
   const ClosedChain chain = ring(0.5);
-  const FreeFlight launch(chain, {1, 0});
+  const FreeFlight launch(chain, {1, 0}, chain.particles());
   std::set<std::int64_t> rounds;
   for (std::uint64_t draws = 0; draws < 200; ++draws) {
     for (const double w : {-5., 5.}) {

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cmath>
+
+#include "numerics/elementary.hpp"
+#include "sampling/closed_parameters.hpp"
+
+namespace lorentz {
+
+/// Sound in the stationary state of a closed chain, for infinitely many slow particles [eqs. M11, M12, M17].
+struct Sound {
+  double speed;          // c, a length over a time
+  double self_coupling;  // lambda_s, length^(3/2)/time
+
+  static Sound of(const ClosedParameters& parameters) {
+    const double z = parameters.fugacity.value(), spacing = parameters.ring.cell_length;
+    const double sigma = parameters.ring.scattering.sigma, mass = (1 + sigma) / (1 - sigma);
+    const double a = z + 0.5 / spacing, rho = 2 * z + mass / spacing, T = parameters.temperature;
+    return {2 * z * std::sqrt(T / (a * rho)), (z / a + 2 * z / rho) * std::sqrt(T / rho)};
+  }
+
+  /// Distance that a peak has covered after a time, plus its root-mean-square width [eq. M18].
+  double reach(double time) const {
+    const double second_moment = 0.510523;  // of f_KPZ
+    return speed * time + std::sqrt(second_moment) * elementary::pow(self_coupling * time, 2. / 3);
+  }
+};
+
+}  // namespace lorentz

@@ -1,0 +1,160 @@
+#include "engine/stationary_start.hpp"
+
+#include <gsl/gsl_sf_expint.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include "engine/closed_dynamics.hpp"
+#include "support/collisions.hpp"
+#include "support/plausible.hpp"
+#include "support/sample.hpp"
+
+namespace {
+
+using namespace lorentz;
+using support::plausible;
+
+const ClosedChain chain{.cells = 4000, .cell_length = 0.5, .sigma = 0.5};
+constexpr StationaryMeasure measure{.fugacity = 3, .temperature = 4, .slowest = 0.2};
+constexpr double zeta = 1.5;
+
+PhasePoint start(std::uint64_t seed = 1, std::uint64_t replica = 0) {
+  return stationary_start(chain, measure, {seed, replica});
+}
+
+/// Number of particles in every cell.
+std::vector<double> numbers(const PhasePoint& point) {
+  std::vector<double> numbers(chain.cells, 0);
+  for (const Particle& particle : point.particles)
+    numbers.at(static_cast<std::size_t>(particle.position / chain.cell_length)) += 1;
+  return numbers;
+}
+
+/// chi^2 of 20 x 20 equal bins of two numbers in [0, 1).
+template <class Pair>
+double evenness(const PhasePoint& point, const Pair& pair_of) {
+  std::vector<double> bins(400, 0);
+  for (const Particle& particle : point.particles) {
+    const auto [x, y] = pair_of(particle);
+    bins.at(20 * static_cast<std::size_t>(20 * x) + static_cast<std::size_t>(20 * y)) += 1;
+  }
+  const double expected = static_cast<double>(point.particles.size()) / 400;
+  double sum = 0;
+  for (const double count : bins) sum += (count - expected) * (count - expected) / expected;
+  return sum;
+}
+
+/// Fraction of the density exp(-p^2/2T)/p on p > slowest that is faster than a particle.
+double faster(const Particle& particle) {
+  const auto above = [](double p) { return gsl_sf_expint_E1(p * p / (2 * measure.temperature)); };
+  return above(std::abs(particle.velocity)) / above(measure.slowest);
+}
+
+// Poissonian numbers: mean 2 zeta Lambda, variance as large, no covariance between neighbours. Mutants: a
+// mean of 2 z Lambda, and the same number in every cell.
+TEST(StationaryStart, NumbersOfParticlesArePoissonian) {
+  const std::vector<double> found = numbers(start());
+  const double ratio = measure.slowest * measure.slowest / (2 * measure.temperature);
+  const double mean = zeta * gsl_sf_expint_E1(ratio);
+  EXPECT_NEAR(mean_number(chain, measure), mean, 1e-12 * mean);
+  double squares = 0, products = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    squares += (found[i] - mean) * (found[i] - mean) / mean;
+    products += (found[i] - mean) * (found[(i + 1) % found.size()] - mean) / mean;
+  }
+  const double cells = chain.cells;
+  EXPECT_LT(std::abs(support::z_score(support::sample(found), mean)), 4);
+  EXPECT_GT(std::abs(support::z_score(support::sample(found), mean / chain.cell_length)), 10);
+  EXPECT_LT(std::abs(squares - cells) / std::sqrt(cells * (2 + 1 / mean)), 4);
+  EXPECT_LT(std::abs(products) / std::sqrt(cells), 4);
+}
+
+// Mutant: momenta of the flux, p exp(-p^2/2T), without the factor of a particle's time in the cell.
+TEST(StationaryStart, SpeedsFollowTheirDensityIndependentlyOfPositions) {
+  const PhasePoint point = start();
+  const double length = chain.cells * chain.cell_length;
+  const auto pair = [&](const Particle& one) { return std::pair(faster(one), one.position / length); };
+  for (const Particle& particle : point.particles) ASSERT_GT(std::abs(particle.velocity), measure.slowest);
+  EXPECT_TRUE(plausible(evenness(point, pair), 399));
+  EXPECT_FALSE(plausible(evenness(point,
+                                  [&](const Particle& one) {
+                                    const double p = one.velocity;
+                                    return std::pair(std::exp(-p * p / (2 * measure.temperature)),
+                                                     one.position / length);
+                                  }),
+                         399));
+}
+
+// Mean and variance of sums over particles (Campbell): of p^2 sign(p) the mean is 0, of p^2 it is 2 zeta T
+// per cell but for the cut. Mutant: momenta to the right only.
+TEST(StationaryStart, DirectionsAreEven) {
+  const PhasePoint point = start();
+  double signs = 0, flux = 0, squares = 0;
+  for (const Particle& particle : point.particles) {
+    signs += std::copysign(1, particle.velocity);
+    flux += particle.velocity * particle.velocity;
+    squares += std::pow(particle.velocity, 4);
+  }
+  const double T = measure.temperature, cut = measure.slowest * measure.slowest / (2 * T);
+  EXPECT_LT(std::abs(signs) / std::sqrt(point.particles.size()), 4);
+  EXPECT_LT(std::abs(flux - chain.cells * 2 * zeta * T * std::exp(-cut)) / std::sqrt(squares), 4);
+}
+
+// Mutant: U smaller by 10 %.
+TEST(StationaryStart, ScatterersHaveTheTemperature) {
+  double squares = 0;
+  const PhasePoint point = start();
+  ASSERT_EQ(point.scatterers.size(), chain.cells);
+  for (const double scatterer : point.scatterers) squares += scatterer * scatterer / measure.temperature;
+  EXPECT_TRUE(plausible(squares, chain.cells));
+  EXPECT_FALSE(plausible(0.81 * squares, chain.cells));
+}
+
+TEST(StationaryStart, DependsOnSeedAndReplicaOnly) {
+  const PhasePoint point = start(), again = start(), seed = start(2), replica = start(1, 1);
+  ASSERT_EQ(point.particles.size(), again.particles.size());
+  for (std::size_t i = 0; i < 100; ++i) {
+    EXPECT_EQ(point.particles[i].position, again.particles[i].position);
+    EXPECT_EQ(point.particles[i].velocity, again.particles[i].velocity);
+    EXPECT_NE(point.particles[i].position, seed.particles[i].position);
+    EXPECT_NE(point.particles[i].velocity, seed.particles[i].velocity);
+    EXPECT_NE(point.particles[i].velocity, replica.particles[i].velocity);
+    EXPECT_NE(point.scatterers[i], replica.scatterers[i]);
+  }
+}
+
+/// Collisions, and sum of U^2/T after a time, per cell, for several rings of 20 cells.
+std::pair<std::vector<double>, std::vector<double>> later(double time, double scatterers) {
+  const ClosedChain ring{.cells = 20, .cell_length = 0.5, .sigma = -0.4};
+  const StationaryMeasure fine{.fugacity = 3, .temperature = 4, .slowest = 1e-3};
+  std::vector<double> collisions, energies;
+  for (std::uint64_t replica = 0; replica < 400; ++replica) {
+    PhasePoint begin = stationary_start(ring, fine, {7, replica});
+    for (double& U : begin.scatterers) U *= scatterers;
+    ClosedDynamics dynamics(ring, begin, time, {7, replica});
+    NoObserver nobody;
+    simulate(dynamics, time, nobody, support::nothing);
+    collisions.push_back(static_cast<double>(dynamics.events()) / ring.cells);
+    double squares = 0;
+    for (const double U : dynamics.scatterers()) squares += U * U / fine.temperature;
+    energies.push_back(squares / ring.cells);
+  }
+  return {collisions, energies};
+}
+
+// A scatterer meets 2 times the integral of z exp(-p^2/2T) particles per time. Mutant: scatterers that start
+// with U smaller by 40 %.
+TEST(StationaryStart, IsStationary) {
+  const double time = 3, rate = 2 * 3 * std::sqrt(std::numbers::pi * 4 / 2);
+  const auto [collisions, energies] = later(time, 1);
+  EXPECT_LT(std::abs(support::z_score(support::sample(collisions), rate * time)), 4);
+  EXPECT_LT(std::abs(support::z_score(support::sample(energies), 1)), 4);
+  const auto [fewer, colder] = later(time, 0.6);
+  EXPECT_GT(std::abs(support::z_score(support::sample(colder), 1)), 4);
+}
+
+}  // namespace

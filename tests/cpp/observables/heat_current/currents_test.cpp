@@ -1,0 +1,86 @@
+#include "observables/heat_current/currents.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "model/collision.hpp"
+#include "reference/heap_simulator.hpp"
+
+namespace {
+
+using namespace lorentz;
+
+constexpr double temperature = 1.5, end_time = 6;
+constexpr std::size_t count = 4;
+
+struct Sums {
+  std::vector<double> heat = std::vector<double>(count, 0), number = heat;
+};
+
+/// The same integrals from the reference simulator: every flight adds its overlap with a block. overlap:
+/// false is a mutant that counts a flight in the block in which it ends.
+Sums by_flights(const ClosedParameters& parameters, const Blocks& blocks, const StreamKey& key,
+                bool overlap) {
+  const ClosedChain chain = parameters.chain();
+  const PhasePoint start = stationary_start(chain, parameters.stationary_measure(), key);
+  const double sigma = CollisionRule(chain.sigma).sigma();
+  auto simulator = reference::heap_simulator<long double>(sigma, chain.cell_length, start);
+  Sums sums;
+  const auto fly = [&](double v, double begin, double end) {
+    for (std::size_t b = 0; b < count; ++b) {
+      const double inside = std::min(end, blocks.edge(b + 1)) - std::max(begin, blocks.edge(b));
+      const bool ends = end > blocks.edge(b) && end <= blocks.edge(b + 1);
+      const double duration = overlap ? std::max(0.0, inside) : ends ? end - begin : 0;
+      sums.heat[b] += v * (v * v / 2 - temperature) * duration;
+      sums.number[b] += v * duration;
+    }
+  };
+  std::vector<double> since(start.particles.size(), 0), v;
+  for (const Particle& particle : start.particles) v.push_back(particle.velocity);
+  reference::HeapSimulator<long double>::Event event{};
+  while (simulator.step(end_time, event)) {
+    const std::size_t i = event.particle;
+    const auto time = static_cast<double>(event.time);
+    fly(v[i], since[i], time);
+    since[i] = time;
+    v[i] = static_cast<double>(event.p_after);
+  }
+  for (std::size_t i = 0; i < v.size(); ++i) fly(v[i], since[i], end_time);
+  return sums;
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+}
+
+// Block by block, not on average. Blocks end before the run does.
+TEST(Currents, AreThoseOfTheReferenceInEveryBlock) {
+  for (const double sigma : {-0.6, 0.0, 0.5, 0.9}) {
+    ClosedParameters parameters;
+    parameters.ring = {.scattering = {.cells = 9, .sigma = sigma}, .cell_length = 0.7};
+    parameters.temperature = temperature;
+    parameters.fugacity = 2;
+    parameters.relaxation_time = 0;
+    parameters.observation_time = end_time;
+    const Blocks blocks(0, 0.9 * end_time, count);
+    const Replica replica{{5, 2}, [](double) {}};
+    ClosedRun run(parameters, replica);
+    Currents currents(run, temperature, blocks);
+    run.observe(currents);
+    currents.finish();
+    const Sums flights = by_flights(parameters, blocks, replica.key, true);
+    EXPECT_LT(largest_difference(currents.heat(), flights.heat), 1e-9) << sigma;
+    EXPECT_LT(largest_difference(currents.number(), flights.number), 1e-9) << sigma;
+    const Sums mutant = by_flights(parameters, blocks, replica.key, false);
+    EXPECT_GT(largest_difference(currents.heat(), mutant.heat), 1e-3) << sigma;
+    EXPECT_GT(largest_difference(currents.number(), mutant.number), 1e-3) << sigma;
+  }
+}
+
+}  // namespace

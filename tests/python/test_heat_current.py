@@ -1,0 +1,180 @@
+"""Integrated currents in equilibrium against exact results: short times, free flight, and a gas in which every collision
+draws the direction and keeps the speed."""
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from tests.python.conftest import ROOT, Program
+from workflow.figures.ext13 import amplitude, last_octave, tabulate
+from workflow.lib.load import Quantity, Result, load
+from workflow.lib.mode_coupling import Chain, logarithm_at
+
+NONE = dict.fromkeys(("particles_per_cell", "relaxation_time"))
+T, LENGTH, FUGACITY = 4.0, 0.5, 3.0
+ZETA = FUGACITY * LENGTH
+GAS = NONE | {"temperature": T, "cell_length": LENGTH, "fugacity": FUGACITY, "cells": 20, "slowest": 1e-3}
+SHORT = {
+    "times": "1e-4,2e-4",
+    "fit_from": 1e-4,
+    "observation_time": 2e-4,
+    "cells": 5,
+    "replicas": 10000,
+    "sigma": 0.5,
+}
+LONGER = {"times": "0.05,0.1,0.2,0.4,0.8", "fit_from": 0.1, "observation_time": 3.2, "replicas": 2000}
+
+
+@pytest.fixture
+def heat_current(program: Program, tmp_path: Path) -> Callable[..., Result]:
+    def run(**options: object) -> Result:
+        done = program("heat_current", **GAS | options)
+        assert done.returncode == 0, done.stderr
+        return load(tmp_path / "out.h5")
+
+    return run
+
+
+def scores(quantity: Quantity, expected: np.ndarray | float) -> np.ndarray:
+    found: np.ndarray = (quantity.mean - expected) / quantity.error
+    return found
+
+
+def test_short_times_have_the_variances_of_the_currents(heat_current: Callable[..., Result]) -> None:
+    """2ζT³ of J_q, and of J_n 2ζT less the part of the total momentum [eq. M31]; M = 3."""
+    result = heat_current(**SHORT)
+    time = result["heat_variance"].axes["time"]
+    projected = 2 * ZETA * T * 3 / (2 * ZETA + 3)
+    assert np.abs(scores(result["heat_variance"], 2 * ZETA * T**3 * time**2)).max() < 4
+    assert np.abs(scores(result["number_variance"], projected * time**2)).max() < 4
+    assert np.abs(result["local_exponent"].mean - 2).max() < 0.01
+    # Mutants: the current of energy, whose variance is 6ζT³ larger, and no projection.
+    assert np.abs(scores(result["heat_variance"], 4 * ZETA * T**3 * time**2)).min() > 10
+    assert np.abs(scores(result["number_variance"], 2 * ZETA * T * time**2)).min() > 10
+
+
+def test_free_flight(heat_current: Callable[..., Result]) -> None:
+    """Scatterers without mass: both currents are conserved, and that of particles is the momentum."""
+    result = heat_current(**LONGER, sigma=-1)
+    time = result["heat_variance"].axes["time"]
+    assert np.abs(scores(result["heat_variance"], 2 * ZETA * T**3 * time**2)).max() < 4
+    np.testing.assert_allclose(result["local_exponent"].mean, 2, atol=1e-9)
+    np.testing.assert_allclose(result["number_variance"].mean / time**2, 0, atol=1e-9)
+
+
+def of_walkers(time: float, power: int) -> float:
+    """<Q²> per cell for the current Σ u (u²/2 − T)^power: independent walkers whose direction is drawn at every scatterer.
+    The correlation of a velocity is u² times the probability that no scatterer was met yet."""
+
+    def of_speed(u: float) -> float:
+        free = min(time, LENGTH / u)
+        square = 2 * u**2 * (time * free - free**2 / 2 - u / LENGTH * (time * free**2 / 2 - free**3 / 3))
+        return 2 * ZETA / u * np.exp(-(u**2) / (2 * T)) * (u**2 / 2 - T) ** (2 * power) * square
+
+    value: float = quad(of_speed, 1e-3, 40, limit=400, points=[LENGTH / time])[0]
+    return value
+
+
+def test_drawn_directions(heat_current: Callable[..., Result]) -> None:
+    result = heat_current(**LONGER | {"cells": 5, "replicas": 20000}, sigma=-1, random_direction=True)
+    times = result["heat_variance"].axes["time"]
+    for name, power in (("heat_variance", 1), ("number_variance", 0)):
+        expected = np.array([of_walkers(time, power) for time in times])
+        assert np.abs(scores(result[name], expected)).max() < 4, name
+        # Mutant: windows longer by 5 %.
+        longer = np.array([of_walkers(1.05 * time, power) for time in times])
+        assert np.abs(scores(result[name], longer)).max() > 6, name
+
+
+def test_growth_is_the_weighted_fit(heat_current: Callable[..., Result]) -> None:
+    """Of y/t = 4.5 A t^(1/3) + 2D with weights 1/(y² t)·t² in units of T and λ."""
+    result = heat_current(**LONGER, sigma=0.5)
+    heat = result["heat_variance"]
+    seen = heat.axes["time"] >= 0.1
+    time, y = heat.axes["time"][seen] * np.sqrt(T) / LENGTH, heat.mean[seen] / (T * LENGTH) ** 2
+
+    def fitted(weight: np.ndarray) -> np.ndarray:
+        basis = np.stack([4.5 * np.cbrt(time), np.full_like(time, 2)], axis=1)
+        found: np.ndarray = np.linalg.lstsq(basis * weight[:, None], y / time * weight)[0]
+        return found
+
+    found = [float(result[name].mean) for name in ("amplitude", "diffusion")]
+    np.testing.assert_allclose(found, fitted(np.sqrt(time) / y), rtol=1e-9)
+    assert not np.allclose(found, fitted(np.ones_like(time)), rtol=1e-3)  # mutant: without weights
+
+
+def test_sound_must_not_come_around(program: Program) -> None:
+    """Twice the distance of a peak, and of its root-mean-square width, in cells [eq. M18]."""
+    chain, time = Chain(zeta=1.6, mass=3), 20.0
+    reach = chain.sound_speed * time + np.sqrt(0.510523) * (chain.self_coupling * time) ** (2 / 3)
+    ring = NONE | {"fugacity": 1.6, "sigma": 0.5, "temperature": 1, "times": "10,20", "fit_from": 10,
+                   "observation_time": 20, "replicas": 2}  # fmt: skip
+    run = partial(program, "heat_current", **ring)
+    refused = run(cells=int(2 * reach))
+    assert refused.returncode == 2
+    assert (
+        f"--cells: sound travels around the ring within the last of --times. Choose at least {int(2 * reach) + 1} cells"
+        in refused.stderr
+    )
+    assert run(cells=int(2 * reach) + 1).returncode == 0
+    assert run(cells=int(2 * reach), random_direction=True).returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"slowest": 3}, "--slowest exceeds the thermal momentum sqrt(--temperature)"),
+        ({"times": "0.1,0.25"}, "whole multiple"),
+        ({"times": "0.1,10"}, "--times goes beyond --observation-time"),
+        ({"fit_from": 0.7}, "--fit-from leaves fewer than two times"),
+        ({"fugacity": 1e12}, "more than 1e9 particles"),
+        ({"fugacity": 0}, "--fugacity"),
+    ],
+)
+def test_refused(program: Program, tmp_path: Path, options: dict, words: str) -> None:
+    done = program("heat_current", **GAS | LONGER | options)
+    assert done.returncode == 2
+    assert words in done.stderr
+    assert done.stderr.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def ring(times: list[float], error: float, power: float = 4 / 3, **options: object) -> Result:
+    """Of ζ = 0.8 and M = 1/3, with ⟨Q²⟩ = t^power."""
+    time = np.array(times)
+    units = {"time": "time", "middle": "time"}
+
+    def quantity(mean: np.ndarray, relative: float, **axes: np.ndarray) -> Quantity:
+        count = np.full(mean.shape, 64)
+        return Quantity(mean, relative * np.abs(mean), None, count, axes, "1", units, {}, None)
+
+    middle = np.sqrt(time[1:] * time[:-1])
+    parameters = {"temperature": 1.0, "cell-length": 1.0, "sigma": -0.5, "fugacity": 0.8, "cells": 100, "fit-from": 2.0,
+                  "random-direction": False, "replicas": 64}  # fmt: skip
+    quantities = {
+        "heat_variance": quantity(time**power, error, time=time),
+        "local_exponent": quantity(np.full(len(middle), power), error, middle=middle),
+        "amplitude": quantity(np.array(0.4), error),
+    }
+    return Result(ROOT, parameters | options, {}, quantities)
+
+
+def test_every_time_is_from_the_ring_with_the_smallest_error() -> None:
+    """A short ring ends at t = 4, where the long one takes over its octave."""
+    results = [ring([1, 2, 4], 0.01), ring([2, 4, 8], 0.02, power=1.3)]
+    results.append(ring([1, 2, 4, 8], 0.01, 1, **{"random-direction": True}))
+    table = tabulate(results)
+    sound, random = (table[table.random_direction == drawn] for drawn in (False, True))
+    assert sound.time.tolist() == random.time.tolist() == [1, 2, 4, 8]
+    np.testing.assert_allclose(sound.heat_variance, [1, 2 ** (4 / 3), 4 ** (4 / 3), 8**1.3])
+    np.testing.assert_allclose(sound.local_exponent, [4 / 3, 4 / 3, 1.3, np.nan])
+    np.testing.assert_allclose(sound.middle, [2**0.5, 8**0.5, 32**0.5, np.nan])
+    assert sound.predicted.isna().tolist() == [True, False, False, False]
+    assert random.predicted.isna().all()
+    assert last_octave(sound) == "1.300(26) (ζ = 0.8, M = 1/3)"
+    theory = Chain(0.8, 1 / 3, slow_logarithm=logarithm_at(4)).heat_amplitude
+    assert f" over t = 2 to 8 gives {0.4 / theory:.3f}(" in amplitude(results)
