@@ -85,7 +85,8 @@ std::vector<double> sums_of(const std::vector<double>& x) {
 void observe(const Parameters& parameters, const Tallies& tallies, const std::vector<std::size_t>& windows,
              ClosedRun& run, Record& record) {
   const double interval = parameters.times.front(), cells = parameters.chain().cells;
-  const auto intervals = static_cast<std::size_t>(parameters.observation_time / interval * (1 + 1e-9));
+  const auto whole = static_cast<std::size_t>(parameters.observation_time / interval * (1 + 1e-9));
+  const std::size_t intervals = std::max(whole, windows.back());  // the last time may be rounded
   const Blocks blocks(0, static_cast<double>(intervals) * interval, intervals);
   const double carried = parameters.carried_by_momentum();
   const double drift = carried > 0 ? carried * run.chain().invariants().momentum * blocks.length() : 0;

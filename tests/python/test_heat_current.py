@@ -143,6 +143,17 @@ def test_refused(program: Program, tmp_path: Path, options: dict, words: str) ->
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_rounded_last_time_has_a_window(heat_current: Callable[..., Result]) -> None:
+    options = {
+        "times": "0.1,0.29999999",
+        "observation_time": 0.29999999,
+        "fit_from": 0.1,
+        "replicas": 2,
+        "sigma": 0.5,
+    }
+    assert np.isfinite(heat_current(**options)["heat_variance"].mean).all()
+
+
 def ring(times: list[float], error: float, power: float = 4 / 3, **options: object) -> Result:
     """Of ζ = 0.8 and M = 1/3, with ⟨Q²⟩ = t^power."""
     time = np.array(times)
