@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "numerics/elementary.hpp"
+
 namespace lorentz {
 namespace {
 
@@ -63,14 +65,14 @@ void Progress::warn(const std::string& line) {
 std::string with_error(double mean, double error) {
   if (!(error > 0) || !std::isfinite(mean) || !std::isfinite(error)) return fmt::format("{:.8g}", mean);
   const double largest = std::max(std::abs(mean), error);
-  const int exponent = static_cast<int>(std::floor(std::log10(largest)));
+  const int exponent = static_cast<int>(std::floor(elementary::log10(largest)));
   const bool plain = exponent >= -4 && exponent < 6;  // as for {:g}
-  const double scale = plain ? 1 : std::pow(10, exponent);
+  const double scale = plain ? 1 : elementary::pow(10, exponent);
   // Two digits, also where rounding carries: 0.0996 has the digits 10, not 100.
-  int decimals = 1 - static_cast<int>(std::floor(std::log10(error / scale)));
-  if (std::round(error / scale * std::pow(10, decimals)) >= 100) --decimals;
+  int decimals = 1 - static_cast<int>(std::floor(elementary::log10(error / scale)));
+  if (std::round(error / scale * elementary::pow(10, decimals)) >= 100) --decimals;
   decimals = std::max(decimals, 0);
-  const double digits = std::round(error / scale * std::pow(10, decimals));
+  const double digits = std::round(error / scale * elementary::pow(10, decimals));
   return fmt::format("{:.{}f}({:.0f}){}", mean / scale, decimals, digits,
                      plain ? "" : fmt::format("e{}", exponent));
 }

@@ -1,7 +1,6 @@
 """Results do not depend on the instruction set of the processor."""
 
 import os
-import re
 import subprocess
 from pathlib import Path
 
@@ -61,12 +60,4 @@ def test_no_elementary_function_of_the_c_library(program: str) -> None:
     ).stdout
     imported = {line.split()[-1].partition("@")[0] for line in symbols.splitlines() if " U " in line}
     assert "Sleef_cinz_logd1_u35purec" in imported
-    assert imported & FUNCTIONS <= {"log10"}  # with which toml++ counts digits of text
-
-
-def test_the_sources_call_no_logarithm_of_the_c_library() -> None:
-    """What the symbols cannot tell because of toml++."""
-    sources = [path for kind in ("hpp", "cpp") for path in (ROOT / "cpp").rglob(f"*.{kind}")]
-    assert len(sources) > 100
-    called = re.compile(r"(?<!elementary::)\blog10\(")
-    assert [path.name for path in sources if called.search(path.read_text())] == ["elementary.hpp"]
+    assert imported & FUNCTIONS == set()
