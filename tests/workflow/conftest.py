@@ -144,14 +144,19 @@ def kept(clean: Clone) -> Iterator[Clone]:
         ".snakemake/metadata",
         "build/id",
     )
-    before = {file: file.read_bytes() for place in places for file in files_below(clean.folder / place)}
+    before = {
+        file: (file.read_bytes(), file.stat().st_mtime_ns)
+        for place in places
+        for file in files_below(clean.folder / place)
+    }
     yield clean
     for file in {file for place in places for file in files_below(clean.folder / place)} - before.keys():
         file.unlink()
-    for file, content in before.items():
+    for file, (content, time) in before.items():
         if not file.exists() or file.read_bytes() != content:
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_bytes(content)
+            os.utime(file, ns=(time, time))
 
 
 def files_below(place: Path) -> list[Path]:

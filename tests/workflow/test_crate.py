@@ -53,7 +53,7 @@ def test_every_file_is_there_with_its_hash(packed: Clone) -> None:
     files = {path: entity for path, entity in entities(folder).items() if "File" in entity["@type"]}
     present = {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()}
     assert present == {*files, METADATA}
-    assert {path for path in packed.products() if "/fig03" in path} <= present
+    assert {path for path in packed.products() if "/fig03/" in path or "/fig03." in path} <= present
     assert {"Makefile", "LICENSE", "uv.lock", "cpp/CMakeLists.txt", "docs/format.md"} <= present
     for path, entity in files.items():
         assert hashlib.sha256((folder / path).read_bytes()).hexdigest() == entity["sha256"]
@@ -66,8 +66,8 @@ def test_every_file_is_there_with_its_hash(packed: Clone) -> None:
 def test_every_run_and_figure_is_an_action(packed: Clone) -> None:
     stated = entities(packed.folder / FOLDER)
     actions = {one["name"]: one for one in stated.values() if one["@type"] == "CreateAction"}
-    assert {*actions} == {"workflow", "fig03", "fig03/paper", "fig03/equal", "fig03/exchange"}
-    run, drawing = actions["fig03/paper"], actions["fig03"]
+    assert {*actions} == {"workflow", "job/fig03", "job/fig03/paper", "job/fig03/equal", "job/fig03/exchange"}
+    run, drawing = actions["job/fig03/paper"], actions["job/fig03"]
     assert run["description"].startswith("boltzmann --sigma 0.5 --gamma 1 --nu-left 220 ")
     assert run["result"] == {"@id": "data/smoke/fig03/paper.h5"}
     assert drawing["instrument"] == {"@id": "workflow/figures/fig03.py"}

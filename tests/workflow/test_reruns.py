@@ -117,7 +117,7 @@ def test_edited_products_are_named_by_audit_and_status(kept: Clone) -> None:
     copy("figures/smoke/fig06.png", "figures/smoke/fig05.png")(kept)
     result = kept.folder / "data/smoke/fig06/all_sigma=0.h5"
     result.write_bytes(result.read_bytes()[:-100])
-    assert kept.stale() == set()
+    assert kept.stale() == {"fig06"}  # Snakemake compares checksums of inputs, and looks at no other product
     told = kept.module("provenance.audit", "--quality", "smoke", status=1)
     table = " ".join(kept.module("provenance.status", "--quality", "smoke").split())
     for name in ("fig03.csv", "fig05.png", "all_sigma=0.h5"):
