@@ -156,7 +156,7 @@ def kept(clean: Clone) -> Iterator[Clone]:
         if not file.exists() or file.read_bytes() != content:
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_bytes(content)
-            os.utime(file, ns=(time, time))
+        os.utime(file, ns=(time, time))
 
 
 def files_below(place: Path) -> list[Path]:
