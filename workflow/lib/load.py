@@ -137,14 +137,26 @@ def load_provenance(path: Path | str) -> dict[str, Any]:
 def results_digest(path: Path | str) -> str:
     """CRC-32 of all results, as the program states it in /provenance when it writes them: of the path and the little-endian
     values of every dataset, in the order of the paths. Raises FormatError, OSError."""
+    with _opened(path) as (file, _):
+        return _digest(file["results"])
+
+
+def load_statements(path: Path | str) -> tuple[dict[str, Any], dict[str, Any], bool]:
+    """Provenance and parameters of one result file, and whether its values are those that were written. Raises FormatError,
+    OSError."""
+    with _opened(path) as (file, provenance):
+        whole = provenance["results_digest"] == _digest(file["results"])
+        return provenance, _attributes(file["parameters"]), whole
+
+
+def _digest(results: h5py.Group) -> str:
     datasets: dict[str, h5py.Dataset] = {}
     digest = 0
-    with _opened(path) as (file, _):
-        file["results"].visititems(lambda _, node: datasets.update({node.name: node}))
-        for name, dataset in sorted(datasets.items()):
-            if isinstance(dataset, h5py.Dataset):
-                values = np.asarray(dataset[()], dtype=dataset.dtype.newbyteorder("<"))
-                digest = zlib.crc32(values.tobytes(), zlib.crc32(name.encode(), digest))
+    results.visititems(lambda _, node: datasets.update({node.name: node}))
+    for name, dataset in sorted(datasets.items()):
+        if isinstance(dataset, h5py.Dataset):
+            values = np.asarray(dataset[()], dtype=dataset.dtype.newbyteorder("<"))
+            digest = zlib.crc32(values.tobytes(), zlib.crc32(name.encode(), digest))
     return f"{digest:08x}"
 
 

@@ -16,9 +16,11 @@ from workflow.provenance.redraw import redraw
 def main() -> None:
     options, products, panels = command(__doc__)
     made = [panel for panel in panels if products.is_made(panel.name)]
-    faults = [fault for panel in made for fault in products.faults(panel.name)]
-    chosen = [panel for panel in made if options.panel in (None, panel.name)]
-    whole = [panel.name for panel in chosen if products.fault_of_figure(panel) is None]
+    figures = {panel.name: products.fault_of_figure(panel) for panel in made}
+    runs = [(panel.name, run) for panel in made for run in panel.runs]
+    faults = [fault for panel, run in runs if (fault := products.fault_of_result(panel, run))]
+    faults += filter(None, figures.values())
+    whole = [name for name, fault in figures.items() if not fault and options.panel in (None, name)]
     with ThreadPoolExecutor(os.cpu_count()) as threads:
         faults += filter(None, threads.map(lambda name: redraw(products, name), whole))
     if not options.panel:

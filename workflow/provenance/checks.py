@@ -29,7 +29,7 @@ from workflow.lib.figure_metadata import (
     read_panel,
     sources_of,
 )
-from workflow.lib.load import FormatError, load_parameters, load_provenance, results_digest
+from workflow.lib.load import FormatError, load_provenance, load_statements
 from workflow.lib.plan import Panel, Run, data_of, data_path, drawings_of, load_plan, panel_named, with_used
 from workflow.provenance.build_id import BuildError, built, sources_of_program
 
@@ -70,13 +70,12 @@ class Products:
         if not (ROOT / path).exists():
             return Fault(path, "is missing")
         try:
-            stated, parameters = load_provenance(ROOT / path), load_parameters(ROOT / path)
-            digest = results_digest(ROOT / path)
+            stated, parameters, whole = load_statements(ROOT / path)
         except OSError as error:
             return Fault(path, f"cannot be read: {error.strerror}", broken=False)
         except FormatError as error:
             return Fault(path, str(error).removeprefix(f"{ROOT / path}").strip(": "))
-        if stated["results_digest"] != digest:
+        if not whole:
             return Fault(path, "its values are not those that were written: edited or damaged")
         for name, value in run.options.items():
             if name in parameters and not _agree(value, parameters[name]):

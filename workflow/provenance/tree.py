@@ -19,7 +19,7 @@ from workflow.lib.figure_metadata import (
     file_hash,
     read_panel,
 )
-from workflow.lib.load import FormatError, load_parameters, load_provenance, results_digest
+from workflow.lib.load import FormatError, load_statements
 from workflow.provenance.build_id import sources_of_program
 
 SHORT = 16  # digits of a hash that are shown
@@ -43,9 +43,8 @@ def build_lines(build: dict[str, Any]) -> Iterator[str]:
     yield f"    sources {build['source_hash'][:SHORT]}  {'same here' if same else 'other here'}"
 
 
-def result_lines(path: Path) -> Iterator[str]:
-    stated = load_provenance(path)
-    values = ", ".join(f"{name} {value}" for name, value in load_parameters(path).items())
+def result_lines(stated: dict[str, Any], parameters: dict[str, Any]) -> Iterator[str]:
+    values = ", ".join(f"{name} {value}" for name, value in parameters.items())
     yield f"  parameters: {values}"
     yield f"  random numbers: {stated['streams']}"
     yield from build_lines(stated)
@@ -78,9 +77,9 @@ def explain(path: Path, few: int | None) -> tuple[bool, list[str]]:
     """Whether the file is known, and the lines of its parents. Raises FormatError, MetadataError, OSError."""
     digest = file_hash(path)
     if path.suffix == ".h5":
-        whole = load_provenance(path)["results_digest"] == results_digest(path)
+        provenance, parameters, whole = load_statements(path)
         first = f"{path.name} {'has' if whole else 'does not have'} the values that were written"
-        return whole, [first, *result_lines(path)]
+        return whole, [first, *result_lines(provenance, parameters)]
     known = [(product, record) for one, product, record in records() if one == digest]
     for product, record in known[:1]:
         clean = {True: "clean", False: "with uncommitted changes", None: "no repository"}[record["clean"]]

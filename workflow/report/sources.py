@@ -10,7 +10,7 @@ from workflow.claims.judge import CLAIMS_FILE, Judgement, judge_all
 from workflow.cluster.cost import recorded_seconds
 from workflow.lib.citation import CITATION
 from workflow.lib.figure_metadata import PACKAGES, MetadataError, file_hash, read_panel, sources_of
-from workflow.lib.load import FormatError, load_provenance, results_digest
+from workflow.lib.load import FormatError, load_statements
 from workflow.lib.plan import Panel
 
 SCRIPT = "workflow/report/write.py"
@@ -58,7 +58,7 @@ class Products:
             if path.startswith("figures/"):
                 whole = self.record(here.stem)["files"].get(here.name) == file_hash(here)
             else:
-                whole = load_provenance(here)["results_digest"] == results_digest(here)
+                *_, whole = load_statements(here)
             self.used[path] = file_hash(here)
         except (OSError, FormatError) as error:
             raise ReportError(f"{path} is missing or damaged: run make figures") from error
