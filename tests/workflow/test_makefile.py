@@ -115,10 +115,11 @@ def test_locks(clean: Clone, tmp_path: Path, flock: str, line: str, status: int)
 
 def test_two_at_once_are_refused(clean: Clone) -> None:
     command = ["bash", "workflow/environment/one_at_a_time.sh"]
-    with subprocess.Popen([*command, "sleep", "60"], cwd=clean.folder) as first:
-        told = [clean.run(*command, "sleep", "0.1", status=None).returncode for _ in range(20)]
+    holder = [*command, "bash", "-c", "echo held; exec sleep 60"]
+    with subprocess.Popen(holder, cwd=clean.folder, stdout=subprocess.PIPE, text=True) as first:
+        assert first.stdout is not None and first.stdout.readline() == "held\n"
+        clean.run(*command, "true", status=1)
         first.kill()
-    assert told[-1] == 1
     clean.run(*command, "true")  # the lock has ended with its process
 
 
