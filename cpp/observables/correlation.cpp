@@ -128,17 +128,31 @@ auto at_every_time(Tally profiles, std::size_t times, Formula formula) {
   };
 }
 
+/// Distances in cells at a time: half that of sound, and that beyond which sound has not come, three
+/// root-mean-square widths from the top of its peak, where f_KPZ is 0.8 % of its height.
+struct Range {
+  double half, end;
+
+  Range(const Parameters& parameters, double time) {
+    const Sound sound = Sound::of(parameters);
+    const double way = sound.speed * time, width = sound.reach(time) - way;
+    half = 0.5 * way / parameters.ring.cell_length;
+    end = (way + 3 * width) / parameters.ring.cell_length;
+  }
+};
+
 Group profiles(const Parameters& parameters, const Tallies& tallies) {
   const std::vector<double> times = tallies.time.values;
-  const double speed = Sound::of(parameters).speed / parameters.ring.cell_length;  // cells per time
-  const auto centroid = [](std::span<const double> profile, std::size_t) {
-    return side_moment(profile, 0, 1) / side_moment(profile, 0, 0);
-  };
+  std::vector<Range> ranges;
+  for (const double time : times) ranges.emplace_back(parameters, time);
   const auto area = [=](std::span<const double> profile, std::size_t k) {
-    return side_moment(profile, 0.5 * speed * times[k], 0);
+    return side_moment(profile, 0, ranges[k].half, ranges[k].end);
+  };
+  const auto centroid = [=](std::span<const double> profile, std::size_t k) {
+    return side_moment(profile, 1, ranges[k].half, ranges[k].end) / area(profile, k);
   };
   const auto heat_area = [=](std::span<const double> profile, std::size_t k) {
-    return 2 * (side_moment(profile, 0, 0) - side_moment(profile, 0.5 * speed * times[k], 0));
+    return 2 * side_moment(profile, 0, 0, ranges[k].half);
   };
   Axis middle{"middle", "time", "Middle of two neighbouring times", {}};
   for (std::size_t k = 0; k + 1 < times.size(); ++k) middle.values.push_back(0.5 * (times[k] + times[k + 1]));
@@ -156,14 +170,14 @@ Group profiles(const Parameters& parameters, const Tallies& tallies) {
   group.quantity("heat_correlation", {tallies.time, tallies.cell}, "energy^2",
                  "Covariance of E_s - E_p/(2 zeta) of two cells", mean_of(tallies.heat));
   group.quantity("peak_area", {tallies.time}, "momentum^2",
-                 "Sum of C_g over distances above half that of sound, on one side; rho T/2 per cell",
+                 "Sum of C_g from half the distance of sound on, on one side",
                  at_every_time(tallies.momentum, times.size(), area));
-  group.quantity("centroid", {tallies.time}, "1", "Mean distance of C_g from the centre, in cells",
+  group.quantity("centroid", {tallies.time}, "1", "Centre of mass of C_g over the same distances, in cells",
                  centroids);
   group.quantity("sound_speed", {middle}, "1/time", "Cells per time by which it moves between two times",
                  speeds);
   group.quantity("heat_area", {tallies.time}, "energy^2",
-                 "Sum of heat_correlation over distances below half that of sound",
+                 "Sum of heat_correlation up to half the distance of sound, on both sides",
                  at_every_time(tallies.heat, times.size(), heat_area));
   return group;
 }
@@ -195,7 +209,7 @@ Group sound_peak(const Parameters& parameters, const Tallies& tallies) {
 
 /// Throws UsageError.
 void require_consistent(const Parameters& parameters) {
-  const double cells = parameters.chain().cells, length = parameters.ring.cell_length;
+  const double cells = parameters.chain().cells;
   const std::vector<double>& times = parameters.times;
   if (times.size() < 2)
     throw UsageError("--times has one time: the damping exponent needs two. Add another.");
@@ -206,12 +220,9 @@ void require_consistent(const Parameters& parameters) {
         "--sigma is 1: scatterers of infinite mass do not conserve momentum, and there is no sound. Choose a "
         "smaller one.");
   require_within(parameters.zeta(), 1e-30, 1e9, "--fugacity, --cell-length", "their product");
-  require_within(times.front() * std::sqrt(parameters.temperature) / length, 1e-30, 1e15, "--times",
-                 "the first in units of a thermal flight");
-  // Three root-mean-square widths from its top, f_KPZ is 0.8 % of its height.
-  const Sound sound = Sound::of(parameters);
-  const double way = sound.speed * times.back(), width = sound.reach(times.back()) - way;
-  const double least = std::max(7.0, std::ceil(2 * (way + 3 * width) / length));
+  require_within(times.front() * std::sqrt(parameters.temperature) / parameters.ring.cell_length, 1e-30, 1e15,
+                 "--times", "the first in units of a thermal flight");
+  const double least = std::max(7.0, std::ceil(2 * Range(parameters, times.back()).end));
   if (cells < least)
     throw UsageError(fmt::format(
         "--cells: sound travels around the ring within the last of --times. Choose at least {:.0f} "

@@ -8,11 +8,11 @@
 
 namespace lorentz {
 
-double side_moment(std::span<const double> profile, double from, int power) {
+double side_moment(std::span<const double> profile, int power, double first, double last) {
   double sum = 0;
   for (std::size_t cell = 0; cell < profile.size(); ++cell) {
     const double distance = std::abs(static_cast<double>(cell) - static_cast<double>(profile.size() / 2));
-    if (distance >= from) sum += 0.5 * std::pow(distance, power) * profile[cell];
+    if (distance >= first && distance < last) sum += 0.5 * std::pow(distance, power) * profile[cell];
   }
   return sum;
 }

@@ -5,9 +5,8 @@
 
 namespace lorentz {
 
-/// 1/2 of the sum of |r|^power C(r) over the cells of a ring at distances |r| >= from from the middle: of a
-/// symmetric profile, one side's part.
-double side_moment(std::span<const double> profile, double from, int power);
+/// Half the sum of |r|^power C(r) over the cells of a ring at distances first <= |r| < last from the middle.
+double side_moment(std::span<const double> profile, int power, double first, double last);
 
 /// Full width of a folded profile's peak at half its height. On either side a line is fitted to the profile
 /// at 0.7 to 1.3 of an expected half width from the peak; it crosses half the height. NaN if that range has
