@@ -22,14 +22,15 @@ using namespace lorentz;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 struct Parameters : ClosedParameters {
-  std::string kind = "closed", start = "warm";
-  Reservoir left{1, 2}, right{1.4, 1};
+  std::string kind = "closed", start = "empty";
+  Reservoir left{0.7, 4}, right{1.4, 1};
   std::uint64_t seed = 1;
 
   Parameters() {
-    ring = {.scattering = {.cells = 8}, .particles_per_cell = 1};
+    ring = {.scattering = {.cells = 8}, .particles_per_cell = 2};
     temperature = scatterer_temperature = 1;
-    relaxation_time = observation_time = 10;
+    relaxation_time = 10;
+    observation_time = 8;
   }
   Window window() const { return {relaxation_time, end_time()}; }
   OpenParameters open() const {
