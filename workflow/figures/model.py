@@ -17,11 +17,12 @@ from workflow.lib.load import Result
 
 # Of plasma, which is perceptually uniform, the part that is visible on white: cold is dark, hot is bright.
 COLOURS = LinearSegmentedColormap.from_list("energy", plt.get_cmap("plasma")(np.linspace(0, 0.88, 256)))
+COLUMNS = ("particle", "start_time", "end_time", "start_position", "end_position", "momentum")
 BATH = 0.75  # width of a bath, in cells
 
 
 def flights(result: Result) -> pd.DataFrame:
-    table = pd.DataFrame({name: quantity.mean for name, quantity in result.quantities.items()})
+    table = pd.DataFrame({name: result[name].mean for name in COLUMNS})
     table["energy"] = table.momentum**2 / 2
     table.insert(0, "chain", result.parameters["chain"])
     return table
@@ -35,7 +36,7 @@ def world_lines(
     lines = np.stack([table[["start_position", "start_time"]], table[["end_position", "end_time"]]], axis=1)
     copies = [lines + np.array([shift, 0]) for shift in shifts]
     drawn = LineCollection(
-        np.concatenate(copies), array=np.tile(table.energy, len(copies)), cmap=COLOURS, norm=energies, linewidth=1, alpha=0.9,
+        [*np.concatenate(copies)], array=np.tile(table.energy, len(copies)), cmap=COLOURS, norm=energies, linewidth=1, alpha=0.9,
         capstyle="round",
     )  # fmt: skip
     axes.add_collection(drawn)
