@@ -4,11 +4,12 @@
 /// A flight is straight, from one scattering to the next. Those in progress at the beginning or the end of
 /// the window are cut there. On a ring of length L a flight starts in [0, L) and may end outside.
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
-#include <utility>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include "numerics/random.hpp"
 #include "program/program.hpp"
@@ -152,20 +153,25 @@ class RowObserver {
   void on_collision(const Collision& collision) { last_ = collision; }
 
   void on_flight(const Path& path) {
-    const double particle = last_ ? arriving(last_->time, 2 * std::int64_t{last_->scatterer} + 1) : newest_++;
+    const double particle = last_ ? arriving(*last_) : newest_++;
     flights_.add({particle, path.departure, path.arrival, half_cell_ * path.from,
                   half_cell_ * static_cast<double>(path.last), path.velocity,
                   last_ ? last_->scatterer_after : nan});
-    under_way_.emplace(std::pair(path.arrival, path.last), particle);
+    under_way_.emplace(Arrival(path.arrival, path.last, path.velocity), particle);
     last_.reset();
   }
 
  private:
-  double arriving(double time, std::int64_t mark) { return under_way_.extract({time, mark}).mapped(); }
+  using Arrival = std::tuple<double, std::int64_t, double>;  // time, mark, velocity
+
+  double arriving(const Collision& collision) {
+    const std::int64_t mark = 2 * std::int64_t{collision.scatterer} + 1;
+    return under_way_.extract(Arrival(collision.time, mark, collision.particle_before)).mapped();
+  }
 
   double half_cell_;
   Flights& flights_;
-  std::map<std::pair<double, std::int64_t>, double> under_way_;  // particles, by time and mark of arrival
+  std::multimap<Arrival, double> under_way_;  // particles
   double newest_ = 0;
   std::optional<Collision> last_;
 };
