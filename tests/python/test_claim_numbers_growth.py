@@ -85,8 +85,8 @@ def test_conductivity(odd: int) -> None:
         last_two("fig08", [512, 1024], "large", data),
         last_two("ext09", [1024, 2048], "thinning-large", data),
     ]
-    check(evidence.substance, *np.array(last).T)
-    assert [one.freedom for one in evidence.substance] == [
+    check(evidence.intended, *np.array(last).T)
+    assert [one.freedom for one in evidence.intended] == [
         freedom("fig08", "large"),
         freedom("ext09", "thinning-large"),
     ]
@@ -148,7 +148,7 @@ def test_a_start_that_is_not_forgotten_widens_the_bound(apart: float) -> None:
 
     def bounds(**worlds: Callable[[Run], dict[str, Quantity]]) -> dict[str, float]:
         evidence = FUNCTIONS["C24"](Known({"fig08": conductivities, "ext09": conductivities, **worlds}))
-        return {one.label: one.systematic for one in (*evidence.substance, *evidence.other)}
+        return {one.label: one.systematic for one in (*evidence.intended, *evidence.alternative)}
 
     widened, plain = bounds(ext12=fill), bounds()
     assert {label.partition(", N = ")[0]: widened[label] - plain[label] for label in plain} == pytest.approx({
@@ -185,8 +185,8 @@ def test_an_exponent_takes_two_sizes(few: int) -> None:
         stationary = quantity(run, "stationary", np.array(float(still)), None)
         return uneven(run) | {"stationary": stationary, "energy_current": current(run, np.array(1.0))}
 
-    substance = FUNCTIONS["C24"](Known({"fig08": conductivities, "ext09": fill})).substance
-    assert len(substance) == few
+    intended = FUNCTIONS["C24"](Known({"fig08": conductivities, "ext09": fill})).intended
+    assert len(intended) == few
 
 
 @pytest.mark.parametrize(
@@ -239,7 +239,7 @@ def test_conductivity_without_a_particle_current() -> None:
         return found
 
     data = Known({"fig08": conductivities, "ext09": conductivities, "ext11": fill})
-    found, *last = FUNCTIONS["C24"](data).other
+    found, *last = FUNCTIONS["C24"](data).alternative
     expected = [last_two("ext09", [1024, 2048], f"{gas}-large", data) for gas in ("dilute", "dense")]
     check(last, *np.array(expected).T)
     current = [of("ext11", f"dense-temperature_cells={size}", "energy_current", data)[1] for size in sizes]
@@ -255,6 +255,6 @@ def test_conductivity_without_a_particle_current() -> None:
     assert found.freedom == 47
     for few in (1, 2):
         data = Known({"fig08": conductivities, "ext11": partial(fill, still=sizes[:few])})
-        assert len(FUNCTIONS["C24"](data).other) == few - 1
+        assert len(FUNCTIONS["C24"](data).alternative) == few - 1
     with pytest.raises(MissingError):
         FUNCTIONS["C24"](Known({"fig08": truth({"kappa": 1, "stationary": 0}, 0.1)}))

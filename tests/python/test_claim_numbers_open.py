@@ -36,7 +36,7 @@ def test_temperatures() -> None:
     local = np.concatenate([of("fig02_upper", run, "temperature_particle")[0] for run in RUNS])
     value, error = np.hstack([of("fig02_upper", run, "temperature_difference") for run in RUNS])
     evidence = FUNCTIONS["C06"](DATA)
-    for numbers in (evidence.literal, evidence.substance):
+    for numbers in (evidence.literal, evidence.intended):
         check(numbers, value / local, error / local)
 
 
@@ -78,7 +78,7 @@ def test_rates() -> None:
         for run in RUNS
     ])  # fmt: skip
     evidence = FUNCTIONS["C08"](DATA)
-    for numbers in (evidence.literal, evidence.substance):
+    for numbers in (evidence.literal, evidence.intended):
         check(numbers, value, error)
 
 
@@ -135,8 +135,8 @@ def test_kinetic_halves() -> None:
     evidence = FUNCTIONS["C33"](DATA)
     value, bound = np.hstack([halves("paper"), halves("exchange")])
     check(evidence.literal, value, 0, bound)
-    check(evidence.substance, halves("paper")[0], 0, halves("paper")[1])
-    check(evidence.other, halves("equal")[0], 0, halves("equal")[1])
+    check(evidence.intended, halves("paper")[0], 0, halves("paper")[1])
+    check(evidence.alternative, halves("equal")[0], 0, halves("equal")[1])
 
 
 def deviations(run: str) -> tuple[np.ndarray, np.ndarray]:
@@ -154,9 +154,9 @@ def test_deviations_of_finite_chains() -> None:
         parts = [np.array(deviations(f"simulation_cells={size}"))[:, seen] for size in cells]
         value, error = np.hstack(parts)
         evidence = FUNCTIONS[claim](DATA)
-        of_bins = evidence.substance or evidence.literal
+        of_bins = evidence.intended or evidence.literal
         check(of_bins, value / 400, error / 400, freedom=639)  # 220 + 180
-        check(evidence.other, value / largest, error / largest, freedom=639)
+        check(evidence.alternative, value / largest, error / largest, freedom=639)
         theory, momentum = deviations(f"mean-field_cells={cells[0]}")[0], np.arange(-59, 60, 2)
         ends = [
             np.polyval(np.polyfit(momentum[two], theory[two], 1), 0) for two in (slice(28, 30), slice(30, 32))
@@ -168,7 +168,7 @@ def test_deviations_of_finite_chains() -> None:
 def test_deviations_at_zero() -> None:
     """By lines through the two innermost bins of a half; parabolas through three bound the systematic error. The bins come first."""
     numbers = FUNCTIONS["C10"](DATA)
-    found = numbers.literal[len(numbers.substance) :]
+    found = numbers.literal[len(numbers.intended) :]
     momentum, expected = np.arange(-59, 60, 2), []
     for size in (2, 4, 8, 16):
         value, error = deviations(f"simulation_cells={size}")
@@ -243,7 +243,7 @@ def test_flux_and_jumps_within() -> None:
     near = [np.abs(theory.axes["x"] - place).argmin() for place in (1 / 30, 1)]
     value, largest = flux[[1, -1], seen] - theory.mean[near, seen], theory.mean.max()
     check(
-        FUNCTIONS["C12"](DATA).other,
+        FUNCTIONS["C12"](DATA).alternative,
         value.ravel() / largest,
         error[[1, -1], seen].ravel() / largest,
         freedom=191,

@@ -100,7 +100,7 @@ def test_way_of_the_peak(apart: bool, odd: int) -> None:
     others = [slope("gaussian", *ends) for ends in ((1, -1), (2, -1), (0, -2))] + [rest] * apart
     error, error_of_rest = (0.01 * math.sqrt(2) / math.log(last / 0.0125) for last in (0.032, 0.02))
     assert (abs(rest - found) > 2 * math.hypot(error, error_of_rest)) == apart
-    for numbers in (evidence.literal, evidence.substance):
+    for numbers in (evidence.literal, evidence.intended):
         check(numbers, found, error, max(abs(other - found) for other in others), 511)
 
 
@@ -126,13 +126,19 @@ def damping(data: Known, panel: str, apart: bool) -> tuple[float, float, float]:
 def test_damping(apart: bool) -> None:
     data = pulses(apart)
     evidence = FUNCTIONS["C27"](data)
-    for numbers in (evidence.literal, evidence.substance):
+    for numbers in (evidence.literal, evidence.intended):
         check(numbers, *damping(data, "fig09a", apart), freedom=511)
     check(FUNCTIONS["C28"](data).literal, *damping(data, "fig09b", apart), freedom=511)
     value, error = of("ext03", "long", "damping_exponent", data)
     later, _ = of("ext03", "long", "damping_exponent_from", data)
     others = [*later[1 : len(later) // 2 + 1], -ext03.damping(data.one("ext03", "long"), above=True).exponent]
-    check(evidence.other, value, error, max(abs(other - value) for other in others), freedom("ext03", "long"))
+    check(
+        evidence.alternative,
+        value,
+        error,
+        max(abs(other - value) for other in others),
+        freedom("ext03", "long"),
+    )
 
 
 def one_fit_off(k: int) -> Fill:
@@ -160,7 +166,7 @@ def test_which_fits_bound_the_damping() -> None:
             evidence = FUNCTIONS[claim](data)
             assert [one.systematic for one in evidence.literal] == pytest.approx([0.2 * (k in of_pulse)])
             if of_sound:
-                (found,) = evidence.other
+                (found,) = evidence.alternative
                 above = ext03.damping(data.one("ext03", "long"), above=True).exponent
                 assert found.systematic == pytest.approx(max(0.2 * (k in of_sound), abs(0.6 + above)))
 

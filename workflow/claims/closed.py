@@ -34,8 +34,8 @@ def persistence(data: Data) -> Evidence:
     paper = data.of("fig05", particles_per_cell=20)
     limits = [one for one in paper if one.parameters["sigma"] in (-1, 0, 1)]
     dense = data.of("fig05", particles_per_cell=320)
-    literal, substance, other = ([_from_law(one) for one in runs] for runs in (limits, dense, paper))
-    return Evidence(literal, substance, other)
+    literal, intended, alternative = ([_from_law(one) for one in runs] for runs in (limits, dense, paper))
+    return Evidence(literal, intended, alternative)
 
 
 def _from_law(result: Result) -> Number:
@@ -78,7 +78,7 @@ def spreading_half(data: Data) -> Evidence:
     zero = _named(data.of("ext01", sigma=0.5, zero_total_momentum=True), "alpha", "α at zero total momentum")
     return Evidence(
         [with_systematic(number(data.of("fig07")[0], "alpha", label="α, σ = 0.5, a mean slope"), aged)],
-        other=zero,
+        alternative=zero,
         caveat=f"What is measured is judged here, what it is taken for in C20. {_without_drift(zero)}",
     )
 
@@ -89,8 +89,8 @@ def spreading_zero(data: Data) -> Evidence:
     dense = data.of("ext01", sigma=0, zero_total_momentum=False, particles_per_cell=80)
     return Evidence(
         [with_systematic(number(result, "alpha", label="α, σ = 0"), aged)],
-        other=_named(dense, "alpha", "α, n = 80"),
-        caveat="What is measured is judged here, what it is taken for in C20. The other reading is a chain of 80 particles per cell over the same time.",
+        alternative=_named(dense, "alpha", "α, n = 80"),
+        caveat="What is measured is judged here, what it is taken for in C20. The alternative reading is a chain of 80 particles per cell over the same time.",
     )
 
 
@@ -104,7 +104,7 @@ def _without_drift(zero: list[Number]) -> str:
 
 
 def superdiffusive(data: Data) -> Evidence:
-    """alpha for every sigma but 0, with the paper's random total momentum; in substance without."""
+    """alpha for every sigma but 0, with the paper's random total momentum; intended meaning: without."""
     runs = [one for one in data.of("fig07_inset") if one.parameters["sigma"]]
     free, zero = (
         _named([one for one in runs if one.parameters["zero-total-momentum"] == given], "alpha", name)
@@ -151,7 +151,7 @@ def ageing(data: Data) -> Evidence:
     )
     return Evidence(
         steady,
-        other=[last],
+        alternative=[last],
         caveat=f"Observed up to t = {10 * slope.axes['decade'][-1]:g}; the paper does not say when it saturates.",
     )
 

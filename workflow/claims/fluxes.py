@@ -76,7 +76,7 @@ def gaussian_only_if(data: Data) -> Evidence:
         [*_departures(unequal, ", σ = 1/2"), *_departures(exchange, ", σ = 0")],
         _departures(unequal, ", σ = 1/2"),
         _departures(equal, ", equal T"),
-        caveat="`Only if` is judged; `if` is the other reading, at equal temperatures and unequal rates.",
+        caveat="`Only if` is judged; `if` is the alternative reading, at equal temperatures and unequal rates.",
     )
 
 
@@ -128,8 +128,8 @@ def deviations_small(data: Data) -> Evidence:
     return Evidence(
         [*bins, *_at_zero(table, "simulation", known)],
         bins,
-        other=_bins(table, known, False),
-        caveat="In the normalisation printed, with the mean of both rates, F integrates to 1; relative to max F in the other reading. "
+        alternative=_bins(table, known, False),
+        caveat="In the normalisation printed, with the mean of both rates, F integrates to 1; relative to max F in the alternative reading. "
         f"Marginal: at p = 0 itself {_largest_at_zero(table, 2):.2e} is reached at N = 2 in mean field.",
     )
 
@@ -140,7 +140,7 @@ def deviations_at_16(data: Data) -> Evidence:
     theory = table[table.kind == "mean field"].absolute_as_printed.abs().max()
     return Evidence(
         _bins(table, known, True),
-        other=_bins(table, known, False),
+        alternative=_bins(table, known, False),
         caveat=f"In mean field the largest deviation of a bin is {theory:.2e} as printed, and {_largest_at_zero(table, 16):.2e} at p = 0.",
     )
 
@@ -159,8 +159,8 @@ def deviations_vanish(data: Data) -> Evidence:
     )
     return Evidence(
         [exponent],
-        other=every_scatterer,
-        caveat=f"At γ = 1. χ² of the power law {law.chi_square:.1f} with {law.freedom} degrees of freedom. The other reading is one chain at γ = N.",
+        alternative=every_scatterer,
+        caveat=f"At γ = 1. χ² of the power law {law.chi_square:.1f} with {law.freedom} degrees of freedom. The alternative reading is one chain at γ = N.",
     )
 
 

@@ -151,8 +151,8 @@ def halves(by_size: Sequence[T]) -> list[Sequence[T]]:
 
 
 def cube_root(data: Data) -> Evidence:
-    """Of the smaller and of the larger half of fig. 8's sizes, which a power law has in common; in substance between the largest
-    sizes; at fixed spacing in the other reading: of the conductivity without a particle current, and between the largest sizes."""
+    """Of the smaller and of the larger half of fig. 8's sizes, which a power law has in common; intended meaning: between the largest
+    sizes; alternative reading, at fixed spacing: of the conductivity without a particle current, and between the largest sizes."""
     runs = [one for one in sizes(data, "N") if one.parameters["cells"] >= BULK]
     _, law = exponent(runs, f"fig. 8, γ = N, {BULK} cells or more")
     last, fitted = last_exponents(data), laws(data)
