@@ -62,14 +62,14 @@ def heat(claims: Claims) -> Sentence:
         f"Heat: κ ∼ N at γ = 1 is {rare.outcome.value}. At γ = N, where every scatterer scatters, κ ∼ N^(1/3) is "
         f"{deterministic.outcome.value} at the paper's spacing 1/N (C24), where size and density change "
         f"together{_through(deterministic)}.{_at_fixed_density(deterministic)}",
-        [_worst(rare.deciding), *_exponents(deterministic), *filter(None, [deterministic.remark])],
+        [_worst(rare.deciding), *_exponents(deterministic)],
         ["fig08", "ext09", "ext02", "ext11", "ext12", "ext13"],
     )
 
 
 def _through(judgement: Judgement) -> str:
     """Whether the exponent is above the band in smaller and below it in larger chains."""
-    readings = [one for one in (judgement.literal, judgement.intended) if one]
+    readings = [one for one in (judgement.literal,) if one]
     intervals = [(number.interval(one.share), one.band) for one in readings for number in one.numbers]
     above = any(low > band.high for (low, _), band in intervals)
     below = any(high < band.low for (_, high), band in intervals)
@@ -77,15 +77,8 @@ def _through(judgement: Judgement) -> str:
 
 
 def _at_fixed_density(judgement: Judgement) -> str:
-    fixed = judgement.alternative
-    if not fixed:
-        return ""
-    grows = min(one.interval(fixed.share)[0] for one in fixed.numbers) > 0
-    growth = (
-        ": κ grows up to the longest chains, as is expected of chains that conserve momentum" if grows else ""
-    )
-    limit = ", and a limit that is approached as N^(-1/3) is rejected" if grows and judgement.remark else ""
-    return f" At fixed density it is {fixed.outcome.value}{growth}{limit}."
+    fixed = judgement.intended
+    return f" At fixed density it is {fixed.outcome.value}." if fixed else ""
 
 
 def _exponents(judgement: Judgement) -> list[str]:
