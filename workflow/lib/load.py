@@ -104,6 +104,13 @@ class Result:
             raise FormatError(f"{self.path} has no quantity {name}; did you mean {near}? There are {there}")
         return self.quantities[name]
 
+    def to_xarray(self) -> "xarray.DataTree":
+        """A Dataset of every quantity, by its name; the parameters are the attributes."""
+        import xarray  # noqa: PLC0415
+
+        datasets = {name: quantity.to_xarray() for name, quantity in self.quantities.items()}
+        return xarray.DataTree.from_dict({"/": xarray.Dataset(attrs=self.parameters), **datasets})
+
     @property
     def converged(self) -> str:
         """Of the target error: reached, not reached, or no target."""
