@@ -10,7 +10,6 @@ import pytest
 
 from tests.python.conftest import ROOT
 from workflow.figures.ext02 import definitions, glide, local, otherwise
-from workflow.figures.ext03 import deviation
 from workflow.lib.caption import goodness, listed, number, parameters, replicas
 from workflow.lib.load import Quantity, Result
 
@@ -121,15 +120,3 @@ def test_what_a_definition_changes_is_told_at_both_ends() -> None:
     found = pd.DataFrame({"size": [23.0, 90.0], "exponent": [0.3, 0.3]})
     found["exponent_particle"], found["exponent_baths"] = [0.35, 0.28], [0.2, 0.31]
     assert definitions(found) == "0.10 about N = 23 and 0.02 about N = 90"
-
-
-def test_a_wrong_exponent_of_correlated_differences_is_told() -> None:
-    """Differences of independent values: chi^2 about their mean difference is that of the values' own law."""
-    random = np.random.default_rng(5)
-    heights = np.cumsum(np.full((4000, 6), 0.7), axis=1) + random.normal(0, 0.1, (4000, 6))
-    errors = np.full(5, 0.1 * np.sqrt(2))
-    right, wrong = (
-        np.array([deviation(one, errors, expected)[0] for one in np.diff(heights)]) for expected in (0.7, 0.5)
-    )
-    assert abs(right.mean() - 5) < 4 * np.sqrt(10 / 4000)
-    assert wrong.mean() > 15
