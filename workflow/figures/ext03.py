@@ -110,7 +110,7 @@ RATIOS: list[tuple[str, Callable[[Record], float], str, str, str]] = [
     ("peak_width", lambda one: 2 * HALF_WIDTH * (one.gas.self_coupling * one.time) ** (2 / 3) / one.gas.cell_length,
      "s", style.VERMILLION, "width"),
     ("peak_area", lambda one: one.gas.peak_area * one.gas.cell_length, "^", style.ORANGE, "area"),
-    ("centroid", lambda one: one.mobile.sound_speed_in_cells * one.time, "D", style.GREEN, "distance"),
+    ("centroid", lambda one: one.mobile.sound_speed_in_cells * one.time, "D", style.GREEN, "speed"),
 ]  # fmt: skip
 
 
@@ -148,6 +148,7 @@ def draw_ratios(axes: Axes, table: pd.DataFrame) -> None:
                           label=None if k else label, **look)  # fmt: skip
     axes.axhline(1, **style.GUIDE)
     axes.set(xscale="log", xlabel="time $t$", ylabel="measured / predicted", ylim=(0.8, 1.25))
+    style.label_within_decades(axes.xaxis)
     axes.legend(loc="upper left", ncols=2, columnspacing=1)
 
 
@@ -188,7 +189,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         T = {listed(sorted({number(one.parameters["temperature"]) for one in results}))}, {replicas(results)}; lines: mode coupling without a
         fitted parameter. (a) Sound: covariance C_g of the momenta of two cells at ζ = {number(gas.zeta)}, M = {number(gas.mass)}.
         (b) Heat: covariance C_h of E_s − E_p/2ζ, energies of scatterer and particles, where particles slower than
-        λ/t count as frozen. (c) Height, width at half height, area, and distance of the centre of mass of the sound peak over theory; filled
+        λ/t count as frozen. (c) Height, width at half height, area, and speed (centre of mass over t) of the sound peak over theory; filled
         as in (a), open: ζ = {number(other.zeta)}, M = {number(other.mass)}. At the end: height {last(table, "peak", gas)} and
         {last(table, "peak", other)}, area {last(table, "peak_area", gas)} and {last(table, "peak_area", other)}, heat
         {last(table, "heat_area", gas)} and {last(table, "heat_area", other)} of the area. Errors: standard errors over replicas."""
