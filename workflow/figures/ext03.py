@@ -25,6 +25,7 @@ FIRST = 16  # time from which a peak is wider than cells
 HALF_WIDTH = 0.880466  # of f_KPZ
 REACH = 3  # of the scaled profiles
 HEAT_REACH = 6
+BIN = 0.2  # of the scaled distances, over which profiles are averaged
 
 
 class Record(NamedTuple):
@@ -65,6 +66,13 @@ def records(results: Sequence[Result]) -> list[Record]:
     return [found[key] for key in sorted(found)]
 
 
+def binned(x: np.ndarray, y: np.ndarray, error: np.ndarray) -> pd.DataFrame:
+    """Means over the cells of every bin, whose errors are almost independent."""
+    cells = pd.DataFrame({"x": x, "y": y, "y_error": error**2}).groupby(np.floor(x / BIN))
+    found = cells.mean()
+    return found.assign(y_error=np.sqrt(found.y_error / cells.size())).reset_index(drop=True)
+
+
 def scaled_sound(record: Record) -> pd.DataFrame:
     """Peak of unit area about the distance ct, in units of (λ_s t)^(2/3) [eq. M19]."""
     x, y, error = record.profile("momentum_correlation")
@@ -72,7 +80,7 @@ def scaled_sound(record: Record) -> pd.DataFrame:
     per_area = unit / (record.gas.peak_area * record.gas.cell_length**2)
     offset = (x - record.gas.sound_speed * record.time) / unit
     near = np.abs(offset) < REACH
-    return pd.DataFrame({"x": offset, "y": per_area * y, "y_error": per_area * error})[near]
+    return binned(offset[near], per_area * y[near], per_area * error[near])
 
 
 def scaled_heat(record: Record) -> pd.DataFrame:
@@ -81,7 +89,7 @@ def scaled_heat(record: Record) -> pd.DataFrame:
     unit = (record.mobile.heat_spreading * record.time) ** (3 / 5)
     per_area = unit / (heat_area(record) * record.gas.cell_length)
     near = x < HEAT_REACH * unit
-    return pd.DataFrame({"x": x / unit, "y": per_area * y, "y_error": per_area * error})[near]
+    return binned(x[near] / unit, per_area * y[near], per_area * error[near])
 
 
 def heat_area(record: Record) -> float:

@@ -186,7 +186,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         "makes it grow as N. (b) Heat conductivity without particle current. (c) Its local exponents: "
         f"{measured['thinning']} at λ = 1/N, {measured['dense']} at λ = {spacing['dense']}. Lines: mode coupling, a + "
         f"(3A/λ)(τλN/c)^(1/3), with τ = {with_error(law.slope**3, 3 * law.slope**2 * law.error)} and a fitted at "
-        f"λ = {spacing['dense']} (χ² = {law.chi_square:.0f} for {law.freedom}). At λ = 1/N, where the gas thins out, it predicts "
+        f"λ = {spacing['dense']} (χ² = {law.chi_square:.0f} for {law.freedom}). At λ = 1/N it predicts "
         f"{slopes[0]:.2f} to {slopes[-1]:.2f}: exponents above 1/3 at small N are no evidence against 1/3.{crossed(table)}"
     )
     return figure, by_spacing(table, spacing), caption
