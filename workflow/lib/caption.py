@@ -10,11 +10,11 @@ from workflow.lib.load import Result
 
 SYMBOLS = {
     "cells": "N = {} cells",
-    "particles-per-cell": "n = {} particles per cell",
+    "particles-per-cell": "n = {} per cell",
     "cell-length": "λ = {}",
     "sigma": "σ = {}",
     "gamma": "γ = {}",
-    "temperature": "T = {} at the start",
+    "temperature": "T = {}",
     "nu-left": "ν_L = {}",
     "nu-right": "ν_R = {}",
     "temperature-left": "T_L = {}",
@@ -22,8 +22,8 @@ SYMBOLS = {
     "energy": "ε⁰ = {}",
     "pulse-energy": "ε̃ = {}",
     "start": "start {}",
-    "relaxation-time": "relaxed for t = {}",
-    "observation-time": "observed for t = {}",
+    "relaxation-time": "relaxed for {}",
+    "observation-time": "observed for {}",
 }
 CHAIN = ("cells", "cell-length", "sigma", "gamma")
 GAS = ("particles-per-cell", "temperature")
@@ -31,7 +31,7 @@ BATHS = ("nu-left", "nu-right", "temperature-left", "temperature-right")
 WINDOW = ("relaxation-time", "observation-time")
 
 SMALLEST_P = 1e-6  # that is written out
-ERRORS = "Errors are one standard deviation of the mean over independent replicas"
+ERRORS = "Error bars: standard errors over replicas."
 
 
 def number(value: float) -> str:
@@ -61,6 +61,15 @@ def parameters(results: Sequence[Result], *names: str) -> str:
         if values:
             said.append(SYMBOLS[name].format(listed([*map(number, numbers), *words])))
     return ", ".join(said)
+
+
+def baths(result: Result) -> str:
+    """baths ν = 220 and 180, T = 81.82 and 122.2, left and right; equal ones once."""
+    both = [
+        listed(dict.fromkeys(number(result.parameters[f"{name}-{end}"]) for end in ("left", "right")))
+        for name in ("nu", "temperature")
+    ]
+    return f"baths ν = {both[0]}, T = {both[1]}"
 
 
 def replicas(results: Sequence[Result]) -> str:

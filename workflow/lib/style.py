@@ -99,10 +99,10 @@ def apply() -> None:
         fonts.addfont(path)
 
 
-def letter(*panels: Axes, lift: float | None = None) -> None:
+def letter(*panels: Axes, lift: float | None = None, start: str = "a") -> None:
     """(a), (b), ... above the upper left corner of each. lift: height above the axes in points, the same for all, if one of
-    them has tick labels on top."""
-    for character, axes in zip(ascii_lowercase, panels, strict=False):
+    them has tick labels on top; start: the first letter."""
+    for character, axes in zip(ascii_lowercase[ascii_lowercase.index(start) :], panels, strict=False):
         axes.set_title(f"({character})", loc="left", y=None if lift is None else 1, pad=lift)
 
 
@@ -110,6 +110,13 @@ def guide_at(axes: Axes, value: float, name: str) -> None:
     """A guide across the panel, with its name on the right of the frame."""
     axes.axhline(value, **GUIDE)
     axes.annotate(name, (1.01, value), xycoords=("axes fraction", "data"), va="center", size=8)
+
+
+def second_axis(axes: Axes, factor: float, label: str) -> None:
+    """The y axis in another unit, on the right."""
+    axes.tick_params(axis="y", which="both", right=False)
+    other = axes.secondary_yaxis("right", functions=(lambda y: factor * y, lambda y: y / factor))
+    other.set_ylabel(label)
 
 
 def label_within_decades(axis: Axis) -> None:
