@@ -46,7 +46,9 @@ def heat(deterministic: Judgement) -> Sentence:
 def test_growth_at_fixed_density_is_told_if_every_spacing_shows_it() -> None:
     def at_fixed_density(value: float, remark: str = "") -> str:
         other = reading(kappa(0.2), kappa(value))
-        return heat(judgement("C24", other=other, remark=remark)).text.partition(" At fixed density ")[2]
+        return heat(judgement("C24", alternative=other, remark=remark)).text.partition(" At fixed density ")[
+            2
+        ]
 
     assert at_fixed_density(0.2) == (
         "it is contradicted: κ grows up to the longest chains, as is expected of chains that conserve momentum."
@@ -60,7 +62,7 @@ def test_growth_at_fixed_density_is_told_if_every_spacing_shows_it() -> None:
 def test_an_exponent_that_falls_through_the_band_is_told() -> None:
     def falls(*last: float) -> bool:
         numbers = judgement(
-            "C24", literal=reading(kappa(0.5), kappa(0.0)), substance=reading(*map(kappa, last))
+            "C24", literal=reading(kappa(0.5), kappa(0.0)), intended=reading(*map(kappa, last))
         )
         return "the exponent falls through 1/3" in heat(numbers).text
 
@@ -68,9 +70,9 @@ def test_an_exponent_that_falls_through_the_band_is_told() -> None:
     assert not falls(0.0)
 
 
-def test_numbers_stand_beside_what_is_admitted_or_the_reason_why_there_are_none() -> None:
-    given = judgement("C24", other=reading(kappa(0.2)), remark="how laws fit")
-    assert heat(given).numbers[-2:] == ["b: 0.200(10) (admitted −0.1 to 0.1)", "how laws fit"]
+def test_numbers_have_their_acceptance_band_or_the_reason_why_there_are_none() -> None:
+    given = judgement("C24", alternative=reading(kappa(0.2)), remark="how laws fit")
+    assert heat(given).numbers[-2:] == ["b: 0.200(10) (acceptance band −0.1 to 0.1)", "how laws fit"]
     nothing = Judgement(
         {"id": "C24", "quantity": "q", "paper": "p"}, Outcome.NOT_TESTABLE, caveat="Too few sizes."
     )
@@ -79,16 +81,16 @@ def test_numbers_stand_beside_what_is_admitted_or_the_reason_why_there_are_none(
 
 def test_the_kinetic_equation_is_told_for_both_couplings() -> None:
     far = reading(Number("γ = N, F_30", 0.2, 0.001))
-    *_, (text, numbers, _) = told(judgement("C12", other=far))
+    *_, (text, numbers, _) = told(judgement("C12", alternative=far))
     assert "that finite chains tend to it is reproduced" in text
     assert text.endswith("at γ = N: that a chain is within 1 % of it is contradicted.")
-    assert numbers[-1] == "γ = N, F_30: 0.2000(10) (admitted −0.1 to 0.1)"
+    assert numbers[-1] == "γ = N, F_30: 0.2000(10) (acceptance band −0.1 to 0.1)"
 
 
 def test_what_spreads_is_told_by_verdicts() -> None:
     plain = told()[3].text
     assert "that this is superdiffusion is reproduced; that only energy is conserved is reproduced." in plain
-    without_drift = judgement("C20", Outcome.CONTRADICTED, substance=reading(Number("α", 0.9, 0.001)))
+    without_drift = judgement("C20", Outcome.CONTRADICTED, intended=reading(Number("α", 0.9, 0.001)))
     found = told(without_drift, judgement("C22", Outcome.CONTRADICTED))[3].text
     assert "that this is superdiffusion is contradicted, as what is seen is the drift" in found
     assert found.endswith("that only energy is conserved is contradicted, as total momentum is too.")
@@ -96,7 +98,7 @@ def test_what_spreads_is_told_by_verdicts() -> None:
 
 def test_diffusion_is_told_with_the_relaxed_chain_first() -> None:
     other = reading(Number("t_r = 10", 0.94, 0.003), Number("t_r = 1000", 0.995, 0.003))
-    *_, without_drift = told(judgement("C18", other=other))[3].numbers
+    *_, without_drift = told(judgement("C18", alternative=other))[3].numbers
     assert without_drift == (
         "t_r = 1000: 0.9950(30); before the chain has relaxed 0.9400(30) (superdiffusion: −0.1 to 0.1)"
     )

@@ -18,12 +18,12 @@ from workflow.lib.plan import data_of, load_plan
 from workflow.report.misprints import NUMBERS
 
 CLAIMS = judge.read_claims(ROOT)
-READINGS = ("literal", "substance", "other")
-CLAIM = {"id": "C01", "literal": "-1 to 1", "substance": "-2 to 2", "other": ""}
+READINGS = ("literal", "intended", "alternative")
+CLAIM = {"id": "C01", "literal": "-1 to 1", "intended": "-2 to 2", "alternative": ""}
 
 
 def test_every_claim_is_there_once_and_has_a_judge() -> None:
-    assert [claim["id"] for claim in CLAIMS] == [f"C{number:02}" for number in range(1, 35)]
+    assert [claim["id"] for claim in CLAIMS] == [f"C{number:02}" for number in range(1, 36)]
     assert judge.FUNCTIONS.keys() == {claim["id"] for claim in CLAIMS}
     assert sum(len(module.CLAIMS) for module in judge.MODULES) == len(CLAIMS)
 
@@ -42,8 +42,8 @@ def test_rows_are_complete(claim: dict[str, str]) -> None:
     [
         lambda text: "garbage\n",
         lambda text: "",
-        lambda text: text.replace(",substance,", ",other,", 1),
-        lambda text: text[: text.rindex("\nC34") + 1],
+        lambda text: text.replace(",intended,", ",alternative,", 1),
+        lambda text: text[: text.rindex("\nC35") + 1],
         lambda text: text.replace("-0.1 to 0.1", "0.1 to -0.1", 1),
         lambda text: text.replace("C02", "C99", 1),
         lambda text: text.encode().replace(b"Changes", b"Chang\xe9s", 1),
@@ -87,12 +87,14 @@ def test_what_is_missing_is_not_testable(monkeypatch: pytest.MonkeyPatch) -> Non
     assert judgement.deciding is None
 
 
-def test_readings_share_the_level_and_the_other_one_does_not_count(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_readings_share_the_level_and_the_alternative_one_does_not_count(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     number = Number("", 1.5, 0.1)
     both = judged(monkeypatch, Evidence([number], [number]))
-    assert both.outcome is Outcome.IN_SUBSTANCE
-    assert both.deciding is both.substance
-    assert both.literal.level == both.substance.level == 0.025
+    assert both.outcome is Outcome.IN_MEANING
+    assert both.deciding is both.intended
+    assert both.literal.level == both.intended.level == 0.025
     alone = judged(monkeypatch, Evidence([number]))
     assert (alone.outcome, alone.literal.level) == (Outcome.CONTRADICTED, 0.05)
 

@@ -53,7 +53,7 @@ def test_typesetting() -> None:
 
 def test_bands_and_names_of_claims() -> None:
     bands = (Band(-0.5, 1), Band(0, math.inf), Band(-math.inf, -1))
-    assert [words.admitted(one) for one in bands] == ["−0.5 to 1", "above 0", "below −1"]
+    assert [words.acceptance(one) for one in bands] == ["−0.5 to 1", "above 0", "below −1"]
     assert words.linked("C03, C3 and AC030", "[{0}](#{1})") == "[C03](#c03), C3 and AC030"
     assert words.linked(words.typeset("a < b, C03"), "<a>{0}</a>") == "a &lt; b, <a>C03</a>"
 

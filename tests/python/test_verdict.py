@@ -120,11 +120,13 @@ R, S, C, U, N = Outcome
 
 
 @pytest.mark.parametrize(
-    ("literal", "substance", "outcome"),
+    ("literal", "intended", "outcome"),
     [(R, None, R), (C, None, C), (U, N, U), (R, R, R), (R, U, R), (R, C, C), (C, R, S), (U, R, S), (C, C, C), (C, U, U), (U, U, U), (U, C, C)],
 )  # fmt: skip
-def test_words_and_substance(literal: Outcome, substance: Outcome | None, outcome: Outcome) -> None:
-    assert combined(literal, substance) is outcome
+def test_literal_statement_and_intended_meaning(
+    literal: Outcome, intended: Outcome | None, outcome: Outcome
+) -> None:
+    assert combined(literal, intended) is outcome
 
 
 def test_bands_as_they_are_written() -> None:

@@ -9,14 +9,13 @@ from workflow.claims.verdict import Number
 
 @dataclass(frozen=True)
 class Evidence:
-    """literal: numbers for the words as they stand. substance: for what they mean. other: for another reading, which is told
-    and does not count. Each has its band in data/claims.csv. remark: what the answer tells beside the verdict, in a clause."""
+    """Numbers by reading, each with its acceptance band in data/claims.csv. The alternative reading is reported and does not
+    count."""
 
     literal: Sequence[Number]
-    substance: Sequence[Number] = ()
-    other: Sequence[Number] = ()
+    intended: Sequence[Number] = ()
+    alternative: Sequence[Number] = ()
     caveat: str = ""
-    remark: str = ""
 
 
 Claim = Callable[[Data], Evidence]

@@ -24,7 +24,7 @@ def stationary_above_front(data: Data) -> Evidence:
     later = range(1, len(result["plateau"].mean))
     return Evidence(
         [_rise(result, k - 1, k) for k in later],
-        other=changes,
+        alternative=changes,
         caveat=f"The paper states no spacing; judged at 1/N. From the first time to the last it rises at {' and at '.join(told)}.",
     )
 

@@ -14,7 +14,7 @@ from workflow.lib.configuration import ConfigurationError
 from workflow.lib.load import NOT_REACHED
 
 CLAIMS_FILE = "data/claims.csv"
-READINGS = ["literal", "substance", "other"]
+READINGS = ["literal", "intended", "alternative"]
 COLUMNS = ["id", "panel", "place", "quantity", "paper", "criterion", *READINGS]
 MODULES = (filling, profiles, fluxes, closed, growth, pulse)
 FUNCTIONS: dict[str, Claim] = {name: claim for module in MODULES for name, claim in module.CLAIMS.items()}
@@ -27,24 +27,23 @@ class Judgement:
     claim: Mapping[str, str]
     outcome: Outcome
     literal: Reading | None = None
-    substance: Reading | None = None
-    other: Reading | None = None
+    intended: Reading | None = None
+    alternative: Reading | None = None
     caveat: str = ""
-    remark: str = ""
     data: tuple[str, ...] = ()  # paths of the result files that it rests on
 
     @property
     def deciding(self) -> Reading | None:
-        """The reading that the verdict follows from. A claim is contradicted in its substance, if it has one."""
-        if self.substance and self.substance.outcome is self.outcome is Outcome.CONTRADICTED:
-            return self.substance
-        by_words = self.substance is None or self.literal is None or self.outcome is self.literal.outcome
-        return self.literal if by_words else self.substance
+        """The reading that the verdict follows from. A claim is contradicted in its intended meaning, if it has one."""
+        if self.intended and self.intended.outcome is self.outcome is Outcome.CONTRADICTED:
+            return self.intended
+        literally = self.intended is None or self.literal is None or self.outcome is self.literal.outcome
+        return self.literal if literally else self.intended
 
     @property
     def shown(self) -> Reading | None:
-        """The reading that a picture shows: where a claim holds in substance only, the words that do not hold."""
-        return self.literal if self.outcome is Outcome.IN_SUBSTANCE else self.deciding
+        """The reading that a picture shows: where only the intended meaning holds, the literal statement."""
+        return self.literal if self.outcome is Outcome.IN_MEANING else self.deciding
 
 
 def read_claims(root: Path) -> list[dict[str, str]]:
@@ -71,15 +70,15 @@ def judge(claim: Mapping[str, str], data: Data, level: float) -> Judgement:
         evidence = FUNCTIONS[claim["id"]](data)
     except MissingError as error:
         return Judgement(claim, Outcome.NOT_TESTABLE, caveat=f"{error}.")
-    judged = level / (2 if evidence.substance else 1)
-    literal, substance = (_reading(claim, evidence, name, judged) for name in ("literal", "substance"))
-    other = _reading(claim, evidence, "other", level)
-    by_words = literal.outcome if literal else Outcome.NOT_TESTABLE
-    outcome = combined(by_words, substance.outcome if substance else None)
+    judged = level / (2 if evidence.intended else 1)
+    literal, intended = (_reading(claim, evidence, name, judged) for name in ("literal", "intended"))
+    alternative = _reading(claim, evidence, "alternative", level)
+    literally = literal.outcome if literal else Outcome.NOT_TESTABLE
+    outcome = combined(literally, intended.outcome if intended else None)
     short = [path for path, result in data.used.items() if result.converged == NOT_REACHED]
     unconverged = [f"{len(short)} runs stopped before their target error."] if short else []
     caveat = " ".join([evidence.caveat, *unconverged]).strip()
-    return Judgement(claim, outcome, literal, substance, other, caveat, evidence.remark, tuple(data.used))
+    return Judgement(claim, outcome, literal, intended, alternative, caveat, tuple(data.used))
 
 
 def _reading(claim: Mapping[str, str], evidence: Evidence, name: str, level: float) -> Reading | None:

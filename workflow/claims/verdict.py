@@ -1,7 +1,7 @@
 """Rules by which numbers decide a claim. Pure functions: data come in as numbers, verdicts go out.
 
-A claim admits a band of values. What is measured is an interval: the value, plus and minus the systematic error and as
-many standard errors as the level asks for. The claim is reproduced if the interval lies inside the band, contradicted
+A claim has an acceptance band. A measurement is an interval: the value, plus and minus the systematic error and as
+many standard errors as the level requires. The claim is reproduced if the interval lies inside the band, contradicted
 if it lies outside, and undecided if it reaches across an edge. So neither verdict is wrong more often than the level.
 """
 
@@ -19,7 +19,7 @@ POWER = 0.95  # with which the deviation that is stated would have been seen
 
 class Outcome(StrEnum):
     REPRODUCED = "reproduced"
-    IN_SUBSTANCE = "reproduced in substance"
+    IN_MEANING = "reproduced in meaning"
     CONTRADICTED = "contradicted"
     UNDECIDED = "undecided at this precision"
     NOT_TESTABLE = "not testable"
@@ -62,7 +62,7 @@ class Number:
 
 @dataclass(frozen=True)
 class Band:
-    """Values that a claim admits."""
+    """Acceptance band of a claim."""
 
     low: float
     high: float
@@ -128,14 +128,14 @@ class Reading:
         return max(number.detectable(self.share) for number in self.numbers)
 
 
-def combined(literal: Outcome, substance: Outcome | None) -> Outcome:
-    """Of the words as they stand and of what they mean, where the two differ. What the words get right but the substance
-    does not is contradicted: a number may come out for another reason than the one claimed."""
-    if substance in (None, Outcome.NOT_TESTABLE):
+def combined(literal: Outcome, intended: Outcome | None) -> Outcome:
+    """Of the literal statement and the intended meaning, where they differ. A literal statement that holds is contradicted by a
+    refuted meaning: a number may come out for another reason than the one claimed."""
+    if intended in (None, Outcome.NOT_TESTABLE):
         return literal
-    if literal is Outcome.REPRODUCED and substance is not Outcome.CONTRADICTED:
+    if literal is Outcome.REPRODUCED and intended is not Outcome.CONTRADICTED:
         return literal
-    return Outcome.IN_SUBSTANCE if substance is Outcome.REPRODUCED else substance
+    return Outcome.IN_MEANING if intended is Outcome.REPRODUCED else intended
 
 
 def level_of_each(claims: int) -> float:

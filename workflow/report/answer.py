@@ -37,7 +37,7 @@ def verdicts(judgements: Sequence[Judgement], quality: str) -> Sentence:
     listed = ", ".join(f"{counts[one]} {one.value}{remark.get(one, '')}" for one in Outcome)
     return Sentence(
         f"Of {len(judgements)} claims, at quality {quality}: {listed}. The probability that noise makes any verdict wrong is at "
-        f"most {FAMILY_LEVEL:.0%}, given the bands that this report lets each claim admit: an interval is "
+        f"most {FAMILY_LEVEL:.0%}, given the acceptance bands in data/claims.csv: an interval is "
         "about four standard errors to either side."
     )
 
@@ -62,14 +62,14 @@ def heat(claims: Claims) -> Sentence:
         f"Heat: κ ∼ N at γ = 1 is {rare.outcome.value}. At γ = N, where every scatterer scatters, κ ∼ N^(1/3) is "
         f"{deterministic.outcome.value} at the paper's spacing 1/N (C24), where size and density change "
         f"together{_through(deterministic)}.{_at_fixed_density(deterministic)}",
-        [_worst(rare.deciding), *_exponents(deterministic), *filter(None, [deterministic.remark])],
+        [_worst(rare.deciding), *_exponents(deterministic)],
         ["fig08", "ext09", "ext02", "ext11", "ext12", "ext13"],
     )
 
 
 def _through(judgement: Judgement) -> str:
     """Whether the exponent is above the band in smaller and below it in larger chains."""
-    readings = [one for one in (judgement.literal, judgement.substance) if one]
+    readings = [one for one in (judgement.literal,) if one]
     intervals = [(number.interval(one.share), one.band) for one in readings for number in one.numbers]
     above = any(low > band.high for (low, _), band in intervals)
     below = any(high < band.low for (_, high), band in intervals)
@@ -77,20 +77,13 @@ def _through(judgement: Judgement) -> str:
 
 
 def _at_fixed_density(judgement: Judgement) -> str:
-    fixed = judgement.other
-    if not fixed:
-        return ""
-    grows = min(one.interval(fixed.share)[0] for one in fixed.numbers) > 0
-    growth = (
-        ": κ grows up to the longest chains, as is expected of chains that conserve momentum" if grows else ""
-    )
-    limit = ", and a limit that is approached as N^(-1/3) is rejected" if grows and judgement.remark else ""
-    return f" At fixed density it is {fixed.outcome.value}{growth}{limit}."
+    fixed = judgement.intended
+    return f" At fixed density it is {fixed.outcome.value}." if fixed else ""
 
 
 def _exponents(judgement: Judgement) -> list[str]:
-    """The numbers of all readings with what is admitted, or why there are none."""
-    readings = [one for one in (judgement.literal, judgement.substance, judgement.other) if one]
+    """The numbers of all readings with the acceptance band, or why there are none."""
+    readings = [one for one in (judgement.literal, judgement.intended, judgement.alternative) if one]
     return [_with_band(number, one.band) for one in readings for number in one.numbers] or [
         judgement.caveat.rstrip(".")
     ]
@@ -101,14 +94,14 @@ def particles(claims: Claims) -> Sentence:
     drift = (
         ", as what is seen is the drift of the particles with a random total momentum: without it they do not spread faster "
         "than by diffusion in the paper's ring of few cells"
-        if superdiffusive.substance and superdiffusive.substance.outcome is Outcome.CONTRADICTED
+        if superdiffusive.intended and superdiffusive.intended.outcome is Outcome.CONTRADICTED
         else ""
     )
     total = ", as total momentum is too" if conserved.outcome is Outcome.CONTRADICTED else ""
     return Sentence(
         f"Particles: that ⟨x²⟩ of a tagged particle grows with the paper's exponent over its times is {spreading.outcome.value}; that this "
         f"is superdiffusion is {superdiffusive.outcome.value}{drift}; that only energy is conserved is {conserved.outcome.value}{total}.",
-        [_worst(spreading.literal), _relaxed(spreading.other)],
+        [_worst(spreading.literal), _relaxed(spreading.alternative)],
         ["fig07", "ext01"],
     )
 
@@ -118,19 +111,19 @@ def _relaxed(reading: Reading | None) -> str:
     if not reading or reading.outcome is not Outcome.CONTRADICTED:
         return _worst(reading)
     *_, last = numbers = sorted(reading.numbers, key=lambda one: one.value)
-    return f"{words.told(last)}; before the chain has relaxed {words.value(numbers[0])} (superdiffusion: {words.admitted(reading.band)})"
+    return f"{words.told(last)}; before the chain has relaxed {words.value(numbers[0])} (superdiffusion: {words.acceptance(reading.band)})"
 
 
 def kinetic(claims: Claims) -> Sentence:
     limit, small = claims["C12"], claims["C10"]
     relative, deterministic = (
-        one.other.outcome.value if one.other else NOT_MEASURED for one in (small, limit)
+        one.alternative.outcome.value if one.alternative else NOT_MEASURED for one in (small, limit)
     )
     return Sentence(
         "Kinetic equation: at γ = 1, where a particle scatters about once on its way, that finite chains tend to it is "
         f"{limit.outcome.value}; that they differ by less than 0.1 % is {small.outcome.value} if F integrates to one, as is printed, and "
-        f"{relative} relative to the largest F. Another reading, at γ = N: that a chain is within 1 % of it is {deterministic}.",
-        [_worst(one) for one in (limit.deciding, small.deciding, small.other, limit.other)],
+        f"{relative} relative to the largest F. Alternative reading, at γ = N: that a chain is within 1 % of it is {deterministic}.",
+        [_worst(one) for one in (limit.deciding, small.deciding, small.alternative, limit.alternative)],
         ["fig03_inset", "fig04a", "fig04b"],
     )
 
@@ -141,4 +134,4 @@ def _worst(reading: Reading | None) -> str:
 
 
 def _with_band(number: Number, band: Band) -> str:
-    return f"{words.told(number)} (admitted {words.admitted(band)})"
+    return f"{words.told(number)} (acceptance band {words.acceptance(band)})"

@@ -19,7 +19,7 @@ from workflow.report.strip import strip_of
 
 HERE = Path(__file__).parent
 WIDE = 1.3  # columns of a journal beyond which a panel has a line of the page for itself
-READINGS = ("literal", "substance", "other")
+READINGS = ("literal", "intended", "alternative")
 
 
 def claim(judgement: Judgement, costs: Costs) -> dict[str, Any]:
@@ -32,7 +32,9 @@ def claim(judgement: Judgement, costs: Costs) -> dict[str, Any]:
         "ours": words.result(deciding) if deciding else "no data",
         "short": words.value(shown.worst) if shown else "no data",
         "label": shown.worst.label if shown else "",
-        "admitted": next((judgement.claim[name] for name, one in readings.items() if one is shown), ""),
+        "acceptance_band": next(
+            (judgement.claim[name] for name, one in readings.items() if one is shown), ""
+        ),
         "readings": [
             {
                 "name": words.READINGS[name],

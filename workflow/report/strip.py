@@ -1,4 +1,4 @@
-"""The picture of one claim in the summary: the band that the claim admits, and the numbers with their intervals."""
+"""The picture of one claim in the summary: the acceptance band, and the numbers with their intervals."""
 
 import math
 from collections.abc import Iterable

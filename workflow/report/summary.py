@@ -1,4 +1,4 @@
-"""The summary in one picture: every claim with what it admits, what was measured and the verdict."""
+"""The summary in one picture: every claim with its acceptance band, the measured values and the verdict."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -15,10 +15,10 @@ from workflow.report.strip import WIDTH, Strip
 LINE, TOP, BOTTOM = 0.31, 0.32, 0.42  # inches
 UP, DOWN, HALF = 0.2, 0.26, 0.24  # of the two lines of a row, and half the height of a band
 KEY = (
-    "Runs of the quality {quality}. Each row has its own scale. Grey: what the claim admits. Points: the numbers that were measured, with "
+    "Runs of the quality {quality}. Each row has its own scale. Grey: acceptance band. Points: measured values, with "
     "intervals in which they lie\nwith 95 % for all claims together, systematic errors included; orange diamonds: intervals wholly outside "
-    "the grey. Written is the number that decides,\nwith its name and what is admitted; of what is reproduced in substance, the number that "
-    "decides its words, which are not confirmed."
+    "the grey. The number shown decides the verdict,\nwith its name and acceptance band; of claims reproduced in meaning, the number that "
+    "decides the literal statement, which is not confirmed."
 )
 COLUMNS = {"quantity": 0.045, "paper": 0.315, "strip": 0.6, "short": 0.72, "verdict": 0.885}  # left ends
 # Characters that the font lacks.
@@ -26,7 +26,7 @@ RAISED = {ord(one): f"$^{number}$" for number, one in enumerate("⁰¹²³⁴⁵
 LOWERED = {ord(one): f"$_{number}$" for number, one in enumerate("₀₁₂₃₄₅₆₇₈₉")}
 COLORS = {
     Outcome.REPRODUCED: style.BLUE,
-    Outcome.IN_SUBSTANCE: "#2A7FA5",
+    Outcome.IN_MEANING: "#2A7FA5",
     Outcome.CONTRADICTED: style.VERMILLION,
     Outcome.UNDECIDED: "0.45",
     Outcome.NOT_TESTABLE: "0.45",
@@ -34,7 +34,7 @@ COLORS = {
 
 
 def draw_strip(axes: Axes, strip: Strip, height: float) -> None:
-    """The band that the claim admits, and the numbers with their intervals."""
+    """The acceptance band, and the numbers with their intervals."""
     low, high = strip.band
     axes.fill_between([low, high], height - HALF, height + HALF, color="0.86", linewidth=0)
     for first, value, last, outside in strip.points:
@@ -75,7 +75,7 @@ def draw(claims: Sequence[Mapping[str, Any]], quality: str) -> Figure:
         for name in ("quantity", "paper", "short"):
             text.text(COLUMNS[name], row - UP, typeset(claim[name]), size=7.5, va="center")
         if claim["label"]:
-            told = typeset(f"{claim['label']}; admitted {claim['admitted']}")
+            told = typeset(f"{claim['label']}; acceptance band {claim['acceptance_band']}")
             text.text(COLUMNS["strip"], row + DOWN, told, size=6.5, va="center", color="0.35")
         text.text(COLUMNS["verdict"], row - UP, outcome.name.replace("_", " ").lower(), size=7.5, va="center",
                   color=COLORS[outcome], weight="bold")  # fmt: skip

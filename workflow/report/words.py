@@ -11,12 +11,16 @@ from workflow.lib.fit import with_error
 
 SIGNS = {
     Outcome.REPRODUCED: "✓",
-    Outcome.IN_SUBSTANCE: "≈",
+    Outcome.IN_MEANING: "≈",
     Outcome.CONTRADICTED: "✗",
     Outcome.UNDECIDED: "?",
     Outcome.NOT_TESTABLE: "–",
 }
-READINGS = {"literal": "in words", "substance": "in substance", "other": "other reading, does not count"}
+READINGS = {
+    "literal": "literal statement",
+    "intended": "intended meaning",
+    "alternative": "alternative reading, does not count",
+}
 MOST = 10_000  # times the replicas that are foretold
 SMALLEST = -12  # power of ten; p-values below are not told apart
 
@@ -44,7 +48,7 @@ def linked(text: str, link: str) -> str:
     return type(text)(found)
 
 
-def admitted(band: Band) -> str:
+def acceptance(band: Band) -> str:
     """As in the table of claims."""
     low, high = (f"{edge:g}".replace("-", MINUS) for edge in (band.low, band.high))
     if math.isinf(band.high):
@@ -136,6 +140,6 @@ def consequence(judgement: Judgement) -> str:
     reading = judgement.deciding
     if reading is None:
         return ""
-    if judgement.outcome in (Outcome.REPRODUCED, Outcome.IN_SUBSTANCE):
+    if judgement.outcome in (Outcome.REPRODUCED, Outcome.IN_MEANING):
         return power(reading)
     return remedy(reading) if judgement.outcome is Outcome.UNDECIDED else ""
