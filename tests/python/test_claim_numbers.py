@@ -124,7 +124,14 @@ def test_exponents_and_drifts_of_every_sigma_but_0() -> None:
 
     evidence = FUNCTIONS["C21"](DATA)
     for numbers in (evidence.literal, evidence.intended):
-        check(numbers, *each("ext01", "alpha", *(run.name for run in DATA.plan["ext01"].runs if run.series.startswith("random"))))
+        check(
+            numbers,
+            *each(
+                "ext01",
+                "alpha",
+                *(run.name for run in DATA.plan["ext01"].runs if run.series.startswith("random")),
+            ),
+        )
 
 
 @pytest.mark.parametrize(("quality", "run", "first"), [("paper", "long", 0), ("standard", "energy", 2)])

@@ -88,9 +88,8 @@ def caption(runs: pd.DataFrame, results: Sequence[Result]) -> str:
     ranges = {name: extremes(part) for name, part in runs.groupby("kind")}
     return f"""
         Spreading of a tagged particle in a closed chain, {parameters(results, "cells", "cell-length", "temperature", "gamma")}, n particles per
-        cell, relaxed for t_r, {replicas(results)}. (a)–(c) Local slopes of ⟨x²⟩ with the paper's random total momentum, with zero total momentum,
-        and with directions drawn at random in every collision, which do not conserve momentum; n and t_r as in the middle below. Dashed: ballistic and
-        diffusive. (d)–(f) Exponent α without drift, fitted in the shaded window, from t = {number(fitted)} on. For σ ≠ 0, α is {ranges[PAPER]} in the
+        cell, relaxed for t_r, {replicas(results)}. (a)–(c) Local slopes of ⟨x²⟩ for the paper's n and the longest t_r; random directions,
+        drawn in every collision, do not conserve momentum. Dashed: ballistic, diffusive. (d)–(f) Exponent α fitted in the shaded window, from t = {number(fitted)} on. For σ ≠ 0, α is {ranges[PAPER]} in the
         paper's ensemble, {ranges[ZERO]} with zero total momentum and {ranges[RANDOM]} with random directions: the superdiffusion is drift. {ERRORS}"""
 
 
@@ -109,7 +108,9 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         above.text(0.05, 0.92, rf"$\sigma = {sigma:g}$", transform=above.transAxes, va="top")
         for axes, value in ((above, 1), (above, 2), (below, 1)):
             axes.axhline(value, **style.GUIDE)
-    rows[0, 0].set(xlabel=f"time $t$ ({style.UNITS})", ylabel=r"$d\ln\langle x^2\rangle/d\ln t$", ylim=(0.6, 2.4))
+    rows[0, 0].set(
+        xlabel=f"time $t$ ({style.UNITS})", ylabel=r"$d\ln\langle x^2\rangle/d\ln t$", ylim=(0.6, 2.4)
+    )
     rows[1, 0].set_ylabel(r"$\alpha$ without drift")
     style.letter(*rows.flat)
     figure.legend(*rows[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
@@ -118,4 +119,6 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 
 if __name__ == "__main__":
-    run(draw, "Spreading of a tagged particle with and without conserved momentum", slope="1", slope_error="1")
+    run(
+        draw, "Spreading of a tagged particle with and without conserved momentum", slope="1", slope_error="1"
+    )

@@ -62,9 +62,7 @@ def draw_number(axes: Axes, table: pd.DataFrame, result: Result) -> None:
 
 def draw_slopes(axes: Axes, table: pd.DataFrame, result: Result) -> None:
     between = np.sqrt(table.time * table.time.shift(-1))
-    axes.errorbar(
-        between, table.slope_to_next, table.slope_to_next_error, label="slope of $n(t)$", **NUMBER
-    )
+    axes.errorbar(between, table.slope_to_next, table.slope_to_next_error, label="slope of $n(t)$", **NUMBER)
     plateau = result["plateau"]
     axes.errorbar(plateau.axes["time"], plateau.mean, plateau.error, **HEIGHT)
     axes.set(xlabel=f"time $t$ ({style.UNITS})", ylabel=r"$dn/d\ln t$")

@@ -116,7 +116,9 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         f"{with_error(one.amplitude, one.error)} at N = {one.cells:.0f}"
         for one in amplitudes(table).iloc[[0, -1]].itertuples()
     )
-    mean_field = table[table.kind == MEAN_FIELD].groupby("cells").absolute_as_printed.agg(lambda x: x.abs().max())
+    mean_field = (
+        table[table.kind == MEAN_FIELD].groupby("cells").absolute_as_printed.agg(lambda x: x.abs().max())
+    )
     return f"""
         Chains of N cells against the kinetic equation, particles that leave; {parameters(runs, "cell-length", "sigma", "gamma")},
         {baths(runs[0])}, {parameters(runs, *WINDOW)}, {replicas(runs)}. (a), (b) F_N − F at both ends; lines: mean field, the
@@ -141,4 +143,6 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 if __name__ == "__main__":
     pure = dict.fromkeys(("deviation", "error", "amplitude", "amplitude_error"), "1")
-    run(draw, "Deviation of finite chains from the kinetic equation", absolute_as_printed="1/momentum", **pure)
+    run(
+        draw, "Deviation of finite chains from the kinetic equation", absolute_as_printed="1/momentum", **pure
+    )

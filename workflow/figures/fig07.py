@@ -57,9 +57,9 @@ def caption(random: pd.DataFrame, results: Sequence[Result], window: tuple[float
     return f"""
         Spreading of a tagged particle in a closed chain, {parameters(results, *CHAIN, *GAS, "relaxation-time")}, {replicas(results)}.
         (a) Mean square displacement with random total momentum, as in the paper, and with zero total momentum; line: centre of
-        mass, random total momentum; dashed: t and t². (b) Local exponents. In the shaded window, t = {number(window[0])} to {number(window[1])}, α =
-        {alpha[False]} with random total momentum, slightly below two as in the paper. It is not superdiffusion but drift of the centre of mass,
-        {with_error(100 * last.share, 100 * last.share_error)} % at the end, as the total momentum is conserved. {without} {ERRORS}"""
+        mass of the former; dashed: t and t². (b) Local exponents. In the shaded window, t = {number(window[0])} to {number(window[1])}, the former has α =
+        {alpha[False]}, slightly below two as in the paper. It is not superdiffusion but drift of the centre of mass,
+        {with_error(100 * last.share, 100 * last.share_error)} % at the end. {without} {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

@@ -57,7 +57,9 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     table = pd.DataFrame(rows).sort_values("cells", ignore_index=True)
     for _, part in table[table.usable].groupby(["gamma", "drive"]):
         local = local_exponents(part.cells, part.kappa, part.kappa_error)
-        for column, values in zip(("between", "exponent_to_next", "exponent_to_next_error"), local, strict=True):
+        for column, values in zip(
+            ("between", "exponent_to_next", "exponent_to_next_error"), local, strict=True
+        ):
             table.loc[part.index[:-1], column] = values
     return table
 
@@ -105,9 +107,20 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     left.errorbar(strong.cells, strong.kappa, strong.kappa_error, label=label, **STRONG)
     right.errorbar(strong.between, strong.exponent_to_next, strong.exponent_to_next_error, **STRONG)
     blue = style.BY_GAMMA["N"][1]
-    left.plot(theory.cells, theory.mean_field_kappa, color=blue, linestyle="dashed", label=r"$\gamma = N$, mean field")
+    left.plot(
+        theory.cells,
+        theory.mean_field_kappa,
+        color=blue,
+        linestyle="dashed",
+        label=r"$\gamma = N$, mean field",
+    )
     style.cross_out(left, table.cells.to_numpy(), table.kappa.to_numpy(), ~table.usable.to_numpy(dtype=bool))
-    left.set(xscale="log", yscale="log", xlabel="number of cells $N$", ylabel=rf"conductivity $\kappa$ ({style.UNITS})")
+    left.set(
+        xscale="log",
+        yscale="log",
+        xlabel="number of cells $N$",
+        ylabel=rf"conductivity $\kappa$ ({style.UNITS})",
+    )
     right.set(xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$")
     low, high = left.get_xlim()
     left.set_xlim(low, 1.6 * high)  # room for the names of the guides
@@ -120,4 +133,9 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 if __name__ == "__main__":
     pure = dict.fromkeys(("drive", "exponent_to_next", "exponent_to_next_error"), "1")
-    run(draw, "Heat conductivity against the size of the chain", mean_field_kappa="energy/(time temperature)", **pure)
+    run(
+        draw,
+        "Heat conductivity against the size of the chain",
+        mean_field_kappa="energy/(time temperature)",
+        **pure,
+    )

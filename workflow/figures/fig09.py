@@ -109,19 +109,19 @@ def pulse(results: Sequence[Result]) -> str:
     names = parameters(results, "particles-per-cell", "energy", "pulse-energy")
     time = listed(number(result.parameters["relaxation-time"]) for result in results if start(result) == 0)
     return f"""{parameters(results, *CHAIN)}, {names} per degree of freedom, {replicas(results)}. Start from scatterers at rest, as in the
-        paper, relaxed for {time} (our choice), or from Gaussian momenta"""
+        paper, relaxed for {time} (our choice), or Gaussian momenta"""
 
 
 def caption(results: Sequence[Result]) -> str:
     rest = results[0]["peak_speed"]
     known = np.flatnonzero(np.isfinite(rest.mean))
     ends = [style.with_error(rest, k) for k in known[[0, -1]]] if len(known) else []
-    speed = "from {} to {} cells per unit time".format(*ends) if ends else "at a speed that is not resolved"
-    spike = "The spike is the central scatterer. " * (style.gamma(results[0]) == "1")
+    speed = "from {} to {}".format(*ends) if ends else "at a speed that is not resolved"
+    spike = "Spike: central scatterer. " * (style.gamma(results[0]) == "1")
     return f"""
-        Energy ΔE(x, t) per cell of a ring with a pulse in the central cell minus that without; {pulse(results)}. (a), (b) ΔE,
-        bands: errors. {spike}(c) Position of the moving peak; dashed: constant speed. (d) Speed between neighbouring times. Faint: ΔE
-        opposite to the pulse above {number(100 * CLOSED)} % of its maximum. As in the paper two peaks move apart symmetrically; from rest
+        Energy ΔE(x, t) per cell of a ring with a pulse in the central cell minus without; {pulse(results)}. (a), (b) ΔE.
+        {spike}(c) Position of the moving peak; dashed: constant speed. (d) Speed between neighbouring times. Faint: ring closed, ΔE
+        opposite to the pulse above {number(100 * CLOSED)} %. As in the paper two peaks move apart; from rest
         their speed goes {speed}. {ERRORS}"""
 
 

@@ -55,7 +55,9 @@ def by_octave(result: Result) -> pd.DataFrame:
 def draw_peaks(axes: Axes, result: Result, table: pd.DataFrame) -> None:
     values = (table.peak.to_numpy() / 1e3, table.peak_error.to_numpy() / 1e3)
     closed = table.ring_closed.to_numpy()
-    draw_marked(axes, table.time.to_numpy(), values, closed, label=STARTS[start(result)][3], **look_of(result))
+    draw_marked(
+        axes, table.time.to_numpy(), values, closed, label=STARTS[start(result)][3], **look_of(result)
+    )
 
 
 def draw_exponents(axes: Axes, result: Result) -> None:
@@ -67,7 +69,9 @@ def draw_exponents(axes: Axes, result: Result) -> None:
 
 def caption(results: Sequence[Result]) -> str:
     octaves = by_octave(results[0]).dropna()
-    exponents = listed(with_error(one.octave_exponent, one.octave_exponent_error) for one in octaves.itertuples())
+    exponents = listed(
+        with_error(one.octave_exponent, one.octave_exponent_error) for one in octaves.itertuples()
+    )
     slope, _, name = SLOPES[results[0].parameters["gamma"]]
     return f"""
         Damping of the moving peak of an energy pulse, runs of fig. 9: {pulse(results)}. (a) Height of the peak, from a smooth fit above
