@@ -10,9 +10,9 @@ from workflow.claims.data import Data, MissingError, combination, number, where_
 from workflow.claims.evidence import Claim, Evidence
 from workflow.claims.growth import equilibrium, exponent, largest_sizes, sizes
 from workflow.claims.verdict import Number, with_systematic
-from workflow.figures import fig10
-from workflow.figures.fig09 import gaussian_start, start
-from workflow.lib.fit import with_error
+from workflow.figures.fig09 import gaussian_start, ring_closed, start
+from workflow.lib.caption import goodness
+from workflow.lib.fit import rejected, with_error
 from workflow.lib.load import Index, Quantity, Result
 
 APART = 2  # standard errors
@@ -119,7 +119,7 @@ def speed_falls(data: Data) -> Evidence:
 
 def _slowing(result: Result, name: str) -> Number:
     speed = result["peak_speed"]
-    known = np.flatnonzero(np.isfinite(speed.mean))
+    known = np.flatnonzero(speed.mean > 0)
     if len(known) < 2:
         raise MissingError("too few times with a moving peak")
     first, last = (number(result, "peak_speed", k) for k in known[[0, -1]])
@@ -173,10 +173,23 @@ def _later(fitted: Quantity) -> list[float]:
     return [float(one) for one in fitted.mean[1 : len(fitted.mean) // 2 + 1]]
 
 
+def _drift(result: Result) -> tuple[bool, str]:
+    """Whether the exponent changes with ln t by more than chance, and what to say of it."""
+    if ring_closed(result).any():
+        return False, "may change unseen, as the ring has closed"
+    change = result["damping_drift"]
+    value, error = float(change.mean), float(change.error)
+    if not np.isfinite(value):
+        return False, "may change unseen, over too few octaves"
+    chi_square = (value / error) ** 2
+    told = f"changes by {with_error(value, error)} per unit of ln t, {goodness(chi_square, 1)}"
+    return rejected(chi_square, 1), told
+
+
 def damping_exponent(data: Data, panel: str) -> Number:
     """Fits that leave out up to half of the times, and the other start, bound the systematic error."""
     result = _pulse(data, panel)
-    drifts, _ = fig10.drift(result)
+    drifts, _ = _drift(result)
     label = "damping exponent, Gaussian start" + (", a mean slope" if drifts else "")
     found = number(result, "damping_exponent", label=label)
     rest = number(_from_rest(data, panel), "damping_exponent")
@@ -187,7 +200,7 @@ def _other_fits(data: Data, panel: str) -> str:
     result = _pulse(data, panel)
     fitted = result["damping_exponent_from"]
     half = len(fitted.mean) // 2
-    drifts, change = fig10.drift(result)
+    drifts, change = _drift(result)
     found, rest = (number(one, "damping_exponent") for one in (result, _from_rest(data, panel)))
     return (
         f"{'No power of t describes' if drifts else 'A power of t describes'} the height: its exponent {change}. Fitted from "

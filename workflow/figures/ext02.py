@@ -4,6 +4,7 @@ definitions of the temperature difference."""
 from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
+import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
@@ -22,7 +23,7 @@ DEFINITIONS = {"": "$T_1$, $T_N$", "_particle": "arriving particles", "_baths": 
 
 def local(part: pd.DataFrame) -> pd.DataFrame:
     """Between neighbouring sizes of one spacing, for each definition of kappa."""
-    found = {}
+    found: dict[str, np.ndarray] = {}
     for name in DEFINITIONS:
         middle, slope, error = local_exponents(part.cells, part[f"kappa{name}"], part[f"kappa{name}_error"])
         found |= {"size": middle, f"exponent{name}": slope, f"exponent{name}_error": error}

@@ -50,6 +50,12 @@ def by_spacing(table: pd.DataFrame, spacing: Mapping[str, str]) -> pd.DataFrame:
     return table.assign(gas=table.gas.map(spacing)).rename(columns={"gas": "spacing"})
 
 
+def drop_per_cell(result: Result) -> float:
+    """Of the temperature, from the left bath to the right one."""
+    left, right = (float(result.parameters[f"temperature-{side}"]) for side in ("left", "right"))
+    return (left - right) / int(result.parameters["cells"])
+
+
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     """One row per run, sorted by N. kappa_baths has the temperatures of the baths in place of T_1 and T_N."""
     rows = []
@@ -57,10 +63,9 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         row = {"gas": gas(result), "cells": int(result.parameters["cells"])}
         for name in ("kappa", "kappa_particle", "energy_current", "particle_current"):
             row[name], row[f"{name}_error"] = float(result[name].mean), float(result[name].error)
-        left, right = (float(result.parameters[f"temperature-{side}"]) for side in ("left", "right"))
-        per_current = row["cells"] / (left - right)
-        row["kappa_baths"] = per_current * row["energy_current"]
-        row["kappa_baths_error"] = abs(per_current) * row["energy_current_error"]
+        current, per_current = result["energy_current"], 1 / drop_per_cell(result)
+        row["kappa_baths"] = per_current * float(current.mean)
+        row["kappa_baths_error"] = abs(per_current) * float(current.error)
         row["usable"] = result.sound
         rows.append(row)
     return pd.DataFrame(rows).sort_values("cells", ignore_index=True)

@@ -31,9 +31,9 @@ def tabulate(result: Result) -> pd.DataFrame:
         parts.append(frame[["time", "momentum", "weighted_density", "error"]].assign(bins=bins))
     table = pd.concat(parts)
     for name in ("front", "plateau"):
-        quantity = result[name]
-        for column, values in ((name, quantity.mean), (f"{name}_error", quantity.error)):
-            table[column] = table.time.map(dict(zip(quantity.axes["time"], values, strict=True)))
+        found = result[name]
+        for column, values in ((name, found.mean), (f"{name}_error", found.error)):
+            table[column] = table.time.map(dict(zip(found.axes["time"], values, strict=True)))
     table.insert(0, "cell_length", style.spacing(result)[0])
     return table
 

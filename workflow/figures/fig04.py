@@ -177,7 +177,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     style.second_axis(panels["main"], 1 / both_rates(results[0]), r"$F_N/(\nu_L + \nu_R)$")
     draw_residuals(panels["residual"], unequal)
     draw_jumps(panels["jump"], main)
-    place = {"transform": panels["main"].transAxes, "ha": "right"}
+    place: style.Look = {"transform": panels["main"].transAxes, "ha": "right"}
     panels["main"].text(0.95, 0.9, rf"$\gamma = {main.gamma.iloc[0]}$", **place)
     panels["near"].plot([], [], color=style.BLACK, linewidth=0.6, label="mean field")
     figure.legend(*panels["near"].get_legend_handles_labels(), loc="outside upper center", ncols=5)

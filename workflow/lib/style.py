@@ -115,7 +115,9 @@ def guide_at(axes: Axes, value: float, name: str) -> None:
 def second_axis(axes: Axes, factor: float, label: str) -> None:
     """The y axis in another unit, on the right."""
     axes.tick_params(axis="y", which="both", right=False)
-    other = axes.secondary_yaxis("right", functions=(lambda y: factor * y, lambda y: y / factor))
+    other = axes.secondary_yaxis(
+        "right", functions=(lambda y: np.multiply(factor, y), lambda y: np.divide(y, factor))
+    )
     other.set_ylabel(label)
 
 
