@@ -117,7 +117,7 @@ def caption(results: Sequence[Result]) -> str:
     known = np.flatnonzero(np.isfinite(rest.mean))
     ends = [style.with_error(rest, k) for k in known[[0, -1]]] if len(known) else []
     speed = "from {} to {}".format(*ends) if ends else "at a speed that is not resolved"
-    spike = "Spike: central scatterer. " * (style.gamma(results[0]) == "1")
+    spike = "Spike: central scatterer. " if results[0].parameters["gamma"] == 1 else ""
     return f"""
         Energy ΔE(x, t) per cell of a ring with a pulse in the central cell minus without; {pulse(results)}. (a), (b) ΔE.
         {spike}(c) Position of the moving peak; dashed: constant speed. (d) Speed between neighbouring times. Faint: ring closed, ΔE

@@ -69,9 +69,8 @@ def draw_exponents(axes: Axes, result: Result) -> None:
 
 def caption(results: Sequence[Result]) -> str:
     octaves = by_octave(results[0]).dropna()
-    exponents = listed(
-        with_error(one.octave_exponent, one.octave_exponent_error) for one in octaves.itertuples()
-    )
+    pairs = zip(octaves.octave_exponent, octaves.octave_exponent_error, strict=True)
+    exponents = listed(with_error(*pair) for pair in pairs) if len(octaves) else "not resolved"
     slope, _, name = SLOPES[results[0].parameters["gamma"]]
     return f"""
         Damping of the moving peak of an energy pulse, runs of fig. 9: {pulse(results)}. (a) Height of the peak, from a smooth fit above
