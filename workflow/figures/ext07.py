@@ -104,8 +104,8 @@ def caption(ageing: Sequence[Result], trend: Line, results: Sequence[Result]) ->
     return f"""
         Ageing of a closed chain that starts with scatterers at rest, {parameters(ageing[:1], *CHAIN, *GAS)}, {replicas(results)}. (a) Mean kinetic
         energy of a scatterer and of a particle. (b) Slope of the scatterers' energy against ln t, decade by decade: {first} in the first and {last} in the
-        last, where the paper has a logarithmic growth that saturates{"".join(few)}. (c) Exponent α of the spreading at zero total momentum against
-        the relaxation time; dotted: line in its logarithm, of slope {with_error(trend.slope, trend.error)}; dashed: diffusion. α < 1 reflects ageing. {ERRORS}"""
+        last, where the paper has logarithmic growth, then saturation{"".join(few)}. (c) Exponent α of the spreading at zero total momentum against
+        the relaxation time; dotted: line, slope {with_error(trend.slope, trend.error)}; dashed: diffusion. α < 1 reflects ageing. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
