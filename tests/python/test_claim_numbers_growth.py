@@ -184,8 +184,8 @@ def test_relation_of_pulse_and_conductivity(k: int, panel: str, sizes: list[int]
 
 def test_relation_of_sound_and_heat_in_equilibrium() -> None:
     """Of every gas, with the sound of the longest record; nothing without a record of sound."""
-    data = Known(SOME.fills | {"ext03": uneven})
-    (sound,) = FUNCTIONS["C27"](Known(data.fills | {"ext14": uneven})).alternative
+    data = Known({**SOME.fills, "ext03": uneven})
+    (sound,) = FUNCTIONS["C27"](Known({**data.fills, "ext14": uneven})).alternative
     heat, slope = equilibrium(data)[0], 1 / sound.value**2
     evidence = FUNCTIONS["C30"](data)
     assert len(heat) == 3
