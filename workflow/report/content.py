@@ -3,7 +3,7 @@
 import base64
 import re
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,9 +14,7 @@ from workflow.lib import style
 from workflow.lib.citation import citation
 from workflow.lib.configuration import read
 from workflow.lib.plan import Panel, Quality
-from workflow.provenance.checks import worst_error
-from workflow.report import words
-from workflow.report.numbers import NUMBERS
+from workflow.report import numbers, words
 from workflow.report.questions import answers
 from workflow.report.sources import Products, source_hashes
 from workflow.report.strip import strip_of
@@ -36,11 +34,9 @@ def content(quality: str, root: Path) -> dict[str, Any]:
         "answers": answers(judgements, data),
         "counts": [(words.SIGNS[one], counts[one], one.value) for one in Outcome if counts[one]],
         "claims": [claim(one) for one in judgements],
-        "findings": findings(judgements),
         "misprints": misprints(judgements, data),
         "terms": read(HERE, "terms.yaml").content,
         "panels": {name: panel(one, products) for name, one in data.plan.items()},
-        "environment": environment(products.records.values()),
         "citation": citation(root),
     }
     for path in data.used:
@@ -87,26 +83,8 @@ def panel(panel: Panel, products: Products) -> dict[str, Any]:
         "caption": record["caption"],
         "wide": bool(width and float(width[1]) / 72 > WIDE * style.COLUMN),
         "picture": base64.b64encode(svg.encode()).decode(),
-        "error": worst_error(products.quality, panel),
         "parents": record["parents"].inputs(),
     }
-
-
-def findings(judgements: Sequence[Judgement]) -> list[dict[str, Any]]:
-    """Those of findings.yaml that the data support."""
-    by_id = {one.claim["id"]: one for one in judgements}
-    held = []
-    for finding in read(HERE, "findings.yaml").content:
-        judgement = by_id[finding["claim"]]
-        reading = getattr(judgement, finding["reading"])
-        if reading and reading.outcome.value == finding["outcome"]:
-            text = finding["text"].format(
-                number=words.named(reading.worst),
-                numbers="; ".join(map(words.named, reading.numbers)),
-                caveat=judgement.caveat,
-            )
-            held.append(finding | {"text": text, "panel": judgement.claim["panel"]})
-    return held
 
 
 def misprints(judgements: Sequence[Judgement], data: Data) -> list[dict[str, Any]]:
@@ -118,14 +96,4 @@ def _shown(row: Mapping[str, str], by_id: Mapping[str, Judgement], data: Data) -
     if "claim" in row:
         reading = by_id[row["claim"]].literal
         return words.named(reading.worst) if reading else "no data"
-    return words.or_reason(words.named, NUMBERS[row["number"]], data) if "number" in row else ""
-
-
-def environment(records: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
-    """Versions that made the products."""
-    parents = [record["parents"] for record in records]
-    builds = [build for one in parents for build in one.builds.values()]
-    names = ("compiler", "flags", "libraries")
-    return {name: sorted({build[name] for build in builds}) for name in names} | {
-        "Python": sorted({one.python for one in parents})
-    }
+    return words.or_reason(words.named, getattr(numbers, row["number"]), data) if "number" in row else ""

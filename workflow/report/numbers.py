@@ -1,6 +1,4 @@
-"""Numbers that the answer and the list of misprints quote and that decide no claim, by name."""
-
-from collections.abc import Callable
+"""Numbers quoted in questions.yaml and misprints.yaml by the name of their function; none decides a claim."""
 
 from workflow.claims.data import Data, number
 from workflow.claims.growth import BULK, exponent, halves, largest_sizes, sizes
@@ -85,23 +83,3 @@ def peak_collapse(data: Data) -> Number:
 def particle_current(data: Data) -> Number:
     result = sizes(data, "N")[-1]
     return number(result, "particle_current", label=f"J_n at N = {result.parameters['cells']}, γ = N")
-
-
-NUMBERS: dict[str, Callable[[Data], Number]] = {
-    one.__name__: one
-    for one in (
-        kappa_of_small_chains,
-        kappa_of_large_chains,
-        heat_exponent,
-        heat_exponent_without_momentum,
-        momentum_change,
-        alpha,
-        alpha_without_drift,
-        persistence_at_zero,
-        persistence_at_half,
-        injected_energy,
-        printed_conductivity,
-        peak_collapse,
-        particle_current,
-    )
-}

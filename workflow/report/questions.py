@@ -9,8 +9,7 @@ from workflow.claims.data import Data, MissingError
 from workflow.claims.judge import Judgement
 from workflow.claims.verdict import Band, Outcome, Reading, level_of_each
 from workflow.lib.configuration import ConfigurationError, read
-from workflow.report import words
-from workflow.report.numbers import NUMBERS
+from workflow.report import numbers, words
 
 FILE = "questions.yaml"
 VERDICTS = [one.value for one in Outcome if one is not Outcome.IN_MEANING]  # of one reading
@@ -48,7 +47,7 @@ def answers(judgements: Sequence[Judgement], data: Data) -> list[dict[str, Any]]
 
 def _measured(question: Mapping[str, Any], data: Data, level: float) -> Reading | None:
     try:
-        return Reading(Band.of(question["band"]), (NUMBERS[question["number"]](data),), level)
+        return Reading(Band.of(question["band"]), (getattr(numbers, question["number"])(data),), level)
     except MissingError:
         return None
 
@@ -59,5 +58,5 @@ def _filled(sentence: str, reading: Reading | None, data: Data) -> str:
         values |= {"number": words.value(reading.worst), "label": reading.worst.label}
     for _, name, _, _ in string.Formatter().parse(sentence):
         if name and name not in values:
-            values[name] = words.or_reason(words.value, NUMBERS[name], data)
+            values[name] = words.or_reason(words.value, getattr(numbers, name), data)
     return sentence.format_map(values)
