@@ -33,13 +33,18 @@ QUANTITIES: dict[str, dict[str, tuple[str, ...]]] = {
         "damping_exponent": (), "damping_exponent_from": ("from",),
         "peak": ("time",), "peak_position": ("time",), "momentum_correlation": ("time", "cell"),
     },
+    "heat_current": {"local_exponent": ("middle",)},
     "energy_pulse": {
         "centre_share": ("time",), "odd_part": ("time", "distance"), "peak": ("time",), "peak_position": ("time",),
         "peak_speed": ("middle",), "damping_exponent": (), "damping_exponent_from": ("from",),
-        "peak_raw": ("time",), "damping_drift": (), "energy_difference": ("time", "cell"),
+        "peak_raw": ("time",), "damping_drift": (), "local_damping_exponent": ("until",), "energy_difference": ("time", "cell"),
     },
 }  # fmt: skip
-DEFAULTS = {"cells": "continuum", "zero-total-momentum": False}  # where the plan leaves an option out
+DEFAULTS = {
+    "cells": "continuum",
+    "zero-total-momentum": False,
+    "random-direction": False,
+}  # where the plan leaves an option out
 
 Fill = Callable[[Run], Mapping[str, Quantity]]
 # By quantity: a number, or a function of the run and the coordinates along each axis.
@@ -82,6 +87,7 @@ def axes(run: Run) -> dict[str, np.ndarray]:
         "time": times,
         "from": times[:-1],
         "middle": 0.5 * (times[1:] + times[:-1]),
+        "until": times[2::2],
         "cell": np.arange(float(cells)),
         "bond": np.arange(cells + 1.0),
         "end": np.arange(2.0),

@@ -68,7 +68,7 @@ class Data:
 
 
 def where_made(find: Callable[[], Sequence[Number]]) -> Sequence[Number]:
-    """For a reading that does not count: empty where a result is missing."""
+    """Empty where a result is missing that not every quality has."""
     try:
         return find()
     except MissingError:

@@ -10,13 +10,12 @@ from workflow.claims.verdict import Number
 @dataclass(frozen=True)
 class Evidence:
     """Numbers by reading, each with its acceptance band in data/claims.csv. The alternative reading is reported and does not
-    count. remark: a clause for the answer, beside the verdict."""
+    count."""
 
     literal: Sequence[Number]
     intended: Sequence[Number] = ()
     alternative: Sequence[Number] = ()
     caveat: str = ""
-    remark: str = ""
 
 
 Claim = Callable[[Data], Evidence]

@@ -1,18 +1,17 @@
-"""Claims on the conductivity against the size (fig. 8, section 6)."""
+"""Claims on the conductivity against the size (fig. 8, section 6), and on heat in equilibrium."""
 
-import math
-from collections.abc import Callable, Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 import numpy as np
 
-from workflow.claims.data import Data, MissingError, freedom, mean_slope, number, power, where_made
+from workflow.claims.data import Data, MissingError, freedom, mean_slope, number, power
 from workflow.claims.evidence import Claim, Evidence
 from workflow.claims.verdict import Number, with_systematic
-from workflow.figures import ext09
+from workflow.figures import ext09, ext13
 from workflow.figures.ext11 import tabulate
 from workflow.lib.fit import PowerLaw, fit_power, with_error
-from workflow.lib.growth import Growth, fits
 from workflow.lib.load import Result
 from workflow.lib.style import spacing
 
@@ -22,7 +21,7 @@ BULK = 16  # smaller chains are mostly ends
 LARGE = 16  # the largest sizes are those within this factor of the largest
 FIXED_SPACING = 0.1  # of ext11
 EXPONENT = "d ln κ/d ln N"  # in the names of numbers
-FIXED = ("dilute", "dense")  # series of ext09 at fixed spacing; `thinning` has the paper's 1/N
+SERIES = ("thinning", "dilute", "dense")  # of ext09, by spacing
 
 
 def sizes(data: Data, gamma: str | int) -> list[Result]:
@@ -59,84 +58,36 @@ def largest_sizes(runs: Sequence[Result]) -> list[Result]:
     return [one for one in runs if one.parameters["cells"] * LARGE >= runs[-1].parameters["cells"]]
 
 
-def _series(data: Data) -> dict[str, list[Result]]:
-    """Stationary runs of every series of ext09 that has been made, by N."""
+def _between_baths(data: Data) -> list[list[Result]]:
+    """Stationary runs of fig. 8 and of every series of ext09 that has been made, by N."""
     try:
         made = data.of("ext09")
     except MissingError:
-        return {}
-    by_name = {
-        name: _stationary([one for one in made if one.path.stem.startswith(name)])
-        for name in ("thinning", *FIXED)
-    }
-    return {name: runs for name, runs in by_name.items() if runs}
+        made = []
+    series = [_stationary([one for one in made if one.path.stem.startswith(name)]) for name in SERIES]
+    return [sizes(data, "N"), *series]
 
 
-def last_exponents(data: Data) -> dict[str, Number]:
-    """Of kappa between the two largest stationary sizes: fig. 8, and every series of ext09 that has been made. Those of kappa by
-    the temperatures of the arriving particles and of the baths bound the systematic error: in an infinite chain all are one. To it
-    is added what a start that is not forgotten could change."""
-
-    def between(name: str, runs: Sequence[Result]) -> Number:
-        left, right = (runs[-1].parameters[f"temperature-{side}"] for side in ("left", "right"))
-        label = f"{EXPONENT}, T_R/T_L = {right / left:.2g}, spacing {spacing(runs[-1])[1]}"
-        found, *others = (exponent(runs, label, kappa)[0] for kappa in (_kappa, _by_particles, _by_baths))
-        defined = with_systematic(found, [one.value for one in others])
-        memory, _ = memory_of_start(data, name)
-        return with_systematic(defined, [defined.value + memory])
-
-    series = {"fig08": sizes(data, "N")} | _series(data)
-    return {name: between(name, runs[-2:]) for name, runs in series.items() if len(runs) > 1}
-
-
-def memory_of_start(data: Data, series: str) -> tuple[float, int]:
-    """Half the difference of ln kappa between a cold and a hot start (ext. 12), at the largest size that has them, over ln 2: what it
-    would change an exponent by if only one of two sizes, a factor of two apart, had it; and that size. 0 where no start was varied."""
-    try:
-        runs = [one for one in data.of("ext12") if one.path.stem.startswith(f"{series}-start")]
-    except MissingError:
-        return 0.0, 0
-    largest = max((one.parameters["cells"] for one in runs), default=0)
-    kappa = {one.parameters["start"]: _kappa(one).value for one in runs if one.parameters["cells"] == largest}
-    return (abs(math.log(kappa["hot"] / kappa["cold"])) / 2 / math.log(2) if kappa else 0.0), largest
-
-
-def starts(data: Data) -> str:
-    """Up to which size starts were varied at fixed spacing, in words; nothing where none was."""
-    largest = max(memory_of_start(data, series)[1] for series in FIXED)
-    return (
-        f"; starts were varied there up to N = {largest} (ext12), and what they change is in the bounds"
-        if largest
-        else ""
-    )
+def last_exponents(data: Data) -> list[Number]:
+    """Of kappa between baths, between the two largest stationary sizes of fig. 8 and of every series of ext09 that has been made.
+    The temperatures of the arriving particles and of the baths in place of T_1 and T_N, which give the same exponent in an
+    infinite chain, bound the systematic error."""
+    found = []
+    for runs in _between_baths(data):
+        if len(runs) > 1:
+            left, right = (runs[-1].parameters[f"temperature-{side}"] for side in ("left", "right"))
+            label = f"{EXPONENT}, T_R/T_L = {right / left:.2g}, spacing {spacing(runs[-1])[1]}"
+            one, *others = (
+                exponent(runs[-2:], label, kappa)[0] for kappa in (_kappa, _by_particles, _by_baths)
+            )
+            found.append(with_systematic(one, [other.value for other in others]))
+    return found
 
 
 def _stationary(runs: Sequence[Result]) -> list[Result]:
     return sorted(
         (one for one in runs if one["stationary"].mean == 1), key=lambda one: one.parameters["cells"]
     )
-
-
-def laws(data: Data) -> dict[str, list[Growth]]:
-    """Every law, one with a finite limit among them, fitted to ext09 at fixed spacing over the largest sizes, by spacing and sizes."""
-    fitted = {}
-    fixed = [runs for name, runs in _series(data).items() if name in FIXED]
-    for runs in map(largest_sizes, fixed):
-        cells = [one.parameters["cells"] for one in runs]
-        values = [_kappa(one) for one in runs]
-        if found := fits(cells, [one.value for one in values], [one.error for one in values], cells[0]):
-            fitted[f"spacing {spacing(runs[-1])[1]}, N = {cells[0]} to {cells[-1]}"] = found
-    return fitted
-
-
-def without_limit(fitted: Mapping[str, Sequence[Growth]]) -> str:
-    """That the law with a finite limit is rejected at every spacing, beside how the others fit, in words; nothing if it is not.
-    Laws that come to a limit more slowly are not tested."""
-    bounded = [one for found in fitted.values() for one in found if one.law == "constant"]
-    if not bounded or max(one.p_value for one in bounded) > ext09.LEVEL:
-        return ""
-    told = "; ".join(f"at {place}, {ext09.compared(found)}" for place, found in fitted.items())
-    return f"a finite limit that is approached as N^(-1/3) is rejected at fixed density: {told}"
 
 
 def linear(data: Data) -> Evidence:
@@ -151,24 +102,38 @@ def halves(by_size: Sequence[T]) -> list[Sequence[T]]:
 
 
 def cube_root(data: Data) -> Evidence:
-    """Of the smaller and of the larger half of fig. 8's sizes, which a power law has in common; intended meaning: between the largest
-    sizes; alternative reading, at fixed spacing: of the conductivity without a particle current, and between the largest sizes."""
+    """Literal: of the smaller and of the larger half of fig. 8's sizes, which a power law has in common. Intended, at fixed density:
+    of the heat that passes in equilibrium, and of the conductivity without a particle current. Alternative: between baths."""
     runs = [one for one in sizes(data, "N") if one.parameters["cells"] >= BULK]
     _, law = exponent(runs, f"fig. 8, γ = N, {BULK} cells or more")
-    last, fitted = last_exponents(data), laws(data)
-    limit = without_limit(fitted)
-    compared = "".join(f" At {place}, {ext09.compared(found)}." for place, found in fitted.items())
-    told = ", ".join(f"{with_error(one.value, one.error)} ({one.label})" for one in last.values())
+    heat, control = equilibrium(data)
     return Evidence(
         [exponent(part, f"{EXPONENT}, γ = N, spacing 1/N")[0] for part in halves(runs)],
-        [one for name, one in last.items() if name not in FIXED],
-        [
-            *where_made(lambda: [without_particle_current(data)]),
-            *(one for name, one in last.items() if name in FIXED),
-        ],
-        caveat=f"Over all sizes {_fit(law)} Between the largest sizes: {told}. At spacing 1/N the gas thins out as N grows, so that size and density change together.{compared}",
-        remark=limit + starts(data) if limit else "",
+        [*heat, without_particle_current(data)],
+        last_exponents(data),
+        caveat=f"At the paper's spacing 1/N the density falls as N grows: over all sizes {_fit(law)}{control}",
     )
+
+
+def equilibrium(data: Data) -> tuple[list[Number], str]:
+    """b of κ ∼ N^b, as <Q²> ∼ t^(1+b), in every gas that conserves momentum, over its last octave of time; by how much the octave
+    before differs bounds the systematic error. Gases that do not conserve momentum, in words."""
+    gases: dict[tuple[bool, str], dict[float, list[Number]]] = defaultdict(lambda: defaultdict(list))
+    for result in data.of("ext13"):
+        gas, slope = ext13.chain(result), result["local_exponent"]
+        name = f"ζ = {gas.zeta:g}, M = {gas.mass:.2g}"
+        for k, middle in enumerate(slope.axes["middle"]):
+            label = f"d ln⟨Q²⟩/d ln t - 1, {name}, t = {middle:.3g}"
+            octaves = gases[bool(result.parameters["random-direction"]), name]
+            octaves[float(middle)].append(number(result, "local_exponent", k, label).over(1, 1))
+    found, control = [], ""
+    for (random, name), octaves in gases.items():
+        *_, before, last = (min(octaves[middle], key=lambda one: one.error) for middle in sorted(octaves))
+        if random:
+            control += f" With random directions, which do not conserve momentum, it is {with_error(last.value, last.error)} ({name})."
+        else:
+            found.append(with_systematic(last, [before.value]))
+    return found, control
 
 
 def without_particle_current(data: Data) -> Number:

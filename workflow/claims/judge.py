@@ -30,7 +30,6 @@ class Judgement:
     intended: Reading | None = None
     alternative: Reading | None = None
     caveat: str = ""
-    remark: str = ""
     data: tuple[str, ...] = ()  # paths of the result files that it rests on
 
     @property
@@ -79,9 +78,7 @@ def judge(claim: Mapping[str, str], data: Data, level: float) -> Judgement:
     short = [path for path, result in data.used.items() if result.converged == NOT_REACHED]
     unconverged = [f"{len(short)} runs stopped before their target error."] if short else []
     caveat = " ".join([evidence.caveat, *unconverged]).strip()
-    return Judgement(
-        claim, outcome, literal, intended, alternative, caveat, evidence.remark, tuple(data.used)
-    )
+    return Judgement(claim, outcome, literal, intended, alternative, caveat, tuple(data.used))
 
 
 def _reading(claim: Mapping[str, str], evidence: Evidence, name: str, level: float) -> Reading | None:
