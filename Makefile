@@ -59,7 +59,7 @@ panel: build  ## One panel, PANEL=fig05; FRESH=yes: rerun from scratch and compa
 report: figures  ## The paper's claims against the results: figures/QUALITY/report.html
 	$(PYTHON) workflow.report.write --quality '$(EFFORT)'
 	echo 'The report is figures/$(EFFORT)/report.html'
-gallery: setup  ## docs/gallery and the answer in README.md, from the best results here
+gallery: setup  ## docs/gallery and the answer in README.md, from the results at QUALITY
 	$(PYTHON) workflow.report.gallery --quality '$(EFFORT)'
 setup:  ## System packages, and Python packages in .venv
 	bash workflow/environment/setup.sh

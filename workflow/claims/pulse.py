@@ -119,7 +119,7 @@ def speed_falls(data: Data) -> Evidence:
 
 def _slowing(result: Result, name: str) -> Number:
     speed = result["peak_speed"]
-    known = np.flatnonzero(np.isfinite(speed.mean))
+    known = np.flatnonzero(speed.mean > 0)
     if len(known) < 2:
         raise MissingError("too few times with a moving peak")
     first, last = (number(result, "peak_speed", k) for k in known[[0, -1]])
