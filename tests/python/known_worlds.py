@@ -1,7 +1,8 @@
 """Results as they would be if the world were one in which a claim holds, or one in which it does not: by panel, the truth of the
 quantities that matter."""
 
-from collections.abc import Mapping
+import math
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -120,8 +121,9 @@ def drop_per_cell(run: Run) -> float:
     return float(run.options["temperature-left"] - run.options["temperature-right"]) / run.options["cells"]
 
 
-def kappas(deterministic: float, rare_: float, end: float = 0) -> World:
-    """Powers of N; end: part of kappa by which small chains at gamma = N are off, falling as 1/N."""
+def kappas(deterministic: float, rare_: float, end: float = 0, fixed: float = 1 / 3) -> World:
+    """Powers of N; end: part of kappa by which small chains at gamma = N are off, falling as 1/N. fixed: power at fixed density, in
+    equilibrium and in linear response."""
 
     def kappa(run: Run) -> float:
         size = run.options["cells"]
@@ -131,7 +133,33 @@ def kappas(deterministic: float, rare_: float, end: float = 0) -> World:
         return kappa(run) * drop_per_cell(run)
 
     both = {"stationary": 1, "kappa": kappa, "kappa_particle": kappa, "energy_current": current}
-    return {"fig08": both, "ext09": both}
+    response = {**linear_response(lambda cells: cells**fixed), "stationary": 1}
+    return {"fig08": both, "ext09": both, "ext11": response, **equilibrium_heat(fixed)}
+
+
+def rare_kappas(power: float) -> World:
+    """Of fig. 8 alone."""
+    return {"fig08": kappas(1, power)["fig08"]}
+
+
+def linear_response(kappa_0: Callable[[int], float]) -> Truth:
+    """Currents between two baths at a small difference of temperature or pressure; the thinning gas has another L_un."""
+
+    def current(name: str) -> Callable[[Run], float]:
+        def of_run(run: Run) -> float:
+            o, cells = run.options, run.options["cells"]
+            left, right = ((o[f"temperature-{end}"], o[f"nu-{end}"]) for end in ("left", "right"))
+            heat = 1 / right[0] - 1 / left[0]
+            drift = math.log(left[1] / right[1] * math.sqrt(right[0] / left[0]))
+            nn, un = 3 * cells, 70 * cells * (5 if o["cell-length"] == "1/N" else 1)
+            uu = 1e4 * kappa_0(cells) + un**2 / nn
+            row = (uu, un) if name == "energy_current" else (un, nn)
+            return float((row[0] * heat + row[1] * drift) / cells)
+
+        return of_run
+
+    names = ("energy_current", "particle_current")
+    return {name: current(name) for name in names} | {"current_correlation": 0.0}
 
 
 def pulse(panel: str, **given: Any) -> World:
@@ -145,23 +173,51 @@ def pulse(panel: str, **given: Any) -> World:
     return {panel: {**shape, "peak_speed": 300, "odd_part": 0, **given}}
 
 
-def ballistic(power: float) -> World:
-    return pulse("fig09b", peak_position=lambda _, t: 300 * t**power)
+def ballistic(power: float, long: float) -> World:
+    """In the paper's ring and in the long one."""
+    return {
+        **pulse("fig09b", peak_position=lambda _, t: 300 * t**power),
+        **pulse("ext14", peak_position=lambda _, t: 300 * t**long),
+    }
 
 
 def damped(panel: str, exponent: float, later: float | None = None) -> World:
     fits = {"damping_exponent": exponent, "damping_exponent_from": exponent if later is None else later}
-    return pulse(panel, damping_drift=0, **fits)
+    return pulse(panel, damping_drift=0, local_damping_exponent=exponent, **fits)
 
 
-def linked(conductivity: float, shift: float = 0) -> World:
-    """2 - 1/xi is 1/3 and 1, less the shift."""
+def shock(exponent: float, weak: float, later: float | None = None) -> World:
+    """Damping of the paper's pulse and of a weak one."""
+    return {**damped("fig09a", exponent), **damped("ext14", weak, later)}
+
+
+def slowing(power: float) -> World:
+    """Of the peaks' speed; power of time."""
+    speed = {"peak_speed": lambda _, t: 300 * t**power}
+    return {**pulse("fig09a", **speed), **pulse("ext14", **speed)}
+
+
+def equilibrium_heat(power: float) -> World:
+    """Exponent of the conductivity that the heat in equilibrium has."""
+    return {"ext13": {"local_exponent": 1 + power}}
+
+
+def linked(conductivity: float, shift: float = 0, sound: float = 3 / 5) -> World:
+    """2 - 1/xi of the pulses is 1/3 and 1, less the shift."""
     peaks = damped("fig09a", 1 / (5 / 3 + shift)), damped("fig09b", 1 / (1 + shift))
-    return {**peaks[0], **peaks[1], "fig08": kappas(conductivity, 1)["fig08"]}
+    of_sound = {"damping_exponent": sound, "damping_exponent_from": sound, "peak": 1}
+    equilibrium = {"ext03": of_sound, **equilibrium_heat(1 / 3)}
+    return {**peaks[0], **peaks[1], **equilibrium, "fig08": kappas(conductivity, 1)["fig08"]}
 
 
-def ageing(power: float, last: float = 1) -> World:
-    return {"ext07": {"decade_slope": lambda _, t: 100 * t**power * np.where(t == t.max(), last, 1)}}
+def ageing(power: float, last: float = 1, few: float = 0) -> World:
+    """The slope against ln t grows as a power of t, but for the last decade; few: what that is in the chain of few particles."""
+
+    def slope(run: Run, t: np.ndarray) -> np.ndarray:
+        end = few if run.name == "few" else last
+        return 100 * t**power * np.where(t == t.max(), end, 1)
+
+    return {"ext07": {"decade_slope": slope}}
 
 
 def excess(power: float) -> World:

@@ -10,7 +10,7 @@ import pytest
 
 from tests.python.claim_numbers import check, freedom, of, power
 from tests.python.known_results import Known, quantity, truth, uneven
-from tests.python.known_worlds import drop_per_cell
+from tests.python.known_worlds import drop_per_cell, linear_response
 from workflow.claims.data import MissingError
 from workflow.claims.growth import equilibrium
 from workflow.claims.judge import FUNCTIONS
@@ -72,27 +72,14 @@ KAPPA_0 = dict(zip(SIZES, SIZES**0.3, strict=True)) | {16: 3, MOVING: 1000}
 
 
 def response(still: Collection[int] = SIZES) -> Callable[[Run], dict[str, Quantity]]:
-    """Currents by linear response with kappa_0 = N^0.3 but at N = 16; only the energy current at a difference of temperature, in which
-    kappa_0 is linear, has an error. The thinning gas has another response, and the largest chain is not stationary."""
+    """kappa_0 = N^0.3 but at N = 16; only the energy current at a difference of temperature, in which kappa_0 is linear, has an error.
+    The largest chain is not stationary."""
 
-    def currents(name: str) -> Callable[[Run], float]:
-        def of_run(run: Run) -> float:
-            o, cells = run.options, run.options["cells"]
-            left, right = ((o[f"temperature-{end}"], o[f"nu-{end}"]) for end in ("left", "right"))
-            heat = 1 / right[0] - 1 / left[0]
-            drift = math.log(left[1] / right[1] * math.sqrt(right[0] / left[0]))
-            nn, un = 3 * cells, 70 * cells * (5 if o["cell-length"] == "1/N" else 1)
-            uu = 1e4 * KAPPA_0[cells] + un**2 / nn
-            row = (uu, un) if name == "energy_current" else (un, nn)
-            return float((row[0] * heat + row[1] * drift) / cells)
-
-        return of_run
-
-    given = {name: currents(name) for name in ("energy_current", "particle_current")}
+    given = linear_response(lambda cells: float(KAPPA_0[cells]))
 
     def fill(run: Run) -> dict[str, Quantity]:
         stationary = float(run.options["cells"] in still or run.series.endswith("-temperature"))
-        found = truth({**given, "stationary": stationary, "current_correlation": 0.0}, 1e-12)(run)
+        found = truth({**given, "stationary": stationary}, 1e-12)(run)
         if run.series.endswith("-temperature"):
             current = found["energy_current"].mean
             found["energy_current"] = quantity(run, "energy_current", current, 1e-4 * abs(current))

@@ -10,6 +10,7 @@ from scipy.stats import norm
 from tests.python.claim_numbers import DATA, check, each, line, of, power, relative_change
 from tests.python.known_results import Known, quantity, uneven
 from workflow.claims.judge import FUNCTIONS
+from workflow.lib.fit import with_error
 from workflow.lib.load import Quantity
 from workflow.lib.plan import Run
 
@@ -147,39 +148,49 @@ def deviations(run: str) -> tuple[np.ndarray, np.ndarray]:
     return outer[0] - outer[1], outer[2]
 
 
+SEEN, MOMENTUM = slice(10, 50), np.arange(-59, 60, 2)  # -39 to 39
+
+
+def multiple(size: int) -> tuple[float, float, np.ndarray]:
+    """By which factor a chain deviates as in mean field, by a line through the origin; and the deviation in mean field."""
+    value, error = (one[SEEN] for one in deviations(f"simulation_cells={size}"))
+    theory = deviations(f"mean-field_cells={size}")[0]
+    return *line_through_0(theory[SEEN], value, error), theory
+
+
+def line_through_0(x: np.ndarray, y: np.ndarray, error: np.ndarray) -> tuple[float, float]:
+    (slope,), *_ = np.linalg.lstsq((x / error)[:, None], y / error)
+    return float(slope), float(1 / np.linalg.norm(x / error))
+
+
 def test_deviations_of_finite_chains() -> None:
+    """The shape in mean field, as large as in the simulation: in every bin, then at p = 0 from both sides, on lines through the two
+    innermost bins, where parabolas through three bound the systematic error. Mutants: the mean field's own size; no error of it."""
     largest = DATA.one("fig03_inset", "continuum")["flux"].mean.max()
-    seen = slice(10, 50)  # -39 to 39
-    for claim, cells in (("C10", (2, 4, 8, 16)), ("C11", (16,))):
-        parts = [np.array(deviations(f"simulation_cells={size}"))[:, seen] for size in cells]
-        value, error = np.hstack(parts)
+    for claim, sizes in (("C10", (2, 4, 8, 16)), ("C11", (16,))):
+        expected = []
+        for size in sizes:
+            factor, spread, theory = multiple(size)
+            ends = []
+            for inner in ([29, 28, 27], [30, 31, 32]):
+                at_0 = [
+                    np.polyval(np.polyfit(MOMENTUM[inner[:n]], theory[inner[:n]], n - 1), 0) for n in (2, 3)
+                ]
+                ends.append((at_0[0], abs(at_0[1] - at_0[0])))
+            for value, bound in [*((one, 0) for one in theory[SEEN]), *ends]:
+                expected.append(
+                    (factor * value / 400, spread * abs(value) / 400, abs(factor) * bound / 400)
+                )  # 220 + 180
         evidence = FUNCTIONS[claim](DATA)
-        of_bins = evidence.intended or evidence.literal
-        check(of_bins, value / 400, error / 400, freedom=639)  # 220 + 180
-        check(evidence.alternative, value / largest, error / largest, freedom=639)
-        theory, momentum = deviations(f"mean-field_cells={cells[0]}")[0], np.arange(-59, 60, 2)
-        ends = [
-            np.polyval(np.polyfit(momentum[two], theory[two], 1), 0) for two in (slice(28, 30), slice(30, 32))
-        ]
-        assert f"{np.abs(ends).max() / 400:.2e}" in evidence.caveat
-    assert f"deviation of a bin is {np.abs(theory).max() / 400:.2e}" in evidence.caveat
-
-
-def test_deviations_at_zero() -> None:
-    """By lines through the two innermost bins of a half; parabolas through three bound the systematic error. The bins come first."""
-    numbers = FUNCTIONS["C10"](DATA)
-    found = numbers.literal[len(numbers.intended) :]
-    momentum, expected = np.arange(-59, 60, 2), []
-    for size in (2, 4, 8, 16):
-        value, error = deviations(f"simulation_cells={size}")
-        for inner in ([29, 28, 27], [30, 31, 32]):
-            line, parabola = (
-                np.polyval(np.polyfit(momentum[inner[:count]], value[inner[:count]], count - 1), 0)
-                for count in (2, 3)
-            )
-            spread = math.hypot(1.5 * error[inner[0]], 0.5 * error[inner[1]])
-            expected.append((line / 400, spread / 400, abs(parabola - line) / 400))
-    check(found, *np.array(expected).T, 639)
+        for numbers in (evidence.literal, evidence.intended):
+            check(numbers, *np.array(expected).T, 639)
+        parts = [np.array(deviations(f"simulation_cells={size}"))[:, SEEN] for size in sizes]
+        value, error = np.hstack(parts) / largest
+        check(evidence.alternative, value, error, freedom=639)
+        factor, spread, _ = multiple(sizes[0])
+        assert (
+            f"It is {with_error(factor, spread)} of that in mean field at N = {sizes[0]}," in evidence.caveat
+        )
 
 
 def test_decay_of_the_deviations() -> None:

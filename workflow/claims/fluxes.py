@@ -110,7 +110,7 @@ def _shaped(table: pd.DataFrame, cells: int, known: float) -> tuple[list[Number]
         for row in theory.itertuples()
     ]
     scaled = [
-        replace(one, value=size * one.value, error=spread * abs(one.value), freedom=known)
+        replace(one.over(1 / size), error=spread * abs(one.value), freedom=known)
         for one in (*bins, *_at_zero(theory, cells))
     ]
     told = f"It is {with_error(size, spread)} of that in mean field at N = {cells}, whose shape it has ({goodness(misfit, len(shape) - 1)})."

@@ -18,8 +18,8 @@ SOUND = 2 / 3
 
 # By γ: quantity, its power of time that is divided out, and label of the axis.
 PLOTTED = {
-    "N": ("peak", -SOUND, r"peak $\times\, t^{2/3}$, first: 1"),
-    1: ("peak_position", 1, r"position $x_p/t$, first: 1"),
+    "N": ("peak", -SOUND, r"peak $\times\, t^{2/3}$, relative"),
+    1: ("peak_position", 1, r"position $x_p/t$, relative"),
 }
 LOOKS: list[style.Look] = [
     {"marker": "o", "color": style.VERMILLION, "markerfacecolor": "white"},
@@ -43,7 +43,7 @@ def scaled(result: Result) -> pd.DataFrame:
 
 def label(result: Result) -> str:
     if result.parameters["gamma"] == "N":
-        return rf"pulse of {number(result.parameters['pulse-energy'])}"
+        return rf"$\tilde\varepsilon = {number(result.parameters['pulse-energy'])}$"
     return f"$N = {result.parameters['cells']}$"
 
 
