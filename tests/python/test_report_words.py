@@ -32,9 +32,9 @@ def test_numbers(number: Number, text: str) -> None:
 
 def test_p_values() -> None:
     assert [words.p_value(p) for p in (1.0, 0.0431, 6.2e-8, 1e-40, 0.0, math.nan)] == [
-        "1",
-        "0.043",
-        "6·10^-8",
+        "= 1",
+        "= 0.043",
+        "= 6·10^-8",
         "< 10^-12",
         "< 10^-12",
         "unknown",

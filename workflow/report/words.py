@@ -88,9 +88,9 @@ def p_value(p: float) -> str:
     if math.isnan(p):
         return "unknown"
     if p >= 1e-3:
-        return f"{p:.2g}"
+        return f"= {p:.2g}"
     power = math.floor(math.log10(p)) if p else -math.inf
-    return f"< 10^{SMALLEST}" if power < SMALLEST else f"{p / 10.0**power:.0f}·10^{power}"
+    return f"< 10^{SMALLEST}" if power < SMALLEST else f"= {p / 10.0**power:.0f}·10^{power}"
 
 
 def which(reading: Reading) -> str:
