@@ -5,6 +5,7 @@ Of the quantities that depend on the relaxation time those are drawn whose trend
 
 from collections.abc import Callable, Sequence
 from string import ascii_lowercase
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -47,13 +48,13 @@ def plot_energies(axes: Axes, result: Result) -> list[pd.DataFrame]:
     return tables
 
 
-def plot_slopes(axes: Axes, result: Result) -> pd.DataFrame:
+def plot_slopes(axes: Axes, result: Result, **look: Any) -> pd.DataFrame:
     """Of the scatterers' energy against ln t, by decade."""
-    slope = result["decade_slope"]
+    slope, contents = result["decade_slope"], result.parameters["particles-per-cell"]
     middle = slope.axes["decade"] * np.sqrt(10)
-    axes.errorbar(middle, slope.mean, slope.error, marker="o", color=style.BLUE, **style.POINTS)
+    axes.errorbar(middle, slope.mean, slope.error, label=f"$n = {contents}$", **look, **style.POINTS)
     axes.set(xlabel="time from the start", ylabel=r"$dE/d\ln t$ of a scatterer", ylim=(0, None))
-    columns = {"quantity": "decade_slope", "time": slope.axes["decade"], "value": slope.mean}
+    columns = {"quantity": f"decade_slope, n = {contents}", "time": slope.axes["decade"], "value": slope.mean}
     return pd.DataFrame({**columns, "error": slope.error, "units": slope.units})
 
 
@@ -97,14 +98,18 @@ def caption(longest: Result, trends: dict[str, Line], results: Sequence[Result])
         Ageing of a closed chain, {parameters([longest], *CHAIN, *GAS)}, {replicas(results)}, that starts with scatterers at rest, to which the particles lose their energy. (a) Mean
         kinetic energy of a scatterer (circles) and of a particle (squares) against the time from the start; (b) slope of the scatterers'
         energy against ln t, decade by decade: {first} in the first and {last} in the last. The paper has a logarithmic growth that
-        saturates; the slope falls, and is not zero at the end. {f"{listed(shown)} against the relaxation time, with a line fitted in its logarithm (dotted) and the value expected at equilibrium (dashed)." if shown else ""} Change per unit of
+        saturates; the slope falls, the earlier the fewer particles n there are, and is not zero at the end. {f"{listed(shown)} against the relaxation time, with a line fitted in its logarithm (dotted) and the value expected at equilibrium (dashed)." if shown else ""} Change per unit of
         the logarithm of the relaxation time: {"; ".join(said)}. α is fitted up to t = {number(until)} here, earlier than in fig. 7 and ext. 1, and
         falls with the time of the fit where the chain ages. {ERRORS}; a trend is resolved beyond {RESOLVED} of them."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     ageing = [result for result in results if result.provenance["program"] == "ageing"]
-    longest = max(ageing, key=lambda result: result.parameters["observation-time"])
+    few = min(ageing, key=lambda result: result.parameters["particles-per-cell"])
+    longest = max(
+        ageing,
+        key=lambda result: (result.parameters["particles-per-cell"], result.parameters["observation-time"]),
+    )
     found = {name: aged(results, program, name) for program, name, *_ in AGED}
     shown = [entry for entry in AGED if resolved(found[entry[1]][1])]
     figure = plt.figure(figsize=((1 + 0.9 * len(shown)) * style.COLUMN, 1.5 * style.HEIGHT))
@@ -112,7 +117,10 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     above = figure.add_subplot(grid[0, 0])
     below = figure.add_subplot(grid[1, 0], sharex=above)
     others = [figure.add_subplot(grid[:, 1 + k]) for k in range(len(shown))]
-    tables = [*plot_energies(above, longest), plot_slopes(below, longest)]
+    tables = [*plot_energies(above, longest), plot_slopes(below, longest, marker="o", color=style.BLUE)]
+    if few.parameters["particles-per-cell"] < longest.parameters["particles-per-cell"]:
+        tables.append(plot_slopes(below, few, marker="^", color=style.ORANGE))
+        below.legend(loc="upper right")
     for axes, (_, name, label, expected, _) in zip(others, shown, strict=True):
         plot_aged(axes, found[name][0], label, expected(longest.parameters["sigma"]))
     tables += [table for table, _ in found.values()]
