@@ -106,7 +106,7 @@ def test_what_belongs_to_no_dimension_is_refused(tmp_path: Path, measured: dict)
     write(tmp_path / "a.h5", {"time": TIME, "cell": CELL}, measured)
     with h5py.File(tmp_path / "a.h5", "r+") as file:
         file["results/energy/more"] = TIME
-    with pytest.raises(FormatError, match="more belong to no dimension"):
+    with pytest.raises(FormatError, match="more are neither values nor axes"):
         load(tmp_path / "a.h5")
 
 
@@ -118,7 +118,7 @@ def test_text_names_a_file_too(tmp_path: Path, measured: dict) -> None:
 def test_an_unknown_quantity_is_named_with_those_that_there_are(tmp_path: Path, measured: dict) -> None:
     write(tmp_path / "a.h5", {"time": TIME, "cell": CELL}, measured)
     with pytest.raises(
-        FormatError, match=r"a\.h5 has no quantity enrgy; did you mean energy\? There are energy$"
+        FormatError, match=r"a\.h5 has no quantity enrgy; did you mean energy\? It has energy$"
     ):
         load(tmp_path / "a.h5")["enrgy"]
 

@@ -1,6 +1,6 @@
-"""Compares results with those before a rerun from scratch, or of another seed or number of replicas with the quality's own.
+"""Compares results before and after a rerun from scratch, or with another seed or number of replicas with the quality's own.
 
-Status 1 if a result differs by more than its errors.
+Exit status: 1 if a result differs by more than its errors.
 """
 
 import shutil
@@ -17,16 +17,16 @@ from workflow.lib.plan import Quality, data_path
 from workflow.provenance.checks import command
 
 BEFORE = Path("build/before")
-SIGNIFICANCE = 1e-4  # of the largest deviation in a result
-COMPUTED = 1e6  # degrees of freedom of a discretisation error
+SIGNIFICANCE = 1e-4  # p-value of the largest deviation in a result
+COMPUTED = 1e6  # degrees of freedom assumed for a discretisation error
 
 
 def keep(quality: str) -> None:
-    """Links to the results that a rerun replaces; programs write new files and rename them."""
+    """Hard-links the results that a rerun replaces; programs write new files and rename them."""
     shutil.rmtree(ROOT / BEFORE, ignore_errors=True)
     if (ROOT / "data" / quality).is_dir():
         (ROOT / BEFORE).mkdir(parents=True)
-        for options in ("-al", "-a"):  # copies, where there are no hard links
+        for options in ("-al", "-a"):  # copies if the file system has no hard links
             done = subprocess.run(
                 ["cp", options, ROOT / "data" / quality, ROOT / BEFORE], capture_output=True, check=False
             )
@@ -35,8 +35,8 @@ def keep(quality: str) -> None:
 
 
 def p_value(one: Path, other: Path) -> float:
-    """Of the largest difference between two results, by Student's distribution and the number of values; 0 where they are not of
-    the same quantities and shapes. Raises FormatError."""
+    """Bonferroni-corrected p-value, by Student's distribution, of the largest difference between two results; 0 if their
+    quantities or shapes differ. Raises FormatError."""
     first, second = load(one).quantities, load(other).quantities
     pairs = [(quantity, second.get(name)) for name, quantity in first.items()]
     if first.keys() != second.keys() or any(b is None or a.mean.shape != b.mean.shape for a, b in pairs):
@@ -46,7 +46,7 @@ def p_value(one: Path, other: Path) -> float:
 
 
 def _tails(a: Quantity, b: Quantity) -> np.ndarray:
-    """Two-sided probability of each difference, where both values have an error."""
+    """Two-sided p-value of each difference of values with errors."""
     computed = a.standard_error is None
     one, other = (np.asarray(q.discretisation_error if computed else q.error) for q in (a, b))
     error, difference = np.atleast_1d(np.hypot(one, other)), np.atleast_1d(np.abs(a.mean - b.mean))
@@ -58,7 +58,7 @@ def _tails(a: Quantity, b: Quantity) -> np.ndarray:
 
 
 def main() -> None:
-    keeping = {"action": "store_true", "help": "keep the present results for a comparison after the rerun"}
+    keeping = {"action": "store_true", "help": "keep the present results for the comparison after the rerun"}
     options, _, panels = command(__doc__, keep=keeping)
     if options.keep:
         keep(options.quality)
