@@ -63,7 +63,10 @@ BROKEN: dict[str, tuple[Edit, str]] = {
         edit_record,
         f"{FIGURE}.csv: rendering it again from its parents gives other bytes",
     ),
-    "picture exchanged": (copy("figures/smoke/fig05.png", f"{FIGURE}.png"), f"{FIGURE}.png: edited or replaced"),
+    "picture exchanged": (
+        copy("figures/smoke/fig05.png", f"{FIGURE}.png"),
+        f"{FIGURE}.png: edited or replaced",
+    ),
     "record copied in part": (halve(f"{FIGURE}.json"), f"{FIGURE}.json: "),
     "figure missing": (delete(f"{FIGURE}.svg"), f"{FIGURE}.svg: is missing"),
     "script": (

@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 from workflow.lib.files import write_together
-from workflow.lib.layout import signature
 from workflow.lib.units import SCHEMA
 
 ROOT = Path(__file__).parents[2]
@@ -94,6 +93,11 @@ def schema(option: dict[str, Any]) -> dict[str, Any]:
     found = {"type": [kind, "string"], "pattern": f"^({pattern})$"} if pattern else {"type": kind}
     units = {} if option["units"] in PURE else {"units": option["units"]}
     return found | limits | {"allowed": allowed} | units
+
+
+def signature(units: str, axes: dict[str, str]) -> str:
+    """Units and axes of a quantity in short: `1/(time momentum) [bond in 1, momentum in momentum]`."""
+    return f"{units} [{', '.join(f'{name} in {one}' for name, one in axes.items())}]" if axes else units
 
 
 def _describe(program: Path, *options: str) -> dict[str, Any]:
