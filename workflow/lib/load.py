@@ -129,33 +129,21 @@ def load(path: Path | str) -> Result:
         return Result(Path(path), _attributes(file["parameters"]), provenance, quantities)
 
 
-def load_parameters(path: Path | str) -> dict[str, Any]:
-    """Reads only the parameters of a result file. Raises FormatError, OSError."""
-    with _opened(path) as (file, _):
-        return _attributes(file["parameters"])
-
-
 def load_provenance(path: Path | str) -> dict[str, Any]:
     """Reads only the provenance of a result file. Raises FormatError, OSError."""
     with _opened(path) as (_, provenance):
         return provenance
 
 
-def results_digest(path: Path | str) -> str:
-    """CRC-32 of the path and the little-endian values of every dataset, in the order of the paths; a program stores it in
-    /provenance. Raises FormatError, OSError."""
-    with _opened(path) as (file, _):
-        return _digest(file["results"])
-
-
 def load_statements(path: Path | str) -> tuple[dict[str, Any], dict[str, Any], bool]:
     """Provenance and parameters of a result file, and whether its values are unmodified. Raises FormatError, OSError."""
     with _opened(path) as (file, provenance):
-        whole = provenance["results_digest"] == _digest(file["results"])
+        whole = provenance["results_digest"] == results_digest(file["results"])
         return provenance, _attributes(file["parameters"]), whole
 
 
-def _digest(results: h5py.Group) -> str:
+def results_digest(results: h5py.Group) -> str:
+    """CRC-32 of path and little-endian values of all datasets below a group, in the order of the paths."""
     datasets: dict[str, h5py.Dataset] = {}
     digest = 0
     results.visititems(lambda _, node: datasets.update({node.name: node}))

@@ -39,9 +39,6 @@ DASHES: list[LineStyleType] = ["solid", (0, (6, 1)), (0, (4, 1, 1, 1)), (0, (3, 
 # Marker and colour by gamma.
 BY_GAMMA = {"N": ("o", BLUE), 1: ("s", VERMILLION)}
 
-# Legend with an opaque background.
-OPAQUE: Look = {"frameon": True, "framealpha": 1, "edgecolor": "none"}
-
 # Shaded range of a fit.
 WINDOW: Look = {"color": "0.92", "linewidth": 0, "zorder": -1}
 

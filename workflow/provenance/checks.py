@@ -117,11 +117,8 @@ class Products:
             if _hash(ROOT / path) != one["sha256"]:
                 return Fault(picture, f"stale: {path} has changed")
         sources = [*sources_of(f"workflow/figures/{panel.script}.py"), PACKAGES]
-        present, stated = (
-            {path: _hash(ROOT / path) for path in sources},
-            parents.sources | {PACKAGES: parents.packages},
-        )
-        changed = dict(present.items() ^ stated.items())
+        present = {path: _hash(ROOT / path) for path in sources}
+        changed = dict(present.items() ^ (parents.sources | {PACKAGES: parents.packages}).items())
         return Fault(picture, f"stale: {min(changed)} has changed") if changed else None
 
     def obsolete(self) -> Iterator[Fault]:
@@ -170,10 +167,10 @@ def _fault_of_build(path: str, program: str, stated: dict[str, Any]) -> Fault | 
         return None
     for name in BUILD:
         if build[name] != stated[name]:
-            reason = (
+            other = (
                 f"by another {name.removesuffix('s')}: {stated[name]}, the present build has {build[name]}"
             )
-            return Fault(path, reason, broken=False)
+            return Fault(path, other, broken=False)
     return None
 
 

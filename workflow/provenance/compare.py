@@ -27,10 +27,8 @@ def keep(quality: str) -> None:
     if (ROOT / "data" / quality).is_dir():
         (ROOT / BEFORE).mkdir(parents=True)
         for options in ("-al", "-a"):  # copies if the file system has no hard links
-            done = subprocess.run(
-                ["cp", options, ROOT / "data" / quality, ROOT / BEFORE], capture_output=True, check=False
-            )
-            if done.returncode == 0:
+            copy = ["cp", options, ROOT / "data" / quality, ROOT / BEFORE]
+            if subprocess.run(copy, capture_output=True, check=False).returncode == 0:
                 break
 
 
@@ -50,9 +48,7 @@ def _tails(a: Quantity, b: Quantity) -> np.ndarray:
     computed = a.standard_error is None
     one, other = (np.asarray(q.discretisation_error if computed else q.error) for q in (a, b))
     error, difference = np.atleast_1d(np.hypot(one, other)), np.atleast_1d(np.abs(a.mean - b.mean))
-    replicas = (
-        np.full(error.shape, COMPUTED) if computed else np.atleast_1d(np.minimum(a.replicas, b.replicas))
-    )
+    replicas = np.full(error.shape, COMPUTED if computed else np.minimum(a.replicas, b.replicas))
     known = (error > 0) & np.isfinite(difference) & (replicas > 1)
     return np.asarray(2 * stdtr(2 * (replicas[known] - 1.0), -difference[known] / error[known]))
 
@@ -68,10 +64,8 @@ def main() -> None:
     values: dict[str, float] = {}
     for panel in panels:
         for run in panel.runs:
-            path, other = (
-                data_path(quality.name, panel.name, run.name),
-                against / panel.name / f"{run.name}.h5",
-            )
+            path = data_path(quality.name, panel.name, run.name)
+            other = against / panel.name / f"{run.name}.h5"
             if (ROOT / other).is_file():
                 same = file_hash(ROOT / path) == file_hash(ROOT / other)
                 values[path] = 1.0 if same else p_value(ROOT / path, ROOT / other)
@@ -79,10 +73,8 @@ def main() -> None:
         print(f"No results in {against} to compare with")
         return
     differing = {path: p for path, p in values.items() if p <= SIGNIFICANCE}
-    agree = len(values) - len(differing)
-    print(
-        f"{agree} of {len(values)} results agree with those in {against}, smallest p = {min(values.values()):.2g}"
-    )
+    agree, smallest = len(values) - len(differing), min(values.values())
+    print(f"{agree} of {len(values)} results agree with those in {against}, smallest p = {smallest:.2g}")
     for path, p in differing.items():
         print(f"  {path}: p = {p:.2g}")
     sys.exit(1 if differing else 0)

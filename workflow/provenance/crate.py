@@ -38,9 +38,7 @@ def new_crate(quality: str) -> ROCrate:
     crate, cited, licence = ROCrate(version="1.1"), citation(ROOT), (ROOT / "LICENSE").read_text()
     crate.metadata.extra_terms |= {"sha256": "https://w3id.org/ro/terms/workflow-run#sha256"}
     crate.name = cited["title"]
-    crate.description = (
-        f"Code, configuration, data and figures at quality {quality}, and the runs that made them"
-    )
+    crate.description = f"Code, configuration, data, figures and their runs at quality {quality}"
     crate.datePublished = date.fromisoformat(str(cited["date-released"]))
     text = {"@type": "CreativeWork", "name": licence.partition("\n")[0], "description": licence}
     crate.license = add(crate, f"https://spdx.org/licenses/{cited['license']}", text)
@@ -82,9 +80,8 @@ def pack(products: Products, panels: list[str]) -> ROCrate:
 
     settings = ["workflow/config/paper.yaml", f"workflow/config/quality/{quality.partition('_')[0]}.yaml"]
     command = f"make figures QUALITY={quality}"
-    actions = [
-        action("workflow", files["Snakefile"], command, [*settings, PACKAGES], sorted({*data, *figures}))
-    ]
+    inputs = [*settings, PACKAGES]
+    actions = [action("workflow", files["Snakefile"], command, inputs, sorted({*data, *figures}))]
     for panel in shown.values():
         for run in panel.runs:
             properties = {"@type": "SoftwareApplication", "name": run.program}
@@ -94,10 +91,9 @@ def pack(products: Products, panels: list[str]) -> ROCrate:
             output = data_path(quality, panel.name, run.name)
             actions.append(action(f"job/{panel.name}/{run.name}", tool, command, settings, [output]))
     for name, script in scripts.items():
-        inputs = read_panel(ROOT / drawings_of(quality, name)[-1])["parents"].inputs()
-        actions.append(
-            action(f"job/{name}", files[script], f"Renders {name}", inputs, drawings_of(quality, name))
-        )
+        products_of_panel = drawings_of(quality, name)
+        parents = read_panel(ROOT / products_of_panel[-1])["parents"].inputs()
+        actions.append(action(f"job/{name}", files[script], f"Renders {name}", parents, products_of_panel))
     crate.root_dataset["mentions"] = actions
     return crate
 
@@ -128,24 +124,17 @@ def project_files() -> list[str]:
     """Files that git tracks; without a repository, all files that are neither products nor hidden."""
     done = subprocess.run(["git", "-C", ROOT, "ls-files", "-z"], capture_output=True, text=True, check=False)
     tracked = [path for path in done.stdout.split("\0") if path and (ROOT / path).is_file()]
+    if "Snakefile" in tracked:
+        return tracked
     paths = [str(path.relative_to(ROOT)) for path in sorted(ROOT.rglob("*")) if path.is_file()]
-    return (
-        tracked
-        if "Snakefile" in tracked
-        else [
-            path
-            for path in paths
-            if not path.startswith((".", "build/", "data/", "figures/")) and "__pycache__" not in path
-        ]
-    )
+    products = (".", "build/", "data/", "figures/")
+    return [path for path in paths if not path.startswith(products) and "__pycache__" not in path]
 
 
 def write(crate: ROCrate, folder: Path) -> Path:
     """Writes the folder and a zip archive of it, both atomically. Returns the path of the archive."""
-    unfinished, archive = (
-        folder.with_name(f"{folder.name}.tmp"),
-        folder.with_name(f"lorentz-gas-{folder.name}.zip"),
-    )
+    unfinished = folder.with_name(f"{folder.name}.tmp")
+    archive = folder.with_name(f"lorentz-gas-{folder.name}.zip")
     shutil.rmtree(unfinished, ignore_errors=True)
     crate.write(unfinished)
     with ZipFile(archive.with_suffix(".tmp"), "w") as content:

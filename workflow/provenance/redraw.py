@@ -23,17 +23,18 @@ def redraw(products: Products, panel: str) -> Fault | None:
         return Fault(files[0], f"other packages: {difference}", broken=False)
     with tempfile.TemporaryDirectory() as folder:
         stem = Path(folder) / products.quality / panel
-        plan = products.plan
-        environment = dict(os.environ)
+        plan, environment = products.plan, dict(os.environ)
         clean(environment)
-        command = [sys.executable, "-P", "-m", f"workflow.figures.{plan[panel].script}", "--output"]
-        command += [
+        command = [
+            sys.executable,
+            "-P",
+            "-m",
+            f"workflow.figures.{plan[panel].script}",
+            "--output",
             str(stem),
-            "--configuration",
-            plan[panel].hash(),
-            "--data",
-            *data_of(plan, panel, products.quality),
         ]
+        command += ["--configuration", plan[panel].hash()]
+        command += ["--data", *data_of(plan, panel, products.quality)]
         done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
         if done.returncode:
             last = (done.stderr.strip().splitlines() or ["no message"])[-1]

@@ -26,10 +26,8 @@ FEW = 3  # printed entries of a list without --full
 
 
 def state(path: str, digest: str) -> str:
-    here = ROOT / path
-    compared = (
-        "is not here" if not here.is_file() else "same here" if file_hash(here) == digest else "other here"
-    )
+    here = file_hash(ROOT / path) if (ROOT / path).is_file() else None
+    compared = {None: "missing here", digest: "same here"}.get(here, "other here")
     return f"{path}  {digest[:SHORT]}  {compared}"
 
 
