@@ -48,6 +48,7 @@ class LogHandler(LogHandlerBase):
         self._early: list[str] = []  # messages until the workflow starts
         self._command = ""
         self._total = self._runs = 0  # numbers of jobs
+        self._paper = self._extensions = 0  # panels that are not rendered yet
         self._running: dict[int, Record] = {}  # JOB_INFO by number
         self._finished: set[str] = set()
         self._failed: dict[str, None] = {}  # ordered
@@ -72,6 +73,8 @@ class LogHandler(LogHandlerBase):
         elif event == LogEvent.RUN_INFO:
             self._total = sum(number for rule, number in record.stats.items() if rule not in TARGETS)
             self._runs = record.stats.get("simulate", 0)
+            self._paper = record.stats.get("draw", 0)
+            self._extensions = record.stats.get("draw_extension", 0)
             if self._console.is_terminal:
                 self._live.start()
         elif event == LogEvent.JOB_INFO and record.wildcards:  # the target has none
@@ -105,9 +108,14 @@ class LogHandler(LogHandlerBase):
         self._finished.add(name)
         self._estimated += self._cost(job)
         self._taken += elapsed(job) * job.threads
-        if job.rule_name == "draw":
+        if job.rule_name.startswith("draw"):
             runs = "1 run" if len(job.input) == 1 else f"{len(job.input)} runs"
             self._console.print(f"{name}: rendered from {runs}, {self._state}")
+            self._paper -= job.rule_name == "draw"
+            if job.rule_name == "draw" and not self._paper and self._extensions:
+                self._console.print(
+                    f"The paper's figures are in figures/{job.wildcards['quality']}; extensions follow"
+                )
         elif job.rule_name != "part":
             value, doubts = outcome(Path(job.output[0]))
             if self._console.is_terminal or doubts:

@@ -15,6 +15,7 @@ DIVISION = divide(PLAN.values(), 60 * float(config["batch"]), seconds_of_run)
 localrules:
     join,
     draw,
+    draw_extension,
 
 
 ruleorder: join > single > simulate

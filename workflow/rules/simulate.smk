@@ -10,6 +10,7 @@ rule simulate:
         "data/{quality}/{panel}/{run}.h5",
     log:
         "build/logs/{quality}/{panel}/{run}.log",
+    priority: priority_of_run
     params:
         program=lambda wildcards: run_of(wildcards).program,
         options=lambda wildcards: shlex.join(arguments(run_of(wildcards).options)),
