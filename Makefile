@@ -98,7 +98,7 @@ describe: build  ## Options and quantities of the programs: schema of the config
 bench tradeoff: setup-dev build  ## Cost of an event; make tradeoff: accuracy against time
 	$(PYTHON) workflow.tradeoff.$@
 docs: setup-dev  ## The documentation as a static site, build/docs/index.html
-	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --quiet --strict
+	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --strict 2> >(grep -v '^INFO' >&2)
 	doxygen docs/Doxyfile
 	cp .venv/lib/python*/site-packages/mathjax/static/mathjax/es5/tex-svg.js build/docs/mathjax.js
 clean:  ## Remove what can be made again, results included
