@@ -1,7 +1,7 @@
 """Units of the columns of a table, written in the line `# units: ` of its CSV.
 
-A column has the units of the quantity, error (`kappa_error`), axis or option whose name it bears. A script declares the units of its
-other columns.
+A column has the units of the quantity, error (`kappa_error`), axis or option that it is named after. A script declares the units
+of its other columns.
 """
 
 import json

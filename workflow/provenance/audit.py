@@ -1,7 +1,7 @@
 """Checks every result and figure against the present sources, parameters, build and packages.
 
-A result has to be in the plan, with its options, from the present build, and unmodified. A figure has to match its record, and has to
-get equal bytes when it is rendered again from its parents. Exit status: 0 if all holds, 1 if something is broken, 3 if something
+A result has to be in the plan, with its options, from the present build, and unmodified. A figure has to match its record, and
+rendering it again from its parents has to give equal bytes. Exit status: 0 if all holds, 1 if something is broken, 3 if something
 could not be checked, 2 for bad input.
 """
 

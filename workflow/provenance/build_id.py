@@ -1,7 +1,7 @@
 """Identity of an executable: a hash of its sources, compiler, flags and libraries, independent of path, host and time.
 
-The include closure of a source consists of the source, all files that it includes with quotes, and for each header `x.hpp` the source
-`x.cpp` in the same folder, transitively. CMake runs this module with the system's Python (3.8 or later, standard library only). It
+The include closure of a source consists of the source, all files that it includes with quotes, and for each header `x.hpp` the
+source `x.cpp` in the same folder, transitively. CMake runs this module with the system's Python (3.8 or later, standard library only). It
 writes OUTPUT.json for the pipeline, OUTPUT.cpp for the executable, each only if it changes, and a dependency file.
 """
 

@@ -1,4 +1,4 @@
-"""Prints the state of every panel (fresh, stale with the reason, or missing), its largest error, and the CPU seconds of its runs."""
+"""Prints the state of every panel (fresh, stale with the reason, or missing), its largest error and its CPU seconds."""
 
 import sys
 
