@@ -1,7 +1,8 @@
 """Progress of a workflow, from Snakemake's events: a bar, the running jobs, and a line per finished panel.
 
 A logger plugin of Snakemake, selected by `logger: [progress]` in the profile. Snakemake's log is in .snakemake/log.
-Its messages are printed with --dry-run, --verbose, --printshellcmds and --debug-dag, and if no job runs (--summary, --report, --unlock, ...).
+Its messages are printed with --dry-run, --verbose, --printshellcmds and --debug-dag, and if no job runs (--summary,
+--report, --unlock, ...).
 """
 
 import logging

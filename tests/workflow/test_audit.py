@@ -164,7 +164,7 @@ def test_where_a_result_comes_from(kept: Clone) -> None:
     assert told.startswith("paper.h5 is unmodified\n")
     assert "program boltzmann: " in told
     edit_value(kept)
-    assert "does not have the values" in kept.module("provenance.tree", RESULT, status=1)
+    assert "is edited or damaged" in kept.module("provenance.tree", RESULT, status=1)
 
 
 def test_what_states_no_parents_is_refused_in_a_line(clean: Clone, tmp_path: Path) -> None:
