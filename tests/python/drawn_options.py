@@ -136,6 +136,13 @@ def counted(draw: st.DrawFn) -> dict[str, object]:
 
 
 @st.composite
+def pictured(draw: st.DrawFn) -> dict[str, object]:
+    options = draw(closed() | opened())
+    options.pop("start", None)
+    return options | {"chain": "open" if "nu-left" in options else "closed"}
+
+
+@st.composite
 def kinetic(draw: st.DrawFn) -> dict[str, object]:
     temperature = draw(st.floats(-292, 292))
     rate = draw(st.floats(-100, 99))
@@ -167,5 +174,6 @@ PROGRAMS = {
     "momentum_flux": binned(),
     "conductivity": opened(),
     "particle_count": counted(),
+    "trajectories": pictured(),
     "boltzmann": kinetic(),
 }

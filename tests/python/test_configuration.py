@@ -135,7 +135,7 @@ def test_a_file_that_is_no_configuration(folder: Path, content: bytes | None, wo
     ("name", "words"),
     [
         ("fig5", "fig5 is not a panel; did you mean fig05?"),
-        ("xyz", "xyz is not a panel; choose one of fig01, "),
+        ("xyz", "xyz is not a panel; choose one of model, "),
     ],
 )
 def test_an_unknown_panel(name: str, words: str) -> None:

@@ -48,9 +48,12 @@ def begun(handler: LogHandler, command: str = "snakemake --config panel=fig05") 
     return handler
 
 
-def start(handler: LogHandler, number: int, run: str = "", log: str = "none.log") -> None:
-    wildcards = {"quality": "smoke", "panel": "fig05"} | ({"run": run} if run else {})
-    rule, inputs = ("simulate", []) if run else ("draw", ["a.h5", "b.h5"])
+def start(
+    handler: LogHandler, number: int, run: str = "", log: str = "none.log", panel: str = "fig05"
+) -> None:
+    wildcards = {"quality": "smoke", "panel": panel} | ({"run": run} if run else {})
+    drawing = "draw_extension" if panel.startswith("ext") else "draw"
+    rule, inputs = ("simulate", []) if run else (drawing, ["a.h5", "b.h5"])
     emit(handler, LogEvent.JOB_INFO, jobid=number, rule_name=rule, wildcards=wildcards, input=inputs, output=[f"{run}.h5"],
          log=[log], threads=1)  # fmt: skip
 
@@ -74,7 +77,18 @@ def test_a_pipe_has_a_line_per_panel_and_per_doubt(handler: LogHandler, capsys: 
     handler.close()
     shown = capsys.readouterr().out.splitlines()
     assert shown[0].startswith("fig05/b: mu = 0.3289(30), not stationary, 2 of 3 done, about 0:00:")
-    assert shown[1:] == ["fig05: drawn from 2 runs, 3 of 3 done"]
+    assert shown[1:] == ["fig05: rendered from 2 runs, 3 of 3 done"]
+
+
+def test_the_end_of_the_papers_figures_is_reported(handler: LogHandler, capsys: Captured) -> None:
+    emit(handler, LogEvent.RUN_INFO, stats={"draw": 2, "draw_extension": 1, "figures": 1, "total": 4})
+    for number, panel in enumerate(["fig05", "ext07", "fig06"]):
+        start(handler, number, panel=panel)
+        finish(handler, number)
+    handler.close()
+    shown = capsys.readouterr().out.splitlines()
+    assert [line.partition(":")[0] for line in shown[:3]] == ["fig05", "ext07", "fig06"]
+    assert shown[3:] == ["The paper's figures are in figures/smoke; extensions follow"]
 
 
 def test_time_left_follows_what_finished_jobs_took(
@@ -105,7 +119,7 @@ def test_a_failure_is_shown_with_the_end_of_its_log(
     first, *log_lines, last = capsys.readouterr().out.splitlines()
     assert first.endswith("ends with:" if lines else "is empty: the job was killed, or did not start")
     assert log_lines == [f"  {line}" for line in lines]
-    assert last == "Failed: fig05/a; 0 of 3 done. Fix the cause. The same command goes on."
+    assert last == "Failed: fig05/a; 0 of 3 done. Fix the cause; the same command resumes."
 
 
 def test_a_retry_has_not_failed(handler: LogHandler, capsys: Captured) -> None:
@@ -130,10 +144,10 @@ def test_other_errors_are_shown(handler: LogHandler, capsys: Captured) -> None:
 @pytest.mark.parametrize(
     ("command", "advice"),
     [
-        ("snakemake figures", "The same command goes on."),
+        ("snakemake figures", "The same command resumes."),
         (
             "snakemake --forceall figures",
-            "The same command starts again; without FRESH=yes it completes what was interrupted.",
+            "The same command starts again; without FRESH=yes it resumes.",
         ),
     ],
 )

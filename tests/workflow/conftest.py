@@ -14,6 +14,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 MADE = ("data/smoke", "figures/smoke", ".snakemake/metadata", "build/bin", "build/id")
+NETWORK = re.compile(r"SSL_CERT_|UV_|PIP_|(https?|all|no)_proxy$", re.IGNORECASE)
 OUTPUT = re.compile(r"^\s*output: (.*)$", re.MULTILINE)
 Done = subprocess.CompletedProcess[str]
 
@@ -26,7 +27,11 @@ class Clone:
 
     def run(self, *command: str, status: int | None = 0, **environment: str) -> Done:
         """With a PATH, a HOME and what is given. status: that is expected, None for any."""
-        plain = {"PATH": f"{os.defpath}:{ROOT / '.cache/uv/bin'}", "HOME": os.environ.get("HOME", "/")}
+        network = {name: value for name, value in os.environ.items() if NETWORK.match(name)}
+        plain = {
+            "PATH": f"{os.defpath}:{ROOT / '.cache/uv/bin'}",
+            "HOME": os.environ.get("HOME", "/"),
+        } | network
         done = subprocess.run(
             command,
             cwd=self.folder,

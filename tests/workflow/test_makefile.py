@@ -117,7 +117,8 @@ def test_two_at_once_are_refused(clean: Clone) -> None:
     command = ["bash", "workflow/environment/one_at_a_time.sh"]
     holder = [*command, "bash", "-c", "echo held; exec sleep 60"]
     with subprocess.Popen(holder, cwd=clean.folder, stdout=subprocess.PIPE, text=True) as first:
-        assert first.stdout is not None and first.stdout.readline() == "held\n"
+        assert first.stdout
+        assert first.stdout.readline() == "held\n"
         clean.run(*command, "true", status=1)
         first.kill()
     clean.run(*command, "true")  # the lock has ended with its process

@@ -38,13 +38,13 @@ def on_a_terminal(clone: Clone, *arguments: str, until: str = "", patience: floa
 
 def test_a_pipe_has_a_line_per_panel(kept: Clone) -> None:
     append("workflow/figures/fig03.py", "# more\n")(kept)
-    assert kept.snakemake("figures").splitlines() == [PROFILE, "fig03: drawn from 3 runs, 1 of 1 done"]
+    assert kept.snakemake("figures").splitlines() == [PROFILE, "fig03: rendered from 3 runs, 1 of 1 done"]
 
 
 def test_a_terminal_has_a_line_per_run(kept: Clone) -> None:
     shown, _ = on_a_terminal(kept, "quality=smoke", "panel=fig06", "--forceall", "--", "panel")
     assert re.search(r"fig06/all_sigma=0\.5: \w+ = \S+, \d of 3 done, about 0:\d\d:\d\d left", shown)
-    assert "fig06: drawn from 2 runs, 3 of 3 done" in shown
+    assert "fig06: rendered from 2 runs, 3 of 3 done" in shown
 
 
 def test_a_failure_shows_the_end_of_its_log_alone(kept: Clone) -> None:
@@ -52,14 +52,14 @@ def test_a_failure_shows_the_end_of_its_log_alone(kept: Clone) -> None:
     _, first, *log, last = kept.snakemake("figures", status=1).splitlines()
     assert re.fullmatch(r"fig03 failed after 0:\d\d:\d\d\. build/logs/smoke/fig03\.log ends with:", first)
     assert log[-1] == "  RuntimeError: broken here"
-    assert last == "Failed: fig03; 0 of 1 done. Fix the cause. The same command goes on."
+    assert last == "Failed: fig03; 0 of 1 done. Fix the cause; the same command resumes."
 
 
 @pytest.mark.parametrize(
     ("option", "advice"),
     [
-        ("--rerun-incomplete", "The same command goes on"),
-        ("--forceall", "without FRESH=yes it completes what was interrupted"),
+        ("--rerun-incomplete", "The same command resumes"),
+        ("--forceall", "without FRESH=yes it resumes"),
     ],
 )
 def test_ctrl_c(kept: Clone, option: str, advice: str) -> None:

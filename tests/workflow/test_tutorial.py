@@ -40,6 +40,7 @@ def test_a_panel_of_your_own(own: Clone) -> None:
     assert "kappa_sigma" in told
     assert "Dimensions:" in told
     assert f"kappa at 0.6: {table.kappa[4]:.6g}"[:-1] in told
+    assert re.search(r"kappa: [0-9.]+ \+- [0-9.]+\n", told)
     alone = load(own.folder / "kappa.h5")
     assert alone.converged == "reached"
     assert alone.provenance["achieved_error"] <= 0.02

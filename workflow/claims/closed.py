@@ -141,8 +141,10 @@ def only_energy(data: Data) -> Evidence:
 def ageing(data: Data) -> Evidence:
     """Literal: slope of the scatterers' energy against ln t in the last decade over that in the first from t = 1 on, minus 1. Intended:
     the last slope over the largest in a chain of so few particles that it saturates within the run."""
-    runs = [one for one in data.of("ext07", "ageing") if one.path.stem != "few"]
-    result = max(runs, key=lambda one: float(one.parameters["observation-time"]))
+    runs = data.of("ext07", "ageing")
+    result = max(
+        runs, key=lambda one: [one.parameters[key] for key in ("particles-per-cell", "observation-time")]
+    )
     decade = result["decade_slope"].axes["decade"]
     first = int(np.flatnonzero(decade > 1 - ROUNDING)[0])
     label = f"slope from t = {decade[-1]:g} over that from t = {decade[first]:g}, minus 1"

@@ -63,13 +63,13 @@ def _odd_parts(result: Result) -> list[Number]:
     return found
 
 
-def _speeds(result: Result) -> str:
+def _speeds(result: Result, where: str = "") -> str:
     speed = result["peak_speed"]
     known = np.flatnonzero(np.isfinite(speed.mean))
     if not len(known):
-        return "No moving peak was found."
+        return f"No moving peak was found{where}."
     told = [f"{_at(speed, k)} at t = {speed.axes['middle'][k]:.3g}" for k in known[[0, -1]]]
-    return f"Speed of the peaks: {', '.join(told)}."
+    return f"Speed of the peaks{where}: {', '.join(told)}."
 
 
 def _at(quantity: Quantity, k: Index = ()) -> str:
@@ -83,7 +83,7 @@ def ballistic(data: Data) -> Evidence:
     return Evidence(
         [_way(rest, "paper's start")],
         [_way(long, f"N = {long.parameters['cells']}")],
-        caveat=f"{_speeds(rest)} In the long ring: {_speeds(long)}",
+        caveat=f"{_speeds(rest)} {_speeds(long, ' in the long ring')}",
     )
 
 
@@ -113,7 +113,7 @@ def speed_falls(data: Data) -> Evidence:
     return Evidence(
         [_slowing(rest, "the paper's pulse")],
         alternative=[_slowing(weak, "a tenth of its energy")],
-        caveat=f"{_speeds(rest)} With a tenth of the energy: {_speeds(weak)}",
+        caveat=f"{_speeds(rest)} {_speeds(weak, ' with a tenth of the energy')}",
     )
 
 

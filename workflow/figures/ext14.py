@@ -34,7 +34,7 @@ def scaled(result: Result) -> pd.DataFrame:
     known = np.isfinite(found.mean)
     time = found.axes["time"][known]
     value, error = (array[known] / time**power for array in (found.mean, found.error))
-    columns = {"time": time, "relative": value / value[0], "relative_error": error / value[0]}
+    columns = {"time": time, "relative": value / value[:1], "relative_error": error / value[:1]}
     return pd.DataFrame(columns).assign(
         gamma=str(result.parameters["gamma"]), cells=int(result.parameters["cells"]),
         pulse_energy=float(result.parameters["pulse-energy"]), quantity=name,

@@ -12,6 +12,8 @@ rule draw:
             category="{quality}",
             labels={"panel": "{panel}"},
         ),
+    wildcard_constraints:
+        panel="(?!ext)[^/]+",
     log:
         "build/logs/{quality}/{panel}.log",
     priority: 10**9  # before any run
@@ -24,3 +26,8 @@ rule draw:
     shell:
         ".venv/bin/python -P -m workflow.figures.{params.script} --configuration {params.configuration}"
         " --output {params.stem:q} --data {input:q} 2> {log:q}"
+
+
+use rule draw as draw_extension with:
+    wildcard_constraints:
+        panel="ext[^/]+",

@@ -1,7 +1,7 @@
 """One run of a program: data/<quality>/<panel>/<run>.h5.
 
-Exit status 4: stopped before the target error; the result is marked, and the figure shows it. An interrupted program has left a
-checkpoint, with which --resume goes on.
+Exit status 4: stopped before the target error; the result and the figure are marked. --resume continues from the checkpoint of an
+interrupted program.
 """
 
 
@@ -10,6 +10,7 @@ rule simulate:
         "data/{quality}/{panel}/{run}.h5",
     log:
         "build/logs/{quality}/{panel}/{run}.log",
+    priority: priority_of_run
     params:
         program=lambda wildcards: run_of(wildcards).program,
         options=lambda wildcards: shlex.join(arguments(run_of(wildcards).options)),
