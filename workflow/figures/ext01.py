@@ -25,7 +25,7 @@ LOOKS: dict[str, style.Look] = {
     RANDOM: {"marker": "D", "color": style.GREEN, "markerfacecolor": "white"},
 }
 LABELS = ("sigma", "particles-per-cell", "relaxation-time", "zero-total-momentum", "random-direction")
-APART = 0.1  # of a place, by which kinds are drawn beside each other
+APART = 0.1  # of a place, by which kinds are plotted beside each other
 
 
 def kind(result: Result) -> str:
@@ -45,7 +45,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
             part[name.replace("-", "_")] = result.parameters[name]
         for name in ("alpha", "logarithmic_power", "momentum_drift"):
             if name not in result.quantities or np.isnan(result[name].mean):
-                continue  # no logarithmic power where the chain drifts, no momentum where directions are drawn
+                continue  # no logarithmic power where the chain drifts, no momentum where directions are random
             part[name] = float(result[name].mean)
             part[f"{name}_error"] = float(result[name].error)
         parts.append(part)
@@ -89,7 +89,7 @@ def caption(runs: pd.DataFrame, results: Sequence[Result]) -> str:
     return f"""
         Spreading of a tagged particle in a closed chain, {parameters(results, "cells", "cell-length", "temperature", "gamma")}, n particles per
         cell, relaxed for t_r, {replicas(results)}. (a)–(c) Local slopes of ⟨x²⟩ for the paper's n and the longest t_r; random directions,
-        drawn in every collision, do not conserve momentum. Dashed: ballistic, diffusive. (d)–(f) Exponent α fitted in the shaded window, from t = {number(fitted)} on. For σ ≠ 0, α is {ranges[PAPER]} in the
+        new in every collision, do not conserve momentum. Dashed: ballistic, diffusive. (d)–(f) Exponent α fitted in the shaded window, from t = {number(fitted)} on. For σ ≠ 0, α is {ranges[PAPER]} in the
         paper's ensemble, {ranges[ZERO]} with zero total momentum and {ranges[RANDOM]} with random directions: the superdiffusion is drift. {ERRORS}"""
 
 

@@ -16,7 +16,9 @@ from workflow.lib.fit import with_error
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
-BESIDE = 1.07  # factor of the sizes at which neighbouring spacings are drawn, as points would hide each other
+BESIDE = (
+    1.07  # factor of the sizes at which neighbouring spacings are plotted, as points would hide each other
+)
 # Suffixes of columns, and titles, by whose temperatures eq. 28 has.
 DEFINITIONS = {"": "$T_1$, $T_N$", "_particle": "arriving particles", "_baths": "baths"}
 
@@ -35,12 +37,12 @@ def caption(exponents: pd.DataFrame, results: Sequence[Result]) -> str:
         spacing: " to ".join(with_error(*part[["exponent", "exponent_error"]].iloc[k]) for k in (0, -1))
         for spacing, part in exponents.groupby("spacing", sort=False)
     }
-    said = ", ".join(f"{text} at λ = {spacing}" for spacing, text in ends.items())
+    ranges = ", ".join(f"{text} at λ = {spacing}" for spacing, text in ends.items())
     return f"""
         Local exponents of κ = −J_U N/ΔT between neighbouring sizes, runs of ext. 9; {parameters(results, "gamma", "sigma")},
         {replicas(results)}. ΔT is that of (a) the first and the last scatterer, as in the paper, (b) the particles that arrive there, (c) the baths. Dashed: 1/3.
         At the spacing λ = 1/N of the paper the gas thins out as the chain grows; at fixed λ large N is the thermodynamic limit. From the
-        smallest to the largest sizes the exponents of (a) go from {said}. Neighbouring points share a size. {ERRORS}"""
+        smallest to the largest sizes the exponents of (a) go from {ranges}. Neighbouring points share a size. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

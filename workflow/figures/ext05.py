@@ -88,8 +88,8 @@ def caption(table: pd.DataFrame, profiles: Sequence[Result], sizes: Sequence[Res
     for result in profiles:
         rows = table[(table.gamma == style.gamma(result)) & table.quantity.isin(SIDES)]
         far = rows.loc[rows.deviation_percent.abs().idxmax()]
-        said = with_error(far.deviation_percent, far.deviation_percent_error)
-        largest.append(f"{said} % at γ = {style.gamma(result)}")
+        text = with_error(far.deviation_percent, far.deviation_percent_error)
+        largest.append(f"{text} % at γ = {style.gamma(result)}")
     return f"""
         Open chain, {parameters(profiles, "sigma", "cell-length")}, {baths(profiles[0])}, {parameters(profiles, *WINDOW)},
         {replicas([*profiles, *sizes])}; (a)–(c) {parameters(profiles, "cells")}. (a) Arrivals at a scatterer per unit time; (b) over straight

@@ -1,7 +1,7 @@
 """Ext. 7: ageing. Energies against the logarithm of time, and what changes with the relaxation time.
 
 With few particles the energy saturates. Of the quantities that depend on the relaxation time the exponent of the spreading
-is drawn; the table has all.
+is plotted; the table has all.
 """
 
 from collections.abc import Sequence

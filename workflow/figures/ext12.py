@@ -17,8 +17,8 @@ from workflow.lib.fit import mean_of
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
-BESIDE = 1.12  # factor of the sizes at which neighbouring drives are drawn
-APART = 0.15  # of a place, by which starts are drawn beside each other
+BESIDE = 1.12  # factor of the sizes at which neighbouring drives are plotted
+APART = 0.15  # of a place, by which starts are plotted beside each other
 WARM = "warm"
 LOOKS = [("o", style.SKY), ("s", style.BLACK), ("^", style.VERMILLION)]  # by drive, from weak to strong
 STARTS = {
@@ -97,7 +97,7 @@ def caption(slopes: pd.DataFrame, starts: pd.DataFrame, results: Sequence[Result
     return f"""
         Heat conductivity κ and particle current J_n of the open chains of ext. 9 for other drives and starts, {parameters(results, "gamma", "sigma")},
         {replicas(results)}. (a)–(c) Local exponents of κ between neighbouring sizes, for ratios of the baths' temperatures of {drives} at
-        equal pressures, drawn beside each other; dashed: 1/3. At these sizes they depend on the drive. (d)–(i) κ and J_n from several
+        equal pressures, plotted beside each other; dashed: 1/3. At these sizes they depend on the drive. (d)–(i) κ and J_n from several
         starts, relative to the mean over them: in equilibrium with the mean of the baths (warm), with the colder or the hotter one, and empty. They
         differ by up to {kappa} % in κ and {current} % in J_n. {ERRORS}"""
 

@@ -122,7 +122,7 @@ def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
                 text, place, xycoords=axes.get_yaxis_transform(), ha="right", va="center", size=8, color=color
             )
     jumps = table.jump.abs()
-    if jumps.min() < FEW * jumps.max():  # elsewhere nothing could be told apart on an axis that reaches 0
+    if jumps.min() < FEW * jumps.max():  # elsewhere they could not be distinguished on an axis that reaches 0
         axes.axvline(0, **style.GUIDE)
     axes.set(xlabel=r"jump $F_N(0^+, x) - F_N(0^-, x)$", ylim=(0.5 - len(chains), 0.5))
     names = [rf"$\gamma = {gamma}$" + EQUAL * equal for gamma, equal, _ in chains]

@@ -58,8 +58,8 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     largest = []
     for particles, series in table.groupby("particles_per_cell"):
         far = series.loc[series.deviation.abs().idxmax()]
-        said = f"{with_error(far.deviation, far.mu_error)} at n = {particles} and σ = {number(far.sigma)}"
-        largest.append(said)
+        text = f"{with_error(far.deviation, far.mu_error)} at n = {particles} and σ = {number(far.sigma)}"
+        largest.append(text)
     return f"""
         Probability μ that a particle keeps its direction when it scatters, against the mass ratio, in closed chains,
         {parameters(results, "cells", "cell-length", "gamma", "temperature", "relaxation-time")}, n particles per cell, {replicas(results)}. (a) μ and

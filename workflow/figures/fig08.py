@@ -76,9 +76,9 @@ def draw_guide(axes: Axes, part: pd.DataFrame, slope: float, name: str) -> None:
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     weak = [one for one in results if drive(one) == table.drive.min()]
     slopes = table.dropna(subset="between")
-    told = slopes.apply(lambda one: with_error(one.exponent_to_next, one.exponent_to_next_error), axis=1)
-    rare, often = (told[(slopes.gamma == gamma) & (slopes.drive == table.drive.min())] for gamma in (1, "N"))
-    strong = told[slopes.drive > table.drive.min()]
+    texts = slopes.apply(lambda one: with_error(one.exponent_to_next, one.exponent_to_next_error), axis=1)
+    rare, often = (texts[(slopes.gamma == gamma) & (slopes.drive == table.drive.min())] for gamma in (1, "N"))
+    strong = texts[slopes.drive > table.drive.min()]
     return f"""
         Heat conductivity κ = −J_U N/(T_N − T_1) of open chains against the number of cells N, {parameters(weak, "cell-length", "sigma")},
         {baths(weak[0])}, {replicas(results)}. Triangles: stronger drive, T_R/T_L = {number(table.drive.max())} (ext. 9). (a) κ; dashed
