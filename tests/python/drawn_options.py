@@ -64,13 +64,6 @@ def pulsed(draw: st.DrawFn) -> dict[str, object]:
 
 
 @st.composite
-def correlated(draw: st.DrawFn) -> dict[str, object]:
-    options = draw(closed()) | {"cells": draw(st.integers(7, 9))}
-    mantissa, exponent = str(options["observation-time"]).split("e")
-    return options | {"times": f"{mantissa}e{int(exponent) - 1},{options['observation-time']}"}
-
-
-@st.composite
 def equilibrium(draw: st.DrawFn) -> dict[str, object]:
     options = draw(closed())
     for name in (
@@ -92,6 +85,14 @@ def equilibrium(draw: st.DrawFn) -> dict[str, object]:
     if slow is not None:
         options["slowest"] = number(np.log10(float(str(options["temperature"])) or 1e-300) / 2 + slow)
     return options | ({"random-direction": True} if draw(st.booleans()) else {})
+
+
+@st.composite
+def correlated(draw: st.DrawFn) -> dict[str, object]:
+    options = draw(equilibrium()) | {"cells": draw(st.integers(7, 30))}
+    for name in ("fit-from", "random-direction"):
+        options.pop(name, None)
+    return options
 
 
 @st.composite

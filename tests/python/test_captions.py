@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.figures.ext03 import deviation
 from workflow.lib.caption import goodness, listed, number, parameters, replicas
 from workflow.lib.load import Quantity, Result
 
@@ -84,15 +83,3 @@ def test_p_values_near_zero_are_bounds() -> None:
     assert goodness(12, 4) == "χ² = 12.0 for 4, p = 0.017"
     assert goodness(1e3, 4) == "χ² = 1000.0 for 4, p < 1e-06"
     assert goodness(0.0, 0) == "no degree of freedom to test it"
-
-
-def test_a_wrong_exponent_of_correlated_differences_is_told() -> None:
-    """Differences of independent values: chi^2 about their mean difference is that of the values' own law."""
-    random = np.random.default_rng(5)
-    heights = np.cumsum(np.full((4000, 6), 0.7), axis=1) + random.normal(0, 0.1, (4000, 6))
-    errors = np.full(5, 0.1 * np.sqrt(2))
-    right, wrong = (
-        np.array([deviation(one, errors, expected)[0] for one in np.diff(heights)]) for expected in (0.7, 0.5)
-    )
-    assert abs(right.mean() - 5) < 4 * np.sqrt(10 / 4000)
-    assert wrong.mean() > 15

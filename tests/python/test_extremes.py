@@ -45,11 +45,10 @@ def execute(name: str, options: dict[str, object]) -> tuple[int, str, Result | N
 # NaN if there is nothing to measure, as documented in docs/format.md.
 MAY_BE_NAN = {
     "current_correlation",  # of currents that do not vary
-    "local_centre_exponent",  # of correlations that are not positive
     "alpha_relative", "alpha_difference", "density_slope", "density_excess", "temperature_difference",
     "rate_right_deviation", "rate_left_deviation", "drift_p_value", "exponent_by_cut", "exponent_spread", "front", "front_exponent", "kurtosis", "local_slope",
     "logarithmic_power", "momentum_drift", "plateau", "square", "temperature_particle", "peak", "peak_position",
-    "peak_speed", "damping_exponent_from", "damping_drift", "local_damping_exponent", "peak_collapse", "centre_share",
+    "peak_speed", "peak_width", "damping_exponent_from", "damping_drift", "local_damping_exponent", "peak_collapse", "centre_share",
 }  # fmt: skip
 
 

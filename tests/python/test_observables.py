@@ -16,12 +16,10 @@ SHORT = {  # options specific to a program
     "ageing": {"decades": 2},
     "correlation": {
         "cells": 101,
-        "temperature": 1e4,
-        "scatterer-temperature": 8e4,
-        "particles-per-cell": 20,
-        "relaxation-time": 0.1,
-        "observation-time": 1,
-        "times": "0.01,0.02,0.04",
+        "particles-per-cell": None,
+        "relaxation-time": None,
+        "observation-time": 64,
+        "times": "4,8,16",
     },
     "heat_current": {
         "cells": 20,
@@ -40,8 +38,8 @@ SHORT = {  # options specific to a program
     },
 }
 QUANTITIES = {
-    "correlation": {"number_correlation": ["time", "cell"], "energy_correlation": ["time", "cell"],
-                    "momentum_correlation": ["time", "cell"], "centre": ["time"], "local_centre_exponent": ["middle"],
+    "correlation": {"momentum_correlation": ["time", "cell"], "heat_correlation": ["time", "cell"], "peak_area": ["time"],
+                    "centroid": ["time"], "sound_speed": ["middle"], "heat_area": ["time"], "peak_width": ["time"],
                     "peak": ["time"], "peak_position": ["time"], "peak_raw": ["time"], "peak_speed": ["middle"],
                     "local_damping_exponent": ["until"], "damping_drift": [], "damping_exponent": [], "damping_exponent_from": ["from"],
                     "peak_collapse": []},

@@ -23,7 +23,7 @@ FACTORS = {"particle_count": 2e-3}  # factor of all times
 OTHERS = 5e-3
 IN_PLACE = {  # of the options of a program
     "energy_pulse": {"pairs-per-replica": 1, "relaxation-time": 0},
-    "correlation": {"cells": 101, "relaxation-time": 0.1, "observation-time": 0.4, "times": "0.025,0.05,0.1"},
+    "correlation": {"cells": 101, "observation-time": 64, "times": "4,8,16"},
     "heat_current": {"cells": 20, "observation-time": 8, "times": "1,2,4", "fit-from": 1},
 }
 
@@ -34,7 +34,7 @@ NUMBERS = {
     "displacement": ("variance", "alpha"),
     "ageing": ("scatterer_energy_mean", "log_slope"),
     "heat_current": ("heat_variance", "local_exponent"),
-    "correlation": ("energy_correlation", "momentum_correlation", "peak"),
+    "correlation": ("heat_correlation", "momentum_correlation", "peak"),
     "conductivity": ("energy_current", "temperature_first", "temperature_last"),
     "steady_profile": ("energy_current_mean", "density", "temperature_difference"),
     "momentum_flux": ("crossings", "square", "jump"),

@@ -1,10 +1,11 @@
-"""Ext. 3: how sound is damped: correlations of the momenta of two cells, and the pulses of fig. 9a.
+"""Ext. 3: sound and heat peaks of rings in equilibrium, against mode coupling without a fitted parameter.
 
-In a chain that conserves number, energy and momentum, sound peaks widen as t^(2/3) (Spohn, J. Stat. Phys. 154, 1191,
-2014); damped by diffusion, as t^(1/2).
+C_g, the covariance of the momenta of two cells, has the sound peaks [mode_coupling.md, eq. M19]; that of E_s - theta E_p, the
+energies of scatterer and particles with theta = 1/(2 zeta), has the heat peak [eq. M29].
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -12,188 +13,201 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from workflow.figures.fig09 import gaussian_start
-from workflow.figures.fig10 import by_octave
+from workflow.figures.ext13 import chain
 from workflow.lib import style
-from workflow.lib.caption import CHAIN, GAS, WINDOW, goodness, parameters, replicas
+from workflow.lib.caption import listed, number, parameters, replicas
 from workflow.lib.figure import run
-from workflow.lib.fit import PowerLaw, fit_power, mean_of, with_error
-from workflow.lib.load import Quantity, Result
+from workflow.lib.fit import with_error
+from workflow.lib.load import Result
+from workflow.lib.mode_coupling import Chain, f_kpz, levy
 
-SOUND, DIFFUSION = 2 / 3, 1 / 2
-LARGEST_ERROR = 0.1  # of what is shown, absolute for exponents and relative for speeds
-BESIDE = (3, 5)  # half widths of the peak between which C_g beside it is background
-REACH = 0.6  # of the first peak from the centre, over which profiles are compared
-
-
-def folded(profile: np.ndarray) -> np.ndarray:
-    """Mean of both sides, by distance from the centre."""
-    centre = len(profile) // 2
-    mean: np.ndarray = 0.5 * (profile[centre:] + profile[centre::-1])
-    return mean
+FIRST = 16  # time from which a peak is wider than cells
+HALF_WIDTH = 0.880466  # of f_KPZ
+REACH = 3  # of the scaled profiles
+HEAT_REACH = 6
+BIN = 0.2  # of the scaled distances, over which profiles are averaged
 
 
-def draw_collapse(axes: Axes, result: Result) -> pd.DataFrame:
-    """The peak at several times, rescaled with the exponent of sound."""
-    correlation, positions = result["momentum_correlation"], result["peak_position"].mean
-    parts, times = [], correlation.axes["time"]
-    shown = [k for k in range(len(positions)) if np.isfinite(positions[k])][1:]
-    for k, color, dashes in zip(shown, style.SEQUENCE, style.DASHES, strict=False):
-        stretch = (times[k] / times[shown[0]]) ** SOUND
-        profile = folded(correlation.mean[k])
-        x = (np.arange(len(profile)) - positions[k]) / stretch
-        near = np.abs(x) < REACH * positions[shown[0]]
-        y = profile * stretch
-        error = np.sqrt(folded(correlation.error[k] ** 2) / 2) * stretch
-        axes.plot(x[near], y[near] / 1e4, color=color, linestyle=dashes, label=f"$t = {times[k]:g}$")
-        low, high = (y[near] - error[near]) / 1e4, (y[near] + error[near]) / 1e4
-        axes.fill_between(x[near], low, high, color=color, alpha=0.3, linewidth=0)
-        columns = {"time": times[k], "x": x[near], "y": y[near], "y_error": error[near]}
-        parts.append(pd.DataFrame(columns))
-    axes.axhline(0, **style.GUIDE)
-    axes.set(xlabel=r"$(r - ct)\,(t_1/t)^{2/3}$")
-    axes.set(ylabel=rf"$(t/t_1)^{{2/3}}\,C_g(r, t)\,/\,10^4$ ({style.UNITS})")
-    axes.legend(loc="upper left", handlelength=1.6)
-    return pd.concat(parts) if parts else pd.DataFrame(columns=["time", "x", "y", "y_error"])
+class Record(NamedTuple):
+    """Profiles at one time, from the run in which they have the smallest error."""
+
+    result: Result
+    index: int
+    time: float
+    gas: Chain  # with infinitely many slow particles
+    mobile: Chain  # with those that move within the time
+
+    def value(self, name: str) -> tuple[float, float]:
+        quantity = self.result[name]
+        return float(quantity.mean[self.index]), float(quantity.error[self.index])
+
+    def profile(self, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Distances from the centre, in lengths; mean of both sides, and its error."""
+        quantity = self.result[name]
+        mean, error = quantity.mean[self.index], quantity.error[self.index]
+        middle = len(mean) // 2
+        sides = 0.5 * (mean[middle:] + mean[middle::-1][: len(mean) - middle])
+        return np.arange(len(sides)) * self.gas.cell_length, sides, error[middle:]
 
 
-def draw_exponents(axes: Axes, fluctuations: Result, pulse: Result) -> pd.DataFrame:
+def records(results: Sequence[Result]) -> list[Record]:
+    """By gas and time."""
+    found: dict[tuple[float, float, float], Record] = {}
+    for result in results:
+        for index, time in enumerate(result["peak"].axes["time"]):
+            gas, mobile = chain(result), chain(result, time)
+            one = Record(result, index, time, gas, mobile)
+            key = (gas.zeta, gas.mass, time)
+            error = float(np.mean(result["momentum_correlation"].error[index]))
+            if time >= FIRST and (
+                key not in found or error < np.mean(found[key].profile("momentum_correlation")[2])
+            ):
+                found[key] = one
+    return [found[key] for key in sorted(found)]
+
+
+def binned(x: np.ndarray, y: np.ndarray, error: np.ndarray) -> pd.DataFrame:
+    """Means over the cells of every bin, whose errors are almost independent."""
+    cells = pd.DataFrame({"x": x, "y": y, "y_error": error**2}).groupby(np.floor(x / BIN))
+    found = cells.mean()
+    return found.assign(y_error=np.sqrt(found.y_error / cells.size())).reset_index(drop=True)
+
+
+def scaled_sound(record: Record) -> pd.DataFrame:
+    """Peak of unit area about the distance ct, in units of (λ_s t)^(2/3) [eq. M19]."""
+    x, y, error = record.profile("momentum_correlation")
+    unit = (record.gas.self_coupling * record.time) ** (2 / 3)
+    per_area = unit / (record.gas.peak_area * record.gas.cell_length**2)
+    offset = (x - record.gas.sound_speed * record.time) / unit
+    near = np.abs(offset) < REACH
+    return binned(offset[near], per_area * y[near], per_area * error[near])
+
+
+def scaled_heat(record: Record) -> pd.DataFrame:
+    """Peak of unit area in units of (D_h t)^(3/5), with the logarithm of the mobile particles [eq. M29]."""
+    x, y, error = record.profile("heat_correlation")
+    unit = (record.mobile.heat_spreading * record.time) ** (3 / 5)
+    per_area = unit / (heat_area(record) * record.gas.cell_length)
+    near = x < HEAT_REACH * unit
+    return binned(x[near] / unit, per_area * y[near], per_area * error[near])
+
+
+def heat_area(record: Record) -> float:
+    """Of the covariances of the cells: T^4/(4 λ χ_q)."""
+    return record.gas.temperature**4 / (4 * record.gas.cell_length * record.mobile.heat_susceptibility)
+
+
+def draw_peaks(
+    axes: Axes, shown: Sequence[Record], scaled: Callable[[Record], pd.DataFrame]
+) -> list[pd.DataFrame]:
     parts = []
-    for result, marker, color, text in (
-        (fluctuations, "o", style.BLUE, f"correlations, $N = {fluctuations.parameters['cells']}$"),
-        (pulse, "s", style.VERMILLION, f"pulse, $N = {pulse.parameters['cells']}$"),
-    ):
-        local = (
-            by_octave(result).drop(columns="until").set_axis(["time", "exponent", "exponent_error"], axis=1)
+    for record, color, dashes in zip(shown, style.SEQUENCE[1:], style.DASHES[1:], strict=False):
+        part = scaled(record)
+        axes.plot(part.x, part.y, color=color, linestyle=dashes, label=f"$t = {record.time:g}$")
+        axes.fill_between(
+            part.x, part.y - part.y_error, part.y + part.y_error, color=color, alpha=0.3, linewidth=0
         )
-        used = local[local.exponent_error < LARGEST_ERROR]
-        axes.errorbar(
-            used.time,
-            used.exponent,
-            used.exponent_error,
-            marker=marker,
-            color=color,
-            label=text,
-            **style.POINTS,
-        )
-        parts.append(local.assign(source=text))
-    for value, text in ((SOUND, "2/3"), (DIFFUSION, "1/2")):
-        style.guide_at(axes, value, text)
-    axes.set(xscale="log", xlabel="time $t$", ylabel="local damping exponent", ylim=(0.3, 1))
+        parts.append(part.assign(zeta=record.gas.zeta, mass=record.gas.mass, time=record.time))
+    return parts
+
+
+# Measured over predicted: name of the quantity, prediction, marker, colour, name in the legend.
+RATIOS: list[tuple[str, Callable[[Record], float], str, str, str]] = [
+    ("peak", lambda one: float(one.gas.sound_peak(one.gas.sound_speed * one.time, one.time)) * one.gas.cell_length**2,
+     "o", style.BLUE, "height"),
+    ("peak_width", lambda one: 2 * HALF_WIDTH * (one.gas.self_coupling * one.time) ** (2 / 3) / one.gas.cell_length,
+     "s", style.VERMILLION, "width"),
+    ("peak_area", lambda one: one.gas.peak_area * one.gas.cell_length, "^", style.ORANGE, "area"),
+    ("centroid", lambda one: one.mobile.sound_speed_in_cells * one.time, "D", style.GREEN, "speed"),
+]  # fmt: skip
+
+
+def tabulate(found: Sequence[Record]) -> pd.DataFrame:
+    """One row per gas and time: measured over predicted."""
+    rows = []
+    for record in found:
+        row = {"zeta": record.gas.zeta, "mass": record.gas.mass, "time": record.time}
+        for name, predicted, *_ in RATIOS:
+            value, error = record.value(name)
+            row |= {
+                f"{name}_ratio": value / predicted(record),
+                f"{name}_ratio_error": error / predicted(record),
+            }
+        value, error = record.value("heat_area")
+        row |= {
+            "heat_area_ratio": value / heat_area(record),
+            "heat_area_ratio_error": error / heat_area(record),
+        }
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def draw_ratios(axes: Axes, table: pd.DataFrame) -> None:
+    for k, (_, part) in enumerate(table.groupby(["zeta", "mass"])):
+        for name, _, marker, color, label in RATIOS:
+            look = {
+                "marker": marker,
+                "color": color,
+                **style.POINTS,
+                "markerfacecolor": "white" if k else color,
+            }
+            shift = 1.06 ** (k - 0.5)
+            axes.errorbar(part.time * shift, part[f"{name}_ratio"], part[f"{name}_ratio_error"],
+                          label=None if k else label, **look)  # fmt: skip
+    axes.axhline(1, **style.GUIDE)
+    axes.set(xscale="log", xlabel="time $t$", ylabel="measured / predicted", ylim=(0.8, 1.25))
     style.label_within_decades(axes.xaxis)
-    axes.legend(loc="upper left")
-    return pd.concat(parts)
+    axes.legend(loc="upper left", ncols=2, columnspacing=1)
 
 
-def draw_heat(axes: Axes, centre: Quantity) -> pd.DataFrame:
-    time = centre.axes["time"]
-    axes.errorbar(time, centre.mean, centre.error, marker="o", color=style.BLACK, **style.POINTS)
-    axes.set(xscale="log", xlabel="time $t$", ylabel="$C_n(0, t)$", ylim=(0, None))
-    style.label_within_decades(axes.xaxis)
-    return pd.DataFrame({"time": time, "centre": centre.mean, "centre_error": centre.error})
-
-
-def known(quantity: Quantity) -> tuple[np.ndarray, np.ndarray]:
-    """Values and errors where there are any and they are known well enough to be shown."""
-    used = quantity.error < LARGEST_ERROR * np.maximum(1, np.abs(quantity.mean))
-    return quantity.mean[used], quantity.error[used]
-
-
-def deviation(values: np.ndarray, errors: np.ndarray, expected: float) -> tuple[float, int]:
-    """chi^2 of differences between neighbouring times against one value, with their number. Neighbours share a time and
-    its error with opposite signs: their correlation is taken as -1/2."""
-    pull = (values - expected) / errors
-    size = len(values)
-    covariance = np.eye(size) - 0.5 * (np.eye(size, k=1) + np.eye(size, k=-1))
-    return float(pull @ np.linalg.solve(covariance, pull)), size
-
-
-def background(result: Result) -> np.ndarray:
-    """Mean of C_g at the distances BESIDE from the peak, on both sides, at every time; NaN without a peak."""
-    heights, positions = result["peak"].mean, result["peak_position"].mean
-    found = np.full(len(heights), np.nan)
-    for k in np.flatnonzero(np.isfinite(heights)):
-        profile = folded(result["momentum_correlation"].mean[k])
-        distance = np.arange(len(profile)) - positions[k]
-        half_width = distance[(distance > 0) & (profile < heights[k] / 2)].min(initial=np.inf)
-        near, far = (factor * half_width for factor in BESIDE)
-        beside = profile[(np.abs(distance) > near) & (np.abs(distance) < far)]
-        found[k] = beside.mean() if len(beside) else np.nan
-    return found
-
-
-def damping(result: Result, above: bool = False) -> PowerLaw:
-    """Power of time by which the peak falls, or by which it falls above its background; NaN where there are not two heights."""
-    peak = result["peak"]
-    height = peak.mean - background(result) if above else peak.mean
-    there = np.isfinite(height)
-    if there.sum() < 2:
-        return PowerLaw(np.nan, np.nan, np.nan, np.nan, 0)
-    return fit_power(peak.axes["time"][there], height[there], peak.error[there])
-
-
-def between(times: np.ndarray) -> str:
-    return f"between t = {times[0]:g} and {times[-1]:g}" if len(times) else "at no time"
-
-
-def of_peak(result: Result) -> str:
-    """What the height and the speed of the sound peak say."""
-    speed = known(result["peak_speed"])
-    law, above = damping(result), damping(result, above=True)
-    seen = result["peak"].axes["time"][np.isfinite(result["peak"].mean)]
-    tests = []
-    for expected, name in ((SOUND, "2/3"), (DIFFUSION, "1/2")):
-        found = goodness(*deviation(*known(result["local_damping_exponent"]), expected))
-        tests.append(f"{name}: {found}")
-    mean, *_ = mean_of(*speed)
-    value, size = deviation(*speed, mean)
-    octaves = by_octave(result).octave_exponent.dropna()
-    return (
-        f"Between octaves the exponent lies between {octaves.min():.3f} and {octaves.max():.3f}: the local exponents, whose errors are correlated, "
-        f"against {tests[0]}; against {tests[1]}. A straight line through the logarithms of all heights {between(seen)} has the mean slope "
-        f"{with_error(-law.exponent, law.error)}, and {with_error(-above.exponent, above.error)} above the background beside the "
-        f"peak. The peak moves at {with_error(speed[0][0], speed[1][0])} cells per unit time at first and {with_error(speed[0][-1], speed[1][-1])} at "
-        f"last ({goodness(value, size - 1)}, about a constant speed)."
-    )
-
-
-def of_heat(result: Result) -> str:
-    """How the local exponent of C_n(0, t) changes."""
-    values, errors = known(result["local_centre_exponent"])
-    first, last = (with_error(values[k], errors[k]) for k in (0, -1))
-    return f"The height at the centre falls with a local exponent that goes from {first} at the first times to {last} at the last"
+def last(table: pd.DataFrame, name: str, gas: Chain) -> str:
+    """Ratio at the last time of a gas."""
+    row = table[(table.zeta == gas.zeta) & (table.mass == gas.mass)].iloc[-1]
+    return with_error(row[f"{name}_ratio"], row[f"{name}_ratio_error"])
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
-    rings = [one for one in results if one.provenance["program"] == "correlation"]
-    largest = max(rings, key=lambda one: one.parameters["cells"])
-    pulse = gaussian_start([one for one in results if one.provenance["program"] == "energy_pulse"])
-    figure, row = plt.subplots(1, 3, figsize=(2.1 * style.COLUMN, style.HEIGHT))
-    tables = [
-        draw_collapse(row[0], largest),
-        draw_exponents(row[1], largest, pulse),
-        draw_heat(row[2], largest["centre"]),
-    ]
-    style.letter(*row)
-    caption = (
-        f"Sound in a ring, {parameters([largest], *CHAIN, *GAS)}, with scatterers at {largest.parameters['scatterer-temperature']:g}, to "
-        f"which they heat up anyway, {parameters([largest], *WINDOW)}, {replicas([largest])}, from the fluctuations of what has then formed. (a) C_g, the "
-        "covariance of the momenta of two cells at distance r and times t apart, about the peak that moves with the speed c, "
-        "rescaled with the exponent 2/3 to the first time shown, t_1. (b) Local exponents of the peak's "
-        f"height, over octaves of time, beside those of the energy pulse of fig. 10a from Gaussian momenta. {of_peak(largest)} (c) "
-        f"Covariance of the numbers of particles in one cell at two times. {of_heat(largest)}; heat would keep one exponent, and "
-        "slow particles that have not left their cell make C_n fall as the logarithm of t. Bands and bars: standard errors over replicas."
+    found = records(results)
+    table = tabulate(found)
+    gas = found[0].gas  # the one whose peak settles first
+    of_gas = [one for one in found if (one.gas.zeta, one.gas.mass) == (gas.zeta, gas.mass)]
+    shown = of_gas[::-2][:4][::-1]
+    figure, (sound, heat, ratios) = plt.subplots(1, 3, figsize=(2.1 * style.COLUMN, style.HEIGHT))
+    y = np.linspace(-REACH, REACH, 400)
+    sound.plot(y, f_kpz(y), color=style.BLACK, label=r"$f_{\mathrm{KPZ}}$")
+    parts = draw_peaks(sound, shown, scaled_sound)
+    sound.set(
+        xlabel=r"$(r - ct)\,/\,(\lambda_s t)^{2/3}$",
+        ylabel=r"$2(\lambda_s t)^{2/3}\,C_g\,/\,\rho T$",
+        ylim=(None, 0.72),
     )
-    return figure, pd.concat(tables), caption
+    sound.legend(loc="upper left", handlelength=1.8)
+    y = np.linspace(0, HEAT_REACH, 400)
+    heat.plot(y, levy(y), color=style.BLACK, label="Lévy, 5/3")
+    parts += draw_peaks(heat, shown, scaled_heat)
+    heat.set(
+        xlabel=r"$r\,/\,(D_h t)^{3/5}$", ylabel=r"$C_h\,(D_h t)^{3/5}\,/\,$predicted area", ylim=(None, 0.4)
+    )
+    heat.legend(loc="upper right", handlelength=1.8)
+    draw_ratios(ratios, table)
+    style.letter(sound, heat, ratios)
+    other = found[-1].gas
+    caption = f"""
+        Peaks in rings in equilibrium, {parameters(results, "cell-length")},
+        T = {listed(sorted({number(one.parameters["temperature"]) for one in results}))}, {replicas(results)}; lines: mode coupling without a
+        fitted parameter. (a) Sound: covariance C_g of the momenta of two cells at ζ = {number(gas.zeta)}, M = {number(gas.mass)}.
+        (b) Heat: covariance C_h of E_s − E_p/2ζ, energies of scatterer and particles, where particles slower than
+        λ/t count as frozen. (c) Height, width at half height, area, and speed (centre of mass over t) of the sound peak over theory; filled
+        as in (a), open: ζ = {number(other.zeta)}, M = {number(other.mass)}. At the end: height {last(table, "peak", gas)} and
+        {last(table, "peak", other)}, area {last(table, "peak_area", gas)} and {last(table, "peak_area", other)}, heat
+        {last(table, "heat_area", gas)} and {last(table, "heat_area", other)} of the area. Errors: standard errors over replicas."""
+    return figure, pd.concat([*parts, table]), caption
 
 
 if __name__ == "__main__":
-    run(
-        draw,
-        "Sound in the fluctuations of a ring, and the number of particles in a cell",
-        x="1",
-        y="momentum^2",
-        y_error="momentum^2",
-        exponent="1",
-        exponent_error="1",
-    )
+    ratio = {
+        f"{name}_ratio{suffix}": "1"
+        for name in (*(one[0] for one in RATIOS), "heat_area")
+        for suffix in ("", "_error")
+    }
+    run(draw, "Sound and heat peaks in equilibrium", zeta="1", mass="1", x="1", y="1", y_error="1", **ratio)

@@ -1,8 +1,8 @@
 """Ext. 11: linear response of the currents of energy and particles, and heat conductivity without a particle current.
 
 J_i = sum_k L_ik X_k / N with X_u = 1/T_R - 1/T_L and X_n = (mu/T)_L - (mu/T)_R, where mu/T = ln(nu/sqrt(T)) + const for
-half-Gaussian baths [eq. 29]. What is called heat conductivity elsewhere has no current of particles,
-κ_0 = (L_uu - L_un L_nu/L_nn)/T^2.
+half-Gaussian baths [eq. 29]. The heat conductivity without a current of particles is κ_0 = (L_uu - L_un L_nu/L_nn)/T^2.
+Mode coupling predicts κ_0 = a + (3A/λ)(τλN/c)^(1/3), where sound leaves after the time τλN/c [mode_coupling.md, eq. M33].
 """
 
 from collections.abc import Sequence
@@ -15,11 +15,12 @@ from matplotlib.figure import Figure
 
 from workflow.figures.ext09 import LOOKS, by_spacing, gas, spacings
 from workflow.lib import style
-from workflow.lib.caption import BATHS, goodness, parameters, replicas
+from workflow.lib.caption import BATHS, parameters, replicas
 from workflow.lib.figure import run
-from workflow.lib.fit import fit_power, with_error
+from workflow.lib.fit import Line, fit_line, with_error
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
+from workflow.lib.mode_coupling import Chain
 
 DRAWN = 4000  # samples of the currents, for errors good to 1 %
 TOP = 1.15  # of what is drawn from 0 on, over its largest value
@@ -98,21 +99,42 @@ def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     """One row per gas and size."""
     runs: dict[tuple[str, int], dict[bool, Response]] = {}
+    transit = {}
     for result in results:
         response = Response.of(result)
         key = gas(result), response.cells
+        transit[key] = sound_transit(result)
         runs.setdefault(key, {})[bool(response.forces[0])] = response
-    rows = [{"gas": key[0], "cells": key[1]} | onsager(pair[True], pair[False]) for key, pair in runs.items()]
+    rows = [
+        {"gas": key[0], "cells": key[1], "sound_transit": transit[key]} | onsager(pair[True], pair[False])
+        for key, pair in runs.items()
+    ]
     return pd.DataFrame(rows).sort_values("cells", ignore_index=True)
 
 
-def growth(part: pd.DataFrame, column: str) -> str:
-    """Exponent of a power law through all sizes, or that there is none, and the exponents between the smallest and the largest two."""
-    law = fit_power(part.cells, part[column], part[f"{column}_error"])
-    _, slope, error = local_exponents(part.cells, part[column], part[f"{column}_error"])
+def sound_transit(result: Result) -> float:
+    """(3A/λ)(λN/c)^(1/3): the growing part of κ_0 for τ = 1, in the gas that the baths would keep in equilibrium."""
+    rate, temperature = (
+        float(np.sqrt(np.prod([result.parameters[f"{name}-{side}"] for side in ("left", "right")])))
+        for name in ("nu", "temperature")
+    )
+    spacing, _ = style.spacing(result)
+    sigma = result.parameters["sigma"]
+    fugacity = rate * np.sqrt(2 / (np.pi * temperature))  # the flux of a bath at p = 0 [eq. 5]
+    chain = Chain(fugacity * spacing, (1 + sigma) / (1 - sigma), temperature, spacing)
+    return float(chain.conductivity(result.parameters["cells"], opening=1))
+
+
+def fitted(part: pd.DataFrame) -> Line:
+    """a and τ^(1/3), intercept and slope, from the sizes of one gas."""
+    return fit_line(part.sound_transit, part.kappa_0, part.kappa_0_error)
+
+
+def exponents(sizes: pd.Series, values: pd.Series, errors: pd.Series) -> str:
+    """Between the smallest and the largest two sizes."""
+    _, slope, error = local_exponents(sizes, values, errors)
     first, last = (with_error(slope[k], error[k]) for k in (0, -1))
-    whole = "no single power" if law.rejected else f"N^{with_error(law.exponent, law.error)}"
-    return f"{whole} ({goodness(law.chi_square, law.freedom)}), local exponents from {first} to {last}"
+    return f"{first} to {last}"
 
 
 def crossed(table: pd.DataFrame) -> str:
@@ -125,9 +147,11 @@ def crossed(table: pd.DataFrame) -> str:
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
-    table = tabulate(results)
+    table, spacing = tabulate(results), spacings(results)
+    dense, thinning = (table[table.gas == name] for name in ("dense", "thinning"))
+    law = fitted(dense)
+    table["predicted"] = law.at(table.sound_transit)
     figure, (left, right, local) = plt.subplots(1, 3, figsize=(2.1 * style.COLUMN, style.HEIGHT))
-    said, spacing = [], spacings(results)
     for name, part in table.groupby("gas", sort=False):
         marker, color = LOOKS[name]
         look = {"marker": marker, "color": color, **style.POINTS}
@@ -136,16 +160,11 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         left.errorbar(part.cells, per_cell, part.L_nn_error / part.cells, label=label, **look)
         right.errorbar(part.cells, part.kappa_0, part.kappa_0_error, **look)
         local.errorbar(*local_exponents(part.cells, part.kappa_0, part.kappa_0_error), **look)
+        middle, slope, _ = local_exponents(part.cells, part.predicted, 0 * part.predicted)
+        right.plot(part.cells, part.predicted, color=color)
+        local.plot(middle, slope, color=color)
         for axes, column in ((left, per_cell), (right, part.kappa_0)):
             style.cross_out(axes, part.cells.to_numpy(), column.to_numpy(), ~part.usable.to_numpy(dtype=bool))
-        grows = [
-            f"{symbol} {growth(part, column)}" for symbol, column in (("L_nn", "L_nn"), ("κ_0", "kappa_0"))
-        ]
-        said.append(f"at spacing {spacing[name]} {', '.join(grows)}")
-    size = np.array([table.cells.min(), table.cells.max()], dtype=float)
-    guide = 0.6 * table.kappa_0.min() * (size / size[0]) ** (1 / 3)
-    right.plot(size, guide, **style.GUIDE)
-    right.text(size[1], 0.85 * guide[1], "$N^{1/3}$", size=8, ha="right", va="top")
     for axes in (left, right, local):
         axes.set(xscale="log", xlabel="number of cells $N$")
         style.label_sizes(axes.xaxis)
@@ -156,18 +175,19 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     style.guide_at(local, 1 / 3, "1/3")
     left.legend(loc="lower left")
     style.letter(left, right, local)
-    ratio = table.kappa_0 / table.kappa
-    pulls = table.asymmetry / table.asymmetry_error
-    worst = table.loc[pulls.abs().idxmax()]
+    measured = {
+        name: exponents(part.cells, part.kappa_0, part.kappa_0_error)
+        for name, part in table.groupby("gas", sort=False)
+    }
+    slopes = local_exponents(thinning.cells, law.at(thinning.sound_transit), np.zeros(len(thinning)))[1]
     caption = (
-        f"Linear response at γ = N, {parameters(results, 'sigma')}, from a difference of temperature at equal pressure and one "
-        f"of pressure at equal temperature ({parameters(results, *BATHS)}), {replicas(results)}: N J_i = Σ L_ik X_k with the forces X_u, the "
-        "difference of the inverse temperatures, and X_n, that of ln(ν/√T). (a) Coefficient of the particle current over N; without friction in the bulk, as momentum is "
-        "conserved, it would be constant. (b) Heat conductivity without a current of "
-        f"particles, κ_0 = (L_uu - L_un L_nu / L_nn)/T^2, {ratio.min():.1f} to {ratio.max():.1f} times −J_U N/(T_R − T_L) at equal "
-        f"pressure, where particles carry energy against the heat. (c) Its local exponents between neighbouring sizes, which share one. Growth over all sizes: {'; '.join(said)}. Onsager's symmetry "
-        f"L_un = L_nu: {goodness(float(np.sum(pulls**2)), len(pulls))}, the farthest off by {100 * worst.asymmetry / worst.L_un:.1f} % "
-        f"at N = {worst.cells} and spacing {spacing[worst.gas]}.{crossed(table)} Error bars: standard errors over replicas."
+        f"Linear response at γ = N, {parameters(results, 'sigma')}, from differences of temperature and of pressure "
+        f"({parameters(results, *BATHS)}), {replicas(results)}. (a) Coefficient of the particle current; momentum conservation "
+        "makes it grow as N. (b) Heat conductivity without particle current. (c) Its local exponents: "
+        f"{measured['thinning']} at λ = 1/N, {measured['dense']} at λ = {spacing['dense']}. Lines: mode coupling, a + "
+        f"(3A/λ)(τλN/c)^(1/3), with τ = {with_error(law.slope**3, 3 * law.slope**2 * law.error)} and a fitted at "
+        f"λ = {spacing['dense']} (χ² = {law.chi_square:.0f} for {law.freedom}). At λ = 1/N it predicts "
+        f"{slopes[0]:.2f} to {slopes[-1]:.2f}: exponents above 1/3 at small N are no evidence against 1/3.{crossed(table)}"
     )
     return figure, by_spacing(table, spacing), caption
 
@@ -178,6 +198,8 @@ if __name__ == "__main__":
         "kappa": "energy/(time temperature)",
         "kappa_0": "energy/(time temperature)",
         "asymmetry": "energy/time",
+        "sound_transit": "energy/(time temperature)",
+        "predicted": "energy/(time temperature)",
     }
     run(
         draw,

@@ -91,7 +91,7 @@ def amplitude(results: Sequence[Result]) -> str:
     gas = chain(longest, np.sqrt(first * last))
     fitted = longest["amplitude"]
     ratio = with_error(float(fitted.mean) / gas.heat_amplitude, float(fitted.error) / gas.heat_amplitude)
-    return f"A fit with a normal part over t = {number(first)} to {number(last)} gives {ratio} of the amplitude of mode coupling."
+    return f"A fit with a normal part over t = {number(first)} to {number(last)} gives {ratio} of the predicted amplitude."
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
@@ -121,11 +121,11 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     style.guide_at(right, 1, "1")
     style.letter(left, right)
     caption = f"""
-        Heat Q that passes in a time t in rings in equilibrium: flux ζ of slow particles, {parameters(results, "cell-length")},
-        T = {listed(sorted({number(one.parameters["temperature"]) for one in results}))}, {replicas(results)}.
+        Heat Q that passes in a time t in rings in equilibrium, {parameters(results, "cell-length")},
+        T = {listed(sorted({number(one.parameters["temperature"]) for one in results}))}, {replicas(results)}; ζ: flux of slow particles.
         (a) Mean square per cell and time. Lines: mode coupling, ∝ t^(1/3), without a fitted parameter and without
         normal diffusion. Random directions do not conserve momentum. (b) Exponents over octaves; dashed: mode
-        coupling and diffusion. At the end: {", ".join(said)}. {amplitude(results)} Error bars: standard errors over replicas."""
+        coupling and diffusion. In the last octave: {", ".join(said)}. {amplitude(results)}"""
     return figure, table, caption
 
 

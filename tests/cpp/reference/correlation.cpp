@@ -1,11 +1,9 @@
-/// Correlations of a closed chain by the reference simulator, with independent random numbers and initial
-/// states and no code shared with the engine or the program correlation. Prints one line per replica: for
-/// number, energy and momentum of a cell, and for every distance r = 0, 1, ... on the ring, the mean over
-/// cells of a_i(relaxation) a_{i+r}(relaxation
-/// + lag), a being the deviation from its known mean.
+/// Correlations of a closed chain in the stationary state by the reference simulator, with independent random
+/// numbers and initial states and no code shared with the engine or the program correlation. Prints one line
+/// per replica: for the momentum and for E_s - E_p/(2 zeta) of a cell, and for every distance r = 0, 1, ...
+/// on the ring, the mean over cells of a_i(0) a_{i+r}(lag). Cells extend from one scatterer to the next.
 ///
-///   reference_correlation cells particles_per_cell sigma temperature scatterer_temperature relaxation lag
-///   replicas seed
+///   reference_correlation cells zeta sigma temperature slowest lag replicas seed
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -18,11 +16,25 @@ namespace {
 
 using Simulator = reference::HeapSimulator<double>;
 
-void print(const std::vector<double>& before, const std::vector<double>& after, double mean) {
+struct Fields {
+  std::vector<double> momentum, heat;
+};
+
+Fields fields(const Simulator& chain, double time, double zeta) {
+  Simulator::Totals totals = chain.totals(time, 0.5);
+  Fields found{totals.momentum, {}};
+  for (std::size_t i = 0; i < totals.energy.size(); ++i) {
+    const double P = chain.scatterers()[i], of_scatterer = P * P / (2 * chain.scatterer_mass());
+    found.heat.push_back(of_scatterer - (totals.energy[i] - of_scatterer) / (2 * zeta));
+  }
+  return found;
+}
+
+void print(const std::vector<double>& before, const std::vector<double>& after) {
   const std::size_t cells = before.size();
   for (std::size_t r = 0; r < cells; ++r) {
     double sum = 0;
-    for (std::size_t i = 0; i < cells; ++i) sum += (before[i] - mean) * (after[(i + r) % cells] - mean);
+    for (std::size_t i = 0; i < cells; ++i) sum += before[i] * after[(i + r) % cells];
     std::printf("%.17g ", sum / static_cast<double>(cells));
   }
 }
@@ -30,34 +42,35 @@ void print(const std::vector<double>& before, const std::vector<double>& after, 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 10) return 2;
+  if (argc != 9) return 2;
   const auto number = [&](int i) { return std::atof(argv[i]); };
-  const auto cells = static_cast<std::size_t>(number(1)), per_cell = static_cast<std::size_t>(number(2));
-  const double sigma = number(3), temperature = number(4), of_scatterers = number(5);
-  const double begin = number(6), end = begin + number(7);
-  std::mt19937_64 generator(static_cast<std::uint64_t>(number(9)));
+  const auto cells = static_cast<std::size_t>(number(1));
+  const double zeta = number(2), sigma = number(3), temperature = number(4), slowest = number(5);
+  const double lag = number(6), fastest = 9 * std::sqrt(temperature);
+  std::mt19937_64 generator(static_cast<std::uint64_t>(number(8)));
   std::normal_distribution<> gaussian;
   std::uniform_real_distribution<> uniform;
-  for (int replica = 0; replica < static_cast<int>(number(8)); ++replica) {
+  // Particles of the density 2 zeta/|p| per cell, kept with the probability exp(-p^2/2T).
+  const double range = std::log(fastest / slowest);
+  std::poisson_distribution<> of_envelope(2 * zeta * range * static_cast<double>(cells));
+  for (int replica = 0; replica < static_cast<int>(number(7)); ++replica) {
     std::vector<double> x, p, P;
-    for (std::size_t i = 0; i < cells * per_cell; ++i) {
-      x.push_back(static_cast<double>(i / per_cell) + uniform(generator));
-      p.push_back(std::sqrt(temperature) * gaussian(generator));
+    for (int left = of_envelope(generator); left > 0; --left) {
+      const double speed = slowest * std::exp(range * uniform(generator));
+      if (uniform(generator) > std::exp(-speed * speed / (2 * temperature))) continue;
+      x.push_back(static_cast<double>(cells) * uniform(generator));
+      p.push_back(uniform(generator) < 0.5 ? speed : -speed);
     }
     for (std::size_t i = 0; i < cells; ++i)
-      P.push_back(std::sqrt(of_scatterers * (1 + sigma) / (1 - sigma)) * gaussian(generator));
+      P.push_back(std::sqrt(temperature * (1 + sigma) / (1 - sigma)) * gaussian(generator));
     Simulator chain(sigma, 1, x, p, P);
     Simulator::Event event{};
-    while (chain.step(begin, event)) {
+    const Fields before = fields(chain, 0, zeta);
+    while (chain.step(lag, event)) {
     }
-    const Simulator::Totals before = chain.totals(begin);
-    while (chain.step(end, event)) {
-    }
-    const Simulator::Totals after = chain.totals(end);
-    const auto n = static_cast<double>(per_cell);
-    print(before.number, after.number, n);
-    print(before.energy, after.energy, 0.5 * (n * temperature + of_scatterers));
-    print(before.momentum, after.momentum, 0);
+    const Fields after = fields(chain, lag, zeta);
+    print(before.momentum, after.momentum);
+    print(before.heat, after.heat);
     std::printf("\n");
   }
 }

@@ -52,21 +52,23 @@ class HeapSimulator {
 
   Real scatterer_mass() const { return (1 + sigma_) / (1 - sigma_); }
 
-  /// Of every cell, at a time between the last event and the next one: the number of the particles inside,
-  /// and energy and momentum of these and the scatterer.
+  const std::vector<Real>& scatterers() const { return P_; }
+
+  /// Energy and momentum of the scatterer and the particles of every cell, at a time between the last event
+  /// and the next one. Cells are those around scatterers, or, shifted by 1/2, those from scatterer i to the
+  /// next one.
   struct Totals {
-    std::vector<Real> number, energy, momentum;
+    std::vector<Real> energy, momentum;
   };
-  Totals totals(Real time) const {
-    Totals cells{std::vector<Real>(P_.size(), 0), {}, P_};
+  Totals totals(Real time, Real shift = 0) const {
+    Totals cells{{}, P_};
     for (const Real P : P_) cells.energy.push_back(P * P / (2 * scatterer_mass()));
     const Real length = cell_length_ * static_cast<Real>(P_.size());
     for (auto pending = pending_; !pending.empty(); pending.pop()) {
       const Pending& next = pending.top();
-      Real x = centre(static_cast<long>(next.scatterer)) - next.p * (next.time - time);
+      Real x = centre(static_cast<long>(next.scatterer)) - next.p * (next.time - time) - shift * cell_length_;
       x -= length * std::floor(x / length);
       const std::size_t cell = static_cast<std::size_t>(x / cell_length_) % P_.size();
-      cells.number[cell] += 1;
       cells.energy[cell] += next.p * next.p / 2;
       cells.momentum[cell] += next.p;
     }
