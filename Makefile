@@ -85,7 +85,7 @@ test: setup-dev  ## All tests; make test-long: also those that take minutes
 	bash workflow/environment/test.sh -m 'not long'
 test-long: setup-dev
 	bash workflow/environment/test.sh
-check: setup-dev build docs  ## Format, lint, types, reference
+check: setup-dev build docs  ## Format, lint, types, documentation
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 .venv/bin/clang-format --dry-run --Werror
 	.venv/bin/ruff check --quiet . && .venv/bin/ruff format --quiet --check . && .venv/bin/mypy --no-error-summary
 	.venv/bin/snakefmt --no-format-shell --line-length 110 --check --compact-diff Snakefile workflow/rules
@@ -97,9 +97,10 @@ describe: build  ## Options and quantities of the programs: schema of the config
 	$(PYTHON) workflow.config.describe
 bench tradeoff: setup-dev build  ## Cost of an event; make tradeoff: accuracy against time
 	$(PYTHON) workflow.tradeoff.$@
-docs: setup-dev  ## Reference of C++ and Python in build/reference
-	mkdir -p build/reference && doxygen docs/Doxyfile
-	PDOC_ALLOW_EXEC=1 .venv/bin/pdoc -o build/reference/python $$(git ls-files 'workflow/*.py' | sed 's|/|.|g; s|\.py$$||')
+docs: setup-dev  ## The documentation as a static site, build/docs/index.html
+	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --strict 2> >(grep -v '^INFO' >&2)
+	doxygen docs/Doxyfile
+	cp .venv/lib/python*/site-packages/mathjax/static/mathjax/es5/tex-svg.js build/docs/mathjax.js
 clean:  ## Remove what can be made again, results included
 	rm -rf build data/*/ figures/*/ .snakemake .cache .venv
 .PHONY: help figures panel report gallery setup setup-dev installed build audit verify provenance status cost crate test test-long \

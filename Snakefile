@@ -1,7 +1,7 @@
 """Every figure of the paper: programs write data/<quality>/<panel>/<run>.h5, scripts render figures/<quality>/<panel>.*
 
-What reruns is decided by parameters (profiles/default): the options and the build id of a program, the sources and the
-configuration of a script. Time stamps decide nothing.
+Parameters decide what reruns (profiles/default): options and build id of a program, sources and configuration of a script. Time
+stamps have no effect.
 """
 
 import os

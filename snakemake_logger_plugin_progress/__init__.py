@@ -1,8 +1,8 @@
 """Progress of a workflow, from Snakemake's events: a bar, the running jobs, and a line per finished panel.
 
-A logger plugin of Snakemake, chosen by `logger: [progress]` in the profile. Snakemake's own log is in
-.snakemake/log. Where more is requested (--dry-run, --verbose, --printshellcmds, --debug-dag) and where no job runs
-(--summary, --report, --unlock, ...), Snakemake's own messages are shown.
+A logger plugin of Snakemake, selected by `logger: [progress]` in the profile. Snakemake's log is in .snakemake/log.
+Its messages are printed with --dry-run, --verbose, --printshellcmds and --debug-dag, and if no job runs (--summary,
+--report, --unlock, ...).
 """
 
 import logging
@@ -27,14 +27,14 @@ from workflow.lib.plan import load_plan, with_used
 
 Record = Any  # a logging.LogRecord with the fields of its event
 
-LAST = 12  # lines of the log of a failed job
-TARGETS = ("figures", "panel", "total")  # in the numbers of jobs by rule
+LAST = 12  # printed lines of the log of a failed job
+TARGETS = ("figures", "panel", "total")  # not jobs, though counted with them
 STOPPING = ("Terminating processes on user request", "Will exit after finishing", "Cancelling snakemake")
 
 
 class LogHandler(LogHandlerBase):
     writes_to_file = False
-    has_filter = False  # Snakemake's, which obeys --quiet
+    has_filter = False  # use the filter of Snakemake, which implements --quiet
     has_formatter = False
     needs_rulegraph = False
 
@@ -52,16 +52,16 @@ class LogHandler(LogHandlerBase):
         self._paper = self._extensions = 0  # panels that are not rendered yet
         self._running: dict[int, Record] = {}  # JOB_INFO by number
         self._finished: set[str] = set()
-        self._failed: dict[str, None] = {}  # in their order
+        self._failed: dict[str, None] = {}  # ordered
         self._stopped = False
-        self._cores = 0  # none on a cluster, where the time left depends on the queue
+        self._cores = 0  # 0 on a cluster, where the remaining time depends on the queue
         self._costs: dict[str, float] = {}  # estimated CPU seconds by panel/run
-        self._waiting: list[float] = []  # those of runs that have not started
+        self._waiting: list[float] = []  # estimated CPU seconds of runs that have not started
         self._estimated = self._taken = 0.0  # CPU seconds of finished jobs
 
     def emit(self, record: Record) -> None:
         if self.writes_to_stream:
-            with suppress(OSError):  # stdout is full or closed: the jobs go on
+            with suppress(OSError):  # a full or closed stdout does not stop the jobs
                 self._show(record, getattr(record, "event", None))
 
     def _show(self, record: Record, event: LogEvent | None) -> None:
@@ -95,7 +95,7 @@ class LogHandler(LogHandlerBase):
         self._running[job.jobid] = job
 
     def _estimate(self, quality: str) -> None:
-        """Events state how many runs wait, not which: those without a result first, the longest first."""
+        """Assumes which runs wait, as events state only their number: those without a result, then the longest."""
         plan, panel = load_plan(quality), re.search(r"\bpanel=(\S+)", self._command)
         panels = with_used(plan, panel[1]) if panel else plan.values()
         runs = {f"{one.name}/{run.name}": (one.name, run) for one in panels for run in one.runs}
@@ -123,7 +123,7 @@ class LogHandler(LogHandlerBase):
                 self._console.print(f"{name}: {', '.join([value, *doubts])}, {self._state}")
 
     def _fail(self, job: Record, logs: list[str]) -> None:
-        # After Ctrl-C the programs end before Snakemake reports that it stops.
+        # After Ctrl-C the programs exit before Snakemake reports that it stops.
         self._stopped = self._stopped or any("interrupted" in line for line in last_lines(logs[0]))
         if not self._stopped:
             self._failed[name_of(job)] = None
@@ -133,7 +133,7 @@ class LogHandler(LogHandlerBase):
             self._console.print("\n  ".join([heading, *last_lines(log)]))
 
     def _message(self, text: str, level: int) -> None:
-        """Errors, but for those that follow from a failed job or from Ctrl-C."""
+        """Prints errors, except those that follow from a failed job or from Ctrl-C."""
         self._stopped = self._stopped or text.startswith(STOPPING)
         follows = self._stopped or self._failed or "CalledProcessError" in text  # JOB_ERROR comes next
         if text.startswith("Nothing to be done") or (level >= logging.ERROR and not follows):
@@ -144,15 +144,15 @@ class LogHandler(LogHandlerBase):
         sys.stderr.writelines(f"{text}\n" for text in self._early)
         done = f"{len(self._finished)} of {self._total} done"
         forced = re.search(r" (--forceall|-F)\b", self._command)
-        advice = "starts again; without FRESH=yes it completes what was interrupted" if forced else "goes on"
+        advice = "starts again; without FRESH=yes it resumes" if forced else "resumes"
         with suppress(OSError):
             if self._failed:
                 self._console.print(
-                    f"Failed: {', '.join(self._failed)}; {done}. Fix the cause. The same command {advice}."
+                    f"Failed: {', '.join(self._failed)}; {done}. Fix the cause; the same command {advice}."
                 )
             elif self._stopped:
                 self._console.print(f"Stopped: {done}. The same command {advice}.")
-        self._early, self._failed, self._stopped = [], {}, False  # Python closes all handlers once more
+        self._early, self._failed, self._stopped = [], {}, False  # Python closes all handlers again at exit
         super().close()
 
     @property
@@ -181,8 +181,8 @@ class LogHandler(LogHandlerBase):
 
 
 def outcome(path: Path) -> tuple[str, list[str]]:
-    """mu = 0.3289(30), or of a quantity with many values its error; and why the result is marked, if it is."""
-    from workflow.lib.fit import with_error  # noqa: PLC0415  half a second
+    """Value `mu = 0.3289(30)`, or the error of an array; and the marks of the result."""
+    from workflow.lib.fit import with_error  # noqa: PLC0415  0.5 s
     from workflow.lib.load import NOT_REACHED, load  # noqa: PLC0415
 
     result = load(path)
@@ -197,7 +197,7 @@ def outcome(path: Path) -> tuple[str, list[str]]:
 
 
 def name_of(job: Record) -> str:
-    """panel, panel/run or panel/run/replicas."""
+    """`panel`, `panel/run` or `panel/run/replicas`."""
     return "/".join(job.wildcards[key] for key in ("panel", "run", "part") if key in job.wildcards)
 
 
@@ -210,7 +210,7 @@ def clock(seconds: float) -> str:
 
 
 def last_lines(log: str) -> list[str]:
-    """None of a log that is missing."""
+    """Last lines of a log; empty if it is missing."""
     with suppress(OSError):
         return Path(log).read_text(errors="replace").splitlines()[-LAST:]
     return []

@@ -10,7 +10,7 @@ from tests.python.known_results import Known, uneven
 from workflow.claims.verdict import Number
 
 PANELS = ("fig01", "fig02_upper", "fig03", "fig03_inset", "fig04a", "fig04b", "fig05", "fig06", "fig07", "fig07_inset",
-          "fig08", "fig09a", "fig09b", "ext01", "ext03", "ext04", "ext05", "ext07", "ext09", "ext10")  # fmt: skip
+          "fig08", "fig09a", "fig09b", "ext01", "ext03", "ext05", "ext07", "ext09", "ext10")  # fmt: skip
 DATA = Known(dict.fromkeys(PANELS, uneven))
 
 

@@ -1,104 +1,119 @@
-"""The first sentences of the report follow from the judgements."""
+"""The answer: every verdict has its sentence, with the numbers of the results."""
 
+import re
+import string
 from collections.abc import Sequence
+from typing import Any
 
-from workflow.claims.judge import Judgement
+import numpy as np
+import pytest
+
+from tests.python.conftest import ROOT
+from tests.python.known_results import DEFAULTS, QUANTITIES, Known, truth
+from workflow.claims.judge import Judgement, read_claims
 from workflow.claims.verdict import Band, Number, Outcome, Reading
-from workflow.report.answer import Sentence, answer
+from workflow.lib.configuration import ConfigurationError
+from workflow.lib.plan import Run, load_plan
+from workflow.report import numbers
+from workflow.report.questions import FILE, VERDICTS, answers, read_questions
 
-LEVEL = 0.001
-
-
-def reading(*numbers: Number, low: float = -0.1, high: float = 0.1) -> Reading:
-    return Reading(Band(low, high), numbers, LEVEL)
-
-
-def judgement(
-    claim: str, outcome: Outcome = Outcome.REPRODUCED, remark: str = "", **readings: Reading
-) -> Judgement:
-    given = {"literal": reading(Number("found", 0.0, 0.001))} | readings
-    return Judgement({"id": claim, "quantity": "q", "paper": "p"}, outcome, remark=remark, **given)
+FOLDER = ROOT / "workflow/report"
+CLAIMS = [claim["id"] for claim in read_claims(ROOT)]
+NUMBER = Number("found", 0.5, 0.001)
+BANDS = {"reproduced": Band(0, 1), "contradicted": Band(1, 2), "undecided at this precision": Band(0.5, 1)}
 
 
-def told(*others: Judgement) -> Sequence[Sentence]:
-    """Answer with what is given in place of claims that are reproduced."""
-    given = {one.claim["id"]: one for one in others}
-    ids = sorted({"C10", "C12", "C18", "C20", "C22", "C23", "C24", *given})
-    return answer([given.get(claim) or judgement(claim) for claim in ids], "paper")
+def judgements(verdict: str) -> Sequence[Judgement]:
+    reading = Reading(BANDS[verdict], (NUMBER,), 0.05) if verdict in BANDS else None
+    return [Judgement({"id": claim}, Outcome(verdict), reading, reading, reading) for claim in CLAIMS]
 
 
-def test_open_verdicts_are_told_by_what_leaves_them_open() -> None:
-    noisy = judgement("C01", Outcome.UNDECIDED, literal=reading(Number("a", 0.05, 0.1)))
-    bounded = judgement("C02", Outcome.UNDECIDED, literal=reading(Number("b", 0.05, 0.001, systematic=0.2)))
-    first = told(noisy, bounded)[0].text
-    assert "2 undecided at this precision (1 of these by systematic errors, not by noise)" in first
-    assert "by systematic errors" not in told(noisy)[0].text
+def test_questions_name_claims_panels_and_numbers() -> None:
+    questions, panels = read_questions(), load_plan("standard")
+    assert len(questions) == 7
+    for question in questions:
+        assert question["claim"] in CLAIMS
+        assert {*question["panels"]} <= panels.keys()
+        for verdict in VERDICTS:
+            names = {name for _, name, _, _ in string.Formatter().parse(question[verdict]) if name}
+            if verdict == "not testable":
+                assert names <= {"quality"}
+            assert all(callable(getattr(numbers, name)) for name in names - {"number", "label", "quality"})
 
 
-def kappa(value: float, name: str = "b") -> Number:
-    return Number(name, value, 0.01)
+@pytest.mark.parametrize("verdict", VERDICTS)
+def test_a_missing_sentence_is_an_error(tmp_path: Any, verdict: str) -> None:
+    text = (FOLDER / FILE).read_text()
+    (tmp_path / FILE).write_text(re.sub(f"^  {verdict}:", "  unused:", text, count=1, flags=re.MULTILINE))
+    with pytest.raises(
+        ConfigurationError, match=f"'Does κ grow as N at γ = 1.' has no sentence for {verdict}: add it"
+    ):
+        read_questions(tmp_path)
 
 
-def heat(deterministic: Judgement) -> Sentence:
-    return told(deterministic)[2]
+@pytest.mark.parametrize(
+    ("verdict", "begin"),
+    [
+        ("reproduced", "Yes: the exponent is 0.5000(10)."),
+        ("contradicted", "No: the exponent is 0.5000(10)."),
+        ("undecided at this precision", "Undecided at quality paper (found: 0.5000(10))."),
+        ("not testable", "Not measured at quality paper."),
+    ],
+)
+def test_the_verdict_selects_the_sentence(verdict: str, begin: str) -> None:
+    first, second, *_ = answers(judgements(verdict), Known({}))
+    assert (first["outcome"], first["answer"]) == (verdict, begin)
+    if verdict == "contradicted":
+        assert "not measured (data/paper/fig08/" in second["answer"]
 
 
-def test_growth_at_fixed_density_is_told_if_every_spacing_shows_it() -> None:
-    def at_fixed_density(value: float, remark: str = "") -> str:
-        other = reading(kappa(0.2), kappa(value))
-        return heat(judgement("C24", alternative=other, remark=remark)).text.partition(" At fixed density ")[
-            2
-        ]
-
-    assert at_fixed_density(0.2) == (
-        "it is contradicted: κ grows up to the longest chains, as is expected of chains that conserve momentum."
+def heat(exponent: float, error: float, monkeypatch: pytest.MonkeyPatch) -> str:
+    """The answer on heat transport if the longest ring has this exponent in its last octave, and others another one."""
+    monkeypatch.setitem(
+        QUANTITIES, "heat_current", {"heat_variance": ("time",), "local_exponent": ("middle",)}
     )
-    assert at_fixed_density(0.2, "how laws fit").endswith(
-        "and a limit that is approached as N^(-1/3) is rejected."
-    )
-    assert at_fixed_density(0.02, "how laws fit") == "it is contradicted."  # two errors above 0
+    monkeypatch.setitem(DEFAULTS, "random-direction", False)
+    rings = [run.options for run in load_plan("paper")["ext13"].runs if "random-direction" not in run.options]
+    longest = max(float(options["times"].split(",")[-1]) for options in rings)
 
-
-def test_an_exponent_that_falls_through_the_band_is_told() -> None:
-    def falls(*last: float) -> bool:
-        numbers = judgement(
-            "C24", literal=reading(kappa(0.5), kappa(0.0)), intended=reading(*map(kappa, last))
+    def local_exponent(run: Run, middle: np.ndarray) -> np.ndarray:
+        decisive = 1.0 if run.options["random-direction"] else exponent
+        return np.where(
+            (middle == middle[-1]) & (run.options["random-direction"] | (2 * middle[-1] / 1.5 == longest)),
+            decisive,
+            0.7,
         )
-        return "the exponent falls through 1/3" in heat(numbers).text
 
-    assert falls(-0.5)
-    assert not falls(0.0)
+    world = {"ext13": truth({"heat_variance": 1, "local_exponent": local_exponent}, error)}
+    return str(answers(judgements("reproduced"), Known(world))[2]["answer"])
 
 
-def test_numbers_have_their_acceptance_band_or_the_reason_why_there_are_none() -> None:
-    given = judgement("C24", alternative=reading(kappa(0.2)), remark="how laws fit")
-    assert heat(given).numbers[-2:] == ["b: 0.200(10) (acceptance band −0.1 to 0.1)", "how laws fit"]
-    nothing = Judgement(
-        {"id": "C24", "quantity": "q", "paper": "p"}, Outcome.NOT_TESTABLE, caveat="Too few sizes."
+def test_heat_transport_is_superdiffusive_if_the_longest_times_show_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    yes = heat(4 / 3, 0.01, monkeypatch)
+    assert yes.startswith("Yes: ")
+    assert "⟨Q²⟩ ∼ t^1.333(13) at the longest times" in yes
+    assert "Without momentum conservation ⟨Q²⟩ ∼ t^1.000(10), diffusion." in yes
+    assert heat(0.9, 0.01, monkeypatch).startswith("No: ")
+    assert heat(4 / 3, 0.1, monkeypatch).startswith("Undecided at quality paper")
+
+
+def test_numbers_are_those_of_the_right_runs() -> None:
+    """Mutants: another chain, relaxation time, half of the sizes, or the smallest change of momentum."""
+    fills = {
+        "fig07": truth({"alpha": 1.85}, 0.001),
+        "ext01": truth(
+            {"alpha": lambda run: run.options["zero-total-momentum"] * run.options["relaxation-time"]}, 0.001
+        ),
+        "fig07_inset": truth({"momentum_drift": lambda run: run.options["sigma"] ** 2 * 1e-15}, 0.001),
+        "fig08": truth({"kappa": lambda run: min(run.options["cells"], 256) ** 0.5, "stationary": 1}, 0.001),
+    }
+    data = Known(fills)
+    assert numbers.alpha(data).value == 1.85
+    assert numbers.alpha_without_drift(data).value == max(
+        run.options["relaxation-time"] for run in data.plan["ext01"].runs
     )
-    assert heat(nothing).numbers[1:] == ["Too few sizes"]
-
-
-def test_the_kinetic_equation_is_told_for_both_couplings() -> None:
-    far = reading(Number("γ = N, F_30", 0.2, 0.001))
-    *_, (text, numbers, _) = told(judgement("C12", alternative=far))
-    assert "that finite chains tend to it is reproduced" in text
-    assert text.endswith("at γ = N: that a chain is within 1 % of it is contradicted.")
-    assert numbers[-1] == "γ = N, F_30: 0.2000(10) (acceptance band −0.1 to 0.1)"
-
-
-def test_what_spreads_is_told_by_verdicts() -> None:
-    plain = told()[3].text
-    assert "that this is superdiffusion is reproduced; that only energy is conserved is reproduced." in plain
-    without_drift = judgement("C20", Outcome.CONTRADICTED, intended=reading(Number("α", 0.9, 0.001)))
-    found = told(without_drift, judgement("C22", Outcome.CONTRADICTED))[3].text
-    assert "that this is superdiffusion is contradicted, as what is seen is the drift" in found
-    assert found.endswith("that only energy is conserved is contradicted, as total momentum is too.")
-
-
-def test_diffusion_is_told_with_the_relaxed_chain_first() -> None:
-    other = reading(Number("t_r = 10", 0.94, 0.003), Number("t_r = 1000", 0.995, 0.003))
-    *_, without_drift = told(judgement("C18", alternative=other))[3].numbers
-    assert without_drift == (
-        "t_r = 1000: 0.9950(30); before the chain has relaxed 0.9400(30) (superdiffusion: −0.1 to 0.1)"
-    )
+    assert numbers.momentum_change(data).value == pytest.approx(0.81e-15, rel=1e-9, abs=0)
+    assert numbers.kappa_of_small_chains(data).value == pytest.approx(0.5)
+    assert numbers.kappa_of_large_chains(data).value == pytest.approx(0)

@@ -5,11 +5,9 @@ import re
 from collections.abc import Iterator
 
 import numpy as np
-import pandas as pd
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.figures.ext02 import definitions, glide, local, otherwise
 from workflow.lib.caption import goodness, listed, number, parameters, replicas
 from workflow.lib.load import Quantity, Result
 
@@ -17,7 +15,7 @@ SPEAKING = [*sorted((ROOT / "workflow/figures").glob("*.py")), ROOT / "workflow/
 
 # Numbers that no data could give: names of figures, the values of gamma and of ideal exponents, exact ends of an axis.
 NAMES = re.compile(
-    r"(?:figs?|ext|eq)\. \d+|(?:γ|gamma) = 1\b|σ = 0\b|\b[xp] = [01]\b|\b[12]/[2356]\b|\b1/N\b|\bminus 1\b"
+    r"(?:figs?|ext|eq)\. \d+|(?:γ|gamma) = 1\b|σ [=≠] 0\b|α < 1\b|t = 0\b|\b[xp] = [01]\b|\b[12]/[2356]\b|\b1/N\b|\bminus 1\b"
 )
 NUMBER = re.compile(r"(?<![\w.^/])\d+(?:\.\d+)?")  # none within a symbol, as in T_1, chi^2 or λ/2t
 
@@ -85,38 +83,3 @@ def test_p_values_near_zero_are_bounds() -> None:
     assert goodness(12, 4) == "χ² = 12.0 for 4, p = 0.017"
     assert goodness(1e3, 4) == "χ² = 1000.0 for 4, p < 1e-06"
     assert goodness(0.0, 0) == "no degree of freedom to test it"
-
-
-@pytest.mark.parametrize(
-    ("change", "verb"), [(0.02, "rises"), (-0.02, "falls"), (0.002, "has no steady trend")]
-)
-def test_a_change_is_named_beyond_three_errors(change: float, verb: str) -> None:
-    """Errors of 1 %, from which the ends alone would not tell: 0.36(2) and 0.45(2) where it rises."""
-    kappa = growing(change)
-    part = pd.DataFrame({"cells": 16 * 2.0 ** np.arange(8)})
-    for name in ("kappa", "kappa_particle", "kappa_baths"):
-        part[name], part[f"{name}_error"] = kappa, 0.01 * kappa
-    said = glide(part, local(part))
-    assert said.startswith(f"{verb}, from {0.3 + change * np.log(16 * np.sqrt(2)):.3f}(20) about N = 23 to ")
-
-
-def growing(change: float) -> np.ndarray:
-    """At sizes from 16 on, with an exponent that changes with the logarithm of the size."""
-    size = np.log(16 * 2.0 ** np.arange(8))
-    return np.exp(0.3 * size + change / 2 * size**2)
-
-
-def test_another_definition_with_another_trend_is_told() -> None:
-    part = pd.DataFrame({"cells": 16 * 2.0 ** np.arange(8), "gas": "dense"})
-    for name, change in (("kappa", 0.02), ("kappa_particle", 0.03), ("kappa_baths", -0.02)):
-        part[name] = growing(change)
-        part[f"{name}_error"] = 0.01 * part[name]
-    assert otherwise(part, {"dense": "0.1"}) == "; at spacing 0.1 with those of the baths it falls"
-    part["kappa_baths"] = part.kappa
-    assert otherwise(part, {"dense": "0.1"}) == ""
-
-
-def test_what_a_definition_changes_is_told_at_both_ends() -> None:
-    found = pd.DataFrame({"size": [23.0, 90.0], "exponent": [0.3, 0.3]})
-    found["exponent_particle"], found["exponent_baths"] = [0.35, 0.28], [0.2, 0.31]
-    assert definitions(found) == "0.10 about N = 23 and 0.02 about N = 90"

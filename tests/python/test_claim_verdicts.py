@@ -74,7 +74,7 @@ CASES: list[tuple[str, World, Outcome]] = [
     ("C18", spreads("fig07", 1.9, 1.9), R), ("C18", spreads("fig07", 1.5, 1.5), C), ("C18", spreads("fig07", 1.9, 1.5), U),
     ("C19", spreads("fig07_inset", 2, 2), R), ("C19", spreads("fig07_inset", 1.5, 1.5), C),
     ("C20", every_sigma(1.5, 1.5), R), ("C20", every_sigma(2, 2), C), ("C20", every_sigma(2, 1.5), S),
-    ("C21", {"ext04": {"alpha": 1}}, R), ("C21", {"ext04": {"alpha": 1.3}}, C), ("C21", {"ext04": {"alpha": 0.9}}, S),
+    ("C21", {"ext01": {"alpha": 1}}, R), ("C21", {"ext01": {"alpha": 1.3}}, C), ("C21", {"ext01": {"alpha": 0.9}}, S),
     ("C22", drift(1e-2), R), ("C22", drift(1e-15), C), ("C22", drift(0), U),
     ("C23", rare_kappas(1), R), ("C23", rare_kappas(1 / 3), C),
     ("C24", kappas(1 / 3, 1), R), ("C24", kappas(1, 1, fixed=1), C), ("C24", kappas(1, 1), S),

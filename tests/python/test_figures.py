@@ -97,7 +97,7 @@ def test_a_damaged_record_is_refused(tmp_path: Path, content: str) -> None:
     (tmp_path / "x.json").write_text(content)
     with pytest.raises(MetadataError, match=r"x\.json is not the record of a panel"):
         read_panel(tmp_path / "x.json")
-    with pytest.raises(MetadataError, match="other metadata"):
+    with pytest.raises(MetadataError, match="metadata of another version"):
         Parents.parse(json.dumps({"more": 1}))
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import Program
-from workflow.lib.layout import OF_SCALES, faults
+from tests.python.layout import OF_SCALES, faults
 
 Break = Callable[[h5py.File], None]
 

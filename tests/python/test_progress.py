@@ -119,7 +119,7 @@ def test_a_failure_is_shown_with_the_end_of_its_log(
     first, *log_lines, last = capsys.readouterr().out.splitlines()
     assert first.endswith("ends with:" if lines else "is empty: the job was killed, or did not start")
     assert log_lines == [f"  {line}" for line in lines]
-    assert last == "Failed: fig05/a; 0 of 3 done. Fix the cause. The same command goes on."
+    assert last == "Failed: fig05/a; 0 of 3 done. Fix the cause; the same command resumes."
 
 
 def test_a_retry_has_not_failed(handler: LogHandler, capsys: Captured) -> None:
@@ -144,10 +144,10 @@ def test_other_errors_are_shown(handler: LogHandler, capsys: Captured) -> None:
 @pytest.mark.parametrize(
     ("command", "advice"),
     [
-        ("snakemake figures", "The same command goes on."),
+        ("snakemake figures", "The same command resumes."),
         (
             "snakemake --forceall figures",
-            "The same command starts again; without FRESH=yes it completes what was interrupted.",
+            "The same command starts again; without FRESH=yes it resumes.",
         ),
     ],
 )

@@ -1,4 +1,4 @@
-"""How the report writes numbers, and where it draws them."""
+"""Numbers and strips of the report."""
 
 import math
 
@@ -32,9 +32,9 @@ def test_numbers(number: Number, text: str) -> None:
 
 def test_p_values() -> None:
     assert [words.p_value(p) for p in (1.0, 0.0431, 6.2e-8, 1e-40, 0.0, math.nan)] == [
-        "1",
-        "0.043",
-        "6·10^-8",
+        "= 1",
+        "= 0.043",
+        "= 6·10^-8",
         "< 10^-12",
         "< 10^-12",
         "unknown",
@@ -51,38 +51,40 @@ def test_typesetting() -> None:
     )
 
 
-def test_bands_and_names_of_claims() -> None:
+def test_bands_and_cells() -> None:
     bands = (Band(-0.5, 1), Band(0, math.inf), Band(-math.inf, -1))
     assert [words.acceptance(one) for one in bands] == ["−0.5 to 1", "above 0", "below −1"]
-    assert words.linked("C03, C3 and AC030", "[{0}](#{1})") == "[C03](#c03), C3 and AC030"
-    assert words.linked(words.typeset("a < b, C03"), "<a>{0}</a>") == "a &lt; b, <a>C03</a>"
+    assert words.cell("|p_0| < 10^-4") == r"\|p<sub>0</sub>\| &lt; 10<sup>−4</sup>"
 
 
-def test_what_no_run_would_decide_is_not_foretold() -> None:
+def test_the_replicas_for_an_edge_are_not_estimated() -> None:
     edge = Reading(BAND, (Number("", 1 - 1e-9, 0.1),), 0.05)
     assert words.remedy(edge).startswith("More than 10000 times")
 
 
 def test_more_replicas_decide_what_chance_leaves_open() -> None:
-    """An interval of half width 2 about 0 has to shrink to 1, which four times the replicas do."""
+    """An interval of half width 2 about 0 has to shrink to 1, which takes four times the replicas."""
     open_ = Reading(BAND, (Number("", 0.0, 2 / 1.959964),), 0.05)
     assert words.remedy(open_).startswith("About 4 times")
     bound = Reading(BAND, (Number("", 0.5, 0.1, systematic=0.7),), 0.05)
-    assert "do not decide" in words.remedy(bound)
+    assert "do not decide it" in words.remedy(bound)
 
 
 def test_a_strip_keeps_order_and_stays_in_its_picture() -> None:
     numbers = (Number("", 0.0, 0.1), Number("", 5.0, 0.1), Number("", 0.0, 1e9), Number("", 0.0, math.nan))
     strip = strip_of(Reading(BAND, numbers, 0.05))
     assert len(strip.points) == 3
-    assert strip.band[0] < strip.band[1]
+    assert 0 < strip.band[0] < strip.band[1] < WIDTH
     for low, value, high, _ in strip.points:
         assert 0 <= low <= value <= high <= WIDTH
-    assert max(one.value for one in strip.points) > strip.band[1]
-    assert {one.value > strip.band[1]: one.outside for one in strip.points} == {True: True, False: False}
+    assert {(one.value > strip.band[1], one.verdict) for one in strip.points} == {
+        (True, "contradicted"),
+        (False, "reproduced"),
+        (False, "undecided"),
+    }
     assert strip_of(Reading(BAND, numbers[3:], 0.05)) is None
     half = strip_of(Reading(Band(0, math.inf), numbers[:1], 0.05))
-    assert half.band[1] >= max(one.high for one in half.points)
+    assert half.band[1] == WIDTH
 
 
 def test_arguments_of_make() -> None:

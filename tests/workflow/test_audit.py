@@ -47,17 +47,26 @@ def halve(path: str) -> Edit:
 
 
 BROKEN: dict[str, tuple[Edit, str]] = {
-    "value edited": (edit_value, f"{RESULT}: its values are not those that were written"),
-    "option edited": (edit_option, f"{RESULT}: stale: --sigma is 0.25 in it, 0.5"),
+    "value edited": (edit_value, f"{RESULT}: edited or damaged: its values differ from those written"),
+    "option edited": (edit_option, f"{RESULT}: stale: it has --sigma 0.25, the configuration 0.5"),
     "result copied in part": (halve(RESULT), f"{RESULT}: "),
-    "result exchanged": (copy("data/smoke/fig03/equal.h5", RESULT), f"{RESULT}: stale: --temperature-left"),
+    "result exchanged": (
+        copy("data/smoke/fig03/equal.h5", RESULT),
+        f"{RESULT}: stale: it has --temperature-left",
+    ),
     "result missing": (delete(RESULT), f"{RESULT}: is missing"),
     "table edited": (
         append(f"{FIGURE}.csv", "1,2,3\n"),
-        f"{FIGURE}.csv: is not the file that fig03.json names",
+        f"{FIGURE}.csv: edited or replaced: it differs from its hash in fig03.json",
     ),
-    "table and record edited": (edit_record, f"{FIGURE}.csv: rendered from its parents it gets other bytes"),
-    "picture exchanged": (copy("figures/smoke/fig05.png", f"{FIGURE}.png"), f"{FIGURE}.png: is not the file"),
+    "table and record edited": (
+        edit_record,
+        f"{FIGURE}.csv: rendering it again from its parents gives other bytes",
+    ),
+    "picture exchanged": (
+        copy("figures/smoke/fig05.png", f"{FIGURE}.png"),
+        f"{FIGURE}.png: edited or replaced",
+    ),
     "record copied in part": (halve(f"{FIGURE}.json"), f"{FIGURE}.json: "),
     "figure missing": (delete(f"{FIGURE}.svg"), f"{FIGURE}.svg: is missing"),
     "script": (
@@ -71,7 +80,7 @@ BROKEN: dict[str, tuple[Edit, str]] = {
     ),
     "parameter": (
         replace("workflow/config/paper.yaml", "momentum-bins: 240", "momentum-bins: 238"),
-        f"{RESULT}: stale: --momentum-bins is 240 in it, 238",
+        f"{RESULT}: stale: it has --momentum-bins 240, the configuration 238",
     ),
 }
 
@@ -146,16 +155,16 @@ def test_where_a_copy_comes_from(clean: Clone, tmp_path: Path, kind: str) -> Non
     with copied.open("ab") as file:
         file.write(b"\n")
     told = clean.module("provenance.tree", str(copied), status=1)
-    assert "is not a file of any panel here" in told
+    assert "belongs to no panel here" in told
     assert "panel fig03 at quality smoke" in told
 
 
 def test_where_a_result_comes_from(kept: Clone) -> None:
     told = kept.module("provenance.tree", RESULT)
-    assert told.startswith("paper.h5 has the values that were written\n")
+    assert told.startswith("paper.h5 is unmodified\n")
     assert "program boltzmann: " in told
     edit_value(kept)
-    assert "does not have the values" in kept.module("provenance.tree", RESULT, status=1)
+    assert "is edited or damaged" in kept.module("provenance.tree", RESULT, status=1)
 
 
 def test_what_states_no_parents_is_refused_in_a_line(clean: Clone, tmp_path: Path) -> None:

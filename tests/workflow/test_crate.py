@@ -87,7 +87,7 @@ def test_equal_inputs_give_equal_bytes_that_name_no_folder(packed: Clone) -> Non
 def test_what_has_been_edited_is_not_packed(packed: Clone, kept: Clone) -> None:
     before = (packed.folder / ARCHIVE).read_bytes()
     append("figures/smoke/fig03.csv", "1,2\n")(kept)
-    assert "fig03.csv: is not the file that fig03.json names" in pack(kept, status=1)
+    assert "fig03.csv: edited or replaced: it differs from its hash in fig03.json" in pack(kept, status=1)
     assert (packed.folder / ARCHIVE).read_bytes() == before
 
 

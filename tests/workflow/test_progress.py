@@ -52,14 +52,14 @@ def test_a_failure_shows_the_end_of_its_log_alone(kept: Clone) -> None:
     _, first, *log, last = kept.snakemake("figures", status=1).splitlines()
     assert re.fullmatch(r"fig03 failed after 0:\d\d:\d\d\. build/logs/smoke/fig03\.log ends with:", first)
     assert log[-1] == "  RuntimeError: broken here"
-    assert last == "Failed: fig03; 0 of 1 done. Fix the cause. The same command goes on."
+    assert last == "Failed: fig03; 0 of 1 done. Fix the cause; the same command resumes."
 
 
 @pytest.mark.parametrize(
     ("option", "advice"),
     [
-        ("--rerun-incomplete", "The same command goes on"),
-        ("--forceall", "without FRESH=yes it completes what was interrupted"),
+        ("--rerun-incomplete", "The same command resumes"),
+        ("--forceall", "without FRESH=yes it resumes"),
     ],
 )
 def test_ctrl_c(kept: Clone, option: str, advice: str) -> None:

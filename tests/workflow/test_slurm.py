@@ -97,7 +97,7 @@ def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, kept: Clone) -> Non
         soon(lambda: processes(kept, program), seconds=600)
         os.killpg(making.pid, signal.SIGINT)
         shown, _ = making.communicate(timeout=120)
-    assert "The same command goes on." in shown
+    assert "The same command resumes." in shown
     soon(lambda: not processes(kept, program))
     with on_cluster(kept, *STANDARD, "batch=0.1") as making:
         (cancelled, *_) = soon(cluster.jobs, seconds=600)

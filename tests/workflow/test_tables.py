@@ -74,6 +74,7 @@ def test_every_column_scales_as_its_units_say(clean: Clone, panel: str) -> None:
 def test_every_panel_has_a_caption(clean: Clone, panel: str) -> None:
     caption = read_panel(clean.folder / f"figures/smoke/{panel}.json")["caption"]
     assert len(caption) >= 200
+    assert len(caption.split()) <= 120
     assert caption == " ".join(caption.split())
 
 

@@ -86,7 +86,9 @@ def spreading_half(data: Data) -> Evidence:
 def spreading_zero(data: Data) -> Evidence:
     aged = _relaxed(data, 0)
     (result,) = data.of("fig07_inset", sigma=0, zero_total_momentum=False)
-    dense = data.of("ext01", sigma=0, zero_total_momentum=False, particles_per_cell=80)
+    dense = data.of(
+        "ext01", sigma=0, zero_total_momentum=False, random_direction=False, particles_per_cell=80
+    )
     return Evidence(
         [with_systematic(number(result, "alpha", label="α, σ = 0"), aged)],
         alternative=_named(dense, "alpha", "α, n = 80"),
@@ -95,7 +97,9 @@ def spreading_zero(data: Data) -> Evidence:
 
 
 def _relaxed(data: Data, sigma: float) -> list[float]:
-    runs = data.of("ext01", sigma=sigma, zero_total_momentum=False, particles_per_cell=20)
+    runs = data.of(
+        "ext01", sigma=sigma, zero_total_momentum=False, random_direction=False, particles_per_cell=20
+    )
     return [float(one["alpha"].mean) for one in runs]
 
 
@@ -114,9 +118,9 @@ def superdiffusive(data: Data) -> Evidence:
 
 
 def diffusion_recovered(data: Data) -> Evidence:
-    found = _named(data.of("ext04"), "alpha", "α")
+    found = _named(data.of("ext01", random_direction=True), "alpha", "α")
     return Evidence(
-        found, found, caveat="Waits of τ⁻² make t/ln t, whose exponent approaches 1 from below (ext04)."
+        found, found, caveat="Waits of τ⁻² make t/ln t, whose exponent approaches 1 from below (ext01)."
     )
 
 
@@ -137,8 +141,10 @@ def only_energy(data: Data) -> Evidence:
 def ageing(data: Data) -> Evidence:
     """Literal: slope of the scatterers' energy against ln t in the last decade over that in the first from t = 1 on, minus 1. Intended:
     the last slope over the largest in a chain of so few particles that it saturates within the run."""
-    runs = [one for one in data.of("ext07", "ageing") if one.path.stem != "few"]
-    result = max(runs, key=lambda one: float(one.parameters["observation-time"]))
+    runs = data.of("ext07", "ageing")
+    result = max(
+        runs, key=lambda one: [one.parameters[key] for key in ("particles-per-cell", "observation-time")]
+    )
     decade = result["decade_slope"].axes["decade"]
     first = int(np.flatnonzero(decade > 1 - ROUNDING)[0])
     label = f"slope from t = {decade[-1]:g} over that from t = {decade[first]:g}, minus 1"

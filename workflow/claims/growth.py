@@ -1,6 +1,5 @@
 """Claims on the conductivity against the size (fig. 8, section 6), and on heat in equilibrium."""
 
-from collections import defaultdict
 from collections.abc import Callable, Sequence
 from typing import TypeVar
 
@@ -116,21 +115,19 @@ def cube_root(data: Data) -> Evidence:
 
 
 def equilibrium(data: Data) -> tuple[list[Number], str]:
-    """b of κ ∼ N^b, as <Q²> ∼ t^(1+b), in every gas that conserves momentum, over its last octave of time; by how much the octave
-    before differs bounds the systematic error. Gases that do not conserve momentum, in words."""
-    gases: dict[tuple[bool, str], dict[float, list[Number]]] = defaultdict(lambda: defaultdict(list))
-    for result in data.of("ext13"):
-        gas, slope = ext13.chain(result), result["local_exponent"]
+    """b of κ ∼ N^b, as <Q²> ∼ t^(1+b), in every gas that conserves momentum, over the last octave of its longest ring; by how much the
+    octave before differs bounds the systematic error. Gases that do not conserve momentum, in words."""
+    longest: dict[tuple[bool, str], Result] = {}
+    for result in sorted(data.of("ext13"), key=lambda one: float(one["local_exponent"].axes["middle"][-1])):
+        gas = ext13.chain(result)
         name = f"ζ = {gas.zeta:g}, M = {gas.mass:.2g}"
-        for k, middle in enumerate(slope.axes["middle"]):
-            label = f"d ln⟨Q²⟩/d ln t - 1, {name}, t = {middle:.3g}"
-            octaves = gases[bool(result.parameters["random-direction"]), name]
-            octaves[float(middle)].append(number(result, "local_exponent", k, label).over(1, 1))
+        longest[bool(result.parameters["random-direction"]), name] = result
     found, control = [], ""
-    for (random, name), octaves in gases.items():
-        *_, before, last = (min(octaves[middle], key=lambda one: one.error) for middle in sorted(octaves))
+    for (random, name), result in longest.items():
+        label = f"d ln⟨Q²⟩/d ln t - 1, {name}, t = {result['local_exponent'].axes['middle'][-1]:.0f}"
+        before, last = (number(result, "local_exponent", k, label).over(1, 1) for k in (-2, -1))
         if random:
-            control += f" With random directions, which do not conserve momentum, it is {with_error(last.value, last.error)} ({name})."
+            control += f" With random directions, which do not conserve momentum, d ln⟨Q²⟩/d ln t - 1 is {with_error(last.value, last.error)} ({name})."
         else:
             found.append(with_systematic(last, [before.value]))
     return found, control

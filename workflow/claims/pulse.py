@@ -10,9 +10,9 @@ from workflow.claims.data import Data, MissingError, combination, number, where_
 from workflow.claims.evidence import Claim, Evidence
 from workflow.claims.growth import equilibrium, exponent, largest_sizes, sizes
 from workflow.claims.verdict import Number, with_systematic
-from workflow.figures import fig10
-from workflow.figures.fig09 import gaussian_start, start
-from workflow.lib.fit import with_error
+from workflow.figures.fig09 import gaussian_start, ring_closed, start
+from workflow.lib.caption import goodness
+from workflow.lib.fit import rejected, with_error
 from workflow.lib.load import Index, Quantity, Result
 
 APART = 2  # standard errors
@@ -63,13 +63,13 @@ def _odd_parts(result: Result) -> list[Number]:
     return found
 
 
-def _speeds(result: Result) -> str:
+def _speeds(result: Result, where: str = "") -> str:
     speed = result["peak_speed"]
     known = np.flatnonzero(np.isfinite(speed.mean))
     if not len(known):
-        return "No moving peak was found."
+        return f"No moving peak was found{where}."
     told = [f"{_at(speed, k)} at t = {speed.axes['middle'][k]:.3g}" for k in known[[0, -1]]]
-    return f"Speed of the peaks: {', '.join(told)}."
+    return f"Speed of the peaks{where}: {', '.join(told)}."
 
 
 def _at(quantity: Quantity, k: Index = ()) -> str:
@@ -83,7 +83,7 @@ def ballistic(data: Data) -> Evidence:
     return Evidence(
         [_way(rest, "paper's start")],
         [_way(long, f"N = {long.parameters['cells']}")],
-        caveat=f"{_speeds(rest)} In the long ring: {_speeds(long)}",
+        caveat=f"{_speeds(rest)} {_speeds(long, ' in the long ring')}",
     )
 
 
@@ -113,7 +113,7 @@ def speed_falls(data: Data) -> Evidence:
     return Evidence(
         [_slowing(rest, "the paper's pulse")],
         alternative=[_slowing(weak, "a tenth of its energy")],
-        caveat=f"{_speeds(rest)} With a tenth of the energy: {_speeds(weak)}",
+        caveat=f"{_speeds(rest)} {_speeds(weak, ' with a tenth of the energy')}",
     )
 
 
@@ -173,10 +173,23 @@ def _later(fitted: Quantity) -> list[float]:
     return [float(one) for one in fitted.mean[1 : len(fitted.mean) // 2 + 1]]
 
 
+def _drift(result: Result) -> tuple[bool, str]:
+    """Whether the exponent changes with ln t by more than chance, and what to say of it."""
+    if ring_closed(result).any():
+        return False, "may change unseen, as the ring has closed"
+    change = result["damping_drift"]
+    value, error = float(change.mean), float(change.error)
+    if not np.isfinite(value):
+        return False, "may change unseen, over too few octaves"
+    chi_square = (value / error) ** 2
+    told = f"changes by {with_error(value, error)} per unit of ln t, {goodness(chi_square, 1)}"
+    return rejected(chi_square, 1), told
+
+
 def damping_exponent(data: Data, panel: str) -> Number:
     """Fits that leave out up to half of the times, and the other start, bound the systematic error."""
     result = _pulse(data, panel)
-    drifts, _ = fig10.drift(result)
+    drifts, _ = _drift(result)
     label = "damping exponent, Gaussian start" + (", a mean slope" if drifts else "")
     found = number(result, "damping_exponent", label=label)
     rest = number(_from_rest(data, panel), "damping_exponent")
@@ -187,7 +200,7 @@ def _other_fits(data: Data, panel: str) -> str:
     result = _pulse(data, panel)
     fitted = result["damping_exponent_from"]
     half = len(fitted.mean) // 2
-    drifts, change = fig10.drift(result)
+    drifts, change = _drift(result)
     found, rest = (number(one, "damping_exponent") for one in (result, _from_rest(data, panel)))
     return (
         f"{'No power of t describes' if drifts else 'A power of t describes'} the height: its exponent {change}. Fitted from "

@@ -1,7 +1,7 @@
-"""Division of the replicas of all runs among the jobs of a cluster.
+"""Batches of replicas for the jobs of a cluster.
 
-A run that takes longer than a batch is split into parts of equal size; shorter runs share a batch. The division depends on the plan
-and on estimated seconds alone, so that every process on every machine gets the same one.
+A run that takes longer than a batch is split into equal parts; shorter runs are combined. The division depends only on the plan and
+on estimated times, so that all processes agree on it.
 """
 
 import itertools
@@ -11,12 +11,12 @@ from dataclasses import dataclass
 
 from workflow.lib.plan import STOPPING, Panel, Run
 
-OVERHEAD = 5  # seconds of a part besides its work: start of Snakemake
+OVERHEAD = 5  # seconds per part for the start of Snakemake
 
 
 @dataclass(frozen=True)
 class Part:
-    """Consecutive replicas of a run. Parts of one batch follow each other in one job."""
+    """Consecutive replicas of a run. One job executes the parts of one batch in sequence."""
 
     batch: int
     first: int
@@ -31,10 +31,10 @@ class Part:
 def divide(
     panels: Iterable[Panel], batch: float, seconds: Callable[[str, Run], float]
 ) -> dict[str, list[Part]]:
-    """Parts by `panel/run`, of the runs that can be split. batch: seconds of a job; seconds: of a run."""
+    """Parts by `panel/run` of the runs that can be split. batch: seconds per job; seconds: function for a run."""
     division: dict[str, list[Part]] = {}
     numbers = itertools.count()
-    shared, used = next(numbers), 0.0  # the batch of short runs that is being filled
+    shared, used = next(numbers), 0.0  # current batch of short runs
     for panel in panels:
         for run in filter(can_be_split, panel.runs):
             replicas, whole = int(run.options["replicas"]), seconds(panel.name, run)
@@ -53,7 +53,7 @@ def divide(
 
 
 def can_be_split(run: Run) -> bool:
-    """The number of replicas of a run with a target error is not known beforehand."""
+    """Whether the number of replicas is known in advance: not with a target error."""
     return run.replicated and not any(name in run.options for name in STOPPING)
 
 

@@ -1,4 +1,4 @@
-"""CPU seconds of runs: recorded by the programs here, or estimated from config/seconds.csv.
+"""CPU seconds of runs: recorded by the programs, or estimated from config/seconds.csv.
 
 The table has the effort (replicas times simulated time) and the CPU seconds of one execution per panel, series and size.
 """
@@ -20,19 +20,19 @@ from workflow.lib.plan import QUALITIES, Run, load_plan, panel_named, with_used
 
 ROOT = Path(__file__).parents[2]
 TABLE = ROOT / "workflow/config/seconds.csv"  # panel, series, cells, effort, cpu_seconds
-UNKNOWN = 900.0  # seconds of a run whose series is not in the table
-DRAWING = 4.0  # CPU seconds of a drawing
+UNKNOWN = 900.0  # seconds assumed for a series that is not in the table
+DRAWING = 4.0  # CPU seconds of rendering a panel
 
 
 def recorded_seconds(quality: str, panel: str, run: str) -> float | None:
-    """CPU seconds of the execution that wrote the result, or of the parts that were joined into it; None if not recorded."""
+    """CPU seconds of the execution, or of all joined parts; None if not recorded."""
     try:
         own = _cost(ROOT / f"data/{quality}/{panel}/{run}.cost.json")
         divisions = [*(ROOT / f"build/parts/{quality}/{panel}/{run}").glob("*")]
         parts = [[_cost(path) for path in folder.glob("*.cost.json")] for folder in divisions]
     except (OSError, ValueError, KeyError, TypeError):
         return None
-    # The parts of this result have as many events. Joining them costs next to nothing.
+    # Parts belong to this result if their events add up to its number. The cost of joining is negligible.
     joined = [sum(part[0] for part in one) for one in parts if sum(part[1] for part in one) == own[1]]
     return max([own[0], *joined])
 
@@ -43,12 +43,12 @@ def _cost(path: Path) -> tuple[float, int]:
 
 
 def seconds_of_run(panel: str, run: Run) -> int:
-    """Estimated CPU seconds, at least 1. All machines of a cluster have to agree, so recorded ones do not count."""
+    """Estimated CPU seconds, at least 1. Recorded times are ignored, as all machines of a cluster have to agree."""
     return max(1, round(estimated_seconds(panel, run) or UNKNOWN))
 
 
 def estimated_seconds(panel: str, run: Run) -> float | None:
-    """None for a series that is not in the table. Other sizes follow the power law through the nearest two."""
+    """CPU seconds from the table, by a power law through the nearest two sizes; None if the series is not in it."""
     known, size = _table().get((panel, run.series), {}), cells(run.options)
     if size in known:
         return effort(run.options) * known[size]
@@ -60,7 +60,7 @@ def estimated_seconds(panel: str, run: Run) -> float | None:
 
 
 def scaled_seconds(panel: str, run: Run) -> float | None:
-    """From an execution here at another quality; None without one."""
+    """CPU seconds scaled from a recorded execution at another quality; None without one."""
     for quality in QUALITIES:
         seconds = recorded_seconds(quality, panel, run.name)
         same = [one for one in load_plan(quality)[panel].runs if one.name == run.name] if seconds else []
@@ -81,20 +81,20 @@ def _table() -> dict[tuple[str, str], dict[float, float]]:
 
 
 def cells(options: Options) -> float:
-    """1 in the continuum, and for options without cells."""
+    """Number of cells; 1 in the continuum and for options without cells."""
     number = options.get("cells", 1)
     return 1 if number == "continuum" else float(number)
 
 
 def effort(options: Options) -> float:
-    """Replicas, with their pairs, times the simulated time."""
+    """Replicas times pairs per replica times simulated time."""
     last = str(options.get("times", options.get("observation-time", 1))).rpartition(",")[2]
     replicas = float(options.get("replicas", 1)) * float(options.get("pairs-per-replica", 1))
     return replicas * sum(at_size(time, cells(options)) for time in (last, options.get("relaxation-time", 0)))
 
 
 def wall(jobs: list[float], cores: int) -> timedelta:
-    """Time until all jobs are done, the longest first."""
+    """Wall time of the jobs on a number of cores, longest first."""
     ends = [0.0] * cores
     for seconds in sorted(jobs, reverse=True):
         heapq.heapreplace(ends, ends[0] + seconds)
@@ -104,8 +104,8 @@ def wall(jobs: list[float], cores: int) -> timedelta:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--quality", required=True)
-    parser.add_argument("--panel", help="this panel and those whose runs it shows")
-    parser.add_argument("--batch", type=float, help="minutes of a job on a cluster")
+    parser.add_argument("--panel", help="only this panel and the runs that it plots")
+    parser.add_argument("--batch", type=float, help="minutes per job on a cluster")
     options = parser.parse_args()
     try:
         plan = load_plan(options.quality)
@@ -121,7 +121,7 @@ def main() -> None:
             for known, run in zip(recorded, panel.runs, strict=True)
         ]
         jobs += [*seconds, DRAWING]
-        source = f"{len(seconds) - recorded.count(None)} of {len(seconds)} runs recorded here"
+        source = f"{len(seconds) - recorded.count(None)} of {len(seconds)} runs recorded"
         print(f"{panel.name:<18}{wall([*seconds, DRAWING], 1)!s:>17}  {source}")
     cores = os.cpu_count() or 1
     print(f"CPU time: {wall(jobs, 1)}. Wall time on {cores} cores here: {wall(jobs, cores)}")

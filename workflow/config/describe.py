@@ -1,6 +1,4 @@
-"""Writes what the programs declare (`PROGRAM --describe`) to the files that state it again: the schema of the options,
-and in docs the tables of options and quantities and the schema of the quantities. Run by `make describe`.
-"""
+"""Writes the schema of the options, and the tables and the schema in docs/format.*, from `PROGRAM --describe` (`make describe`)."""
 
 import argparse
 import json
@@ -13,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 from workflow.lib.files import write_together
-from workflow.lib.layout import signature
 from workflow.lib.units import SCHEMA
 
 ROOT = Path(__file__).parents[2]
@@ -24,20 +21,20 @@ SIMPLE = {
     "text": {"type": "string", "allowed": "text"},
 }
 NUMBER = r"([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?"
-LIMITS = {  # keyword of JSON Schema, and words
+LIMITS = {  # keyword of JSON Schema, and text
     "minimum": ("minimum", "at least"),
     "exclusive_minimum": ("exclusiveMinimum", "above"),
     "maximum": ("maximum", "at most"),
 }
-PURE = ("1", "that of the target quantity")  # units of no dimension, and of the error of any quantity
-OF_THE_MACHINE = {"threads": "processors"}  # defaults that differ between machines
+PURE = ("1", "that of the target quantity")  # options without units of their own
+OF_THE_MACHINE = {"threads": "processors"}  # defaults that depend on the machine
 WIDTH = 118
 
 Described = dict[str, dict[str, Any]]  # by program
 
 
 def descriptions(programs: Path) -> Described:
-    """A quantity that only some chains have is in the description with a flag; `always` names the rest."""
+    """Descriptions of all programs. Some quantities exist only with a flag; `always` lists the others."""
     described = {}
     for name in sorted(path.stem for path in (ROOT / "cpp/observables").glob("*.cpp")):
         plain = _describe(programs / name)
@@ -51,7 +48,7 @@ def descriptions(programs: Path) -> Described:
 
 
 def texts(described: Described) -> dict[Path, str]:
-    """The files as they have to be."""
+    """Path and text of each file to write."""
     options: dict[str, Any] = {"title": "Options of the programs, by make describe", "programs": {}}
     rules = []
     for name, program in described.items():
@@ -70,8 +67,8 @@ def texts(described: Described) -> dict[Path, str]:
 
 
 def schema(option: dict[str, Any]) -> dict[str, Any]:
-    """JSON Schema of an option, patterns in place of ranges for texts: the program checks the rest. `allowed` is for messages
-    and tables, `units` for the columns of tables."""
+    """JSON Schema of an option. A text has a pattern, whose numbers only the program checks. `allowed` is for messages and tables,
+    `units` for the columns of tables."""
     kind, _, other = option["type"].partition(" or ")
     if kind in SIMPLE:
         return SIMPLE[kind]
@@ -98,6 +95,11 @@ def schema(option: dict[str, Any]) -> dict[str, Any]:
     return found | limits | {"allowed": allowed} | units
 
 
+def signature(units: str, axes: dict[str, str]) -> str:
+    """Units and axes of a quantity in short: `1/(time momentum) [bond in 1, momentum in momentum]`."""
+    return f"{units} [{', '.join(f'{name} in {one}' for name, one in axes.items())}]" if axes else units
+
+
 def _describe(program: Path, *options: str) -> dict[str, Any]:
     written = subprocess.run([program, *options, "--describe"], check=True, capture_output=True).stdout
     description: dict[str, Any] = json.loads(written)
@@ -109,7 +111,7 @@ def _signature(quantity: dict[str, Any]) -> str:
 
 
 def _with_table(text: str, name: str, rows: Iterable[tuple[str, ...]]) -> str:
-    """In Markdown a bar is the end of a cell, and <x> a tag."""
+    """Replaces a table in Markdown, where bars and angle brackets in cells are escaped."""
     cells = ([re.sub(r"[|<]", r"\\\g<0>", cell) for cell in row] for row in rows)
     before, begin, rest = text.partition(f"<!-- {name}, by make describe -->\n")
     _, end, after = rest.partition(f"<!-- end of {name} -->\n")
@@ -119,7 +121,7 @@ def _with_table(text: str, name: str, rows: Iterable[tuple[str, ...]]) -> str:
 
 
 def _option_rows(described: Described) -> Iterator[tuple[str, ...]]:
-    """Options that most programs share come first."""
+    """Rows of the table of options, those that most programs have first."""
     users = Counter(json.dumps(one) for program in described.values() for one in program["options"])
     shared = [json.loads(one) for one, count in users.items() if count > len(described) / 2]
     lacking = [[f"`{name}`" for name in described if one not in described[name]["options"]] for one in shared]
@@ -148,7 +150,7 @@ def _quantity_rows(described: Described) -> Iterator[tuple[str, ...]]:
 
 
 def _compact(value: Any, indent: int = 0, used: int = 0) -> str:
-    """JSON in lines of limited width: what fits stays on one line. `used`: the characters before it."""
+    """JSON with values on one line if they fit its width. used: number of characters before the value."""
     line, inner = json.dumps(value), " " * (indent + 2)
     if used + len(line) < WIDTH or not isinstance(value, dict | list):
         return line

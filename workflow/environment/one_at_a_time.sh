@@ -1,6 +1,5 @@
 #!/bin/bash
-# Runs a command unless another one that was started in this way still runs in this folder. The lock is the kernel's: it
-# ends with the processes that hold it, however they end.
+# Runs a command under a lock of this folder. The kernel releases the lock when the processes that hold it have exited.
 mkdir -p build && exec 9>build/lock || exit
 message=$(flock --nonblock --conflict-exit-code 75 9 2>&1)
 case $? in

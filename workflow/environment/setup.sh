@@ -1,6 +1,6 @@
 #!/bin/bash
 # System packages, and the locked Python packages in .venv; with "dev" also those of tests, checks and benchmarks.
-# uv installs them: the one in PATH, or a pinned one of our own.
+# uv installs them: from PATH, or a pinned version in .cache/uv.
 set -euo pipefail
 bash workflow/environment/system_packages.sh "$@"
 
@@ -11,11 +11,10 @@ if [ ! -x "$uv" ]; then
   .cache/uv/bin/pip install --quiet --require-hashes --requirement workflow/environment/uv.txt
 fi
 
-# The scripts of a virtual environment name its interpreter by its whole path: one that was moved or copied, or whose
-# interpreter is gone, cannot be repaired.
+# The scripts of a virtual environment contain its absolute path: after a move, or without its interpreter, it is created again.
 if [ -e .venv ] && ! { .venv/bin/python -c '' && grep -qF "$PWD/.venv/bin" .venv/bin/snakemake; } 2>/dev/null; then
   "$uv" venv --quiet --clear .venv
 fi
 if [ "${1-}" = dev ]; then groups=--dev; else groups=--no-dev; fi
-# Inexact: packages of the user's own stay.
+# Inexact: additional packages of the user stay.
 "$uv" sync --quiet --frozen --inexact $groups

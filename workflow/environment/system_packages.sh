@@ -1,6 +1,6 @@
 #!/bin/bash
-# Finds missing system packages and installs them with apt when root; otherwise prints the command that does. What is in PATH or
-# on the compiler's search path counts, wherever it comes from. With "dev" also what tests, checks and benchmarks need.
+# Finds missing system packages by command or header, and installs them with apt if root; otherwise prints the command to do so. With
+# "dev" also the packages for tests, checks and benchmarks.
 # Each line: a command or a header, then the package on Debian, Fedora, Homebrew.
 set -euo pipefail
 compiler=${CXX:-c++}

@@ -1,5 +1,5 @@
 #!/bin/bash
-# C++ tests by ctest and Python tests by pytest, whose arguments these are. The last line counts all of them.
+# C++ tests by ctest, then Python tests by pytest, with the arguments of this script.
 set -euo pipefail
 bash workflow/environment/build.sh all cpp_tests
 mkdir -p build/tests

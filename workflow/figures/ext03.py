@@ -32,19 +32,19 @@ class Record(NamedTuple):
     """Profiles at one time, from the run in which they have the smallest error."""
 
     result: Result
-    index: int
+    position: int  # of the time
     time: float
     gas: Chain  # with infinitely many slow particles
     mobile: Chain  # with those that move within the time
 
     def value(self, name: str) -> tuple[float, float]:
         quantity = self.result[name]
-        return float(quantity.mean[self.index]), float(quantity.error[self.index])
+        return float(quantity.mean[self.position]), float(quantity.error[self.position])
 
     def profile(self, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Distances from the centre, in lengths; mean of both sides, and its error."""
         quantity = self.result[name]
-        mean, error = quantity.mean[self.index], quantity.error[self.index]
+        mean, error = quantity.mean[self.position], quantity.error[self.position]
         middle = len(mean) // 2
         sides = 0.5 * (mean[middle:] + mean[middle::-1][: len(mean) - middle])
         return np.arange(len(sides)) * self.gas.cell_length, sides, error[middle:]

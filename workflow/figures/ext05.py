@@ -9,9 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, ERRORS, WINDOW, listed, parameters, replicas
+from workflow.lib.caption import ERRORS, WINDOW, baths, listed, parameters, replicas
 from workflow.lib.figure import run
-from workflow.lib.fit import LEVEL, fit_line, p_value, with_error
+from workflow.lib.fit import fit_line, with_error
 from workflow.lib.load import Result
 
 FITTED = 20  # cells of the smallest chain in the fit of the excess
@@ -27,7 +27,8 @@ def look_of(result: Result, marker: str, index: int) -> style.Look:
     _, color = style.BY_GAMMA[gamma]
     face = "white" if index else color
     size = 4 if gamma == "N" else 2
-    return {"marker": marker, "color": color, "markerfacecolor": face, "markersize": size, **style.POINTS}
+    look = style.POINTS | {"capsize": 0}
+    return {"marker": marker, "color": color, "markerfacecolor": face, "markersize": size, **look}
 
 
 def plot_deviations(axes: Axes, result: Result, curves: dict[str, str]) -> list[pd.DataFrame]:
@@ -40,10 +41,9 @@ def plot_deviations(axes: Axes, result: Result, curves: dict[str, str]) -> list[
         x = (whole.axes[axis] + (0.5 if axis == "cell" else 0)) / cells
         scale = 100 / np.abs(whole.mean).mean()
         look = look_of(result, marker, index)
-        label = rf"{name.replace('_', ' ')}, $\gamma = {style.gamma(result)}$"
         percent, error = scale * deviation.mean, scale * deviation.error
         inside = (x > 0) & (x < 1)
-        axes.errorbar(x[inside], percent[inside], error[inside], label=label, **look)
+        axes.errorbar(x[inside], percent[inside], error[inside], **look)
         table = pd.DataFrame({"quantity": name, "x": x, "value": whole.mean, "error": whole.error})
         table["deviation_percent"], table["deviation_percent_error"] = percent, error
         tables.append(table.assign(units=whole.units, gamma=style.gamma(result), cells=cells))
@@ -82,38 +82,27 @@ def plot_excess(axes: Axes, results: Sequence[Result]) -> pd.DataFrame:
 
 
 def caption(table: pd.DataFrame, profiles: Sequence[Result], sizes: Sequence[Result]) -> str:
-    said = []
-    for row in table.dropna(subset="slope").drop_duplicates("quantity").itertuples():
-        freedom = int((table.quantity == row.quantity)[table.fitted.notna()].sum()) - 2
-        said.append(
-            f"{row.quantity.split()[-1]} {with_error(row.slope, row.slope_error)} per unit of ln N "
-            f"(χ² = {row.chi_square:.1f} for {freedom} degrees of freedom)"
-        )
-    bent = []
+    ends = table[table.quantity.str.startswith("density_excess")].drop_duplicates("quantity")
+    slopes = listed(with_error(row.slope, row.slope_error) for row in ends.itertuples())
+    largest = []
     for result in profiles:
         rows = table[(table.gamma == style.gamma(result)) & table.quantity.isin(SIDES)]
         far = rows.loc[rows.deviation_percent.abs().idxmax()]
-        value, error = far.deviation_percent, far.deviation_percent_error
-        unresolved = len(rows) * p_value((value / error) ** 2, 1) > LEVEL  # by Bonferroni
-        remark = ", which chance explains" if unresolved else ""
-        bent.append(f"{with_error(value, error)} % at γ = {style.gamma(result)}{remark}")
+        text = with_error(far.deviation_percent, far.deviation_percent_error)
+        largest.append(f"{text} % at γ = {style.gamma(result)}")
     return f"""
-        Rates, currents and accumulation in an open chain, {parameters(profiles, "sigma", "cell-length", *BATHS, *WINDOW)},
-        {replicas([*profiles, *sizes])}; (a) to (c) {parameters(profiles, "cells")}, large symbols at γ = N and small ones at γ = 1. (a) Arrivals at a scatterer per unit
-        time, to the right (full) and to the left (open), with straight lines through them; (b) the same minus the lines, in per cent, whose
-        errors are those of the deviations; (c) currents of particles (circles) and energy (squares) minus their mean over all
-        bonds, in per cent of it (a current of particles that falls along the chain leaves some there, as the content still grows), without the openings of the chain, where particles are injected, which have far larger errors and are in the table only:
-        what is shown need not vanish on average. (d) Density of an end cell over a line
-        through the bulk, minus one, at γ = 1 against N, with lines fitted from {FITTED} cells on: {"; ".join(said)}. {ERRORS}. The
-        paper states linear rates and uniform currents: the rates deviate by at most {listed(bent)}; and an accumulation that turns singular
-        as N grows."""
+        Open chain, {parameters(profiles, "sigma", "cell-length")}, {baths(profiles[0])}, {parameters(profiles, *WINDOW)},
+        {replicas([*profiles, *sizes])}; (a)–(c) {parameters(profiles, "cells")}. (a) Arrivals at a scatterer per unit time; (b) over straight
+        lines, minus one; (c) currents of particles and energy over their mean, without the openings. The paper has linear rates; they
+        deviate by up to {listed(largest)}. (d) Excess density of the end cells at γ = 1; lines: a + b ln N
+        with b = {slopes}, growth as in the paper. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     profiles = [result for result in results if result.parameters["cells"] == 30]
     sizes = [result for result in results if style.gamma(result) == "1"]
     sizes.sort(key=lambda result: result.parameters["cells"])
-    figure, panels = plt.subplots(2, 2, figsize=(2 * style.COLUMN, 1.9 * style.HEIGHT))
+    figure, panels = plt.subplots(2, 2, figsize=(2 * style.COLUMN, 1.7 * style.HEIGHT))
     raw, rates, currents, excess = panels.flat
     tables = []
     for result in profiles:
@@ -121,33 +110,36 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         tables += plot_deviations(rates, result, SIDES)
         tables += plot_deviations(currents, result, CURRENTS)
     tables.append(plot_excess(excess, sizes))
-    table = pd.concat(tables)
+    table = pd.concat(tables).reset_index(drop=True)
     raw.set(xlabel="$x$", ylabel=f"rate at a scatterer ({style.UNITS})")
-    rates.set(xlabel="$x$", ylabel="rates minus lines / %")
-    currents.set(xlabel="$x$", ylabel="currents minus mean / %")
+    rates.set(xlabel="$x$", ylabel="rate over line, minus 1 / %")
+    currents.set(xlabel="$x$", ylabel="current over mean, minus 1 / %")
     excess.set(xscale="log", xlabel="number of cells $N$", ylabel="excess density of an end cell")
     excess.legend(loc="upper left", title=r"$\gamma = 1$")
     excess.set_ylim(bottom=0)
     for axes in (rates, currents):
         axes.axhline(0, **style.GUIDE)
-    (points, names), (more, others) = (axes.get_legend_handles_labels() for axes in (rates, currents))
-    figure.legend([*points, *more], [*names, *others], loc="outside upper center", ncols=4)
+    for name, index in (("to the right", 0), ("to the left", 1)):
+        raw.errorbar([], [], [], **look_of(profiles[0], "><"[index], index), label=name)
+    for name, index in (("particles", 0), ("energy", 1)):
+        currents.errorbar([], [], [], **look_of(profiles[0], "os"[index], index), label=name)
+    for result in profiles:
+        rates.errorbar([], [], [], **look_of(result, "o", 0), label=rf"$\gamma = {style.gamma(result)}$")
+    for axes in (raw, rates, currents):
+        axes.legend(loc="upper right", handletextpad=0.2)
     style.letter(*panels.flat)
-    table = table.reset_index(drop=True)
     return figure, table, caption(table, profiles, sizes)
 
 
 if __name__ == "__main__":
     by_row = {"value": "column units", "error": "column units"}
-    run(
-        draw,
-        "Rates, currents and density along the chain",
-        x="1",
-        deviation_percent="1",
-        deviation_percent_error="1",
-        fitted="1",
-        slope="1",
-        slope_error="1",
-        chi_square="1",
-        **by_row,
+    pure = (
+        "x",
+        "deviation_percent",
+        "deviation_percent_error",
+        "fitted",
+        "slope",
+        "slope_error",
+        "chi_square",
     )
+    run(draw, "Rates, currents and density along the chain", **dict.fromkeys(pure, "1"), **by_row)

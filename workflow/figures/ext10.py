@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from scipy.special import erf
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, ERRORS, WINDOW, goodness, number, parameters, replicas
+from workflow.lib.caption import ERRORS, WINDOW, baths, number, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
@@ -80,20 +80,13 @@ def plot(axes: Axes, result: Result, curve: Curve, units: str, shift: float) -> 
 
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
-    said = []
-    for row in table.drop_duplicates(["quantity", "gamma"]).itertuples():
-        bins = int(((table.quantity == row.quantity) & (table.gamma == row.gamma)).sum())
-        name = "flux" if row.quantity == "flux" else "scatterers"
-        distance = with_error(100 * row.distance, 100 * row.distance_error)
-        fit = goodness(row.chi_square, bins)
-        said.append(f"{name} at γ = {row.gamma} {fit}, largest distance {distance} %")
-    chain = ("cells", "cell-length", "sigma")
+    farthest = table.sort_values("distance").iloc[-1]
     return f"""
-        Equilibrium: an open chain between equal baths, {parameters(results, *chain, *BATHS, *WINDOW)}, {replicas(results)}, at γ = N
-        (circles) and γ = 1 (squares). (a) Flux of the particles that leave at both ends, (b) density of the momenta of the scatterers in
-        the end cells, both over the Gaussian at the temperature of the baths and at their rate, minus one, in the bins that hold more
-        than {number(100 * SEEN)} % of all; nothing is fitted. {ERRORS}. Against the Gaussian, by χ² over the bins shown, with the largest distance of the
-        distribution functions (Kolmogorov and Smirnov): {"; ".join(said)}. The paper states that both are Gaussian."""
+        Open chain in equilibrium, between equal baths; {parameters(results, "cells", "cell-length", "sigma")}, {baths(results[0])}, {parameters(results, *WINDOW)},
+        {replicas(results)}, at γ = N (circles) and γ = 1 (squares). (a) Flux of the particles that leave at both ends over the Gaussian of the
+        rate and temperature of the baths, minus one. (b) Density of the momenta of the end scatterers over the Gaussian at the temperature of the baths, minus one. Bins
+        of a probability above {number(100 * SEEN)} %; nothing is fitted. As the paper states both are Gaussian: the largest distance between the
+        distribution functions is {with_error(100 * farthest.distance, 100 * farthest.distance_error)} %. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
@@ -123,4 +116,11 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 if __name__ == "__main__":
     by_row = {"found": "column units", "found_error": "column units", "exact": "column units"}
-    run(draw, "Equilibrium", chi_square="1", distance="1", distance_error="1", **by_row)
+    run(
+        draw,
+        "Momentum distributions in equilibrium",
+        chi_square="1",
+        distance="1",
+        distance_error="1",
+        **by_row,
+    )

@@ -34,7 +34,7 @@ def scaled(result: Result) -> pd.DataFrame:
     known = np.isfinite(found.mean)
     time = found.axes["time"][known]
     value, error = (array[known] / time**power for array in (found.mean, found.error))
-    columns = {"time": time, "relative": value / value[0], "relative_error": error / value[0]}
+    columns = {"time": time, "relative": value / value[:1], "relative_error": error / value[:1]}
     return pd.DataFrame(columns).assign(
         gamma=str(result.parameters["gamma"]), cells=int(result.parameters["cells"]),
         pulse_energy=float(result.parameters["pulse-energy"]), quantity=name,
@@ -82,7 +82,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         freedom, {replicas(heights + positions)}. (a) Height times t^(2/3) over its first value, from scatterers at rest that have
         relaxed: the paper's pulse, a shock with the mean damping exponent {strong}, and one with a tenth of its energy, {weak}.
         (b) Position over time, over its first value, from Gaussian momenta; ballistic: horizontal. In the short ring the cell of the
-        pulse is wide beside the distance, and particles scatter on the way. {ERRORS}."""
+        pulse is wide beside the distance, and particles scatter on the way. {ERRORS}"""
     return figure, table, caption
 
 

@@ -1,7 +1,7 @@
 """Fig. 1: momentum distribution of the particles in an empty chain that fills, times |p|, at several times.
 
 With three distances between scatterers, as the paper states none. Below on logarithmic bins, with the fronts p_0(t), and
-the fronts over lambda/2t, which they are expected to follow.
+the fronts over lambda/2t, the momentum that crosses half a cell within t.
 """
 
 from collections.abc import Sequence
@@ -13,40 +13,27 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, ERRORS, listed, parameters, replicas
+from workflow.lib.caption import ERRORS, baths, listed, number, parameters, replicas
 from workflow.lib.figure import run
-from workflow.lib.fit import fit_power, with_error
 from workflow.lib.load import Result
 
+JUDGED = "1/N"  # the distance by which claims are judged: that of the paper's other open chains
 FRONT = {"marker": "o", "color": style.BLACK, "markerfacecolor": "white", **style.POINTS}
 
 
-def geometric_mean(values: pd.Series) -> float:
-    return float(np.exp(np.log(values).mean()))
-
-
-def in_pairs(result: Result, bins: str, quantity: str, axis: str) -> pd.DataFrame:
-    """One row per time and two neighbouring bins of the file, whose counts are nearly independent."""
-    frame = result[quantity].to_frame()
-    pairs = frame.groupby([frame.time, frame.groupby("time").cumcount() // 2])
-    joined = pairs[["mean"]].mean()
-    joined["momentum"] = pairs[axis].agg(geometric_mean if bins == "speed" else "mean")
-    squares = (frame.standard_error**2).groupby(pairs.ngroup()).sum()
-    joined["standard_error"] = np.sqrt(squares.to_numpy()) / pairs.size().to_numpy()
-    return joined.reset_index().assign(bins=bins)
-
-
 def tabulate(result: Result) -> pd.DataFrame:
-    """Both, with the front and the height above it at every time."""
-    columns = {"mean": "weighted_density", "standard_error": "error"}
-    of_momentum = in_pairs(result, "momentum", "weighted_momentum_density", "p")
-    of_speed = in_pairs(result, "speed", "weighted_speed_density", "speed")
-    table = pd.concat([of_momentum, of_speed]).rename(columns=columns)
-    table = table[["bins", "time", "momentum", "weighted_density", "error"]]
+    """Densities on bins of either kind, with the front and the height above it at every time."""
+    kinds = {"momentum": ("weighted_momentum_density", "p"), "speed": ("weighted_speed_density", "speed")}
+    parts = []
+    for bins, (quantity, axis) in kinds.items():
+        frame = result[quantity].to_frame().rename(columns={axis: "momentum", "mean": "weighted_density"})
+        frame["error"] = frame.standard_error
+        parts.append(frame[["time", "momentum", "weighted_density", "error"]].assign(bins=bins))
+    table = pd.concat(parts)
     for name in ("front", "plateau"):
-        quantity = result[name]
-        for column, values in ((name, quantity.mean), (f"{name}_error", quantity.error)):
-            table[column] = table.time.map(dict(zip(quantity.axes["time"], values, strict=True)))
+        found = result[name]
+        for column, values in ((name, found.mean), (f"{name}_error", found.error)):
+            table[column] = table.time.map(dict(zip(found.axes["time"], values, strict=True)))
     table.insert(0, "cell_length", style.spacing(result)[0])
     return table
 
@@ -55,35 +42,23 @@ def plot_times(axes: Axes, table: pd.DataFrame) -> None:
     """One curve with its error band per time."""
     curves = zip(table.groupby("time"), style.SEQUENCE, style.DASHES, strict=True)
     for (time, part), color, dashes in curves:
-        axes.plot(
-            part.momentum, part.weighted_density, color=color, linestyle=dashes, label=f"$t = {time:g}$"
-        )
+        label = f"$t = {time:g}$"
+        axes.plot(part.momentum, part.weighted_density, color=color, linestyle=dashes, label=label)
         low, high = (part.weighted_density + sign * part.error for sign in (-1, 1))
         axes.fill_between(part.momentum, low, high, color=color, alpha=0.3, linewidth=0)
     axes.set_ylim(bottom=0)
 
 
-def fronts(table: pd.DataFrame) -> pd.DataFrame:
-    """One row per time, with the front over lambda/2t."""
-    rows = table.drop_duplicates("time")
-    expected = rows.cell_length / (2 * rows.time)
-    return rows.assign(ratio=rows.front / expected, ratio_error=rows.front_error / expected)
+def bin_width(result: Result) -> float:
+    return 2 * float(result.parameters["momentum-max"]) / int(result.parameters["momentum-bins"])
 
 
-def said_of_front(result: Result, table: pd.DataFrame) -> str:
-    """Exponent of p_0 over all times, and without the first."""
-    late = fronts(table).iloc[1:]
-    without = fit_power(late.time, late.front, late.front_error)
-    return (
-        f"{style.with_error(result['front_exponent'])} at λ = {style.spacing(result)[1]} ({without.text} "
-        "without the first time)"
-    )
-
-
-def ends_of_front(result: Result, table: pd.DataFrame) -> str:
-    """p_0 over lambda/2t at the first time and at the last."""
-    first, last = fronts(table)[["ratio", "ratio_error"]].iloc[[0, -1]].to_numpy()
-    return f"from {with_error(*first)} to {with_error(*last)} at λ = {style.spacing(result)[1]}"
+def number_bins(axes: Axes, result: Result) -> None:
+    """The bins' numbers on top, which the paper has."""
+    width, low = bin_width(result), float(result.parameters["momentum-max"])
+    scales = (lambda p: (p + low) / width, lambda k: k * width - low)
+    axes.tick_params(axis="x", which="both", top=False)
+    axes.secondary_xaxis("top", functions=scales).set_xlabel("bin number")
 
 
 def by_spacing(results: Sequence[Result]) -> list[Result]:
@@ -91,49 +66,44 @@ def by_spacing(results: Sequence[Result]) -> list[Result]:
     return sorted(results, key=lambda result: style.spacing(result)[0])
 
 
-def caption(tables: Sequence[pd.DataFrame], results: Sequence[Result]) -> str:
-    exponents = [said_of_front(result, table) for result, table in zip(results, tables, strict=True)]
-    ends = [ends_of_front(result, table) for result, table in zip(results, tables, strict=True)]
+def caption(results: Sequence[Result]) -> str:
+    exponents = listed(style.with_error(result["front_exponent"]) for result in results)
     return f"""
-        Filling of an empty chain: number n_t(p) of particles with momentum p inside, per unit momentum, times |p|, at five times t;
-        {parameters(results, "cells", "sigma", "gamma", *BATHS)}, {replicas(results)}. The paper does not state the distance λ
-        between scatterers; each column has another. Above against p, as in the paper; in the middle both signs together against
-        |p| on logarithmic bins, with circles at the front p_0(t), where the density has fallen to half of its height
-        above; below p_0 over λ/2t, which a particle's time of flight to the next scatterer suggests: from the first time to the
-        last {listed(ends)}. {ERRORS}, as bands and bars. Exponents of p_0 ~ t^a:
-        {"; ".join(exponents)}; what the first time changes is their systematic error. The paper says that p_0 falls logarithmically.
-        Above p_0 the density is stationary where the chain has filled. What the paper says of this figure is judged at λ =
-        {style.spacing(results[0])[1]}, the spacing of its other open chains."""
+        Particles n_t(p) with momentum p in a chain that is empty at t = 0, times |p|; {parameters(results, "cells", "sigma", "gamma")},
+        {baths(results[0])}, {replicas(results)}. The paper does not state the distance λ of the scatterers: columns. Claims are
+        judged at λ = {JUDGED}. (a)–(c) Bins of width {number(bin_width(results[0]))}, too wide for the front; top: bin number, the paper's abscissa. (d)–(f) Logarithmic bins, both signs of p; circles: front p_0(t), where the density falls to half its
+        height. (g)–(i) p_0 over λ/2t. The front falls as t^a with a = {exponents} in the columns, not logarithmically.
+        {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
-    figure, rows = plt.subplots(
-        3,
-        len(results),
-        figsize=(3 * style.COLUMN, 2.3 * style.HEIGHT),
-        sharex="row",
-        height_ratios=[2, 2, 1],
-    )
+    size = (3 * style.COLUMN, 2.3 * style.HEIGHT)
+    figure, rows = plt.subplots(3, len(results), figsize=size, sharex="row", height_ratios=[2, 2, 1])
     results = by_spacing(results)
     tables = [tabulate(result) for result in results]
     for (above, middle, below), result, table in zip(rows.T, results, tables, strict=True):
         plot_times(above, table[table.bins == "momentum"])
         plot_times(middle, table[table.bins == "speed"])
-        front = fronts(table)
+        front = table.drop_duplicates("time")
+        half_cell = front.cell_length / (2 * front.time)
         middle.errorbar(front.front, front.plateau / 2, xerr=front.front_error, **FRONT, label="$p_0(t)$")
-        below.errorbar(front.time, front.ratio, front.ratio_error, **FRONT)
+        ratio = front.front / half_cell
+        below.errorbar(front.time, ratio, front.front_error / half_cell, **FRONT)
         below.axhline(1, **style.GUIDE)
-        above.text(0.04, 0.9, rf"$\lambda = {style.spacing(result)[1]}$", transform=above.transAxes, va="top")
+        given = style.spacing(result)[1]
+        name = rf"$\lambda = {given}$" + "\njudged" * (given == JUDGED)
+        above.text(0.04, 0.94, name, transform=above.transAxes, va="top")
         above.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel=r"$|p|\,n_t(p)$", xlim=(-40, 40))
+        number_bins(above, result)
         middle.set(xscale="log", xlabel=r"$|p|$", ylabel=r"$|p|\,n_t(|p|)$")
-        below.set(
-            xlabel="time $t$", ylabel=r"$p_0\,/\,(\lambda/2t)$", ylim=(0, 1.3 * max(1, front.ratio.max()))
-        )
-    style.letter(*rows.flat)
+        top = 1.3 * max(1, np.nanmax(ratio))
+        below.set(xlabel="time $t$", ylabel=r"$p_0\,/\,(\lambda/2t)$", ylim=(0, top))
+    style.letter(*rows[0], lift=26)
+    style.letter(*rows[1:].flat, start="d")
     figure.legend(*rows[1, 0].get_legend_handles_labels(), loc="outside upper center", ncols=6)
-    return figure, pd.concat(tables), caption(tables, results)
+    return figure, pd.concat(tables), caption(results)
 
 
 if __name__ == "__main__":
     density = {"weighted_density": "1", "error": "1"}
-    run(draw, "Momentum distribution of the particles inside, times momentum", momentum="momentum", **density)
+    run(draw, "Momentum distribution of the particles in a filling chain", momentum="momentum", **density)

@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, ERRORS, WINDOW, parameters, replicas
+from workflow.lib.caption import ERRORS, WINDOW, baths, listed, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import fit_line, with_error
 from workflow.lib.load import Result
@@ -27,18 +27,16 @@ def tabulate(result: Result) -> pd.DataFrame:
 
 
 def caption(results: Sequence[Result], tables: Sequence[pd.DataFrame]) -> str:
-    said = []
-    for table in tables:
-        first, last = (
-            with_error(*(100 * table[["relative", "relative_error"]].iloc[k] - [100, 0])) for k in (0, -1)
-        )
-        said.append(f"at γ = {table.gamma.iloc[0]} {first} % in the first and {last} % in the last cell")
+    excess = listed(
+        f"{with_error(100 * (row.relative - 1), 100 * row.relative_error)} % at γ = {row.gamma}"
+        for table in tables
+        for row in table.iloc[:1].itertuples()
+    )
     return f"""
-        Particles per cell of an open chain, {parameters(results, "cells", "cell-length", "sigma", *BATHS, *WINDOW)},
-        {replicas(results)}, at γ = N (circles) and γ = 1 (squares). (a) Mean density ρ(x) over the window of observation, on which it
-        depends, as slow particles gather for ever; (b) the same over a straight line through the shaded bulk, without the error of the
-        line. {ERRORS}. Excess over the line: {"; ".join(said)}. The paper has a profile that is less steep at γ = 1, and
-        particles that accumulate at the ends."""
+        Open chain, {parameters(results, "cells", "cell-length", "sigma")}, {baths(results[0])}, {parameters(results, *WINDOW)},
+        {replicas(results)}. (a) Mean number ρ(x) of particles in a cell at γ = N (circles) and γ = 1 (squares); lines through the shaded bulk.
+        ρ depends on the window, as slow particles accumulate logarithmically. (b) ρ over the line. As in the paper the profile at γ = 1 is
+        the flatter, and particles accumulate at the ends, in the first cell by {excess}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

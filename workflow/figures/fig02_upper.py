@@ -11,9 +11,8 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, ERRORS, WINDOW, parameters, replicas
+from workflow.lib.caption import ERRORS, WINDOW, baths, listed, parameters, replicas
 from workflow.lib.figure import run
-from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
 
@@ -30,34 +29,22 @@ def tabulate(result: Result) -> pd.DataFrame:
     return table
 
 
-def ends(result: Result) -> str:
-    """Particle minus scatterer in the first and the last cell."""
-    difference = result["temperature_difference"]
-    values = [with_error(-difference.mean[k], difference.error[k]) for k in (0, -1)]
-    largest = np.nanmax(np.abs(difference.mean / difference.error))
-    return f"γ = {style.gamma(result)}: {values[0]} and {values[1]}; the largest difference of any cell is {largest:.1f} standard errors"
-
-
 def caption(results: Sequence[Result]) -> str:
-    first, last = (
-        ", ".join(
-            f"{style.with_error(result['temperature_scatterer'], k)} at γ = {style.gamma(result)}"
-            for result in results
-        )
-        for k in (0, -1)
+    first = listed(
+        f"{style.with_error(result['temperature_scatterer'], 0)} at γ = {style.gamma(result)}"
+        for result in results
     )
     return f"""
-        Temperature profiles of an open chain, {parameters(results, "cells", "cell-length", "sigma", *BATHS, *WINDOW)}, {replicas(results)}.
-        (a) Scatterers (symbols) and arriving particles (lines, with error bands) at γ = N (circles) and γ = 1 (squares); dashed the
-        temperatures T_L and T_R of the baths. (b) Temperature of the particles minus that of the scatterer in the same cell and the same runs.
-        {ERRORS}; those of (b) are of paired differences. As in the paper neither profile reaches the temperatures of the baths, at γ = 1
-        least: the first scatterer has {first}, the last {last}. Particle minus scatterer in the first and the last cell at
-        {"; at ".join(ends(result) for result in results)}. The paper has both coincide in each cell."""
+        Open chain, {parameters(results, "cells", "cell-length", "sigma")}, {baths(results[0])}, {parameters(results, *WINDOW)},
+        {replicas(results)}. (a) Temperature T of scatterers (symbols) and arriving particles (lines); right axis: kinetic energy
+        E_K = T/2, plotted in the paper; dashed: baths. (b) Particles minus scatterers, in the same cell and runs. As in the paper neither
+        profile reaches the baths, and that of γ = 1 is the flatter: the first scatterer has {first}. At γ = N the
+        particles of the end cells depart from the scatterers. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     figure, (above, below) = plt.subplots(
-        2, 1, sharex=True, figsize=(style.COLUMN, 1.6 * style.HEIGHT), height_ratios=[2, 1]
+        2, 1, sharex=True, figsize=(1.1 * style.COLUMN, 1.6 * style.HEIGHT), height_ratios=[2, 1]
     )
     tables = [tabulate(result) for result in results]
     for result, table in zip(results, tables, strict=True):
@@ -80,6 +67,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         )
     middle = np.mean([options[f"temperature-{end}"] for end in ("left", "right")])
     above.set(ylabel=f"temperature ({style.UNITS})", xlim=(0, 1), ylim=(0.76 * middle, 1.28 * middle))
+    style.second_axis(above, 0.5, "kinetic energy $E_K$")
     below.axhline(0, **style.GUIDE)
     below.set(xlabel="$x$", ylabel="temperature, particles\nminus scatterers")
     figure.legend(*above.get_legend_handles_labels(), loc="outside upper left", ncols=2)

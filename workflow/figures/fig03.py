@@ -14,13 +14,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, listed, number, parameters
+from workflow.lib.caption import baths, listed, number, parameters
 from workflow.lib.figure import run
 from workflow.lib.load import Result
 
 ENDS = [(0, "x = 0", style.BLUE, "solid"), (-1, "x = 1", style.VERMILLION, (0, (4, 1.5)))]
 PAPER, EQUAL, EXCHANGE = "as in the paper", "equal temperatures", "sigma = 0"
 SHOWN = 45
+OFTEN = 0.01  # fluxes over the largest one, above which the ratio to a Gaussian is shown
 
 
 def case(result: Result) -> str:
@@ -62,54 +63,38 @@ def draw_halves(axes: Axes, part: pd.DataFrame, values: pd.Series, **look: Any) 
         look.pop("label", None)
 
 
+def both_rates(result: Result) -> float:
+    """The flux over it has about the integral 1, as the paper's."""
+    return float(result.parameters["nu-left"] + result.parameters["nu-right"])
+
+
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
-    paper, equal = ([result for result in results if case(result) == name] for name in (PAPER, EQUAL))
+    (paper,) = (result for result in results if case(result) == PAPER)
     rows = table[table.case == PAPER].drop_duplicates("x")
-    jumps = [f"{one.jump:.4f} at {one.x}" for one in rows.itertuples()]
-    kurtosis = table.groupby("case")["kurtosis"].max()
-
-    def leaving(name: str) -> str:
-        """Those that leave: to the left at the left end, to the right at the right one."""
-        part = table[table.case == name]
-        left, right = (
-            part[(part.x == place) & ((part.momentum < 0) == (place == ENDS[0][1]))]["kurtosis"].iloc[0]
-            for _, place, *_ in ENDS
-        )
-        return f"{number(left)} at the left and {number(right)} at the right end"
-
+    jumps = listed(f"{number(one.jump)} at {one.x}" for one in rows.itertuples())
+    largest = table.groupby("case")["kurtosis"].max()
     return f"""
-        Flux distribution F(p, x) of the particles at the left (solid) and the right end (dashed) of the system by the kinetic equation,
-        {parameters(paper, "sigma", "gamma", *BATHS)}. (a) F; it jumps at momentum zero by {listed(jumps)}. (b) Each half over the Gaussian
-        half of its own rate and second moment: what a bath injects is Gaussian, what leaves is not, with kurtoses <p⁴>/<p²>² of
-        {leaving(PAPER)} (a Gaussian has three). Dotted: the same for baths with
-        {parameters(equal, *BATHS)}, with kurtoses of {leaving(EQUAL)}; at σ = 0, where momenta are only exchanged, all halves stay Gaussian,
-        with kurtoses up to {number(kurtosis[EXCHANGE])}. Numerical errors, below
-        {paper[0].provenance["achieved_error"]:.0e} of the currents, are thinner than a line. The paper has the same jump and the same halves, and says that halves are
-        Gaussian only if the temperatures are equal: at σ = 0 they are Gaussian at unequal ones, and at equal ones unequal rates still
-        make them differ from a Gaussian."""
+        Flux F(p, x) of the particles, per momentum, at both ends by the kinetic equation;
+        {parameters([paper], "sigma", "gamma")}, {baths(paper)}. (a) F; right axis: over ν_L + ν_R, the scale of the paper. F jumps at p = 0
+        by {jumps}. (b) Each half over the Gaussian of its own rate and second moment, where F exceeds {number(100 * OFTEN)} % of max F; dotted: T_L = T_R. What the baths inject is Gaussian, what leaves is not, with kurtoses <p⁴>/<p²>² up to
+        {number(largest[PAPER])}; at σ = 0 all halves are Gaussian. Numerical errors: below {paper.provenance["achieved_error"]:.0e} of the currents."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     table = tabulate(results)
-    figure, (above, below) = plt.subplots(
-        2, 1, sharex=True, figsize=(style.COLUMN, 1.5 * style.HEIGHT), height_ratios=[2, 1]
-    )
-    departure = 100 * (table.flux / table.gaussian - 1)
-    often = departure[table.flux > table.flux.max() / 100]
+    size = (1.1 * style.COLUMN, 1.5 * style.HEIGHT)
+    figure, (above, below) = plt.subplots(2, 1, sharex=True, figsize=size, height_ratios=[2, 1])
+    departure = (100 * (table.flux / table.gaussian - 1)).where(table.flux > OFTEN * table.flux.max())
     for _, place, color, dashes in ENDS:
         ends = table[table.x == place]
-        for name, look in (
-            (PAPER, {"linestyle": dashes}),
-            (EQUAL, {"linestyle": "dotted", "linewidth": 0.8}),
-        ):
-            part = ends[ends.case == name]
-            if name == PAPER:
-                draw_halves(above, part, part.flux, color=color, label=f"${place}$", **look)
-            draw_halves(below, part, departure[part.index], color=color, **look)
+        paper, equal = (ends[ends.case == name] for name in (PAPER, EQUAL))
+        draw_halves(above, paper, paper.flux, color=color, linestyle=dashes, label=f"${place}$")
+        draw_halves(below, paper, departure[paper.index], color=color, linestyle=dashes)
+        draw_halves(below, equal, departure[equal.index], color=color, linestyle="dotted", linewidth=0.8)
     for axes in (above, below):
         axes.axvline(0, **style.GUIDE)
     above.set(ylabel="$F(p, x)$", xlim=(-SHOWN, SHOWN), ylim=(0, None))
-    below.set_ylim(1.3 * often.min(), 1.3 * often.max())
+    style.second_axis(above, 1 / both_rates(results[0]), r"$F/(\nu_L + \nu_R)$")
     below.plot([], [], color="grey", linestyle="dotted", label="$T_L = T_R$")
     below.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel="$F$ over Gaussian,\nminus 1 / %")
     above.legend(loc="upper right")
@@ -120,8 +105,5 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 
 if __name__ == "__main__":
-    run(
-        draw,
-        "Momentum distribution of the particles at both ends, by the kinetic equation",
-        gaussian="1/(time momentum)",
-    )
+    title = "Momentum distribution of the particles at both ends, by the kinetic equation"
+    run(draw, title, gaussian="1/(time momentum)")

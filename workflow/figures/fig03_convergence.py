@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.caption import BATHS, listed, parameters
+from workflow.lib.caption import baths, listed, parameters
 from workflow.lib.figure import run
 from workflow.lib.load import Result
 
@@ -51,11 +51,10 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         for gamma, part in table.groupby("gamma")
     ]
     return f"""
-        Error of the kinetic solver against its number of points in momentum, {parameters(results, "gamma", "sigma", *BATHS)}: the
-        largest relative error of the currents of particles, energy and momentum. Lines: the program's own estimate, from a
-        coarser solution; points: distance from the finest solution of the same γ. The estimate is above the distance, and both fall
-        faster than the powers of usual quadratures with the number of points; the estimates end at {listed(finest)}. The paper uses {PAPER_POINTS} points and states
-        no error, so that no point of it can be shown here."""
+        Relative error of the kinetic solver against its number of momentum points, {parameters(results, "gamma", "sigma")},
+        {baths(results[0])}: the largest of the currents of particles, energy and momentum. Lines: the solver's own estimate, from a coarser
+        solution; points: distance from the finest solution of the same γ. The estimate is an upper bound, and both fall faster than a power of
+        the number of points, down to {listed(finest)}. The paper uses {PAPER_POINTS} points and states no error."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

@@ -1,7 +1,7 @@
 """Fig. 4: momentum distribution of the particles at both ends of an open chain; a: gamma = 1, b: gamma = N.
 
-Beside it the surroundings of p = 0, where the distribution jumps, and the jumps; in b also with equal rates at both ends, and in
-its table and caption at gamma = 1. The mean field is the kinetic equation at gamma = 1, and that of N scatterers at gamma = N.
+Beside it the surroundings of p = 0, where the distribution jumps, and the jumps; in b also with equal rates at both ends. The
+mean field is the kinetic equation at gamma = 1, and that of N scatterers at gamma = N.
 """
 
 from collections.abc import Sequence
@@ -13,17 +13,16 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from workflow.figures.fig03 import SHOWN, both_rates
 from workflow.lib import style
-from workflow.lib.caption import BATHS, CHAIN, ERRORS, WINDOW, listed, number, parameters, replicas
+from workflow.lib.caption import CHAIN, ERRORS, WINDOW, baths, listed, number, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Quantity, Result
 
 EQUAL = "\n$\\nu_L = \\nu_R$"
-RESOLVED = 3  # standard errors
 FEW = 0.5  # jumps smaller than this share of the largest are seen beside 0
 NEAR = 12  # momenta shown about the jump
-SHOWN = 45
 
 # By place: first and last bond behind a scatterer.
 ENDS = {"x = 1/N": (1, style.BLUE, "solid", "o"), "x = 1": (-1, style.VERMILLION, (0, (4, 1.5)), "s")}
@@ -123,7 +122,7 @@ def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
                 text, place, xycoords=axes.get_yaxis_transform(), ha="right", va="center", size=8, color=color
             )
     jumps = table.jump.abs()
-    if jumps.min() < FEW * jumps.max():  # elsewhere nothing could be told apart on an axis that reaches 0
+    if jumps.min() < FEW * jumps.max():  # elsewhere they could not be distinguished on an axis that reaches 0
         axes.axvline(0, **style.GUIDE)
     axes.set(xlabel=r"jump $F_N(0^+, x) - F_N(0^-, x)$", ylim=(0.5 - len(chains), 0.5))
     names = [rf"$\gamma = {gamma}$" + EQUAL * equal for gamma, equal, _ in chains]
@@ -145,53 +144,23 @@ def extrapolation_error(table: pd.DataFrame) -> float:
     return float(max(errors))
 
 
-def farthest(table: pd.DataFrame) -> str:
-    """The largest F_N - F at each end of a chain at unequal rates, in per cent of the largest F."""
-    unit = table.kinetic.max() / 100
-    said = []
-    for place, part in table.groupby("x", sort=False):
-        far = part.loc[(part.flux - part.kinetic).abs().idxmax()]
-        said.append(
-            f"{with_error((far.flux - far.kinetic) / unit, far.flux_error / unit)} % at {place} and p = {number(far.momentum)}"
-        )
-    return listed(said)
-
-
-def by_theory(jump: float) -> str:
-    return f" (mean field {number(jump)})" if np.isfinite(jump) else ""
-
-
-def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
-    runs = measured(results)
-    last = table.gamma.iloc[-1]
-    main = [result for result in runs if style.gamma(result) == last and len(set(rates(result))) > 1]
-    said = []
-    for gamma, equal, part in cases(table):
-        jumps = [
-            f"{with_error(end.jump, end.jump_error)} at {end.x}{by_theory(end.kinetic_jump)}"
-            for end in part.itertuples()
-        ]
-        rate = f" with ν_L = ν_R = {number(part.nu_left.iloc[0])}" if equal else ""
-        said.append(f"γ = {gamma}{rate}: {listed(jumps)}")
-    alike = [end for _, equal, part in cases(table) if equal for end in part.itertuples()]
-    known = [end for end in alike if abs(end.jump) > RESOLVED * end.jump_error]
-    theory = listed(number(end.kinetic_jump) for end in alike) if alike else ""
-    still = (
-        f"; with equal rates a jump is resolved at {len(known)} of {len(alike)} ends, and the mean field has {theory} there"
-        if alike
-        else ""
-    )
-    unequal = table[(table.gamma == last) & (table.nu_left != table.nu_right)]
-    claimed = (
-        "says that at γ = N the jump is much smaller than at γ = 1 and comes from unequal rates alone"
-        if alike
-        else "has the curves on top of the kinetic equation"
+def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]) -> str:
+    runs = [result for result in measured(results) if style.gamma(result) == main.gamma.iloc[0]]
+    chain = next(result for result in runs if len(set(rates(result))) > 1)
+    ends = unequal.drop_duplicates("x").itertuples()
+    jumps = listed(with_error(end.jump, end.jump_error) for end in ends)
+    far = 100 * (unequal.flux - unequal.kinetic).abs().max() / unequal.kinetic.max()
+    equal = " and at equal rates" if len(runs) > 1 else ""
+    found = (
+        f"The jumps, {jumps}, are much smaller than at γ = 1, as in the paper, but remain at equal rates"
+        if len(runs) > 1
+        else f"As in the paper F_N agrees with the kinetic equation, within {number(float(f'{far:.1g}'))} %; it jumps by {jumps}"
     )
     return f"""
-        Flux distribution F_N(p, x) of the particles behind the first scatterer (solid, circles) and the last (dashed,
-        squares) of an open chain; {parameters(main, *CHAIN, *BATHS, *WINDOW)}, {replicas(runs)}. Black: F in mean field, by the kinetic
-        equation of the same chain. (a) F_N, (b) the same about the momentum zero, (c) F_N − F in per cent of the maximum of F, in single bins farthest off by {farthest(unequal)}, (d) jump at momentum zero; black bars in mean field. All jumps, at {"; ".join(said)}.
-        {ERRORS}; the lines through two bins on either side that give the jumps err by up to {extrapolation_error(table):.2g}, as they do in mean field. The paper {claimed}{still}."""
+        Flux F_N(p, x) of the particles, per momentum, behind the first and the last scatterer;
+        {parameters([chain], *CHAIN)}, {baths(chain)}, {parameters([chain], *WINDOW)}, {replicas(runs)}. Black: mean field, the kinetic equation.
+        (a) F_N; right axis: over ν_L + ν_R, the scale of the paper. (b) Surroundings of p = 0. (c) Deviation from the mean
+        field. (d) Jump at p = 0, extrapolated{equal}. {found}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
@@ -205,24 +174,20 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     )
     draw_distribution(panels["main"], unequal, SHOWN)
     draw_distribution(panels["near"], unequal, NEAR)
+    style.second_axis(panels["main"], 1 / both_rates(results[0]), r"$F_N/(\nu_L + \nu_R)$")
     draw_residuals(panels["residual"], unequal)
     draw_jumps(panels["jump"], main)
-    panels["main"].text(
-        0.95, 0.9, rf"$\gamma = {main.gamma.iloc[0]}$", transform=panels["main"].transAxes, ha="right"
-    )
+    place: style.Look = {"transform": panels["main"].transAxes, "ha": "right"}
+    panels["main"].text(0.95, 0.9, rf"$\gamma = {main.gamma.iloc[0]}$", **place)
     panels["near"].plot([], [], color=style.BLACK, linewidth=0.6, label="mean field")
-    handles = panels["near"].get_legend_handles_labels()
-    figure.legend(*handles, loc="outside upper center", ncols=5)
+    figure.legend(*panels["near"].get_legend_handles_labels(), loc="outside upper center", ncols=5)
     style.letter(*panels.values())
-    return figure, table, caption(table, results)
+    return figure, table, caption(main, unequal, results)
+
+
+def title(results: Sequence[Result]) -> str:
+    return f"Momentum distribution of the particles at both ends, γ = {tabulate(results).gamma.iloc[-1]}"
 
 
 if __name__ == "__main__":
-    kinetic = dict.fromkeys(("kinetic", "kinetic_jump"), "1/(time momentum)")
-    run(
-        draw,
-        lambda results: (
-            f"Momentum distribution of the particles at both ends, γ = {tabulate(results).gamma.iloc[-1]}"
-        ),
-        **kinetic,
-    )
+    run(draw, title, **dict.fromkeys(("kinetic", "kinetic_jump"), "1/(time momentum)"))

@@ -17,7 +17,6 @@ MARKS = [
     {"marker": "o", "color": style.BLUE, "markerfacecolor": style.BLUE},
     {"marker": "s", "color": style.VERMILLION, "markerfacecolor": "white"},
 ]
-DASHES = ["dashed", "dotted"]
 
 
 def law(sigma: np.ndarray) -> np.ndarray:
@@ -55,30 +54,18 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     return table
 
 
-def pulls(series: pd.DataFrame) -> str:
-    """Largest deviation from the law and chi^2 of all, where the law is not exact."""
-    known = series[series.mu_error > 0]
-    far = known.loc[known.deviation.abs().idxmax()]
-    ratio = far.scatterer_energy / far.particle_energy
-    chi_square = float(((known.deviation / known.mu_error) ** 2).sum())
-    return (
-        f"n = {int(far.particles_per_cell)}: at most {with_error(far.deviation, far.mu_error)}, at σ = {number(far.sigma)}, "
-        f"where scatterers have {100 * ratio:.0f} % of the energy of the particles that they meet; "
-        f"χ² = {chi_square:.0f} for {len(known)} points"
-    )
-
-
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
-    said = [pulls(series) for _, series in table.groupby("particles_per_cell")]
-    sizes = listed(f"n = {particles}" for particles in table.particles_per_cell.unique())
+    largest = []
+    for particles, series in table.groupby("particles_per_cell"):
+        far = series.loc[series.deviation.abs().idxmax()]
+        text = f"{with_error(far.deviation, far.mu_error)} at n = {particles} and σ = {number(far.sigma)}"
+        largest.append(text)
     return f"""
-        Persistence μ, the probability that a particle keeps its direction when it scatters, against the mass ratio
-        σ = (M − m)/(M + m) in closed chains of {parameters(results, "cells", "cell-length", "gamma", "temperature", "relaxation-time")}
-        with {sizes} particles per cell; {replicas(results)} per point. (a) μ and the law arccos(σ)/π, which holds for Gaussian
-        particles and scatterers of one temperature. (b) μ minus the law, in thousandths; broken and dotted lines: the law at the local mean
-        energies of particles and scatterers, whose difference explains a part of it. {ERRORS}. Deviation from the law: {"; ".join(said)}.
-        The paper has the smaller n and sees no deviation; it is smaller in the chain with the larger n. The paper calls particles persistent for all unequal masses;
-        by its own law they are only where scatterers are the lighter."""
+        Probability μ that a particle keeps its direction when it scatters, against the mass ratio, in closed chains,
+        {parameters(results, "cells", "cell-length", "gamma", "temperature", "relaxation-time")}, n particles per cell, {replicas(results)}. (a) μ and
+        the law arccos(σ)/π of Gaussian particles and scatterers of one temperature. (b) μ minus the law; dashes: the law at the
+        measured energies of particles and scatterers. The largest deviations are {listed(largest)}: the law is that of a dense chain,
+        and close to the paper's n = {table.particles_per_cell.min()}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
@@ -89,15 +76,14 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     sigma = np.sin(np.linspace(-np.pi / 2, np.pi / 2, 401))
     above.plot(sigma, law(sigma), color=style.BLACK, label=r"$\arccos(\sigma)/\pi$", zorder=1)
     below.axhline(0, color=style.BLACK, zorder=1)
-    for (particles, series), mark, dashes in zip(
-        table.groupby("particles_per_cell"), MARKS, DASHES, strict=True
-    ):
+    for (particles, series), mark in zip(table.groupby("particles_per_cell"), MARKS, strict=True):
         label = f"$n = {particles}$"
         above.errorbar(series.sigma, series.mu, series.mu_error, label=label, **mark, **style.POINTS)
         below.errorbar(series.sigma, 1e3 * series.deviation, 1e3 * series.mu_error, **mark, **style.POINTS)
         expected = 1e3 * (series.law_at_local_energies - series.law)
+        dash = {"linestyle": "none", "marker": "_", "markersize": 7, "markeredgewidth": 1.2}
         label = f"law at local energies, $n = {particles}$"
-        below.plot(series.sigma, expected, color=mark["color"], linestyle=dashes, zorder=1, label=label)
+        below.plot(series.sigma, expected, color=mark["color"], zorder=1, label=label, **dash)
         style.cross_out(above, series.sigma, series.mu, series.converged == NOT_REACHED)
     below.legend(loc="lower left")
     above.set(ylabel=r"persistence $\mu$", xlim=(-1.04, 1.04), ylim=(-0.03, 1.03))

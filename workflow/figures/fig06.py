@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.caption import CHAIN, ERRORS, GAS, WINDOW, number, parameters, replicas
+from workflow.lib.caption import CHAIN, ERRORS, GAS, WINDOW, listed, number, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.load import Result
 
@@ -28,14 +28,19 @@ def gaussian_start(tau: np.ndarray, temperature: float, cell_length: float) -> n
     return square / tau**3 * np.exp(-square / (2 * tau**2))
 
 
+def cut(result: Result) -> float:
+    """Time from which on the tail is fitted."""
+    options = result.parameters
+    return float(options["tail-from"] * options["cell-length"] / np.sqrt(options["temperature"]))
+
+
 def tabulate(result: Result) -> pd.DataFrame:
     """One row per bin that holds anything, with the fitted law from the cut on, and what the Gaussian start gives."""
     density, options = result["density"], result.parameters
     sigma, tau = float(options["sigma"]), density.axes["tau"]
     table = pd.DataFrame({"tau": tau, "density": density.mean, "density_error": density.error})
     table = table[table.density > 0].assign(unsure=lambda rows: ~(rows.density_error < UNSURE * rows.density))
-    cut = options["tail-from"] * options["cell-length"] / np.sqrt(options["temperature"])
-    tail = table[(table.tau > cut) & ~table.unsure]
+    tail = table[(table.tau > cut(result)) & ~table.unsure]
     shape = tail.tau ** float(result["exponent"].mean)
     amplitude = np.average(tail.density / shape, weights=(shape / tail.density_error) ** 2)
     table["fitted"] = amplitude * shape
@@ -65,32 +70,19 @@ def mark_outside(axes: Axes, table: pd.DataFrame, power: float, top: float) -> N
     axes.plot(outside, [top] * len(outside), linestyle="none", clip_on=False, zorder=6, **look)
 
 
-def cut(result: Result) -> float:
-    """Time from which on the tail is fitted."""
-    options = result.parameters
-    return float(options["tail-from"] * options["cell-length"] / np.sqrt(options["temperature"]))
-
-
-def caption(tables: Sequence[pd.DataFrame], results: Sequence[Result]) -> str:
-    said = [
-        f"{style.with_error(result['exponent'])} at σ = {number(result.parameters['sigma'])} "
-        f"(for cuts within a factor of three it differs by at most {style.with_error(result['exponent_spread'])})"
+def caption(results: Sequence[Result]) -> str:
+    exponents = listed(
+        f"{style.with_error(result['exponent'])} at σ = {number(result.parameters['sigma'])}"
         for result in results
-    ]
-    (exchanging,) = (table for table in tables if float(table.sigma.iloc[0]) == 0)
-    tail = exchanging[(exchanging.tau > cut(results[0])) & ~exchanging.unsure]
-    above_line = 100 * ((tail.density / tail.gaussian_start).median() - 1)
-    unsure = sum(int(table.unsure.sum()) for table in tables)
+    )
     chain = [name for name in CHAIN if name != "sigma"]
-    options = results[0].parameters
     return f"""
-        Probability density Ψ(τ) of the time between two scatterings of a particle in a closed chain, for equal masses (circles) and
-        σ = {number(max(result.parameters["sigma"] for result in results))} (squares); {parameters(results, *chain, *GAS, *WINDOW)},
-        {replicas(results)}. A flight counts with its whole length, which is known when it begins. (a) Ψ; the line through the circles is exact for many particles per cell that start from a Gaussian; in the tail the circles lie {above_line:.0f} % above it, as there are momenta on the scatterers too. (b), (c) Ψ times
-        the powers of τ that the paper states. Broken and dotted: power laws of the exponents fitted by maximum likelihood in the shaded tail, from
-        {number(options["tail-from"])} thermal flights on: {"; ".join(said)}. {ERRORS}; how long the chain has relaxed changes the exponents by more (ext. 7); {unsure} bins known to worse than
-        {number(100 * UNSURE)} % are open, and those that nothing fell into, more of them the later, are left out, so that what is seen in the last decade lies too high; triangles at the upper edges stand for bins above them. The paper gives the inverse cube for equal masses and the
-        inverse square otherwise. For equal masses momenta are only exchanged, and Ψ is a property of the Gaussian start."""
+        Density Ψ(τ) of the time between two scatterings of a particle in a closed chain,
+        {parameters(results, *chain, *GAS, *WINDOW)}, {replicas(results)}. (a) Ψ; blue line:
+        exact for σ = 0, n → ∞ and Gaussian momenta, which are only exchanged. (b), (c) Ψ times the paper's powers of τ. Black: power laws,
+        fitted by maximum likelihood in the shaded tail, with exponents {exponents}; the
+        paper has −{POWERS[0.0]} and −{POWERS[0.5]}. Open symbols: errors above {number(100 * UNSURE)} %; triangles: bins above the frame; empty bins
+        omitted. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
@@ -125,9 +117,9 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     above.legend(loc="lower left")
     style.letter(above, *strips)
     figure.align_ylabels()
-    return figure, pd.concat(tables), caption(tables, results)
+    return figure, pd.concat(tables), caption(results)
 
 
 if __name__ == "__main__":
     laws = {"fitted": "1/time", "gaussian_start": "1/time"}
-    run(draw, "Density of waiting times; at sigma = 0 it follows the start, which is Gaussian here", **laws)
+    run(draw, "Waiting-time density for σ = 0 and 1/2", **laws)

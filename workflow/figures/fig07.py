@@ -1,4 +1,5 @@
-"""Fig. 7: spreading of a tagged particle at sigma = 1/2, and the part that is the drift of all particles."""
+"""Fig. 7: spreading of a tagged particle at sigma = 1/2, with the paper's random total momentum and with none, and the part
+that is the drift of all particles."""
 
 from collections.abc import Sequence
 
@@ -14,14 +15,30 @@ from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
 ROUNDING = 1e-9  # relative, of times on a logarithmic grid
-GUIDED = 100  # the guide spans so much of the times
-ABOVE = 4  # factor by which the guide lies above the last point
+GUIDED = 100  # the guides span so much of the times
+APART = 3  # factor between a guide and the last point
+
+# By whether the total momentum is zero.
+LOOKS: dict[bool, style.Look] = {
+    False: {"marker": "o", "color": style.BLUE, "label": "random total momentum", **style.POINTS},
+    True: {
+        "marker": "s",
+        "color": style.VERMILLION,
+        "markerfacecolor": "white",
+        "label": "zero total momentum",
+        **style.POINTS,
+    },
+}
+
+
+def zero(result: Result) -> bool:
+    return bool(result.parameters["zero-total-momentum"])
 
 
 def tabulate(result: Result) -> pd.DataFrame:
     """One row per time. The error of the share neglects that both parts vary together: it is an upper bound."""
     variance, drift, slope = result["variance"], result["centre_of_mass"], result["local_slope"]
-    table = pd.DataFrame({"time": variance.axes["time"]})
+    table = pd.DataFrame({"time": variance.axes["time"]}).assign(zero_total_momentum=zero(result))
     table["variance"], table["variance_error"] = variance.mean, variance.error
     table["centre_of_mass"], table["centre_of_mass_error"] = drift.mean, drift.error
     table["share"] = drift.mean / variance.mean
@@ -33,52 +50,49 @@ def tabulate(result: Result) -> pd.DataFrame:
     return table
 
 
-def caption(table: pd.DataFrame, result: Result, window: tuple[float, float]) -> str:
-    last = table.iloc[-1]
-    fitted = table[(table.time > window[0] * (1 - ROUNDING)) & table.slope_to_next.notna()].iloc[[0, -1]]
-    slopes = [with_error(one.slope_to_next, one.slope_to_next_error) for one in fitted.itertuples()]
+def caption(random: pd.DataFrame, results: Sequence[Result], window: tuple[float, float]) -> str:
+    last = random.iloc[-1]
+    alpha = {zero(result): style.with_error(result["alpha"]) for result in results}
+    without = f"With zero total momentum α is {alpha[True]}." if True in alpha else ""
     return f"""
-        Mean square displacement of a tagged particle (circles) and of the centre of mass of all particles (squares) in a closed chain,
-        {parameters([result], *CHAIN, *GAS, "relaxation-time")}, {replicas([result])}. (a) Both, with the paper's square of t above them; (b) the share of the centre of mass; its error is an upper bound, as both vary together; (c) local slope between neighbouring
-        times, with guides for ballistic and diffusive spreading. {ERRORS}. Fitted in the shaded window from t = {number(window[0])} to
-        {number(window[1])}: α = {style.with_error(result["alpha"])}, slightly below the square as in the paper, but no property of the gas: the
-        local slope goes from {slopes[0]} to {slopes[1]} in the window, as diffusion gives way to a drift. At the last
-        time {with_error(100 * last.share, 100 * last.share_error)} % of it is the drift of all particles together, which the
-        conserved total momentum keeps going."""
+        Spreading of a tagged particle in a closed chain, {parameters(results, *CHAIN, *GAS, "relaxation-time")}, {replicas(results)}.
+        (a) Mean square displacement with random total momentum, as in the paper, and with zero total momentum; line: centre of
+        mass of the former; dashed: t and t². (b) Local exponents. In the shaded window, t = {number(window[0])} to {number(window[1])}, the former has α =
+        {alpha[False]}, slightly below two as in the paper. It is not superdiffusion but drift of the centre of mass,
+        {with_error(100 * last.share, 100 * last.share_error)} % at the end. {without} {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
-    (result,) = results
-    table = tabulate(result)
-    time = table.time
+    results = sorted(results, key=zero)
+    tables = [tabulate(result) for result in results]
+    random = tables[0]
+    time = random.time
     last = float(time.iloc[-1])
-    window = (last / 10 ** result.parameters["fit-decades"], last)
-    figure, (above, middle, below) = plt.subplots(
-        3, 1, sharex=True, figsize=(style.COLUMN, 1.8 * style.HEIGHT), height_ratios=[2.4, 1, 1]
-    )
-    tagged = {"marker": "o", "color": style.BLUE, **style.POINTS}
-    drift = {"marker": "s", "color": style.VERMILLION, "markerfacecolor": "white", **style.POINTS}
-    above.errorbar(time, table.variance, table.variance_error, label=r"$\langle x^2\rangle$", **tagged)
-    above.errorbar(time, table.centre_of_mass, table.centre_of_mass_error, label="centre of mass", **drift)
-    late = time > last / GUIDED
-    guide = ABOVE * table.variance.iloc[-1] * (time[late] / last) ** 2
-    above.plot(time[late], guide, **style.GUIDE)
-    above.annotate(
-        "$t^2$", (time.iloc[-1], guide.iloc[-1]), (-12, -7), textcoords="offset points", size=8, ha="right"
-    )
-    middle.errorbar(time, table["share"], table.share_error, **drift)
-    below.errorbar(np.sqrt(time * time.shift(-1)), table.slope_to_next, table.slope_to_next_error, **tagged)
+    window = (last / 10 ** results[0].parameters["fit-decades"], last)
+    size = (style.COLUMN, 1.6 * style.HEIGHT)
+    figure, (above, below) = plt.subplots(2, 1, sharex=True, figsize=size, height_ratios=[2, 1])
+    for result, table in zip(results, tables, strict=True):
+        look = LOOKS[zero(result)]
+        above.errorbar(time, table.variance, table.variance_error, **look)
+        middle = np.sqrt(time * time.shift(-1))
+        below.errorbar(middle, table.slope_to_next, table.slope_to_next_error, **look)
+    above.plot(time, random.centre_of_mass, color=style.BLACK, label="centre of mass")
+    late = time[time > last / GUIDED]
+    for table, power, factor in ((random, 2, APART), (tables[-1], 1, 1 / APART)):
+        guide = factor * table.variance.iloc[-1] * (late / last) ** power
+        above.plot(late, guide, **style.GUIDE)
+        name, lift = ("$t^2$", (-18, -2)) if power == 2 else ("$t$", (-8, -14))
+        above.annotate(name, (last, guide.iloc[-1]), lift, textcoords="offset points", size=8, ha="right")
     for value in (1, 2):
         below.axhline(value, **style.GUIDE)
     for axes in (above, below):
         axes.axvspan(*window, **style.WINDOW)
-    above.set(xscale="log", yscale="log", ylabel="mean square displacement")
-    middle.set(ylabel="share of the\ncentre of mass", ylim=(0, 1.05))
+    above.set(xscale="log", yscale="log", ylabel=r"$\langle x^2\rangle$")
     below.set(xlabel=f"time $t$ ({style.UNITS})", ylabel=r"$d\ln\langle x^2\rangle/d\ln t$", ylim=(0.5, 2.2))
-    above.legend(loc="upper left", title=rf"$\sigma = {result.parameters['sigma']:g}$")
-    style.letter(above, middle, below)
+    above.legend(loc="upper left", title=rf"$\sigma = {results[0].parameters['sigma']:g}$", alignment="left")
+    style.letter(above, below)
     figure.align_ylabels()
-    return figure, table, caption(table, result, window)
+    return figure, pd.concat(tables), caption(random, results, window)
 
 
 if __name__ == "__main__":

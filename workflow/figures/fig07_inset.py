@@ -21,7 +21,7 @@ from workflow.lib.load import NOT_REACHED, Result
 # By zero total momentum and column: label, marker, colour, face.
 CURVES = {
     (False, "alpha"): ("random total momentum, as in the paper", "o", style.BLUE, style.BLUE),
-    (False, "alpha_relative"): ("the same minus the centre of mass", "^", style.SKY, "white"),
+    (False, "alpha_relative"): ("about the centre of mass", "^", style.SKY, "white"),
     (True, "alpha"): ("zero total momentum", "s", style.VERMILLION, "white"),
 }
 
@@ -53,26 +53,20 @@ def draw_curve(axes: Axes, table: pd.DataFrame, zero: bool, name: str) -> None:
 def extremes(table: pd.DataFrame) -> str:
     """Smallest and largest alpha, away from sigma = 0, where momenta are only exchanged."""
     generic = table[table.sigma != 0].sort_values("alpha")
-    low, high = (with_error(*generic[["alpha", "alpha_error"]].iloc[k]) for k in (0, -1))
-    return f"from {low} to {high}"
+    return " to ".join(with_error(*generic[["alpha", "alpha_error"]].iloc[k]) for k in (0, -1))
 
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     free, zero = table[~table.zero_total_momentum], table[table.zero_total_momentum]
-    at_zero = [with_error(*part[part.sigma == 0][["alpha", "alpha_error"]].iloc[0]) for part in (free, zero)]
     chain = [name for name in CHAIN if name != "sigma"]
     options = results[0].parameters
     first = options["observation-time"] / 10 ** options["fit-decades"]
     return f"""
-        Exponent α of the mean square displacement of a tagged particle against the mass ratio σ in a closed chain,
-        {parameters(results, *chain, *GAS, *WINDOW)}, {replicas(results)} per point, fitted from t = {number(first)} on. (a) The
-        paper's ensemble of random total momentum (circles), the same minus the motion of the centre of mass (triangles), and
-        zero total momentum (squares); guides: ballistic and diffusive. (b) The squares alone. {ERRORS}. α is {extremes(free)} with random
-        and {extremes(zero)} with zero total momentum; without mass difference it is {at_zero[0]} and {at_zero[1]}. With random total momentum α depends on the times fitted, in which diffusion gives way to drift (fig. 7); what is
-        missing to diffusion without is ageing, as chains that have relaxed longer show (ext. 1), or are watched earlier (ext. 7); what is
-        there beyond it without mass difference is the motion of the centre of mass, which scatterers that only exchange momenta let go on. The paper
-        reads superdiffusion for all other σ from the first ensemble; without the drift of the conserved total momentum none is left. The
-        subtraction of the centre of mass does not remove it, as particles collide at different rates."""
+        Exponent α of the spreading of a tagged particle in a closed chain against the mass ratio,
+        {parameters(results, *chain, *GAS, *WINDOW)}, {replicas(results)}, fitted from t = {number(first)} on. (a) Random total momentum, as in the
+        paper; the same about the centre of mass, which leaves some drift, as particles scatter at different rates; zero total momentum.
+        Dashed: ballistic and diffusive. (b) Zero total momentum. For σ ≠ 0, α is {extremes(free)} with random and {extremes(zero)} with zero total momentum:
+        the superdiffusion of the paper is drift. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

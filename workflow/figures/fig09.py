@@ -22,9 +22,9 @@ from workflow.lib.load import Result
 CLOSED = 0.02  # of the peak's height, at the cell opposite to the pulse
 FAINT = 0.45
 
-# Marker, colour and face by what scatterers start from.
+# Marker, colour and face by what scatterers start from: the paper's start first.
 STARTS = {
-    0: ("s", style.VERMILLION, "white", "scatterers from rest"),
+    0: ("s", style.VERMILLION, "white", "from rest, as in the paper"),
     "particles": ("o", style.BLUE, style.BLUE, "Gaussian start"),
 }
 
@@ -37,6 +37,10 @@ def start(result: Result) -> str | float:
 def gaussian_start(results: Sequence[Result]) -> Result:
     """The run whose scatterers start at the temperature of the particles."""
     return next(result for result in results if start(result) == "particles")
+
+
+def paper_first(results: Sequence[Result]) -> list[Result]:
+    return sorted(results, key=lambda result: list(STARTS).index(start(result)))
 
 
 def ring_closed(result: Result) -> np.ndarray:
@@ -100,39 +104,29 @@ def draw_speed(axes: Axes, result: Result) -> None:
     draw_marked(axes, speed.axes["middle"], (speed.mean, speed.error), closed, **look_of(result))
 
 
+def pulse(results: Sequence[Result]) -> str:
+    """Parameters; the paper states the start from rest, but not for how long it relaxes."""
+    names = parameters(results, "particles-per-cell", "energy", "pulse-energy")
+    time = listed(number(result.parameters["relaxation-time"]) for result in results if start(result) == 0)
+    return f"""{parameters(results, *CHAIN)}, {names} per degree of freedom, {replicas(results)}. Start from scatterers at rest, as in the
+        paper, relaxed for {time} (our choice), or Gaussian momenta"""
+
+
 def caption(results: Sequence[Result]) -> str:
-    speeds = []
-    for result in results:
-        known = np.flatnonzero(np.isfinite(result["peak_speed"].mean))
-        ends = [style.with_error(result["peak_speed"], k) for k in known[[0, -1]]] if len(known) else []
-        speed = "from {} to {}".format(*ends) if ends else "not resolved"
-        closed = result["peak"].axes["time"][ring_closed(result)]
-        end = f"the ring has closed at t = {closed[0]:g}" if len(closed) else "the ring has not closed"
-        left = style.with_error(result["centre_share"], -1, 100)
-        speeds.append(
-            f"{STARTS[start(result)][3]}: {speed}, {end}, and {left} % of the energy is left about the centre at last"
-        )
-    names = ("particles-per-cell", "energy", "pulse-energy")
-    rest = [result for result in results if start(result) == 0]
-    relaxed = listed(number(result.parameters["relaxation-time"]) for result in rest)
-    still = (
-        "The spike is the energy of the central scatterer, which few particles have hit; beside it the pulse can leave less "
-        "energy than there is without it, as its particles are faster and have gone."
-        if results[0].parameters["gamma"] == 1
-        else ""
-    )
+    rest = results[0]["peak_speed"]
+    known = np.flatnonzero(np.isfinite(rest.mean))
+    ends = [style.with_error(rest, k) for k in known[[0, -1]]] if len(known) else []
+    speed = "from {} to {}".format(*ends) if ends else "unresolved"
+    spike = "Spike: central scatterer. " if results[0].parameters["gamma"] == 1 else ""
     return f"""
-        Energy per cell of a ring with a pulse in the central cell minus that of the same ring without, ΔE(x, t), at several times t;
-        {parameters(results, *CHAIN, *names)} per degree of freedom, {replicas(results)} of up to
-        {max(int(result.parameters["pairs-per-replica"]) for result in results)} pairs of trajectories. (a) The paper's start: scatterers at rest,
-        relaxed for t = {relaxed}; (b) all momenta Gaussian. Bands are errors. (c) Position of the moving peak, with lines from the origin
-        through the first positions; (d) its speed between neighbouring times, in cells: {"; ".join(speeds)}. Faint: times at which ΔE
-        opposite to the pulse exceeds {number(100 * CLOSED)} % of its largest value. {ERRORS}. As in the paper two peaks move away symmetrically, beside what stays at the centre; a ballistic
-        peak would keep its speed. {still}"""
+        Energy ΔE(x, t) per cell of a ring with a central pulse minus without; {pulse(results)}. (a), (b) ΔE.
+        {spike}(c) Position of the moving peak; dashed: constant speed. (d) Speed between neighbouring times. Faint: ring closed, ΔE
+        opposite to the pulse above {number(100 * CLOSED)} %. As in the paper two peaks move apart; from rest
+        their speed is {speed}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
-    results = sorted(results, key=lambda result: list(STARTS).index(start(result)))
+    results = paper_first(results)
     figure, panels = plt.subplot_mosaic(
         [[0, "particles", "position"], [0, "particles", "speed"]],
         figsize=(3 * style.COLUMN, 1.2 * style.HEIGHT),
@@ -163,6 +157,6 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 if __name__ == "__main__":
     run(
         draw,
-        lambda pulses: f"Energy per cell with a pulse minus without, {parameters(pulses, 'gamma')}",
+        lambda pulses: f"Energy difference after a pulse, {parameters(pulses[:1], 'gamma')}",
         distance="1",
     )

@@ -1,6 +1,6 @@
 """Fig. 10: height of the moving peak of an energy pulse against time; a: gamma = N, b: gamma = 1.
 
-Below, exponents fitted over octaves of time. The legend says where these drift.
+Below, exponents fitted over octaves of time.
 Times without a moving peak, whose height is NaN, are left out; faint: times at which the ring has closed.
 """
 
@@ -12,11 +12,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from workflow.figures.fig09 import STARTS, draw_marked, look_of, ring_closed, start
+from workflow.figures.fig09 import STARTS, draw_marked, look_of, paper_first, pulse, ring_closed, start
 from workflow.lib import style
-from workflow.lib.caption import CHAIN, ERRORS, goodness, listed, number, parameters, replicas
+from workflow.lib.caption import listed, number, parameters
 from workflow.lib.figure import run
-from workflow.lib.fit import rejected, with_error
+from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
 SLOPES = {"N": (-2 / 3, r"$t^{-2/3}$", "2/3"), 1: (-1, r"$t^{-1}$", "1")}  # the paper's guides
@@ -52,26 +52,12 @@ def by_octave(result: Result) -> pd.DataFrame:
     return pd.DataFrame({"until": until, "octave_middle": middle, **columns})
 
 
-def drift(result: Result) -> tuple[bool, str]:
-    """Whether the exponent changes with ln t by more than chance, and what to say of it."""
-    if ring_closed(result).any():
-        return False, "may change unseen, as the ring has closed"
-    change = result["damping_drift"]
-    value, error = float(change.mean), float(change.error)
-    if not np.isfinite(value):
-        return False, "may change unseen, over too few octaves"
-    chi_square = (value / error) ** 2
-    told = f"changes by {with_error(value, error)} per unit of ln t, {goodness(chi_square, 1)}"
-    return rejected(chi_square, 1), told
-
-
 def draw_peaks(axes: Axes, result: Result, table: pd.DataFrame) -> None:
-    drifts, _ = drift(result)
-    law = ", exponent drifts" if drifts else ""
     values = (table.peak.to_numpy() / 1e3, table.peak_error.to_numpy() / 1e3)
     closed = table.ring_closed.to_numpy()
-    label = STARTS[start(result)][3] + law
-    draw_marked(axes, table.time.to_numpy(), values, closed, label=label, **look_of(result))
+    draw_marked(
+        axes, table.time.to_numpy(), values, closed, label=STARTS[start(result)][3], **look_of(result)
+    )
 
 
 def draw_exponents(axes: Axes, result: Result) -> None:
@@ -82,38 +68,27 @@ def draw_exponents(axes: Axes, result: Result) -> None:
 
 
 def caption(results: Sequence[Result]) -> str:
-    said = []
-    for result in results:
-        drifts, change = drift(result)
-        exponents = [
-            with_error(one.octave_exponent, one.octave_exponent_error)
-            for one in by_octave(result).dropna().itertuples()
-        ]
-        verdict = (
-            f"the exponent drifts, {listed(exponents)} in one octave after another, so that its mean over all times, {style.with_error(result['damping_exponent'])}, belongs to these times"
-            if drifts
-            else f"exponent {style.with_error(result['damping_exponent'])}"
-        )
-        said.append(f"{STARTS[start(result)][3]}: {verdict}; it {change}")
-    slope = SLOPES[results[0].parameters["gamma"]][0]
+    octaves = by_octave(results[0]).dropna()
+    pairs = zip(octaves.octave_exponent, octaves.octave_exponent_error, strict=True)
+    exponents = listed(with_error(*pair) for pair in pairs) if len(octaves) else "not resolved"
+    slope, _, name = SLOPES[results[0].parameters["gamma"]]
     return f"""
-        Height of the moving peak of the energy difference after a pulse against time, from the runs of fig. 9;
-        {parameters(results, *CHAIN, "particles-per-cell", "energy", "pulse-energy")} per degree of freedom, {replicas(results)}. (a) The
-        top of a smooth peak fitted to the profile above half of its height, from Gaussian momenta (circles) and from
-        scatterers at rest that have relaxed, as in the paper (squares); faint once the ring has closed. (b) −d ln(peak)/d ln t, fitted over
-        octaves of time, to the nearest times recorded. Dashed: the paper's {number(slope)}. {ERRORS}. {". ".join(said)}."""
+        Damping of the moving peak of an energy pulse, runs of fig. 9: {pulse(results)}. (a) Height of the peak, from a smooth fit above
+        half of it. (b) Exponents over octaves of time. Dashed: the paper's {number(slope)}. From rest the exponents are {exponents}, one octave after another,
+        where the paper has {name}. Error bars, where larger than the symbols: standard errors over replicas."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     figure, (above, below) = plt.subplots(
         2, 1, sharex=True, figsize=(style.COLUMN, 1.6 * style.HEIGHT), height_ratios=[1.7, 1]
     )
+    results = paper_first(results)
     tables = [tabulate(result) for result in results]
     for result, table in zip(results, tables, strict=True):
         draw_peaks(above, result, table)
         draw_exponents(below, result)
     slope, guide, exponent = SLOPES[results[0].parameters["gamma"]]
-    seen = tables[0].dropna(subset="peak")
+    seen = tables[-1].dropna(subset="peak")  # the highest
     if len(seen):
         law = ABOVE * seen.peak.iloc[0] / 1e3 * (seen.time / seen.time.iloc[0]) ** slope
         above.plot(seen.time, law, **style.GUIDE, label=guide)
@@ -137,7 +112,7 @@ if __name__ == "__main__":
     errors = {f"{column}_error": unit for column, unit in units.items()}
     run(
         draw,
-        lambda pulses: f"Damping of the moving peak of an energy pulse, {parameters(pulses, 'gamma')}",
+        lambda pulses: f"Damping of the moving peak of an energy pulse, {parameters(pulses[:1], 'gamma')}",
         octave_middle="time",
         **units,
         **errors,

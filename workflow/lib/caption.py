@@ -1,4 +1,4 @@
-"""Words that captions share. Every number in a caption comes from the files."""
+"""Text that captions share. Every number in a caption comes from the result files."""
 
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
@@ -10,11 +10,11 @@ from workflow.lib.load import Result
 
 SYMBOLS = {
     "cells": "N = {} cells",
-    "particles-per-cell": "n = {} particles per cell",
+    "particles-per-cell": "n = {} per cell",
     "cell-length": "λ = {}",
     "sigma": "σ = {}",
     "gamma": "γ = {}",
-    "temperature": "T = {} at the start",
+    "temperature": "T = {}",
     "nu-left": "ν_L = {}",
     "nu-right": "ν_R = {}",
     "temperature-left": "T_L = {}",
@@ -22,20 +22,20 @@ SYMBOLS = {
     "energy": "ε⁰ = {}",
     "pulse-energy": "ε̃ = {}",
     "start": "start {}",
-    "relaxation-time": "relaxed for t = {}",
-    "observation-time": "observed for t = {}",
+    "relaxation-time": "relaxed for {}",
+    "observation-time": "observed for {}",
 }
 CHAIN = ("cells", "cell-length", "sigma", "gamma")
 GAS = ("particles-per-cell", "temperature")
 BATHS = ("nu-left", "nu-right", "temperature-left", "temperature-right")
 WINDOW = ("relaxation-time", "observation-time")
 
-SMALLEST_P = 1e-6  # that is written out
-ERRORS = "Errors are one standard deviation of the mean over independent replicas"
+SMALLEST_P = 1e-6  # smaller p-values are printed as a bound
+ERRORS = "Error bars: standard errors over replicas."
 
 
 def number(value: float) -> str:
-    """With a minus sign, and as a fraction where that is shorter."""
+    """The value with four digits, or as a fraction with denominator 2 or 3, and with a typographic minus sign."""
     fraction = Fraction(value).limit_denominator(10)
     exact = fraction.denominator > 1 and abs(fraction - Fraction(value)) < 1e-12
     if exact and fraction.denominator in (2, 3):
@@ -52,19 +52,28 @@ def listed(texts: Iterable[str]) -> str:
 
 
 def parameters(results: Sequence[Result], *names: str) -> str:
-    """Those that the results have, with every value that occurs: N = 11 cells, σ = −1/2 and 1/2."""
-    said = []
+    """The named parameters that the results have, with all their values: `N = 11 cells, σ = −1/2 and 1/2`."""
+    found = []
     for name in names:
         values = {result.parameters[name] for result in results if name in result.parameters}
         numbers = sorted(value for value in values if not isinstance(value, str))
         words = sorted(value for value in values if isinstance(value, str))
         if values:
-            said.append(SYMBOLS[name].format(listed([*map(number, numbers), *words])))
-    return ", ".join(said)
+            found.append(SYMBOLS[name].format(listed([*map(number, numbers), *words])))
+    return ", ".join(found)
+
+
+def baths(result: Result) -> str:
+    """baths ν = 220 and 180, T = 81.82 and 122.2, left and right; equal ones once."""
+    both = [
+        listed(dict.fromkeys(number(result.parameters[f"{name}-{end}"]) for end in ("left", "right")))
+        for name in ("nu", "temperature")
+    ]
+    return f"baths ν = {both[0]}, T = {both[1]}"
 
 
 def replicas(results: Sequence[Result]) -> str:
-    """How many there were: 64 replicas, or 32 to 64 replicas."""
+    """Number of replicas: `64 replicas` or `32 to 64 replicas`."""
     counts = [
         int(max(np.max(quantity.replicas) for quantity in result.quantities.values()))
         for result in results
@@ -75,7 +84,7 @@ def replicas(results: Sequence[Result]) -> str:
 
 
 def goodness(chi_square: float, freedom: int) -> str:
-    """chi^2 with its degrees of freedom and its p-value; nothing is tested without any."""
+    """chi^2, degrees of freedom and p-value."""
     if freedom < 1:
         return "no degree of freedom to test it"
     p = p_value(chi_square, freedom)

@@ -1,7 +1,7 @@
-"""Units of the columns of a table, which a CSV states in its line `# units: `.
+"""Units of the columns of a table, written in the line `# units: ` of its CSV.
 
-A column named after a quantity, with `_error` for its error, after an axis or after an option has its units. What else
-a script makes of them it declares.
+A column has the units of the quantity, error (`kappa_error`), axis or option that it is named after. A script declares the units
+of its other columns.
 """
 
 import json
@@ -16,12 +16,12 @@ from workflow.lib.units import UnitsError, option_units, parse
 
 UNITS_LINE = "# units: "
 
-# Where units differ from row to row, this and the name of the column that holds them stand in their place.
+# Units that differ between rows are given as this prefix and the name of the column that contains them.
 BY_ROW = "column "
 
 
 def inherited(results: Sequence[Result]) -> dict[str, str]:
-    """Units by name, as the files state them; a name that they use with several is left out."""
+    """Units by name from the result files, without names that have several units."""
     found: dict[str, set[str]] = defaultdict(set)
     for result in results:
         for name, quantity in result.quantities.items():
@@ -35,13 +35,13 @@ def inherited(results: Sequence[Result]) -> dict[str, str]:
 
 
 def as_csv(table: pd.DataFrame, known: Mapping[str, str]) -> str:
-    """With the line of units before it. Raises UnitsError if a column of numbers has none, or a text is none."""
+    """The table as CSV after the line of units. Raises UnitsError for a column of numbers without valid units."""
     numbers = table.to_csv(index=False, float_format="%.12g", lineterminator="\n")
     return f"{UNITS_LINE}{json.dumps(_units(table, known))}\n{numbers}"
 
 
 def _is_label(column: pd.Series) -> bool:
-    """One text among the values suffices: gamma is N or a number. A truth value may be missing in some rows."""
+    """Whether a column has text or truth values in any row: gamma is N or a number."""
     return is_bool_dtype(column) or any(isinstance(value, str | bool) for value in column)
 
 

@@ -1,4 +1,4 @@
-"""The configuration: paper.yaml and quality/*.yaml, checked against the options that the programs declare.
+"""Loads paper.yaml and quality/*.yaml and validates them against the declared options of the programs.
 
 schema.json, written by `make describe`, has a JSON Schema of every option of every program.
 """
@@ -21,13 +21,13 @@ from workflow.lib.files import in_one_line
 from workflow.lib.nearest import nearest
 from workflow.lib.units import SCHEMA
 
-Options = dict[str, Any]  # by name without dashes: a number, text, or a bool for a flag
+Options = dict[str, Any]  # by name without leading dashes: a number, text, or a bool for a flag
 Schema = dict[str, Any]
-Keys = tuple[Any, ...]  # of nested mappings and lists
+Keys = tuple[Any, ...]  # path in nested mappings and lists
 
 FOLDER = SCHEMA.parent
 EFFORT = ("cells", "max-replicas", "pairs-per-replica", "replicas", "target-absolute", "target-error")
-ALSO_PHYSICS = ("cells", "target-error")  # in panels that show the dependence on the size or on the accuracy
+ALSO_PHYSICS = ("cells", "target-error")  # as well, in panels that plot against size or accuracy
 OF_SERIES: Schema = {"program": True, "replicated": {"type": "boolean", "allowed": "true or false"}}
 NAME: Schema = {"type": "string", "pattern": "^[A-Za-z0-9_-]+$", "allowed": "letters, digits, _ and -"}
 NAMED: Schema = {"type": "object", "propertyNames": NAME, "minProperties": 1}
@@ -36,7 +36,7 @@ TERM = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?:(N)(?:\^(2))?)
 
 
 class ConfigurationError(ValueError):
-    """One line per error: file, line, column, key, problem, and what is allowed."""
+    """One line per error: file, line, column, key, problem and allowed values."""
 
 
 @dataclass(frozen=True)
@@ -48,8 +48,8 @@ class Document:
     content: Any
 
     def check(self, schema: Schema) -> None:
-        """Raises ConfigurationError."""
-        found: dict[tuple[int, int], str] = {}  # a mapping that is shared is reported once
+        """Validates the content. Raises ConfigurationError."""
+        found: dict[tuple[int, int], str] = {}  # a shared mapping is reported once
         for error in Draft202012Validator(schema).iter_errors(self.content):
             for keys, problem in _problems(error):
                 found.setdefault(self._position(keys), self.complaint(keys, problem))
@@ -65,7 +65,7 @@ class Document:
         return SAFE.compose(self.text)
 
     def _position(self, keys: Keys) -> tuple[int, int]:
-        """Line and column of a key or an item; of a merged key, those in the mapping that has it."""
+        """Line and column of a key or an item; of a merged key, in the mapping that defines it."""
         node, position = self._root, (1, 1)
         for key in keys:
             if found := _member(node, key):
@@ -75,7 +75,7 @@ class Document:
 
 
 def read(folder: Path, name: str) -> Document:
-    """A YAML 1.2 file; duplicate keys are refused. Raises ConfigurationError."""
+    """Reads a YAML 1.2 file. Raises ConfigurationError, also for duplicate keys."""
     try:
         text = (folder / name).read_text("utf-8")
         return Document(name, text, SAFE.load(text))
@@ -90,7 +90,7 @@ def read(folder: Path, name: str) -> Document:
 
 
 def load_configuration(quality: str, folder: Path = FOLDER) -> tuple[Document, Document]:
-    """paper.yaml and quality/<quality>.yaml. Raises ConfigurationError."""
+    """Validated paper.yaml and quality/<quality>.yaml. Raises ConfigurationError."""
     programs: dict[str, Schema] = json.loads(SCHEMA.read_text())["programs"]
     paper, efforts = read(folder, "paper.yaml"), read(folder, f"quality/{quality}.yaml")
     paper.check(_panels(programs))
@@ -100,12 +100,12 @@ def load_configuration(quality: str, folder: Path = FOLDER) -> tuple[Document, D
 
 
 def programs_of(panel: dict[str, Any]) -> dict[str, str]:
-    """The program of every series."""
+    """Program of each series."""
     return {one: own.get("program", panel.get("program")) for one, own in panel.get("series", {}).items()}
 
 
 def arguments(options: Options) -> list[str]:
-    """The words of a command line."""
+    """Command-line arguments of the options."""
     words = []
     for name, value in options.items():
         if value is not False:
@@ -114,13 +114,13 @@ def arguments(options: Options) -> list[str]:
 
 
 def at_size(value: object, size: float) -> float:
-    """The value of a number or of a polynomial in N, such as 50+0.0004N^2; nan if it is neither."""
+    """Value at N = size of a number or a polynomial such as 50+0.0004N^2; nan for other text."""
     terms = [TERM.fullmatch(term) for term in re.split(r"(?<![eE])\+", str(value))]
     return sum(float(term[1]) * size ** int(term[3] or bool(term[2])) if term else math.nan for term in terms)
 
 
 def _panels(programs: dict[str, Schema]) -> Schema:
-    """The structure of paper.yaml, without the options."""
+    """Schema of the structure of paper.yaml, without options."""
     program = {"enum": [*programs]}
     series = {"type": "object", "properties": OF_SERIES | {"program": program}}
     panel = _object(
@@ -138,7 +138,7 @@ def _panels(programs: dict[str, Schema]) -> Schema:
 
 
 def _physics(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
-    """Of paper.yaml: the options of every series that are not effort."""
+    """Schema of the options in paper.yaml: all but effort."""
     elsewhere = {name: "belongs into quality/*.yaml" for name in EFFORT if name not in ALSO_PHYSICS}
     elsewhere["seed"] = "follows from the names of panel and run; `make panel SEED=7` chooses another"
     common = {name: _options(name, options, elsewhere) for name, options in programs.items()}
@@ -153,7 +153,7 @@ def _physics(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
 
 
 def _efforts(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
-    """Of quality/*.yaml: the effort of every series; 0 replicas leave a series out."""
+    """Schema of quality/*.yaml: the effort of every series. 0 replicas omit a series."""
     physics = {name for options in programs.values() for name in options if name not in EFFORT}
     elsewhere = dict.fromkeys(physics, "belongs into paper.yaml")
     series = {name: _options(name, options, elsewhere) for name, options in programs.items()}
@@ -166,7 +166,7 @@ def _efforts(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
 
 
 def _options(program: str, options: Schema, elsewhere: dict[str, str]) -> Schema:
-    """Options of a program, each with a value or with a list of different ones."""
+    """Schema of the options of a program, each with a value or a list of distinct values."""
     several = {"minItems": 1, "uniqueItems": True}
     if "replicas" in options:
         options = options | {"replicas": options["replicas"] | {"minimum": 0}}
@@ -183,7 +183,7 @@ def _object(properties: Schema) -> Schema:
 
 
 def _problems(error: ValidationError) -> Iterator[tuple[Keys, str]]:
-    """Keys, and the problem with what they name."""
+    """Path and description of each problem that a validation error reports."""
     keys, schema = tuple(error.absolute_path), error.schema
     assert isinstance(schema, dict)
     value = json.dumps(error.instance, default=str)
@@ -201,7 +201,7 @@ def _problems(error: ValidationError) -> Iterator[tuple[Keys, str]]:
 
 
 def _member(node: Node | None, key: Any) -> tuple[Any, Node] | None:
-    """Where a member of a mapping or sequence starts, and the member; also of a mapping that is merged into it."""
+    """Start and node of a member of a mapping, merged mappings included, or of a sequence."""
     if not isinstance(node, MappingNode):
         return (node.value[key].start_mark, node.value[key]) if isinstance(node, SequenceNode) else None
     members = {name.value: (name.start_mark, value) for name, value in node.value}

@@ -1,4 +1,4 @@
-"""Variables of the environment that change a picture or a number, set as the Makefile sets them."""
+"""Environment variables that affect pictures or numbers, with the values that the Makefile sets."""
 
 from collections.abc import MutableMapping
 

@@ -1,8 +1,7 @@
-"""The frame of every figure script: loads the results, renders, saves.
+"""Entry point of the figure scripts: loads the results, renders and saves a panel.
 
-A script defines draw(results) and ends with `run(draw, title)`, where a title that differs between its panels is a function of
-the results. It names the units of the columns that are named neither after a quantity nor after an axis or an option, as in
-`run(draw, title, deviation="1")`.
+A script defines draw(results) and ends with `run(draw, title)`. A title that differs between panels is a function of the results.
+Units of columns that are not named after a quantity, an axis or an option are keyword arguments: `run(draw, title, deviation="1")`.
 """
 
 import argparse
@@ -24,8 +23,8 @@ Draw = Callable[[Sequence[Result]], tuple[Figure, pd.DataFrame, str]]
 
 
 def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str) -> None:
-    """draw gets the panel's results and returns the figure, the table of the plotted numbers, and the caption: a paragraph
-    of plain text with numbers from the data."""
+    """Renders the panel that the command line names. draw returns the figure, the table of the plotted numbers, and the caption
+    as one paragraph of plain text."""
     parser = argparse.ArgumentParser(description="Renders a panel from its results.")
     parser.add_argument("--data", type=Path, nargs="+", required=True, help="result files of the panel")
     parser.add_argument("--configuration", default="", help="hash of the panel's configuration")
@@ -33,7 +32,9 @@ def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str
     options = parser.parse_args()
     script = Path(sys.argv[0]).resolve()
     if Path.cwd() != ROOT or not script.is_relative_to(ROOT):
-        sys.exit(f"The modules of {ROOT} are installed here, not those of {Path.cwd()}: run make setup")
+        sys.exit(
+            f"{Path.cwd()} is not {ROOT}, whose modules are installed in this environment: run make setup"
+        )
     try:
         results = [load(path) for path in options.data]
         style.apply()

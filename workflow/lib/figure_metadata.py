@@ -1,7 +1,4 @@
-"""Where a figure comes from: its parents, by hash, embedded in PDF, PNG and SVG and stated in full in `<panel>.json`.
-
-A CSV states one digest of the parents.
-"""
+"""Parents of a figure, by hash: embedded in PDF, PNG and SVG, as a digest in CSV, and in full in `<panel>.json`."""
 
 import ast
 import hashlib
@@ -16,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
 
-if TYPE_CHECKING:  # its libraries take half a second, which every start of Snakemake would pay
+if TYPE_CHECKING:  # imports that would delay every start of Snakemake by 0.5 s
     from workflow.lib.load import Result
 
 ROOT = Path(__file__).parents[2]
@@ -26,12 +23,12 @@ PARENTS_LINE = "# parents: sha256 "  # of a CSV
 
 
 class MetadataError(ValueError):
-    """A file does not state its parents."""
+    """A file has no readable record of its parents."""
 
 
 @dataclass(frozen=True)
 class Parents:
-    """Paths are relative to the project, hashes are sha256."""
+    """Inputs of a panel. Paths are relative to the project, hashes are sha256."""
 
     panel: str
     quality: str
@@ -44,7 +41,7 @@ class Parents:
 
     @classmethod
     def of(cls, script: str, stem: Path, configuration: str, results: "Sequence[Result]") -> "Parents":
-        """Of the panel that a script renders to figures/QUALITY/PANEL.*"""
+        """Parents of the panel that the script renders to figures/QUALITY/PANEL.*"""
         stated = {str(result.path): result.provenance for result in results}
         return cls(
             panel=stem.name,
@@ -62,14 +59,14 @@ class Parents:
 
     @classmethod
     def parse(cls, text: str) -> "Parents":
-        """Raises MetadataError."""
+        """Inverse of as_json. Raises MetadataError."""
         try:
             return cls(**json.loads(text))
         except (ValueError, TypeError) as error:
-            raise MetadataError(f"other metadata than this version writes: {error}") from error
+            raise MetadataError(f"metadata of another version, not readable here: {error}") from error
 
     def inputs(self) -> dict[str, str]:
-        """Every file that the figure was made from, with its hash."""
+        """All input files with their hashes."""
         return (
             {path: one["sha256"] for path, one in self.data.items()}
             | self.sources
@@ -84,18 +81,18 @@ class Parents:
 
 
 def file_hash(path: Path) -> str:
-    """sha256. Raises OSError."""
+    """sha256 of the content. Raises OSError."""
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def digest_of_files(paths: Iterable[str]) -> str:
-    """One sha256 over files of the project, by name and content. Raises OSError."""
+    """sha256 over names and contents of files of the project. Raises OSError."""
     lines = "".join(f"{path} {file_hash(ROOT / path)}\n" for path in paths)
     return hashlib.sha256(lines.encode()).hexdigest()
 
 
 def sources_of(script: str) -> list[str]:
-    """Paths of the script and of every module of the project that it imports, directly or not, sorted."""
+    """Sorted paths of the script and of all modules of the project that it imports, directly or indirectly."""
     found: set[str] = set()
     waiting = [script]
     while waiting:
@@ -106,9 +103,9 @@ def sources_of(script: str) -> list[str]:
     return sorted(found)
 
 
-@cache  # panels share most of their imports
+@cache  # panels have most imports in common
 def _imported(source: str) -> tuple[str, ...]:
-    """Modules in `import workflow.a.b`, `from workflow.a.b import c` and `from workflow.a import b`, as paths."""
+    """Paths of the modules in `import workflow.a.b`, `from workflow.a.b import c` and `from workflow.a import b`."""
     try:
         nodes = [*ast.walk(ast.parse(source))]
     except SyntaxError:  # reported where the script runs
@@ -121,7 +118,7 @@ def _imported(source: str) -> tuple[str, ...]:
 
 
 def commit() -> dict[str, Any]:
-    """Of the repository that tracks this project, and whether its tracked files are unchanged; None where there is none."""
+    """Commit of the repository, and whether the tracked files are unchanged; None without a repository."""
     try:
         tracked = _git("ls-files", "Snakefile")
         changed = _git("status", "--porcelain", "--untracked-files=no", "--", ".")
@@ -141,7 +138,7 @@ def _git(*arguments: str) -> str:
 
 
 def read_panel(path: Path) -> dict[str, Any]:
-    """`<panel>.json`: panel, quality, title, caption, commit, clean, files (name: sha256), parents. Raises MetadataError,
+    """Reads `<panel>.json`: panel, quality, title, caption, commit, clean, files (name: sha256), parents. Raises MetadataError,
     OSError."""
     try:
         content: dict[str, Any] = json.loads(path.read_text("utf-8"))
@@ -151,18 +148,16 @@ def read_panel(path: Path) -> dict[str, Any]:
 
 
 def embedded(path: Path) -> str:
-    """What the file states of its parents: their JSON, or the digest of it in a CSV. Raises MetadataError, OSError."""
+    """Parents recorded in a file: their JSON, or its digest in a CSV. Raises MetadataError, OSError."""
     readers = {".csv": _of_table, ".svg": _of_svg, ".png": _of_png, ".pdf": _of_pdf}
     if path.suffix not in readers:
-        raise MetadataError(
-            f"{path.name}: only {', '.join(readers)} and .h5 files state where they come from"
-        )
+        raise MetadataError(f"{path.name} has no provenance: only {', '.join(readers)} and .h5 files have")
     path.open("rb").close()
     try:
         return readers[path.suffix](path)
-    except Exception as error:  # a damaged file may raise anything in the libraries that read pictures
+    except Exception as error:  # the libraries raise many types for a damaged file
         first = (str(error).splitlines() or [type(error).__name__])[0]
-        raise MetadataError(f"{path.name} does not state where it comes from: {first}") from error
+        raise MetadataError(f"{path.name} has no provenance: {first}") from error
 
 
 def _of_table(path: Path) -> str:
@@ -186,5 +181,5 @@ def _of_png(path: Path) -> str:
 def _of_pdf(path: Path) -> str:
     from pypdf import PdfReader  # noqa: PLC0415
 
-    logging.getLogger("pypdf").setLevel(logging.CRITICAL)  # the error says it once
+    logging.getLogger("pypdf").setLevel(logging.CRITICAL)  # the raised error suffices
     return str(PdfReader(path).metadata["/Subject"])  # type: ignore[index]

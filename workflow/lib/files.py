@@ -1,11 +1,11 @@
-"""Files that are written whole or not at all."""
+"""Atomic writing of files."""
 
 from collections.abc import Mapping
 from pathlib import Path
 
 
 def write_together(contents: Mapping[Path, bytes]) -> None:
-    """Each file gets its name when all are written, so that a full disk leaves the previous ones. Raises OSError."""
+    """Writes all files under other names, then renames them, so that a full disk keeps the old ones. Raises OSError."""
     files = {path: path.with_name(f"{path.name}.tmp") for path in contents}
     try:
         for path, file in files.items():
@@ -18,6 +18,6 @@ def write_together(contents: Mapping[Path, bytes]) -> None:
 
 
 def in_one_line(error: OSError) -> str:
-    """The file and the problem with it."""
+    """File name and error as one line."""
     names = [str(name) for name in (error.filename, error.filename2) if name is not None]
     return f"{' to '.join(names)}: {error.strerror}" if names else str(error)

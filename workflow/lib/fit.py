@@ -1,4 +1,4 @@
-"""Fits of independent points with known errors."""
+"""Weighted least-squares fits of independent points."""
 
 from dataclasses import dataclass
 
@@ -6,13 +6,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import chdtrc
 
-# A law is rejected if chi^2 exceeds what it does in one of so many cases by chance.
-LEVEL = 1e-2
+LEVEL = 1e-2  # p-value below which a law is rejected
 
 
 @dataclass(frozen=True)
 class Line:
-    """y = intercept + slope x; error is that of the slope. chi_square and freedom (degrees of freedom) tell how good the fit is."""
+    """y = intercept + slope x, with the error of the slope, chi^2 and its degrees of freedom."""
 
     intercept: float
     slope: float
@@ -26,7 +25,7 @@ class Line:
 
 @dataclass(frozen=True)
 class PowerLaw:
-    """y = amplitude x^exponent; error is that of the exponent."""
+    """y = amplitude x^exponent, with the error of the exponent, chi^2 and its degrees of freedom."""
 
     amplitude: float
     exponent: float
@@ -47,7 +46,7 @@ class PowerLaw:
 
 
 def p_value(chi_square: float, freedom: int) -> float:
-    """Of chi^2; nan without a degree of freedom. scipy.stats has it too, and takes half a second to be imported."""
+    """p-value of chi^2; nan without a degree of freedom. Importing scipy.stats for it would take 0.5 s."""
     return float(chdtrc(freedom, chi_square)) if freedom > 0 else np.nan
 
 
@@ -56,7 +55,7 @@ def rejected(chi_square: float, freedom: int) -> bool:
 
 
 def with_error(value: float, error: float) -> str:
-    """A number with two digits of its error: in units of the last one, as 1.8620(54), or with a point, as 745.0(8.2)."""
+    """Value and error with two digits of the error: 1.8620(54), or 745.0(8.2) for errors of 1 and above."""
     if not (np.isfinite(error) and error > 0):
         return f"{value:.4g}".replace("-", "−")
     error = float(f"{error:.1e}")
@@ -66,14 +65,14 @@ def with_error(value: float, error: float) -> str:
 
 
 def mean_of(value: ArrayLike, error: ArrayLike) -> tuple[float, float, float]:
-    """Of independent values of one quantity: weighted mean, its error, chi^2 about it."""
+    """Weighted mean of independent values, its error, and chi^2 of the values."""
     value, error = (np.asarray(values, dtype=float) for values in (value, error))
     mean = float(np.average(value, weights=error**-2))
     return mean, float(np.sum(error**-2) ** -0.5), float(np.sum(((value - mean) / error) ** 2))
 
 
 def fit_line(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> Line:
-    """Least squares, weighted with the points' standard errors."""
+    """Line by least squares, weighted with the standard errors of the points."""
     x, y, error = (np.asarray(values, dtype=float) for values in (x, y, error))
     design = np.stack([np.ones_like(x), x], axis=1) / error[:, None]
     covariance = np.linalg.inv(design.T @ design)
@@ -85,7 +84,7 @@ def fit_line(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> Line:
 
 
 def fit_power(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> PowerLaw:
-    """Straight line through ln y against ln x."""
+    """Power law by a line through ln y against ln x."""
     y = np.asarray(y, dtype=float)
     line = fit_line(np.log(np.asarray(x, dtype=float)), np.log(y), np.asarray(error, dtype=float) / y)
     return PowerLaw(float(np.exp(line.intercept)), line.slope, line.error, line.chi_square, line.freedom)

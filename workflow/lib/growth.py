@@ -1,4 +1,4 @@
-"""How a quantity grows with the size of the system: laws fitted by weighted least squares and compared."""
+"""Growth of a quantity with system size: candidate laws, fitted by weighted least squares and compared."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ from scipy.optimize import minimize_scalar
 
 from workflow.lib.fit import p_value
 
-Basis = Callable[[np.ndarray], list[np.ndarray]]  # functions of the size that are combined linearly
+Basis = Callable[[np.ndarray], list[np.ndarray]]  # functions of the size, combined linearly
 
 # Leading term and first correction. A sound peak that spreads as t^(2/3) makes corrections of relative order N^(-1/3).
 LAWS: dict[str, Basis] = {
@@ -22,7 +22,7 @@ POWER = "power"  # a N^b
 
 @dataclass(frozen=True)
 class Growth:
-    """A law fitted to the sizes from `first` on. exponent and its error are those of the power law, nan for others."""
+    """A law fitted to the sizes from `first` on. Only the power law has an exponent; it is nan for others."""
 
     law: str
     first: float
@@ -39,12 +39,12 @@ class Growth:
 
     @property
     def criterion(self) -> float:
-        """Akaike's, chi^2 + 2 parameters: the smaller by 10, the better beyond doubt."""
+        """Akaike's information criterion, chi^2 + 2 parameters. A difference of 10 is decisive."""
         return self.chi_square + 2 * self.parameters
 
 
 def fits(size: ArrayLike, value: ArrayLike, error: ArrayLike, first: float) -> list[Growth]:
-    """Every law, to the sizes from the first on; none to fewer than three, which leave no degree of freedom."""
+    """Fits of all laws to the sizes from `first` on; empty for fewer than three sizes."""
     size, value, error = (np.asarray(array, dtype=float) for array in (size, value, error))
     used = size >= first
     if used.sum() < 3:
@@ -54,8 +54,8 @@ def fits(size: ArrayLike, value: ArrayLike, error: ArrayLike, first: float) -> l
 
 
 def widest(size: ArrayLike, value: ArrayLike, error: ArrayLike, law: str, level: float) -> Growth | None:
-    """The law over the widest range up to the largest size in which its p-value exceeds the level, if it does so with two
-    degrees of freedom or more."""
+    """Fit of a law over the widest range, up to the largest size, with a p-value above the level and at least two degrees of
+    freedom; None without one."""
     for first in np.asarray(size, dtype=float):
         for one in fits(size, value, error, first):
             if one.law == law and one.freedom > 1 and one.p_value > level:
@@ -74,7 +74,7 @@ def _linear(law: str, basis: Basis, points: Sequence[np.ndarray]) -> Growth:
 
 
 def _power(points: Sequence[np.ndarray]) -> Growth:
-    """The error of the exponent is the change that raises chi^2 by 1, the factor being fitted anew."""
+    """Power law; the error of the exponent raises chi^2, minimised over the amplitude, by 1."""
     size = points[0]
 
     def with_exponent(exponent: float) -> Growth:
@@ -89,7 +89,7 @@ def _power(points: Sequence[np.ndarray]) -> Growth:
 
 
 def local_exponents(size: ArrayLike, value: ArrayLike, error: ArrayLike) -> tuple[np.ndarray, ...]:
-    """Between neighbouring sizes: their geometric middles, d ln value / d ln size, and its errors."""
+    """Geometric means of neighbouring sizes, d ln value / d ln size between them, and its errors."""
     size, value, error = (np.asarray(array, dtype=float) for array in (size, value, error))
     step, relative = np.diff(np.log(size)), error / value
     slope = np.diff(np.log(value)) / step

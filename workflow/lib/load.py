@@ -1,4 +1,4 @@
-"""Reads the files that the programs write; the layout is described in docs/format.md."""
+"""Reads result files (docs/format.md)."""
 
 import os
 import zlib
@@ -21,20 +21,27 @@ if TYPE_CHECKING:
 FORMAT = "lorentz-gas"
 FORMAT_VERSION = 3
 NOT_REACHED = "not reached"
-VALUES = ("mean", "standard_error", "discretisation_error", "count")  # of a quantity, besides its axes
+VALUES = (
+    "mean",
+    "standard_error",
+    "discretisation_error",
+    "count",
+)  # datasets of a quantity, besides its axes
 
-Index = SupportsIndex | tuple[SupportsIndex, ...]  # of a value among those of a quantity
+Index = SupportsIndex | tuple[SupportsIndex, ...]  # of a value in the arrays of a quantity
 
 
 class FormatError(ValueError):
-    """The file is missing, damaged, not a result of this project, or lacks what is read from it."""
+    """The file is missing, damaged or not a result of this project, or has no such quantity."""
 
 
 @dataclass(frozen=True)
 class Quantity:
-    """mean, the errors and count have one shape; axes maps names to coordinates, in the order of the dimensions. What is
-    computed has a discretisation error, what is measured a standard error and a count; the others are None.
-    control_variates: whether they were used, None where there are none."""
+    """Estimate with errors over axes, which map names to coordinates in the order of the dimensions.
+
+    A measured quantity has a standard error and a count of replicas, a computed one a discretisation error; the others are None.
+    control_variates: whether they were used, None if the quantity has none.
+    """
 
     mean: np.ndarray
     standard_error: np.ndarray | None
@@ -48,17 +55,17 @@ class Quantity:
 
     @property
     def error(self) -> np.ndarray:
-        """The standard error of what is measured. Raises FormatError for what is computed."""
+        """Standard error. Raises FormatError for a computed quantity."""
         return _measured(self.standard_error)
 
     @property
     def replicas(self) -> np.ndarray:
-        """The count of what is measured. Raises FormatError for what is computed."""
+        """Number of replicas. Raises FormatError for a computed quantity."""
         return _measured(self.count)
 
     def to_xarray(self) -> "xarray.Dataset":
-        """mean, errors and count over the axes; units and description are attributes of each."""
-        import xarray  # noqa: PLC0415  # half a second, which no figure needs
+        """Mean, errors and count over the axes, each with the attributes units and description."""
+        import xarray  # noqa: PLC0415  # 0.5 s, not needed for figures
 
         attributes = self._attributes()
         values = {name: (tuple(self.axes), array, attributes[name]) for name, array in self._values().items()}
@@ -66,7 +73,7 @@ class Quantity:
         return xarray.Dataset(values, axes)
 
     def to_frame(self) -> pd.DataFrame:
-        """One row per value; attrs["units"] and attrs["description"] hold those of the columns."""
+        """One row per value; attrs["units"] and attrs["description"] map columns to theirs."""
         grids = np.meshgrid(*self.axes.values(), indexing="ij")
         axes = {name: grid.ravel() for name, grid in zip(self.axes, grids, strict=True)}
         frame = pd.DataFrame(axes | {name: array.ravel() for name, array in self._values().items()})
@@ -86,7 +93,7 @@ class Quantity:
 
 def _measured(array: np.ndarray | None) -> np.ndarray:
     if array is None:
-        raise FormatError("the quantity is computed: it has no standard error and no count")
+        raise FormatError("a computed quantity has no standard error and no count: use discretisation_error")
     return array
 
 
@@ -101,7 +108,7 @@ class Result:
         if name not in self.quantities:
             near = get_close_matches(name, self.quantities, 1, cutoff=0)[0]
             there = ", ".join(self.quantities)
-            raise FormatError(f"{self.path} has no quantity {name}; did you mean {near}? There are {there}")
+            raise FormatError(f"{self.path} has no quantity {name}; did you mean {near}? It has {there}")
         return self.quantities[name]
 
     def to_xarray(self) -> "xarray.DataTree":
@@ -118,45 +125,32 @@ class Result:
 
     @property
     def sound(self) -> bool:
-        """Whether the target error was not missed and the chain was stationary. Raises FormatError where that is not tested."""
+        """Whether the run was stationary and did not miss its target error. Raises FormatError without a test of stationarity."""
         return bool(self.converged != NOT_REACHED and self["stationary"].mean == 1)
 
 
 def load(path: Path | str) -> Result:
-    """One result file. Raises FormatError, and OSError if the file cannot be read."""
+    """Reads a result file. Raises FormatError, and OSError if the file is unreadable."""
     with _opened(path) as (file, provenance):
         quantities = {name: _quantity(group) for name, group in file["results"].items()}
         return Result(Path(path), _attributes(file["parameters"]), provenance, quantities)
 
 
-def load_parameters(path: Path | str) -> dict[str, Any]:
-    """Of one result file, without its results. Raises FormatError, OSError."""
-    with _opened(path) as (file, _):
-        return _attributes(file["parameters"])
-
-
 def load_provenance(path: Path | str) -> dict[str, Any]:
-    """Of one result file, without its results. Raises FormatError, OSError."""
+    """Reads only the provenance of a result file. Raises FormatError, OSError."""
     with _opened(path) as (_, provenance):
         return provenance
 
 
-def results_digest(path: Path | str) -> str:
-    """CRC-32 of all results, as the program states it in /provenance when it writes them: of the path and the little-endian
-    values of every dataset, in the order of the paths. Raises FormatError, OSError."""
-    with _opened(path) as (file, _):
-        return _digest(file["results"])
-
-
 def load_statements(path: Path | str) -> tuple[dict[str, Any], dict[str, Any], bool]:
-    """Provenance and parameters of one result file, and whether its values are those that were written. Raises FormatError,
-    OSError."""
+    """Provenance and parameters of a result file, and whether its values are unmodified. Raises FormatError, OSError."""
     with _opened(path) as (file, provenance):
-        whole = provenance["results_digest"] == _digest(file["results"])
+        whole = provenance["results_digest"] == results_digest(file["results"])
         return provenance, _attributes(file["parameters"]), whole
 
 
-def _digest(results: h5py.Group) -> str:
+def results_digest(results: h5py.Group) -> str:
+    """CRC-32 of path and little-endian values of all datasets below a group, in the order of the paths."""
     datasets: dict[str, h5py.Dataset] = {}
     digest = 0
     results.visititems(lambda _, node: datasets.update({node.name: node}))
@@ -169,7 +163,7 @@ def _digest(results: h5py.Group) -> str:
 
 @contextmanager
 def _opened(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
-    """The file and its provenance. Results are written under another name and renamed, so that no lock is needed."""
+    """Opens a result file, without a lock, as results are written under another name and renamed."""
     try:
         with h5py.File(path, locking=False) as file:
             provenance = _attributes(file["provenance"]) if "provenance" in file else {}
@@ -185,7 +179,7 @@ def _opened(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
     except FormatError as error:
         raise FormatError(f"{path}: {error}") from error
     except (OSError, KeyError, RuntimeError, ValueError) as error:
-        if isinstance(error, OSError) and error.errno:  # unreadable, which is no fault of its content
+        if isinstance(error, OSError) and error.errno:  # unreadable, not damaged
             raise OSError(error.errno, os.strerror(error.errno), str(path)) from error
         raise FormatError(f"{path} is damaged, or not a result file: {error}") from error
 
@@ -203,7 +197,9 @@ def _quantity(group: h5py.Group) -> Quantity:
     names = ("discretisation_error",) if "discretisation_error" in group else ("standard_error", "count")
     axes = axes_of(mean)
     if unknown := group.keys() - {"mean", *names, *axes}:
-        raise FormatError(f"{group.name}: {', '.join(sorted(unknown))} belong to no dimension of mean")
+        raise FormatError(
+            f"{group.name}: {', '.join(sorted(unknown))} are neither values nor axes of mean; remake it with make figures"
+        )
     stored = {"mean": mean, **{name: group[name] for name in (*names, *axes)}}
     units, descriptions = (
         {name: _text(dataset.attrs[attribute]) for name, dataset in stored.items()}
@@ -224,7 +220,7 @@ def _quantity(group: h5py.Group) -> Quantity:
 
 
 def axes_of(dataset: h5py.Dataset) -> list[str]:
-    """Names of the dimensions, by the HDF5 dimension scale that is attached to each. Raises FormatError."""
+    """Names of the HDF5 dimension scales attached to the dimensions. Raises FormatError."""
     attached = [[str(scale.name) for scale in dimension.values()] for dimension in dataset.dims]
     for names in attached:
         if len(names) != 1 or Path(names[0]).parent != Path(dataset.parent.name):

@@ -1,11 +1,11 @@
-"""The name that was probably meant, for error messages."""
+"""Suggested names in error messages."""
 
 from collections.abc import Iterable
 from difflib import get_close_matches
 
 
 def nearest(name: str, names: Iterable[str]) -> str:
-    """`did you mean fig05?`, or all names where none is near."""
+    """`did you mean fig05?`, or a list of all names if none is similar."""
     known = [*names]
     found = get_close_matches(name, known, 1)
     return f"did you mean {found[0]}?" if found else f"choose one of {', '.join(known)}"

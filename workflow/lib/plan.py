@@ -1,4 +1,4 @@
-"""The plan that the configuration defines: panels, and the runs of programs that each panel needs."""
+"""Plan of the configuration: the panels and their runs."""
 
 import hashlib
 import itertools
@@ -25,18 +25,18 @@ STOPPING = ("target-error", "target-absolute", "max-replicas")  # options that a
 
 @dataclass(frozen=True)
 class Run:
-    """One execution of a program. The name is unique within the panel."""
+    """One execution of a program, with a name that is unique within its panel."""
 
     name: str
     program: str
     options: Options
-    replicated: bool = True  # over independent replicas; False for a deterministic program
-    series: str = ""  # of the configuration; the name adds its values
+    replicated: bool = True  # False for a deterministic program
+    series: str = ""  # key in the configuration; the name also has the listed values
 
 
 @dataclass(frozen=True)
 class Panel:
-    """A figure: its own runs, and the names of other panels whose runs it also shows."""
+    """A figure: its own runs, and the names of other panels whose runs it also plots."""
 
     name: str
     script: str
@@ -47,7 +47,7 @@ class Panel:
         return next(run for run in self.runs if run.name == name)
 
     def hash(self) -> str:
-        """sha256 of the complete configuration of the panel, effort included, with the units that its table states."""
+        """sha256 of the configuration of the panel: options, effort, and units of the options."""
         runs = [[run.name, run.program, run.options] for run in self.runs]
         units = {
             name: unit
@@ -60,8 +60,8 @@ class Panel:
 
 @dataclass(frozen=True)
 class Quality:
-    """A quality by the name of its folders: `standard`, or with the user's seed or replicas in place of the
-    configuration's, as in `standard_seed=7_replicas=200`."""
+    """A quality, by the name of its folders: `standard`, or `standard_seed=7_replicas=200` with the seed and number of replicas of
+    the command line."""
 
     name: str
     base: str
@@ -70,7 +70,7 @@ class Quality:
 
     @classmethod
     def of(cls, name: str) -> "Quality":
-        """Raises ConfigurationError."""
+        """Parses the name of the folders. Raises ConfigurationError."""
         parts = re.fullmatch(r"([a-z]+)(?:_seed=(0|[1-9][0-9]*))?(?:_replicas=([1-9][0-9]*))?", name)
         if not parts or parts[1] not in QUALITIES:
             raise ConfigurationError(f"{name} is not a quality; choose one of {', '.join(QUALITIES)}")
@@ -79,12 +79,12 @@ class Quality:
 
     @property
     def arguments(self) -> str:
-        """Of make."""
+        """Arguments of make."""
         given = {"QUALITY": self.base, "SEED": self.seed, "REPLICAS": self.replicas}
         return " ".join(f"{name}={value}" for name, value in given.items() if value is not None)
 
     def complete(self, panel: str, run: str, options: Options) -> Options:
-        """Options of a replicated run with its seed, and with the replicas of this quality."""
+        """Adds to the options of a replicated run its seed and, if given, the number of replicas."""
         if self.replicas is not None:
             options = {key: value for key, value in options.items() if key not in STOPPING}
             options["replicas"] = self.replicas
@@ -94,7 +94,7 @@ class Quality:
 
 
 def load_plan(name: str, folder: Path = FOLDER) -> dict[str, Panel]:
-    """All panels at one quality, by name. Raises ConfigurationError."""
+    """All panels of a quality, by name. Raises ConfigurationError."""
     quality = Quality.of(name)
     paper, efforts = load_configuration(quality.base, folder)
     effort = efforts.content
@@ -111,14 +111,14 @@ def load_plan(name: str, folder: Path = FOLDER) -> dict[str, Panel]:
 
 
 def panel_named(plan: dict[str, Panel], name: str) -> Panel:
-    """Raises ConfigurationError, with the nearest name."""
+    """The panel of this name. Raises ConfigurationError with the most similar name."""
     if name in plan:
         return plan[name]
     raise ConfigurationError(f"{name} is not a panel; {nearest(name, plan)}")
 
 
 def with_used(plan: dict[str, Panel], name: str) -> list[Panel]:
-    """The panels whose runs a panel shows: those in `uses`, then itself."""
+    """Panels whose runs a panel plots: those in `uses`, then itself."""
     return [plan[one] for one in (*plan[name].uses, name)]
 
 
@@ -127,7 +127,7 @@ def data_path(quality: str, panel: str, run: str) -> str:
 
 
 def data_of(plan: dict[str, Panel], name: str, quality: str) -> list[str]:
-    """Paths of the result files that a panel shows."""
+    """Paths of the result files that a panel plots."""
     return [data_path(quality, panel.name, run.name) for panel in with_used(plan, name) for run in panel.runs]
 
 
@@ -157,10 +157,10 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Q
 
 
 def _in_name(value: object) -> str:
-    """A value in the name of a file: 1perN for 1/N."""
+    """Value as part of a file name: 1perN for 1/N."""
     return str(value).replace("/", "per")
 
 
 def _seed(names: str) -> int:
-    """Seed from a hash of the names, so that every run has its own, reproducible random streams."""
+    """Seed from a hash of the names, which gives every run its own reproducible random streams."""
     return int.from_bytes(hashlib.sha256(names.encode()).digest()[:4], "big")

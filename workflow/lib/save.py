@@ -1,6 +1,6 @@
-"""Writes a panel: PDF, PNG, SVG and the plotted numbers as CSV, each stating its parents, and `<panel>.json`, which states all.
+"""Writes a panel: PDF, PNG, SVG, the plotted numbers as CSV, and `<panel>.json`; each file has a record of the parents.
 
-Equal inputs give equal bytes: no file but the last, which names the commit, has a time, a host, a user or an absolute path.
+Equal inputs give equal bytes, except for the commit in `<panel>.json`: no file has a time, host, user or absolute path.
 """
 
 import hashlib
@@ -26,7 +26,7 @@ class Text:
 
 
 def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -> None:
-    """Writes stem.pdf, .png, .svg, .csv and .json, all or none. The table is that of columns.as_csv()."""
+    """Writes stem.pdf, .png, .svg, .csv and .json, all or none. table: text from columns.as_csv()."""
     described = parents.as_json()
     pictures: dict[str, dict[str, Any]] = {
         "pdf": {
@@ -43,7 +43,7 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
     contents = {}
     for kind, metadata in pictures.items():
         contents[kind] = _picture(figure, kind, metadata)
-        figure.set_layout_engine("none")  # that of the first holds for all
+        figure.set_layout_engine("none")  # keeps the layout of the first format
     units, numbers = table.split("\n", maxsplit=1)
     head = [f"# {text.title}", units, f"# caption: {text.caption}", PARENTS_LINE + parents.digest()]
     contents["csv"] = "\n".join([*head, numbers]).encode()
@@ -65,7 +65,7 @@ def _picture(figure: Figure, kind: str, metadata: dict[str, Any]) -> bytes:
 
 
 def _with_fallbacks(picture: bytes) -> bytes:
-    """matplotlib names one font only for the letters of a formula."""
+    """Adds the fallback fonts to formulas, where matplotlib names only one."""
     first, *others = (name if name == "serif" else f"'{name}'" for name in FONTS)
     one = f"font-family: {first}"
     return picture.replace(f'{one}"'.encode(), f'{", ".join([one, *others])}"'.encode())

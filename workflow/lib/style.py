@@ -1,4 +1,4 @@
-"""How every figure looks: sizes, fonts, colours that differ also for the colour-blind and in grey."""
+"""Style of the figures: sizes, fonts, and colours that are distinct in grey and for colour-blind readers."""
 
 from pathlib import Path
 from string import ascii_lowercase
@@ -15,13 +15,13 @@ from matplotlib.typing import LineStyleType, RcKeyType
 from workflow.lib import fit
 from workflow.lib.load import Index, Quantity, Result
 
-Look = dict[str, Any]  # keywords of what draws
+Look = dict[str, Any]  # keyword arguments of plotting functions
 
-# Width of one column of a journal, and the height that goes with it, in inches.
+# Width of a journal column, and height, in inches.
 COLUMN = 3.4
 HEIGHT = 3.0
 
-# In a label of every figure that shows a quantity with a dimension.
+# In the label of quantities with a dimension.
 UNITS = "$m = k_B = 1$"
 
 # Okabe and Ito (2008), ordered so that neighbours differ in lightness; markers differ too.
@@ -32,17 +32,14 @@ GREEN = "#009E73"
 VERMILLION = "#D55E00"
 SKY = "#56B4E9"
 
-# For curves in an order, from early to late: lightness rises, and so do the gaps of the dashes.
+# For an ordered set of curves: increasing lightness, and increasing gaps of the dashes.
 SEQUENCE = [BLACK, BLUE, VERMILLION, ORANGE, SKY]
 DASHES: list[LineStyleType] = ["solid", (0, (6, 1)), (0, (4, 1, 1, 1)), (0, (3, 1.5)), (0, (1, 1))]
 
-# Marker and colour by gamma, where a figure shows both.
+# Marker and colour by gamma.
 BY_GAMMA = {"N": ("o", BLUE), 1: ("s", VERMILLION)}
 
-# A legend that hides the lines behind it.
-OPAQUE: Look = {"frameon": True, "framealpha": 1, "edgecolor": "none"}
-
-# Where a law was fitted.
+# Shaded range of a fit.
 WINDOW: Look = {"color": "0.92", "linewidth": 0, "zorder": -1}
 
 GUIDE: Look = {"color": "0.55", "linestyle": (0, (4, 2)), "linewidth": 0.8, "zorder": 0}
@@ -55,7 +52,7 @@ POINTS: Look = {
     "markeredgewidth": 0.8,
 }
 
-# The first is used here; the text of an SVG is text, for which a viewer without it takes the next.
+# The first is used here; the others are fallbacks of SVG viewers.
 FONTS = ("STIXGeneral", "STIX Two Text", "Times New Roman", "serif")
 
 _SETTINGS: dict[RcKeyType, Any] = {
@@ -89,8 +86,7 @@ _SETTINGS: dict[RcKeyType, Any] = {
 
 
 def apply() -> None:
-    """From now on figures are drawn in this style, whatever matplotlibrc says, and with the fonts of matplotlib alone, whatever
-    else is installed or its cached list of fonts says."""
+    """Applies the style, independent of matplotlibrc, and restricts the fonts to those of matplotlib, independent of the system."""
     mpl.rcdefaults()
     mpl.rcParams.update(_SETTINGS)
     fonts = font_manager.fontManager
@@ -99,52 +95,60 @@ def apply() -> None:
         fonts.addfont(path)
 
 
-def letter(*panels: Axes, lift: float | None = None) -> None:
-    """(a), (b), ... above the upper left corner of each. lift: height above the axes in points, the same for all, if one of
-    them has tick labels on top."""
-    for character, axes in zip(ascii_lowercase, panels, strict=False):
+def letter(*panels: Axes, lift: float | None = None, start: str = "a") -> None:
+    """Labels panels (a), (b), ... above the upper left corner. lift: distance in points, needed if one has tick labels on top."""
+    for character, axes in zip(ascii_lowercase[ascii_lowercase.index(start) :], panels, strict=False):
         axes.set_title(f"({character})", loc="left", y=None if lift is None else 1, pad=lift)
 
 
 def guide_at(axes: Axes, value: float, name: str) -> None:
-    """A guide across the panel, with its name on the right of the frame."""
+    """Horizontal guide, labelled on the right of the frame."""
     axes.axhline(value, **GUIDE)
     axes.annotate(name, (1.01, value), xycoords=("axes fraction", "data"), va="center", size=8)
 
 
+def second_axis(axes: Axes, factor: float, label: str) -> None:
+    """The y axis in another unit, on the right."""
+    axes.tick_params(axis="y", which="both", right=False)
+    other = axes.secondary_yaxis(
+        "right", functions=(lambda y: np.multiply(factor, y), lambda y: np.divide(y, factor))
+    )
+    other.set_ylabel(label)
+
+
 def label_within_decades(axis: Axis) -> None:
-    """Ticks at 1, 2 and 5 in plain digits, for logarithmic axes of a decade or two."""
+    """Decimal ticks at 1, 2 and 5, for logarithmic axes of one or two decades."""
     axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_formatter(NullFormatter())
 
 
 def label_sizes(axis: Axis) -> None:
-    """Ticks at powers of two in plain digits, for a logarithmic axis of numbers of cells."""
+    """Decimal ticks at powers of two, for a logarithmic axis of numbers of cells."""
     axis.set_major_locator(LogLocator(base=2, numticks=8))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_locator(NullLocator())
 
 
 def cross_out(axes: Axes, x: np.ndarray, y: np.ndarray, where: np.ndarray) -> None:
-    """Marks the points whose run did not reach its target error."""
+    """Marks points whose run missed its target error."""
     axes.plot(x[where], y[where], linestyle="none", marker="x", color=BLACK, markersize=6, zorder=5)
 
 
 def with_error(quantity: Quantity, index: Index = (), unit: float = 1) -> str:
-    """A number, or one of an array, with its error in units of the last digits, as 1.8620(54)."""
+    """Value and error of a quantity at an index, as 1.8620(54)."""
     mean, error = unit * float(quantity.mean[index]), unit * float(quantity.error[index])
     return fit.with_error(mean, error)
 
 
 def gamma(result: Result) -> str:
-    """N, or the number of scatterings."""
+    """Value of gamma as text: N or a number."""
     value = result.parameters["gamma"]
     return value if value == "N" else f"{value:g}"
 
 
 def spacing(result: Result) -> tuple[float, str]:
-    """Distance between scatterers, and how it is written."""
+    """Distance between scatterers as a number and as text."""
     given = result.parameters["cell-length"]
     if given == "1/N":
         return 1 / int(result.parameters["cells"]), "1/N"

@@ -1,12 +1,12 @@
-"""Units as the result files and tables write them: products of powers of dimensions, one over another.
+"""Grammar of units in result files and tables: a product of powers of dimensions, or a quotient of two.
 
     units   = product [ "/" ( factor | "(" product ")" ) ]
     product = factor { " " factor }
     factor  = word [ "^" digits ]
     word    = "1" | "length" | "time" | "momentum" | "energy" | "temperature" | "second"
 
-With m = k_B = 1 a momentum is a length over a time, energy and temperature are its square. A second is one of the
-computer's, which has nothing to do with the time of the model.
+With m = k_B = 1 a momentum is a length over a time, and energy and temperature are its square. A second measures the computer, not
+the model.
 """
 
 import json
@@ -19,7 +19,7 @@ SCHEMA = Path(__file__).parents[1] / "config/schema.json"
 
 
 class UnitsError(ValueError):
-    """The text is none of the grammar's, or a column of a table has no units."""
+    """A text is not a unit, or a column of a table has none."""
 
 
 class Units(NamedTuple):
@@ -45,11 +45,11 @@ _QUOTIENT = re.compile(r"([^/()]+)(?:/(?:([^/() ]+)|\(([^/()]+)\)))?")
 
 
 def parse(text: str) -> Units:
-    """Raises UnitsError if the text does not follow the grammar."""
+    """Dimensions of a unit. Raises UnitsError if the text does not follow the grammar."""
     quotient = _QUOTIENT.fullmatch(text)
     if quotient is None:
         raise UnitsError(
-            f"'{text}' is neither a product of units nor a quotient of two, as in 'energy/(time temperature)'"
+            f"'{text}' is not a unit: write a product or a quotient of two, as in 'energy/(time temperature)'"
         )
     above, single, several = quotient.groups()
     below = _product(single or several or "1", text)
@@ -58,7 +58,7 @@ def parse(text: str) -> Units:
 
 @cache
 def option_units() -> dict[str, str]:
-    """Units of the programs' options, as the programs declare them; all others are pure numbers."""
+    """Declared units of the options of the programs; all others are dimensionless."""
     programs = json.loads(SCHEMA.read_text())["programs"]
     return {
         name: option["units"]

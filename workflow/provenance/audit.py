@@ -1,8 +1,8 @@
-"""Checks that every result and figure follows from the present sources, parameters, build and packages.
+"""Checks every result and figure against the present sources, parameters, build and packages.
 
-Each result belongs to the plan, has its options, was written by the present build and has the values that were written. Each
-figure is the one that its record names, and gets the same bytes when it is rendered from its parents again. Exit status: 0 if all
-holds, 1 if something is broken, 3 if something could not be checked, 2 for bad input.
+A result has to be in the plan, with its options, from the present build, and unmodified. A figure has to match its record, and
+rendering it again from its parents has to give equal bytes. Exit status: 0 if all holds, 1 if something is broken, 3 if something
+could not be checked, 2 for bad input.
 """
 
 import os

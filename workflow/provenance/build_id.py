@@ -1,9 +1,8 @@
-"""Identity of an executable: a hash of its sources, compiler, flags and libraries that names no path, host or time.
+"""Identity of an executable: a hash of its sources, compiler, flags and libraries, independent of path, host and time.
 
-The include closure of a source is the source, every file that it includes with quotes (beside the file that includes it or
-else relative to the root, as the compiler finds it), and for each included header `x.hpp` the source `x.cpp` beside it,
-transitively. CMake runs this module with the system's Python, 3.8 or later, so it uses the standard library only; it writes
-OUTPUT.json for the pipeline and OUTPUT.cpp for the executable, each only if it changes, and a dependency file.
+The include closure of a source consists of the source, all files that it includes with quotes, and for each header `x.hpp` the
+source `x.cpp` in the same folder, transitively. CMake runs this module with the system's Python (3.8 or later, standard library only). It
+writes OUTPUT.json for the pipeline, OUTPUT.cpp for the executable, each only if it changes, and a dependency file.
 """
 
 from __future__ import annotations
@@ -22,11 +21,11 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
 
 class BuildError(ValueError):
-    """There is no executable of the present sources."""
+    """The executable is missing or older than its sources."""
 
 
 def built(program: str) -> dict[str, Any]:
-    """The identity of build/bin/PROGRAM: build_id, source_hash, compiler, flags, libraries, sources. Raises BuildError."""
+    """Identity of build/bin/PROGRAM: build_id, source_hash, compiler, flags, libraries, sources. Raises BuildError."""
     try:
         identity: dict[str, Any] = json.loads((ROOT / f"build/id/{program}.json").read_text("utf-8"))
     except (OSError, ValueError) as error:
@@ -37,15 +36,14 @@ def built(program: str) -> dict[str, Any]:
 
 
 def sources_of_program(program: str, root: Path = ROOT / "cpp") -> str:
-    """The source hash of a program as its sources are now. Raises FileNotFoundError."""
+    """Source hash of the present sources of a program. Raises FileNotFoundError."""
     return source_hash(content_hashes(root, include_closure(root, f"observables/{program}.cpp")))
 
 
 def include_closure(root: Path, source: str) -> list[str]:
-    """Paths relative to root of all project files that `source` is built from, sorted.
+    """Sorted paths, relative to root, of all project files in a build of `source`. Raises FileNotFoundError.
 
-    Raises FileNotFoundError if the source is missing. Quoted includes that are not files below the root belong to
-    libraries and are covered by the library versions.
+    Quoted includes outside the root belong to libraries, whose versions are part of the identity.
     """
     closure: set[str] = set()
     pending = [source]
@@ -71,7 +69,7 @@ def content_hashes(root: Path, closure: list[str]) -> dict[str, str]:
 
 
 def source_hash(contents: dict[str, str]) -> str:
-    """sha256 over names and contents of the files."""
+    """sha256 over names and hashes of the files."""
     lines = "".join(f"{name} {contents[name]}\n" for name in sorted(contents))
     return hashlib.sha256(lines.encode()).hexdigest()
 

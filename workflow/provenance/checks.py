@@ -1,6 +1,6 @@
-"""Whether results and figures follow from the present sources, parameters, build and packages.
+"""Checks of results and figures against the present sources, parameters, build and packages.
 
-A fault is `broken`, what was found to differ, or `not checked`, what could not be compared here.
+A fault is `broken` if a difference was found, and `not checked` if a comparison is impossible.
 """
 
 import argparse
@@ -33,7 +33,7 @@ from workflow.lib.load import FormatError, load_provenance, load_statements
 from workflow.lib.plan import Panel, Run, data_of, data_path, drawings_of, load_plan, panel_named, with_used
 from workflow.provenance.build_id import BuildError, built, sources_of_program
 
-SIZES = (2, 3, 5)  # at which two polynomials in N are compared
+SIZES = (2, 3, 5)  # N at which polynomials are compared
 
 
 @dataclass(frozen=True)
@@ -47,18 +47,18 @@ class Fault:
 
 
 class Products:
-    """The results and figures of one quality. Raises ConfigurationError."""
+    """Results and figures of one quality. Raises ConfigurationError."""
 
     def __init__(self, quality: str) -> None:
         self.quality, self.plan = quality, load_plan(quality)
 
     def is_made(self, panel: str) -> bool:
-        """Whether any product of the panel is there; a folder without a panel, as of a crate of another, is no fault."""
+        """Whether any product of the panel exists. A panel without products is not a fault: a crate may have only some panels."""
         data = [data_path(self.quality, panel, run.name) for run in self.plan[panel].runs]
         return any((ROOT / path).exists() for path in [*data, *drawings_of(self.quality, panel)])
 
     def faults(self, panel: str) -> Iterator[Fault]:
-        """Of the panel and of its own results, the results first."""
+        """Faults of the results of the panel, then of its figure."""
         for run in self.plan[panel].runs:
             if fault := self.fault_of_result(panel, run):
                 yield fault
@@ -76,12 +76,13 @@ class Products:
         except FormatError as error:
             return Fault(path, str(error).removeprefix(f"{ROOT / path}").strip(": "))
         if not whole:
-            return Fault(path, "its values are not those that were written: edited or damaged")
+            return Fault(
+                path,
+                "edited or damaged: its values differ from those written; remove it and run make figures",
+            )
         for name, value in run.options.items():
             if name in parameters and not _agree(value, parameters[name]):
-                return Fault(
-                    path, f"stale: --{name} is {parameters[name]} in it, {value} in the configuration"
-                )
+                return Fault(path, f"stale: it has --{name} {parameters[name]}, the configuration {value}")
         return _fault_of_build(path, run.program, stated)
 
     def fault_of_figure(self, panel: Panel) -> Fault | None:
@@ -92,7 +93,7 @@ class Products:
             stated = read_panel(ROOT / record)
             for path in files:
                 if file_hash(ROOT / path) != stated["files"].get(Path(path).name):
-                    return Fault(path, f"is not the file that {Path(record).name} names: edited or replaced")
+                    return Fault(path, f"edited or replaced: it differs from its hash in {Path(record).name}")
             return self._fault_of_parents(panel, stated["parents"], files)
         except MetadataError as error:
             return Fault(record, str(error))
@@ -102,27 +103,26 @@ class Products:
     def _fault_of_parents(self, panel: Panel, parents: Parents, files: list[str]) -> Fault | None:
         for path in files:
             if embedded(ROOT / path) not in (parents.as_json(), parents.digest()):
-                return Fault(path, "states other parents than the record of the panel")
+                return Fault(
+                    path, "edited or replaced: its parents differ from those in the record of the panel"
+                )
         picture = files[0]
         if {*parents.data} != {*data_of(self.plan, panel.name, self.quality)}:
-            return Fault(picture, "stale: it shows other runs than those of the configuration")
+            return Fault(picture, "stale: it plots other runs than the configuration")
         if parents.configuration != panel.hash():
             return Fault(picture, "stale: the configuration of the panel has changed")
         for path, one in parents.data.items():
             if not (ROOT / path).exists():
-                return Fault(picture, f"{path}, which it shows, is missing")
+                return Fault(picture, f"its result {path} is missing")
             if _hash(ROOT / path) != one["sha256"]:
-                return Fault(picture, f"stale: it shows another {path}")
+                return Fault(picture, f"stale: {path} has changed")
         sources = [*sources_of(f"workflow/figures/{panel.script}.py"), PACKAGES]
-        present, stated = (
-            {path: _hash(ROOT / path) for path in sources},
-            parents.sources | {PACKAGES: parents.packages},
-        )
-        changed = dict(present.items() ^ stated.items())
+        present = {path: _hash(ROOT / path) for path in sources}
+        changed = dict(present.items() ^ (parents.sources | {PACKAGES: parents.packages}).items())
         return Fault(picture, f"stale: {min(changed)} has changed") if changed else None
 
     def obsolete(self) -> Iterator[Fault]:
-        """Results and figures of this quality that the configuration does not name."""
+        """Results and figures of this quality that are not in the plan."""
         known = {path for panel in self.plan for path in data_of(self.plan, panel, self.quality)}
         known |= {path for panel in self.plan for path in drawings_of(self.quality, panel)}
         for pattern in (f"data/{self.quality}/*/*.h5", f"figures/{self.quality}/*.pdf"):
@@ -134,11 +134,11 @@ class Products:
 def command(
     description: str | None, **more: dict[str, Any]
 ) -> tuple[argparse.Namespace, Products, list[Panel]]:
-    """Options of a command, --quality and --panel among them; the products; the panel with those whose results it shows, or all.
-    Exits with 2 for bad input."""
+    """Parses a command line with --quality, --panel and more options. Returns it with the products and the panels: all, or the one
+    requested after those whose results it plots. Exits with 2 for bad input."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--quality", required=True)
-    parser.add_argument("--panel", help="this panel and the results that it shows")
+    parser.add_argument("--panel", help="only this panel and the results that it plots")
     for name, settings in more.items():
         parser.add_argument(f"--{name}", **settings)
     options = parser.parse_args()
@@ -163,14 +163,14 @@ def _fault_of_build(path: str, program: str, stated: dict[str, Any]) -> Fault | 
         return Fault(path, f"stale: the sources of {program} have changed")
     try:
         build = built(program)
-    except BuildError:  # no build here, as in an unpacked crate: the sources decide
+    except BuildError:  # an unpacked crate has no build: its sources decide
         return None
     for name in BUILD:
         if build[name] != stated[name]:
-            reason = (
-                f"by another {name.removesuffix('s')}, {stated[name]}, than the build here, {build[name]}"
+            other = (
+                f"by another {name.removesuffix('s')}: {stated[name]}, the present build has {build[name]}"
             )
-            return Fault(path, reason, broken=False)
+            return Fault(path, other, broken=False)
     return None
 
 
@@ -178,7 +178,7 @@ _source_hash = cache(sources_of_program)
 
 
 def _agree(option: Any, stated: Any) -> bool:
-    """Whether an option of the configuration has the value that a file states in canonical form."""
+    """Whether an option has the value that a file states in canonical form."""
     if str(option) == str(stated):
         return True
     pairs = [*zip_longest(str(option).split(","), str(stated).split(","), fillvalue="nan")]
@@ -187,7 +187,7 @@ def _agree(option: Any, stated: Any) -> bool:
 
 @cache
 def other_package() -> str | None:
-    """The first installed package of another version than the locked one."""
+    """First installed package whose version is not the locked one."""
     locked = defaultdict(set)
     for one in tomllib.loads((ROOT / PACKAGES).read_text())["package"]:
         locked[one["name"]].add(one.get("version"))
@@ -199,7 +199,7 @@ def other_package() -> str | None:
 
 
 def worst_error(quality: str, panel: Panel) -> str:
-    """The largest error of the panel's results; of those that had a target, error and target."""
+    """Largest error of the results of a panel; of those with a target, error and target."""
     errors, aimed = [], []
     for run in panel.runs:
         try:

@@ -1,6 +1,6 @@
-"""Compares results with those before a rerun from scratch, or of another seed or number of replicas with the quality's own.
+"""Compares results before and after a rerun from scratch, or with another seed or number of replicas with the quality's own.
 
-Status 1 if a result differs by more than its errors.
+Exit status: 1 if a result differs by more than its errors.
 """
 
 import shutil
@@ -17,26 +17,24 @@ from workflow.lib.plan import Quality, data_path
 from workflow.provenance.checks import command
 
 BEFORE = Path("build/before")
-SIGNIFICANCE = 1e-4  # of the largest deviation in a result
-COMPUTED = 1e6  # degrees of freedom of a discretisation error
+SIGNIFICANCE = 1e-4  # p-value of the largest deviation in a result
+COMPUTED = 1e6  # degrees of freedom assumed for a discretisation error
 
 
 def keep(quality: str) -> None:
-    """Links to the results that a rerun replaces; programs write new files and rename them."""
+    """Hard-links the results that a rerun replaces; programs write new files and rename them."""
     shutil.rmtree(ROOT / BEFORE, ignore_errors=True)
     if (ROOT / "data" / quality).is_dir():
         (ROOT / BEFORE).mkdir(parents=True)
-        for options in ("-al", "-a"):  # copies, where there are no hard links
-            done = subprocess.run(
-                ["cp", options, ROOT / "data" / quality, ROOT / BEFORE], capture_output=True, check=False
-            )
-            if done.returncode == 0:
+        for options in ("-al", "-a"):  # copies if the file system has no hard links
+            copy = ["cp", options, ROOT / "data" / quality, ROOT / BEFORE]
+            if subprocess.run(copy, capture_output=True, check=False).returncode == 0:
                 break
 
 
 def p_value(one: Path, other: Path) -> float:
-    """Of the largest difference between two results, by Student's distribution and the number of values; 0 where they are not of
-    the same quantities and shapes. Raises FormatError."""
+    """Bonferroni-corrected p-value, by Student's distribution, of the largest difference between two results; 0 if their
+    quantities or shapes differ. Raises FormatError."""
     first, second = load(one).quantities, load(other).quantities
     pairs = [(quantity, second.get(name)) for name, quantity in first.items()]
     if first.keys() != second.keys() or any(b is None or a.mean.shape != b.mean.shape for a, b in pairs):
@@ -46,19 +44,17 @@ def p_value(one: Path, other: Path) -> float:
 
 
 def _tails(a: Quantity, b: Quantity) -> np.ndarray:
-    """Two-sided probability of each difference, where both values have an error."""
+    """Two-sided p-value of each difference of values with errors."""
     computed = a.standard_error is None
     one, other = (np.asarray(q.discretisation_error if computed else q.error) for q in (a, b))
     error, difference = np.atleast_1d(np.hypot(one, other)), np.atleast_1d(np.abs(a.mean - b.mean))
-    replicas = (
-        np.full(error.shape, COMPUTED) if computed else np.atleast_1d(np.minimum(a.replicas, b.replicas))
-    )
+    replicas = np.full(error.shape, COMPUTED if computed else np.minimum(a.replicas, b.replicas))
     known = (error > 0) & np.isfinite(difference) & (replicas > 1)
     return np.asarray(2 * stdtr(2 * (replicas[known] - 1.0), -difference[known] / error[known]))
 
 
 def main() -> None:
-    keeping = {"action": "store_true", "help": "keep the present results for a comparison after the rerun"}
+    keeping = {"action": "store_true", "help": "keep the present results for the comparison after the rerun"}
     options, _, panels = command(__doc__, keep=keeping)
     if options.keep:
         keep(options.quality)
@@ -68,10 +64,8 @@ def main() -> None:
     values: dict[str, float] = {}
     for panel in panels:
         for run in panel.runs:
-            path, other = (
-                data_path(quality.name, panel.name, run.name),
-                against / panel.name / f"{run.name}.h5",
-            )
+            path = data_path(quality.name, panel.name, run.name)
+            other = against / panel.name / f"{run.name}.h5"
             if (ROOT / other).is_file():
                 same = file_hash(ROOT / path) == file_hash(ROOT / other)
                 values[path] = 1.0 if same else p_value(ROOT / path, ROOT / other)
@@ -79,10 +73,8 @@ def main() -> None:
         print(f"No results in {against} to compare with")
         return
     differing = {path: p for path, p in values.items() if p <= SIGNIFICANCE}
-    agree = len(values) - len(differing)
-    print(
-        f"{agree} of {len(values)} results agree with those in {against}, smallest p = {min(values.values()):.2g}"
-    )
+    agree, smallest = len(values) - len(differing), min(values.values())
+    print(f"{agree} of {len(values)} results agree with those in {against}, smallest p = {smallest:.2g}")
     for path, p in differing.items():
         print(f"  {path}: p = {p:.2g}")
     sys.exit(1 if differing else 0)

@@ -1,6 +1,6 @@
-"""Packs code, configuration, data, figures and the runs that made them into a Workflow Run RO-Crate.
+"""Packs code, configuration, data, figures and their runs into a Workflow Run RO-Crate.
 
-Equal inputs give equal bytes: no time of day, host, user or folder is named.
+Equal inputs give equal bytes: the crate has no time of day, host, user or folder.
 """
 
 import shlex
@@ -34,13 +34,11 @@ TYPES |= {".pdf": "application/pdf", ".png": "image/png", ".svg": "image/svg+xml
 
 
 def new_crate(quality: str) -> ROCrate:
-    """Without files; name, authors, version and licence are those of CITATION.cff and LICENSE."""
+    """Crate without files, with the metadata of CITATION.cff and LICENSE."""
     crate, cited, licence = ROCrate(version="1.1"), citation(ROOT), (ROOT / "LICENSE").read_text()
     crate.metadata.extra_terms |= {"sha256": "https://w3id.org/ro/terms/workflow-run#sha256"}
     crate.name = cited["title"]
-    crate.description = (
-        f"Code, configuration, data and figures at quality {quality}, and the runs that made them"
-    )
+    crate.description = f"Code, configuration, data, figures and their runs at quality {quality}"
     crate.datePublished = date.fromisoformat(str(cited["date-released"]))
     text = {"@type": "CreativeWork", "name": licence.partition("\n")[0], "description": licence}
     crate.license = add(crate, f"https://spdx.org/licenses/{cited['license']}", text)
@@ -60,7 +58,7 @@ def new_crate(quality: str) -> ROCrate:
 
 
 def pack(products: Products, panels: list[str]) -> ROCrate:
-    """The panels, the results that they show, and all sources."""
+    """Crate of the panels, the results that they plot, and all sources."""
     quality, plan, crate = products.quality, products.plan, new_crate(products.quality)
     shown = {one.name: one for name in panels for one in with_used(plan, name)}
     scripts = {name: f"workflow/figures/{plan[name].script}.py" for name in panels}
@@ -82,9 +80,8 @@ def pack(products: Products, panels: list[str]) -> ROCrate:
 
     settings = ["workflow/config/paper.yaml", f"workflow/config/quality/{quality.partition('_')[0]}.yaml"]
     command = f"make figures QUALITY={quality}"
-    actions = [
-        action("workflow", files["Snakefile"], command, [*settings, PACKAGES], sorted({*data, *figures}))
-    ]
+    inputs = [*settings, PACKAGES]
+    actions = [action("workflow", files["Snakefile"], command, inputs, sorted({*data, *figures}))]
     for panel in shown.values():
         for run in panel.runs:
             properties = {"@type": "SoftwareApplication", "name": run.program}
@@ -94,10 +91,9 @@ def pack(products: Products, panels: list[str]) -> ROCrate:
             output = data_path(quality, panel.name, run.name)
             actions.append(action(f"job/{panel.name}/{run.name}", tool, command, settings, [output]))
     for name, script in scripts.items():
-        inputs = read_panel(ROOT / drawings_of(quality, name)[-1])["parents"].inputs()
-        actions.append(
-            action(f"job/{name}", files[script], f"Renders {name}", inputs, drawings_of(quality, name))
-        )
+        products_of_panel = drawings_of(quality, name)
+        parents = read_panel(ROOT / products_of_panel[-1])["parents"].inputs()
+        actions.append(action(f"job/{name}", files[script], f"Renders {name}", parents, products_of_panel))
     crate.root_dataset["mentions"] = actions
     return crate
 
@@ -120,37 +116,30 @@ def add_file(crate: ROCrate, path: str, is_script: bool) -> Entity:
 
 
 def compact(values: list[Entity]) -> Entity | list[Entity]:
-    """RO-Crate wants no list where there is one value."""
+    """A single value instead of a list of one, as RO-Crate requires."""
     return values[0] if len(values) == 1 else values
 
 
 def project_files() -> list[str]:
-    """What git tracks; without a repository of the project, every file that is neither a product nor hidden."""
+    """Files that git tracks; without a repository, all files that are neither products nor hidden."""
     done = subprocess.run(["git", "-C", ROOT, "ls-files", "-z"], capture_output=True, text=True, check=False)
     tracked = [path for path in done.stdout.split("\0") if path and (ROOT / path).is_file()]
+    if "Snakefile" in tracked:
+        return tracked
     paths = [str(path.relative_to(ROOT)) for path in sorted(ROOT.rglob("*")) if path.is_file()]
-    return (
-        tracked
-        if "Snakefile" in tracked
-        else [
-            path
-            for path in paths
-            if not path.startswith((".", "build/", "data/", "figures/")) and "__pycache__" not in path
-        ]
-    )
+    products = (".", "build/", "data/", "figures/")
+    return [path for path in paths if not path.startswith(products) and "__pycache__" not in path]
 
 
 def write(crate: ROCrate, folder: Path) -> Path:
-    """The folder and the zip archive beside it, each written under another name and renamed."""
-    unfinished, archive = (
-        folder.with_name(f"{folder.name}.tmp"),
-        folder.with_name(f"lorentz-gas-{folder.name}.zip"),
-    )
+    """Writes the folder and a zip archive of it, both atomically. Returns the path of the archive."""
+    unfinished = folder.with_name(f"{folder.name}.tmp")
+    archive = folder.with_name(f"lorentz-gas-{folder.name}.zip")
     shutil.rmtree(unfinished, ignore_errors=True)
     crate.write(unfinished)
     with ZipFile(archive.with_suffix(".tmp"), "w") as content:
         for path in sorted(path for path in unfinished.rglob("*") if path.is_file()):
-            entry = ZipInfo(str(path.relative_to(unfinished)))  # its time is the same for every file
+            entry = ZipInfo(str(path.relative_to(unfinished)))  # has a constant time
             entry.external_attr = 0o644 << 16
             content.writestr(entry, path.read_bytes(), ZIP_DEFLATED)
     shutil.rmtree(folder, ignore_errors=True)

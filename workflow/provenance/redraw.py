@@ -1,4 +1,4 @@
-"""Renders a panel once more, elsewhere, and compares bytes."""
+"""Renders a panel again in a temporary folder and compares bytes."""
 
 import os
 import subprocess
@@ -13,32 +13,33 @@ from workflow.provenance.checks import Fault, Products, other_package
 
 
 def redraw(products: Products, panel: str) -> Fault | None:
-    """The first file that gets other bytes than the one that is there."""
+    """Fault of the first file whose bytes differ; None if all are equal."""
     files = [path for path in drawings_of(products.quality, panel) if not path.endswith(".json")]
     drawn_with = read_panel(ROOT / files[0].replace(".pdf", ".json"))["parents"].python
     here = f"{sys.version_info.major}.{sys.version_info.minor}"
     if drawn_with != here:
-        return Fault(files[0], f"rendered by Python {drawn_with}, and this is {here}", broken=False)
+        return Fault(files[0], f"rendered by Python {drawn_with}, this is {here}", broken=False)
     if difference := other_package():
         return Fault(files[0], f"other packages: {difference}", broken=False)
     with tempfile.TemporaryDirectory() as folder:
         stem = Path(folder) / products.quality / panel
-        plan = products.plan
-        environment = dict(os.environ)
+        plan, environment = products.plan, dict(os.environ)
         clean(environment)
-        command = [sys.executable, "-P", "-m", f"workflow.figures.{plan[panel].script}", "--output"]
-        command += [
+        command = [
+            sys.executable,
+            "-P",
+            "-m",
+            f"workflow.figures.{plan[panel].script}",
+            "--output",
             str(stem),
-            "--configuration",
-            plan[panel].hash(),
-            "--data",
-            *data_of(plan, panel, products.quality),
         ]
+        command += ["--configuration", plan[panel].hash()]
+        command += ["--data", *data_of(plan, panel, products.quality)]
         done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
         if done.returncode:
             last = (done.stderr.strip().splitlines() or ["no message"])[-1]
             return Fault(files[0], f"cannot be rendered: {last}")
         for path in files:
             if file_hash(ROOT / path) != file_hash(stem.parent / Path(path).name):
-                return Fault(path, "rendered from its parents it gets other bytes")
+                return Fault(path, "rendering it again from its parents gives other bytes")
     return None

@@ -1,4 +1,4 @@
-"""Prints for every panel whether it is fresh, stale (why) or missing, its largest error, and the CPU seconds of its runs."""
+"""Prints the state of every panel (fresh, stale with the reason, or missing), its largest error and its CPU seconds."""
 
 import sys
 
@@ -9,7 +9,7 @@ from rich.table import Table
 from workflow.cluster.cost import recorded_seconds
 from workflow.provenance.checks import command, worst_error
 
-WIDE = 150  # columns, where the output is no terminal
+WIDE = 150  # columns if the output is not a terminal
 
 
 def main() -> None:

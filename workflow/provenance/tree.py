@@ -1,7 +1,6 @@
-"""Prints where a file comes from: its parents, down to sources, parameters and seeds, also of a copy anywhere.
+"""Prints the provenance of a product or a copy of it: its parents down to sources, parameters and seeds.
 
-Exit status: 0 if the record of a panel here names the file by its hash, or a result has the values that were written; 1 if not;
-2 for bad input.
+Exit status: 0 if the hash of the file is in the record of a panel here, or if a result is unmodified; 1 if not; 2 for bad input.
 """
 
 import argparse
@@ -22,15 +21,13 @@ from workflow.lib.figure_metadata import (
 from workflow.lib.load import FormatError, load_statements
 from workflow.provenance.build_id import sources_of_program
 
-SHORT = 16  # digits of a hash that are shown
-FEW = 3  # entries of a list that are shown without --full
+SHORT = 16  # printed digits of a hash
+FEW = 3  # printed entries of a list without --full
 
 
 def state(path: str, digest: str) -> str:
-    here = ROOT / path
-    compared = (
-        "is not here" if not here.is_file() else "same here" if file_hash(here) == digest else "other here"
-    )
+    here = file_hash(ROOT / path) if (ROOT / path).is_file() else None
+    compared = {None: "missing here", digest: "same here"}.get(here, "other here")
     return f"{path}  {digest[:SHORT]}  {compared}"
 
 
@@ -63,7 +60,7 @@ def parent_lines(parents: Parents, few: int | None) -> Iterator[str]:
 
 
 def records() -> Iterator[tuple[str, str, dict[str, Any]]]:
-    """Hash, path and panel's record of every figure file here."""
+    """Hash, path and record of the panel of every figure file here."""
     for path in sorted((ROOT / "figures").glob("*/*.json")):
         try:
             record = read_panel(path)
@@ -74,22 +71,22 @@ def records() -> Iterator[tuple[str, str, dict[str, Any]]]:
 
 
 def explain(path: Path, few: int | None) -> tuple[bool, list[str]]:
-    """Whether the file is known, and the lines of its parents. Raises FormatError, MetadataError, OSError."""
+    """Whether the file is an unmodified product, and the lines to print. Raises FormatError, MetadataError, OSError."""
     digest = file_hash(path)
     if path.suffix == ".h5":
         provenance, parameters, whole = load_statements(path)
-        first = f"{path.name} {'has' if whole else 'does not have'} the values that were written"
+        first = f"{path.name} is {'unmodified' if whole else 'edited or damaged'}"
         return whole, [first, *result_lines(provenance, parameters)]
     known = [(product, record) for one, product, record in records() if one == digest]
     for product, record in known[:1]:
         clean = {True: "clean", False: "with uncommitted changes", None: "no repository"}[record["clean"]]
         first = f"{path.name} is {product}, rendered at commit {str(record['commit'])[:SHORT]} ({clean})"
         return True, [first, *parent_lines(record["parents"], few)]
-    first = f"{path.name} is not a file of any panel here: edited, or rendered elsewhere. It states these parents:"
+    first = f"{path.name} belongs to no panel here: edited, or rendered elsewhere. Its parents:"
     stated = embedded(path)
     if path.suffix != ".csv":
         return False, [first, *parent_lines(Parents.parse(stated), few)]
-    for _, product, record in records():  # a CSV has the digest alone
+    for _, product, record in records():  # a CSV has only the digest
         if record["parents"].digest() == stated:
             return False, [f"{first} those of {product}", *parent_lines(record["parents"], few)]
     return False, [f"{first} sha256 {stated}, of no panel here"]

@@ -1,6 +1,6 @@
-"""Reruns a sample of the results with programs that are compiled afresh, or all of a panel and its figure, and compares bytes.
+"""Reruns a sample of the results, or a panel with its figure, with freshly compiled programs and compares bytes.
 
-Exit status: 0 if all get the same bytes, 1 if one does not, 2 for bad input, 3 if there is nothing to compare with.
+Exit status: 0 if all bytes are equal, 1 if not, 2 for bad input, 3 without results.
 """
 
 import os
@@ -18,11 +18,11 @@ from workflow.provenance.checks import command
 from workflow.provenance.redraw import redraw
 
 FRESH = ROOT / "build/verify"
-WRITTEN = (0, 4)  # exit statuses of programs that wrote their result
+WRITTEN = (0, 4)  # exit statuses with a result
 
 
 def compile_afresh() -> Path:
-    """Folder of the executables, compiled without the compiler's cache."""
+    """Compiles without a compiler cache. Returns the folder of the executables."""
     shutil.rmtree(FRESH, ignore_errors=True)
     settings = os.environ | {"BUILD": str(FRESH), "CCACHE_DISABLE": "1"}
     subprocess.run(["bash", "workflow/environment/build.sh", "all"], cwd=ROOT, env=settings, check=True)
@@ -32,8 +32,8 @@ def compile_afresh() -> Path:
 def main() -> None:
     options, products, panels = command(
         __doc__,
-        sample={"type": float, "required": True, "help": "fraction of the results, without a panel"},
-        programs={"type": Path, "help": "executables; compiled afresh where none are given"},
+        sample={"type": float, "required": True, "help": "fraction of the results if no panel is given"},
+        programs={"type": Path, "help": "folder of executables; by default they are compiled"},
     )
     quality = options.quality
     runs = [(panel.name, run) for panel in panels for run in panel.runs]
@@ -52,7 +52,7 @@ def main() -> None:
             rerun = [str(ROOT / programs / run.program), *arguments(run.options), "--output", str(again)]
             done = subprocess.run(rerun, capture_output=True, text=True, check=False)
             same = done.returncode in WRITTEN and file_hash(again) == file_hash(ROOT / path)
-            print(f"{number} of {len(runs)}: {path}: {'same bytes' if same else 'other bytes'}", flush=True)
+            print(f"{number} of {len(runs)}: {path}: {'equal bytes' if same else 'other bytes'}", flush=True)
             differing += [] if same else [path]
     if options.panel and (fault := redraw(products, options.panel)):
         print(fault)

@@ -1,28 +1,28 @@
-"""The picture of one claim in the summary: the acceptance band, and the numbers with their intervals."""
+"""The picture of one claim: the acceptance band, and the numbers with their intervals."""
 
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from workflow.claims.verdict import Outcome, Reading
+from workflow.claims.verdict import Reading
 
-WIDTH, MARGIN = 200, 8  # of the picture, in its own units
-MOST = 24  # numbers drawn; of more, those nearest to an edge or beyond it
+WIDTH = 200  # of the picture, in its own units
+BORDER = 0.15  # around the values, in units of their range
+MOST = 24  # numbers in a picture; of more, those closest to an edge of the band or beyond it
 
 
 class Point(NamedTuple):
-    """A number with the ends of its interval; outside: the whole interval lies out of the band."""
+    """A number with the ends of its interval. verdict: on this number."""
 
     low: float
     value: float
     high: float
-    outside: bool
+    verdict: str
 
 
 @dataclass(frozen=True)
 class Strip:
-    """Places along the picture, rounded to a tenth."""
+    """Positions in the picture, rounded to a tenth."""
 
     band: tuple[float, float]
     points: list[Point]
@@ -31,42 +31,29 @@ class Strip:
 def strip_of(reading: Reading) -> Strip | None:
     """None where no number has an error."""
     intervals = [(*one.interval(reading.share), one.value) for one in reading.numbers]
-    known = sorted(
-        (one for one in intervals if all(map(math.isfinite, one))), key=lambda one: reach(one, reading)
-    )
-    if not known:
+    finite = [one for one in intervals if all(map(math.isfinite, one))]
+    if not finite:
         return None
-    shown = known[-MOST:]
+    shown = sorted(finite, key=lambda one: max(reading.band.low - one[0], one[1] - reading.band.high))[-MOST:]
     edges = [edge for edge in (reading.band.low, reading.band.high) if math.isfinite(edge)]
-    seen = [*edges, *(one[2] for one in shown), *(end for one in shown for end in clipped(one, edges))]
+    seen = [*edges, *(value for *_, value in shown)]
     low, high = min(seen), max(seen)
-    spread = (high - low) or abs(high) or 1.0
+    spread = (high - low) or 1.0
 
-    def place(value: float) -> float:
-        """What lies outside ends just beyond the frame of the numbers."""
-        within = min(max((value - low) / spread, -0.04), 1.04)
-        return round(MARGIN + within * (WIDTH - 2 * MARGIN), 1)
+    def position(value: float) -> float:
+        """The frame contains the values and the edges; longer intervals end at its border."""
+        within = min(max((value - low) / spread, -BORDER), 1 + BORDER)
+        return round(WIDTH * (within + BORDER) / (1 + 2 * BORDER), 1)
 
     return Strip(
-        (place(reading.band.low), place(reading.band.high)),
+        (position(reading.band.low), position(reading.band.high)),
         [
             Point(
-                place(first),
-                place(value),
-                place(last),
-                reading.band.outcome((first, last)) is Outcome.CONTRADICTED,
+                position(first),
+                position(value),
+                position(last),
+                reading.band.outcome((first, last)).name.lower(),
             )
             for first, last, value in shown
         ],
     )
-
-
-def reach(interval: tuple[float, float, float], reading: Reading) -> float:
-    return max(reading.band.low - interval[0], interval[1] - reading.band.high)
-
-
-def clipped(interval: tuple[float, float, float], edges: Iterable[float]) -> tuple[float, float]:
-    """Ends of an interval, but no farther from its value than thrice the distance to the farthest edge: wide ones run out of the picture."""
-    low, high, value = interval
-    most = 3 * max((abs(value - edge) for edge in edges), default=0) or math.inf
-    return max(low, value - most), min(high, value + most)

@@ -1,6 +1,6 @@
-"""Runs as jobs of a cluster: their replicas are measured in parts, and joined on the login node to the result of one execution.
+"""Runs as jobs of a cluster: parts of their replicas, joined on the login node to the result of a single execution.
 
-The inputs of a run are no part of its identity (profiles): a result that was joined is fresh on one machine too.
+Inputs of a run are not part of its identity (rerun-triggers): a joined result is fresh on one machine, too.
 """
 
 import hashlib

@@ -1,7 +1,7 @@
 """One run of a program: data/<quality>/<panel>/<run>.h5.
 
-Exit status 4: stopped before the target error; the result is marked, and the figure shows it. An interrupted program has left a
-checkpoint, with which --resume goes on.
+Exit status 4: stopped before the target error; the result and the figure are marked. --resume continues from the checkpoint of an
+interrupted program.
 """
 
 

@@ -1,4 +1,4 @@
-"""Error against CPU seconds of every program, and the prediction of what a target error costs."""
+"""Error against CPU seconds of every program, and the predicted cost of a target error."""
 
 import re
 
@@ -12,10 +12,10 @@ from workflow.tradeoff.measure import Done, execute, planned, shortened
 
 REPLICAS = (10, 32, 110, 360, 1300)
 TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)  # of the kinetic equation, which has no replicas
-FIRST_LOOK = 64  # replicas when a program first compares its error with the target
+FIRST_LOOK = 64  # replicas at the first comparison of error and target
 REDUCTION = 4  # of the error at the first look, to the target
 PREDICTION = re.compile(r"the run ends after (\d+) to (\d+)")  # replicas, in the log of a program
-SETTINGS = {  # a cheap run of every program, and the fraction of its times that is simulated
+SETTINGS = {  # a cheap run of every program, and the simulated fraction of its times
     "persistence": ("fig05", "paper_sigma=0.5", 0.5),
     "waiting_time": ("fig06", "all_sigma=0.5", 0.5),
     "displacement": ("ext07", "spreading_relaxation-time=1", 0.5),
@@ -40,18 +40,18 @@ def execute_briefly(program: str, **changes: object) -> Done:
 
 
 def amplitude(seconds: np.ndarray, errors: np.ndarray, replicas: np.ndarray) -> float:
-    """Error after one second by the law 1/sqrt(t): mean of ln(error sqrt(t)), weighted by its precision."""
+    """Error after one second, from the precision-weighted mean of ln(error sqrt(t))."""
     return float(np.exp(np.average(np.log(errors * np.sqrt(seconds)), weights=replicas - 1)))
 
 
 def uncertainty(errors: np.ndarray, replicas: np.ndarray) -> np.ndarray:
-    """Standard deviation of a standard error that was estimated from a number of replicas."""
+    """Standard deviation of a standard error that is estimated from replicas."""
     deviation: np.ndarray = errors / np.sqrt(2 * (replicas - 1))
     return deviation
 
 
 def errors(program: str) -> pd.DataFrame:
-    """Relative errors of the target quantity: a row per number of replicas, or per target."""
+    """Relative errors of the target quantity, per number of replicas or per target error."""
     option, values = ("target-error", TARGETS) if program == "boltzmann" else ("replicas", REPLICAS)
     rows = []
     for value in values:
@@ -59,7 +59,7 @@ def errors(program: str) -> pd.DataFrame:
         provenance = done.result.provenance
         row = {"program": program, "quantity": provenance["target_quantity"], option: value}
         rows.append(row | {"cpu_seconds": done.seconds, "error": provenance["achieved_error"]})
-    return pd.DataFrame(rows).dropna()  # few replicas may not suffice for an error
+    return pd.DataFrame(rows).dropna()  # too few replicas for an error
 
 
 def measure() -> pd.DataFrame:
@@ -82,7 +82,7 @@ def draw(table: pd.DataFrame) -> Figure:
 
 
 def predicted(program: str) -> dict[str, object]:
-    """Replicas and CPU seconds as predicted at the first look at the error, and those needed."""
+    """Replicas and CPU seconds predicted at the first comparison, and those needed."""
     first = execute_briefly(program, replicas=FIRST_LOOK)
     target = first.result.provenance["achieved_error"] / REDUCTION
     whole = execute_briefly(program, replicas=16, target_error=target)

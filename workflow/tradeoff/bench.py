@@ -1,6 +1,6 @@
 """Nanoseconds per event: the event loop against the reference simulator, and whole programs against the bare loop.
 
-Floor: the same collisions and flights without a queue. Bare loop: the event loop without an observer.
+Floor: collisions and flights without a queue. Bare loop: the event loop without an observer.
 """
 
 import json
@@ -19,13 +19,13 @@ RUNS = ("ext07/energy", "fig05/paper_sigma=0.5", "fig07/all", "fig06/all_sigma=0
         "fig02_upper/deterministic", "fig02_upper/rare")  # fmt: skip
 OPEN = ("conductivity", "momentum_flux", "particle_count", "steady_profile")
 OF_OBSERVERS = ("momentum-bins", "momentum-max", "decades", "fit-decades", "tail-from", "times")
-SECONDS = 1.5  # of a run, so that the start of a process does not count
+SECONDS = 1.5  # per run, long against the start of a process
 REPETITIONS = 3
 CHAIN = r"^(?P<chain>closed|open)_(?P<loop>\w+)/(?P<size>.*)/gamma:(?P<gamma>\d)"  # of a benchmark's name
 
 
 def event_loops(benchmarks: list[dict[str, Any]]) -> pd.DataFrame:
-    """A row per chain from the medians of Google Benchmark."""
+    """Medians of Google Benchmark, one row per chain."""
     rows = pd.DataFrame(benchmarks).query("aggregate_name == 'median'")
     rows = rows.join(rows.run_name.str.extract(CHAIN)).dropna(subset="chain").replace({"gamma": {"0": "N"}})
     rows["ns"] = 1e9 / rows.items_per_second
@@ -38,7 +38,7 @@ def event_loops(benchmarks: list[dict[str, Any]]) -> pd.DataFrame:
 
 
 def bare(run: Run) -> Run:
-    """The same chain for the same time without an observer."""
+    """The run without its observer."""
     options = {key: value for key, value in run.options.items() if key not in OF_OBSERVERS}
     if "times" in run.options:
         options |= {"relaxation-time": 0, "observation-time": run.options["times"].split(",")[-1]}
@@ -52,9 +52,9 @@ def cost(run: Run, replicas: int) -> tuple[float, float]:
 
 
 def whole_program(name: str) -> dict[str, object]:
-    """Medians of runs that alternate with those of the bare loop."""
+    """Median times per event of a program and of the bare loop, in alternating runs."""
     run = planned(*name.split("/"))
-    least = 2  # replicas for which there are errors
+    least = 2  # replicas needed for an error
     replicas = max(least, round(least * SECONDS / cost(run, least)[0]))
     pairs = [[cost(each, replicas)[1] for each in (run, bare(run))] for _ in range(REPETITIONS)]
     program, loop = np.median(pairs, axis=0)

@@ -1,4 +1,4 @@
-"""Bias of settings: the results at several values of a setting, relative to those at the most careful value."""
+"""Bias of settings: results at several values of a setting, relative to the most careful value."""
 
 from collections.abc import Iterator, Sequence
 
@@ -14,7 +14,7 @@ UNITS = {"value": "column value_units", "result": "column units", "result_error"
 def varied(
     panel: str, name: str, quantity: str, setting: str, values: Sequence[float], **changes: object
 ) -> Iterator[dict[str, object]]:
-    """One run per value of an option, the most careful last. Of an array the first number is taken."""
+    """One run per value of an option, the most careful last, with the first number of an array."""
     head = {"panel": panel, "start": changes.get("start", ""), "quantity": quantity, "setting": setting}
     for value in values:
         found = execute(planned(panel, name), **changes, **{setting: value}).result[quantity]
@@ -24,7 +24,7 @@ def varied(
 
 
 def with_bias(table: pd.DataFrame) -> pd.DataFrame:
-    """Difference relative to the last row of a setting and quantity, the most careful; errors combined as if independent."""
+    """Adds the difference relative to the last, most careful value; errors are combined as independent."""
     of = ["panel", "start", "setting", "quantity"]
     last = table.groupby(of)[["result", "result_error"]].transform("last")
     both = np.hypot(table.result_error, last.result_error)

@@ -1,6 +1,6 @@
-"""What each method saves: the ratio of error^2 x CPU seconds without it and with it.
+"""Gain of each method: the ratio of error^2 x CPU seconds without it and with it.
 
-Without the engine is the reference simulator; without control variates is the other estimate of the same run.
+The engine is compared with the reference simulator, control variates with the plain estimate of the same run.
 """
 
 from collections.abc import Iterator
@@ -13,7 +13,7 @@ from workflow.lib.configuration import at_size
 from workflow.lib.plan import Run
 from workflow.tradeoff.measure import Done, execute, planned, simulate
 
-WINDOW = 1 / 8  # of the observation time of the panel: the reference simulator is slow
+WINDOW = 1 / 8  # fraction of the observation time, as the reference simulator is slow
 Row = dict[str, object]
 
 
@@ -30,14 +30,14 @@ def stored(done: Done, name: str, index: Any = ()) -> Estimate:
 
 
 def averaged(sample: np.ndarray, seconds: float) -> Estimate:
-    """Mean over replicas, the first dimension."""
+    """Mean over replicas (the first dimension)."""
     error = sample.std(axis=0, ddof=1) / np.sqrt(len(sample))
     return Estimate(sample.mean(axis=0), error, len(sample), seconds)
 
 
 def compared(method: str, quantity: str, plain: Estimate, better: Estimate) -> Row:
-    """Factor: median over the values, with its error from the numbers of replicas. z: largest difference in units of
-    the combined error."""
+    """factor: median gain over the values, with its error from the numbers of replicas. z: largest difference in combined
+    errors."""
     known = (plain.error > 0) & (better.error > 0)
     factor = np.median((plain.error[known] / better.error[known]) ** 2) * plain.seconds / better.seconds
     relative = np.sqrt(2 / (plain.replicas - 1) + 2 / (better.replicas - 1))
@@ -47,7 +47,7 @@ def compared(method: str, quantity: str, plain: Estimate, better: Estimate) -> R
 
 
 def conductivity(run: Run, cells: int, replicas: tuple[int, int]) -> Iterator[Row]:
-    """Reference simulator and program, each with its number of replicas, from an empty start."""
+    """Gains for the conductivity, from an empty start. replicas: of the reference simulator and of the program."""
     options, label = run.options, f"N = {cells}, gamma = {run.options['gamma']}"
     relaxation = at_size(options["relaxation-time"], cells)
     observation = WINDOW * at_size(options["observation-time"], cells)
@@ -68,7 +68,7 @@ def conductivity(run: Run, cells: int, replicas: tuple[int, int]) -> Iterator[Ro
 
 
 def spreading(panel: str, name: str, label: str) -> Iterator[Row]:
-    """<x^2> at the last time from one tagged particle, from all, and with the total momentum as control variate."""
+    """Gains for <x^2> at the last time: all particles against one, and the total momentum as control variate."""
     done = execute(planned(panel, name), replicas=50)
     every, controlled = stored(done, "variance_plain", -1), stored(done, "variance", -1)
     spread = np.sqrt(done.result["fourth_moment"].mean[-1] - controlled.value**2)
@@ -77,7 +77,7 @@ def spreading(panel: str, name: str, label: str) -> Iterator[Row]:
 
 
 def pulse(run: Run, replicas: tuple[int, int]) -> Iterator[Row]:
-    """Energies at the last time, in the cells that the pulse has reached; gamma = N."""
+    """Gains for the energies at the last time in the cells that the pulse has reached; gamma = N."""
     options, times = run.options, run.options["times"].split(",")
     names = ("cells", "particles-per-cell", "sigma", "cells", "energy", "pulse-energy", "pairs-per-replica")
     done = execute(run, replicas=replicas[1])

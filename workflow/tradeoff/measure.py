@@ -1,4 +1,4 @@
-"""Executions of programs and of reference simulators: what they find, and their CPU time."""
+"""Executes programs and reference simulators and measures their CPU time."""
 
 import re
 import resource
@@ -15,8 +15,8 @@ from workflow.lib.load import Result, load
 from workflow.lib.plan import Run, load_plan
 
 PROGRAMS = Path(__file__).parents[2] / "build/bin"
-QUALITY = "smoke"  # has the fewest pairs per replica and the largest target errors
-NUMBER = re.compile(r"(?<!\^)\d+\.?\d*(e[+-]?\d+)?")  # no exponent of N
+QUALITY = "smoke"  # fewest pairs per replica and largest target errors
+NUMBER = re.compile(r"(?<!\^)\d+\.?\d*(e[+-]?\d+)?")  # not an exponent of N
 
 
 @dataclass(frozen=True)
@@ -32,12 +32,12 @@ def planned(panel: str, run: str) -> Run:
 
 
 def shortened(times: float | str, fraction: float) -> str:
-    """A fraction of a time, of each of a list, or of every term of a polynomial in N."""
+    """Scales a time, each time of a list, or every term of a polynomial in N."""
     return NUMBER.sub(lambda number: f"{fraction * float(number[0]):.6g}", str(times))
 
 
 def call(program: str, **options: object) -> Done:
-    """Underscores in names of options stand for dashes; of equal names the last counts. Raises RuntimeError."""
+    """Executes a program; underscores in names of options become dashes. Raises RuntimeError."""
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder) / "out.h5"
         named = {name.replace("_", "-"): value for name, value in options.items()} | {"output": output}
@@ -46,13 +46,13 @@ def call(program: str, **options: object) -> Done:
 
 
 def execute(run: Run, **changes: object) -> Done:
-    """A planned run with changed options, on one thread."""
+    """Executes a planned run with changed options on one thread."""
     threads = {"threads": 1} if run.replicated else {}
     return call(run.program, **run.options | {"progress": "log"} | threads | changes)
 
 
 def simulate(simulator: str, *words: object) -> tuple[np.ndarray, float]:
-    """Lines and columns printed by a simulator of tests/cpp/reference, and its CPU seconds. Raises RuntimeError."""
+    """Table printed by a simulator of tests/cpp/reference, and its CPU seconds. Raises RuntimeError."""
     done, seconds = _timed(f"reference_{simulator}", [str(word) for word in words])
     return np.array([line.split() for line in done.stdout.splitlines()]), seconds
 

@@ -1,4 +1,4 @@
-"""Rounding: drift of the conserved quantities with the number of events, and the effect of the floating-point type."""
+"""Rounding: drift of conserved quantities with the number of events, and effect of the floating-point type."""
 
 from collections.abc import Iterator
 
@@ -18,7 +18,7 @@ LOOKS = dict(zip(SIGMAS, zip("osv^", style.SEQUENCE[:4], strict=True), strict=Tr
 def drifts() -> Iterator[tuple[object, ...]]:
     """Closed chains of 10^5 to 10^LONGEST events. The mean of R magnitudes has a relative error of 0.75/sqrt(R)."""
     for sigma in SIGMAS:
-        rate = 4000.0  # events per unit time; it falls as energy goes over to the scatterers
+        rate = 4000.0  # events per unit time; falls as energy flows to the scatterers
         for power in np.arange(5, LONGEST + 0.25, 0.5):
             replicas, time = int(np.clip(10 ** (8 - power), 2, 16)), 10**power / rate
             result = call("persistence", sigma=sigma, relaxation_time=0, observation_time=time,
@@ -30,7 +30,7 @@ def drifts() -> Iterator[tuple[object, ...]]:
 
 
 def measure() -> pd.DataFrame:
-    """With the power of the growth of a drift with the number of events, which is 1/2 for a random walk."""
+    """Drifts with the exponent of their growth with the number of events: 1/2 for a random walk."""
     table = pd.DataFrame(drifts(), columns=["quantity", "sigma", "events", "drift", "error"])
     curves = np.log(table.set_index(["quantity", "sigma"])[["events", "drift"]]).groupby(level=[0, 1])
     powers = curves.apply(lambda rows: np.polyfit(rows.events, rows.drift, 1)[0])

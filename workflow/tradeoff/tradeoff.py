@@ -1,6 +1,6 @@
-"""Accuracy against time, and rounding: measures, prints and plots every product of figures/tradeoff.
+"""Measures, prints and plots accuracy against time, and rounding: all products of figures/tradeoff.
 
-Most products hold measured times, which differ from run to run; so `make figures` does not make them.
+Measured times differ between executions; `make figures` therefore excludes these products.
 """
 
 import argparse

@@ -1,7 +1,7 @@
-"""Whether a result file follows docs/format.md.
+"""Validator of result files against docs/format.md.
 
-The file's structure is described as JSON and held against docs/format.schema.json; what a schema cannot say, how
-shapes, axes and numbers fit together, is checked here.
+The structure of a file, as JSON, has to satisfy docs/format.schema.json. The consistency of shapes, axes and numbers, which a schema
+cannot express, is checked here.
 """
 
 import json
@@ -13,6 +13,7 @@ import h5py
 import numpy as np
 from jsonschema import Draft202012Validator, FormatChecker
 
+from workflow.config.describe import signature
 from workflow.lib.load import NOT_REACHED
 from workflow.lib.units import UnitsError, parse
 
@@ -21,7 +22,7 @@ SCHEMA = Path(__file__).parents[2] / "docs/format.schema.json"
 MEASURED = {"standard_error", "count"}
 COMPUTED = {"discretisation_error"}
 NOT_AXES = {"mean"} | MEASURED | COMPUTED
-# Attributes by which the HDF5 library ties dimension scales to dimensions.
+# Attributes in which HDF5 stores dimension scales.
 OF_SCALES = {"CLASS", "NAME", "REFERENCE_LIST", "DIMENSION_LIST", "DIMENSION_LABELS"}
 
 
@@ -31,7 +32,7 @@ def _are_units(text: object) -> bool:
 
 
 def faults(path: Path) -> list[str]:
-    """What is wrong with a result file, each with its place in the file; empty if nothing is."""
+    """Faults of a result file, each with its path in the file."""
     try:
         with h5py.File(path) as file:
             described = describe(file) | _summary(file)
@@ -55,13 +56,8 @@ def describe(node: h5py.Group | h5py.Dataset) -> dict[str, Any]:
     return described | ({"value": _plain(node[()])} if node.shape == () else {})
 
 
-def signature(units: str, axes: dict[str, str]) -> str:
-    """Units and axes of a quantity in short: `1/(time momentum) [bond in 1, momentum in momentum]`."""
-    return f"{units} [{', '.join(f'{name} in {one}' for name, one in axes.items())}]" if axes else units
-
-
 def _summary(file: h5py.File) -> dict[str, Any]:
-    """What the schema says of a program's quantities refers to; without what is incomplete."""
+    """Program and signatures of the complete quantities, to which the schema of the program refers."""
     program = _text(file.get("provenance", file), "program")
     means = {name: group["mean"] for name, group in file.get("results", {}).items() if "mean" in group}
     return {"program": program, "quantities": {name: _signature_of(mean) for name, mean in means.items()}}
@@ -89,7 +85,7 @@ def _type_name(dtype: np.dtype) -> str:
 
 
 def _plain(value: Any) -> Any:
-    """JSON knows no nan and no inf; they become text, which float() reads."""
+    """JSON has no nan and no inf; they become text that float() reads."""
     plain = value.decode() if isinstance(value, bytes) else value.item()
     return str(plain) if isinstance(plain, float) and not math.isfinite(plain) else plain
 
@@ -119,7 +115,7 @@ def _inconsistencies(described: dict[str, Any]) -> list[str]:
     return found + [f"/provenance: {fault}" for fault in _of_convergence(provenance, quantities)]
 
 
-def _of_quantity(parts: dict[str, dict[str, Any]], place: str) -> list[str]:
+def _of_quantity(parts: dict[str, dict[str, Any]], path: str) -> list[str]:
     found = []
     if parts.keys() & (MEASURED | COMPUTED) not in (MEASURED, COMPUTED):
         found.append("it needs either standard_error and count, or discretisation_error")
@@ -130,7 +126,7 @@ def _of_quantity(parts: dict[str, dict[str, Any]], place: str) -> list[str]:
         units = [parts[one]["attributes"]["units"]["value"] for one in (name, "mean")]
         if name != "count" and units[0] != units[1]:
             found.append(f"{name} is in {units[0]}, mean is in {units[1]}")
-    axes = {f"{place}/{name}": part["shape"] for name, part in parts.items() if name not in NOT_AXES}
+    axes = {f"{path}/{name}": part["shape"] for name, part in parts.items() if name not in NOT_AXES}
     scales = parts["mean"]["scales"]
     if sorted(scales) != sorted([axis] for axis in axes):
         return [*found, f"the dimension scales of mean are {scales}, its axes are {[*axes]}"]
@@ -145,7 +141,7 @@ def _of_quantity(parts: dict[str, dict[str, Any]], place: str) -> list[str]:
 
 
 def _of_convergence(provenance: dict[str, Any], quantities: dict[str, dict[str, Any]]) -> list[str]:
-    """A run may have stopped for want of time with its target within reach: then `converged` promises nothing."""
+    """Consistency of `converged` with target and error; nothing is required of a run that stopped early."""
     state = provenance["converged"]
     if state == NOT_REACHED:
         return []

@@ -1,0 +1,85 @@
+"""Numbers quoted in questions.yaml and misprints.yaml by the name of their function; none decides a claim."""
+
+from workflow.claims.data import Data, number
+from workflow.claims.growth import BULK, exponent, halves, largest_sizes, sizes
+from workflow.claims.verdict import Number
+from workflow.lib.load import Result
+
+
+def kappa_of_small_chains(data: Data) -> Number:
+    return _kappa_of_half(data, 0)
+
+
+def kappa_of_large_chains(data: Data) -> Number:
+    return _kappa_of_half(data, -1)
+
+
+def _kappa_of_half(data: Data, half: int) -> Number:
+    runs = [one for one in sizes(data, "N") if one.parameters["cells"] >= BULK]
+    return exponent(halves(runs)[half], "d ln κ/d ln N, γ = N, spacing 1/N")[0]
+
+
+def heat_exponent(data: Data) -> Number:
+    """In the ring that was observed for the longest time."""
+    return _last_octave(data.of("ext13", random_direction=False))
+
+
+def heat_exponent_without_momentum(data: Data) -> Number:
+    return _last_octave(data.of("ext13", random_direction=True))
+
+
+def _last_octave(rings: list[Result]) -> Number:
+    longest = max(rings, key=lambda one: one["heat_variance"].axes["time"][-1])
+    middle = longest["local_exponent"].axes["middle"]
+    return number(longest, "local_exponent", -1, f"d ln⟨Q²⟩/d ln t at t = {middle[-1]:.0f}")
+
+
+def momentum_change(data: Data) -> Number:
+    """The largest over all mass ratios."""
+    runs = [one for one in data.of("fig07_inset") if one.parameters["sigma"]]
+    return max((number(one, "momentum_drift") for one in runs), key=lambda one: one.value)
+
+
+def alpha(data: Data) -> Number:
+    return number(data.of("fig07")[0], "alpha", label="α, σ = 1/2")
+
+
+def alpha_without_drift(data: Data) -> Number:
+    """Of the chain that relaxed longest."""
+    runs = data.of("ext01", sigma=0.5, zero_total_momentum=True, particles_per_cell=20)
+    relaxed = max(runs, key=lambda one: one.parameters["relaxation-time"])
+    return number(relaxed, "alpha", label="α at zero total momentum, σ = 1/2")
+
+
+def persistence_at_zero(data: Data) -> Number:
+    return _persistence(data, 0, "μ at σ = 0, where the integral as printed gives 1/4")
+
+
+def persistence_at_half(data: Data) -> Number:
+    return _persistence(data, 0.5, "μ at σ = 0.5")
+
+
+def _persistence(data: Data, sigma: float, label: str) -> Number:
+    return number(data.of("fig05", particles_per_cell=320, sigma=sigma)[0], "mu", label=label)
+
+
+def injected_energy(data: Data) -> Number:
+    """The right half at the left end is what the bath injects."""
+    result = data.of("ext10", "momentum_flux", gamma="N")[0]
+    label = "energy over νT that crosses the left opening inwards"
+    return number(result, "square", (0, 1), label).over(2 * result.parameters["temperature-left"])
+
+
+def printed_conductivity(data: Data) -> Number:
+    runs = largest_sizes(sizes(data, 1))
+    return exponent(runs, "exponent of κ as printed, γ = 1", lambda one: number(one, "kappa_printed"))[0]
+
+
+def peak_collapse(data: Data) -> Number:
+    result = next(one for one in data.of("fig09a") if one.parameters["scatterer-temperature"] == "particles")
+    return number(result, "peak_collapse", label="ξ of the collapse about the peak, γ = N")
+
+
+def particle_current(data: Data) -> Number:
+    result = sizes(data, "N")[-1]
+    return number(result, "particle_current", label=f"J_n at N = {result.parameters['cells']}, γ = N")

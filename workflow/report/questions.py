@@ -1,0 +1,62 @@
+"""The answer: seven questions, each answered by the sentence of questions.yaml that belongs to the verdict."""
+
+import string
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from workflow.claims.data import Data, MissingError
+from workflow.claims.judge import Judgement
+from workflow.claims.verdict import Band, Outcome, Reading, level_of_each
+from workflow.lib.configuration import ConfigurationError, read
+from workflow.report import numbers, words
+
+FILE = "questions.yaml"
+VERDICTS = [one.value for one in Outcome if one is not Outcome.IN_MEANING]  # of one reading
+
+
+def read_questions(folder: Path = Path(__file__).parent) -> list[dict[str, Any]]:
+    """Each with a sentence for every verdict. Raises ConfigurationError."""
+    content = read(folder, FILE).content
+    questions = [content["otherwise"] | question for question in content["questions"]]
+    for question in questions:
+        if missing := [verdict for verdict in VERDICTS if verdict not in question]:
+            raise ConfigurationError(
+                f"{FILE}: '{question['question']}' has no sentence for {', '.join(missing)}: add it"
+            )
+    return questions
+
+
+def answers(judgements: Sequence[Judgement], data: Data) -> list[dict[str, Any]]:
+    """question, answer, outcome, claim and panels of each."""
+    by_id = {one.claim["id"]: one for one in judgements}
+    level = level_of_each(len(judgements) + 1)
+    rows = []
+    for question in read_questions():
+        reading = (
+            _measured(question, data, level)
+            if "number" in question
+            else getattr(by_id[question["claim"]], question["reading"])
+        )
+        outcome = reading.outcome if reading else Outcome.NOT_TESTABLE
+        rows.append(
+            {**question, "outcome": outcome.value, "answer": _filled(question[outcome.value], reading, data)}
+        )
+    return rows
+
+
+def _measured(question: Mapping[str, Any], data: Data, level: float) -> Reading | None:
+    try:
+        return Reading(Band.of(question["band"]), (getattr(numbers, question["number"])(data),), level)
+    except MissingError:
+        return None
+
+
+def _filled(sentence: str, reading: Reading | None, data: Data) -> str:
+    values = {"quality": data.quality}
+    if reading:
+        values |= {"number": words.value(reading.worst), "label": reading.worst.label}
+    for _, name, _, _ in string.Formatter().parse(sentence):
+        if name and name not in values:
+            values[name] = words.or_reason(words.value, getattr(numbers, name), data)
+    return sentence.format_map(values)
