@@ -173,7 +173,8 @@ Group profiles(const Parameters& parameters, const Tallies& tallies) {
   group.quantity("peak_area", {tallies.time}, "momentum^2",
                  "Sum of C_g from half the distance of sound on, on one side",
                  at_every_time(tallies.momentum, times.size(), area));
-  group.quantity("centroid", {tallies.time}, "1", "Centre of mass of C_g over the same distances, in cells",
+  group.quantity("centroid", {tallies.time}, "1",
+                 "Centre of mass of C_g over the same distances, in cells; NaN if no cell is there",
                  centroids);
   group.quantity("sound_speed", {middle}, "1/time", "Cells per time by which it moves between two times",
                  speeds);

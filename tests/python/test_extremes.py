@@ -48,7 +48,7 @@ MAY_BE_NAN = {
     "alpha_relative", "alpha_difference", "density_slope", "density_excess", "temperature_difference",
     "rate_right_deviation", "rate_left_deviation", "drift_p_value", "exponent_by_cut", "exponent_spread", "front", "front_exponent", "kurtosis", "local_slope",
     "logarithmic_power", "momentum_drift", "plateau", "square", "temperature_particle", "peak", "peak_position",
-    "peak_speed", "peak_width", "damping_exponent_from", "damping_drift", "local_damping_exponent", "peak_collapse", "centre_share",
+    "peak_speed", "peak_width", "centroid", "sound_speed", "damping_exponent_from", "damping_drift", "local_damping_exponent", "peak_collapse", "centre_share",
 }  # fmt: skip
 
 
