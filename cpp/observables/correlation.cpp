@@ -221,6 +221,7 @@ void require_consistent(const Parameters& parameters) {
     throw UsageError(
         "--sigma is 1: scatterers of infinite mass do not conserve momentum, and there is no sound. Choose a "
         "smaller one.");
+  require_within(parameters.temperature, 1e-100, 1e100, "--temperature", "the unit of energy");
   require_within(parameters.zeta(), 1e-30, 1e9, "--fugacity, --cell-length", "their product");
   require_within(times.front() * std::sqrt(parameters.temperature) / parameters.ring.cell_length, 1e-30, 1e15,
                  "--times", "the first in units of a thermal flight");
