@@ -14,8 +14,9 @@
 /// Sums of C_g over r are conserved: they are the variance of the total momentum over the number of cells.
 /// Each ring's own square of the total is replaced by its exact mean, a constant for all r [eq. 55].
 ///
-/// Particles slower than --slowest are missing. This changes C_g by a part of order --slowest times t: with
-/// the default, by 1 % of 1/Lambda, not seen beside the errors (docs/mode_coupling.md).
+/// Particles slower than --slowest are missing at the start and form in the run, at the expense of the
+/// others. The heights of the peaks fall in proportion to --slowest: by 0.03 % with the default
+/// (docs/mode_coupling.md).
 ///
 /// Sound must not travel around the ring within the longest time.
 #include <fmt/format.h>

@@ -90,7 +90,7 @@ def test_scale() -> None:
 
 CLOSED = {"cells": 5, "particles_per_cell": 4, "relaxation_time": 5, "observation_time": 10, "replicas": 4}
 PULSE = {"cells": 41, "particles_per_cell": 20, "times": "0.01,0.02,0.03,0.04", "replicas": 8}
-SOUND = {"cells": 101, "observation_time": 64, "times": "1,2,4,8,16", "replicas": 8}
+SOUND = {"cells": 120, "observation_time": 256, "times": "4,8,16,32", "replicas": 8}
 EQUILIBRIUM = {"cells": 20, "observation_time": 8, "times": "0.5,1,2,4", "fit_from": 1, "replicas": 8}
 OPEN = {"cells": 4, "cell_length": 0.25, "relaxation_time": 0.5, "observation_time": 4, "replicas": 16}
 FILLING = {"cells": 5, "times": "10,30,100", "replicas": 4}

@@ -185,7 +185,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         f"({parameters(results, *BATHS)}), {replicas(results)}. (a) Coefficient of the particle current; momentum conservation "
         "makes it grow as N. (b) Heat conductivity without particle current. (c) Its local exponents: "
         f"{measured['thinning']} at λ = 1/N, {measured['dense']} at λ = {spacing['dense']}. Lines: mode coupling, a + "
-        f"(3A/λ)(τλN/c)^(1/3), with τ = {with_error(law.slope**3, 3 * law.slope**2 * law.error)} and a fitted at "
+        f"b(τN)^(1/3), b known, τ = {with_error(law.slope**3, 3 * law.slope**2 * law.error)} and a fitted at "
         f"λ = {spacing['dense']} (χ² = {law.chi_square:.0f} for {law.freedom}). At λ = 1/N it predicts "
         f"{slopes[0]:.2f} to {slopes[-1]:.2f}: exponents above 1/3 at small N are no evidence against 1/3.{crossed(table)}"
     )
