@@ -29,9 +29,9 @@ def check(
     assert freedom is None or {one.freedom for one in numbers} == {freedom}
 
 
-def freedom(panel: str, series: str) -> int:
+def freedom(panel: str, series: str, data: Known = DATA) -> int:
     """One less than the replicas of a series."""
-    (replicas,) = {run.options["replicas"] for run in DATA.plan[panel].runs if run.series == series}
+    (replicas,) = {run.options["replicas"] for run in data.plan[panel].runs if run.series == series}
     return int(replicas) - 1
 
 

@@ -107,7 +107,7 @@ def test_numbers_are_those_of_the_right_runs() -> None:
             {"alpha": lambda run: run.options["zero-total-momentum"] * run.options["relaxation-time"]}, 0.001
         ),
         "fig07_inset": truth({"momentum_drift": lambda run: run.options["sigma"] ** 2 * 1e-15}, 0.001),
-        "fig08": truth({"kappa": lambda run: min(run.options["cells"], 256) ** 0.5, "stationary": 1}, 0.001),
+        "fig08": truth({"kappa": lambda run: min(run.options["cells"], 128) ** 0.5, "stationary": 1}, 0.001),
     }
     data = Known(fills)
     assert numbers.alpha(data).value == 1.85

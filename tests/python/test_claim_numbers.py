@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.python.claim_numbers import DATA, check, each, of, relative_change
+from tests.python.claim_numbers import DATA, check, each, freedom, of, relative_change
 from tests.python.known_results import Known, quantity, uneven
 from workflow.claims.data import ratio
 from workflow.claims.judge import FUNCTIONS
@@ -134,7 +134,7 @@ def test_exponents_and_drifts_of_every_sigma_but_0() -> None:
         )
 
 
-@pytest.mark.parametrize(("quality", "run", "first"), [("paper", "long", 0), ("standard", "energy", 2)])
+@pytest.mark.parametrize(("quality", "run", "first"), [("deep", "long", 0), ("standard", "energy", 2)])
 def test_ageing(quality: str, run: str, first: int) -> None:
     """Of the longest run of the paper's chain the last decade over the first from t = 1 on, which of the long one is the first of all;
     the chain of few particles is as long, and not always made."""
@@ -143,7 +143,7 @@ def test_ageing(quality: str, run: str, first: int) -> None:
     data.plan = data.plan | {"ext07": replace(panel, runs=panel.runs[::-1])}  # no result depends on the order
     slope, error = of("ext07", run, "decade_slope", data)
     evidence = FUNCTIONS["C29"](data)
-    check(evidence.literal, *relative_change(slope[first], slope[-1], error[first], error[-1]), freedom=31)
+    check(evidence.literal, *relative_change(slope[first], slope[-1], error[first], error[-1]), freedom=freedom("ext07", run, data))
     largest = slope.argmax()
     value, spread = relative_change(slope[largest], slope[-1], error[largest], error[-1])
     check(evidence.alternative, value + 1, spread)
@@ -153,7 +153,7 @@ def test_ageing(quality: str, run: str, first: int) -> None:
     slope, error = of("ext07", "few", "decade_slope", data)
     largest = slope.argmax()
     value, spread = relative_change(slope[largest], slope[-1], error[largest], error[-1])
-    check(evidence.intended, value + 1, spread, freedom=191)
+    check(evidence.intended, value + 1, spread, freedom=freedom("ext07", "few", data))
 
 
 def test_a_decade_from_1_on_counts_though_rounding_puts_it_below() -> None:

@@ -106,13 +106,10 @@ def test_conductivity(odd: int) -> None:
         freedom("fig08", "deterministic"),
         freedom("fig08", "large"),
     ]
-    last = [("fig08", "large"), *(("ext09", f"{gas}-large") for gas in ("thinning", "dilute", "dense"))]
-    expected = [last_two(panel, [512, 1024], ("deterministic", series), data) for panel, series in last[:1]]
-    expected += [
-        last_two(panel, [512, 1024], (series.removesuffix("-large"), series), data)
-        for panel, series in last[1:]
-    ]
+    expected = [last_two("fig08", [512, 1024], ("deterministic", "large"), data)]
+    expected += [last_two("ext09", [256, 512], (gas,), data) for gas in ("thinning", "dilute", "dense")]
     check(evidence.alternative, *np.array(expected).T)
+    last = (("fig08", "large"), ("ext09", "thinning"), ("ext09", "dilute"), ("ext09", "dense"))
     assert [one.freedom for one in evidence.alternative] == [freedom(*one) for one in last]
 
 
@@ -211,7 +208,7 @@ def test_conductivity_without_a_particle_current() -> None:
     assert bound > 0.05
     assert (found.value, found.systematic) == pytest.approx((value, bound), abs=2e-3)  # weights are drawn
     assert found.error == pytest.approx(error, rel=0.05)
-    assert found.freedom == 47
+    assert found.freedom == freedom("ext11", "dense-temperature")
     few = Known({"fig08": conductivities, "ext11": response(SIZES[:1]), "ext13": uneven})
     with pytest.raises(MissingError, match="ext11"):
         FUNCTIONS["C24"](few)

@@ -23,7 +23,7 @@ class Data:
         self.quality, self.root = quality, root
         self.plan = load_plan(quality)
         self.loaded: dict[str, Result] = {}  # by path
-        self.used: dict[str, Result] = {}  # of these, what was asked for
+        self.used: dict[str, Result] = {}  # of these, by path, those that a claim took
 
     def anew(self) -> "Data":
         """The same data, of which nothing has been used yet."""

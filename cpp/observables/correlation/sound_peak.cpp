@@ -1,5 +1,7 @@
 #include "observables/correlation/sound_peak.hpp"
 
+#include <gsl/gsl_pow_int.h>
+
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -12,7 +14,7 @@ double side_moment(std::span<const double> profile, int power, double first, dou
   double sum = 0;
   for (std::size_t cell = 0; cell < profile.size(); ++cell) {
     const double distance = std::abs(static_cast<double>(cell) - static_cast<double>(profile.size() / 2));
-    if (distance >= first && distance < last) sum += 0.5 * std::pow(distance, power) * profile[cell];
+    if (distance >= first && distance < last) sum += 0.5 * gsl_pow_int(distance, power) * profile[cell];
   }
   return sum;
 }
