@@ -1,6 +1,7 @@
 #include "numerics/elementary.hpp"
 
 #include <gtest/gtest.h>
+#include <sleef.h>
 
 #include <cmath>
 #include <limits>
