@@ -2,8 +2,7 @@
 
 #include <numbers>
 
-// Declarations of sleef.h (tests/cpp/numerics/elementary_test.cpp), without the 55,000 lines of vector
-// intrinsics that it includes.
+// Declared here, because sleef.h includes 55,000 lines of vector intrinsics.
 extern "C" {
 [[gnu::const]] double Sleef_cinz_expd1_u10purec(double);
 [[gnu::const]] double Sleef_cinz_expm1d1_u10purec(double);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace {
+namespace chunked_lists_test {
 
 using lorentz::ChunkedLists;
 using lorentz::Flight;
@@ -81,4 +81,4 @@ TEST(ChunkedLists, MemoryOfAClearedListServesAgain) {
   EXPECT_EQ(lists.places(), places);
 }
 
-}  // namespace
+}  // namespace chunked_lists_test

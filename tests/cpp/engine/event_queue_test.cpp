@@ -13,7 +13,7 @@
 
 #include "engine/id_pool.hpp"
 
-namespace {
+namespace event_queue_test {
 
 using lorentz::EventQueue;
 using lorentz::Flight;
@@ -249,4 +249,4 @@ TEST(EventQueue, LetsThePopulationGrow) {
     EXPECT_GT(compare_with_entries_and_exits(5000, 0, heavy_tailed(1), rate, 6), 30000U) << rate;
 }
 
-}  // namespace
+}  // namespace event_queue_test

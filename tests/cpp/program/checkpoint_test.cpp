@@ -21,7 +21,7 @@
 #include "support/refusal.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace {
+namespace checkpoint_test {
 
 using namespace lorentz;
 using support::content_of;
@@ -181,4 +181,4 @@ TEST(Checkpoint, SurvivesAKillAtAnyMoment) {
   }
 }
 
-}  // namespace
+}  // namespace checkpoint_test

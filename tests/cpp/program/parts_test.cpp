@@ -9,7 +9,7 @@
 #include "support/study.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace {
+namespace parts_test {
 
 using namespace lorentz;
 using namespace support;
@@ -145,4 +145,4 @@ TEST_F(Parts, ExcludeWhatWouldChangeTheirNumber) {
   EXPECT_NE(complaints.find("end with .part"), std::string::npos) << complaints;
 }
 
-}  // namespace
+}  // namespace parts_test

@@ -12,7 +12,7 @@
 #include "support/study.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace {
+namespace replicas_test {
 
 using namespace lorentz;
 using namespace support;
@@ -97,4 +97,4 @@ TEST(Replicas, WithATallyThatIsNeverFilledAreRefused) {
   EXPECT_NO_THROW(record.require_filled(tallies));
 }
 
-}  // namespace
+}  // namespace replicas_test

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace stopping_rule_test {
 
 using namespace lorentz;
 
@@ -257,4 +257,4 @@ TEST(StoppingRule, ForetellsNoMoreThanThereMayBe) {
   EXPECT_EQ(forecast.high, 992U);
 }
 
-}  // namespace
+}  // namespace stopping_rule_test

@@ -16,7 +16,7 @@
 #include "support/study.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace {
+namespace study_test {
 
 using namespace lorentz;
 using namespace support;
@@ -299,4 +299,4 @@ TEST(Study, WithoutItsTargetIsRefused) {
   EXPECT_FALSE(measured);
 }
 
-}  // namespace
+}  // namespace study_test

@@ -7,7 +7,7 @@
 
 #include "support/refusal.hpp"
 
-namespace {
+namespace closed_parameters_test {
 
 using namespace lorentz;
 using support::refused_as;
@@ -79,4 +79,4 @@ TEST(ClosedParameters, AreRefusedTogether) {
   EXPECT_TRUE(refused_as("--cells times --particles-per-cell", [&] { validate(parameters); }));
 }
 
-}  // namespace
+}  // namespace closed_parameters_test
