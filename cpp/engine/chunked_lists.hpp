@@ -11,7 +11,7 @@
 namespace lorentz {
 
 /// Unordered lists of flights in one array, in chunks of 256, so that appending and reading are sequential. A
-/// list is a number, one behind its last place; 0 if it is empty.
+/// list is a number, one behind its last slot; 0 if it is empty.
 class ChunkedLists {
  public:
   using List = std::uint32_t;
@@ -30,36 +30,36 @@ class ChunkedLists {
     free_.clear();
   }
 
-  const Flight& operator[](std::uint32_t place) const { return flights_[place]; }
-  std::size_t places() const { return flights_.size(); }
+  const Flight& operator[](std::uint32_t slot) const { return flights_[slot]; }
+  std::size_t slots() const { return flights_.size(); }
 
-  /// For links from place to place, whatever list they are in.
-  std::uint32_t& next(std::uint32_t place) { return next_[place]; }
-  std::uint32_t next(std::uint32_t place) const { return next_[place]; }
+  /// For links from slot to slot, whatever list they are in.
+  std::uint32_t& next(std::uint32_t slot) { return next_[slot]; }
+  std::uint32_t next(std::uint32_t slot) const { return next_[slot]; }
 
   /// Member by member: a block copy fails store-to-load forwarding from stores of single members.
-  void write(std::uint32_t place, const Flight& flight) {
-    flights_[place] = {flight.time, flight.velocity, flight.target, flight.particle, flight.draws};
+  void write(std::uint32_t slot, const Flight& flight) {
+    flights_[slot] = {flight.time, flight.velocity, flight.target, flight.particle, flight.draws};
   }
 
-  /// Returns the place, which stays the flight's until the list is cleared.
+  /// Returns the slot, which stays the flight's until the list is cleared.
   std::uint32_t append(List& list, const Flight& flight) {
-    const std::uint32_t place = list % chunk != 0 ? list : begin_chunk(list);
-    list = place + 1;
-    write(place, flight);
-    return place;
+    const std::uint32_t slot = list % chunk != 0 ? list : begin_chunk(list);
+    list = slot + 1;
+    write(slot, flight);
+    return slot;
   }
 
   void clear(List& list) {
     for (; list != 0; list = previous_[free_.back()]) free_.push_back((list - 1) / chunk);
   }
 
-  /// Calls visit(place) for every flight; it may append to other lists.
+  /// Calls visit(slot) for every flight; it may append to other lists.
   template <class Visit>
   void for_each(List list, Visit&& visit) const {
     while (list != 0) {
       const std::uint32_t index = (list - 1) / chunk, rest = previous_[index];
-      for (std::uint32_t place = index * chunk; place != list; ++place) visit(place);
+      for (std::uint32_t slot = index * chunk; slot != list; ++slot) visit(slot);
       list = rest;
     }
   }
@@ -67,7 +67,7 @@ class ChunkedLists {
  private:
   static constexpr std::uint32_t chunk = 256;
 
-  /// Returns the first place of a new chunk. Out of line, so that the event loop needs fewer registers.
+  /// Returns the first slot of a new chunk. Out of line, so that the event loop needs fewer registers.
   [[gnu::noinline, gnu::cold]] std::uint32_t begin_chunk(List list) {
     if (free_.empty()) {
       free_.push_back(static_cast<std::uint32_t>(previous_.size()));

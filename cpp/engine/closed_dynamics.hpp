@@ -22,7 +22,7 @@ class ClosedDynamics {
   /// that gamma < N and a random direction need.
   ClosedDynamics(const ClosedChain& chain, const PhasePoint& start, double end_time, const StreamKey& key);
 
-  /// Counts time from `time` on, where simulate() stopped: a clock resolves 2^-53 of what it shows.
+  /// Sets the origin of time to `time`, where simulate() stopped: a clock resolves 2^-53 of its value.
   void restart_clock(double time) { queue_.shift(time); }
 
   Invariants invariants() const;
@@ -53,9 +53,9 @@ class ClosedDynamics {
 };
 
 /// Advances the chain through every collision before `until`, in the order of time (ties: lower
-/// particle first). The observer may define on_collision(const Collision&) and on_flight(const
-/// Departure&); what it does not define costs nothing. heartbeat(time) is called every 65536 events and
-/// may throw to stop.
+/// particle first). Hooks of the observer, both optional (engine/observation.hpp): on_collision(const
+/// Collision&) and on_flight(const Departure&). heartbeat(time) is called every 65536 events and may throw to
+/// stop.
 ///
 /// A particle with u = 0, or so slow that the flight's duration overflows, never arrives: it is frozen.
 template <class Observer, std::invocable<double> Heartbeat>

@@ -9,7 +9,7 @@ namespace {
 constexpr double events_per_bucket = 0.125;  // few, as a second flight in a bucket is a branch misprediction
 constexpr double reach = 4;                  // of the later revolutions' lists, in events per particle
 
-/// The branch that tells whether a flight outlasts the revolution is predictable if few or most flights do.
+/// The branch on whether a flight outlasts the revolution is predictable if few or most flights do.
 double revolution_events(double particles) {
   return particles < 6000 ? std::min(8 * particles, 16384.0) : std::min(particles / 32, 8192.0);
 }
@@ -46,11 +46,11 @@ void EventQueue::rebuild(const std::vector<Flight>& flights, double rate, double
 
 std::vector<Flight> EventQueue::flights() const {
   std::vector<Flight> all;
-  const auto add = [&](std::uint32_t place) { all.push_back(lists_[place]); };
+  const auto add = [&](std::uint32_t slot) { all.push_back(lists_[slot]); };
   lists_.for_each(frozen_, add);
   for (const ChunkedLists::List list : later_) lists_.for_each(list, add);
   for (const std::uint32_t head : buckets_)
-    for (std::uint32_t place = head; place != none; place = lists_.next(place)) add(place);
+    for (std::uint32_t slot = head; slot != none; slot = lists_.next(slot)) add(slot);
   std::ranges::sort(all, {}, &Flight::particle);
   return all;
 }
@@ -62,7 +62,7 @@ void EventQueue::shift(double origin) {
   rebuild(all, ticks_per_time_ * events_per_bucket, 0);
 }
 
-/// The first flight's place, or none if it does not arrive before `until`.
+/// The first flight's slot, or none if it does not arrive before `until`.
 std::uint32_t EventQueue::take_first_of(std::size_t bucket, double until) {
   std::uint32_t* first = &buckets_[bucket];
   for (std::uint32_t* link = &lists_.next(*first); *link != none; link = &lists_.next(*link)) {
@@ -93,13 +93,13 @@ bool EventQueue::begin_revolution(double until) {
   vacant_ = none;
   lists_.clear(current_);
   current_ = std::exchange(due, 0);
-  lists_.for_each(current_, [&](std::uint32_t place) {
-    const std::uint64_t tick = tick_of(lists_[place].time);
+  lists_.for_each(current_, [&](std::uint32_t slot) {
+    const std::uint64_t tick = tick_of(lists_[slot].time);
     if (tick < revolution_end_) {
-      link(place, tick);
+      link(slot, tick);
       --waiting_;
     } else {
-      lists_.append(due, Flight(lists_[place]));
+      lists_.append(due, Flight(lists_[slot]));
     }
   });
   return true;

@@ -53,7 +53,7 @@ class EventQueue {
     if (!(flight.time < end_time_)) {
       lists_.append(frozen_, flight);
     } else if (const std::uint64_t tick = tick_of(flight.time); tick < revolution_end_) {
-      link(place_in_revolution(flight), tick);
+      link(slot_in_revolution(flight), tick);
     } else {
       lists_.append(later(tick), flight);
       ++waiting_;
@@ -67,10 +67,10 @@ class EventQueue {
   void shift(double origin);
 
   /// Flights that the memory in use has room for.
-  std::size_t places() const { return lists_.places(); }
+  std::size_t slots() const { return lists_.slots(); }
 
  private:
-  static constexpr std::uint32_t none = 0xffffffff;  // no place
+  static constexpr std::uint32_t none = 0xffffffff;  // no slot
 
   std::uint64_t tick_of(double time) const {
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(time * ticks_per_time_));
@@ -79,20 +79,20 @@ class EventQueue {
     return later_[(tick >> bucket_bits_) & (later_.size() - 1)];
   }
 
-  /// The place of the flight that was taken last serves again.
-  [[gnu::always_inline]] std::uint32_t place_in_revolution(const Flight& flight) {
-    const std::uint32_t place = std::exchange(vacant_, none);
-    if (place == none) [[unlikely]]
+  /// Reuses the slot of the flight that was taken last.
+  [[gnu::always_inline]] std::uint32_t slot_in_revolution(const Flight& flight) {
+    const std::uint32_t slot = std::exchange(vacant_, none);
+    if (slot == none) [[unlikely]]
       return lists_.append(current_, flight);
-    lists_.write(place, flight);
-    return place;
+    lists_.write(slot, flight);
+    return slot;
   }
 
   /// The bits of the word in use are held apart from the bitmap, as a load of them from there would wait for
   /// the last store to it.
-  [[gnu::always_inline]] void link(std::uint32_t place, std::uint64_t tick) {
+  [[gnu::always_inline]] void link(std::uint32_t slot, std::uint64_t tick) {
     const std::uint64_t bucket = tick & bucket_mask_, bit = std::uint64_t{1} << (tick & 63);
-    lists_.next(place) = std::exchange(buckets_[bucket], place);
+    lists_.next(slot) = std::exchange(buckets_[bucket], slot);
     if (bucket >> 6 > word_) [[likely]] {
       occupied_[bucket >> 6] |= bit;
     } else {
@@ -110,12 +110,12 @@ class EventQueue {
 
   ChunkedLists lists_;
   std::vector<ChunkedLists::List> later_;        // by revolution, modulo their number, a power of two
-  ChunkedLists::List current_ = 0, frozen_ = 0;  // the current revolution's, with vacant places
-  std::vector<std::uint32_t> buckets_;           // first place of each, or none
+  ChunkedLists::List current_ = 0, frozen_ = 0;  // the current revolution's, with vacant slots
+  std::vector<std::uint32_t> buckets_;           // first slot of each, or none
   std::vector<std::uint64_t> occupied_;          // one bit per bucket
   std::uint64_t word_ = 0;                       // of occupied_; those before it are 0
   std::uint64_t word_bits_ = 0;                  // bits of that word, which is itself 0
-  std::uint32_t vacant_ = none;                  // place of the flight that was taken last
+  std::uint32_t vacant_ = none;                  // slot of the flight that was taken last
   double end_time_, ticks_per_time_ = 0;         // a tick is the width of a bucket
   std::uint64_t bucket_mask_ = 0;                // number of buckets, a power of two, less 1
   int bucket_bits_ = 0;                          // log2 of the number of buckets

@@ -4,25 +4,31 @@
 
 namespace lorentz {
 
-/// An observer is a class with hooks for the events that it measures: on_collision(const Collision&) and
-/// on_flight(const Departure&) of a closed chain (engine/scattering.hpp), on_flight(const Path&) of an open
-/// one (engine/path.hpp), whose further hooks are at simulate() in engine/open_dynamics.hpp.
+/// An observer is a class with a hook for every kind of event that it measures:
+///   on_collision(const Collision&)            both chains; below
+///   on_flight(const Departure&)               closed chain; engine/scattering.hpp
+///   on_flight(const Path&)                    open chain; engine/path.hpp
+///   on_injection(End, double time, double u)  open chain; engine/open_dynamics.hpp
+///   on_exit(End, double time, double u)       open chain; engine/open_dynamics.hpp
+/// Events without a hook cost nothing.
 ///
-/// A collision of a particle with a scatterer. Velocities are energy-normalised, u = p/sqrt(m) and U =
-/// P/sqrt(M): u^2/2 and U^2/2 are energies, U^2 is the temperature of a scatterer, and with m = 1 u is the
-/// momentum of the particle. Positive velocities are to the right.
+/// Velocities are energy-normalised, u = p/sqrt(m) and U = P/sqrt(M), and positive to the right: u^2/2 and
+/// U^2/2 are energies, the mean of U^2 is the temperature of a scatterer, and with m = 1 u is the momentum of
+/// the particle.
+
+/// Collision of a particle with a scatterer.
 struct Collision {
-  double time;              // from the start of the replica; of a ClosedRun on its clock()
-  std::uint32_t particle;   // number, from 0; in an open chain free for another once the particle has left
-  std::uint32_t scatterer;  // number of the cell, from 0
+  double time;  // since the start of the replica; in a ClosedRun the time of its clock()
+  std::uint32_t
+      particle;  // number, from 0; in an open chain the number of a particle that has left is reused
+  std::uint32_t scatterer;                   // number of the cell, from 0
   double particle_before, particle_after;    // u of the particle
   double scatterer_before, scatterer_after;  // U of the scatterer
 };
 
-/// For stretches of time that are not observed, such as a relaxation.
+/// Observes nothing: for the relaxation.
 struct NoObserver {};
 
-/// An event that the observer has no hook for costs nothing.
 template <class Observer>
 [[gnu::always_inline]] inline void notify(Observer& observer, const Collision& collision) {
   if constexpr (requires { observer.on_collision(collision); }) observer.on_collision(collision);

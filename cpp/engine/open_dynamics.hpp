@@ -67,14 +67,14 @@ class OpenDynamics {
   std::uint64_t events_ = 0;
 };
 
-/// Advances the chain through everything before `until`, in the order of time. The observer may define
+/// Advances the chain through all events before `until`, in the order of time. Hooks of the observer, all
+/// optional (engine/observation.hpp):
 ///   on_collision(const Collision&)
-///   on_flight(const Path&)               at every departure; those of the start at time 0
+///   on_flight(const Path&)                    at every departure
 ///   on_injection(End, double time, double u)  u of the particle that enters, energy-normalised
-///   on_exit(End, double time, double u)  announced when the last flight begins, so `time` may exceed `until`
-/// and what it does not define costs nothing. The first call tells of the start's flights too, so an observer
-/// that has to know every particle watches from the beginning. heartbeat(time) is called every 65536
-/// events and may throw to stop.
+///   on_exit(End, double time, double u)       called when the last flight begins; `time` may exceed `until`
+/// The flights of the particles present at time 0 are reported in the first call of simulate() for a chain.
+/// heartbeat(time) is called every 65536 events and may throw to stop.
 template <class Observer, std::invocable<double> Heartbeat>
 void simulate(OpenDynamics& chain, double until, Observer& observer, Heartbeat&& heartbeat) {
   if (chain.chain_.deterministic())
@@ -118,8 +118,8 @@ void OpenDynamics::inject(End end, Observer& observer) {
   fly<stochastic>({time, u, 0, ids_.take()}, static_cast<double>(opening), opening, cell, observer);
 }
 
-/// Begins a flight at flight.time and at the place `from`, with the mark `first` ahead and the scatterer of
-/// next_cell as the next one.
+/// Begins a flight at flight.time and at the position `from`, with the mark `first` ahead and the scatterer
+/// of next_cell as the next one.
 template <bool stochastic, class Observer>
 inline void OpenDynamics::fly(Flight flight, double from, std::int64_t first, std::int64_t next_cell,
                               Observer& observer) {
@@ -149,7 +149,7 @@ void OpenDynamics::announce_start(Observer& observer) {
     const double from = particle.position / half_cell_;
     const bool rightwards = direction(particle.velocity) > 0;
     const auto first = static_cast<std::int64_t>(rightwards ? std::floor(from) + 1 : std::ceil(from) - 1);
-    // Scatterers stand at odd places.
+    // Scatterers are at odd positions.
     const std::int64_t cell = rightwards ? first / 2 : (first + 1) / 2 - 1;
     fly<stochastic>({0, particle.velocity, 0, ids_.take()}, from, first, cell, observer);
   }

@@ -16,14 +16,16 @@ struct Window {
 /// Index of a direction; axes of directions have this order.
 enum Direction : std::size_t { leftwards, rightwards };  // NOLINT(cppcoreguidelines-use-enum-class): indices
 
-/// A straight flight in an open chain, known when it begins. Places are those of OpenChain, in half cells;
-/// a mark is a bond or a scatterer, at a whole number.
+/// A flight in an open chain from a collision, an opening or the initial position to the next scattering or
+/// the opening where the particle leaves. Positions are in half cells, as in OpenChain: the left opening is
+/// 0, bond j is 2j, scatterer i is 2i + 1. A mark is an opening, a bond or a scatterer, at an integer
+/// position.
 struct Path {
-  double departure, arrival;  // times
-  double velocity;            // u
-  double from;                // place of the departure; a scatterer's or an opening's, or in between
-  std::int64_t first, last;   // marks that are reached; a particle that enters reaches the opening at once
-  double time_per_place;
+  double departure, arrival;  // times since the start of the replica
+  double velocity;            // u, energy-normalised; with m = 1 the momentum
+  double from;                // position of the departure
+  std::int64_t first, last;   // marks reached; the first mark of a particle that enters is the opening
+  double time_per_place;      // time for half a cell
 
   Direction direction() const { return lorentz::direction(velocity) > 0 ? Direction::rightwards : leftwards; }
   bool rightwards() const { return direction() == Direction::rightwards; }
@@ -40,7 +42,7 @@ struct Path {
     return distance > 0 ? std::min(all, static_cast<std::int64_t>(std::ceil(distance))) : 0;
   }
 
-  /// Place at a time of the flight.
+  /// Position at a time of the flight.
   double place(double time) const {
     if (time >= arrival) return static_cast<double>(last);
     const double moved = (time - departure) / time_per_place;

@@ -10,12 +10,12 @@
 
 namespace lorentz {
 
-/// The start of a flight in a closed chain, after every collision.
+/// Start of a flight in a closed chain, which follows every collision.
 struct Departure {
-  double time;             // of the departure, as in Collision
+  double time;             // of the departure, on the clock of Collision::time
   std::uint32_t particle;  // number, from 0
   double velocity;         // u, energy-normalised; with m = 1 the momentum
-  std::int64_t cells;      // to the next scattering, with the sign of the velocity
+  std::int64_t cells;      // number of cells to the next scattering, with the sign of the velocity
   double duration;         // time to the next scattering; infinite for a particle at rest
 };
 

@@ -1,8 +1,19 @@
 #pragma once
 
-#include <sleef.h>
-
 #include <numbers>
+
+// Declared here, because sleef.h includes 55,000 lines of vector intrinsics.
+extern "C" {
+[[gnu::const]] double Sleef_cinz_expd1_u10purec(double);
+[[gnu::const]] double Sleef_cinz_expm1d1_u10purec(double);
+[[gnu::const]] double Sleef_cinz_logd1_u35purec(double);
+[[gnu::const]] double Sleef_cinz_log1pd1_u10purec(double);
+[[gnu::const]] double Sleef_cinz_powd1_u10purec(double, double);
+[[gnu::const]] double Sleef_cinz_cosd1_u35purec(double);
+[[gnu::const]] double Sleef_cinz_sind1_u35purec(double);
+[[gnu::const]] double Sleef_cinz_erfd1_u10purec(double);
+[[gnu::const]] double Sleef_cinz_erfcd1_u15purec(double);
+}
 
 /// Elementary functions whose results are bitwise the same on every processor. Those of the C library are
 /// not: it selects an implementation by the processor's instruction set, with or without fused multiply-add.

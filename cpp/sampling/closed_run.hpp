@@ -36,8 +36,8 @@ class ClosedRun {
     observe_until(parameters_.relaxation_time, nobody);
   }
 
-  /// Advances to a time with an observer of collisions and flights (engine/closed_dynamics.hpp). The clock of
-  /// the dynamics restarts at intervals, so that its resolution does not decrease in long runs.
+  /// Advances to a time with an observer of collisions and flights (engine/observation.hpp). The clock of the
+  /// dynamics restarts at intervals, so that its resolution does not decrease in long runs.
   template <class Observer>
   void observe_until(double time, Observer& observer) {
     static_assert(

@@ -20,7 +20,7 @@ class OpenRun {
   }
 
   /// Advances to the window without an observer, then through it with an observer of collisions, flights,
-  /// injections and exits (engine/open_dynamics.hpp). If the observer has finish(scatterers, end), it is
+  /// injections and exits (engine/observation.hpp). If the observer has finish(scatterers, end), it is
   /// called at the end with U of every scatterer. Returns the observer.
   template <class Observer>
   Observer observe(Observer observer) {

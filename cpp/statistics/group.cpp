@@ -74,15 +74,15 @@ Estimate jackknife(const Records& records, const std::function<std::vector<doubl
   return estimate;
 }
 
-void Group::quantity(const std::string& name, const std::string& units, const std::string& description,
+void Group::quantity(std::string_view name, std::string_view units, std::string_view description,
                      Number formula) {
   quantity(name, {}, units, description,
            [formula = std::move(formula)](RecordView mean) { return std::vector{formula(mean)}; });
 }
 
-void Group::quantity(const std::string& name, const std::vector<Axis>& axes, const std::string& units,
-                     const std::string& description, Array formula) {
-  quantities({{name, units, description, axes}},
+void Group::quantity(std::string_view name, const std::vector<Axis>& axes, std::string_view units,
+                     std::string_view description, Array formula) {
+  quantities({{std::string(name), std::string(units), std::string(description), axes}},
              [formula = std::move(formula)](const Records&) { return formula; });
 }
 
@@ -131,6 +131,14 @@ Results Group::estimate(const Records& measured) const {
     append(results, part.what, part.of(records), at, records.size(), control_variates);
   }
   return results;
+}
+
+Group::Array mean_of(Tally tally, double divisor) {
+  return [=](RecordView mean) {
+    std::vector<double> values(mean[tally].begin(), mean[tally].end());
+    for (double& value : values) value /= divisor;
+    return values;
+  };
 }
 
 }  // namespace lorentz

@@ -5,6 +5,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "statistics/tally.hpp"
@@ -52,10 +54,9 @@ class Group {
   /// Without `prepare` the formulas are applied to the records as measured.
   explicit Group(Prepare prepare = {}) : prepare_(std::move(prepare)) {}
 
-  void quantity(const std::string& name, const std::string& units, const std::string& description,
-                Number formula);
-  void quantity(const std::string& name, const std::vector<Axis>& axes, const std::string& units,
-                const std::string& description, Array formula);
+  void quantity(std::string_view name, std::string_view units, std::string_view description, Number formula);
+  void quantity(std::string_view name, const std::vector<Axis>& axes, std::string_view units,
+                std::string_view description, Array formula);
 
   /// Several quantities with a common formula, which is chosen when the records are known and returns their
   /// values one after another.
@@ -83,12 +84,6 @@ class Group {
 };
 
 /// Formula of a quantity that is the mean of a tally divided by `divisor`.
-inline auto mean_of(Tally tally, double divisor = 1) {
-  return [=](RecordView mean) {
-    std::vector<double> values(mean[tally].begin(), mean[tally].end());
-    for (double& value : values) value /= divisor;
-    return values;
-  };
-}
+Group::Array mean_of(Tally tally, double divisor = 1);
 
 }  // namespace lorentz

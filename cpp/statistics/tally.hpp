@@ -1,15 +1,10 @@
 #pragma once
 
-#include <gsl/gsl_statistics_double.h>
-
-#include <algorithm>
 #include <cstddef>
 #include <initializer_list>
-#include <numeric>
 #include <span>
-#include <stdexcept>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 namespace lorentz {
@@ -23,12 +18,7 @@ struct Axis {
 };
 
 /// Axis of the integers first, first + 1, ...
-inline Axis numbered_axis(const std::string& name, const std::string& description, std::size_t count,
-                          double first = 0) {
-  std::vector<double> numbers(count);
-  std::iota(numbers.begin(), numbers.end(), first);
-  return {name, "1", description, numbers};
-}
+Axis numbered_axis(std::string_view name, std::string_view description, std::size_t count, double first = 0);
 
 /// Name, units and shape of a tally or a quantity: a number, or a row-major array with one dimension per
 /// axis.
@@ -38,11 +28,7 @@ struct Description {
   std::string description;
   std::vector<Axis> axes{};  // none for a number
 
-  std::size_t size() const {
-    std::size_t product = 1;
-    for (const Axis& axis : axes) product *= axis.values.size();
-    return product;
-  }
+  std::size_t size() const;
 };
 
 /// Handle of an array in the record of a replica.
@@ -65,28 +51,16 @@ struct ScalarTally {
 /// Columns of records.
 using Columns = std::vector<std::size_t>;
 
-inline Columns columns_of(std::initializer_list<Tally> tallies) {
-  Columns columns;
-  for (const Tally& tally : tallies)
-    for (std::size_t i = 0; i < tally.size; ++i) columns.push_back(tally.first + i);
-  return columns;
-}
+Columns columns_of(std::initializer_list<Tally> tallies);
 
 /// Tallies of a replica: their descriptions and columns. An observable derives its tallies from this class;
 /// each is declared once, and its handle is the only access to its values in Record and RecordView.
 class TallySchema {
  public:
   /// Declares an array. A tally is averaged over replicas, so it must be a sum, not a ratio.
-  Tally tally(const std::string& name, const std::vector<Axis>& axes, const std::string& units,
-              const std::string& description) {
-    tallies_.push_back({name, units, description, axes});
-    const std::size_t size = tallies_.back().size(), steps = axes.empty() ? 1 : axes.front().values.size();
-    return {std::exchange(width_, width_ + size), size, steps > 0 ? size / steps : 0};
-  }
-
-  ScalarTally tally(const std::string& name, const std::string& units, const std::string& description) {
-    return {tally(name, {}, units, description).first};
-  }
+  Tally tally(std::string_view name, const std::vector<Axis>& axes, std::string_view units,
+              std::string_view description);
+  ScalarTally tally(std::string_view name, std::string_view units, std::string_view description);
 
   std::size_t width() const { return width_; }
   const std::vector<Description>& tallies() const { return tallies_; }
@@ -108,21 +82,10 @@ class Record {
   }
 
   /// Sets an array. Throws std::out_of_range unless the sizes agree.
-  void set(Tally tally, std::span<const double> values) {
-    if (values.size() != tally.size) throw std::out_of_range("values of another size than the tally");
-    std::ranges::copy(values, (*this)[tally].begin());
-  }
+  void set(Tally tally, std::span<const double> values);
 
   /// Throws std::logic_error, which names the tally, if one has never been accessed: its mean would be 0.
-  void require_filled(const TallySchema& schema) const {
-    auto begin = accessed_.begin();
-    for (const Description& each : schema.tallies()) {
-      const auto end = begin + static_cast<std::ptrdiff_t>(each.size());
-      if (begin != end && std::find(begin, end, true) == end)
-        throw std::logic_error("the tally " + each.name + " is declared and never filled");
-      begin = end;
-    }
-  }
+  void require_filled(const TallySchema& schema) const;
 
   const std::vector<double>& values() const { return values_; }
 
@@ -152,10 +115,7 @@ class Records {
   explicit Records(std::size_t width) : width_(width) {}
 
   /// Throws std::invalid_argument if the row does not have the width of the others.
-  void append(std::span<const double> row) {
-    if (row.size() != width_) throw std::invalid_argument("a record of another width");
-    rows_.insert(rows_.end(), row.begin(), row.end());
-  }
+  void append(std::span<const double> row);
 
   std::size_t size() const { return rows_.size() / width_; }
   std::size_t width() const { return width_; }
@@ -168,12 +128,7 @@ class Records {
   const std::vector<double>& values() const { return rows_; }  // row-major
 
   /// Mean over replicas; NaN without replicas.
-  std::vector<double> mean() const {
-    std::vector<double> result;
-    for (std::size_t column = 0; column < width_; ++column)
-      result.push_back(gsl_stats_mean(rows_.data() + column, width_, size()));
-    return result;
-  }
+  std::vector<double> mean() const;
 
  private:
   std::size_t width_;

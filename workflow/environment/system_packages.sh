@@ -19,7 +19,6 @@ sleef.h                libsleef-dev        sleef-devel       sleef
 fmt/format.h           libfmt-dev          fmt-devel         fmt
 "
 for_developers='
-nlohmann/json.hpp      nlohmann-json3-dev  json-devel        nlohmann-json
 gtest/gtest.h          libgtest-dev        gtest-devel       googletest
 benchmark/benchmark.h  libbenchmark-dev    google-benchmark-devel google-benchmark
 clang++                clang               clang             llvm

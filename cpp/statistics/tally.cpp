@@ -1,0 +1,69 @@
+#include "statistics/tally.hpp"
+
+#include <gsl/gsl_statistics_double.h>
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+namespace lorentz {
+
+Axis numbered_axis(std::string_view name, std::string_view description, std::size_t count, double first) {
+  std::vector<double> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), first);
+  return {std::string(name), "1", std::string(description), std::move(numbers)};
+}
+
+std::size_t Description::size() const {
+  std::size_t product = 1;
+  for (const Axis& axis : axes) product *= axis.values.size();
+  return product;
+}
+
+Columns columns_of(std::initializer_list<Tally> tallies) {
+  Columns columns;
+  for (const Tally& tally : tallies)
+    for (std::size_t i = 0; i < tally.size; ++i) columns.push_back(tally.first + i);
+  return columns;
+}
+
+Tally TallySchema::tally(std::string_view name, const std::vector<Axis>& axes, std::string_view units,
+                         std::string_view description) {
+  tallies_.push_back({std::string(name), std::string(units), std::string(description), axes});
+  const std::size_t size = tallies_.back().size(), steps = axes.empty() ? 1 : axes.front().values.size();
+  return {std::exchange(width_, width_ + size), size, steps > 0 ? size / steps : 0};
+}
+
+ScalarTally TallySchema::tally(std::string_view name, std::string_view units, std::string_view description) {
+  return {tally(name, {}, units, description).first};
+}
+
+void Record::set(Tally tally, std::span<const double> values) {
+  if (values.size() != tally.size) throw std::out_of_range("values of another size than the tally");
+  std::ranges::copy(values, (*this)[tally].begin());
+}
+
+void Record::require_filled(const TallySchema& schema) const {
+  auto begin = accessed_.begin();
+  for (const Description& each : schema.tallies()) {
+    const auto end = begin + static_cast<std::ptrdiff_t>(each.size());
+    if (begin != end && std::find(begin, end, true) == end)
+      throw std::logic_error("the tally " + each.name + " is declared and never filled");
+    begin = end;
+  }
+}
+
+void Records::append(std::span<const double> row) {
+  if (row.size() != width_) throw std::invalid_argument("a record of another width");
+  rows_.insert(rows_.end(), row.begin(), row.end());
+}
+
+std::vector<double> Records::mean() const {
+  std::vector<double> result;
+  for (std::size_t column = 0; column < width_; ++column)
+    result.push_back(gsl_stats_mean(rows_.data() + column, width_, size()));
+  return result;
+}
+
+}  // namespace lorentz
