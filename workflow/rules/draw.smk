@@ -12,10 +12,10 @@ rule draw:
             category="{quality}",
             labels={"panel": "{panel}"},
         ),
-    wildcard_constraints:
-        panel="(?!ext)[^/]+",
     log:
         "build/logs/{quality}/{panel}.log",
+    wildcard_constraints:
+        panel="(?!ext)[^/]+",
     priority: 10**9  # before any run
     params:
         script=lambda wildcards: PLAN[wildcards.panel].script,
