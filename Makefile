@@ -36,14 +36,14 @@ endif
 EFFORT := $(QUALITY)$(SEED:%=_seed=%)$(REPLICAS:%=_replicas=%)
 PYTHON := .venv/bin/python -m
 OF := --quality '$(EFFORT)' $(PANEL:%=--panel='%')
-SNAKEMAKE := bash workflow/environment/one_at_a_time.sh .venv/bin/snakemake --nolock $(FRESH:yes=--forceall) \
+SNAKEMAKE := bash workflow/environment/one_at_a_time.sh .venv/bin/snakemake --nolock $(if $(FRESH),--forceall) \
   $(if $(PROFILE),--workflow-profile 'profiles/$(PROFILE)' $(JOBS:%=--jobs '%'),$(JOBS:%=--cores '%')) \
   $(if $(ACCOUNT)$(PARTITION),--default-resources $(ACCOUNT:%=slurm_account='%') $(PARTITION:%=slurm_partition='%')) \
   --config quality='$(EFFORT)' $(PANEL:%=panel='%') $(if $(PROFILE)$(BATCH),batch='$(or $(BATCH),30)') --
 COMPARE := $(if $(SEED)$(REPLICAS)$(FRESH),$(PYTHON) workflow.provenance.compare $(OF))
 
 help:  ## This list
-	sed -nE 's/^([a-z-]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 17
+	sed -nE 's/^([a-z -]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 17
 	echo 'Options: QUALITY=smoke|standard|paper|deep  PANEL=fig05  FRESH=yes  SEED=7  REPLICAS=200  JOBS=2'
 	echo 'On a cluster (docs/cluster.md): PROFILE=slurm  BATCH=30  ACCOUNT=physics  PARTITION=short'
 figures: build  ## Build, simulate and render every figure: figures/QUALITY/*.pdf, .png, .svg, .csv
@@ -71,17 +71,17 @@ build: setup  ## The programs, in build/bin
 	bash workflow/environment/build.sh all
 audit: installed  ## Check every result and figure against sources, parameters, build and packages
 	$(PYTHON) workflow.provenance.audit $(OF)
-verify: build  ## Compile afresh, rerun a SAMPLE=0.1 of the results, or PANEL=fig05, and compare bytes
+verify: setup  ## Compile afresh, rerun a SAMPLE=0.1 of the results, or PANEL=fig05, and compare bytes
 	$(PYTHON) workflow.provenance.verify $(OF) --sample $(SAMPLE)
 provenance: installed  ## Where a file comes from, FILE=figures/standard/fig05.pdf or a copy; FULL=yes
-	$(PYTHON) workflow.provenance.tree $(FULL:yes=--full) -- "$(FILE)"
+	$(PYTHON) workflow.provenance.tree $(if $(FULL),--full) -- "$(FILE)"
 status: installed  ## Fresh, stale (why) or missing; errors; CPU time
-	$(PYTHON) workflow.provenance.status --quality '$(EFFORT)'
+	$(PYTHON) workflow.provenance.status $(OF)
 cost: installed  ## Estimated CPU time of a quality, or of PANEL=fig05
 	$(PYTHON) workflow.cluster.cost $(OF) $(BATCH:%=--batch=%)
 crate: installed  ## Figures, data, code and history as an RO-Crate in build/crate; PANEL=fig05
 	$(PYTHON) workflow.provenance.crate $(OF)
-test: setup-dev  ## All tests; make test-long: also those that take minutes
+test: setup-dev  ## Tests; make test-long: also those that take many minutes
 	bash workflow/environment/test.sh -m 'not long'
 test-long: setup-dev
 	bash workflow/environment/test.sh
@@ -101,7 +101,9 @@ docs: setup-dev  ## The documentation as a static site, build/docs/index.html
 	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --strict 2> >(grep -v '^INFO' >&2)
 	doxygen docs/Doxyfile
 	cp .venv/lib/python*/site-packages/mathjax/static/mathjax/es5/tex-svg.js build/docs/mathjax.js
-clean:  ## Remove what can be made again, results included
-	rm -rf build data/*/ figures/*/ .snakemake .cache .venv
+clean:  ## Remove programs, logs and caches; make distclean: also results, figures and .venv
+	rm -rf build .cache
+distclean: clean
+	rm -rf data/*/ figures/*/ .snakemake .venv
 .PHONY: help figures panel report gallery setup setup-dev installed build audit verify provenance status cost crate test test-long \
-  check format describe bench tradeoff docs clean
+  check format describe bench tradeoff docs clean distclean

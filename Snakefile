@@ -21,7 +21,8 @@ QUALITY = config.get("quality", "standard")
 try:
     PLAN = load_plan(QUALITY)
     PANEL = config.get("panel") and panel_named(PLAN, config["panel"]).name
-    BUILDS = {run.program: built(run.program)["build_id"] for panel in PLAN.values() for run in panel.runs}
+    PROGRAMS = {run.program for panel in PLAN.values() for run in panel.runs}
+    BUILDS = {program: built(program)["build_id"] for program in PROGRAMS}
 except (ConfigurationError, BuildError) as error:
     sys.exit(str(error))
 

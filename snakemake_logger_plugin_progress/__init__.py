@@ -90,7 +90,8 @@ class LogHandler(LogHandlerBase):
     def _start(self, job: Record) -> None:
         if not self._costs:
             self._estimate(job.wildcards["quality"])
-        del self._waiting[: job.rule_name == "simulate"]
+        if job.rule_name == "simulate":
+            del self._waiting[:1]
         self._failed.pop(name_of(job), None)  # a retry
         self._running[job.jobid] = job
 

@@ -162,7 +162,7 @@ def _fault_of_build(path: str, program: str, stated: dict[str, Any]) -> Fault | 
     if stated["source_hash"] != _source_hash(program):
         return Fault(path, f"stale: the sources of {program} have changed")
     try:
-        build = built(program)
+        build = _built(program)
     except BuildError:  # an unpacked crate has no build: its sources decide
         return None
     for name in BUILD:
@@ -175,6 +175,7 @@ def _fault_of_build(path: str, program: str, stated: dict[str, Any]) -> Fault | 
 
 
 _source_hash = cache(sources_of_program)
+_built = cache(built)
 
 
 def _agree(option: Any, stated: Any) -> bool:

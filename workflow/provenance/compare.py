@@ -22,10 +22,10 @@ COMPUTED = 1e6  # degrees of freedom assumed for a discretisation error
 
 
 def keep(quality: str) -> None:
-    """Hard-links the results that a rerun replaces; programs write new files and rename them."""
-    shutil.rmtree(ROOT / BEFORE, ignore_errors=True)
-    if (ROOT / "data" / quality).is_dir():
-        (ROOT / BEFORE).mkdir(parents=True)
+    """Hard-links the results that a rerun replaces; programs write new files and rename them. An interrupted rerun keeps those
+    from before its first start."""
+    if (ROOT / "data" / quality).is_dir() and not (ROOT / BEFORE / quality).exists():
+        (ROOT / BEFORE).mkdir(parents=True, exist_ok=True)
         for options in ("-al", "-a"):  # copies if the file system has no hard links
             copy = ["cp", options, ROOT / "data" / quality, ROOT / BEFORE]
             if subprocess.run(copy, capture_output=True, check=False).returncode == 0:
@@ -77,6 +77,7 @@ def main() -> None:
     print(f"{agree} of {len(values)} results agree with those in {against}, smallest p = {smallest:.2g}")
     for path, p in differing.items():
         print(f"  {path}: p = {p:.2g}")
+    shutil.rmtree(ROOT / BEFORE / quality.name, ignore_errors=True)
     sys.exit(1 if differing else 0)
 
 

@@ -42,13 +42,11 @@ use rule simulate as join with:
     wildcard_constraints:
         run="|".join(sorted({re.escape(name.partition("/")[2]) for name in DIVISION})),
     priority: 10**9
-    threads: 1
 
 
 use rule simulate as single with:
     group:
         "{panel}"
-    threads: 1
     resources:
         runtime=minutes,
         mem_mb=lambda wildcards, attempt: 500 * 2**attempt,
@@ -65,7 +63,6 @@ use rule simulate as part with:
         part="[0-9]+-[0-9]+",
     group:
         "{batch}"
-    threads: 1
     resources:
         runtime=minutes,
         mem_mb=lambda wildcards, attempt: 500 * 2**attempt,

@@ -15,9 +15,8 @@ rule simulate:
         program=lambda wildcards: run_of(wildcards).program,
         options=lambda wildcards: shlex.join(arguments(run_of(wildcards).options)),
         build=lambda wildcards: BUILDS[run_of(wildcards).program],
-        resume=lambda wildcards, threads: (
-            f"--threads {threads} --resume" if run_of(wildcards).replicated else ""
-        ),
+        resume=lambda wildcards: "--threads 1 --resume" if run_of(wildcards).replicated else "",
+        # No trigger of a rerun, as it depends on the input.
         join=lambda wildcards, input: shlex.join(["--join", os.path.dirname(input[0])]) if input else "",
     shell:
         "build/bin/{params.program} {params.options} {params.resume} {params.join} --progress log --output {output:q}"
