@@ -143,7 +143,11 @@ def test_ageing(quality: str, run: str, first: int) -> None:
     data.plan = data.plan | {"ext07": replace(panel, runs=panel.runs[::-1])}  # no result depends on the order
     slope, error = of("ext07", run, "decade_slope", data)
     evidence = FUNCTIONS["C29"](data)
-    check(evidence.literal, *relative_change(slope[first], slope[-1], error[first], error[-1]), freedom=freedom("ext07", run, data))
+    check(
+        evidence.literal,
+        *relative_change(slope[first], slope[-1], error[first], error[-1]),
+        freedom=freedom("ext07", run, data),
+    )
     largest = slope.argmax()
     value, spread = relative_change(slope[largest], slope[-1], error[largest], error[-1])
     check(evidence.alternative, value + 1, spread)

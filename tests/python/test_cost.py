@@ -29,11 +29,9 @@ EXECUTED = {
     "fig08": {
         "deterministic_cells=16": 1.29,
         "deterministic_cells=128": 7.27,
-        "large": 29.4,
-        "rare_cells=512": 10.5,
     },
-    "ext09": {"dense_cells=64": 6.21, "dense_cells=256": 27.0, "dilute_cells=128": 11.1},
-    "ext11": {"dense-pressure_cells=16": 5.85, "thinning-temperature_cells=64": 15.5},
+    "ext09": {"dense_cells=64": 6.21, "dilute_cells=128": 11.1},
+    "ext11": {"dense-pressure_cells=16": 5.85},
     "ext12": {"dense-weak_cells=64": 5.67, "dense-strong_cells=64": 6.16},
 }
 

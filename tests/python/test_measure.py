@@ -5,7 +5,7 @@ import pytest
 
 from workflow.lib import measure as module
 from workflow.lib.load import load
-from workflow.lib.measure import MeasureError, measure
+from workflow.measure import MeasureError, measure
 
 SMALL = {"cells": 4, "gamma": "N", "replicas": 4, "relaxation_time": 1, "observation_time": 2}
 

@@ -129,7 +129,7 @@ def test_a_crate_unpacked_elsewhere_holds(clean: Clone, tmp_path: Path, surround
     shutil.copytree(ROOT / ".cache", crate.folder / ".cache", ignore=shutil.ignore_patterns("mypy"))
     told = crate.make("audit", "QUALITY=smoke").stdout
     assert told.endswith("1 panels with their results: 0 broken, 0 not checked, all else holds\n")
-    assert "Not made at quality smoke: fig01, " in told
+    assert "Not made at quality smoke: model, fig01, " in told
 
 
 def test_verify_reruns_a_panel(kept: Clone) -> None:

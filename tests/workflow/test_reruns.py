@@ -60,7 +60,7 @@ def forget(clone: Clone) -> None:
 
 
 FIG07 = "decades: 6\n        fit-decades: 1\n"
-EFFORT = "fig07: {all: {replicas: 4}}"
+EFFORT = "fig06: {all: {replicas: 8}}"
 CHANGES: dict[str, tuple[Edit, Jobs]] = {
     "another build of a program": (another_build("energy_pulse"), of_program("energy_pulse")),
     "script": (append("workflow/figures/fig06.py", "# more\n"), {"fig06"}),
@@ -71,8 +71,8 @@ CHANGES: dict[str, tuple[Edit, Jobs]] = {
     ),
     "parameter": (replace("workflow/config/paper.yaml", FIG07, FIG07.replace("6", "5")), of_panel("fig07")),
     "effort": (
-        replace("workflow/config/quality/smoke.yaml", EFFORT, EFFORT.replace("4", "5")),
-        of_panel("fig07"),
+        replace("workflow/config/quality/smoke.yaml", EFFORT, EFFORT.replace("8", "9")),
+        of_panel("fig06"),
     ),
     "lock of Python packages": (append("uv.lock", "# more\n"), set(PLAN)),
     "comment in a rule": (append("workflow/rules/draw.smk", "# more\n"), set()),

@@ -225,8 +225,8 @@ def relation(data: Data) -> Evidence:
     return Evidence(
         found,
         limit,
-        caveat="Sound peaks with ξ = 2/3 give 1/2, κ has 1/3; the relation holds for the heat peak at the centre, ξ = 3/5 "
-        f"(docs/mode_coupling.md). κ of fig. 8 is fitted over the largest sizes, with χ² of {' and '.join(told)}.",
+        caveat="ξ is that of moving peaks, which fig. 10 measures; sound has 2/3, which gives 1/2, and κ has 1/3. With the peak of heat "
+        f"at the centre, ξ = 3/5, the relation gives 1/3 (docs/mode_coupling.md); that one is not tested here. κ of fig. 8 is fitted over the largest sizes, with χ² of {' and '.join(told)}.",
     )
 
 

@@ -21,7 +21,7 @@ from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 from workflow.lib.mode_coupling import Chain, f_kpz, levy
 
-FIRST = 16  # time from which a peak is wider than cells
+FIRST = 16  # time from which a peak is wider than cells, in λ/√T
 HALF_WIDTH = 0.880466  # of f_KPZ
 REACH = 3  # of the scaled profiles
 HEAT_REACH = 6
@@ -59,7 +59,7 @@ def records(results: Sequence[Result]) -> list[Record]:
             one = Record(result, index, time, gas, mobile)
             key = (gas.zeta, gas.mass, time)
             error = float(np.mean(result["momentum_correlation"].error[index]))
-            if time >= FIRST and (
+            if time * np.sqrt(gas.temperature) / gas.cell_length >= FIRST and (
                 key not in found or error < np.mean(found[key].profile("momentum_correlation")[2])
             ):
                 found[key] = one

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 from workflow.figures.ext09 import LOOKS, by_spacing, gas, spacings
 from workflow.lib import style
-from workflow.lib.caption import BATHS, parameters, replicas
+from workflow.lib.caption import BATHS, listed, parameters, replicas
 from workflow.lib.figure import run
 from workflow.lib.fit import Line, fit_line, with_error
 from workflow.lib.growth import local_exponents
@@ -131,10 +131,8 @@ def fitted(part: pd.DataFrame) -> Line:
 
 
 def exponents(sizes: pd.Series, values: pd.Series, errors: pd.Series) -> str:
-    """Between the smallest and the largest two sizes."""
     _, slope, error = local_exponents(sizes, values, errors)
-    first, last = (with_error(slope[k], error[k]) for k in (0, -1))
-    return f"{first} to {last}"
+    return listed([with_error(*one) for one in zip(slope, error, strict=True)])
 
 
 def crossed(table: pd.DataFrame) -> str:

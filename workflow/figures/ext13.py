@@ -97,7 +97,7 @@ def amplitude(results: Sequence[Result]) -> str:
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     table = tabulate(results)
     figure, (left, right) = plt.subplots(1, 2, figsize=(2 * style.COLUMN, style.HEIGHT))
-    looks, said = iter(LOOKS), []
+    looks, said, reached = iter(LOOKS), [], []
     for _, part in table.groupby(GAS, sort=False):
         gas = part.iloc[0]
         look = {**style.POINTS, **(RANDOM if gas.random_direction else next(looks))}
@@ -111,6 +111,11 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         left.plot(part.time, part.predicted / part.time, color=look["color"])
         right.errorbar(part.middle, part.local_exponent, part.local_exponent_error, **look)
         said.append(last_octave(part))
+        last = part.iloc[-1]
+        if np.isfinite(last.predicted):
+            reached.append(
+                with_error(last.heat_variance / last.predicted, last.heat_variance_error / last.predicted)
+            )
     left.set(
         xscale="log", yscale="log", xlabel="time $t$", ylabel=rf"$\langle Q^2 \rangle/Nt$ ({style.UNITS})"
     )
@@ -123,9 +128,9 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     caption = f"""
         Heat Q that passes in a time t in rings in equilibrium, {parameters(results, "cell-length")},
         T = {listed(sorted({number(one.parameters["temperature"]) for one in results}))}, {replicas(results)}; ζ: flux of slow particles.
-        (a) Mean square per cell and time. Lines: mode coupling, ∝ t^(1/3), without a fitted parameter and without
-        normal diffusion. Random directions do not conserve momentum. (b) Exponents over octaves; dashed: mode
-        coupling and diffusion. In the last octave: {", ".join(said)}. {amplitude(results)}"""
+        (a) Mean square per cell and time. Lines: fluctuating hydrodynamics, nothing fitted, without normal diffusion; the
+        last points are {", ".join(reached)} of them. Random directions do not conserve momentum. (b) Exponents over octaves;
+        dashed: 4/3 of the theory, and diffusion. In the last octave: {", ".join(said)}. {amplitude(results)}"""
     return figure, table, caption
 
 

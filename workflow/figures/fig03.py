@@ -20,7 +20,6 @@ from workflow.lib.load import Result
 
 ENDS = [(0, "x = 0", style.BLUE, "solid"), (-1, "x = 1", style.VERMILLION, (0, (4, 1.5)))]
 PAPER, EQUAL, EXCHANGE = "as in the paper", "equal temperatures", "sigma = 0"
-SHOWN = 45
 OFTEN = 0.01  # fluxes over the largest one, above which the ratio to a Gaussian is shown
 
 
@@ -63,11 +62,6 @@ def draw_halves(axes: Axes, part: pd.DataFrame, values: pd.Series, **look: Any) 
         look.pop("label", None)
 
 
-def both_rates(result: Result) -> float:
-    """The flux over it has about the integral 1, as the paper's."""
-    return float(result.parameters["nu-left"] + result.parameters["nu-right"])
-
-
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     (paper,) = (result for result in results if case(result) == PAPER)
     rows = table[table.case == PAPER].drop_duplicates("x")
@@ -93,8 +87,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         draw_halves(below, equal, departure[equal.index], color=color, linestyle="dotted", linewidth=0.8)
     for axes in (above, below):
         axes.axvline(0, **style.GUIDE)
-    above.set(ylabel="$F(p, x)$", xlim=(-SHOWN, SHOWN), ylim=(0, None))
-    style.second_axis(above, 1 / both_rates(results[0]), r"$F/(\nu_L + \nu_R)$")
+    above.set(ylabel="$F(p, x)$", xlim=(-style.SHOWN_MOMENTA, style.SHOWN_MOMENTA), ylim=(0, None))
+    style.second_axis(above, 1 / style.both_rates(results[0]), r"$F/(\nu_L + \nu_R)$")
     below.plot([], [], color="grey", linestyle="dotted", label="$T_L = T_R$")
     below.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel="$F$ over Gaussian,\nminus 1 / %")
     above.legend(loc="upper right")

@@ -13,7 +13,6 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from workflow.figures.fig03 import SHOWN, both_rates
 from workflow.lib import style
 from workflow.lib.caption import CHAIN, ERRORS, WINDOW, baths, listed, number, parameters, replicas
 from workflow.lib.figure import run
@@ -90,7 +89,7 @@ def draw_distribution(axes: Axes, table: pd.DataFrame, reach: float) -> None:
 def draw_residuals(axes: Axes, table: pd.DataFrame) -> None:
     for place, part in table.groupby("x", sort=False):
         _, color, dashes, marker = ENDS[place]
-        for half in halves(part[part.momentum.abs() < SHOWN]):
+        for half in halves(part[part.momentum.abs() < style.SHOWN_MOMENTA]):
             unit = table.kinetic.max() / 100
             look: style.Look = {"marker": marker, "color": color, "markersize": 2}
             look |= {"elinewidth": 0.6, "linewidth": 0.6}
@@ -98,7 +97,11 @@ def draw_residuals(axes: Axes, table: pd.DataFrame) -> None:
             axes.errorbar(half.momentum, residual, half.flux_error / unit, linestyle=dashes, **look)
     axes.axhline(0, color=style.BLACK, linewidth=0.6)
     axes.axvline(0, **style.GUIDE)
-    axes.set(xlabel="momentum $p$", ylabel=r"$F_N - F$ / % of max $F$", xlim=(-SHOWN, SHOWN))
+    axes.set(
+        xlabel="momentum $p$",
+        ylabel=r"$F_N - F$ / % of max $F$",
+        xlim=(-style.SHOWN_MOMENTA, style.SHOWN_MOMENTA),
+    )
 
 
 def cases(table: pd.DataFrame) -> list[tuple[str, bool, pd.DataFrame]]:
@@ -172,9 +175,9 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         figsize=(2 * style.COLUMN, 1.6 * style.HEIGHT),
         height_ratios=[1.7, 1],
     )
-    draw_distribution(panels["main"], unequal, SHOWN)
+    draw_distribution(panels["main"], unequal, style.SHOWN_MOMENTA)
     draw_distribution(panels["near"], unequal, NEAR)
-    style.second_axis(panels["main"], 1 / both_rates(results[0]), r"$F_N/(\nu_L + \nu_R)$")
+    style.second_axis(panels["main"], 1 / style.both_rates(results[0]), r"$F_N/(\nu_L + \nu_R)$")
     draw_residuals(panels["residual"], unequal)
     draw_jumps(panels["jump"], main)
     place: style.Look = {"transform": panels["main"].transAxes, "ha": "right"}

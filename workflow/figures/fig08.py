@@ -13,6 +13,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from workflow.figures.ext09 import gas
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, number, parameters, replicas
 from workflow.lib.figure import run
@@ -89,7 +90,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     runs = [one for one in results if one.provenance["program"] == "conductivity"]
-    runs = [one for one in runs if one.parameters["cell-length"] == "1/N"]
+    runs = [one for one in runs if gas(one) not in ("dilute", "dense")]  # of a fixed spacing
     table, theory = tabulate(runs), mean_field(results)
     size = (2 * style.COLUMN, 1.1 * style.HEIGHT)
     figure, (left, right) = plt.subplots(1, 2, figsize=size, sharex=True)

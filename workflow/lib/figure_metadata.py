@@ -4,6 +4,7 @@ import ast
 import hashlib
 import json
 import logging
+import re
 import subprocess
 import sys
 from collections.abc import Iterable, Sequence
@@ -19,6 +20,7 @@ if TYPE_CHECKING:  # imports that would delay every start of Snakemake by 0.5 s
 ROOT = Path(__file__).parents[2]
 PACKAGES = "uv.lock"
 BUILD = ("program", "source_hash", "compiler", "flags", "libraries")
+TABLE = re.compile(r'with_name\("([\w.]+)"\)')  # a table that a module reads from its own folder
 PARENTS_LINE = "# parents: sha256 "  # of a CSV
 
 
@@ -92,14 +94,16 @@ def digest_of_files(paths: Iterable[str]) -> str:
 
 
 def sources_of(script: str) -> list[str]:
-    """Sorted paths of the script and of all modules of the project that it imports, directly or indirectly."""
+    """Sorted paths of the script, of all modules of the project that it imports, directly or indirectly, and of their tables."""
     found: set[str] = set()
     waiting = [script]
     while waiting:
         path = waiting.pop()
         if path not in found and (ROOT / path).is_file():
             found.add(path)
-            waiting += _imported((ROOT / path).read_text("utf-8"))
+            source = (ROOT / path).read_text("utf-8") if path.endswith(".py") else ""
+            waiting += _imported(source)
+            waiting += [str(Path(path).with_name(name)) for name in TABLE.findall(source)]
     return sorted(found)
 
 

@@ -101,6 +101,14 @@ def letter(*panels: Axes, lift: float | None = None, start: str = "a") -> None:
         axes.set_title(f"({character})", loc="left", y=None if lift is None else 1, pad=lift)
 
 
+SHOWN_MOMENTA = 45  # of the flux F(p), to either side
+
+
+def both_rates(result: Result) -> float:
+    """ν_L + ν_R. The flux over it has about the integral 1, as the paper's."""
+    return float(result.parameters["nu-left"] + result.parameters["nu-right"])
+
+
 def guide_at(axes: Axes, value: float, name: str) -> None:
     """Horizontal guide, labelled on the right of the frame."""
     axes.axhline(value, **GUIDE)

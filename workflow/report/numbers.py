@@ -1,7 +1,7 @@
 """Numbers quoted in questions.yaml and misprints.yaml by the name of their function; none decides a claim."""
 
 from workflow.claims.data import Data, number
-from workflow.claims.growth import BULK, exponent, halves, largest_sizes, sizes
+from workflow.claims.growth import BULK, exponent, halves, largest_sizes, sizes, without_particle_current
 from workflow.claims.verdict import Number
 from workflow.lib.load import Result
 
@@ -26,6 +26,17 @@ def heat_exponent(data: Data) -> Number:
 
 def heat_exponent_without_momentum(data: Data) -> Number:
     return _last_octave(data.of("ext13", random_direction=True))
+
+
+def heat_exponent_with_momentum(data: Data) -> Number:
+    """In the gas of the runs with random directions."""
+    (control,) = data.of("ext13", random_direction=True)
+    gas = {name: control.parameters[name] for name in ("sigma", "fugacity")}
+    return _last_octave(data.of("ext13", random_direction=False, **gas))
+
+
+def kappa_0_exponent(data: Data) -> Number:
+    return without_particle_current(data)
 
 
 def _last_octave(rings: list[Result]) -> Number:

@@ -8,7 +8,7 @@
 #include "boltzmann/sites.hpp"
 #include "numerics/gmres.hpp"
 
-namespace {
+namespace hydrodynamic_preconditioner_test {
 
 using namespace lorentz;
 using Eigen::Index;
@@ -135,4 +135,4 @@ TEST(HydrodynamicPreconditioner, SavesSteps) {
   }
 }
 
-}  // namespace
+}  // namespace hydrodynamic_preconditioner_test

@@ -11,7 +11,7 @@
 #include "boltzmann/moments.hpp"
 #include "boltzmann/refinement.hpp"
 
-namespace {
+namespace kinetic_equation_test {
 
 using namespace lorentz;
 using Eigen::Index;
@@ -310,4 +310,4 @@ TEST(KineticEquation, FailsWithAMessage) {
   EXPECT_THROW(solve(p, 0), ConvergenceError);
 }
 
-}  // namespace
+}  // namespace kinetic_equation_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace {
+namespace panels_test {
 
 /// Largest relative error of the integrals over [0, 2] of the powers up to the degree.
 double worst_error(int order, int degree) {
@@ -28,4 +28,4 @@ TEST(Panels, GaussRuleIsExactUpToItsDegree) {
   }
 }
 
-}  // namespace
+}  // namespace panels_test

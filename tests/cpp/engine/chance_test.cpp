@@ -18,7 +18,7 @@
 #include "engine/pair.hpp"
 #include "support/collisions.hpp"
 
-namespace {
+namespace chance_test {
 
 using namespace lorentz;
 
@@ -283,4 +283,4 @@ TEST(ChanceOfThePulse, RelaxationAndPulseShareNoDraw) {
   }
 }
 
-}  // namespace
+}  // namespace chance_test

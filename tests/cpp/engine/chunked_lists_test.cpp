@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <vector>
 
-namespace {
+namespace chunked_lists_test {
 
 using lorentz::ChunkedLists;
 using lorentz::Flight;
 
 std::vector<std::uint32_t> particles_in(const ChunkedLists& lists, ChunkedLists::List list) {
   std::vector<std::uint32_t> particles;
-  lists.for_each(list, [&](std::uint32_t place) { particles.push_back(lists[place].particle); });
+  lists.for_each(list, [&](std::uint32_t slot) { particles.push_back(lists[slot].particle); });
   std::ranges::sort(particles);
   return particles;
 }
@@ -58,10 +58,10 @@ TEST(ChunkedLists, PlacesStayAsTheListGrows) {
   ChunkedLists lists;
   lists.reset(1, 1);
   ChunkedLists::List list = 0;
-  const std::uint32_t place = lists.append(list, {0, 0, 0, 300});
+  const std::uint32_t slot = lists.append(list, {0, 0, 0, 300});
   append(lists, list, 0, 300);
   EXPECT_EQ(particles_in(lists, list), numbers(0, 301));
-  EXPECT_EQ(lists[place].particle, 300U);
+  EXPECT_EQ(lists[slot].particle, 300U);
 }
 
 TEST(ChunkedLists, MemoryOfAClearedListServesAgain) {
@@ -70,7 +70,7 @@ TEST(ChunkedLists, MemoryOfAClearedListServesAgain) {
   ChunkedLists::List one = 0, other = 0;
   append(lists, one, 0, 1000);
   append(lists, other, 0, 300);
-  const std::size_t places = lists.places();
+  const std::size_t slots = lists.slots();
   for (int round = 0; round < 3; ++round) {
     lists.clear(one);
     EXPECT_TRUE(particles_in(lists, one).empty());
@@ -78,7 +78,7 @@ TEST(ChunkedLists, MemoryOfAClearedListServesAgain) {
     EXPECT_EQ(particles_in(lists, one), numbers(500, 1500));
     EXPECT_EQ(particles_in(lists, other), numbers(0, 300));
   }
-  EXPECT_EQ(lists.places(), places);
+  EXPECT_EQ(lists.slots(), slots);
 }
 
-}  // namespace
+}  // namespace chunked_lists_test

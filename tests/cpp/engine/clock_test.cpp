@@ -9,7 +9,7 @@
 #include "reference/heap_simulator.hpp"
 #include "support/collisions.hpp"
 
-namespace {
+namespace clock_test {
 
 using namespace lorentz;
 
@@ -77,4 +77,4 @@ TEST(Clock, StartsAgainWithoutChangingTheOrder) {
   }
 }
 
-}  // namespace
+}  // namespace clock_test

@@ -8,7 +8,7 @@
 #include "engine/closed_start.hpp"
 #include "support/collisions.hpp"
 
-namespace {
+namespace closed_dynamics_test {
 
 using namespace lorentz;
 using namespace support;
@@ -105,4 +105,4 @@ TEST(Simulate, RefusesAPhasePointOfAnotherChain) {
   EXPECT_THROW(ClosedDynamics({3, 2, 1, 1.5}, good, 1, {1, 0}), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace closed_dynamics_test

@@ -10,7 +10,7 @@
 #include "model/collision.hpp"
 #include "support/plausible.hpp"
 
-namespace {
+namespace closed_start_test {
 
 using namespace lorentz;
 using support::plausible;
@@ -118,4 +118,4 @@ TEST(InitialState, ShiftsTheTotalMomentumToZero) {
   }
 }
 
-}  // namespace
+}  // namespace closed_start_test

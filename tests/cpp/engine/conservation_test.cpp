@@ -10,7 +10,7 @@
 #include "engine/closed_start.hpp"
 #include "support/sample.hpp"
 
-namespace {
+namespace conservation_test {
 
 using namespace lorentz;
 
@@ -201,4 +201,4 @@ TEST(Conservation, NothingIsLeftOfADriftThatABillionCollisionsWouldShow) {
   EXPECT_GT(std::abs(mean_drift_score(HardlyDetuned(), 24, 5 * ten_million)), 4);
 }
 
-}  // namespace
+}  // namespace conservation_test

@@ -13,7 +13,7 @@
 
 #include "engine/id_pool.hpp"
 
-namespace {
+namespace event_queue_test {
 
 using lorentz::EventQueue;
 using lorentz::Flight;
@@ -180,7 +180,7 @@ TEST(EventQueue, KeepsTheOrderWhereFlightsOutlastTheRevolution) {
     EXPECT_GT(compare_with_ordered_set({80000, 40, heavy_tailed(1), 0.01, 300000}, rate), 300000U);
 }
 
-// Every flight that outlasts the revolution takes a new place; the places left behind must serve again.
+// Every flight that outlasts the revolution takes a new slot; the slots left behind are reused.
 TEST(EventQueue, TakesNoMoreMemoryInALongRun) {
   Generator generator(3);
   const Delay delay = heavy_tailed(1);
@@ -191,13 +191,13 @@ TEST(EventQueue, TakesNoMoreMemoryInALongRun) {
       flight.time += delay(generator);
       queue.schedule(flight);
     }
-    return queue.places();
+    return queue.slots();
   };
-  const std::size_t places = run(200000);
-  EXPECT_LT(run(1000000), 2 * places);
+  const std::size_t slots = run(200000);
+  EXPECT_LT(run(1000000), 2 * slots);
 }
 
-/// Particles enter one by one and leave after some flights, as in an open chain. The queue is asked up to the
+/// Particles enter one by one and leave after some flights, as in an open chain. The queue is read up to the
 /// next entry, so a new flight may arrive before everything that the queue has already looked at.
 std::size_t compare_with_entries_and_exits(double entries, double exits, const Delay& delay, double rate,
                                            double end_time) {
@@ -249,4 +249,4 @@ TEST(EventQueue, LetsThePopulationGrow) {
     EXPECT_GT(compare_with_entries_and_exits(5000, 0, heavy_tailed(1), rate, 6), 30000U) << rate;
 }
 
-}  // namespace
+}  // namespace event_queue_test

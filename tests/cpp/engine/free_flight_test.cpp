@@ -12,7 +12,7 @@
 #include "support/collisions.hpp"
 #include "support/sample.hpp"
 
-namespace {
+namespace free_flight_test {
 
 using namespace lorentz;
 
@@ -129,4 +129,4 @@ TEST(FreeFlight, ChainAgreesWithTheReferenceThatVisitsEveryScatterer) {
   EXPECT_GT(z(ours.collisions, reference_simulator(0.22).collisions), 4);
 }
 
-}  // namespace
+}  // namespace free_flight_test

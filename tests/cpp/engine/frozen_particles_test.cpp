@@ -8,7 +8,7 @@
 #include "engine/closed_start.hpp"
 #include "support/collisions.hpp"
 
-namespace {
+namespace frozen_particles_test {
 
 using namespace lorentz;
 using namespace support;
@@ -58,4 +58,4 @@ TEST(FrozenParticles, AreThoseThatStop) {
   }
 }
 
-}  // namespace
+}  // namespace frozen_particles_test

@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-namespace {
+namespace id_pool_test {
 
 using lorentz::IdPool;
 
@@ -43,4 +43,4 @@ TEST(IdPool, NoNumberIsTwiceInUseAndNoneIsWasted) {
   }
 }
 
-}  // namespace
+}  // namespace id_pool_test

@@ -10,7 +10,7 @@
 
 #include "support/sample.hpp"
 
-namespace {
+namespace injector_test {
 
 using namespace lorentz;
 
@@ -119,4 +119,4 @@ TEST(Injector, BothEndsDrawNumbersOfTheirOwn) {
   EXPECT_NE(left.take(), right.take());
 }
 
-}  // namespace
+}  // namespace injector_test

@@ -15,7 +15,7 @@
 #include "support/collisions.hpp"
 #include "support/sample.hpp"
 
-namespace {
+namespace open_dynamics_test {
 
 using namespace lorentz;
 
@@ -203,4 +203,4 @@ TEST(OpenStart, IsForgotten) {
   EXPECT_GT(std::abs(support::z_score(temperature(2, 0), warm)), 4);
 }
 
-}  // namespace
+}  // namespace open_dynamics_test

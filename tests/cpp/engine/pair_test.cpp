@@ -8,7 +8,7 @@
 #include "engine/closed_start.hpp"
 #include "support/collisions.hpp"
 
-namespace {
+namespace pair_test {
 
 using namespace lorentz;
 
@@ -98,4 +98,4 @@ INSTANTIATE_TEST_SUITE_P(Chains, Pair,
                          testing::Values(ClosedChain{21, 20, 1, 0.5}, ClosedChain{21, 20, 0.5, -0.9},
                                          ClosedChain{21, 20, 1, 0.5, 1.0}, ClosedChain{21, 20, 1, 0, 3.0}));
 
-}  // namespace
+}  // namespace pair_test

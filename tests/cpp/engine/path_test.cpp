@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace path_test {
 
 using namespace lorentz;
 
@@ -65,4 +65,4 @@ TEST(Path, WindowsAddUp) {
   }
 }
 
-}  // namespace
+}  // namespace path_test

@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-namespace {
+namespace scattering_test {
 
 using namespace lorentz;
 
@@ -101,4 +101,4 @@ TEST(Scattering, AParticleAtRestNeverArrives) {
   EXPECT_EQ(after.w, 1);
 }
 
-}  // namespace
+}  // namespace scattering_test

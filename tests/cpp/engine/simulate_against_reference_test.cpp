@@ -8,7 +8,7 @@
 #include "reference/heap_simulator.hpp"
 #include "support/collisions.hpp"
 
-namespace {
+namespace simulate_against_reference_test {
 
 using namespace lorentz;
 
@@ -108,4 +108,4 @@ TEST(SimulateAgainstReference, OneParticle) {
   for (const double sigma : sigmas) compare<long double>({1, 1, 1, sigma}, 10, 1);
 }
 
-}  // namespace
+}  // namespace simulate_against_reference_test

@@ -13,7 +13,7 @@
 #include "support/plausible.hpp"
 #include "support/sample.hpp"
 
-namespace {
+namespace stationary_start_test {
 
 using namespace lorentz;
 using support::plausible;
@@ -157,4 +157,4 @@ TEST(StationaryStart, IsStationary) {
   EXPECT_GT(std::abs(support::z_score(support::sample(colder), 1)), 4);
 }
 
-}  // namespace
+}  // namespace stationary_start_test

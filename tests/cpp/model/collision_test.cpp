@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace collision_test {
 
 using lorentz::CollisionRule;
 
@@ -154,4 +154,4 @@ TEST(Collision, RefusesSigmaOutOfRange) {
     EXPECT_THROW(CollisionRule{sigma}, std::invalid_argument) << sigma;
 }
 
-}  // namespace
+}  // namespace collision_test

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace {
+namespace elementary_test {
 
 /// Largest error in units in the last place relative to long double, at logarithmically spaced arguments from
 /// low to high.
@@ -56,4 +56,4 @@ TEST(Portable, PowersAreWithinTheirError) {
   EXPECT_EQ(elementary::pow(0, 0), 1);
 }
 
-}  // namespace
+}  // namespace elementary_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace {
+namespace gauss_legendre_test {
 
 using namespace lorentz;
 using Eigen::Index;
@@ -65,4 +65,4 @@ TEST(LegendrePolynomials, AreThoseOfBonnetsRecurrence) {
   EXPECT_EQ(legendre_polynomials(5, 1 + 1e-15), legendre_polynomials(5, 1));
 }
 
-}  // namespace
+}  // namespace gauss_legendre_test

@@ -7,7 +7,7 @@
 
 #include "numerics/random.hpp"
 
-namespace {
+namespace gmres_test {
 
 using namespace lorentz;
 using Eigen::Index;
@@ -143,4 +143,4 @@ TEST(Gmres, SolvesASingularSystemThatHasASolution) {
   EXPECT_NEAR(left, 1 / impossible.norm(), 1e-9);
 }
 
-}  // namespace
+}  // namespace gmres_test

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <set>
 
-namespace {
+namespace random_test {
 
 using lorentz::Purpose;
 using lorentz::RandomStream;
@@ -125,4 +125,4 @@ TEST(Random, MomentsRejectWrongGaussians) {
   EXPECT_GT(std::abs(z_scores(normal, half_turn)[0]), 10);
 }
 
-}  // namespace
+}  // namespace random_test

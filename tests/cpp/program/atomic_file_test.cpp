@@ -14,7 +14,7 @@
 #include "program/errors.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace {
+namespace atomic_file_test {
 
 using namespace lorentz;
 using support::content_of;
@@ -152,4 +152,4 @@ TEST(AtomicFile, KeepsTheOldFileWhenTheDiskIsFull) {
   EXPECT_EQ(content_of(folder / "file"), "content");
 }
 
-}  // namespace
+}  // namespace atomic_file_test

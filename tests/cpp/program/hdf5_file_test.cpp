@@ -14,7 +14,7 @@
 #include "program/errors.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace {
+namespace hdf5_file_test {
 
 using namespace lorentz;
 using support::TemporaryFolder;
@@ -181,4 +181,4 @@ TEST(Hdf5File, OfOtherObjectsThanThoseWrittenIsRefused) {
   EXPECT_FALSE(file.attribute("/", "pointer"));
 }
 
-}  // namespace
+}  // namespace hdf5_file_test

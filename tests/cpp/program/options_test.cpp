@@ -6,7 +6,7 @@
 
 #include "support/example_options.hpp"
 
-namespace {
+namespace options_test {
 
 using namespace lorentz;
 using namespace support;
@@ -197,4 +197,4 @@ TEST(Options, HelpListsEveryOptionWithRangeAndDefault) {
   EXPECT_EQ(Example().parse({"--version"}), "example 1.0\n");
 }
 
-}  // namespace
+}  // namespace options_test

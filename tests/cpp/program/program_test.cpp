@@ -16,7 +16,7 @@
 #include "support/study.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace {
+namespace program_test {
 
 using namespace lorentz;
 using namespace support;
@@ -110,4 +110,4 @@ TEST(ProgramDeathTest, SignalsAreNoticedBetweenReplicasTooShortToAsk) {
   EXPECT_EQ(folder.names(), Names{"a.h5.checkpoint"});
 }
 
-}  // namespace
+}  // namespace program_test

@@ -12,19 +12,11 @@
 #include "support/study.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace {
+namespace replicas_test {
 
 using namespace lorentz;
 using namespace support;
 using namespace std::chrono_literals;
-
-TEST(Replicas, DoNotDependOnTheNumberOfThreads) {
-  const TemporaryFolder folder;
-  for (const char* threads : {"1", "2", "5", "64"}) {
-    EXPECT_EQ(run({"--output", folder / threads, "--threads", threads, "--replicas", "40"}), 0);
-    EXPECT_EQ(content_of(folder / threads), content_of(folder / "1"));
-  }
-}
 
 TEST(Replicas, PassOnAnExceptionAndKeepWhatIsFinished) {
   const TemporaryFolder folder;
@@ -97,4 +89,4 @@ TEST(Replicas, WithATallyThatIsNeverFilledAreRefused) {
   EXPECT_NO_THROW(record.require_filled(tallies));
 }
 
-}  // namespace
+}  // namespace replicas_test

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace stopping_rule_test {
 
 using namespace lorentz;
 
@@ -196,13 +196,13 @@ TEST(StoppingRule, BiasOfStoppedMeans) {
 }
 
 /// Forecasts at the first look compared with the actual ends; runs that end at that look are excluded.
-struct Foretold {
+struct Predicted {
   double runs = 0, within = 0, as_likely = 0;
 };
 
-Foretold foretold(const Law& law, double ideal, std::uint64_t batch) {
+Predicted predicted(const Law& law, double ideal, std::uint64_t batch) {
   const StoppingRule rule{batch, 1'000'000};
-  Foretold result;
+  Predicted result;
   for (int seed = 0; seed < seeds / 4; ++seed) {
     std::mt19937_64 generator(static_cast<unsigned>(seed));
     StoppingRule::Forecast forecast{0, 0, 0};
@@ -229,7 +229,7 @@ TEST(StoppingRule, RunsEndWhereTheFirstLookForetells) {
   };
   for (const std::uint64_t batch : batches)
     for (const double ideal : {250., 1000.}) {
-      const Foretold found = foretold(normal(true), ideal, batch);
+      const Predicted found = predicted(normal(true), ideal, batch);
       EXPECT_GT(found.runs, 100);
       EXPECT_GT(excess(found.within, found.runs), -significant)
           << batch << ' ' << ideal << ": " << found.within;
@@ -257,4 +257,4 @@ TEST(StoppingRule, ForetellsNoMoreThanThereMayBe) {
   EXPECT_EQ(forecast.high, 992U);
 }
 
-}  // namespace
+}  // namespace stopping_rule_test

@@ -16,19 +16,21 @@
 #include "support/study.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace {
+namespace study_test {
 
 using namespace lorentz;
 using namespace support;
 using Names = std::set<std::string>;
 
 TEST(Study, WritesEqualBytesForAnyNumberOfThreads) {
-  const TemporaryFolder folder;
-  EXPECT_EQ(run({"--output", folder / "a.h5", "--threads", "1"}), 0);
-  EXPECT_EQ(run({"--output", folder / "b.h5", "--threads", "5"}), 0);
-  EXPECT_EQ(content_of(folder / "a.h5"), content_of(folder / "b.h5"));
-  EXPECT_EQ(folder.names(), (Names{"a.h5", "a.cost.json", "b.h5", "b.cost.json"}));
-  EXPECT_EQ(replicas_in(folder / "a.h5"), 16U);
+  for (const char* threads : {"1", "2", "5", "64"}) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(run({"--output", folder / "a.h5", "--threads", "1"}), 0);
+    EXPECT_EQ(run({"--output", folder / "b.h5", "--threads", threads}), 0);
+    EXPECT_EQ(content_of(folder / "a.h5"), content_of(folder / "b.h5"));
+    EXPECT_EQ(folder.names(), (Names{"a.h5", "a.cost.json", "b.h5", "b.cost.json"}));
+    EXPECT_EQ(replicas_in(folder / "a.h5"), 16U);
+  }
 }
 
 TEST(Study, EndsAtTheSameReplicaForAnyNumberOfThreads) {
@@ -299,4 +301,4 @@ TEST(Study, WithoutItsTargetIsRefused) {
   EXPECT_FALSE(measured);
 }
 
-}  // namespace
+}  // namespace study_test

@@ -3,11 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "support/refusal.hpp"
 
-namespace {
+namespace closed_parameters_test {
 
 using namespace lorentz;
 using support::refused_as;
@@ -79,4 +78,4 @@ TEST(ClosedParameters, AreRefusedTogether) {
   EXPECT_TRUE(refused_as("--cells times --particles-per-cell", [&] { validate(parameters); }));
 }
 
-}  // namespace
+}  // namespace closed_parameters_test

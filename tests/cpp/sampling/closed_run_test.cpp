@@ -7,7 +7,7 @@
 
 #include "support/sample.hpp"
 
-namespace {
+namespace closed_run_test {
 
 using namespace lorentz;
 
@@ -133,4 +133,4 @@ TEST(ConservationErrors, AreMeansOverReplicas) {
   EXPECT_EQ(results[1].mean, std::vector{20.});
 }
 
-}  // namespace
+}  // namespace closed_run_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace {
+namespace injection_controls_test {
 
 using namespace lorentz;
 
@@ -34,4 +34,4 @@ TEST(InjectionControls, SubtractTheKnownMeans) {
   EXPECT_EQ(InjectionControls::axis().values.size(), found.size());
 }
 
-}  // namespace
+}  // namespace injection_controls_test

@@ -7,7 +7,7 @@
 
 #include "support/refusal.hpp"
 
-namespace {
+namespace limits_test {
 
 using namespace lorentz;
 using support::refusal, support::refused_as;
@@ -94,4 +94,4 @@ TEST(Limits, OfTheNumberOfParticles) {
   EXPECT_NE(check(65'536, 65'536), "");
 }
 
-}  // namespace
+}  // namespace limits_test

@@ -4,7 +4,7 @@
 
 #include "support/refusal.hpp"
 
-namespace {
+namespace log_times_test {
 
 using namespace lorentz;
 
@@ -36,4 +36,4 @@ TEST(LogTimes, HoldTheFit) {
                                   [] { validate(LogTimeParameters{.decades = 2, .fit_decades = 2.01}); }));
 }
 
-}  // namespace
+}  // namespace log_times_test

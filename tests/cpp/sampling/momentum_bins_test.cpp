@@ -6,7 +6,7 @@
 
 #include "support/refusal.hpp"
 
-namespace {
+namespace momentum_bins_test {
 
 using namespace lorentz;
 
@@ -54,4 +54,4 @@ TEST(MomentumBins, HaveEdgesThatAreNumbers) {
   EXPECT_TRUE(std::isfinite(Bins(100'000, 5e4 * 0.99e290).edge(100'000)));
 }
 
-}  // namespace
+}  // namespace momentum_bins_test

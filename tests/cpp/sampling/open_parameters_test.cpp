@@ -4,7 +4,7 @@
 
 #include "support/refusal.hpp"
 
-namespace {
+namespace open_parameters_test {
 
 using namespace lorentz;
 using support::refused_as;
@@ -111,4 +111,4 @@ TEST(OpenParameters, WindowsAreNotTooShort) {
                          [&] { validate(parameters, WindowParameters{{1e5}, {1e-6}}); }));
 }
 
-}  // namespace
+}  // namespace open_parameters_test

@@ -7,7 +7,7 @@
 #include "statistics/moving_peak.hpp"
 #include "support/sample.hpp"
 
-namespace {
+namespace collapse_test {
 
 using namespace lorentz;
 
@@ -41,4 +41,4 @@ TEST(Collapse, IsUnbiasedUnderNoise) {
   EXPECT_GT(std::abs(support::z_score(support::sample(found), exact + 0.01)), 4);
 }
 
-}  // namespace
+}  // namespace collapse_test

@@ -1,8 +1,9 @@
 #include "statistics/control_variates.hpp"
 
+#include <gsl/gsl_multifit.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -10,7 +11,7 @@
 #include "support/columns.hpp"
 #include "support/sample.hpp"
 
-namespace {
+namespace control_variates_test {
 
 using namespace lorentz;
 
@@ -27,6 +28,21 @@ Records noisy(std::size_t size, double noise, std::uint64_t seed) {
   return records;
 }
 
+/// Coefficients c of the least |A c - y|^2 for a row-major A with three columns.
+std::array<double, 3> least_squares(const std::vector<double>& design, const std::vector<double>& y) {
+  std::array<double, 3> c{};
+  std::array<double, 9> covariance{};
+  double squares = 0;
+  const gsl_matrix_const_view a = gsl_matrix_const_view_array(design.data(), y.size(), 3);
+  const gsl_vector_const_view b = gsl_vector_const_view_array(y.data(), y.size());
+  gsl_vector_view solution = gsl_vector_view_array(c.data(), 3);
+  gsl_matrix_view errors = gsl_matrix_view_array(covariance.data(), 3, 3);
+  gsl_multifit_linear_workspace* const workspace = gsl_multifit_linear_alloc(y.size(), 3);
+  gsl_multifit_linear(&a.matrix, &b.vector, &solution.vector, &errors.matrix, &squares, workspace);
+  gsl_multifit_linear_free(workspace);
+  return c;
+}
+
 support::Sample first_column(const Records& records) {
   std::vector<double> values;
   for (std::size_t i = 0; i < records.size(); ++i) values.push_back(records[i][0]);
@@ -37,16 +53,15 @@ TEST(ControlVariates, UseCoefficientsOfTheOtherRecords) {
   const Records records = noisy(12, 1, 1);
   const Records reduced = *regress_out(records, support::on_last(records, 2));
   for (std::size_t left_out = 0; left_out < records.size(); ++left_out) {
-    Eigen::MatrixXd design(11, 3);
-    Eigen::VectorXd y(11);
-    for (std::size_t i = 0, row = 0; i < records.size(); ++i) {
+    std::vector<double> design, y;
+    for (std::size_t i = 0; i < records.size(); ++i) {
       if (i == left_out) continue;
-      design.row(static_cast<Eigen::Index>(row)) << 1, records[i][1], records[i][2];
-      y(static_cast<Eigen::Index>(row++)) = records[i][0];
+      design.insert(design.end(), {1, records[i][1], records[i][2]});
+      y.push_back(records[i][0]);
     }
-    const Eigen::VectorXd fit = design.colPivHouseholderQr().solve(y);
+    const std::array<double, 3> fit = least_squares(design, y);
     const double expected =
-        records[left_out][0] - fit(1) * records[left_out][1] - fit(2) * records[left_out][2];
+        records[left_out][0] - fit[1] * records[left_out][1] - fit[2] * records[left_out][2];
     EXPECT_NEAR(reduced[left_out][0], expected, 1e-12);
     EXPECT_EQ(reduced[left_out][1], records[left_out][1]);
   }
@@ -160,4 +175,4 @@ TEST(ControlVariates, AreRegressedGroupByGroup) {
   }
 }
 
-}  // namespace
+}  // namespace control_variates_test

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace {
+namespace fit_test {
 
 using namespace lorentz;
 
@@ -44,4 +44,4 @@ TEST(Fit, RefusesTooFewPoints) {
   EXPECT_THROW(fit_power(two, two, 5, 6), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace fit_test

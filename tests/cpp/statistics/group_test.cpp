@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace {
+namespace group_test {
 
 using namespace lorentz;
 
@@ -120,4 +120,4 @@ TEST(Group, OfAnotherSizeThanTheirAxesAreRefused) {
   EXPECT_THROW(group.estimate(records()), std::logic_error);
 }
 
-}  // namespace
+}  // namespace group_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace {
+namespace histogram_test {
 
 using namespace lorentz;
 
@@ -69,4 +69,4 @@ TEST(Histogram, SumsWeightsAndLeavesOutWhatLiesOutside) {
   EXPECT_EQ(histogram.weights(), (std::vector<double>{1, -2, 2, 0.25}));
 }
 
-}  // namespace
+}  // namespace histogram_test

@@ -12,7 +12,7 @@
 #include "statistics/group.hpp"
 #include "support/sample.hpp"
 
-namespace {
+namespace jackknife_test {
 
 using namespace lorentz;
 
@@ -145,4 +145,4 @@ TEST(Jackknife, WrongErrorsAreImplausible) {
   EXPECT_FALSE(plausible(chi_squared(uncorrelated)));
 }
 
-}  // namespace
+}  // namespace jackknife_test

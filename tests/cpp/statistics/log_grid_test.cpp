@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace {
+namespace log_grid_test {
 
 using namespace lorentz;
 
@@ -42,4 +42,4 @@ TEST(LogGrid, FindsIntervalsNextToPointsAndBeyondTheEnds) {
   }
 }
 
-}  // namespace
+}  // namespace log_grid_test

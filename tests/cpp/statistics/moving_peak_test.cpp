@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace {
+namespace moving_peak_test {
 
 using namespace lorentz;
 
@@ -138,4 +138,4 @@ TEST(PeakWindows, HoldThePeakWhicheverReplicaIsLeftOut) {
   for (const auto& window : windows_of(records_of({profiles()}))) EXPECT_TRUE(window);
 }
 
-}  // namespace
+}  // namespace moving_peak_test

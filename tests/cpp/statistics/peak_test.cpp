@@ -11,7 +11,7 @@
 #include "numerics/random.hpp"
 #include "support/sample.hpp"
 
-namespace {
+namespace peak_test {
 
 using namespace lorentz;
 
@@ -184,4 +184,4 @@ TEST(Profile, IsFoldedAndItsOddPartTaken) {
   EXPECT_EQ(odd_part(std::vector<double>{3, 4, 10, 6}), (std::vector<double>{1}));
 }
 
-}  // namespace
+}  // namespace peak_test

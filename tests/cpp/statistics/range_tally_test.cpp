@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace range_tally_test {
 
 using namespace lorentz;
 
@@ -43,4 +43,4 @@ TEST(RangeTally, IsTheSumOverElements) {
   }
 }
 
-}  // namespace
+}  // namespace range_tally_test

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace {
+namespace tally_test {
 
 using namespace lorentz;
 
@@ -64,4 +64,4 @@ TEST(Record, RefusesArraysOfAnotherSize) {
   EXPECT_THROW(record.set(tallies.table, std::vector<double>(7)), std::out_of_range);
 }
 
-}  // namespace
+}  // namespace tally_test

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace {
+namespace time_integral_test {
 
 using namespace lorentz;
 
@@ -17,4 +17,4 @@ TEST(TimeIntegral, DividesAmongBlocks) {
   EXPECT_EQ(integral.sums(), (std::vector<double>{3, 4, 1.75, 1}));
 }
 
-}  // namespace
+}  // namespace time_integral_test

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace {
+namespace blocking_test {
 
 using namespace lorentz;
 
@@ -71,4 +71,4 @@ TEST(Blocking, OfOneReplicaHasNoErrorForTheWhole) {
   EXPECT_FALSE(result.converged());
 }
 
-}  // namespace
+}  // namespace blocking_test

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace {
+namespace ends_and_openings_test {
 
 using namespace lorentz;
 
@@ -94,4 +94,4 @@ TEST(EndsAndOpenings, BothEndsMayBeOneCell) {
   EXPECT_EQ(recorded(observer, tallies, tallies.temperature), std::vector<double>(16, 9));
 }
 
-}  // namespace
+}  // namespace ends_and_openings_test

@@ -9,7 +9,7 @@
 #include "statistics/control_variates.hpp"
 #include "support/columns.hpp"
 
-namespace {
+namespace hotelling_test {
 
 using namespace lorentz;
 
@@ -83,4 +83,4 @@ TEST(Hotelling, HasNoAnswerWithoutRecords) {
   EXPECT_TRUE(std::isnan(zero_mean_p_value(constant, support::columns(0, 1), 0)));
 }
 
-}  // namespace
+}  // namespace hotelling_test

@@ -8,7 +8,7 @@
 
 #include "support/sample.hpp"
 
-namespace {
+namespace scattering_control_test {
 
 using namespace lorentz;
 
@@ -100,4 +100,4 @@ TEST(ScatteringControl, IsZeroWhereNothingIsLeftToChance) {
   EXPECT_EQ(control.sums()[0], 0);
 }
 
-}  // namespace
+}  // namespace scattering_control_test

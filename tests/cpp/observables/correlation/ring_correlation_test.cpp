@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace {
+namespace ring_correlation_test {
 
 using namespace lorentz;
 
@@ -54,4 +54,4 @@ TEST(RingCorrelation, NeedsASnapshotAsLateAsTheLag) {
   EXPECT_THROW(correlation.at(1), std::logic_error);
 }
 
-}  // namespace
+}  // namespace ring_correlation_test

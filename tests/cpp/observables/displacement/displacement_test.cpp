@@ -10,7 +10,7 @@
 #include "support/collisions.hpp"
 #include "support/sample.hpp"
 
-namespace {
+namespace displacement_test {
 
 using namespace lorentz;
 
@@ -77,4 +77,4 @@ TEST(Displacement, AgreesWithTheReference) {
   EXPECT_GT(std::abs(support::z_score(ours, support::sample(reference_simulator(true)))), 10);
 }
 
-}  // namespace
+}  // namespace displacement_test

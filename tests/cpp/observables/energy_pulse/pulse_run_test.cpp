@@ -8,7 +8,7 @@
 #include "engine/closed_start.hpp"
 #include "support/refusal.hpp"
 
-namespace {
+namespace pulse_run_test {
 
 using namespace lorentz;
 using support::refused_as;
@@ -91,4 +91,4 @@ TEST(PulseParameters, AreRefusedTogether) {
                       [](auto& p) { p.times.back() = 1e9; }));
 }
 
-}  // namespace
+}  // namespace pulse_run_test

@@ -10,7 +10,7 @@
 #include "model/collision.hpp"
 #include "reference/heap_simulator.hpp"
 
-namespace {
+namespace currents_test {
 
 using namespace lorentz;
 
@@ -83,4 +83,4 @@ TEST(Currents, AreThoseOfTheReferenceInEveryBlock) {
   }
 }
 
-}  // namespace
+}  // namespace currents_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace {
+namespace bond_crossings_test {
 
 using namespace lorentz;
 using Values = std::vector<double>;
@@ -85,4 +85,4 @@ TEST(BondCrossings, InjectionsMinusTheirMean) {
   EXPECT_EQ(record[tallies.injection][0], 3 - 24);
 }
 
-}  // namespace
+}  // namespace bond_crossings_test

@@ -12,7 +12,7 @@
 #include "reference/heap_simulator.hpp"
 #include "support/sample.hpp"
 
-namespace {
+namespace persistence_statistics_test {
 
 using namespace lorentz;
 
@@ -130,4 +130,4 @@ TEST(PersistenceStatistics, TellsApartCloseMassRatios) {
   EXPECT_GT(std::abs(z), 4);
 }
 
-}  // namespace
+}  // namespace persistence_statistics_test

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace {
+namespace cell_profile_test {
 
 using namespace lorentz;
 
@@ -87,4 +87,4 @@ TEST_F(CellProfileTallies, Injections) {
   EXPECT_EQ(sums(tallies.injection), (Values{0, 0, 0, 8, 16, 16}));
 }
 
-}  // namespace
+}  // namespace cell_profile_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace {
+namespace profile_test {
 
 using namespace lorentz;
 
@@ -45,4 +45,4 @@ TEST(DensityProfile, IsNoneWithoutParticlesInTheMiddle) {
   EXPECT_TRUE(std::isnan(profile.excess()[1]));
 }
 
-}  // namespace
+}  // namespace profile_test

@@ -6,7 +6,7 @@
 
 #include "numerics/random.hpp"
 
-namespace {
+namespace log_sum_test {
 
 using namespace lorentz;
 
@@ -29,4 +29,4 @@ TEST(LogSum, IsTheSumOfLogarithms) {
   EXPECT_EQ(LogSum().sum(), 0);
 }
 
-}  // namespace
+}  // namespace log_sum_test
