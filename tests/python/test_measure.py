@@ -3,7 +3,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from workflow.lib import measure as module
+from workflow import measure as module
 from workflow.lib.load import load
 from workflow.measure import MeasureError, measure
 
