@@ -24,7 +24,8 @@ class EventQueue {
     rebuild(flights, rate, 0);
   }
 
-  /// Takes out the first flight that arrives before `until`, which never falls; false if there is none.
+  /// Takes out the first flight that arrives before `until`; false if there is none. `until` must not
+  /// decrease from call to call.
   bool take_before(double until, Flight& flight) {
     while (word_bits_ == 0) {
       if (word_ + 1 < occupied_.size())

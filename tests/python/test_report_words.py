@@ -18,11 +18,11 @@ BAND = Band(-1, 1)
     [
         (Number("", 1.8515, 0.0019), with_error(1.8515, 0.0019)),
         (Number("", 0.6397, 0.0041, systematic=0.0234), f"{with_error(0.6397, 0.0041)} ± 0.023 syst"),
-        (Number("", -0.000861, 0.0000168), f"{with_error(-8.61, 0.168)}·10^-4"),
+        (Number("", -0.000861, 0.0000168), f"{with_error(-8.61, 0.168)}·10⁻⁴"),
         (Number("", 0.0, 0.0), "0"),
         (Number("", 2e-4, 0.01), "0.000(10)"),
-        (Number("", 0.007544, 0.0, systematic=4.61e-12), "0.007544 ± 4.6·10^-12 syst"),
-        (Number("", 4.4e-16, 0.0, systematic=1.5e-13), "0 to rounding ± 1.5·10^-13"),
+        (Number("", 0.007544, 0.0, systematic=4.61e-12), "0.007544 ± 4.6·10⁻¹² syst"),
+        (Number("", 4.4e-16, 0.0, systematic=1.5e-13), "0 to rounding ± 1.5·10⁻¹³"),
         (Number("", 0.5, math.nan), "0.5"),
     ],
 )
@@ -34,9 +34,9 @@ def test_p_values() -> None:
     assert [words.p_value(p) for p in (1.0, 0.0431, 6.2e-8, 1e-40, 0.0, math.nan)] == [
         "= 1",
         "= 0.043",
-        "= 6·10^-8",
-        "< 10^-12",
-        "< 10^-12",
+        "= 6·10⁻⁸",
+        "< 10⁻¹²",
+        "< 10⁻¹²",
         "unknown",
     ]
 

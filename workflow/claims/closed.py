@@ -10,6 +10,7 @@ from workflow.claims.evidence import Claim, Evidence
 from workflow.claims.verdict import Number, with_systematic
 from workflow.figures.fig05 import law
 from workflow.figures.fig07 import ROUNDING
+from workflow.lib.caption import scientific
 from workflow.lib.load import Result
 
 
@@ -134,7 +135,7 @@ def only_energy(data: Data) -> Evidence:
         found.append(Number(one.label, math.log10(change), one.error / (change * math.log(10)), one.freedom))
     largest = max(float(one["momentum_drift"].mean) for one in runs)
     return Evidence(
-        found, caveat=f"The largest change is {largest:.1e}, rounding; every collision conserves p + P."
+        found, caveat=f"The largest change is {scientific(largest)}, rounding; every collision conserves p + P."
     )
 
 

@@ -78,7 +78,7 @@ def gaussian_only_if(data: Data) -> Evidence:
         [*_departures(unequal, ", σ = 1/2"), *_departures(exchange, ", σ = 0")],
         _departures(unequal, ", σ = 1/2"),
         _departures(equal, ", equal T"),
-        caveat="`Only if` is judged; `if` is the alternative reading, at equal temperatures and unequal rates.",
+        caveat="The direction “only if” is judged; “if” is the alternative reading, at equal temperatures and unequal rates.",
     )
 
 
@@ -97,8 +97,8 @@ def _bins(table: pd.DataFrame, known: float) -> list[Number]:
 
 
 def _shaped(table: pd.DataFrame, cells: int, known: float) -> tuple[list[Number], str]:
-    """F_N - F as printed, in every bin and at p = 0: of the shape that it has in mean field, and as large as in the simulation. Of
-    single bins of a simulation the largest is that of noise. And how well the shape fits, in words."""
+    """F_N - F as printed in every bin and at p = 0: the deviation in mean field, scaled to the simulation, as the largest of many
+    noisy bins is biased. Also returns the goodness of the scaling, as text."""
     near = table[(table.cells == cells) & (table.momentum.abs() < REACH)].sort_values("momentum")
     simulation, theory = (near[near.kind == kind] for kind in ("simulation", "mean field"))
     value, error, shape = (
@@ -118,7 +118,7 @@ def _shaped(table: pd.DataFrame, cells: int, known: float) -> tuple[list[Number]
 
 
 def _multiple(shape: np.ndarray, value: np.ndarray, error: np.ndarray) -> tuple[float, float, float]:
-    """By which factor the values are the shape, its error, and chi^2."""
+    """Least-squares factor between values and shape, its error, and chi^2."""
     variance = 1 / np.sum((shape / error) ** 2)
     factor = variance * np.sum(shape * value / error**2)
     return float(factor), float(np.sqrt(variance)), float(np.sum(((value - factor * shape) / error) ** 2))

@@ -45,7 +45,7 @@ def _by_baths(run: Result) -> Number:
 def exponent(
     runs: Sequence[Result], name: str, kappa: Callable[[Result], Number] = _kappa
 ) -> tuple[Number, PowerLaw]:
-    """Of the conductivity over these sizes."""
+    """Exponent of the conductivity over these sizes. Raises MissingError."""
     if len(runs) < 2:
         raise MissingError(f"Fewer than two sizes are stationary at this quality ({name})")
     cells = [one.parameters["cells"] for one in runs]
@@ -57,30 +57,27 @@ def largest_sizes(runs: Sequence[Result]) -> list[Result]:
     return [one for one in runs if one.parameters["cells"] * LARGE >= runs[-1].parameters["cells"]]
 
 
-def _between_baths(data: Data) -> list[list[Result]]:
-    """Stationary runs of fig. 8 and of every series of ext09 that has been made, by N."""
-    try:
-        made = data.of("ext09")
-    except MissingError:
-        made = []
-    series = [_stationary([one for one in made if one.path.stem.startswith(name)]) for name in SERIES]
-    return [sizes(data, "N"), *series]
+def between_baths(data: Data, series: str) -> list[Result]:
+    """Stationary runs of a series of ext09, by N."""
+    return _stationary([one for one in data.of("ext09") if one.path.stem.startswith(series)])
 
 
 def last_exponents(data: Data) -> list[Number]:
-    """Of kappa between baths, between the two largest stationary sizes of fig. 8 and of every series of ext09 that has been made.
-    The temperatures of the arriving particles and of the baths in place of T_1 and T_N, which give the same exponent in an
-    infinite chain, bound the systematic error."""
-    found = []
-    for runs in _between_baths(data):
-        if len(runs) > 1:
-            left, right = (runs[-1].parameters[f"temperature-{side}"] for side in ("left", "right"))
-            label = f"{EXPONENT}, T_R/T_L = {right / left:.2g}, spacing {spacing(runs[-1])[1]}"
-            one, *others = (
-                exponent(runs[-2:], label, kappa)[0] for kappa in (_kappa, _by_particles, _by_baths)
-            )
-            found.append(with_systematic(one, [other.value for other in others]))
-    return found
+    """Exponents of kappa between baths, in fig. 8 and in every series of ext09 that has been made."""
+    try:
+        series = [between_baths(data, name) for name in SERIES]
+    except MissingError:
+        series = []
+    return [last_exponent(runs) for runs in (sizes(data, "N"), *series) if len(runs) > 1]
+
+
+def last_exponent(runs: Sequence[Result]) -> Number:
+    """Exponent of kappa between the two largest sizes. The temperatures of the arriving particles and of the baths in place of T_1
+    and T_N, which give the same exponent in an infinite chain, bound the systematic error."""
+    left, right = (runs[-1].parameters[f"temperature-{side}"] for side in ("left", "right"))
+    label = f"{EXPONENT}, T_R/T_L = {right / left:.2g}, spacing {spacing(runs[-1])[1]}"
+    one, *others = (exponent(runs[-2:], label, kappa)[0] for kappa in (_kappa, _by_particles, _by_baths))
+    return with_systematic(one, [other.value for other in others])
 
 
 def _stationary(runs: Sequence[Result]) -> list[Result]:

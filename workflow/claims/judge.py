@@ -40,23 +40,18 @@ class Judgement:
         literally = self.intended is None or self.literal is None or self.outcome is self.literal.outcome
         return self.literal if literally else self.intended
 
-    @property
-    def shown(self) -> Reading | None:
-        """The reading that a picture shows: where only the intended meaning holds, the literal statement."""
-        return self.literal if self.outcome is Outcome.IN_MEANING else self.deciding
-
 
 def read_claims(root: Path) -> list[dict[str, str]]:
     """Raises ConfigurationError, OSError."""
     try:
         table = pd.read_csv(root / CLAIMS_FILE, dtype=str, keep_default_na=False)[COLUMNS]
         rows: list[dict[str, str]] = table.to_dict("records")
-        if sorted(row["id"] for row in rows) != sorted(FUNCTIONS):
-            raise ValueError("its ids are not those of workflow/claims")
+        if unmatched := {row["id"] for row in rows} ^ FUNCTIONS.keys():
+            raise ValueError(f"{min(unmatched)} has no row there or no function in workflow/claims: add it")
         for band in (row[reading] for row in rows for reading in READINGS if row[reading]):
             Band.of(band)
     except (ValueError, KeyError) as error:  # pandas' own are of the first kind
-        raise ConfigurationError(f"{CLAIMS_FILE} is damaged: {error}") from error
+        raise ConfigurationError(f"{CLAIMS_FILE}: {error}") from error
     return rows
 
 

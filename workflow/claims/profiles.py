@@ -83,8 +83,9 @@ def linear_rates(data: Data) -> Evidence:
         for quantity in ("rate_right_deviation", "rate_left_deviation", "particle_current_deviation"):
             places = range(len(result[quantity].mean))
             word = quantity.removesuffix("_deviation").replace("_", " ")
+            where = "bond" if word == "particle current" else "scatterer"
             found += [
-                number(result, quantity, k, f"{word} at place {k + 1}, {name}").over(scale) for k in places
+                number(result, quantity, k, f"{word} at {where} {k}, {name}").over(scale) for k in places
             ]
     return Evidence(found, found)
 

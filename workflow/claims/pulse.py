@@ -137,7 +137,7 @@ def damping(data: Data) -> Evidence:
         [_of_all_times(weak, "damping exponent, a tenth of the energy")],
         where_made(lambda: [_sound(data)]),
         caveat=f"Over all times it is {_at(rest['damping_exponent'])} from the paper's start, and changes by {_at(rest['damping_drift'])} "
-        f"per unit of ln t. The pulse is a shock: {_speeds(rest)} With a tenth of the energy the exponent changes by "
+        f"per unit of ln t. The pulse is a shock. {_speeds(rest)} With a tenth of the energy the exponent changes by "
         f"{_at(weak['damping_drift'])} per unit of ln t.",
     )
 
@@ -226,7 +226,7 @@ def relation(data: Data) -> Evidence:
         found,
         limit,
         caveat="ξ is that of moving peaks, which fig. 10 measures; sound has 2/3, which gives 1/2, and κ has 1/3. With the peak of heat "
-        f"at the centre, ξ = 3/5, the relation gives 1/3 (docs/mode_coupling.md); that one is not tested here. κ of fig. 8 is fitted over the largest sizes, with χ² of {' and '.join(told)}.",
+        f"at the centre, ξ = 3/5, the relation gives 1/3; that one is not tested here. κ of fig. 8 is fitted over the largest sizes, with χ² of {' and '.join(told)}.",
     )
 
 

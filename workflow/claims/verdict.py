@@ -77,7 +77,7 @@ class Band:
                 return cls(-math.inf, float(high))
             case [low, "to", high] if float(low) < float(high):
                 return cls(float(low), float(high))
-        raise ValueError(f"'{text}' is no band: write '0.95 to 1.05', 'above 0' or 'below 1'")
+        raise ValueError(f"'{text}' is not an acceptance band: write '0.95 to 1.05', 'above 0' or 'below 1'")
 
     def outcome(self, interval: tuple[float, float]) -> Outcome:
         low, high = interval

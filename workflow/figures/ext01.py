@@ -25,7 +25,7 @@ LOOKS: dict[str, style.Look] = {
     RANDOM: {"marker": "D", "color": style.GREEN, "markerfacecolor": "white"},
 }
 LABELS = ("sigma", "particles-per-cell", "relaxation-time", "zero-total-momentum", "random-direction")
-APART = 0.1  # of a place, by which kinds are plotted beside each other
+APART = 0.1  # of a slot, by which kinds are plotted beside each other
 
 
 def kind(result: Result) -> str:
@@ -53,7 +53,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 
 def draw_slopes(axes: Axes, table: pd.DataFrame) -> None:
-    """Of the paper's number of particles, after the longest relaxation; every third time, as neighbours share a time."""
+    """Local slopes at the paper's number of particles, after the longest relaxation; every third time, as neighbours share a time."""
     few = table[table.particles_per_cell == table.particles_per_cell.min()]
     for name, part in few[few.relaxation_time == few.relaxation_time.max()].groupby("kind"):
         every = part.iloc[::3]
@@ -63,7 +63,7 @@ def draw_slopes(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def draw_exponents(axes: Axes, runs: pd.DataFrame) -> None:
-    """alpha without drift, one place per number of particles and relaxation time."""
+    """alpha without drift, one slot per number of particles and relaxation time."""
     places = sorted(set(zip(runs.particles_per_cell, runs.relaxation_time, strict=True)))
     for name, shift in ((ZERO, -APART), (RANDOM, APART)):
         part = runs[runs.kind == name]

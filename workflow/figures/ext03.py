@@ -195,7 +195,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     caption = f"""
         Peaks in rings in equilibrium, {parameters(results, "cell-length")},
         T = {listed(sorted({number(one.parameters["temperature"]) for one in results}))}, {replicas(results)}; lines: mode coupling without a
-        fitted parameter. (a) Sound: covariance C_g of the momenta of two cells at ζ = {number(gas.zeta)}, M = {number(gas.mass)}.
+        fitted parameter (docs: mode coupling). (a) Sound: covariance C_g of the momenta of two cells at ζ = {number(gas.zeta)}, M = {number(gas.mass)}.
         (b) Heat: covariance C_h of E_s − E_p/2ζ, energies of scatterer and particles, where particles slower than
         λ/t count as frozen. (c) Height, width at half height, area, and speed (centre of mass over t) of the sound peak over theory; filled
         as in (a), open: ζ = {number(other.zeta)}, M = {number(other.mass)}. At the end: height {last(table, "peak", gas)} and

@@ -51,7 +51,7 @@ def plot_deviations(axes: Axes, result: Result, curves: dict[str, str]) -> list[
 
 
 def plot_rates(axes: Axes, result: Result) -> None:
-    """As they are, with the straight line that the deviations are from."""
+    """Rates, with the fitted straight lines."""
     for index, (name, marker) in enumerate(SIDES.items()):
         rate, deviation = result[name], result[f"{name}_deviation"]
         x = (rate.axes["cell"] + 0.5) / int(result.parameters["cells"])
@@ -93,8 +93,8 @@ def caption(table: pd.DataFrame, profiles: Sequence[Result], sizes: Sequence[Res
     return f"""
         Open chain, {parameters(profiles, "sigma", "cell-length")}, {baths(profiles[0])}, {parameters(profiles, *WINDOW)},
         {replicas([*profiles, *sizes])}; (a)–(c) {parameters(profiles, "cells")}. (a) Arrivals at a scatterer per unit time; (b) over straight
-        lines, minus one; (c) currents of particles and energy over their mean, without the openings. The paper has linear rates; they
-        deviate by up to {listed(largest)}. (d) Excess density of the end cells at γ = 1; lines: a + b ln N
+        lines, minus one; (c) currents of particles and energy over their mean, bonds at the openings omitted. The paper has linear rates; they
+        deviate by up to {listed(largest)}. (d) Excess density of the end cells at γ = 1; lines: a + b ln N, fitted from N = {FITTED} on,
         with b = {slopes}, growth as in the paper. {ERRORS}"""
 
 

@@ -96,16 +96,17 @@ def plot_spreading(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def caption(ageing: Sequence[Result], trend: Line, results: Sequence[Result]) -> str:
-    first, last = (style.with_error(ageing[0]["decade_slope"], k) for k in (0, -1))
+    slope = ageing[0]["decade_slope"]
+    largest, last = (style.with_error(slope, k) for k in (int(np.argmax(slope.mean)), -1))
     few = [
         f"; with n = {one.parameters['particles-per-cell']} the last is {style.with_error(one['decade_slope'], -1)}"
         for one in ageing[1:]
     ]
     return f"""
         Ageing of a closed chain that starts with scatterers at rest, {parameters(ageing[:1], *CHAIN, *GAS)}, {replicas(results)}. (a) Mean kinetic
-        energy of a scatterer and of a particle. (b) Slope of the scatterers' energy against ln t, decade by decade: {first} in the first and {last} in the
+        energy of a scatterer and of a particle. (b) Slope of the scatterers' energy against ln t, decade by decade: at most {largest} and {last} in the
         last, where the paper has logarithmic growth, then saturation{"".join(few)}. (c) Exponent α of the spreading at zero total momentum against
-        the relaxation time; dotted: line, slope {with_error(trend.slope, trend.error)}; dashed: diffusion. α < 1 reflects ageing. {ERRORS}"""
+        the relaxation time; dotted: a + b ln t, b = {with_error(trend.slope, trend.error)}; dashed: diffusion. α < 1 reflects ageing. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

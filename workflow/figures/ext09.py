@@ -16,6 +16,7 @@ from matplotlib.lines import Line2D
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, parameters, replicas
 from workflow.lib.figure import run
+from workflow.lib.fit import with_error
 from workflow.lib.growth import POWER, Growth, fits, widest
 from workflow.lib.load import Result
 
@@ -41,17 +42,17 @@ def gas(result: Result) -> str:
 
 
 def spacings(results: Sequence[Result]) -> dict[str, str]:
-    """By gas, as in the configuration."""
+    """Spacing of every gas, as in the configuration."""
     return {gas(result): style.spacing(result)[1] for result in results}
 
 
 def by_spacing(table: pd.DataFrame, spacing: Mapping[str, str]) -> pd.DataFrame:
-    """As it is published: with the spacing in place of the name of the gas."""
+    """The published table, with the spacing in place of the name of the gas."""
     return table.assign(gas=table.gas.map(spacing)).rename(columns={"gas": "spacing"})
 
 
 def drop_per_cell(result: Result) -> float:
-    """Of the temperature, from the left bath to the right one."""
+    """Drop of the temperature per cell, from the left bath to the right one."""
     left, right = (float(result.parameters[f"temperature-{side}"]) for side in ("left", "right"))
     return (left - right) / int(result.parameters["cells"])
 
@@ -84,6 +85,14 @@ def cube_root(part: pd.DataFrame) -> Growth | None:
     return widest(part.cells, part.kappa, part.kappa_error, CUBE_ROOT, LEVEL)
 
 
+def rival(part: pd.DataFrame, first: float) -> str:
+    """What the sizes from the first on say of a power law."""
+    (power,) = (one for one in fits(part.cells, part.kappa, part.kappa_error, first) if one.law == POWER)
+    if power.p_value < LEVEL:
+        return "is rejected"
+    return f"with exponent {with_error(power.exponent, power.exponent_error)} is not either"
+
+
 def draw_powers(axes: Axes, table: pd.DataFrame, spacing: Mapping[str, str]) -> None:
     for name, part in table.groupby("gas", sort=False):
         marker, color = LOOKS[name]
@@ -103,7 +112,7 @@ def draw_powers(axes: Axes, table: pd.DataFrame, spacing: Mapping[str, str]) -> 
 
 
 def draw_departures(axes: Axes, table: pd.DataFrame) -> None:
-    """kappa over a + b N^(1/3), minus 1, over the sizes for which that holds; the other laws, fitted to the same sizes."""
+    """kappa over a + b N^(1/3), minus 1, over the sizes for which that is not rejected; the other laws, fitted to the same sizes."""
     for name, part in table.groupby("gas", sort=False):
         if (held := cube_root(part)) is None:
             continue
@@ -123,7 +132,7 @@ def draw_departures(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def draw_cube_roots(axes: Axes, table: pd.DataFrame) -> None:
-    """kappa against N^(1/3), with a + b N^(1/3) over the sizes for which that holds."""
+    """kappa against N^(1/3), with a + b N^(1/3) over the sizes for which that is not rejected."""
     for name, part in table.groupby("gas", sort=False):
         marker, color = LOOKS[name]
         size = np.cbrt(part.cells)
@@ -138,14 +147,17 @@ def draw_cube_roots(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def caption(table: pd.DataFrame, results: Sequence[Result], spacing: Mapping[str, str]) -> str:
-    held = {spacing[name]: cube_root(part) for name, part in table.groupby("gas", sort=False)}
-    from_size = [f"N = {law.first:.0f} on at λ = {name}" for name, law in held.items() if law]
-    found = f"holds from {listed(from_size)}" if from_size else "holds nowhere"
+    found = [
+        f"from N = {law.first:.0f} on at λ = {spacing[name]}, where a power law {rival(part, law.first)}"
+        for name, part in table.groupby("gas", sort=False)
+        if (law := cube_root(part))
+    ]
+    held = f"It is not rejected {listed(found)}" if found else "It is rejected everywhere"
     return f"""
         Heat conductivity κ = −J_U N/(T_N − T_1) of open chains at the paper's spacing λ = 1/N, where the gas thins out, and at
         fixed λ, the thermodynamic limit; {parameters(results, "gamma", "sigma")}, {baths(results[0])}, {replicas(results)}.
         (a) Logarithmic axes. (b) Against the cube root of N; lines: a + b N^(1/3) where it is not rejected at the
-        {100 * LEVEL:.0f} % level. (c) Deviation from it; lines: other laws, fitted to the same sizes. It {found}. {ERRORS}"""
+        {100 * LEVEL:.0f} % level. (c) Deviation from it; lines: other laws, fitted to the same sizes. {held}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

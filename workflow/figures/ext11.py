@@ -180,12 +180,12 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     slopes = local_exponents(thinning.cells, law.at(thinning.sound_transit), np.zeros(len(thinning)))[1]
     caption = (
         f"Linear response at γ = N, {parameters(results, 'sigma')}, from differences of temperature and of pressure "
-        f"({parameters(results, *BATHS)}), {replicas(results)}. (a) Coefficient of the particle current; momentum conservation "
-        "makes it grow as N. (b) Heat conductivity without particle current. (c) Its local exponents: "
+        f"({parameters(results, *BATHS)}), {replicas(results)}. (a) L_nn/N, coefficient of the particle current; "
+        "constant, as momentum is conserved. (b) Heat conductivity without particle current. (c) Its local exponents: "
         f"{measured['thinning']} at λ = 1/N, {measured['dense']} at λ = {spacing['dense']}. Lines: mode coupling, a + "
-        f"b(τN)^(1/3), b known, τ = {with_error(law.slope**3, 3 * law.slope**2 * law.error)} and a fitted at "
+        f"b(τN)^(1/3), τ = {with_error(law.slope**3, 3 * law.slope**2 * law.error)} and a fitted at "
         f"λ = {spacing['dense']} (χ² = {law.chi_square:.0f} for {law.freedom}). At λ = 1/N it predicts "
-        f"{slopes[0]:.2f} to {slopes[-1]:.2f}: exponents above 1/3 at small N are no evidence against 1/3.{crossed(table)}"
+        f"exponents that fall from {slopes[0]:.2f} to {slopes[-1]:.2f}.{crossed(table)}"
     )
     return figure, by_spacing(table, spacing), caption
 

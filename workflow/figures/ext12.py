@@ -97,7 +97,7 @@ def caption(slopes: pd.DataFrame, starts: pd.DataFrame, results: Sequence[Result
     return f"""
         Heat conductivity κ and particle current J_n of the open chains of ext. 9 for other drives and starts, {parameters(results, "gamma", "sigma")},
         {replicas(results)}. (a)–(c) Local exponents of κ between neighbouring sizes, for ratios of the baths' temperatures of {drives} at
-        equal pressures, plotted beside each other; dashed: 1/3. At these sizes they depend on the drive. (d)–(i) κ and J_n from several
+        equal pressures, shifted sideways; dashed: 1/3. At these sizes they depend on the drive. (d)–(i) κ and J_n from several
         starts, relative to the mean over them: in equilibrium with the mean of the baths (warm), with the colder or the hotter one, and empty. They
         differ by up to {kappa} % in κ and {current} % in J_n. {ERRORS}"""
 

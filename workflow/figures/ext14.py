@@ -79,8 +79,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     strong, weak = (with_error(float(one.mean), float(one.error)) for one in exponents)
     caption = f"""
         Moving peak of the energy difference after a pulse; {parameters(heights, "particles-per-cell", "sigma", "energy")} per degree of
-        freedom, {replicas(heights + positions)}. (a) Height times t^(2/3) over its first value, from scatterers at rest that have
-        relaxed: the paper's pulse, a shock with the mean damping exponent {strong}, and one with a tenth of its energy, {weak}.
+        freedom, in the cell of the pulse ε̃, {replicas(heights + positions)}. (a) Height times t^(2/3) over its first value, from scatterers at rest that have
+        relaxed: the paper's pulse, a shock with the mean damping exponent {strong}, and one with a tenth of its excess energy, {weak}.
         (b) Position over time, over its first value, from Gaussian momenta; ballistic: horizontal. In the short ring the cell of the
         pulse is wide beside the distance, and particles scatter on the way. {ERRORS}"""
     return figure, table, caption

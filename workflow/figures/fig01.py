@@ -70,7 +70,7 @@ def caption(results: Sequence[Result]) -> str:
     exponents = listed(style.with_error(result["front_exponent"]) for result in results)
     return f"""
         Particles n_t(p) with momentum p in a chain that is empty at t = 0, times |p|; {parameters(results, "cells", "sigma", "gamma")},
-        {baths(results[0])}, {replicas(results)}. The paper does not state the distance λ of the scatterers: columns. Claims are
+        {baths(results[0])}, {replicas(results)}. The paper does not state the distance λ of the scatterers: columns; claims are
         judged at λ = {JUDGED}. (a)–(c) Bins of width {number(bin_width(results[0]))}, too wide for the front; top: bin number, the paper's abscissa. (d)–(f) Logarithmic bins, both signs of p; circles: front p_0(t), where the density falls to half its
         height. (g)–(i) p_0 over λ/2t. The front falls as t^a with a = {exponents} in the columns, not logarithmically.
         {ERRORS}"""
@@ -91,7 +91,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         below.errorbar(front.time, ratio, front.front_error / half_cell, **FRONT)
         below.axhline(1, **style.GUIDE)
         given = style.spacing(result)[1]
-        name = rf"$\lambda = {given}$" + "\njudged" * (given == JUDGED)
+        name = rf"$\lambda = {given}$" + "\nclaims" * (given == JUDGED)
         above.text(0.04, 0.94, name, transform=above.transAxes, va="top")
         above.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel=r"$|p|\,n_t(p)$", xlim=(-40, 40))
         number_bins(above, result)

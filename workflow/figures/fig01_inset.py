@@ -54,7 +54,7 @@ def draw_number(axes: Axes, table: pd.DataFrame, result: Result) -> None:
     if straight(result):
         axes.plot(table.time, table.number_fitted, color=style.BLACK, zorder=3, label=r"$a + b\,\ln t$")
     given = style.spacing(result)[1]
-    title = rf"$\lambda = {given}$" + ", judged" * (given == JUDGED)
+    title = rf"$\lambda = {given}$" + ", claims" * (given == JUDGED)
     filled = table.cell_length.iloc[0] < 1
     axes.legend(title=title, alignment="left", loc="lower right" if filled else "upper left")
     axes.set(xscale="log", ylabel="particles inside $n(t)$", ylim=(0, None))
@@ -77,7 +77,7 @@ def caption(results: Sequence[Result]) -> str:
         {baths(results[0])}, {replicas(results)}. (a)–(c) n(t); line: a + b ln t, fitted in the shaded window, t = {number(first)} to {number(last)},
         where no curvature is resolved. (d)–(f) Slope dn/d ln t between neighbouring times (circles) and height of |p| n_t(p) above the front, both signs
         (squares). They agree once the chain is filled: at λ = {JUDGED}, slope {slope} in the window and height {height} at its end, logarithmic
-        growth as in the paper. {ERRORS}"""
+        growth as in the paper. At the largest λ it is not filled yet. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
@@ -88,7 +88,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     for (above, below), result, table in zip(rows.T, results, tables, strict=True):
         draw_number(above, table, result)
         draw_slopes(below, table, result)
-        for axes in (above, below):
+        for axes in (above, below) if straight(result) else ():
             axes.axvspan(*result["plateau"].axes["time"][[0, -1]], **style.WINDOW)
     rows[1, 0].legend(loc="lower right", handletextpad=0.2)
     style.letter(*rows.flat)

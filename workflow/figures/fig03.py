@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.caption import baths, listed, number, parameters
+from workflow.lib.caption import baths, listed, number, parameters, scientific
 from workflow.lib.figure import run
 from workflow.lib.load import Result
 
@@ -71,7 +71,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         Flux F(p, x) of the particles, per momentum, at both ends by the kinetic equation;
         {parameters([paper], "sigma", "gamma")}, {baths(paper)}. (a) F; right axis: over ν_L + ν_R, the scale of the paper. F jumps at p = 0
         by {jumps}. (b) Each half over the Gaussian of its own rate and second moment, where F exceeds {number(100 * OFTEN)} % of max F; dotted: T_L = T_R. What the baths inject is Gaussian, what leaves is not, with kurtoses <p⁴>/<p²>² up to
-        {number(largest[PAPER])}; at σ = 0 all halves are Gaussian. Numerical errors: below {paper.provenance["achieved_error"]:.0e} of the currents."""
+        {number(largest[PAPER])}; at σ = 0 all halves are Gaussian. Numerical errors: below {scientific(paper.provenance["achieved_error"], 1)} of the currents."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

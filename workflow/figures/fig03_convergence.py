@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.caption import baths, listed, parameters
+from workflow.lib.caption import baths, listed, parameters, scientific
 from workflow.lib.figure import run
 from workflow.lib.load import Result
 
@@ -47,7 +47,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     finest = [
-        f"{part.estimate.iloc[-1]:.0e} with {part.points.iloc[-1]} points at γ = {gamma:g}"
+        f"{scientific(part.estimate.iloc[-1], 1)} with {part.points.iloc[-1]} points at γ = {gamma:g}"
         for gamma, part in table.groupby("gamma")
     ]
     return f"""

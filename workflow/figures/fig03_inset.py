@@ -124,7 +124,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         {baths(runs[0])}, {parameters(runs, *WINDOW)}, {replicas(runs)}. (a), (b) F_N − F at both ends; lines: mean field, the
         kinetic equation of N scatterers. (c) Amplitude of the deviation, {first} and {last}; dashed: the paper's
         limits, {LIMITS[0][1]} for all N and {LIMITS[1][1]} for the longest, relative to max F or if F integrates to one (right axis).
-        There the largest bins of the mean field are {number(mean_field.iloc[0])} and {number(mean_field.iloc[-1])}. {ERRORS}"""
+        In the latter normalisation the largest bins of the mean field are {number(mean_field.iloc[0])} and {number(mean_field.iloc[-1])}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

@@ -20,10 +20,10 @@ from workflow.lib.fit import with_error
 from workflow.lib.load import Quantity, Result
 
 EQUAL = "\n$\\nu_L = \\nu_R$"
-FEW = 0.5  # jumps smaller than this share of the largest are seen beside 0
+FEW = 0.5  # if a jump is below this fraction of the largest, the axis includes 0
 NEAR = 12  # momenta shown about the jump
 
-# By place: first and last bond behind a scatterer.
+# First and last bond behind a scatterer.
 ENDS = {"x = 1/N": (1, style.BLUE, "solid", "o"), "x = 1": (-1, style.VERMILLION, (0, (4, 1.5)), "s")}
 
 
@@ -45,7 +45,7 @@ def uncorrelated(results: Sequence[Result], like: Result) -> Result | None:
 
 
 def at(quantity: Quantity, x: float) -> np.ndarray:
-    """Of the kinetic equation, at a place."""
+    """Solution of the kinetic equation at a position."""
     values: np.ndarray = quantity.mean[np.abs(quantity.axes["x"] - x).argmin()]
     return values
 
@@ -162,7 +162,7 @@ def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]
     return f"""
         Flux F_N(p, x) of the particles, per momentum, behind the first and the last scatterer;
         {parameters([chain], *CHAIN)}, {baths(chain)}, {parameters([chain], *WINDOW)}, {replicas(runs)}. Black: mean field, the kinetic equation.
-        (a) F_N; right axis: over ν_L + ν_R, the scale of the paper. (b) Surroundings of p = 0. (c) Deviation from the mean
+        (a) F_N; right axis: over ν_L + ν_R, the scale of the paper. (b) Close-up of p = 0. (c) Deviation from the mean
         field. (d) Jump at p = 0, extrapolated{equal}. {found}. {ERRORS}"""
 
 

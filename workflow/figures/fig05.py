@@ -21,8 +21,8 @@ MARKS = [
 
 def law(sigma: np.ndarray) -> np.ndarray:
     """Particle and scatterer Gaussian and independent, at one temperature."""
-    share: np.ndarray = np.arccos(sigma) / np.pi
-    return share
+    mu: np.ndarray = np.arccos(sigma) / np.pi
+    return mu
 
 
 def law_at_local_energies(table: pd.DataFrame) -> pd.Series:
@@ -64,7 +64,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         Probability μ that a particle keeps its direction when it scatters, against the mass ratio, in closed chains,
         {parameters(results, "cells", "cell-length", "gamma", "temperature", "relaxation-time")}, n particles per cell, {replicas(results)}. (a) μ and
         the law arccos(σ)/π of Gaussian particles and scatterers of one temperature. (b) μ minus the law; dashes: the law at the
-        measured energies of particles and scatterers. The largest deviations are {listed(largest)}: the law is that of a dense chain,
+        measured energies of particles and scatterers, which explains a part. The largest deviations are {listed(largest)}: the law is that of a dense chain,
         and close to the paper's n = {table.particles_per_cell.min()}. {ERRORS}"""
 
 
@@ -82,7 +82,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         below.errorbar(series.sigma, 1e3 * series.deviation, 1e3 * series.mu_error, **mark, **style.POINTS)
         expected = 1e3 * (series.law_at_local_energies - series.law)
         dash = {"linestyle": "none", "marker": "_", "markersize": 7, "markeredgewidth": 1.2}
-        label = f"law at local energies, $n = {particles}$"
+        label = f"law at measured energies, $n = {particles}$"
         below.plot(series.sigma, expected, color=mark["color"], zorder=1, label=label, **dash)
         style.cross_out(above, series.sigma, series.mu, series.converged == NOT_REACHED)
     below.legend(loc="lower left")

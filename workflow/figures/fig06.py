@@ -35,7 +35,7 @@ def cut(result: Result) -> float:
 
 
 def tabulate(result: Result) -> pd.DataFrame:
-    """One row per bin that holds anything, with the fitted law from the cut on, and what the Gaussian start gives."""
+    """One row per bin that is not empty, with the fitted power law from the cut on and, at sigma = 0, the exact density."""
     density, options = result["density"], result.parameters
     sigma, tau = float(options["sigma"]), density.axes["tau"]
     table = pd.DataFrame({"tau": tau, "density": density.mean, "density_error": density.error})
@@ -79,7 +79,7 @@ def caption(results: Sequence[Result]) -> str:
     return f"""
         Density Ψ(τ) of the time between two scatterings of a particle in a closed chain,
         {parameters(results, *chain, *GAS, *WINDOW)}, {replicas(results)}. (a) Ψ; blue line:
-        exact for σ = 0, n → ∞ and Gaussian momenta, which are only exchanged. (b), (c) Ψ times the paper's powers of τ. Black: power laws,
+        exact for σ = 0, n → ∞ and Gaussian momenta, which are only exchanged; at finite n the amplitude is larger, the power equal. (b), (c) Ψ times the paper's powers of τ. Black: power laws,
         fitted by maximum likelihood in the shaded tail, with exponents {exponents}; the
         paper has −{POWERS[0.0]} and −{POWERS[0.5]}. Open symbols: errors above {number(100 * UNSURE)} %; triangles: bins above the frame; empty bins
         omitted. {ERRORS}"""

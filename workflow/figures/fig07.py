@@ -36,14 +36,14 @@ def zero(result: Result) -> bool:
 
 
 def tabulate(result: Result) -> pd.DataFrame:
-    """One row per time. The error of the share neglects that both parts vary together: it is an upper bound."""
+    """One row per time. The error of the fraction neglects that both parts vary together: it is an upper bound."""
     variance, drift, slope = result["variance"], result["centre_of_mass"], result["local_slope"]
     table = pd.DataFrame({"time": variance.axes["time"]}).assign(zero_total_momentum=zero(result))
     table["variance"], table["variance_error"] = variance.mean, variance.error
     table["centre_of_mass"], table["centre_of_mass_error"] = drift.mean, drift.error
-    table["share"] = drift.mean / variance.mean
+    table["fraction"] = drift.mean / variance.mean
     relative = np.hypot(drift.error / drift.mean, variance.error / variance.mean)
-    table["share_error"] = table["share"] * relative
+    table["fraction_error"] = table["fraction"] * relative
     table["slope_to_next"], table["slope_to_next_error"] = (
         np.append(values, np.nan) for values in (slope.mean, slope.error)
     )
@@ -59,7 +59,7 @@ def caption(random: pd.DataFrame, results: Sequence[Result], window: tuple[float
         (a) Mean square displacement with random total momentum, as in the paper, and with zero total momentum; line: centre of
         mass of the former; dashed: t and t². (b) Local exponents. In the shaded window, t = {number(window[0])} to {number(window[1])}, the former has α =
         {alpha[False]}, slightly below two as in the paper. It is not superdiffusion but drift of the centre of mass,
-        {with_error(100 * last.share, 100 * last.share_error)} % at the end. {without} {ERRORS}"""
+        {with_error(100 * last.fraction, 100 * last.fraction_error)} % of it at the end. {without} {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
@@ -96,5 +96,5 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 
 if __name__ == "__main__":
-    names = ("share", "share_error", "slope_to_next", "slope_to_next_error")
+    names = ("fraction", "fraction_error", "slope_to_next", "slope_to_next_error")
     run(draw, "Mean square displacement of a tagged particle", **dict.fromkeys(names, "1"))

@@ -85,7 +85,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         {baths(weak[0])}, {replicas(results)}. Triangles: stronger drive, T_R/T_L = {number(table.drive.max())} (ext. 9). (a) κ; dashed
         grey: the paper's powers of N, blue: mean field, the kinetic equation of N scatterers. (b) Local exponents between neighbouring
         sizes. For γ = 1 the exponent tends to {rare.iloc[-1]}. For γ = N there is no single power, as the gas thins out: from {often.iloc[0]} at the
-        smallest sizes the exponent rises above 1/2 and falls to {strong.iloc[-1]} at the largest. {ERRORS}"""
+        smallest sizes the exponent rises above 1/2 and falls to {often.iloc[-1]} at the largest; {strong.iloc[-1]} at the stronger drive. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

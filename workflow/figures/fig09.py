@@ -116,13 +116,14 @@ def caption(results: Sequence[Result]) -> str:
     rest = results[0]["peak_speed"]
     known = np.flatnonzero(np.isfinite(rest.mean))
     ends = [style.with_error(rest, k) for k in known[[0, -1]]] if len(known) else []
-    speed = "from {} to {}".format(*ends) if ends else "unresolved"
+    speed = "changes from {} to {}".format(*ends) if ends else "is not resolved"
+    closed = any(ring_closed(one).any() for one in results)
+    faint = f" Faint: the two sides have met, ΔE opposite to the pulse above {number(100 * CLOSED)} % of the largest." if closed else ""
     spike = "Spike: central scatterer. " if results[0].parameters["gamma"] == 1 else ""
     return f"""
         Energy ΔE(x, t) per cell of a ring with a central pulse minus without; {pulse(results)}. (a), (b) ΔE.
-        {spike}(c) Position of the moving peak; dashed: constant speed. (d) Speed between neighbouring times. Faint: ring closed, ΔE
-        opposite to the pulse above {number(100 * CLOSED)} %. As in the paper two peaks move apart; from rest
-        their speed is {speed}. {ERRORS}"""
+        {spike}(c) Position of the moving peak; dashed: constant initial speed. (d) Speed between neighbouring times.{faint} As in the paper two peaks move apart; from rest
+        their speed {speed}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

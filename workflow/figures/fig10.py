@@ -25,7 +25,7 @@ ABOVE = 1.2  # factor by which these lie above the first point
 
 
 def tabulate(result: Result) -> pd.DataFrame:
-    """One row per time; the exponent of an octave stands at its last time."""
+    """One row per time; the exponent of an octave is in the row of its last time."""
     peak = result["peak"]
     part = pd.DataFrame({"time": peak.axes["time"], "peak": peak.mean, "peak_error": peak.error}).assign(
         ring_closed=ring_closed(result)
@@ -74,8 +74,8 @@ def caption(results: Sequence[Result]) -> str:
     slope, _, name = SLOPES[results[0].parameters["gamma"]]
     return f"""
         Damping of the moving peak of an energy pulse, runs of fig. 9: {pulse(results)}. (a) Height of the peak, from a smooth fit above
-        half of it. (b) Exponents over octaves of time. Dashed: the paper's {number(slope)}. From rest the exponents are {exponents}, one octave after another,
-        where the paper has {name}. Error bars, where larger than the symbols: standard errors over replicas."""
+        half of it. (b) Exponents over octaves of time. Dashed: the paper's {number(slope)}. From rest the {"exponents of the octaves are" if len(octaves) > 1 else "exponent of the octave is"} {exponents};
+        the paper has {name}. Error bars, where larger than the symbols: standard errors over replicas."""
 
 
 def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:

@@ -30,7 +30,8 @@ GAS = ("particles-per-cell", "temperature")
 BATHS = ("nu-left", "nu-right", "temperature-left", "temperature-right")
 WINDOW = ("relaxation-time", "observation-time")
 
-SMALLEST_P = 1e-6  # smaller p-values are printed as a bound
+SMALLEST_P = -6  # power of ten; smaller p-values are printed as a bound
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 ERRORS = "Error bars: standard errors over replicas."
 
 
@@ -83,9 +84,20 @@ def replicas(results: Sequence[Result]) -> str:
     return f"{low} replicas" if low == high else f"{low} to {high} replicas"
 
 
+def scientific(value: float, digits: int = 2) -> str:
+    """3.8·10⁻¹⁵"""
+    mantissa, power = f"{value:.{digits - 1}e}".split("e")
+    return f"{mantissa}·{power_of_ten(int(power))}".replace("-", "−")
+
+
+def power_of_ten(power: int) -> str:
+    """10⁻¹⁵"""
+    return f"10{str(power).translate(SUPERSCRIPTS)}"
+
+
 def goodness(chi_square: float, freedom: int) -> str:
     """chi^2, degrees of freedom and p-value."""
     if freedom < 1:
         return "no degree of freedom to test it"
     p = p_value(chi_square, freedom)
-    return f"χ² = {chi_square:.1f} for {freedom}, p {f'= {p:.2g}' if p > SMALLEST_P else f'< {SMALLEST_P:g}'}"
+    return f"χ² = {chi_square:.1f} for {freedom}, p {f'= {p:.2g}' if p > 10**SMALLEST_P else f'< {power_of_ten(SMALLEST_P)}'}"

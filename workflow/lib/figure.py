@@ -33,7 +33,7 @@ def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str
     script = Path(sys.argv[0]).resolve()
     if Path.cwd() != ROOT or not script.is_relative_to(ROOT):
         sys.exit(
-            f"{Path.cwd()} is not {ROOT}, whose modules are installed in this environment: run make setup"
+            f"a script of {ROOT} runs in that folder, not in {Path.cwd()}: change to it, or run make setup if the project was moved"
         )
     try:
         results = [load(path) for path in options.data]

@@ -70,7 +70,7 @@ def main() -> None:
                 same = file_hash(ROOT / path) == file_hash(ROOT / other)
                 values[path] = 1.0 if same else p_value(ROOT / path, ROOT / other)
     if not values:
-        print(f"No results in {against} to compare with")
+        print(f"No results in {against} to compare with: make them first, then repeat this command")
         return
     differing = {path: p for path, p in values.items() if p <= SIGNIFICANCE}
     agree, smallest = len(values) - len(differing), min(values.values())

@@ -45,7 +45,7 @@ def content(quality: str, root: Path) -> dict[str, Any]:
 
 
 def claim(judgement: Judgement) -> dict[str, Any]:
-    shown = judgement.shown
+    shown = judgement.deciding
     readings = {name: getattr(judgement, name) for name in READINGS if getattr(judgement, name)}
     return dict(judgement.claim) | {
         "outcome": judgement.outcome.value,

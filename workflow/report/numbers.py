@@ -1,8 +1,21 @@
 """Numbers quoted in questions.yaml and misprints.yaml by the name of their function; none decides a claim."""
 
+from collections.abc import Sequence
+
 from workflow.claims.data import Data, number
-from workflow.claims.growth import BULK, exponent, halves, largest_sizes, sizes, without_particle_current
+from workflow.claims.growth import (
+    BULK,
+    between_baths,
+    exponent,
+    halves,
+    largest_sizes,
+    last_exponent,
+    sizes,
+    without_particle_current,
+)
 from workflow.claims.verdict import Number
+from workflow.figures import ext13
+from workflow.lib import caption
 from workflow.lib.load import Result
 
 
@@ -15,34 +28,75 @@ def kappa_of_large_chains(data: Data) -> Number:
 
 
 def _kappa_of_half(data: Data, half: int) -> Number:
-    runs = [one for one in sizes(data, "N") if one.parameters["cells"] >= BULK]
-    return exponent(halves(runs)[half], "d ln κ/d ln N, γ = N, spacing 1/N")[0]
+    return exponent(_half(data, half), "d ln κ/d ln N, γ = N, spacing 1/N")[0]
+
+
+def _half(data: Data, half: int) -> Sequence[Result]:
+    """Runs of fig. 8 with the smaller (0) or larger (-1) sizes."""
+    return halves([one for one in sizes(data, "N") if one.parameters["cells"] >= BULK])[half]
+
+
+def small_chains(data: Data) -> str:
+    return _sizes_of_half(data, 0)
+
+
+def large_chains(data: Data) -> str:
+    return _sizes_of_half(data, -1)
+
+
+def _sizes_of_half(data: Data, half: int) -> str:
+    cells = [one.parameters["cells"] for one in _half(data, half)]
+    return f"N = {cells[0]} to {cells[-1]}"
+
+
+def kappa_exponent_dilute(data: Data) -> Number:
+    """Between baths at fixed density, of the two largest sizes."""
+    return last_exponent(between_baths(data, "dilute"))
+
+
+def kappa_exponent_dense(data: Data) -> Number:
+    return last_exponent(between_baths(data, "dense"))
 
 
 def heat_exponent(data: Data) -> Number:
     """In the ring that was observed for the longest time."""
-    return _last_octave(data.of("ext13", random_direction=False))
+    return number(_longest(data), "local_exponent", -1, f"d ln⟨Q²⟩/d ln t at {longest_ring(data)}")
+
+
+def longest_ring(data: Data) -> str:
+    return _gas_and_time(_longest(data))
 
 
 def heat_exponent_without_momentum(data: Data) -> Number:
-    return _last_octave(data.of("ext13", random_direction=True))
+    return number(*data.of("ext13", random_direction=True), "local_exponent", -1)
 
 
 def heat_exponent_with_momentum(data: Data) -> Number:
     """In the gas of the runs with random directions."""
+    return number(_comparable(data), "local_exponent", -1)
+
+
+def ring_with_momentum(data: Data) -> str:
+    return _gas_and_time(_comparable(data))
+
+
+def _comparable(data: Data) -> Result:
     (control,) = data.of("ext13", random_direction=True)
-    gas = {name: control.parameters[name] for name in ("sigma", "fugacity")}
-    return _last_octave(data.of("ext13", random_direction=False, **gas))
+    return _longest(data, **{name: control.parameters[name] for name in ("sigma", "fugacity")})
 
 
 def kappa_0_exponent(data: Data) -> Number:
     return without_particle_current(data)
 
 
-def _last_octave(rings: list[Result]) -> Number:
-    longest = max(rings, key=lambda one: one["heat_variance"].axes["time"][-1])
-    middle = longest["local_exponent"].axes["middle"]
-    return number(longest, "local_exponent", -1, f"d ln⟨Q²⟩/d ln t at t = {middle[-1]:.0f}")
+def _longest(data: Data, **gas: object) -> Result:
+    rings = data.of("ext13", random_direction=False, **gas)
+    return max(rings, key=lambda one: float(one["heat_variance"].axes["time"][-1]))
+
+
+def _gas_and_time(ring: Result) -> str:
+    gas, middle = ext13.chain(ring), ring["local_exponent"].axes["middle"][-1]
+    return f"ζ = {caption.number(gas.zeta)}, M = {caption.number(gas.mass)}, t = {middle:.0f}"
 
 
 def momentum_change(data: Data) -> Number:

@@ -58,5 +58,5 @@ def _filled(sentence: str, reading: Reading | None, data: Data) -> str:
         values |= {"number": words.value(reading.worst), "label": reading.worst.label}
     for _, name, _, _ in string.Formatter().parse(sentence):
         if name and name not in values:
-            values[name] = words.or_reason(words.value, getattr(numbers, name), data)
+            values[name] = words.or_reason(words.value_or_text, getattr(numbers, name), data)
     return sentence.format_map(values)

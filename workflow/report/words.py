@@ -3,12 +3,14 @@
 import math
 import re
 from collections.abc import Callable
+from typing import TypeVar
 
 from markupsafe import Markup, escape
 
 from workflow.claims.data import Data, MissingError
 from workflow.claims.judge import Judgement
 from workflow.claims.verdict import POWER, Band, Number, Outcome, Reading
+from workflow.lib.caption import power_of_ten, scientific
 from workflow.lib.fit import with_error
 
 SIGNS = {
@@ -23,6 +25,7 @@ READINGS = {
     "intended": "intended meaning",
     "alternative": "alternative reading (not counted)",
 }
+T = TypeVar("T")
 MOST = 10_000  # largest factor of replicas that is estimated
 SMALLEST = -12  # power of ten; smaller p-values are not distinguished
 BOUND = " ± "
@@ -59,12 +62,16 @@ def value(number: Number) -> str:
     if 0 < size < 1e-3:
         power = math.floor(math.log10(size))
         scaled = value(number.over(10.0**power))
-        return f"({scaled})·10^{power}" if BOUND in scaled else f"{scaled}·10^{power}"
+        return f"({scaled})·{power_of_ten(power)}" if BOUND in scaled else f"{scaled}·{power_of_ten(power)}"
     bound = f"{BOUND}{short(number.systematic)} syst" if number.systematic > 0.05 * number.error else ""
     return f"{with_error(number.value, number.error)}{bound}"
 
 
-def or_reason(text: Callable[[Number], str], number: Callable[[Data], Number], data: Data) -> str:
+def value_or_text(found: Number | str) -> str:
+    return found if isinstance(found, str) else value(found)
+
+
+def or_reason(text: Callable[[T], str], number: Callable[[Data], T], data: Data) -> str:
     """The text of a number, or why there is none."""
     try:
         return text(number(data))
@@ -76,8 +83,7 @@ def short(size: float) -> str:
     """Two digits, with a power of ten where there would be many zeros."""
     if not 0 < size < 1e-3:
         return f"{size:.2g}"
-    power = math.floor(math.log10(size))
-    return f"{size / 10.0**power:.2g}·10^{power}"
+    return scientific(size)
 
 
 def named(number: Number) -> str:
@@ -90,7 +96,7 @@ def p_value(p: float) -> str:
     if p >= 1e-3:
         return f"= {p:.2g}"
     power = math.floor(math.log10(p)) if p else -math.inf
-    return f"< 10^{SMALLEST}" if power < SMALLEST else f"= {p / 10.0**power:.0f}·10^{power}"
+    return f"< {power_of_ten(SMALLEST)}" if power < SMALLEST else f"= {scientific(p, 1)}"
 
 
 def which(reading: Reading) -> str:
@@ -125,7 +131,7 @@ def remedy(reading: Reading) -> str:
 
 
 def _factor(number: Number, reading: Reading) -> float:
-    """Of the replicas; 1 where the interval is on one side of every edge."""
+    """Factor by which the replicas must grow to decide the reading; 1 if it is decided."""
     low, high = number.interval(reading.share)
     if reading.band.outcome((low, high)) is not Outcome.UNDECIDED:
         return 1.0

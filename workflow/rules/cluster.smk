@@ -22,7 +22,7 @@ ruleorder: join > single > simulate
 
 
 def parts_of_run(wildcards):
-    """None of a run that cannot be split, and has the name of one in another panel that can."""
+    """Part files of a run; none if the run is not split."""
     run, name = run_of(wildcards), f"{wildcards.panel}/{wildcards.run}"
     parts = [part.name for part in DIVISION.get(name, [])]
     identity = hashlib.sha256(f"{run.options} {BUILDS[run.program]} {parts}".encode()).hexdigest()[:16]

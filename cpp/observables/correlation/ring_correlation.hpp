@@ -25,7 +25,8 @@ class RingCorrelation {
   /// Adds the next snapshot.
   void add(std::vector<double> field);
 
-  /// C(r, lags[k]), r = 0 ... cells - 1. Throws std::logic_error unless a snapshot has come so late.
+  /// C(r, lags[k]), r = 0 ... cells - 1. Throws std::logic_error if fewer than
+  /// lags[k] + 1 snapshots were added.
   std::vector<double> at(std::size_t k) const;
 
  private:

@@ -40,7 +40,7 @@ PhasePoint with_pulse(PhasePoint point, const PulseParameters& parameters) {
   for (const double* velocity : inside) before += energy(*velocity);
   if (!(before > 0))
     throw NumericalError(
-        "the cells of the pulse have no energy, so no factor gives them that of the pulse. Choose more "
+        "the cells of the pulse have no energy that could be scaled to --pulse-energy. Choose more "
         "--pulse-cells or --particles-per-cell.");
   const double factor = std::sqrt(static_cast<double>(inside.size()) * parameters.pulse_energy / before);
   for (double* velocity : inside) *velocity *= factor;
