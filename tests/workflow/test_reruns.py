@@ -120,7 +120,11 @@ def test_edited_products_are_named_by_audit_and_status(kept: Clone) -> None:
     assert kept.stale() == {"fig06"}  # Snakemake compares checksums of inputs, and looks at no other product
     told = kept.module("provenance.audit", "--quality", "smoke", status=1)
     table = " ".join(kept.module("provenance.status", "--quality", "smoke").split())
-    for fault in ("fig03.csv: edited or replaced", "fig05.png: edited or replaced", "all_sigma=0.h5: is damaged"):
+    for fault in (
+        "fig03.csv: edited or replaced",
+        "fig05.png: edited or replaced",
+        "all_sigma=0.h5: is damaged",
+    ):
         assert fault in told
         assert fault in table
 

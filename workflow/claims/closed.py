@@ -135,7 +135,8 @@ def only_energy(data: Data) -> Evidence:
         found.append(Number(one.label, math.log10(change), one.error / (change * math.log(10)), one.freedom))
     largest = max(float(one["momentum_drift"].mean) for one in runs)
     return Evidence(
-        found, caveat=f"The largest change is {scientific(largest)}, rounding; every collision conserves p + P."
+        found,
+        caveat=f"The largest change is {scientific(largest)}, rounding; every collision conserves p + P.",
     )
 
 

@@ -118,7 +118,11 @@ def caption(results: Sequence[Result]) -> str:
     ends = [style.with_error(rest, k) for k in known[[0, -1]]] if len(known) else []
     speed = "changes from {} to {}".format(*ends) if ends else "is not resolved"
     closed = any(ring_closed(one).any() for one in results)
-    faint = f" Faint: the two sides have met, ΔE opposite to the pulse above {number(100 * CLOSED)} % of the largest." if closed else ""
+    faint = (
+        f" Faint: the two sides have met, ΔE opposite to the pulse above {number(100 * CLOSED)} % of the largest."
+        if closed
+        else ""
+    )
     spike = "Spike: central scatterer. " if results[0].parameters["gamma"] == 1 else ""
     return f"""
         Energy ΔE(x, t) per cell of a ring with a central pulse minus without; {pulse(results)}. (a), (b) ΔE.
