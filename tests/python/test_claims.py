@@ -54,7 +54,7 @@ def test_a_damaged_table_is_told_in_one_line(tmp_path: Path, damage: Callable[[s
     path.parent.mkdir()
     content = damage((ROOT / judge.CLAIMS_FILE).read_text())
     path.write_bytes(content if isinstance(content, bytes) else content.encode())
-    with pytest.raises(ConfigurationError, match=r"data/claims\.csv is damaged: "):
+    with pytest.raises(ConfigurationError, match=r"data/claims\.csv: "):
         judge.read_claims(tmp_path)
 
 

@@ -92,7 +92,7 @@ def scientific(value: float, digits: int = 2) -> str:
 
 def power_of_ten(power: int) -> str:
     """10⁻¹⁵"""
-    return f"10{str(power).translate(SUPERSCRIPTS)}"
+    return str(10) + str(power).translate(SUPERSCRIPTS)
 
 
 def goodness(chi_square: float, freedom: int) -> str:
