@@ -5,7 +5,6 @@ import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
@@ -13,6 +12,7 @@ import h5py
 import numpy as np
 import pandas as pd
 
+from workflow.lib.nearest import nearest
 from workflow.lib.units import parse
 
 if TYPE_CHECKING:
@@ -106,9 +106,7 @@ class Result:
 
     def __getitem__(self, name: str) -> Quantity:
         if name not in self.quantities:
-            near = get_close_matches(name, self.quantities, 1, cutoff=0)[0]
-            there = ", ".join(self.quantities)
-            raise FormatError(f"{self.path} has no quantity {name}; did you mean {near}? It has {there}")
+            raise FormatError(f"{self.path} has no quantity {name}; {nearest(name, self.quantities)}")
         return self.quantities[name]
 
     def to_xarray(self) -> "xarray.DataTree":
