@@ -176,12 +176,7 @@ def deviations_vanish(data: Data) -> Evidence:
 def deviations_central(data: Data) -> Evidence:
     """At N = 2, where they are largest: central bins against those beyond the thermal momentum; odd part against even part."""
     table, known = _deviations(data)
-    temperature = np.mean(
-        [
-            data.one("fig03_inset", "simulation_cells=2").parameters[f"temperature-{end}"]
-            for end in ("left", "right")
-        ]
-    )
+    temperature = np.mean(data.one("fig03_inset", "simulation_cells=2").ends("temperature"))
     part = table[(table.kind == "simulation") & (table.cells == 2)].sort_values("momentum")
     momentum, value, error = (part[name].to_numpy() for name in ("momentum", "deviation", "error"))
     middle = len(momentum) // 2

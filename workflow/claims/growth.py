@@ -74,7 +74,7 @@ def last_exponents(data: Data) -> list[Number]:
     found = []
     for runs in _between_baths(data):
         if len(runs) > 1:
-            left, right = (runs[-1].parameters[f"temperature-{side}"] for side in ("left", "right"))
+            left, right = runs[-1].ends("temperature")
             label = f"{EXPONENT}, T_R/T_L = {right / left:.2g}, spacing {spacing(runs[-1])[1]}"
             one, *others = (
                 exponent(runs[-2:], label, kappa)[0] for kappa in (_kappa, _by_particles, _by_baths)

@@ -23,7 +23,7 @@ def temperatures_mismatch(data: Data) -> Evidence:
     """The end cells' temperatures lie between those of the baths, and the profile is less steep at gamma = 1."""
     jumps = []
     for result, name in _both(data):
-        low, high = (result.parameters[f"temperature-{end}"] for end in ("left", "right"))
+        low, high = result.ends("temperature")
         scale = high - low
         jumps += [
             number(result, "temperature_scatterer", 0, f"(T₁ - T_L)/(T_R - T_L), {name}").over(

@@ -109,6 +109,17 @@ class Result:
             raise FormatError(f"{self.path} has no quantity {name}; {nearest(name, self.quantities)}")
         return self.quantities[name]
 
+    def ends(self, name: str) -> tuple[float, float]:
+        """A parameter of the left and of the right bath."""
+        return float(self.parameters[f"{name}-left"]), float(self.parameters[f"{name}-right"])
+
+    def columns(self, *names: str) -> dict[str, Any]:
+        """Means and errors of quantities, as columns or numbers of a table: kappa and kappa_error."""
+        found: dict[str, Any] = {}
+        for name in names:
+            found |= {name: self[name].mean[()], f"{name}_error": self[name].error[()]}
+        return found
+
     def to_xarray(self) -> "xarray.DataTree":
         """A Dataset of every quantity, by its name; the parameters are the attributes."""
         import xarray  # noqa: PLC0415
