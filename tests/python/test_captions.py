@@ -15,7 +15,7 @@ SPEAKING = [*sorted((ROOT / "workflow/figures").glob("*.py")), ROOT / "workflow/
 
 # Numbers that no data could give: names of figures, the values of gamma and of ideal exponents, exact ends of an axis.
 NAMES = re.compile(
-    r"(?:figs?|ext|eq)\. \d+|(?:γ|gamma) = 1\b|σ [=≠] 0\b|α < 1\b|t = 0\b|\b[xp] = [01]\b|\b[12]/[2356]\b|\b1/N\b|\bminus 1\b"
+    r"(?:figs?|ext|eq)\. \d+|(?:γ|gamma) = 1\b|σ [=≠] 0\b|α < 1\b|t = 0\b|\b[xp] = [01]\b|\b[124]/[2356]\b|\b1/N\b|\bminus 1\b"
 )
 NUMBER = re.compile(r"(?<![\w.^/])\d+(?:\.\d+)?")  # none within a symbol, as in T_1, chi^2 or λ/2t
 
