@@ -28,8 +28,7 @@ def gaussian(momentum: np.ndarray, temperature: float) -> np.ndarray:
     """Probability density, averaged over equal bins about the given momenta."""
     half = 0.5 * (momentum[1] - momentum[0])
     below = [erf((momentum + sign * half) / np.sqrt(2 * temperature)) for sign in (-1, 1)]
-    density: np.ndarray = 0.5 * (below[1] - below[0]) / (2 * half)
-    return density
+    return 0.5 * (below[1] - below[0]) / (2 * half)
 
 
 def outgoing_flux(result: Result) -> Curve:

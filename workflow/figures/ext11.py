@@ -60,8 +60,7 @@ class Response:
         correlation = self.covariance[0, 1] / product if product else 0.0
         first, second = random.standard_normal((2, DRAWN))
         both = np.stack([first, correlation * first + np.sqrt(1 - correlation**2) * second], axis=1)
-        currents: np.ndarray = self.currents + errors * both
-        return currents
+        return self.currents + errors * both
 
 
 def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
@@ -80,8 +79,7 @@ def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
 
     def heat(found: np.ndarray) -> np.ndarray:
         convected = found[..., 0, 1] * found[..., 1, 0] / found[..., 1, 1]
-        kappa: np.ndarray = (found[..., 0, 0] - convected) / pressure.temperature**2
-        return kappa
+        return (found[..., 0, 0] - convected) / pressure.temperature**2
 
     row["kappa_0"], row["kappa_0_error"] = float(heat(matrix)), float(heat(spread).std())
     per_current = temperature.cells / (temperature.forces[0] * temperature.temperature**2)

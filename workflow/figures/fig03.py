@@ -32,8 +32,7 @@ def gaussian_half(momentum: np.ndarray, flux: np.ndarray) -> np.ndarray:
     """Of the same integral and second moment on the same half line, by the midpoint rule."""
     square = np.average(momentum**2, weights=flux)
     rate = flux.sum() * (momentum[1] - momentum[0])
-    gaussian: np.ndarray = rate * np.sqrt(2 / (np.pi * square)) * np.exp(-(momentum**2) / (2 * square))
-    return gaussian
+    return rate * np.sqrt(2 / (np.pi * square)) * np.exp(-(momentum**2) / (2 * square))
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:

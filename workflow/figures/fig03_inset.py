@@ -26,8 +26,7 @@ MARKERS = ["o", "s", "^", "D"]  # by N
 
 def outgoing(values: np.ndarray, momentum: np.ndarray) -> np.ndarray:
     """By momentum: of the first place where p < 0, of the last one where p > 0."""
-    found: np.ndarray = np.where(momentum < 0, values[0], values[-1])
-    return found
+    return np.where(momentum < 0, values[0], values[-1])
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:

@@ -41,8 +41,7 @@ def uncorrelated(results: Sequence[Result], like: Result) -> Result | None:
 
 def at(quantity: Quantity, x: float) -> np.ndarray:
     """Of the kinetic equation, at a place."""
-    values: np.ndarray = quantity.mean[np.abs(quantity.axes["x"] - x).argmin()]
-    return values
+    return quantity.mean[np.abs(quantity.axes["x"] - x).argmin()]
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:

@@ -16,8 +16,7 @@ MARKS = [style.points("o", style.BLUE), style.points("s", style.VERMILLION, "whi
 
 def law(sigma: np.ndarray) -> np.ndarray:
     """Particle and scatterer Gaussian and independent, at one temperature."""
-    share: np.ndarray = np.arccos(sigma) / np.pi
-    return share
+    return np.arccos(sigma) / np.pi
 
 
 def law_at_local_energies(table: pd.DataFrame) -> pd.Series:

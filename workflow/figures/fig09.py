@@ -29,8 +29,7 @@ STARTS = {
 
 
 def start(result: Result) -> str | float:
-    given: str | float = result.parameters["scatterer-temperature"]
-    return given
+    return result.parameters["scatterer-temperature"]
 
 
 def gaussian_start(results: Sequence[Result]) -> Result:
@@ -46,8 +45,7 @@ def ring_closed(result: Result) -> np.ndarray:
     """At every time, whether the two sides of the pulse overlap where they meet, opposite to it."""
     difference = result["energy_difference"].mean
     opposite = difference[:, [0, 1, -2, -1]].mean(axis=1)
-    closed: np.ndarray = opposite > CLOSED * difference.max(axis=1)
-    return closed
+    return opposite > CLOSED * difference.max(axis=1)
 
 
 def look_of(result: Result) -> style.Look:
