@@ -5,8 +5,17 @@ from typing import TypeVar
 
 import numpy as np
 
-from workflow.claims.data import Data, MissingError, freedom, mean_slope, number, power
-from workflow.claims.evidence import Claim, Evidence
+from workflow.claims.data import (
+    Claim,
+    Data,
+    Evidence,
+    MissingError,
+    by_size,
+    freedom,
+    mean_slope,
+    number,
+    power,
+)
 from workflow.claims.verdict import Number, with_systematic
 from workflow.figures import ext09, ext13
 from workflow.figures.ext11 import tabulate
@@ -84,9 +93,7 @@ def last_exponents(data: Data) -> list[Number]:
 
 
 def _stationary(runs: Sequence[Result]) -> list[Result]:
-    return sorted(
-        (one for one in runs if one["stationary"].mean == 1), key=lambda one: one.parameters["cells"]
-    )
+    return by_size(one for one in runs if one["stationary"].mean == 1)
 
 
 def linear(data: Data) -> Evidence:

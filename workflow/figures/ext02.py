@@ -53,8 +53,8 @@ def draw(results: Sequence[Result]) -> Drawn:
             size = BESIDE ** (place - 1) * part["size"]
             axes.errorbar(size, part[f"exponent{suffix}"], part[f"exponent{suffix}_error"], **look)
         style.guide_at(axes, 1 / 3, "1/3" * (axes is row[-1]))
-        axes.set(xscale="log", xlabel="number of cells $N$", title=title)
-        style.label_sizes(axes.xaxis)
+        axes.set_title(title)
+        style.against_size(axes)
     row[0].set(ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, None))
     figure.legend(*row[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(spacing))
     style.letter(*row)

@@ -87,14 +87,13 @@ def draw_powers(axes: Axes, table: pd.DataFrame, spacing: Mapping[str, str]) -> 
     for name, part in table.groupby("gas", sort=False):
         look = style.points(*LOOKS[name], label=rf"$\lambda = {spacing[name]}$")
         axes.errorbar(part.cells, part.kappa, part.kappa_error, **look)
-        style.cross_out(axes, part.cells.to_numpy(), part.kappa.to_numpy(), ~part.usable.to_numpy())
+        style.cross_out(axes, part.cells, part.kappa, ~part.usable)
     size = np.array([table.cells.min(), table.cells.max()], dtype=float)
     guide = 0.5 * table.kappa.min() * (size / size[0]) ** (1 / 3)
     axes.plot(size, guide, **style.GUIDE)
     axes.text(size[1], 0.86 * guide[1], "$N^{1/3}$", size=8, ha="right", va="top")
-    axes.set(xscale="log", yscale="log", xlabel="number of cells $N$")
-    axes.set(ylabel=rf"conductivity $\kappa$ ({style.UNITS})")
-    style.label_sizes(axes.xaxis)
+    style.against_size(axes)
+    axes.set(yscale="log", ylabel=rf"conductivity $\kappa$ ({style.UNITS})")
     style.label_within_decades(axes.yaxis)
     axes.legend(loc="upper left")
 

@@ -127,7 +127,7 @@ def exponents(sizes: pd.Series, values: pd.Series, errors: pd.Series) -> str:
 
 
 def crossed(table: pd.DataFrame) -> str:
-    unsound = int((~table.usable.astype(bool)).sum())
+    unsound = int((~table.usable).sum())
     told = f" Crosses: {unsound} points of which a run is not stationary or missed its target error."
     return told if unsound else ""
 
@@ -149,10 +149,9 @@ def draw(results: Sequence[Result]) -> Drawn:
         right.plot(part.cells, part.predicted, color=look["color"])
         local.plot(middle, slope, color=look["color"])
         for axes, column in ((left, per_cell), (right, part.kappa_0)):
-            style.cross_out(axes, part.cells.to_numpy(), column.to_numpy(), ~part.usable.to_numpy(dtype=bool))
+            style.cross_out(axes, part.cells, column, ~part.usable)
     for axes in (left, right, local):
-        axes.set(xscale="log", xlabel="number of cells $N$")
-        style.label_sizes(axes.xaxis)
+        style.against_size(axes)
     right.set(yscale="log", ylabel=rf"$\kappa_0$ at $J_n = 0$ ({style.UNITS})")
     style.label_within_decades(right.yaxis)
     left.set(ylabel=rf"$L_{{nn}}/N$ ({style.UNITS})", ylim=(0, TOP * (table.L_nn / table.cells).max()))

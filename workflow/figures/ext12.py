@@ -65,8 +65,8 @@ def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: str) -> None:
     for place, ((ratio, one), shape) in enumerate(zip(found.groupby("drive"), LOOKS, strict=False)):
         look = style.points(*shape, label=f"$T_R/T_L = {ratio:g}$")
         axes.errorbar(BESIDE ** (place - 1) * one["size"], one.exponent, one.exponent_error, **look)
-    axes.set(xscale="log", xlabel="number of cells $N$", title=rf"$\lambda = {spacing}$", ylim=(0, 0.7))
-    style.label_sizes(axes.xaxis)
+    axes.set(title=rf"$\lambda = {spacing}$", ylim=(0, 0.7))
+    style.against_size(axes)
     style.guide_at(axes, 1 / 3, "")
 
 

@@ -104,7 +104,7 @@ def draw(results: Sequence[Result]) -> Drawn:
     right.errorbar(strong.between, strong.exponent_to_next, strong.exponent_to_next_error, **STRONG)
     look = {"color": style.BY_GAMMA["N"][1], "linestyle": "dashed", "label": r"$\gamma = N$, mean field"}
     left.plot(theory.cells, theory.mean_field_kappa, **look)
-    style.cross_out(left, table.cells.to_numpy(), table.kappa.to_numpy(), ~table.usable.to_numpy(dtype=bool))
+    style.cross_out(left, table.cells, table.kappa, ~table.usable)
     left.set(xscale="log", yscale="log", xlabel="number of cells $N$")
     left.set_ylabel(rf"conductivity $\kappa$ ({style.UNITS})")
     right.set(xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$")

@@ -156,11 +156,12 @@ def label_within_decades(axis: Axis) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
-def label_sizes(axis: Axis) -> None:
-    """Decimal ticks at powers of two, for a logarithmic axis of numbers of cells."""
-    axis.set_major_locator(LogLocator(base=2, numticks=8))
-    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axis.set_minor_locator(NullLocator())
+def against_size(axes: Axes) -> None:
+    """A logarithmic x axis of numbers of cells, with decimal ticks at powers of two."""
+    axes.set(xscale="log", xlabel="number of cells $N$")
+    axes.xaxis.set_major_locator(LogLocator(base=2, numticks=8))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_locator(NullLocator())
 
 
 def cross_out(axes: Axes, x: np.ndarray, y: np.ndarray, where: np.ndarray) -> None:
