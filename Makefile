@@ -1,10 +1,13 @@
 # `make help` lists the targets. No environment has to be activated, and no variable of the caller's shell changes a result.
 QUALITY := standard
 SAMPLE := 0.1
+BATCH = $(if $(PROFILE),30)
 OPTIONS := PANEL FRESH SEED REPLICAS JOBS FILE FULL PROFILE BATCH ACCOUNT PARTITION
 KNOWN := QUALITY SAMPLE $(OPTIONS) CXX
 
 $(foreach name,$(OPTIONS),$(if $(filter environment,$(origin $(name))),$(eval $(name) :=)))
+override FRESH := $(filter-out no,$(FRESH))
+override FULL := $(filter-out no,$(FULL))
 nearest = $(shell python3 -c 'import difflib, sys; print(*difflib.get_close_matches(sys.argv[1].upper(), sys.argv[2:], 1, 0))' $1 $(KNOWN))
 $(foreach name,$(filter-out $(KNOWN),$(foreach one,$(.VARIABLES),$(if $(filter command,$(origin $(one))),$(one)))),\
   $(error $(name) is not an option; did you mean $(call nearest,$(name))?))
@@ -17,21 +20,7 @@ SHELL := /bin/bash
 .NOTPARALLEL:
 .SILENT:
 
-export LC_ALL := C.UTF-8
-export TZ := UTC
-export SOURCE_DATE_EPOCH := 1230768000
-export PYTHONHASHSEED := 0
-export PYTHONSAFEPATH := 1
-export PYTHONNOUSERSITE := 1
-export OMP_NUM_THREADS := 1
-export OPENBLAS_NUM_THREADS := 1
-export MPLBACKEND := Agg
-export MPLCONFIGDIR := $(CURDIR)/.cache/matplotlib
-unexport PYTHONPATH PYTHONHOME CFLAGS CXXFLAGS CPPFLAGS LDFLAGS CPATH C_INCLUDE_PATH CPLUS_INCLUDE_PATH LIBRARY_PATH \
-  MATPLOTLIBRC SNAKEMAKE_PROFILE HDF5_PLUGIN_PATH VIRTUAL_ENV CMAKE_GENERATOR BASH_ENV
-ifneq ($(shell test -w "$$HOME" || echo no),) # as of a user in a container
-export HOME := $(CURDIR)/.cache
-endif
+export BASH_ENV := workflow/environment/variables.sh
 
 EFFORT := $(QUALITY)$(SEED:%=_seed=%)$(REPLICAS:%=_replicas=%)
 PYTHON := .venv/bin/python -m
@@ -39,7 +28,7 @@ OF := --quality '$(EFFORT)' $(PANEL:%=--panel='%')
 SNAKEMAKE := bash workflow/environment/one_at_a_time.sh .venv/bin/snakemake --nolock $(if $(FRESH),--forceall) \
   $(if $(PROFILE),--workflow-profile 'profiles/$(PROFILE)' $(JOBS:%=--jobs '%'),$(JOBS:%=--cores '%')) \
   $(if $(ACCOUNT)$(PARTITION),--default-resources $(ACCOUNT:%=slurm_account='%') $(PARTITION:%=slurm_partition='%')) \
-  --config quality='$(EFFORT)' $(PANEL:%=panel='%') $(if $(PROFILE)$(BATCH),batch='$(or $(BATCH),30)') --
+  --config quality='$(EFFORT)' $(PANEL:%=panel='%') $(BATCH:%=batch='%') --
 COMPARE := $(if $(SEED)$(REPLICAS)$(FRESH),$(PYTHON) workflow.provenance.compare $(OF))
 
 help:  ## This list

@@ -11,12 +11,11 @@ from functools import cache
 
 from workflow.cluster.cost import seconds_of_run
 from workflow.lib.configuration import ConfigurationError, arguments
-from workflow.lib.environment import clean
 from workflow.lib.figure_metadata import PACKAGES, digest_of_files, sources_of
-from workflow.lib.plan import data_of, drawings_of, load_plan, panel_named, with_used
+from workflow.lib.plan import data_of, drawing_command, drawings_of, load_plan, panel_named, with_used
 from workflow.provenance.build_id import BuildError, built
 
-clean(os.environ)  # a bare `snakemake` gives the same bytes as make
+shell.prefix("source workflow/environment/variables.sh; ")  # a bare `snakemake` gives the same bytes as make
 QUALITY = config.get("quality", "standard")
 try:
     PLAN = load_plan(QUALITY)

@@ -10,8 +10,7 @@ import yaml
 
 from tests.python.conftest import ROOT
 from workflow.claims import judge
-from workflow.claims.data import Data, MissingError, combination, ratio
-from workflow.claims.evidence import Evidence
+from workflow.claims.data import Data, Evidence, MissingError, combination, ratio
 from workflow.claims.verdict import Band, Number, Outcome
 from workflow.lib.configuration import ConfigurationError
 from workflow.lib.plan import data_of, load_plan

@@ -117,9 +117,7 @@ def test_text_names_a_file_too(tmp_path: Path, measured: dict) -> None:
 
 def test_an_unknown_quantity_is_named_with_those_that_there_are(tmp_path: Path, measured: dict) -> None:
     write(tmp_path / "a.h5", {"time": TIME, "cell": CELL}, measured)
-    with pytest.raises(
-        FormatError, match=r"a\.h5 has no quantity enrgy; did you mean energy\? It has energy$"
-    ):
+    with pytest.raises(FormatError, match=r"a\.h5 has no quantity enrgy; did you mean energy\?$"):
         load(tmp_path / "a.h5")["enrgy"]
 
 

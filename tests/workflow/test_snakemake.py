@@ -59,7 +59,7 @@ def test_the_summary_has_every_file(clean: Clone) -> None:
             "fig06: {all: {replicas: 9}}",
             "workflow/config/quality/smoke.yaml",
         ),
-        ("code", "--output {params.stem:q}", " --output {params.stem:q}", "workflow/rules/draw.smk"),
+        ("code", "{params.command} 2>", "{params.command}  2>", "workflow/rules/draw.smk"),
     ],
 )
 def test_changes_are_listed(kept: Clone, change: str, old: str, new: str, path: str) -> None:

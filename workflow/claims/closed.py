@@ -5,8 +5,7 @@ import sys
 
 import numpy as np
 
-from workflow.claims.data import Data, number, ratio, where_made
-from workflow.claims.evidence import Claim, Evidence
+from workflow.claims.data import Claim, Data, Evidence, number, ratio, where_made
 from workflow.claims.verdict import Number, with_systematic
 from workflow.figures.fig05 import law
 from workflow.figures.fig07 import ROUNDING
@@ -18,16 +17,12 @@ def _named(results: list[Result], quantity: str, name: str) -> list[Number]:
     """One number of each run, labelled by name and mass ratio and, where they differ, particles per cell and relaxation time."""
     told = {"particles-per-cell": "n", "relaxation-time": "t_r"}
     differing = [key for key in told if len({one.parameters[key] for one in results}) > 1]
-    labels = [
-        ", ".join(
-            [
-                f"{name}, σ = {one.parameters['sigma']:g}",
-                *(f"{told[key]} = {one.parameters[key]:g}" for key in differing),
-            ]
-        )
-        for one in results
-    ]
-    return [number(one, quantity, label=label) for one, label in zip(results, labels, strict=True)]
+    found = []
+    for one in results:
+        others = (f", {told[key]} = {one.parameters[key]:g}" for key in differing)
+        label = f"{name}, σ = {one.parameters['sigma']:g}{''.join(others)}"
+        found.append(number(one, quantity, label=label))
+    return found
 
 
 def persistence(data: Data) -> Evidence:
@@ -45,11 +40,8 @@ def _from_law(result: Result) -> Number:
 
 
 def waiting_half(data: Data) -> Evidence:
-    aged = [
-        float(one["exponent"].mean)
-        for one in data.of("ext07", "waiting_time")
-        if one.parameters["relaxation-time"] >= 10
-    ]
+    runs = [one for one in data.of("ext07", "waiting_time") if one.parameters["relaxation-time"] >= 10]
+    aged = [float(one["exponent"].mean) for one in runs]
     return Evidence(
         [with_systematic(_waiting(data, 0.5), aged)],
         caveat="The systematic bound is what the relaxation time changes (ext07); cuts of the tail change less.",
@@ -66,11 +58,8 @@ def waiting_zero(data: Data) -> Evidence:
 def _waiting(data: Data, sigma: float) -> Number:
     """The spread over cuts within a factor of three counts as systematic."""
     (result,) = data.of("fig06", sigma=sigma)
-    exponent, spread = (
-        number(result, "exponent", label="exponent of Ψ(τ)"),
-        float(result["exponent_spread"].mean),
-    )
-    return with_systematic(exponent, [exponent.value + spread])
+    exponent = number(result, "exponent", label="exponent of Ψ(τ)")
+    return with_systematic(exponent, [exponent.value + float(result["exponent_spread"].mean)])
 
 
 def spreading_half(data: Data) -> Evidence:
@@ -87,9 +76,7 @@ def spreading_half(data: Data) -> Evidence:
 def spreading_zero(data: Data) -> Evidence:
     aged = _relaxed(data, 0)
     (result,) = data.of("fig07_inset", sigma=0, zero_total_momentum=False)
-    dense = data.of(
-        "ext01", sigma=0, zero_total_momentum=False, random_direction=False, particles_per_cell=80
-    )
+    dense = _drifting(data, 0, 80)
     return Evidence(
         [with_systematic(number(result, "alpha", label="α, σ = 0"), aged)],
         alternative=_named(dense, "alpha", "α, n = 80"),
@@ -98,10 +85,13 @@ def spreading_zero(data: Data) -> Evidence:
 
 
 def _relaxed(data: Data, sigma: float) -> list[float]:
-    runs = data.of(
-        "ext01", sigma=sigma, zero_total_momentum=False, random_direction=False, particles_per_cell=20
-    )
-    return [float(one["alpha"].mean) for one in runs]
+    return [float(one["alpha"].mean) for one in _drifting(data, sigma, 20)]
+
+
+def _drifting(data: Data, sigma: float, n: int) -> list[Result]:
+    """Runs with the paper's random total momentum and n particles per cell."""
+    chain = {"sigma": sigma, "particles_per_cell": n}
+    return data.of("ext01", None, zero_total_momentum=False, random_direction=False, **chain)
 
 
 def _without_drift(zero: list[Number]) -> str:

@@ -1,7 +1,8 @@
 """What the claims are judged by: the result files of the panels, and numbers taken from them."""
 
 import copy
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -67,6 +68,20 @@ class Data:
         return path, self.loaded[path]
 
 
+@dataclass(frozen=True)
+class Evidence:
+    """What a claim's function returns: numbers by reading, each with its acceptance band in data/claims.csv. The alternative reading is
+    reported and does not count."""
+
+    literal: Sequence[Number]
+    intended: Sequence[Number] = ()
+    alternative: Sequence[Number] = ()
+    caveat: str = ""
+
+
+Claim = Callable[[Data], Evidence]
+
+
 def where_made(find: Callable[[], Sequence[Number]]) -> Sequence[Number]:
     """Empty where a result is missing that not every quality has."""
     try:
@@ -78,6 +93,10 @@ def where_made(find: Callable[[], Sequence[Number]]) -> Sequence[Number]:
 def freedom(*results: Result) -> float:
     """Degrees of freedom of the error of what is made from these runs: those of the one with the fewest replicas."""
     return min(int(result.parameters["replicas"]) for result in results) - 1
+
+
+def by_size(results: Iterable[Result]) -> list[Result]:
+    return sorted(results, key=lambda one: one.parameters["cells"])
 
 
 def number(result: Result, name: str, index: Index = (), label: str = "") -> Number:

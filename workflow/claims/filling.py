@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 
-from workflow.claims.data import Data, combination, number, ratio
-from workflow.claims.evidence import Claim, Evidence
+from workflow.claims.data import Claim, Data, Evidence, combination, number, ratio
 from workflow.claims.verdict import Number
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
@@ -16,10 +15,8 @@ SPACINGS = {"paper": "1", "short": "0.05"}  # the other two
 def stationary_above_front(data: Data) -> Evidence:
     """Relative changes of |p| n_t(p) above p_0 from each time to the next."""
     changes = [_rise(data.one("fig01", run), 0, -1) for run in SPACINGS]
-    told = [
-        f"λ = {name}: {with_error(one.value, one.error)}"
-        for name, one in zip(SPACINGS.values(), changes, strict=True)
-    ]
+    pairs = zip(SPACINGS.values(), changes, strict=True)
+    told = [f"λ = {name}: {with_error(one.value, one.error)}" for name, one in pairs]
     result = data.one("fig01", "unit-chain")
     later = range(1, len(result["plateau"].mean))
     return Evidence(
@@ -33,9 +30,8 @@ def grows_as_logarithm(data: Data) -> Evidence:
     """dn/d ln t is constant, and equal to |p| n_t(p) above p_0."""
     result = data.one("fig01", "unit-chain")
     slope, plateau = number(result, "log_slope"), number(result, "plateau", -1)
-    curvature = ratio(
-        number(result, "log_curvature"), slope, "change of the slope per unit of ln t, relative"
-    )
+    label = "change of the slope per unit of ln t, relative"
+    curvature = ratio(number(result, "log_curvature"), slope, label)
     agreement = ratio(slope, plateau, "slope over |p| n(p), minus 1").over(1, 1)
     times = result["plateau"].axes["time"]
     steps = math.log(times[-1] / times[0])
@@ -46,17 +42,12 @@ def grows_as_logarithm(data: Data) -> Evidence:
 def front_falls(data: Data) -> Evidence:
     """Exponent of p_0(t); 1/ln t has -1/ln t."""
     result = data.one("fig01", "unit-chain")
-    others = [
-        number(data.one("fig01", run), "front_exponent", label=f"at λ = {name}")
-        for run, name in SPACINGS.items()
-    ]
-    told = [
-        f"{_misfits(data.one('fig01', run))} at λ = {name}"
-        for run, name in ({"unit-chain": "1/N"} | SPACINGS).items()
-    ]
+    others = [(data.one("fig01", run), name) for run, name in SPACINGS.items()]
+    found = [number(one, "front_exponent", label=f"at λ = {name}") for one, name in others]
+    told = [f"{_misfits(one)} at λ = {name}" for one, name in ((result, "1/N"), *others)]
     return Evidence(
         [number(result, "front_exponent", label="d ln p₀ / d ln t")],
-        others,
+        found,
         caveat=f"χ² of the five fronts for p₀ ~ 1/t and ~ 1/ln t: {', '.join(told)}, with 4 degrees of freedom.",
     )
 

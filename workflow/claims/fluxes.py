@@ -5,17 +5,26 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
-from workflow.claims.data import Data, combination, freedom, number, power, ratio, where_made
-from workflow.claims.evidence import Claim, Evidence
+from workflow.claims.data import (
+    Claim,
+    Data,
+    Evidence,
+    by_size,
+    combination,
+    freedom,
+    number,
+    power,
+    ratio,
+    where_made,
+)
 from workflow.claims.verdict import Number, with_systematic
 from workflow.figures import ext10, fig03_inset, fig04
 from workflow.lib.caption import goodness
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
-REACH = (
-    40  # nearly four thermal momenta of the hotter bath; beyond, a bin holds less than 1e-4 of the particles
-)
+# Nearly four thermal momenta of the hotter bath; beyond, a bin holds less than 1e-4 of the particles.
+REACH = 40
 # What means over the three innermost bins of a half weigh in the value at p = 0.
 LINE, PARABOLA = np.array([12, -4, 0]) / 8, np.array([15, -10, 3]) / 8
 NORMALISATION = "F as printed, with the mean of both rates, integrates to 1; relative to max F in the alternative reading."
@@ -26,24 +35,18 @@ def equilibrium(data: Data) -> Evidence:
     """Moments of the flux that leaves, of the end scatterers, and the largest distance of the distributions."""
     found = []
     for gamma in (1, "N"):
-        flux, profile = (
-            data.of("ext10", program, gamma=gamma)[0] for program in ("momentum_flux", "steady_profile")
-        )
+        programs = ("momentum_flux", "steady_profile")
+        flux, profile = (data.of("ext10", program, gamma=gamma)[0] for program in programs)
         temperature = flux.parameters["temperature-left"]
         for place, half, name in OUTGOING:
-            told = f"{name}, γ = {gamma}"
-            found.append(number(flux, "square", (place, half), f"⟨p²⟩/T - 1, {told}").over(temperature, 1))
-            found.append(number(flux, "kurtosis", (place, half), f"⟨p⁴⟩/(3⟨p²⟩²) - 1, {told}").over(3, 1))
-            found.append(
-                number(
-                    profile, "temperature_scatterer", place, f"⟨P²⟩/MT - 1 at x = {half}, γ = {gamma}"
-                ).over(temperature, 1)
-            )
+            square = number(flux, "square", (place, half), f"⟨p²⟩/T - 1, {name}, γ = {gamma}")
+            kurtosis = number(flux, "kurtosis", (place, half), f"⟨p⁴⟩/(3⟨p²⟩²) - 1, {name}, γ = {gamma}")
+            label = f"⟨P²⟩/MT - 1 at x = {half}, γ = {gamma}"
+            scatterer = number(profile, "temperature_scatterer", place, label)
+            found += [square.over(temperature, 1), kurtosis.over(3, 1), scatterer.over(temperature, 1)]
         for result, curve, name in ((flux, ext10.outgoing_flux, "F"), (profile, ext10.end_scatterers, "g")):
-            distance, error = ext10.largest_distance(*curve(result)[1:])
-            found.append(
-                Number(f"Kolmogorov's distance of {name}, γ = {gamma}", distance, error, freedom(result))
-            )
+            label = f"Kolmogorov's distance of {name}, γ = {gamma}"
+            found.append(Number(label, *ext10.largest_distance(*curve(result)[1:]), freedom(result)))
     return Evidence(found)
 
 
@@ -59,11 +62,11 @@ def jump_and_halves(data: Data) -> Evidence:
 
 def _departures(result: Result, name: str = "") -> list[Number]:
     """|<p^4>/<p^2>^2 - 3| of the outgoing halves."""
-    both = [
-        number(result, "kurtosis", (place, half), f"{told}{name}").over(1, 3)
-        for place, half, told in OUTGOING
-    ]
-    return [_magnitude(one, f"|⟨p⁴⟩/⟨p²⟩² - 3|, {one.label}") for one in both]
+    found = []
+    for place, half, told in OUTGOING:
+        departure = number(result, "kurtosis", (place, half)).over(1, 3)
+        found.append(_magnitude(departure, f"|⟨p⁴⟩/⟨p²⟩² - 3|, {told}{name}"))
+    return found
 
 
 def _magnitude(number: Number, label: str = "") -> Number:
@@ -157,18 +160,14 @@ def deviations_at_16(data: Data) -> Evidence:
 def deviations_vanish(data: Data) -> Evidence:
     """The part of the deviation that has the shape of that of the mean field at N = 2, against N."""
     table, _ = _deviations(data)
-    results = sorted(data.of("fig03_inset", "momentum_flux"), key=lambda one: one.parameters["cells"])
+    results = by_size(data.of("fig03_inset", "momentum_flux"))
     found = fig03_inset.amplitudes(table)
     amplitudes = [Number("", one.amplitude, one.error) for one in found.itertuples()]
     exponent, law = power(results, [*found.cells], amplitudes, "d ln |F_N - F| / d ln N")
-    every_scatterer = where_made(
-        lambda: _from_kinetic(
-            data.one("fig04b", "deterministic"), data.one("fig04b", "mean-field"), " at γ = N"
-        )
-    )
+    every = where_made(lambda: _from_kinetic(data, "fig04b", "deterministic", "mean-field", " at γ = N"))
     return Evidence(
         [exponent],
-        alternative=every_scatterer,
+        alternative=every,
         caveat=f"At γ = 1. χ² of the power law {law.chi_square:.1f} with {law.freedom} degrees of freedom. The alternative reading is one chain at γ = N.",
     )
 
@@ -176,39 +175,31 @@ def deviations_vanish(data: Data) -> Evidence:
 def deviations_central(data: Data) -> Evidence:
     """At N = 2, where they are largest: central bins against those beyond the thermal momentum; odd part against even part."""
     table, known = _deviations(data)
-    temperature = np.mean(
-        [
-            data.one("fig03_inset", "simulation_cells=2").parameters[f"temperature-{end}"]
-            for end in ("left", "right")
-        ]
-    )
+    temperature = np.mean(data.one("fig03_inset", "simulation_cells=2").ends("temperature"))
     part = table[(table.kind == "simulation") & (table.cells == 2)].sort_values("momentum")
     momentum, value, error = (part[name].to_numpy() for name in ("momentum", "deviation", "error"))
     middle = len(momentum) // 2
     left, right = (Number("", value[k], error[k], known) for k in (middle - 1, middle))
     centre = combination([_magnitude(left), _magnitude(right)], [0.5, 0.5], "")
     outer = np.flatnonzero((np.abs(momentum) > np.sqrt(temperature)) & (np.abs(momentum) < REACH))
-    less = [
-        combination(
-            [centre, Number("", abs(value[k]), error[k], known)],
-            [1 / centre.value, -1 / centre.value],
-            f"1 - |deviation at p = {momentum[k]:g}| over that at p = 0",
-        )
-        for k in outer
-    ]
-    odd = combination(
-        [left, right], [0.5 / abs(centre.value), -0.5 / abs(centre.value)], "odd part over the whole at p = 0"
-    )
+    less = []
+    for k in outer:
+        label = f"1 - |deviation at p = {momentum[k]:g}| over that at p = 0"
+        both = [centre, Number("", abs(value[k]), error[k], known)]
+        less.append(combination(both, [1 / centre.value, -1 / centre.value], label))
+    half = 0.5 / abs(centre.value)
+    odd = combination([left, right], [half, -half], "odd part over the whole at p = 0")
     return Evidence([*less, _magnitude(odd, odd.label)])
 
 
 def on_top_of_kinetic(data: Data) -> Evidence:
-    return Evidence(_from_kinetic(data.one("fig04a", "rare"), data.one("fig04a", "kinetic")))
+    return Evidence(_from_kinetic(data, "fig04a", "rare", "kinetic"))
 
 
-def _from_kinetic(simulated: Result, equation: Result, told: str = "") -> list[Number]:
+def _from_kinetic(data: Data, panel: str, run: str, equation: str, told: str = "") -> list[Number]:
     """F_N minus F over the largest F, behind the first scatterer and the last. told: of which chain."""
-    flux, kinetic = simulated["flux"], equation["flux"]
+    simulated = data.one(panel, run)
+    flux, kinetic = simulated["flux"], data.one(panel, equation)["flux"]
     last, scale = len(flux.mean) - 1, float(kinetic.mean.max())
     return [
         number(simulated, "flux", (bond, k), f"deviation over max F{told}, {name}, p = {p:g}").over(scale, fig04.at(kinetic, bond / last)[k] / scale)

@@ -5,8 +5,17 @@ from typing import TypeVar
 
 import numpy as np
 
-from workflow.claims.data import Data, MissingError, freedom, mean_slope, number, power
-from workflow.claims.evidence import Claim, Evidence
+from workflow.claims.data import (
+    Claim,
+    Data,
+    Evidence,
+    MissingError,
+    by_size,
+    freedom,
+    mean_slope,
+    number,
+    power,
+)
 from workflow.claims.verdict import Number, with_systematic
 from workflow.figures import ext09, ext13
 from workflow.figures.ext11 import tabulate
@@ -74,16 +83,14 @@ def last_exponents(data: Data) -> list[Number]:
 def last_exponent(runs: Sequence[Result]) -> Number:
     """Exponent of kappa between the two largest sizes. The temperatures of the arriving particles and of the baths in place of T_1
     and T_N, which give the same exponent in an infinite chain, bound the systematic error."""
-    left, right = (runs[-1].parameters[f"temperature-{side}"] for side in ("left", "right"))
+    left, right = runs[-1].ends("temperature")
     label = f"{EXPONENT}, T_R/T_L = {right / left:.2g}, spacing {spacing(runs[-1])[1]}"
     one, *others = (exponent(runs[-2:], label, kappa)[0] for kappa in (_kappa, _by_particles, _by_baths))
     return with_systematic(one, [other.value for other in others])
 
 
 def _stationary(runs: Sequence[Result]) -> list[Result]:
-    return sorted(
-        (one for one in runs if one["stationary"].mean == 1), key=lambda one: one.parameters["cells"]
-    )
+    return by_size(one for one in runs if one["stationary"].mean == 1)
 
 
 def linear(data: Data) -> Evidence:

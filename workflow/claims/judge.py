@@ -7,8 +7,7 @@ from pathlib import Path
 import pandas as pd
 
 from workflow.claims import closed, filling, fluxes, growth, profiles, pulse
-from workflow.claims.data import Data, MissingError
-from workflow.claims.evidence import Claim, Evidence
+from workflow.claims.data import Claim, Data, Evidence, MissingError
 from workflow.claims.verdict import Band, Outcome, Reading, combined, level_of_each
 from workflow.lib.configuration import ConfigurationError
 from workflow.lib.load import NOT_REACHED

@@ -5,9 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from workflow.claims.data import Data, combination, freedom, number, ratio
-from workflow.claims.evidence import Claim, Evidence
-from workflow.claims.verdict import Number
+from workflow.claims.data import Claim, Data, Evidence, by_size, combination, freedom, number, ratio
+from workflow.claims.verdict import Number, with_systematic
 from workflow.lib.fit import fit_line
 from workflow.lib.load import Result
 
@@ -23,16 +22,11 @@ def temperatures_mismatch(data: Data) -> Evidence:
     """The end cells' temperatures lie between those of the baths, and the profile is less steep at gamma = 1."""
     jumps = []
     for result, name in _both(data):
-        low, high = (result.parameters[f"temperature-{end}"] for end in ("left", "right"))
+        low, high = result.ends("temperature")
         scale = high - low
-        jumps += [
-            number(result, "temperature_scatterer", 0, f"(T₁ - T_L)/(T_R - T_L), {name}").over(
-                scale, low / scale
-            ),
-            number(result, "temperature_scatterer", -1, f"(T_R - T_N)/(T_R - T_L), {name}").over(
-                -scale, -high / scale
-            ),
-        ]
+        first = number(result, "temperature_scatterer", 0, f"(T₁ - T_L)/(T_R - T_L), {name}")
+        last = number(result, "temperature_scatterer", -1, f"(T_R - T_N)/(T_R - T_L), {name}")
+        jumps += [first.over(scale, low / scale), last.over(-scale, -high / scale)]
     steeper = combination(jumps, [-1, -1, 1, 1], "(T_N - T₁)/(T_R - T_L), γ = N minus γ = 1")
     return Evidence([*jumps, steeper])
 
@@ -41,20 +35,11 @@ def temperatures_coincide(data: Data) -> Evidence:
     """T of the scatterer minus T of the particles in every cell, relative to the latter."""
     found = []
     for result, name in _both(data):
-        local = result["temperature_particle"].mean
-        cells = range(len(result["temperature_difference"].mean))
-        found += [
-            number(
-                result,
-                "temperature_difference",
-                k,
-                f"T of scatterer over that of particles, minus 1, in cell {k + 1}, {name}",
-            ).over(local[k])
-            for k in cells
-        ]
-    return Evidence(
-        found, found, caveat="Exact only where the mean momentum vanishes (docs/model.md, eq. 39)."
-    )
+        for k, local in enumerate(result["temperature_particle"].mean):
+            label = f"T of scatterer over that of particles, minus 1, in cell {k + 1}, {name}"
+            found.append(number(result, "temperature_difference", k, label).over(local))
+    caveat = "Exact only where the mean momentum vanishes (docs/model.md, eq. 39)."
+    return Evidence(found, found, caveat=caveat)
 
 
 def density_profiles(data: Data) -> Evidence:
@@ -63,15 +48,10 @@ def density_profiles(data: Data) -> Evidence:
     above, below = (number(one, "density_slope") for one in reversed(both))
     slope = ratio(above, below, "")
     less = replace(slope.over(-1, -1), label="1 - slope(γ = 1)/slope(γ = N)")
-    ends = {0: "first", 1: "last"}
-    excess = [
-        combination(
-            [number(one, "density_excess", end) for one in both],
-            [-1, 1],
-            f"excess of the {name} cell, γ = 1 minus γ = N",
-        )
-        for end, name in ends.items()
-    ]
+    excess = []
+    for end, name in enumerate(("first", "last")):
+        ends = [number(one, "density_excess", end) for one in both]
+        excess.append(combination(ends, [-1, 1], f"excess of the {name} cell, γ = 1 minus γ = N"))
     return Evidence([less, *excess])
 
 
@@ -81,22 +61,17 @@ def linear_rates(data: Data) -> Evidence:
     for result, name in _both(data):
         scale = float(result["rate_right"].mean.mean())
         for quantity in ("rate_right_deviation", "rate_left_deviation", "particle_current_deviation"):
-            places = range(len(result[quantity].mean))
             word = quantity.removesuffix("_deviation").replace("_", " ")
             where = "bond" if word == "particle current" else "scatterer"
-            found += [
-                number(result, quantity, k, f"{word} at {where} {k}, {name}").over(scale) for k in places
-            ]
+            for k in range(len(result[quantity].mean)):
+                found.append(number(result, quantity, k, f"{word} at {where} {k}, {name}").over(scale))
     return Evidence(found, found)
 
 
 def boundary_grows(data: Data) -> Evidence:
     """Excess density of the end cells against ln N at gamma = 1."""
-    results = [*data.of("ext05"), data.one("fig02_upper", "rare")]
-    results = sorted(
-        (one for one in results if one.parameters["cells"] >= FROM_SIZE),
-        key=lambda one: one.parameters["cells"],
-    )
+    every = [*data.of("ext05"), data.one("fig02_upper", "rare")]
+    results = by_size(one for one in every if one.parameters["cells"] >= FROM_SIZE)
     return Evidence(
         [_slope(results, end, name) for end, name in enumerate(("first", "last"))],
         caveat="Growth up to the largest N; that it goes on without limit cannot be seen in finite chains.",
@@ -108,13 +83,8 @@ def _slope(results: Sequence[Result], end: int, name: str) -> Number:
     points = [number(one, "density_excess", end) for one in results]
     value, error = [one.value for one in points], [one.error for one in points]
     line, later = fit_line(size, value, error), fit_line(size[1:], value[1:], error[1:])
-    return Number(
-        f"excess of the {name} cell per unit of ln N",
-        line.slope,
-        line.error,
-        freedom(*results),
-        abs(later.slope - line.slope),
-    )
+    label = f"excess of the {name} cell per unit of ln N"
+    return with_systematic(Number(label, line.slope, line.error, freedom(*results)), [later.slope])
 
 
 CLAIMS: dict[str, Claim] = {

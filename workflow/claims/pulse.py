@@ -6,14 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from workflow.claims.data import Data, MissingError, combination, number, where_made
-from workflow.claims.evidence import Claim, Evidence
+from workflow.claims.data import Claim, Data, Evidence, MissingError, combination, number, where_made
 from workflow.claims.growth import equilibrium, exponent, largest_sizes, sizes
 from workflow.claims.verdict import Number, with_systematic
 from workflow.figures.fig09 import gaussian_start, ring_closed, start
+from workflow.lib import style
 from workflow.lib.caption import goodness
 from workflow.lib.fit import rejected, with_error
-from workflow.lib.load import Index, Quantity, Result
+from workflow.lib.load import Quantity, Result
 
 APART = 2  # standard errors
 PEAK_BIAS = 0.02  # of an octave's damping exponent, at most (cpp/statistics/moving_peak.hpp)
@@ -68,12 +68,8 @@ def _speeds(result: Result, where: str = "") -> str:
     known = np.flatnonzero(np.isfinite(speed.mean))
     if not len(known):
         return f"No moving peak was found{where}."
-    told = [f"{_at(speed, k)} at t = {speed.axes['middle'][k]:.3g}" for k in known[[0, -1]]]
+    told = [f"{style.with_error(speed, k)} at t = {speed.axes['middle'][k]:.3g}" for k in known[[0, -1]]]
     return f"Speed of the peaks{where}: {', '.join(told)}."
-
-
-def _at(quantity: Quantity, k: Index = ()) -> str:
-    return with_error(float(quantity.mean[k]), float(quantity.error[k]))
 
 
 def ballistic(data: Data) -> Evidence:
@@ -100,11 +96,16 @@ def _way(result: Result, name: str) -> Number:
 
 
 def _between(result: Result, first: int, last: int) -> Number:
-    place = result["peak_position"]
+    time = result["peak_position"].axes["time"]
     one, two = (number(result, "peak_position", k) for k in (first, last))
-    span = math.log(place.axes["time"][last] / place.axes["time"][first])
-    error = math.hypot(one.error / one.value, two.error / two.value) / span
-    return Number("", math.log(two.value / one.value) / span, error, one.freedom)
+    return _log_slope("", one, two, time[last] / time[first])
+
+
+def _log_slope(label: str, first: Number, last: Number, factor: float) -> Number:
+    """Slope on logarithmic axes between two times, the later of which is `factor` times the first."""
+    span = math.log(factor)
+    error = math.hypot(first.error / first.value, last.error / last.value) / span
+    return Number(label, math.log(last.value / first.value) / span, error, first.freedom)
 
 
 def speed_falls(data: Data) -> Evidence:
@@ -123,9 +124,8 @@ def _slowing(result: Result, name: str) -> Number:
     if len(known) < 2:
         raise MissingError("too few times with a moving peak")
     first, last = (number(result, "peak_speed", k) for k in known[[0, -1]])
-    span = math.log(speed.axes["middle"][known[-1]] / speed.axes["middle"][known[0]])
-    error = math.hypot(first.error / first.value, last.error / last.value) / span
-    return Number(f"d ln v/d ln t, {name}", math.log(last.value / first.value) / span, error, first.freedom)
+    time = speed.axes["middle"][known]
+    return _log_slope(f"d ln v/d ln t, {name}", first, last, time[-1] / time[0])
 
 
 def damping(data: Data) -> Evidence:
@@ -136,9 +136,9 @@ def damping(data: Data) -> Evidence:
         _octaves(rest),
         [_of_all_times(weak, "damping exponent, a tenth of the energy")],
         where_made(lambda: [_sound(data)]),
-        caveat=f"Over all times it is {_at(rest['damping_exponent'])} from the paper's start, and changes by {_at(rest['damping_drift'])} "
+        caveat=f"Over all times it is {style.with_error(rest['damping_exponent'])} from the paper's start, and changes by {style.with_error(rest['damping_drift'])} "
         f"per unit of ln t. The pulse is a shock. {_speeds(rest)} With a tenth of the energy the exponent changes by "
-        f"{_at(weak['damping_drift'])} per unit of ln t.",
+        f"{style.with_error(weak['damping_drift'])} per unit of ln t.",
     )
 
 
@@ -204,7 +204,7 @@ def _other_fits(data: Data, panel: str) -> str:
     found, rest = (number(one, "damping_exponent") for one in (result, _from_rest(data, panel)))
     return (
         f"{'No power of t describes' if drifts else 'A power of t describes'} the height: its exponent {change}. Fitted from "
-        f"t = {fitted.axes['from'][half]:g} on it is {_at(fitted, half)}. {_of_rest(found, rest)}"
+        f"t = {fitted.axes['from'][half]:g} on it is {style.with_error(fitted, half)}. {_of_rest(found, rest)}"
     )
 
 

@@ -3,20 +3,19 @@
 The table has the effort (replicas times simulated time) and the CPU seconds of one execution per panel, series and size.
 """
 
-import argparse
 import csv
 import heapq
 import json
 import math
 import os
-import sys
 from datetime import timedelta
 from functools import cache
 from pathlib import Path
 
 from workflow.cluster.batches import divide, seconds_of_batches
-from workflow.lib.configuration import ConfigurationError, Options, at_size
-from workflow.lib.plan import QUALITIES, Run, load_plan, panel_named, with_used
+from workflow.lib.command import command
+from workflow.lib.configuration import Options, at_size
+from workflow.lib.plan import QUALITIES, Run, load_plan
 
 ROOT = Path(__file__).parents[2]
 TABLE = ROOT / "workflow/config/seconds.csv"  # panel, series, cells, effort, cpu_seconds
@@ -102,17 +101,8 @@ def wall(jobs: list[float], cores: int) -> timedelta:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--quality", required=True)
-    parser.add_argument("--panel", help="only this panel and the runs that it plots")
-    parser.add_argument("--batch", type=float, help="minutes per job on a cluster")
-    options = parser.parse_args()
-    try:
-        plan = load_plan(options.quality)
-        panels = with_used(plan, panel_named(plan, options.panel).name) if options.panel else [*plan.values()]
-    except ConfigurationError as error:
-        sys.exit(str(error))
-
+    batch = {"type": float, "help": "minutes per job on a cluster"}
+    options, _, panels = command(__doc__, batch=batch)
     jobs: list[float] = []
     for panel in panels:
         recorded = [recorded_seconds(options.quality, panel.name, run.name) for run in panel.runs]

@@ -102,8 +102,7 @@ def signature(units: str, axes: dict[str, str]) -> str:
 
 def _describe(program: Path, *options: str) -> dict[str, Any]:
     written = subprocess.run([program, *options, "--describe"], check=True, capture_output=True).stdout
-    description: dict[str, Any] = json.loads(written)
-    return description
+    return json.loads(written)
 
 
 def _signature(quantity: dict[str, Any]) -> str:

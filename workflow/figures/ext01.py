@@ -10,19 +10,18 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, number, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
 PAPER, ZERO, RANDOM = "random total momentum, as in the paper", "zero total momentum", "random directions"
 LOOKS: dict[str, style.Look] = {
-    PAPER: {"marker": "o", "color": style.BLUE},
-    ZERO: {"marker": "s", "color": style.VERMILLION, "markerfacecolor": "white"},
-    RANDOM: {"marker": "D", "color": style.GREEN, "markerfacecolor": "white"},
+    PAPER: style.points("o", style.BLUE),
+    ZERO: style.points("s", style.VERMILLION, "white"),
+    RANDOM: style.points("D", style.GREEN, "white"),
 }
 LABELS = ("sigma", "particles-per-cell", "relaxation-time", "zero-total-momentum", "random-direction")
 APART = 0.1  # of a slot, by which kinds are plotted beside each other
@@ -46,8 +45,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         for name in ("alpha", "logarithmic_power", "momentum_drift"):
             if name not in result.quantities or np.isnan(result[name].mean):
                 continue  # no logarithmic power where the chain drifts, no momentum where directions are random
-            part[name] = float(result[name].mean)
-            part[f"{name}_error"] = float(result[name].error)
+            part = part.assign(**result.columns(name))
         parts.append(part)
     return pd.concat(parts, ignore_index=True)
 
@@ -57,8 +55,8 @@ def draw_slopes(axes: Axes, table: pd.DataFrame) -> None:
     few = table[table.particles_per_cell == table.particles_per_cell.min()]
     for name, part in few[few.relaxation_time == few.relaxation_time.max()].groupby("kind"):
         every = part.iloc[::3]
-        look = {**style.POINTS, "linestyle": "-", **LOOKS[name]}
-        axes.errorbar(every.time, every.slope, every.slope_error, label=name, **look)
+        look = LOOKS[name] | {"linestyle": "-", "label": name}
+        axes.errorbar(every.time, every.slope, every.slope_error, **look)
     axes.set(xscale="log", xlabel="time $t$")
 
 
@@ -69,7 +67,7 @@ def draw_exponents(axes: Axes, runs: pd.DataFrame) -> None:
         part = runs[runs.kind == name]
         pairs = zip(part.particles_per_cell, part.relaxation_time, strict=True)
         x = [places.index(pair) + shift for pair in pairs]
-        axes.errorbar(x, part.alpha, part.alpha_error, **LOOKS[name], **style.POINTS)
+        axes.errorbar(x, part.alpha, part.alpha_error, **LOOKS[name])
     names = [f"$n = {n}$\n$t_r = {relaxed:g}$" for n, relaxed in places]
     axes.set_xticks(range(len(places)), names)
     axes.tick_params(axis="x", length=0)
@@ -93,7 +91,7 @@ def caption(runs: pd.DataFrame, results: Sequence[Result]) -> str:
         paper's ensemble, {ranges[ZERO]} with zero total momentum and {ranges[RANDOM]} with random directions: the superdiffusion is drift. {ERRORS}"""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     table = tabulate(results)
     runs = table.drop_duplicates(["kind", *(name.replace("-", "_") for name in LABELS)])
     sigmas = sorted(table.sigma.unique())
@@ -119,6 +117,4 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 
 if __name__ == "__main__":
-    run(
-        draw, "Spreading of a tagged particle with and without conserved momentum", slope="1", slope_error="1"
-    )
+    run(draw, "Spreading of a tagged particle with and without conserved momentum", slope="1")

@@ -6,19 +6,16 @@ from collections.abc import Sequence
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 
 from workflow.figures.ext09 import LOOKS, by_spacing, spacings, tabulate
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
-BESIDE = (
-    1.07  # factor of the sizes at which neighbouring spacings are plotted, as points would hide each other
-)
+BESIDE = 1.07  # factor of the sizes at which neighbouring spacings are plotted: points would hide each other
 # Suffixes of columns, and titles, by whose temperatures eq. 28 has.
 DEFINITIONS = {"": "$T_1$, $T_N$", "_particle": "arriving particles", "_baths": "baths"}
 
@@ -45,25 +42,19 @@ def caption(exponents: pd.DataFrame, results: Sequence[Result]) -> str:
         smallest to the largest sizes the exponents of (a) go from {ranges}. Neighbouring points share a size; spacings are shifted sideways. {ERRORS}"""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     table, spacing = tabulate(results), spacings(results)
     gases = table.groupby("gas", sort=False)
     exponents = pd.concat([local(part).assign(gas=name) for name, part in gases])
     figure, row = plt.subplots(1, len(DEFINITIONS), sharey=True, figsize=(2 * style.COLUMN, style.HEIGHT))
     for axes, (suffix, title) in zip(row, DEFINITIONS.items(), strict=True):
         for place, (name, part) in enumerate(exponents.groupby("gas", sort=False)):
-            marker, color = LOOKS[name]
-            look = {
-                "marker": marker,
-                "color": color,
-                "label": rf"$\lambda = {spacing[name]}$",
-                **style.POINTS,
-            }
+            look = style.points(*LOOKS[name], label=rf"$\lambda = {spacing[name]}$")
             size = BESIDE ** (place - 1) * part["size"]
             axes.errorbar(size, part[f"exponent{suffix}"], part[f"exponent{suffix}_error"], **look)
         style.guide_at(axes, 1 / 3, "1/3" * (axes is row[-1]))
-        axes.set(xscale="log", xlabel="number of cells $N$", title=title)
-        style.label_sizes(axes.xaxis)
+        axes.set_title(title)
+        style.against_size(axes)
     row[0].set(ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, None))
     figure.legend(*row[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(spacing))
     style.letter(*row)
@@ -72,6 +63,5 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 
 if __name__ == "__main__":
-    columns = [f"exponent{name}" for name in DEFINITIONS]
-    pure = ["size", *columns, *(f"{name}_error" for name in columns)]
-    run(draw, "Local exponent of the heat conductivity", **dict.fromkeys(pure, "1"))
+    exponents = {f"exponent{name}": "1" for name in DEFINITIONS}
+    run(draw, "Local exponent of the heat conductivity", size="1", **exponents)

@@ -11,12 +11,11 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from workflow.figures.ext13 import chain
 from workflow.lib import style
 from workflow.lib.caption import listed, number, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 from workflow.lib.mode_coupling import Chain, f_kpz, levy
@@ -104,9 +103,7 @@ def draw_peaks(
     for record, color, dashes in zip(shown, style.SEQUENCE[1:], style.DASHES[1:], strict=False):
         part = scaled(record)
         axes.plot(part.x, part.y, color=color, linestyle=dashes, label=f"$t = {record.time:g}$")
-        axes.fill_between(
-            part.x, part.y - part.y_error, part.y + part.y_error, color=color, alpha=0.3, linewidth=0
-        )
+        style.band(axes, part.x, part.y, part.y_error, color)
         parts.append(part.assign(zeta=record.gas.zeta, mass=record.gas.mass, time=record.time))
     return parts
 
@@ -127,17 +124,10 @@ def tabulate(found: Sequence[Record]) -> pd.DataFrame:
     rows = []
     for record in found:
         row = {"zeta": record.gas.zeta, "mass": record.gas.mass, "time": record.time}
-        for name, predicted, *_ in RATIOS:
+        expected = {name: predicted(record) for name, predicted, *_ in RATIOS}
+        for name, predicted in (expected | {"heat_area": heat_area(record)}).items():
             value, error = record.value(name)
-            row |= {
-                f"{name}_ratio": value / predicted(record),
-                f"{name}_ratio_error": error / predicted(record),
-            }
-        value, error = record.value("heat_area")
-        row |= {
-            "heat_area_ratio": value / heat_area(record),
-            "heat_area_ratio_error": error / heat_area(record),
-        }
+            row |= {f"{name}_ratio": value / predicted, f"{name}_ratio_error": error / predicted}
         rows.append(row)
     return pd.DataFrame(rows)
 
@@ -145,15 +135,9 @@ def tabulate(found: Sequence[Record]) -> pd.DataFrame:
 def draw_ratios(axes: Axes, table: pd.DataFrame) -> None:
     for k, (_, part) in enumerate(table.groupby(["zeta", "mass"])):
         for name, _, marker, color, label in RATIOS:
-            look = {
-                "marker": marker,
-                "color": color,
-                **style.POINTS,
-                "markerfacecolor": "white" if k else color,
-            }
+            look = style.points(marker, color, "white" if k else None, label=None if k else label)
             shift = 1.06 ** (k - 0.5)
-            axes.errorbar(part.time * shift, part[f"{name}_ratio"], part[f"{name}_ratio_error"],
-                          label=None if k else label, **look)  # fmt: skip
+            axes.errorbar(part.time * shift, part[f"{name}_ratio"], part[f"{name}_ratio_error"], **look)
     axes.axhline(1, **style.GUIDE)
     axes.set(xscale="log", xlabel="time $t$", ylabel="measured / predicted", ylim=(0.8, 1.25))
     style.label_within_decades(axes.xaxis)
@@ -166,7 +150,7 @@ def last(table: pd.DataFrame, name: str, gas: Chain) -> str:
     return with_error(row[f"{name}_ratio"], row[f"{name}_ratio_error"])
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     found = records(results)
     table = tabulate(found)
     gas = found[0].gas  # the one whose peak settles first
@@ -205,9 +189,5 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 
 if __name__ == "__main__":
-    ratio = {
-        f"{name}_ratio{suffix}": "1"
-        for name in (*(one[0] for one in RATIOS), "heat_area")
-        for suffix in ("", "_error")
-    }
-    run(draw, "Sound and heat peaks in equilibrium", zeta="1", mass="1", x="1", y="1", y_error="1", **ratio)
+    ratios = {f"{name}_ratio": "1" for name in (*(one[0] for one in RATIOS), "heat_area")}
+    run(draw, "Sound and heat peaks in equilibrium", zeta="1", mass="1", x="1", y="1", **ratios)

@@ -6,11 +6,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, WINDOW, baths, listed, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import fit_line, with_error
 from workflow.lib.load import Result
 
@@ -24,11 +23,8 @@ CURRENTS = {"particle_current": "o", "energy_current": "s"}
 def look_of(result: Result, marker: str, index: int) -> style.Look:
     """Large at gamma = N, small at gamma = 1; the second of two curves is open."""
     gamma = result.parameters["gamma"]
-    _, color = style.BY_GAMMA[gamma]
-    face = "white" if index else color
-    size = 4 if gamma == "N" else 2
-    look = style.POINTS | {"capsize": 0}
-    return {"marker": marker, "color": color, "markerfacecolor": face, "markersize": size, **look}
+    face, size = "white" if index else None, 4 if gamma == "N" else 2
+    return style.points(marker, style.BY_GAMMA[gamma][1], face, markersize=size, capsize=0)
 
 
 def plot_deviations(axes: Axes, result: Result, curves: dict[str, str]) -> list[pd.DataFrame]:
@@ -71,8 +67,8 @@ def plot_excess(axes: Axes, results: Sequence[Result]) -> pd.DataFrame:
         error = np.array([result["density_excess"].error[end] for result in results])
         fitted = cells >= FITTED
         line = fit_line(np.log(cells[fitted]), excess[fitted], error[fitted])
-        look = {"marker": marker, "color": color, "markerfacecolor": "white", **style.POINTS}
-        axes.errorbar(cells, excess, error, label=f"{name} end", **look)
+        look = style.points(marker, color, "white", label=f"{name} end")
+        axes.errorbar(cells, excess, error, **look)
         axes.plot(cells[fitted], line.at(np.log(cells[fitted])), color=color, linestyle=dashes)
         table = pd.DataFrame({"quantity": f"density_excess {name}", "cells": cells, "value": excess})
         table["fitted"] = np.where(fitted, line.at(np.log(cells)), np.nan)
@@ -98,7 +94,7 @@ def caption(table: pd.DataFrame, profiles: Sequence[Result], sizes: Sequence[Res
         with b = {slopes}, growth as in the paper. {ERRORS}"""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     profiles = [result for result in results if result.parameters["cells"] == 30]
     sizes = [result for result in results if style.gamma(result) == "1"]
     sizes.sort(key=lambda result: result.parameters["cells"])
@@ -133,13 +129,5 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 if __name__ == "__main__":
     by_row = {"value": "column units", "error": "column units"}
-    pure = (
-        "x",
-        "deviation_percent",
-        "deviation_percent_error",
-        "fitted",
-        "slope",
-        "slope_error",
-        "chi_square",
-    )
-    run(draw, "Rates, currents and density along the chain", **dict.fromkeys(pure, "1"), **by_row)
+    pure = dict.fromkeys(("x", "deviation_percent", "fitted", "slope", "chi_square"), "1")
+    run(draw, "Rates, currents and density along the chain", **pure, **by_row)

@@ -10,28 +10,19 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from workflow.lib import style
 from workflow.lib.caption import CHAIN, ERRORS, GAS, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import Line, fit_line, with_error
 from workflow.lib.load import Result
 
 AGED = {"persistence": "mu", "waiting_time": "exponent", "displacement": "alpha"}  # quantities by program
 ENERGIES: dict[str, style.Look] = {
-    "scatterer_energy_mean": {"marker": "o", "color": style.BLUE, "label": "scatterer"},
-    "particle_energy": {
-        "marker": "s",
-        "color": style.VERMILLION,
-        "markerfacecolor": "white",
-        "label": "particle",
-    },
+    "scatterer_energy_mean": style.points("o", style.BLUE, label="scatterer"),
+    "particle_energy": style.points("s", style.VERMILLION, "white", label="particle"),
 }
-SLOPES: list[style.Look] = [
-    {"marker": "o", "color": style.BLUE},
-    {"marker": "D", "color": style.GREEN, "markerfacecolor": "white"},
-]
+SLOPES = [style.points("o", style.BLUE), style.points("D", style.GREEN, "white")]
 
 
 def contents(results: Sequence[Result]) -> list[Result]:
@@ -49,7 +40,7 @@ def plot_energies(axes: Axes, result: Result) -> list[pd.DataFrame]:
     for name, look in ENERGIES.items():
         energy = result[name]
         (time,) = energy.axes.values()
-        axes.errorbar(time, energy.mean, energy.error, **look, **style.POINTS)
+        axes.errorbar(time, energy.mean, energy.error, **look)
         columns = {"quantity": name, "time": time, "value": energy.mean}
         tables.append(pd.DataFrame({**columns, "error": energy.error, "units": energy.units}))
     axes.set(xscale="log", ylabel=f"mean energy ({style.UNITS})", ylim=(0, None))
@@ -64,7 +55,7 @@ def plot_slopes(axes: Axes, results: Sequence[Result]) -> list[pd.DataFrame]:
         slope, particles = result["decade_slope"], result.parameters["particles-per-cell"]
         time = slope.axes["decade"]
         label = f"$n = {particles}$"
-        axes.errorbar(np.sqrt(10) * time, slope.mean, slope.error, label=label, **look, **style.POINTS)
+        axes.errorbar(np.sqrt(10) * time, slope.mean, slope.error, label=label, **look)
         table = pd.DataFrame(
             {"quantity": "decade_slope", "time": time, "value": slope.mean, "error": slope.error}
         )
@@ -89,7 +80,7 @@ def aged(results: Sequence[Result], program: str) -> tuple[pd.DataFrame, Line]:
 
 
 def plot_spreading(axes: Axes, table: pd.DataFrame) -> None:
-    axes.errorbar(table.time, table["value"], table.error, marker="o", color=style.BLUE, **style.POINTS)
+    axes.errorbar(table.time, table["value"], table.error, **style.points("o", style.BLUE))
     axes.plot(table.time, table.fitted, color=style.BLACK, linestyle="dotted")
     axes.axhline(1, **style.GUIDE)
     axes.set(xscale="log", xlabel="relaxation time", ylabel=r"exponent $\alpha$, zero total momentum")
@@ -109,7 +100,7 @@ def caption(ageing: Sequence[Result], trend: Line, results: Sequence[Result]) ->
         the relaxation time; dotted: a + b ln t, b = {with_error(trend.slope, trend.error)}; dashed: diffusion. α < 1 reflects ageing. {ERRORS}"""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     ageing = contents(results)
     figure, panels = plt.subplot_mosaic(
         [["energies", "spreading"], ["slopes", "spreading"]],

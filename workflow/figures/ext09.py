@@ -5,17 +5,17 @@ that N goes to infinity in the thermodynamic limit.
 """
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.growth import POWER, Growth, fits, widest
 from workflow.lib.load import Result
@@ -53,7 +53,7 @@ def by_spacing(table: pd.DataFrame, spacing: Mapping[str, str]) -> pd.DataFrame:
 
 def drop_per_cell(result: Result) -> float:
     """Drop of the temperature per cell, from the left bath to the right one."""
-    left, right = (float(result.parameters[f"temperature-{side}"]) for side in ("left", "right"))
+    left, right = result.ends("temperature")
     return (left - right) / int(result.parameters["cells"])
 
 
@@ -61,12 +61,11 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     """One row per run, sorted by N. kappa_baths has the temperatures of the baths in place of T_1 and T_N."""
     rows = []
     for result in results:
-        row = {"gas": gas(result), "cells": int(result.parameters["cells"])}
-        for name in ("kappa", "kappa_particle", "energy_current", "particle_current"):
-            row[name], row[f"{name}_error"] = float(result[name].mean), float(result[name].error)
-        current, per_current = result["energy_current"], 1 / drop_per_cell(result)
-        row["kappa_baths"] = per_current * float(current.mean)
-        row["kappa_baths_error"] = abs(per_current) * float(current.error)
+        row: dict[str, Any] = {"gas": gas(result), "cells": int(result.parameters["cells"])}
+        row |= result.columns("kappa", "kappa_particle", "energy_current", "particle_current")
+        per_current = 1 / drop_per_cell(result)
+        row["kappa_baths"] = per_current * row["energy_current"]
+        row["kappa_baths_error"] = abs(per_current) * row["energy_current_error"]
         row["usable"] = result.sound
         rows.append(row)
     return pd.DataFrame(rows).sort_values("cells", ignore_index=True)
@@ -95,18 +94,15 @@ def rival(part: pd.DataFrame, first: float) -> str:
 
 def draw_powers(axes: Axes, table: pd.DataFrame, spacing: Mapping[str, str]) -> None:
     for name, part in table.groupby("gas", sort=False):
-        marker, color = LOOKS[name]
-        label = rf"$\lambda = {spacing[name]}$"
-        look = {"marker": marker, "color": color, **style.POINTS}
-        axes.errorbar(part.cells, part.kappa, part.kappa_error, label=label, **look)
-        style.cross_out(axes, part.cells.to_numpy(), part.kappa.to_numpy(), ~part.usable.to_numpy())
+        look = style.points(*LOOKS[name], label=rf"$\lambda = {spacing[name]}$")
+        axes.errorbar(part.cells, part.kappa, part.kappa_error, **look)
+        style.cross_out(axes, part.cells, part.kappa, ~part.usable)
     size = np.array([table.cells.min(), table.cells.max()], dtype=float)
     guide = 0.5 * table.kappa.min() * (size / size[0]) ** (1 / 3)
     axes.plot(size, guide, **style.GUIDE)
     axes.text(size[1], 0.86 * guide[1], "$N^{1/3}$", size=8, ha="right", va="top")
-    axes.set(xscale="log", yscale="log", xlabel="number of cells $N$")
-    axes.set(ylabel=rf"conductivity $\kappa$ ({style.UNITS})")
-    style.label_sizes(axes.xaxis)
+    style.against_size(axes)
+    axes.set(yscale="log", ylabel=rf"conductivity $\kappa$ ({style.UNITS})")
     style.label_within_decades(axes.yaxis)
     axes.legend(loc="upper left")
 
@@ -116,15 +112,14 @@ def draw_departures(axes: Axes, table: pd.DataFrame) -> None:
     for name, part in table.groupby("gas", sort=False):
         if (held := cube_root(part)) is None:
             continue
-        marker, color = LOOKS[name]
         used, expected = part[part.cells >= held.first], np.array(held.predicted)
         size = np.cbrt(used.cells)
         departure, error = 100 * (used.kappa / expected - 1), 100 * used.kappa_error / expected
-        axes.errorbar(size, departure, error, marker=marker, color=color, **style.POINTS)
+        axes.errorbar(size, departure, error, **style.points(*LOOKS[name]))
         for one in fits(part.cells, part.kappa, part.kappa_error, held.first):
             if one.law in LAWS:
                 rival = 100 * (np.array(one.predicted) / expected - 1)
-                axes.plot(size, rival, color=color, linestyle=LINES[one.law], linewidth=0.8)
+                axes.plot(size, rival, color=LOOKS[name][1], linestyle=LINES[one.law], linewidth=0.8)
     axes.axhline(0, **style.GUIDE)
     axes.set(xlabel="$N^{1/3}$", ylabel="deviation / %")
     handles = [Line2D([], [], color="grey", linestyle=LINES[law], label=name) for law, name in LAWS.items()]
@@ -134,11 +129,10 @@ def draw_departures(axes: Axes, table: pd.DataFrame) -> None:
 def draw_cube_roots(axes: Axes, table: pd.DataFrame) -> None:
     """kappa against N^(1/3), with a + b N^(1/3) over the sizes for which that is not rejected."""
     for name, part in table.groupby("gas", sort=False):
-        marker, color = LOOKS[name]
         size = np.cbrt(part.cells)
-        axes.errorbar(size, part.kappa, part.kappa_error, marker=marker, color=color, **style.POINTS)
+        axes.errorbar(size, part.kappa, part.kappa_error, **style.points(*LOOKS[name]))
         if held := cube_root(part):
-            axes.plot(size[part.cells >= held.first], held.predicted, color=color)
+            axes.plot(size[part.cells >= held.first], held.predicted, color=LOOKS[name][1])
     above = axes.secondary_xaxis("top", functions=(lambda x: np.power(x, 3), np.cbrt))
     above.set_xticks([size for size in (16, 64, 256, 1024, 8192) if size <= table.cells.max()])
     axes.tick_params(axis="x", which="both", top=False)
@@ -160,7 +154,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result], spacing: Mapping[str
         {100 * LEVEL:.0f} % level. (c) Deviation from it; lines: other laws, fitted to the same sizes. {held}. {ERRORS}"""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     table, spacing = tabulate(results), spacings(results)
     figure, panels = plt.subplot_mosaic(
         [["powers", "roots"], ["powers", "departures"]],
@@ -180,20 +174,6 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 
 if __name__ == "__main__":
-    names = (
-        "fitted_from",
-        "chi_square",
-        "freedom",
-        "parameters",
-        "exponent",
-        "exponent_error",
-        "p_value",
-        "criterion",
-    )
-    baths_kappa = dict.fromkeys(("kappa_baths", "kappa_baths_error"), "energy/(time temperature)")
-    run(
-        draw,
-        "Heat conductivity at fixed spacing and at the spacing 1/N",
-        **dict.fromkeys(names, "1"),
-        **baths_kappa,
-    )
+    names = ("fitted_from", "chi_square", "freedom", "parameters", "exponent", "p_value", "criterion")
+    units = dict.fromkeys(names, "1") | {"kappa_baths": "energy/(time temperature)"}
+    run(draw, "Heat conductivity at fixed spacing and at the spacing 1/N", **units)

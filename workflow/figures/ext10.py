@@ -11,12 +11,11 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from scipy.special import erf
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, WINDOW, baths, number, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
@@ -29,8 +28,7 @@ def gaussian(momentum: np.ndarray, temperature: float) -> np.ndarray:
     """Probability density, averaged over equal bins about the given momenta."""
     half = 0.5 * (momentum[1] - momentum[0])
     below = [erf((momentum + sign * half) / np.sqrt(2 * temperature)) for sign in (-1, 1)]
-    density: np.ndarray = 0.5 * (below[1] - below[0]) / (2 * half)
-    return density
+    return 0.5 * (below[1] - below[0]) / (2 * half)
 
 
 def outgoing_flux(result: Result) -> Curve:
@@ -48,12 +46,8 @@ def end_scatterers(result: Result) -> Curve:
     density = result["scatterer_density"]
     momentum = density.axes["momentum"]
     error = np.hypot(*density.error) / 2
-    return (
-        momentum,
-        density.mean.mean(axis=0),
-        error,
-        gaussian(momentum, result.parameters["temperature-left"]),
-    )
+    exact = gaussian(momentum, result.parameters["temperature-left"])
+    return momentum, density.mean.mean(axis=0), error, exact
 
 
 def largest_distance(found: np.ndarray, error: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
@@ -70,8 +64,7 @@ def plot(axes: Axes, result: Result, curve: Curve, units: str, shift: float) -> 
     momentum, found, error, exact = (array[seen] for array in (momentum, found, error, exact))
     chi_square = float(np.sum(((found - exact) / error) ** 2))
     distance, distance_error = largest_distance(found, error, exact)
-    marker, color = style.BY_GAMMA[result.parameters["gamma"]]
-    look = {"marker": marker, "color": color, "markerfacecolor": "white", "markersize": 2.5, **style.POINTS}
+    look = style.points(*style.BY_GAMMA[result.parameters["gamma"]], "white", markersize=2.5)
     label = rf"$\gamma = {style.gamma(result)}$"
     axes.errorbar(momentum + shift, 100 * (found / exact - 1), 100 * error / exact, label=label, **look)
     table = pd.DataFrame({"momentum": momentum, "found": found, "found_error": error, "exact": exact})
@@ -89,7 +82,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         distribution functions is {with_error(100 * farthest.distance, 100 * farthest.distance_error)} %. {ERRORS}"""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     figure, columns = plt.subplots(1, 2, figsize=(2 * style.COLUMN, 1.1 * style.HEIGHT))
     kinds = {
         "momentum_flux": (columns[0], outgoing_flux, "flux"),
@@ -115,12 +108,5 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 
 if __name__ == "__main__":
-    by_row = {"found": "column units", "found_error": "column units", "exact": "column units"}
-    run(
-        draw,
-        "Momentum distributions in equilibrium",
-        chi_square="1",
-        distance="1",
-        distance_error="1",
-        **by_row,
-    )
+    by_row = {"found": "column units", "exact": "column units"}
+    run(draw, "Momentum distributions in equilibrium", chi_square="1", distance="1", **by_row)

@@ -11,12 +11,11 @@ from dataclasses import dataclass
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 
 from workflow.figures.ext09 import LOOKS, by_spacing, gas, spacings
 from workflow.lib import style
 from workflow.lib.caption import BATHS, listed, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import Line, fit_line, with_error
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
@@ -40,10 +39,7 @@ class Response:
 
     @classmethod
     def of(cls, result: Result) -> "Response":
-        rates, temperatures = (
-            np.array([float(result.parameters[f"{name}-{side}"]) for side in ("left", "right")])
-            for name in ("nu", "temperature")
-        )
+        rates, temperatures = (np.array(result.ends(name)) for name in ("nu", "temperature"))
         potentials = np.log(rates / np.sqrt(temperatures))
         quantities = [result[name] for name in ("energy_current", "particle_current")]
         errors = np.array([float(quantity.error) for quantity in quantities])
@@ -64,8 +60,7 @@ class Response:
         correlation = self.covariance[0, 1] / product if product else 0.0
         first, second = random.standard_normal((2, DRAWN))
         both = np.stack([first, correlation * first + np.sqrt(1 - correlation**2) * second], axis=1)
-        currents: np.ndarray = self.currents + errors * both
-        return currents
+        return self.currents + errors * both
 
 
 def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
@@ -84,8 +79,7 @@ def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
 
     def heat(found: np.ndarray) -> np.ndarray:
         convected = found[..., 0, 1] * found[..., 1, 0] / found[..., 1, 1]
-        kappa: np.ndarray = (found[..., 0, 0] - convected) / pressure.temperature**2
-        return kappa
+        return (found[..., 0, 0] - convected) / pressure.temperature**2
 
     row["kappa_0"], row["kappa_0_error"] = float(heat(matrix)), float(heat(spread).std())
     per_current = temperature.cells / (temperature.forces[0] * temperature.temperature**2)
@@ -114,10 +108,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 def sound_transit(result: Result) -> float:
     """(3A/λ)(λN/c)^(1/3): the growing part of κ_0 for τ = 1, in the gas that the baths would keep in equilibrium."""
-    rate, temperature = (
-        float(np.sqrt(np.prod([result.parameters[f"{name}-{side}"] for side in ("left", "right")])))
-        for name in ("nu", "temperature")
-    )
+    rate, temperature = (float(np.sqrt(np.prod(result.ends(name)))) for name in ("nu", "temperature"))
     spacing, _ = style.spacing(result)
     sigma = result.parameters["sigma"]
     fugacity = rate * np.sqrt(2 / (np.pi * temperature))  # the flux of a bath at p = 0 [eq. 5]
@@ -136,36 +127,31 @@ def exponents(sizes: pd.Series, values: pd.Series, errors: pd.Series) -> str:
 
 
 def crossed(table: pd.DataFrame) -> str:
-    unsound = int((~table.usable.astype(bool)).sum())
-    return (
-        f" Crosses: {unsound} points of which a run is not stationary or missed its target error."
-        if unsound
-        else ""
-    )
+    unsound = int((~table.usable).sum())
+    told = f" Crosses: {unsound} points of which a run is not stationary or missed its target error."
+    return told if unsound else ""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     table, spacing = tabulate(results), spacings(results)
     dense, thinning = (table[table.gas == name] for name in ("dense", "thinning"))
     law = fitted(dense)
     table["predicted"] = law.at(table.sound_transit)
     figure, (left, right, local) = plt.subplots(1, 3, figsize=(2.1 * style.COLUMN, style.HEIGHT))
     for name, part in table.groupby("gas", sort=False):
-        marker, color = LOOKS[name]
-        look = {"marker": marker, "color": color, **style.POINTS}
+        look = style.points(*LOOKS[name])
         per_cell = part.L_nn / part.cells
         label = rf"$\lambda = {spacing[name]}$"
         left.errorbar(part.cells, per_cell, part.L_nn_error / part.cells, label=label, **look)
         right.errorbar(part.cells, part.kappa_0, part.kappa_0_error, **look)
         local.errorbar(*local_exponents(part.cells, part.kappa_0, part.kappa_0_error), **look)
         middle, slope, _ = local_exponents(part.cells, part.predicted, 0 * part.predicted)
-        right.plot(part.cells, part.predicted, color=color)
-        local.plot(middle, slope, color=color)
+        right.plot(part.cells, part.predicted, color=look["color"])
+        local.plot(middle, slope, color=look["color"])
         for axes, column in ((left, per_cell), (right, part.kappa_0)):
-            style.cross_out(axes, part.cells.to_numpy(), column.to_numpy(), ~part.usable.to_numpy(dtype=bool))
+            style.cross_out(axes, part.cells, column, ~part.usable)
     for axes in (left, right, local):
-        axes.set(xscale="log", xlabel="number of cells $N$")
-        style.label_sizes(axes.xaxis)
+        style.against_size(axes)
     right.set(yscale="log", ylabel=rf"$\kappa_0$ at $J_n = 0$ ({style.UNITS})")
     style.label_within_decades(right.yaxis)
     left.set(ylabel=rf"$L_{{nn}}/N$ ({style.UNITS})", ylim=(0, TOP * (table.L_nn / table.cells).max()))
@@ -192,16 +178,6 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 if __name__ == "__main__":
     units = {"L_uu": "energy^2/time", "L_un": "energy/time", "L_nu": "energy/time", "L_nn": "1/time"}
-    units |= {
-        "kappa": "energy/(time temperature)",
-        "kappa_0": "energy/(time temperature)",
-        "asymmetry": "energy/time",
-        "sound_transit": "energy/(time temperature)",
-        "predicted": "energy/(time temperature)",
-    }
-    run(
-        draw,
-        "Linear response of energy and particle currents",
-        **units,
-        **{f"{k}_error": v for k, v in units.items()},
-    )
+    conductivities = ("kappa", "kappa_0", "sound_transit", "predicted")
+    units |= dict.fromkeys(conductivities, "energy/(time temperature)") | {"asymmetry": "energy/time"}
+    run(draw, "Linear response of energy and particle currents", **units)

@@ -6,13 +6,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from workflow.figures.ext09 import by_spacing, spacings, tabulate
 from workflow.figures.fig08 import drive
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, listed, number, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import mean_of
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
@@ -63,26 +62,21 @@ def deviations(table: pd.DataFrame, quantity: str) -> pd.DataFrame:
 
 def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: str) -> None:
     """Of one spacing, against the size."""
-    for place, ((ratio, one), (marker, color)) in enumerate(zip(found.groupby("drive"), LOOKS, strict=False)):
-        look: style.Look = {
-            "marker": marker,
-            "color": color,
-            "label": f"$T_R/T_L = {ratio:g}$",
-            **style.POINTS,
-        }
+    for place, ((ratio, one), shape) in enumerate(zip(found.groupby("drive"), LOOKS, strict=False)):
+        look = style.points(*shape, label=f"$T_R/T_L = {ratio:g}$")
         axes.errorbar(BESIDE ** (place - 1) * one["size"], one.exponent, one.exponent_error, **look)
-    axes.set(xscale="log", xlabel="number of cells $N$", title=rf"$\lambda = {spacing}$", ylim=(0, 0.7))
-    style.label_sizes(axes.xaxis)
+    axes.set(title=rf"$\lambda = {spacing}$", ylim=(0, 0.7))
+    style.against_size(axes)
     style.guide_at(axes, 1 / 3, "")
 
 
 def draw_starts(axes: Axes, found: pd.DataFrame, symbol: str) -> None:
     """Of one spacing, one place per size."""
     sizes = sorted(found.cells.unique())
-    for rank, (start, (marker, color)) in enumerate(STARTS.items()):
+    for rank, (start, shape) in enumerate(STARTS.items()):
         one = found[found.start == start]
         place = np.searchsorted(sizes, one.cells) + APART * (rank - 1.5)
-        look: style.Look = {"marker": marker, "color": color, "label": start, **style.POINTS}
+        look = style.points(*shape, label=start)
         axes.errorbar(place, 100 * one.deviation, 100 * one.deviation_error, **look)
     axes.axhline(0, **style.GUIDE)
     axes.set_xticks(range(len(sizes)), [f"{size}" for size in sizes])
@@ -102,7 +96,7 @@ def caption(slopes: pd.DataFrame, starts: pd.DataFrame, results: Sequence[Result
         differ by up to {kappa} % in κ and {current} % in J_n. {ERRORS}"""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     table, spacing = read(results), spacings(results)
     slopes = exponents(table)
     starts = pd.concat([deviations(table, name) for name in COMPARED])
@@ -131,5 +125,5 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 
 if __name__ == "__main__":
-    pure = ("size", "exponent", "exponent_error", "drive", "deviation", "deviation_error")
+    pure = ("size", "exponent", "drive", "deviation")
     run(draw, "Heat conductivity for several drives and starts", **dict.fromkeys(pure, "1"))

@@ -8,21 +8,16 @@ from collections.abc import Sequence
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 
 from workflow.lib import style
 from workflow.lib.caption import listed, number, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 from workflow.lib.mode_coupling import Chain, logarithm_at
 
-LOOKS: list[style.Look] = [
-    {"marker": "o", "color": style.BLUE},
-    {"marker": "s", "color": style.VERMILLION},
-    {"marker": "^", "color": style.ORANGE},
-]
-RANDOM: style.Look = {"marker": "D", "color": style.GREEN, "markerfacecolor": "white"}
+LOOKS = [("o", style.BLUE), ("s", style.VERMILLION), ("^", style.ORANGE)]
+RANDOM = style.points("D", style.GREEN, "white")
 GAS = ["random_direction", "zeta", "mass"]  # columns that tell gases apart
 
 
@@ -94,20 +89,15 @@ def amplitude(results: Sequence[Result]) -> str:
     return f"A fit with a normal part over t = {number(first)} to {number(last)} gives {ratio} of the predicted amplitude."
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     table = tabulate(results)
     figure, (left, right) = plt.subplots(1, 2, figsize=(2 * style.COLUMN, style.HEIGHT))
     looks, said, reached = iter(LOOKS), [], []
     for _, part in table.groupby(GAS, sort=False):
         gas = part.iloc[0]
-        look = {**style.POINTS, **(RANDOM if gas.random_direction else next(looks))}
-        left.errorbar(
-            part.time,
-            part.heat_variance / part.time,
-            part.heat_variance_error / part.time,
-            label=label(gas),
-            **look,
-        )
+        look = RANDOM if gas.random_direction else style.points(*next(looks))
+        error = part.heat_variance_error / part.time
+        left.errorbar(part.time, part.heat_variance / part.time, error, label=label(gas), **look)
         left.plot(part.time, part.predicted / part.time, color=look["color"])
         right.errorbar(part.middle, part.local_exponent, part.local_exponent_error, **look)
         said.append(last_octave(part))

@@ -6,12 +6,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, number, parameters, replicas
-from workflow.lib.figure import run
-from workflow.lib.fit import with_error
+from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
 
 SOUND = 2 / 3
@@ -21,10 +19,7 @@ PLOTTED = {
     "N": ("peak", -SOUND, r"peak $\times\, t^{2/3}$, relative"),
     1: ("peak_position", 1, r"position $x_p/t$, relative"),
 }
-LOOKS: list[style.Look] = [
-    {"marker": "o", "color": style.VERMILLION, "markerfacecolor": "white"},
-    {"marker": "s", "color": style.BLUE},
-]
+LOOKS = [style.points("o", style.VERMILLION, "white"), style.points("s", style.BLUE)]
 
 
 def scaled(result: Result) -> pd.DataFrame:
@@ -51,9 +46,7 @@ def plot(axes: Axes, results: Sequence[Result]) -> pd.DataFrame:
     tables = []
     for result, look in zip(results, LOOKS, strict=True):
         table = scaled(result)
-        axes.errorbar(
-            table.time, table.relative, table.relative_error, label=label(result), **look, **style.POINTS
-        )
+        axes.errorbar(table.time, table.relative, table.relative_error, label=label(result), **look)
         tables.append(table)
     gamma = results[0].parameters["gamma"]
     axes.axhline(1, **style.GUIDE)
@@ -63,7 +56,7 @@ def plot(axes: Axes, results: Sequence[Result]) -> pd.DataFrame:
     return pd.concat(tables)
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     given = [one.parameters for one in results]
     starts = [(each["gamma"], each["scatterer-temperature"]) for each in given]
     heights, positions = (
@@ -75,8 +68,7 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     figure, (left, right) = plt.subplots(1, 2, figsize=(2 * style.COLUMN, style.HEIGHT))
     table = pd.concat([plot(left, heights), plot(right, positions)])
     style.letter(left, right)
-    exponents = [one["damping_exponent"] for one in heights]
-    strong, weak = (with_error(float(one.mean), float(one.error)) for one in exponents)
+    strong, weak = (style.with_error(one["damping_exponent"]) for one in heights)
     caption = f"""
         Moving peak of the energy difference after a pulse; {parameters(heights, "particles-per-cell", "sigma", "energy")} per degree of
         freedom, in the cell of the pulse ε̃, {replicas(heights + positions)}. (a) Height times t^(2/3) over its first value, from scatterers at rest that have
@@ -87,4 +79,4 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 
 if __name__ == "__main__":
-    run(draw, "Energy pulse with a tenth of the energy, and in a long ring", relative="1", relative_error="1")
+    run(draw, "Energy pulse with a tenth of the energy, and in a long ring", relative="1")

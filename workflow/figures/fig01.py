@@ -10,15 +10,14 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, number, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
 
 JUDGED = "1/N"  # the distance by which claims are judged: that of the paper's other open chains
-FRONT = {"marker": "o", "color": style.BLACK, "markerfacecolor": "white", **style.POINTS}
+FRONT = style.points("o", style.BLACK, "white")
 
 
 def tabulate(result: Result) -> pd.DataFrame:
@@ -44,8 +43,7 @@ def plot_times(axes: Axes, table: pd.DataFrame) -> None:
     for (time, part), color, dashes in curves:
         label = f"$t = {time:g}$"
         axes.plot(part.momentum, part.weighted_density, color=color, linestyle=dashes, label=label)
-        low, high = (part.weighted_density + sign * part.error for sign in (-1, 1))
-        axes.fill_between(part.momentum, low, high, color=color, alpha=0.3, linewidth=0)
+        style.band(axes, part.momentum, part.weighted_density, part.error, color)
     axes.set_ylim(bottom=0)
 
 
@@ -76,7 +74,7 @@ def caption(results: Sequence[Result]) -> str:
         {ERRORS}"""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     size = (3 * style.COLUMN, 2.3 * style.HEIGHT)
     figure, rows = plt.subplots(3, len(results), figsize=size, sharex="row", height_ratios=[2, 2, 1])
     results = by_spacing(results)

@@ -9,23 +9,16 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from workflow.figures.fig01 import JUDGED, by_spacing
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, number, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
 
 SURE = 3  # standard errors of a curvature that is not chance
-NUMBER: style.Look = {"marker": "o", "color": style.BLUE, **style.POINTS}
-HEIGHT: style.Look = {
-    "marker": "s",
-    "color": style.VERMILLION,
-    "markerfacecolor": "white",
-    "label": r"$|p|\,[n_t(p) + n_t(-p)]$",
-    **style.POINTS,
-}
+NUMBER = style.points("o", style.BLUE)
+HEIGHT = style.points("s", style.VERMILLION, "white", label=r"$|p|\,[n_t(p) + n_t(-p)]$")
 
 
 def straight(result: Result) -> bool:
@@ -80,7 +73,7 @@ def caption(results: Sequence[Result]) -> str:
         growth as in the paper. At the largest λ it is not filled yet. {ERRORS}"""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     size = (3 * style.COLUMN, 1.5 * style.HEIGHT)
     figure, rows = plt.subplots(2, len(results), sharex="col", figsize=size, height_ratios=[2, 1])
     results = by_spacing(results)
@@ -96,5 +89,4 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 
 if __name__ == "__main__":
-    names = ("number", "number_error", "number_fitted", "slope_to_next", "slope_to_next_error")
-    run(draw, "Number of particles in a filling chain", **dict.fromkeys(names, "1"))
+    run(draw, "Number of particles in a filling chain", number="1", number_fitted="1", slope_to_next="1")

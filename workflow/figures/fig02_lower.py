@@ -2,13 +2,11 @@
 
 from collections.abc import Sequence
 
-import matplotlib.pyplot as plt
 import pandas as pd
-from matplotlib.figure import Figure
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, WINDOW, baths, listed, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import fit_line, with_error
 from workflow.lib.load import Result
 
@@ -39,17 +37,14 @@ def caption(results: Sequence[Result], tables: Sequence[pd.DataFrame]) -> str:
         the flatter, and particles accumulate at the ends, in the first cell by {excess}. {ERRORS}"""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
-    figure, (above, below) = plt.subplots(
-        2, 1, sharex=True, figsize=(style.COLUMN, 1.5 * style.HEIGHT), height_ratios=[1.7, 1]
-    )
+def draw(results: Sequence[Result]) -> Drawn:
+    figure, (above, below) = style.stacked(1.7, 1, height=1.5)
     tables = [tabulate(result) for result in results]
     for result, table in zip(results, tables, strict=True):
-        marker, color = style.BY_GAMMA[result.parameters["gamma"]]
-        look = {"marker": marker, "color": color, "markerfacecolor": "white", **style.POINTS}
+        look = style.points(*style.BY_GAMMA[result.parameters["gamma"]], "white")
         label = rf"$\gamma = {style.gamma(result)}$"
         above.errorbar(table.x, table.density, table.density_error, **look, label=label)
-        above.plot(table.x, table.bulk, color=color, linewidth=0.6, zorder=1)
+        above.plot(table.x, table.bulk, color=look["color"], linewidth=0.6, zorder=1)
         below.errorbar(table.x, table["relative"], table.relative_error, **look)
     below.axhline(1, **style.GUIDE)
     for axes in (above, below):
@@ -57,10 +52,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     above.set(ylabel=r"particles per cell, $\rho(x)$", xlim=(0, 1))
     below.set(xlabel="$x$", ylabel=r"$\rho$ over bulk line")
     above.legend(loc="upper right")
-    style.letter(above, below)
-    figure.align_ylabels()
     return figure, pd.concat(tables), caption(results, tables)
 
 
 if __name__ == "__main__":
-    run(draw, "Density profiles", x="1", bulk="1", relative="1", relative_error="1")
+    run(draw, "Density profiles", x="1", bulk="1", relative="1")

@@ -5,14 +5,12 @@ Below, the temperature of the particles minus that of the scatterers, measured i
 
 from collections.abc import Sequence
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, WINDOW, baths, listed, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
 
 
@@ -42,41 +40,35 @@ def caption(results: Sequence[Result]) -> str:
         particles of the end cells depart from the scatterers. {ERRORS}"""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
-    figure, (above, below) = plt.subplots(
-        2, 1, sharex=True, figsize=(1.1 * style.COLUMN, 1.6 * style.HEIGHT), height_ratios=[2, 1]
-    )
+def draw(results: Sequence[Result]) -> Drawn:
+    figure, (above, below) = style.stacked(2, 1, height=1.6, width=1.1)
     tables = [tabulate(result) for result in results]
     for result, table in zip(results, tables, strict=True):
         marker, color = style.BY_GAMMA[result.parameters["gamma"]]
-        look = {"marker": marker, "color": color, "markerfacecolor": "white", **style.POINTS}
+        look = style.points(marker, color, "white")
         name = rf"$\gamma = {style.gamma(result)}$"
         dashes = "solid" if style.gamma(result) == "N" else "dashed"
         above.errorbar(table.x, table.scatterer, table.scatterer_error, **look, label=f"{name}, scatterers")
         above.plot(table.x, table.particle, color=color, linestyle=dashes, label=f"{name}, particles")
-        low, high = (table.particle + sign * table.particle_error for sign in (-1, 1))
-        above.fill_between(table.x, low, high, color=color, alpha=0.3, linewidth=0)
+        style.band(above, table.x, table.particle, table.particle_error, color)
         below.errorbar(table.x, table.particle_minus_scatterer, table.particle_minus_scatterer_error, **look)
-    options = results[0].parameters
-    for end, name, place, lift in (("left", "$T_L$", 0.06, -3), ("right", "$T_R$", 0.94, 3)):
-        temperature = options[f"temperature-{end}"]
+    temperatures = results[0].ends("temperature")
+    marks = (("$T_L$", 0.06, -3), ("$T_R$", 0.94, 3))
+    for temperature, (name, place, lift) in zip(temperatures, marks, strict=True):
         above.axhline(temperature, **style.GUIDE)
         side = "bottom" if lift > 0 else "top"
         above.annotate(
             name, (place, temperature), (0, lift), textcoords="offset points", ha="center", va=side, size=8
         )
-    middle = np.mean([options[f"temperature-{end}"] for end in ("left", "right")])
+    middle = np.mean(temperatures)
     above.set(ylabel=f"temperature ({style.UNITS})", xlim=(0, 1), ylim=(0.76 * middle, 1.28 * middle))
     style.second_axis(above, 0.5, "kinetic energy $E_K$")
     below.axhline(0, **style.GUIDE)
     below.set(xlabel="$x$", ylabel="temperature, particles\nminus scatterers")
     figure.legend(*above.get_legend_handles_labels(), loc="outside upper left", ncols=2)
-    style.letter(above, below)
-    figure.align_ylabels()
     return figure, pd.concat(tables), caption(results)
 
 
 if __name__ == "__main__":
     kinds = ("scatterer", "particle", "particle_minus_scatterer")
-    names = [f"{kind}{error}" for kind in kinds for error in ("", "_error")]
-    run(draw, "Temperature profiles", x="1", **dict.fromkeys(names, "temperature"))
+    run(draw, "Temperature profiles", x="1", **dict.fromkeys(kinds, "temperature"))

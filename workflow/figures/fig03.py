@@ -7,15 +7,13 @@ case sigma = 0, whose halves are Gaussian.
 from collections.abc import Sequence
 from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from workflow.lib import style
 from workflow.lib.caption import baths, listed, number, parameters, scientific
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
 
 ENDS = [(0, "x = 0", style.BLUE, "solid"), (-1, "x = 1", style.VERMILLION, (0, (4, 1.5)))]
@@ -26,16 +24,15 @@ OFTEN = 0.01  # fluxes over the largest one, above which the ratio to a Gaussian
 def case(result: Result) -> str:
     if result.parameters["sigma"] == 0:
         return EXCHANGE
-    equal = result.parameters["temperature-left"] == result.parameters["temperature-right"]
-    return EQUAL if equal else PAPER
+    left, right = result.ends("temperature")
+    return EQUAL if left == right else PAPER
 
 
 def gaussian_half(momentum: np.ndarray, flux: np.ndarray) -> np.ndarray:
     """Of the same integral and second moment on the same half line, by the midpoint rule."""
     square = np.average(momentum**2, weights=flux)
     rate = flux.sum() * (momentum[1] - momentum[0])
-    gaussian: np.ndarray = rate * np.sqrt(2 / (np.pi * square)) * np.exp(-(momentum**2) / (2 * square))
-    return gaussian
+    return rate * np.sqrt(2 / (np.pi * square)) * np.exp(-(momentum**2) / (2 * square))
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
@@ -74,10 +71,9 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         {number(largest[PAPER])}; at σ = 0 all halves are Gaussian. Numerical errors: below {scientific(paper.provenance["achieved_error"], 1)} of the currents."""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     table = tabulate(results)
-    size = (1.1 * style.COLUMN, 1.5 * style.HEIGHT)
-    figure, (above, below) = plt.subplots(2, 1, sharex=True, figsize=size, height_ratios=[2, 1])
+    figure, (above, below) = style.stacked(2, 1, height=1.5, width=1.1)
     departure = (100 * (table.flux / table.gaussian - 1)).where(table.flux > OFTEN * table.flux.max())
     for _, place, color, dashes in ENDS:
         ends = table[table.x == place]
@@ -93,8 +89,6 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     below.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel="$F$ over Gaussian,\nminus 1 / %")
     above.legend(loc="upper right")
     below.legend(loc="best")
-    style.letter(above, below)
-    figure.align_ylabels()
     return figure, table, caption(table, results)
 
 

@@ -5,11 +5,10 @@ from collections.abc import Sequence
 import matplotlib.pyplot as plt
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from workflow.lib import style
 from workflow.lib.caption import baths, listed, parameters, scientific
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
 
 PAPER_POINTS = 4200
@@ -57,7 +56,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         the number of points, down to {listed(finest)}. The paper uses {PAPER_POINTS} points and states no error."""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     table = tabulate(results)
     figure, axes = plt.subplots(figsize=(style.COLUMN, style.HEIGHT))
     draw_errors(axes, table)

@@ -10,11 +10,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, WINDOW, baths, number, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
@@ -27,8 +26,7 @@ MARKERS = ["o", "s", "^", "D"]  # by N
 
 def outgoing(values: np.ndarray, momentum: np.ndarray) -> np.ndarray:
     """By momentum: of the first place where p < 0, of the last one where p > 0."""
-    found: np.ndarray = np.where(momentum < 0, values[0], values[-1])
-    return found
+    return np.where(momentum < 0, values[0], values[-1])
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
@@ -51,9 +49,8 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         table.insert(1, "cells", int(result.parameters["cells"]))
         tables.append(table)
     # As printed, F of a chain without correlations integrates to 1.
-    rates = sum(continuum.parameters[f"nu-{end}"] for end in ("left", "right"))
     table = pd.concat(tables, ignore_index=True)
-    return table.assign(absolute_as_printed=table.deviation * largest / rates)
+    return table.assign(absolute_as_printed=table.deviation * largest / style.both_rates(continuum))
 
 
 def amplitudes(table: pd.DataFrame, kind: str = SIMULATION) -> pd.DataFrame:
@@ -79,9 +76,8 @@ def draw_end(axes: Axes, table: pd.DataFrame, sign: int, place: str) -> None:
     looks = zip(style.SEQUENCE, style.DASHES, MARKERS, strict=False)
     for (size, rows), (color, dashes, marker) in zip(half.groupby("cells"), looks, strict=False):
         points, line = (rows[rows.kind == kind] for kind in (SIMULATION, MEAN_FIELD))
-        look = {"marker": marker, "color": color, "markersize": 2.5, **style.POINTS, "capsize": 0}
-        label = f"$N = {size}$"
-        axes.errorbar(points.momentum, 1e3 * points.deviation, 1e3 * points.error, **look, label=label)
+        look = style.points(marker, color, markersize=2.5, capsize=0, label=f"$N = {size}$")
+        axes.errorbar(points.momentum, 1e3 * points.deviation, 1e3 * points.error, **look)
         axes.plot(line.momentum, 1e3 * line.deviation, color=color, linestyle=dashes, linewidth=0.8)
     axes.axhline(0, **style.GUIDE)
     axes.set(xlabel="momentum $p$", title=place, xlim=sorted((0, sign * SHOWN)))
@@ -91,8 +87,8 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
     """Amplitude of the deviation against N, with the paper's limits in either normalisation."""
     printed = (table.absolute_as_printed / table.deviation).median()
     points, line = amplitudes(table), amplitudes(table, MEAN_FIELD)
-    look = {"marker": "o", "color": style.BLUE, **style.POINTS}
-    axes.errorbar(points.cells, points.amplitude, points.error, **look, label=SIMULATION)
+    look = style.points("o", style.BLUE, label=SIMULATION)
+    axes.errorbar(points.cells, points.amplitude, points.error, **look)
     axes.plot(line.cells, line.amplitude, color=style.BLACK, label=MEAN_FIELD)
     axes.set(xscale="log", yscale="log", ylim=(LOWEST, HIGHEST), xlim=(1.8, 1.1 * line.cells.max()))
     readings: list[tuple[float, str, style.Look]] = [
@@ -127,7 +123,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         In the latter normalisation the largest bins of the mean field are {number(mean_field.iloc[0])} and {number(mean_field.iloc[-1])}. {ERRORS}"""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     table = tabulate(results)
     size = (1.1 * style.COLUMN, 1.8 * style.HEIGHT)
     figure, panels = plt.subplot_mosaic([["left", "right"], ["decay", "decay"]], figsize=size)

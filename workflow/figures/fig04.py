@@ -11,11 +11,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from workflow.lib import style
 from workflow.lib.caption import CHAIN, ERRORS, WINDOW, baths, listed, number, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Quantity, Result
 
@@ -31,14 +30,10 @@ def measured(results: Sequence[Result]) -> list[Result]:
     return [result for result in results if result.provenance["program"] == "momentum_flux"]
 
 
-def rates(result: Result) -> tuple[float, float]:
-    return result.parameters["nu-left"], result.parameters["nu-right"]
-
-
 def uncorrelated(results: Sequence[Result], like: Result) -> Result | None:
     """The solution of the kinetic equation for the same chain."""
     for result in results:
-        same = (result.parameters["gamma"], *rates(result)) == (like.parameters["gamma"], *rates(like))
+        same = style.gamma(result) == style.gamma(like) and result.ends("nu") == like.ends("nu")
         if same and result.provenance["program"] == "boltzmann":
             return result
     return None
@@ -46,8 +41,7 @@ def uncorrelated(results: Sequence[Result], like: Result) -> Result | None:
 
 def at(quantity: Quantity, x: float) -> np.ndarray:
     """Solution of the kinetic equation at a position."""
-    values: np.ndarray = quantity.mean[np.abs(quantity.axes["x"] - x).argmin()]
-    return values
+    return quantity.mean[np.abs(quantity.axes["x"] - x).argmin()]
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
@@ -61,7 +55,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         if expected:
             where = flux.axes["bond"][bond] / flux.axes["bond"][-1]
             part["kinetic"], part["kinetic_jump"] = at(expected["flux"], where), at(expected["jump"], where)
-        part["nu_left"], part["nu_right"] = rates(result)
+        part["nu_left"], part["nu_right"] = result.ends("nu")
         part.insert(0, "gamma", style.gamma(result))
         parts.append(part)
     return pd.concat(parts, ignore_index=True)
@@ -149,7 +143,7 @@ def extrapolation_error(table: pd.DataFrame) -> float:
 
 def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]) -> str:
     runs = [result for result in measured(results) if style.gamma(result) == main.gamma.iloc[0]]
-    chain = next(result for result in runs if len(set(rates(result))) > 1)
+    chain = next(result for result in runs if len(set(result.ends("nu"))) > 1)
     ends = unequal.drop_duplicates("x").itertuples()
     jumps = listed(with_error(end.jump, end.jump_error) for end in ends)
     far = 100 * (unequal.flux - unequal.kinetic).abs().max() / unequal.kinetic.max()
@@ -166,7 +160,7 @@ def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]
         field. (d) Jump at p = 0, extrapolated{equal}. {found}. {ERRORS}"""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     table = tabulate(results)
     main = table[table.gamma == table.gamma.iloc[-1]]
     unequal = main[main.nu_left != main.nu_right]

@@ -2,27 +2,21 @@
 
 from collections.abc import Sequence
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, listed, number, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import NOT_REACHED, Result
 
-MARKS = [
-    {"marker": "o", "color": style.BLUE, "markerfacecolor": style.BLUE},
-    {"marker": "s", "color": style.VERMILLION, "markerfacecolor": "white"},
-]
+MARKS = [style.points("o", style.BLUE), style.points("s", style.VERMILLION, "white")]
 
 
 def law(sigma: np.ndarray) -> np.ndarray:
     """Particle and scatterer Gaussian and independent, at one temperature."""
-    mu: np.ndarray = np.arccos(sigma) / np.pi
-    return mu
+    return np.arccos(sigma) / np.pi
 
 
 def law_at_local_energies(table: pd.DataFrame) -> pd.Series:
@@ -68,20 +62,18 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         and close to the paper's n = {table.particles_per_cell.min()}. {ERRORS}"""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     table = tabulate(results)
-    figure, (above, below) = plt.subplots(
-        2, 1, sharex=True, figsize=(style.COLUMN, 1.4 * style.HEIGHT), height_ratios=[2.2, 1]
-    )
+    figure, (above, below) = style.stacked(2.2, 1, height=1.4)
     sigma = np.sin(np.linspace(-np.pi / 2, np.pi / 2, 401))
     above.plot(sigma, law(sigma), color=style.BLACK, label=r"$\arccos(\sigma)/\pi$", zorder=1)
     below.axhline(0, color=style.BLACK, zorder=1)
     for (particles, series), mark in zip(table.groupby("particles_per_cell"), MARKS, strict=True):
         label = f"$n = {particles}$"
-        above.errorbar(series.sigma, series.mu, series.mu_error, label=label, **mark, **style.POINTS)
-        below.errorbar(series.sigma, 1e3 * series.deviation, 1e3 * series.mu_error, **mark, **style.POINTS)
+        above.errorbar(series.sigma, series.mu, series.mu_error, label=label, **mark)
+        below.errorbar(series.sigma, 1e3 * series.deviation, 1e3 * series.mu_error, **mark)
         expected = 1e3 * (series.law_at_local_energies - series.law)
-        dash = {"linestyle": "none", "marker": "_", "markersize": 7, "markeredgewidth": 1.2}
+        dash: style.Look = {"linestyle": "none", "marker": "_", "markersize": 7, "markeredgewidth": 1.2}
         label = f"law at measured energies, $n = {particles}$"
         below.plot(series.sigma, expected, color=mark["color"], zorder=1, label=label, **dash)
         style.cross_out(above, series.sigma, series.mu, series.converged == NOT_REACHED)
@@ -89,8 +81,6 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     above.set(ylabel=r"persistence $\mu$", xlim=(-1.04, 1.04), ylim=(-0.03, 1.03))
     above.legend(loc="upper right", title=f"$N = {results[0].parameters['cells']}$")
     below.set(xlabel=r"mass ratio $\sigma = (M-m)/(M+m)$", ylabel=r"$10^3\,(\mu - \mathrm{law})$")
-    style.letter(above, below)
-    figure.align_ylabels()
     return figure, table, caption(table, results)
 
 

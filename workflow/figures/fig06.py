@@ -6,15 +6,13 @@ the start: the paper's Gaussian one gives tau^-3 at long times, times exp(-lambd
 
 from collections.abc import Sequence
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from workflow.lib import style
 from workflow.lib.caption import CHAIN, ERRORS, GAS, WINDOW, listed, number, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
 
 MARKS = {0.0: ("o", style.BLUE, "dashed"), 0.5: ("s", style.VERMILLION, "dotted")}
@@ -57,7 +55,7 @@ def draw_density(axes: Axes, table: pd.DataFrame, power: float = 0, label: str =
     scale = table.tau**power
     for part, look in ((~table.unsure, {"label": label}), (table.unsure, {"markerfacecolor": "white"})):
         y, error = (scale * table.density)[part], (scale * table.density_error)[part]
-        common = {"marker": marker, "color": color, "markersize": 2.5, **style.POINTS, "capsize": 0}
+        common = style.points(marker, color, markersize=2.5, capsize=0)
         axes.errorbar(table.tau[part], y, error, **common | look)
     axes.plot(table.tau, scale * table.fitted, color=style.BLACK, linestyle=dashes, zorder=5)
 
@@ -85,28 +83,20 @@ def caption(results: Sequence[Result]) -> str:
         omitted. {ERRORS}"""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     results = sorted(results, key=lambda result: result.parameters["sigma"])
     tables = [tabulate(result) for result in results]
-    figure, (above, *strips) = plt.subplots(
-        3, 1, sharex=True, figsize=(style.COLUMN, 1.8 * style.HEIGHT), height_ratios=[2.4, 1, 1]
-    )
+    figure, (above, *strips) = style.stacked(2.4, 1, 1, height=1.8)
     for strip, result, table in zip(strips, results, tables, strict=True):
         sigma = float(result.parameters["sigma"])
-        draw_density(
-            above, table, label=rf"$\sigma = {sigma:g}$: $\tau^{{{style.with_error(result['exponent'])}}}$"
-        )
+        exponent = style.with_error(result["exponent"])
+        draw_density(above, table, label=rf"$\sigma = {sigma:g}$: $\tau^{{{exponent}}}$")
         draw_density(strip, table, POWERS[sigma])
         if sigma == 0:
             seen = table[table.gaussian_start > table.density.min()]
-            above.plot(
-                seen.tau,
-                seen.gaussian_start,
-                color=style.SKY,
-                zorder=0,
-                label=r"$\sigma = 0$, $n \to \infty$",
-            )
-            strip.plot(table.tau, table.tau**3 * table.gaussian_start, color=style.SKY, zorder=0)
+            exact: style.Look = {"color": style.SKY, "zorder": 0, "label": r"$\sigma = 0$, $n \to \infty$"}
+            above.plot(seen.tau, seen.gaussian_start, **exact)
+            strip.plot(table.tau, table.tau**3 * table.gaussian_start, **exact)
         typical = (table.tau ** POWERS[sigma] * table.fitted).median()
         mark_outside(strip, table, POWERS[sigma], 2 * typical)
         strip.set(ylim=(0, 2 * typical), ylabel=rf"$\tau^{POWERS[sigma]}\,\Psi$, $\sigma = {sigma:g}$")
@@ -115,8 +105,6 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         axes.axvspan(cut(results[0]), max(table.tau.max() for table in tables), **style.WINDOW)
     strips[-1].set_xlabel(rf"waiting time $\tau$ ({style.UNITS})")
     above.legend(loc="lower left")
-    style.letter(above, *strips)
-    figure.align_ylabels()
     return figure, pd.concat(tables), caption(results)
 
 

@@ -3,14 +3,12 @@ that is the drift of all particles."""
 
 from collections.abc import Sequence
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 
 from workflow.lib import style
 from workflow.lib.caption import CHAIN, ERRORS, GAS, number, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
@@ -19,15 +17,9 @@ GUIDED = 100  # the guides span so much of the times
 APART = 3  # factor between a guide and the last point
 
 # By whether the total momentum is zero.
-LOOKS: dict[bool, style.Look] = {
-    False: {"marker": "o", "color": style.BLUE, "label": "random total momentum", **style.POINTS},
-    True: {
-        "marker": "s",
-        "color": style.VERMILLION,
-        "markerfacecolor": "white",
-        "label": "zero total momentum",
-        **style.POINTS,
-    },
+LOOKS = {
+    False: style.points("o", style.BLUE, label="random total momentum"),
+    True: style.points("s", style.VERMILLION, "white", label="zero total momentum"),
 }
 
 
@@ -38,9 +30,8 @@ def zero(result: Result) -> bool:
 def tabulate(result: Result) -> pd.DataFrame:
     """One row per time. The error of the fraction neglects that both parts vary together: it is an upper bound."""
     variance, drift, slope = result["variance"], result["centre_of_mass"], result["local_slope"]
-    table = pd.DataFrame({"time": variance.axes["time"]}).assign(zero_total_momentum=zero(result))
-    table["variance"], table["variance_error"] = variance.mean, variance.error
-    table["centre_of_mass"], table["centre_of_mass_error"] = drift.mean, drift.error
+    columns = result.columns("variance", "centre_of_mass")
+    table = pd.DataFrame({"time": variance.axes["time"], "zero_total_momentum": zero(result), **columns})
     table["fraction"] = drift.mean / variance.mean
     relative = np.hypot(drift.error / drift.mean, variance.error / variance.mean)
     table["fraction_error"] = table["fraction"] * relative
@@ -62,15 +53,14 @@ def caption(random: pd.DataFrame, results: Sequence[Result], window: tuple[float
         {with_error(100 * last.fraction, 100 * last.fraction_error)} % of it at the end. {without} {ERRORS}"""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     results = sorted(results, key=zero)
     tables = [tabulate(result) for result in results]
     random = tables[0]
     time = random.time
     last = float(time.iloc[-1])
     window = (last / 10 ** results[0].parameters["fit-decades"], last)
-    size = (style.COLUMN, 1.6 * style.HEIGHT)
-    figure, (above, below) = plt.subplots(2, 1, sharex=True, figsize=size, height_ratios=[2, 1])
+    figure, (above, below) = style.stacked(2, 1, height=1.6)
     for result, table in zip(results, tables, strict=True):
         look = LOOKS[zero(result)]
         above.errorbar(time, table.variance, table.variance_error, **look)
@@ -90,11 +80,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     above.set(xscale="log", yscale="log", ylabel=r"$\langle x^2\rangle$")
     below.set(xlabel=f"time $t$ ({style.UNITS})", ylabel=r"$d\ln\langle x^2\rangle/d\ln t$", ylim=(0.5, 2.2))
     above.legend(loc="upper left", title=rf"$\sigma = {results[0].parameters['sigma']:g}$", alignment="left")
-    style.letter(above, below)
-    figure.align_ylabels()
     return figure, pd.concat(tables), caption(random, results, window)
 
 
 if __name__ == "__main__":
-    names = ("fraction", "fraction_error", "slope_to_next", "slope_to_next_error")
-    run(draw, "Mean square displacement of a tagged particle", **dict.fromkeys(names, "1"))
+    run(draw, "Mean square displacement of a tagged particle", fraction="1", slope_to_next="1")

@@ -7,14 +7,12 @@ particles by a part that falls only as 1/ln t. What is left by the subtraction g
 
 from collections.abc import Sequence
 
-import matplotlib.pyplot as plt
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from workflow.lib import style
 from workflow.lib.caption import CHAIN, ERRORS, GAS, WINDOW, number, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import NOT_REACHED, Result
 
@@ -32,10 +30,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         {
             "sigma": float(result.parameters["sigma"]),
             "zero_total_momentum": bool(result.parameters["zero-total-momentum"]),
-            "alpha": float(result["alpha"].mean),
-            "alpha_error": float(result["alpha"].error),
-            "alpha_relative": float(result["alpha_relative"].mean),
-            "alpha_relative_error": float(result["alpha_relative"].error),
+            **result.columns("alpha", "alpha_relative"),
             "converged": result.converged,
         }
         for result in results
@@ -46,8 +41,8 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 def draw_curve(axes: Axes, table: pd.DataFrame, zero: bool, name: str) -> None:
     label, marker, color, face = CURVES[zero, name]
     part = table[table.zero_total_momentum == zero]
-    look = {"marker": marker, "color": color, "markerfacecolor": face, **style.POINTS}
-    axes.errorbar(part.sigma, part[name], part[f"{name}_error"], label=label, **look)
+    look = style.points(marker, color, face, label=label)
+    axes.errorbar(part.sigma, part[name], part[f"{name}_error"], **look)
 
 
 def extremes(table: pd.DataFrame) -> str:
@@ -69,11 +64,9 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         the superdiffusion of the paper is drift. {ERRORS}"""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     table = tabulate(results)
-    figure, (above, below) = plt.subplots(
-        2, 1, sharex=True, figsize=(style.COLUMN, 1.6 * style.HEIGHT), height_ratios=[2, 1]
-    )
+    figure, (above, below) = style.stacked(2, 1, height=1.6)
     for zero, name in CURVES:
         draw_curve(above, table, zero, name)
     draw_curve(below, table, True, "alpha")
@@ -83,8 +76,6 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     above.set(ylabel=r"exponent $\alpha$", xlim=(-1, 1), ylim=(0.8, 2.2))
     below.set(xlabel=r"mass ratio $\sigma$", ylabel=r"exponent $\alpha$")
     figure.legend(*above.get_legend_handles_labels(), loc="outside upper left")
-    style.letter(above, below)
-    figure.align_ylabels()
     return figure, table, caption(table, results)
 
 

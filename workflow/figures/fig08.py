@@ -11,24 +11,24 @@ from collections.abc import Sequence
 import matplotlib.pyplot as plt
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from workflow.figures.ext09 import gas
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, number, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
 BELOW = 0.7  # factor by which guides lie below the lowest point
 GUIDES = {"N": (1 / 3, r"$N^{1/3}$", "1/3"), 1: (1, "$N$", "1")}  # the paper's exponents by gamma
-STRONG: style.Look = {"marker": "^", "color": style.ORANGE, "markerfacecolor": "white", **style.POINTS}
+STRONG = style.points("^", style.ORANGE, "white")
 
 
 def drive(result: Result) -> float:
     """Ratio of the baths' temperatures."""
-    return round(float(result.parameters["temperature-right"] / result.parameters["temperature-left"]), 2)
+    left, right = result.ends("temperature")
+    return round(right / left, 2)
 
 
 def mean_field(results: Sequence[Result]) -> pd.DataFrame:
@@ -49,18 +49,14 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     for result in results:
         row = {"gamma": result.parameters["gamma"], "cells": result.parameters["cells"]}
         row["drive"] = drive(result)
-        for name in ("kappa", "kappa_particle", "kappa_plain", "kappa_printed", "energy_current"):
-            row[name], row[f"{name}_error"] = (
-                float(value) for value in (result[name].mean, result[name].error)
-            )
+        row |= result.columns("kappa", "kappa_particle", "kappa_plain", "kappa_printed", "energy_current")
         row["usable"] = result.sound
         rows.append(row)
     table = pd.DataFrame(rows).sort_values("cells", ignore_index=True)
     for _, part in table[table.usable].groupby(["gamma", "drive"]):
+        columns = ("between", "exponent_to_next", "exponent_to_next_error")
         local = local_exponents(part.cells, part.kappa, part.kappa_error)
-        for column, values in zip(
-            ("between", "exponent_to_next", "exponent_to_next_error"), local, strict=True
-        ):
+        for column, values in zip(columns, local, strict=True):
             table.loc[part.index[:-1], column] = values
     return table
 
@@ -88,16 +84,15 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         smallest sizes the exponent rises above 1/2 and falls to {often.iloc[-1]} at the largest; {strong.iloc[-1]} at the stronger drive. {ERRORS}"""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     runs = [one for one in results if one.provenance["program"] == "conductivity"]
     runs = [one for one in runs if gas(one) not in ("dilute", "dense")]  # of a fixed spacing
     table, theory = tabulate(runs), mean_field(results)
     size = (2 * style.COLUMN, 1.1 * style.HEIGHT)
     figure, (left, right) = plt.subplots(1, 2, figsize=size, sharex=True)
     weak = table[table.drive == table.drive.min()]
-    for gamma, (marker, color) in style.BY_GAMMA.items():
-        part = weak[weak.gamma == gamma]
-        look = {"marker": marker, "color": color, **style.POINTS}
+    for gamma, shape in style.BY_GAMMA.items():
+        part, look = weak[weak.gamma == gamma], style.points(*shape)
         left.errorbar(part.cells, part.kappa, part.kappa_error, label=rf"$\gamma = {gamma}$", **look)
         right.errorbar(part.between, part.exponent_to_next, part.exponent_to_next_error, **look)
         slope, power, name = GUIDES[gamma]
@@ -107,21 +102,11 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     label = rf"$\gamma = N$, $T_R/T_L = {table.drive.max():g}$"
     left.errorbar(strong.cells, strong.kappa, strong.kappa_error, label=label, **STRONG)
     right.errorbar(strong.between, strong.exponent_to_next, strong.exponent_to_next_error, **STRONG)
-    blue = style.BY_GAMMA["N"][1]
-    left.plot(
-        theory.cells,
-        theory.mean_field_kappa,
-        color=blue,
-        linestyle="dashed",
-        label=r"$\gamma = N$, mean field",
-    )
-    style.cross_out(left, table.cells.to_numpy(), table.kappa.to_numpy(), ~table.usable.to_numpy(dtype=bool))
-    left.set(
-        xscale="log",
-        yscale="log",
-        xlabel="number of cells $N$",
-        ylabel=rf"conductivity $\kappa$ ({style.UNITS})",
-    )
+    look = {"color": style.BY_GAMMA["N"][1], "linestyle": "dashed", "label": r"$\gamma = N$, mean field"}
+    left.plot(theory.cells, theory.mean_field_kappa, **look)
+    style.cross_out(left, table.cells, table.kappa, ~table.usable)
+    left.set(xscale="log", yscale="log", xlabel="number of cells $N$")
+    left.set_ylabel(rf"conductivity $\kappa$ ({style.UNITS})")
     right.set(xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$")
     low, high = left.get_xlim()
     left.set_xlim(low, 1.6 * high)  # room for the names of the guides
@@ -133,10 +118,5 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 
 if __name__ == "__main__":
-    pure = dict.fromkeys(("drive", "exponent_to_next", "exponent_to_next_error"), "1")
-    run(
-        draw,
-        "Heat conductivity against the size of the chain",
-        mean_field_kappa="energy/(time temperature)",
-        **pure,
-    )
+    units = {"drive": "1", "exponent_to_next": "1", "mean_field_kappa": "energy/(time temperature)"}
+    run(draw, "Heat conductivity against the size of the chain", **units)

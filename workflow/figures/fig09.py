@@ -12,11 +12,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from workflow.lib import style
 from workflow.lib.caption import CHAIN, ERRORS, listed, number, parameters, replicas
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
 
 CLOSED = 0.02  # of the peak's height, at the cell opposite to the pulse
@@ -30,8 +29,7 @@ STARTS = {
 
 
 def start(result: Result) -> str | float:
-    given: str | float = result.parameters["scatterer-temperature"]
-    return given
+    return result.parameters["scatterer-temperature"]
 
 
 def gaussian_start(results: Sequence[Result]) -> Result:
@@ -47,13 +45,12 @@ def ring_closed(result: Result) -> np.ndarray:
     """At every time, whether the two sides of the pulse overlap where they meet, opposite to it."""
     difference = result["energy_difference"].mean
     opposite = difference[:, [0, 1, -2, -1]].mean(axis=1)
-    closed: np.ndarray = opposite > CLOSED * difference.max(axis=1)
-    return closed
+    return opposite > CLOSED * difference.max(axis=1)
 
 
 def look_of(result: Result) -> style.Look:
     marker, color, face, _ = STARTS[start(result)]
-    return {"marker": marker, "color": color, "markerfacecolor": face, **style.POINTS}
+    return style.points(marker, color, face)
 
 
 def draw_marked(
@@ -78,7 +75,7 @@ def draw_profiles(axes: Axes, result: Result, shown: np.ndarray) -> pd.DataFrame
         alpha = FAINT if closed[k] else 1
         label = f"$t = {times[k]:g}$"
         axes.plot(distance, mean, color=color, linestyle=dashes, label=label, alpha=alpha)
-        axes.fill_between(distance, mean - error, mean + error, color=color, alpha=0.3, linewidth=0)
+        style.band(axes, distance, mean, error, color)
         columns = {"time": times[k], "distance": distance, "energy_difference": difference.mean[k]}
         part = pd.DataFrame({**columns, "energy_difference_error": difference.error[k]})
         parts.append(part.assign(ring_closed=closed[k]))
@@ -130,7 +127,7 @@ def caption(results: Sequence[Result]) -> str:
         their speed {speed}. {ERRORS}"""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     results = paper_first(results)
     figure, panels = plt.subplot_mosaic(
         [[0, "particles", "position"], [0, "particles", "speed"]],
@@ -148,9 +145,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         draw_position(panels["position"], result)
         draw_speed(panels["speed"], result)
     panels[0].set_ylabel(rf"$\Delta E(x,t)\,/\,10^3$ ({style.UNITS})")
-    panels[0].text(
-        0.04, 0.95, rf"$\gamma = {style.gamma(results[0])}$", transform=panels[0].transAxes, va="top"
-    )
+    name = rf"$\gamma = {style.gamma(results[0])}$"
+    panels[0].text(0.04, 0.95, name, transform=panels[0].transAxes, va="top")
     panels["position"].set(ylabel=r"peak $x_p/\lambda$", xlim=(0, None), ylim=(0, None))
     panels["speed"].set(xlabel="time $t$", ylabel=r"$dx_p/dt\,/\,\lambda$")
     panels["position"].legend(loc="upper left")
@@ -160,8 +156,5 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
 
 
 if __name__ == "__main__":
-    run(
-        draw,
-        lambda pulses: f"Energy difference after a pulse, {parameters(pulses[:1], 'gamma')}",
-        distance="1",
-    )
+    title = "Energy difference after a pulse, {}"
+    run(draw, lambda pulses: title.format(parameters(pulses[:1], "gamma")), distance="1")

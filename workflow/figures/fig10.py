@@ -6,16 +6,14 @@ Times without a moving peak, whose height is NaN, are left out; faint: times at 
 
 from collections.abc import Sequence
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from workflow.figures.fig09 import STARTS, draw_marked, look_of, paper_first, pulse, ring_closed, start
 from workflow.lib import style
 from workflow.lib.caption import listed, number, parameters
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
@@ -27,15 +25,11 @@ ABOVE = 1.2  # factor by which these lie above the first point
 def tabulate(result: Result) -> pd.DataFrame:
     """One row per time; the exponent of an octave is in the row of its last time."""
     peak = result["peak"]
-    part = pd.DataFrame({"time": peak.axes["time"], "peak": peak.mean, "peak_error": peak.error}).assign(
-        ring_closed=ring_closed(result)
-    )
-    part["peak_raw"], part["peak_position"] = result["peak_raw"].mean, result["peak_position"].mean
-    part["peak_position_error"] = result["peak_position"].error
-    for column, name in {
-        "exponent_from_here": "damping_exponent_from",
-        "speed_to_next": "peak_speed",
-    }.items():  # all but the last time have them
+    part = pd.DataFrame({"time": peak.axes["time"], **result.columns("peak")})
+    part = part.assign(ring_closed=ring_closed(result), peak_raw=result["peak_raw"].mean)
+    part = part.assign(**result.columns("peak_position"))
+    later = {"exponent_from_here": "damping_exponent_from", "speed_to_next": "peak_speed"}
+    for column, name in later.items():  # all but the last time have them
         part[column] = pd.Series(result[name].mean)
         part[f"{column}_error"] = pd.Series(result[name].error)
     part = part.merge(by_octave(result).rename(columns={"until": "time"}), on="time", how="left")
@@ -54,10 +48,8 @@ def by_octave(result: Result) -> pd.DataFrame:
 
 def draw_peaks(axes: Axes, result: Result, table: pd.DataFrame) -> None:
     values = (table.peak.to_numpy() / 1e3, table.peak_error.to_numpy() / 1e3)
-    closed = table.ring_closed.to_numpy()
-    draw_marked(
-        axes, table.time.to_numpy(), values, closed, label=STARTS[start(result)][3], **look_of(result)
-    )
+    time, closed = table.time.to_numpy(), table.ring_closed.to_numpy()
+    draw_marked(axes, time, values, closed, label=STARTS[start(result)][3], **look_of(result))
 
 
 def draw_exponents(axes: Axes, result: Result) -> None:
@@ -78,10 +70,8 @@ def caption(results: Sequence[Result]) -> str:
         the paper has {name}. Error bars, where larger than the symbols: standard errors over replicas."""
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
-    figure, (above, below) = plt.subplots(
-        2, 1, sharex=True, figsize=(style.COLUMN, 1.6 * style.HEIGHT), height_ratios=[1.7, 1]
-    )
+def draw(results: Sequence[Result]) -> Drawn:
+    figure, (above, below) = style.stacked(1.7, 1, height=1.6)
     results = paper_first(results)
     tables = [tabulate(result) for result in results]
     for result, table in zip(results, tables, strict=True):
@@ -99,21 +89,18 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
     below.set(xlabel="time $t$", ylabel=r"$-d\ln\,\mathrm{peak}/d\ln t$")
     for axis in (above.yaxis, below.xaxis):
         style.label_within_decades(axis)
-    place = {"transform": above.transAxes, "ha": "right", "va": "top"}
+    place: style.Look = {"transform": above.transAxes, "ha": "right", "va": "top"}
     above.text(0.95, 0.95, rf"$\gamma = {style.gamma(results[0])}$", **place)
     figure.legend(*above.get_legend_handles_labels(), loc="outside upper left", ncols=1)
-    style.letter(above, below)
-    figure.align_ylabels()
     return figure, pd.concat(tables), caption(results)
 
 
 if __name__ == "__main__":
-    units = {"exponent_from_here": "1", "octave_exponent": "1", "speed_to_next": "1/time"}
-    errors = {f"{column}_error": unit for column, unit in units.items()}
-    run(
-        draw,
-        lambda pulses: f"Damping of the moving peak of an energy pulse, {parameters(pulses[:1], 'gamma')}",
-        octave_middle="time",
-        **units,
-        **errors,
-    )
+    units = {
+        "exponent_from_here": "1",
+        "octave_exponent": "1",
+        "speed_to_next": "1/time",
+        "octave_middle": "time",
+    }
+    title = "Damping of the moving peak of an energy pulse, {}"
+    run(draw, lambda pulses: title.format(parameters(pulses[:1], "gamma")), **units)

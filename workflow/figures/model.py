@@ -8,11 +8,10 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.colors import LinearSegmentedColormap, PowerNorm
-from matplotlib.figure import Figure
 
 from workflow.lib import style
 from workflow.lib.caption import number, parameters
-from workflow.lib.figure import run
+from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
 
 # Of plasma, which is perceptually uniform, the part that is visible on white: cold is dark, hot is bright.
@@ -45,7 +44,7 @@ def world_lines(
 
 def baths(axes: Axes, result: Result, length: float, energies: PowerNorm) -> None:
     """Bands beside the chain, in the colour of the temperature as an energy."""
-    temperatures = [float(result.parameters[f"temperature-{side}"]) for side in ("left", "right")]
+    temperatures = result.ends("temperature")
     for side, temperature, begin in zip("LR", temperatures, (-BATH, length), strict=True):
         axes.axvspan(begin, begin + BATH, color=COLOURS(energies(temperature)), linewidth=0, zorder=3)
         kind = "hot" if temperature == max(temperatures) else "cold"
@@ -57,25 +56,19 @@ def baths(axes: Axes, result: Result, length: float, energies: PowerNorm) -> Non
     axes.set_xlim(-BATH, length + BATH)
 
 
-def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
+def draw(results: Sequence[Result]) -> Drawn:
     by_chain = {str(result.parameters["chain"]): result for result in results}
     ring, row = by_chain["closed"], by_chain["open"]
     table = pd.concat([flights(ring), flights(row)], ignore_index=True)
     energies = PowerNorm(0.45, 0, table.energy.quantile(0.95))
     cells, spacing = int(ring.parameters["cells"]), float(ring.parameters["cell-length"])
     length = cells * spacing
-    figure, panels = plt.subplots(
-        1,
-        2,
-        figsize=(2 * style.COLUMN, 0.95 * style.COLUMN),
-        sharey=True,
-        width_ratios=(length, length + 2 * BATH),
-    )
+    size, widths = (2 * style.COLUMN, 0.95 * style.COLUMN), (length, length + 2 * BATH)
+    figure, panels = plt.subplots(1, 2, figsize=size, sharey=True, width_ratios=widths)
     for axes, result in zip(panels, (ring, row), strict=True):
         scatterers = (np.arange(cells) + 0.5) * spacing
-        axes.vlines(
-            scatterers, 0, 1, transform=axes.get_xaxis_transform(), color="0.8", linewidth=0.7, zorder=0
-        )
+        along = axes.get_xaxis_transform()
+        axes.vlines(scatterers, 0, 1, transform=along, color="0.8", linewidth=0.7, zorder=0)
         shifts = (-length, 0.0, length) if result is ring else (0.0,)
         lines = world_lines(axes, table[table.chain == result.parameters["chain"]], shifts, energies)
         axes.set_xticks(np.arange(0, cells + 1, 2) * spacing)
@@ -86,9 +79,8 @@ def draw(results: Sequence[Result]) -> tuple[Figure, pd.DataFrame, str]:
         panels[0].spines[end].set_linestyle((0, (5, 4)))
     panels[1].set(title="(b) open chain between two baths")
     baths(panels[1], row, length, energies)
-    figure.colorbar(
-        lines, ax=panels, label="energy of the particle, $p^2/2m$", extend="max", aspect=30, pad=0.01
-    )
+    label = "energy of the particle, $p^2/2m$"
+    figure.colorbar(lines, ax=panels, label=label, extend="max", aspect=30, pad=0.01)
     caption = f"""The model: world lines of particles in (a) a closed and (b) an open chain of
         {parameters(results, "cells", "sigma", "gamma")}. A particle flies freely, past all others, to the next scatterer (grey),
         which stays in place, and the two exchange energy and momentum. So energy passes from particle to particle through the

@@ -66,10 +66,7 @@ def parameters(results: Sequence[Result], *names: str) -> str:
 
 def baths(result: Result) -> str:
     """baths ν = 220 and 180, T = 81.82 and 122.2, left and right; equal ones once."""
-    both = [
-        listed(dict.fromkeys(number(result.parameters[f"{name}-{end}"]) for end in ("left", "right")))
-        for name in ("nu", "temperature")
-    ]
+    both = [listed(dict.fromkeys(map(number, result.ends(name)))) for name in ("nu", "temperature")]
     return f"baths ν = {both[0]}, T = {both[1]}"
 
 

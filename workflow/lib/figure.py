@@ -19,12 +19,14 @@ from workflow.lib.load import FormatError, Result, load
 from workflow.lib.save import Text, save
 from workflow.lib.units import UnitsError
 
-Draw = Callable[[Sequence[Result]], tuple[Figure, pd.DataFrame, str]]
+Drawn = tuple[
+    Figure, pd.DataFrame, str
+]  # figure, table of the plotted numbers, caption as one paragraph of plain text
+Draw = Callable[[Sequence[Result]], Drawn]
 
 
 def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str) -> None:
-    """Renders the panel that the command line names. draw returns the figure, the table of the plotted numbers, and the caption
-    as one paragraph of plain text."""
+    """Renders the panel that the command line names. units: also of the columns of their errors."""
     parser = argparse.ArgumentParser(description="Renders a panel from its results.")
     parser.add_argument("--data", type=Path, nargs="+", required=True, help="result files of the panel")
     parser.add_argument("--configuration", default="", help="hash of the panel's configuration")
@@ -39,7 +41,8 @@ def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str
         results = [load(path) for path in options.data]
         style.apply()
         figure, table, caption = draw(results)
-        saved = as_csv(table, inherited(results) | units)
+        errors = {f"{name}_error": text for name, text in units.items()}
+        saved = as_csv(table, inherited(results) | errors | units)
     except (FormatError, OSError, UnitsError) as error:
         sys.exit(str(error))
     parents = Parents.of(str(script.relative_to(ROOT)), options.output, options.configuration, results)

@@ -5,7 +5,6 @@ import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
@@ -13,6 +12,7 @@ import h5py
 import numpy as np
 import pandas as pd
 
+from workflow.lib.nearest import nearest
 from workflow.lib.units import parse
 
 if TYPE_CHECKING:
@@ -106,10 +106,19 @@ class Result:
 
     def __getitem__(self, name: str) -> Quantity:
         if name not in self.quantities:
-            near = get_close_matches(name, self.quantities, 1, cutoff=0)[0]
-            there = ", ".join(self.quantities)
-            raise FormatError(f"{self.path} has no quantity {name}; did you mean {near}? It has {there}")
+            raise FormatError(f"{self.path} has no quantity {name}; {nearest(name, self.quantities)}")
         return self.quantities[name]
+
+    def ends(self, name: str) -> tuple[float, float]:
+        """A parameter of the left and of the right bath."""
+        return float(self.parameters[f"{name}-left"]), float(self.parameters[f"{name}-right"])
+
+    def columns(self, *names: str) -> dict[str, Any]:
+        """Means and errors of quantities, as columns or numbers of a table: kappa and kappa_error."""
+        found: dict[str, Any] = {}
+        for name in names:
+            found |= {name: self[name].mean[()], f"{name}_error": self[name].error[()]}
+        return found
 
     def to_xarray(self) -> "xarray.DataTree":
         """A Dataset of every quantity, by its name; the parameters are the attributes."""

@@ -113,28 +113,22 @@ class Chain:
         """C_g per length of the peak that moves to the right [eq. M19]."""
         width = (self.self_coupling * time) ** (2 / 3)
         offset = (np.asarray(x, dtype=float) - self.sound_speed * time) / width
-        peak: np.ndarray = self.peak_area * f_kpz(offset) / width
-        return peak
+        return self.peak_area * f_kpz(offset) / width
 
     def heat_variance(self, time: ArrayLike, diffusion: float = 0.0) -> np.ndarray:
         """<Q(t)²> per length [eq. M28]."""
         t = np.asarray(time, dtype=float)
-        variance: np.ndarray = (
-            4.5 * self.temperature**2 * self.heat_amplitude * t ** (4 / 3) + 2 * diffusion * t
-        )
-        return variance
+        return 4.5 * self.temperature**2 * self.heat_amplitude * t ** (4 / 3) + 2 * diffusion * t
 
     def local_exponent(self, time: ArrayLike, diffusion: float = 0.0) -> np.ndarray:
         """d ln <Q²> / d ln t."""
         normal = 2 * diffusion * np.asarray(time, dtype=float) / self.heat_variance(time, diffusion)
-        exponent: np.ndarray = 4 / 3 - normal / 3
-        return exponent
+        return 4 / 3 - normal / 3
 
     def conductivity(self, cells: ArrayLike, opening: float, background: float = 0.0) -> np.ndarray:
         """κ_0 of an open chain, per cell [eq. M33]: sound is lost after the time opening × length/c."""
         transit = opening * self.cell_length * np.asarray(cells, dtype=float) / self.sound_speed
-        kappa: np.ndarray = background + 3 * self.heat_amplitude / self.cell_length * np.cbrt(transit)
-        return kappa
+        return background + 3 * self.heat_amplitude / self.cell_length * np.cbrt(transit)
 
     @property
     def heat_susceptibility(self) -> float:
@@ -151,8 +145,7 @@ class Chain:
     def heat_peak(self, x: ArrayLike, time: float) -> np.ndarray:
         """Density of the heat peak, of area 1."""
         width = (self.heat_spreading * time) ** (3 / 5)
-        peak: np.ndarray = levy(np.asarray(x, dtype=float) / width) / width
-        return peak
+        return levy(np.asarray(x, dtype=float) / width) / width
 
 
 def slow_logarithm(cut: float, temperature: float = 1.0) -> float:
@@ -186,5 +179,4 @@ def levy(x: ArrayLike, order: float = 5 / 3) -> np.ndarray:
     s = np.linspace(0, 2.4, 6000)
     weight = 3 * s**2 * np.exp(-(s ** (3 * order))) * (s[1] - s[0]) / pi
     phase = np.multiply.outer(np.asarray(x, dtype=float), s**3)
-    density: np.ndarray = np.cos(phase) @ weight
-    return density
+    return np.cos(phase) @ weight

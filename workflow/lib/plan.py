@@ -4,6 +4,7 @@ import hashlib
 import itertools
 import json
 import re
+import shlex
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -133,6 +134,13 @@ def data_of(plan: dict[str, Panel], name: str, quality: str) -> list[str]:
 
 def drawings_of(quality: str, panel: str) -> list[str]:
     return [f"figures/{quality}/{panel}.{kind}" for kind in KINDS]
+
+
+def drawing_command(plan: dict[str, Panel], quality: str, name: str, stem: str) -> str:
+    """Shell command that renders a panel to stem.*"""
+    panel = plan[name]
+    words = [".venv/bin/python", "-m", f"workflow.figures.{panel.script}", "--configuration", panel.hash()]
+    return shlex.join([*words, "--output", stem, "--data", *data_of(plan, name, quality)])
 
 
 def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Quality) -> Panel:

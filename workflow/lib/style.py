@@ -5,12 +5,15 @@ from string import ascii_lowercase
 from typing import Any
 
 import matplotlib as mpl
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib import font_manager
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
+from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
 from matplotlib.typing import LineStyleType, RcKeyType
+from numpy.typing import ArrayLike
 
 from workflow.lib import fit
 from workflow.lib.load import Index, Quantity, Result
@@ -95,6 +98,28 @@ def apply() -> None:
         fonts.addfont(path)
 
 
+def points(marker: str, color: str, face: str | None = None, **more: Any) -> Look:
+    """Look of measured points. face: colour inside of the marker, if it is another."""
+    return {**POINTS, "marker": marker, "color": color, "markerfacecolor": face or color, **more}
+
+
+def band(axes: Axes, x: ArrayLike, value: ArrayLike, error: ArrayLike, color: str) -> None:
+    """Shades the value plus and minus its error."""
+    low, high = (np.add(value, np.multiply(sign, error)) for sign in (-1, 1))
+    axes.fill_between(x, low, high, color=color, alpha=0.3, linewidth=0)
+
+
+def stacked(*ratios: float, height: float, width: float = 1) -> tuple[Figure, list[Axes]]:
+    """Lettered panels, one below the other, with one x axis. ratios: of their heights; height, width: of the whole, in HEIGHT and
+    COLUMN."""
+    figure, panels = plt.subplots(
+        len(ratios), sharex=True, figsize=(width * COLUMN, height * HEIGHT), height_ratios=ratios
+    )
+    letter(*panels)
+    figure.align_ylabels()
+    return figure, [*panels]
+
+
 def letter(*panels: Axes, lift: float | None = None, start: str = "a") -> None:
     """Labels panels (a), (b), ... above the upper left corner. lift: distance in points, needed if one has tick labels on top."""
     for character, axes in zip(ascii_lowercase[ascii_lowercase.index(start) :], panels, strict=False):
@@ -106,7 +131,7 @@ SHOWN_MOMENTA = 45  # of the flux F(p), to either side
 
 def both_rates(result: Result) -> float:
     """ν_L + ν_R. The flux over it has about the integral 1, as the paper's."""
-    return float(result.parameters["nu-left"] + result.parameters["nu-right"])
+    return sum(result.ends("nu"))
 
 
 def guide_at(axes: Axes, value: float, name: str) -> None:
@@ -131,11 +156,12 @@ def label_within_decades(axis: Axis) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
-def label_sizes(axis: Axis) -> None:
-    """Decimal ticks at powers of two, for a logarithmic axis of numbers of cells."""
-    axis.set_major_locator(LogLocator(base=2, numticks=8))
-    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axis.set_minor_locator(NullLocator())
+def against_size(axes: Axes) -> None:
+    """A logarithmic x axis of numbers of cells, with decimal ticks at powers of two."""
+    axes.set(xscale="log", xlabel="number of cells $N$")
+    axes.xaxis.set_major_locator(LogLocator(base=2, numticks=8))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_locator(NullLocator())
 
 
 def cross_out(axes: Axes, x: np.ndarray, y: np.ndarray, where: np.ndarray) -> None:

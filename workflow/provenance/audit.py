@@ -9,12 +9,14 @@ import os
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
-from workflow.provenance.checks import command
+from workflow.lib.command import command
+from workflow.provenance.checks import Products
 from workflow.provenance.redraw import redraw
 
 
 def main() -> None:
-    options, products, panels = command(__doc__)
+    options, plan, panels = command(__doc__)
+    products = Products(options.quality, plan)
     made = [panel for panel in panels if products.is_made(panel.name)]
     figures = {panel.name: products.fault_of_figure(panel) for panel in made}
     runs = [(panel.name, run) for panel in made for run in panel.runs]

@@ -3,10 +3,7 @@
 A fault is `broken` if a difference was found, and `not checked` if a comparison is impossible.
 """
 
-import argparse
-import math
 import re
-import sys
 import tomllib
 from collections import defaultdict
 from collections.abc import Iterator
@@ -17,7 +14,7 @@ from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
-from workflow.lib.configuration import ConfigurationError, at_size
+from workflow.lib.configuration import at_size
 from workflow.lib.figure_metadata import (
     BUILD,
     PACKAGES,
@@ -29,8 +26,8 @@ from workflow.lib.figure_metadata import (
     read_panel,
     sources_of,
 )
-from workflow.lib.load import FormatError, load_provenance, load_statements
-from workflow.lib.plan import Panel, Run, data_of, data_path, drawings_of, load_plan, panel_named, with_used
+from workflow.lib.load import FormatError, load_statements
+from workflow.lib.plan import Panel, Run, data_of, data_path, drawings_of
 from workflow.provenance.build_id import BuildError, built, sources_of_program
 
 SIZES = (2, 3, 5)  # N at which polynomials are compared
@@ -46,11 +43,12 @@ class Fault:
         return f"{'broken' if self.broken else 'not checked'}: {self.path}: {self.reason}"
 
 
+@dataclass(frozen=True)
 class Products:
-    """Results and figures of one quality. Raises ConfigurationError."""
+    """Results and figures of one quality."""
 
-    def __init__(self, quality: str) -> None:
-        self.quality, self.plan = quality, load_plan(quality)
+    quality: str
+    plan: dict[str, Panel]
 
     def is_made(self, panel: str) -> bool:
         """Whether any product of the panel exists. A panel without products is not a fault: a crate may have only some panels."""
@@ -131,26 +129,6 @@ class Products:
                     yield Fault(path, "is not in the plan: obsolete or misplaced; remove it")
 
 
-def command(
-    description: str | None, **more: dict[str, Any]
-) -> tuple[argparse.Namespace, Products, list[Panel]]:
-    """Parses a command line with --quality, --panel and more options. Returns it with the products and the panels: all, or the one
-    requested after those whose results it plots. Exits with 2 for bad input."""
-    parser = argparse.ArgumentParser(description=description)
-    parser.add_argument("--quality", required=True)
-    parser.add_argument("--panel", help="only this panel and the results that it plots")
-    for name, settings in more.items():
-        parser.add_argument(f"--{name}", **settings)
-    options = parser.parse_args()
-    try:
-        products = Products(options.quality)
-        name = options.panel and panel_named(products.plan, options.panel).name
-    except ConfigurationError as error:
-        print(error, file=sys.stderr)
-        sys.exit(2)
-    return options, products, with_used(products.plan, name) if name else [*products.plan.values()]
-
-
 @cache
 def _hash(path: Path) -> str:
     return file_hash(path)
@@ -197,19 +175,3 @@ def other_package() -> str | None:
         if name in locked and package.version not in locked[name]:
             return f"{name} {package.version} is installed, {PACKAGES} has {', '.join(locked[name])}"
     return None
-
-
-def worst_error(quality: str, panel: Panel) -> str:
-    """Largest error of the results of a panel; of those with a target, error and target."""
-    errors, aimed = [], []
-    for run in panel.runs:
-        try:
-            provenance = load_provenance(ROOT / data_path(quality, panel.name, run.name))
-            achieved, target = (float(provenance[name]) for name in ("achieved_error", "target_error"))
-        except (FormatError, OSError, KeyError, TypeError, ValueError):
-            continue
-        if target > 0:
-            aimed.append((achieved / target, f"{achieved:.1e} of {target:.0e}"))
-        elif not math.isnan(achieved):
-            errors.append((achieved, f"{achieved:.1e}"))
-    return "; ".join(max(found)[1] for found in (errors, aimed) if found)

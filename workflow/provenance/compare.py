@@ -4,17 +4,16 @@ Exit status: 1 if a result differs by more than its errors.
 """
 
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 from scipy.special import stdtr
 
+from workflow.lib.command import command
 from workflow.lib.figure_metadata import ROOT, file_hash
 from workflow.lib.load import Quantity, load
 from workflow.lib.plan import Quality, data_path
-from workflow.provenance.checks import command
 
 BEFORE = Path("build/before")
 SIGNIFICANCE = 1e-4  # p-value of the largest deviation in a result
@@ -22,14 +21,9 @@ COMPUTED = 1e6  # degrees of freedom assumed for a discretisation error
 
 
 def keep(quality: str) -> None:
-    """Hard-links the results that a rerun replaces; programs write new files and rename them. An interrupted rerun keeps those
-    from before its first start."""
+    """Copies the results that a rerun replaces. An interrupted rerun keeps those from before its first start."""
     if (ROOT / "data" / quality).is_dir() and not (ROOT / BEFORE / quality).exists():
-        (ROOT / BEFORE).mkdir(parents=True, exist_ok=True)
-        for options in ("-al", "-a"):  # copies if the file system has no hard links
-            copy = ["cp", options, ROOT / "data" / quality, ROOT / BEFORE]
-            if subprocess.run(copy, capture_output=True, check=False).returncode == 0:
-                break
+        shutil.copytree(ROOT / "data" / quality, ROOT / BEFORE / quality)
 
 
 def p_value(one: Path, other: Path) -> float:

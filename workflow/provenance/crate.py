@@ -17,10 +17,11 @@ from rocrate.model import ContextEntity, Entity
 from rocrate.rocrate import ROCrate
 
 from workflow.lib.citation import citation
+from workflow.lib.command import command
 from workflow.lib.configuration import arguments
 from workflow.lib.figure_metadata import PACKAGES, ROOT, file_hash, read_panel
 from workflow.lib.plan import data_of, data_path, drawings_of, with_used
-from workflow.provenance.checks import Products, command
+from workflow.provenance.checks import Products
 
 FOLDER = ROOT / "build/crate"
 RUN = "https://w3id.org/ro/wfrun"
@@ -148,7 +149,8 @@ def write(crate: ROCrate, folder: Path) -> Path:
 
 
 def main() -> None:
-    options, products, panels = command(__doc__)
+    options, plan, panels = command(__doc__)
+    products = Products(options.quality, plan)
     for fault in (fault for panel in panels for fault in products.faults(panel.name)):
         sys.exit(f"{fault.path}: {fault.reason}; run make {'panel' if options.panel else 'figures'} first")
     names = [options.panel] if options.panel else [panel.name for panel in panels]

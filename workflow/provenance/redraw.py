@@ -1,14 +1,12 @@
 """Renders a panel again in a temporary folder and compares bytes."""
 
-import os
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from workflow.lib.environment import clean
 from workflow.lib.figure_metadata import ROOT, file_hash, read_panel
-from workflow.lib.plan import data_of, drawings_of
+from workflow.lib.plan import drawing_command, drawings_of
 from workflow.provenance.checks import Fault, Products, other_package
 
 
@@ -22,24 +20,14 @@ def redraw(products: Products, panel: str) -> Fault | None:
     if difference := other_package():
         return Fault(files[0], f"other packages: {difference}", broken=False)
     with tempfile.TemporaryDirectory() as folder:
-        stem = Path(folder) / products.quality / panel
-        plan, environment = products.plan, dict(os.environ)
-        clean(environment)
-        command = [
-            sys.executable,
-            "-P",
-            "-m",
-            f"workflow.figures.{plan[panel].script}",
-            "--output",
-            str(stem),
-        ]
-        command += ["--configuration", plan[panel].hash()]
-        command += ["--data", *data_of(plan, panel, products.quality)]
-        done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
+        again = Path(folder) / products.quality
+        command = drawing_command(products.plan, products.quality, panel, str(again / panel))
+        words = ["bash", "-c", f"source workflow/environment/variables.sh; {command}"]
+        done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False)
         if done.returncode:
             last = (done.stderr.strip().splitlines() or ["no message"])[-1]
             return Fault(files[0], f"cannot be rendered: {last}")
         for path in files:
-            if file_hash(ROOT / path) != file_hash(stem.parent / Path(path).name):
+            if file_hash(ROOT / path) != file_hash(again / Path(path).name):
                 return Fault(path, "rendering it again from its parents gives other bytes")
     return None

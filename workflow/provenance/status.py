@@ -1,5 +1,6 @@
 """Prints the state of every panel (fresh, stale with the reason, or missing), its largest error and its CPU seconds."""
 
+import math
 import sys
 
 from rich.console import Console
@@ -7,13 +8,34 @@ from rich.markup import escape
 from rich.table import Table
 
 from workflow.cluster.cost import recorded_seconds
-from workflow.provenance.checks import command, worst_error
+from workflow.lib.command import command
+from workflow.lib.figure_metadata import ROOT
+from workflow.lib.load import FormatError, load_provenance
+from workflow.lib.plan import Panel, data_path
+from workflow.provenance.checks import Products
 
 WIDE = 150  # columns if the output is not a terminal
 
 
+def worst_error(quality: str, panel: Panel) -> str:
+    """Largest error of the results of a panel; of those with a target, error and target."""
+    errors, aimed = [], []
+    for run in panel.runs:
+        try:
+            provenance = load_provenance(ROOT / data_path(quality, panel.name, run.name))
+            achieved, target = (float(provenance[name]) for name in ("achieved_error", "target_error"))
+        except (FormatError, OSError, KeyError, TypeError, ValueError):
+            continue
+        if target > 0:
+            aimed.append((achieved / target, f"{achieved:.1e} of {target:.0e}"))
+        elif not math.isnan(achieved):
+            errors.append((achieved, f"{achieved:.1e}"))
+    return "; ".join(max(found)[1] for found in (errors, aimed) if found)
+
+
 def main() -> None:
-    options, products, panels = command(__doc__)
+    options, plan, panels = command(__doc__)
+    products = Products(options.quality, plan)
     table = Table("panel", "state", "largest error", "CPU s", title=f"Quality {options.quality}")
     for panel in panels:
         state = "fresh" if products.is_made(panel.name) else "missing"

@@ -11,10 +11,11 @@ import sys
 import tempfile
 from pathlib import Path
 
+from workflow.lib.command import command
 from workflow.lib.configuration import arguments
 from workflow.lib.figure_metadata import ROOT, file_hash
 from workflow.lib.plan import data_path
-from workflow.provenance.checks import command
+from workflow.provenance.checks import Products
 from workflow.provenance.redraw import redraw
 
 FRESH = ROOT / "build/verify"
@@ -30,7 +31,7 @@ def compile_afresh() -> Path:
 
 
 def main() -> None:
-    options, products, panels = command(
+    options, plan, panels = command(
         __doc__,
         sample={"type": float, "required": True, "help": "fraction of the results if no panel is given"},
         programs={"type": Path, "help": "folder of executables; by default they are compiled"},
@@ -54,7 +55,7 @@ def main() -> None:
             same = done.returncode in WRITTEN and file_hash(again) == file_hash(ROOT / path)
             print(f"{number} of {len(runs)}: {path}: {'equal bytes' if same else 'other bytes'}", flush=True)
             differing += [] if same else [path]
-    if options.panel and (fault := redraw(products, options.panel)):
+    if options.panel and (fault := redraw(Products(quality, plan), options.panel)):
         print(fault)
         differing.append(fault.path)
     print(f"{len(runs)} results rerun: {len(differing)} differ")

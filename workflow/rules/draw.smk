@@ -18,14 +18,13 @@ rule draw:
         panel="(?!ext)[^/]+",
     priority: 10**9  # before any run
     params:
-        script=lambda wildcards: PLAN[wildcards.panel].script,
+        command=lambda wildcards: drawing_command(
+            PLAN, QUALITY, wildcards.panel, f"figures/{QUALITY}/{wildcards.panel}"
+        ),
         sources=lambda wildcards: sources_digest(script_of(wildcards.panel)),
         runs=lambda wildcards: runs_shown_by(wildcards.panel),
-        configuration=lambda wildcards: PLAN[wildcards.panel].hash(),
-        stem=lambda wildcards: f"figures/{QUALITY}/{wildcards.panel}",
     shell:
-        ".venv/bin/python -P -m workflow.figures.{params.script} --configuration {params.configuration}"
-        " --output {params.stem:q} --data {input:q} 2> {log:q}"
+        "{params.command} 2> {log:q}"
 
 
 use rule draw as draw_extension with:

@@ -46,8 +46,7 @@ def amplitude(seconds: np.ndarray, errors: np.ndarray, replicas: np.ndarray) -> 
 
 def uncertainty(errors: np.ndarray, replicas: np.ndarray) -> np.ndarray:
     """Standard deviation of a standard error that is estimated from replicas."""
-    deviation: np.ndarray = errors / np.sqrt(2 * (replicas - 1))
-    return deviation
+    return errors / np.sqrt(2 * (replicas - 1))
 
 
 def errors(program: str) -> pd.DataFrame:

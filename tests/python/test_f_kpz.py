@@ -1,6 +1,4 @@
-"""The scaling function f_KPZ of sound peaks, computed from scratch; writes f_kpz.csv in about ten minutes.
-
-    python -m workflow.lib.f_kpz > workflow/lib/f_kpz.csv
+"""The table of f_KPZ, the scaling function of sound peaks, recomputed from scratch.
 
 After Prähofer and Spohn (J. Stat. Phys. 115, 255, 2004). u is the Hastings-McLeod solution of Painlevé II,
 u'' = 2u^3 + su with u ~ -Ai(s) for s -> infinity, F(s) the Tracy-Widom distribution of GUE, and a, b solve
@@ -13,22 +11,24 @@ g(s, w) = int_{-inf}^s a(x, w) a(x, -w) dx. Its mean is 0. Twice integrated by p
     V(w) = 2 int a(x, w) a(x, -w) H(x) dx - (X - w^2)^2,  H(x) = int_x^X F,  X beyond the distribution,
 
 and f_KPZ = V''/4. The Hastings-McLeod solution is unstable, and a and b are power series in w with large terms of both
-signs: the numbers have 150 digits. mpmath is a requirement of development only.
+signs: the numbers have 150 digits.
 """
 
-import sys
 from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
-from mpmath import airyai, exp, mp, mpf, quad
+import pytest
+from mpmath import airyai, exp, mp, mpf, polyval, quad, workdps
+from mpmath.calculus.quadrature import GaussLegendre
+
+from tests.python.conftest import ROOT
 
 DIGITS = 150
 FIRST, LAST = -11, 40  # range of x; exp(-FIRST^3/12) and what is beyond LAST are below 1e-40 for w <= END
-PANEL = 1  # width of a panel in x
-NODES = 20  # of Gauss's rule in a panel
-ORDER = 70  # of Taylor series in x
-END, STEP = 4, mpf(1) / 20  # of the table, in w
+ORDER = 70  # of Taylor series in x, in steps of 1
+DEGREE = 4  # of Gauss's rule in a step: 24 nodes
+END = 4  # of the table, in w
 NEGLIGIBLE = mpf(10) ** -40
 
 Series = list[mpf]
@@ -54,10 +54,7 @@ def integral(a: Series, value: mpf) -> Series:
 
 
 def at(series: Series, x: mpf) -> mpf:
-    value = mpf(0)
-    for term in reversed(series):
-        value = value * x + term
-    return value
+    return polyval(series[::-1], x)
 
 
 def painleve(s: mpf, u: mpf, derivative: mpf) -> Series:
@@ -73,11 +70,10 @@ def painleve(s: mpf, u: mpf, derivative: mpf) -> Series:
 
 def nodes() -> Iterator[Node]:
     """From LAST down to FIRST."""
-    abscissas, weights = gauss()
+    rule = GaussLegendre(mp).calc_nodes(DEGREE, mp.prec)
     s = mpf(LAST)
     u, derivative = -airyai(s), -airyai(s, derivative=1)
     tail, log_f, h = -quad(airyai, [s, s + 4, s + 12]), mpf(0), mpf(0)
-    half = mpf(PANEL) / 2
     while s > FIRST:
         of_u = painleve(s, u, derivative)
         of_derivative = [(n + 1) * term for n, term in enumerate(of_u[1:])]
@@ -92,29 +88,12 @@ def nodes() -> Iterator[Node]:
             of_f.append(sum(slope[j] * of_f[n - j] for j in range(n + 1)) / (n + 1))
         of_tail = [-term for term in integral(of_u, -tail)]
         of_log, of_h = integral(slope, log_f), [-term for term in integral(of_f, -h)]
-        for abscissa, weight in zip(abscissas, weights, strict=True):
-            d = -half * (1 + abscissa)
+        for abscissa, weight in rule:
+            d = -(1 + abscissa) / 2
             local = (at(series, d) for series in (of_u, of_derivative, of_tail, of_h))
-            yield Node(s + d, half * weight, *local)
-        d = mpf(-PANEL)
-        tail, log_f, h = at(of_tail, d), at(of_log, d), at(of_h, d)
-        s, u, derivative = s + d, at(of_u, d), at(of_derivative, d)
-
-
-def gauss() -> tuple[list[mpf], list[mpf]]:
-    """Gauss-Legendre rule on [-1, 1]: roots by Newton's method from those in double precision."""
-    abscissas, weights = [], []
-    for start in np.polynomial.legendre.leggauss(NODES)[0]:
-        x = mpf(float(start))
-        for _ in range(6):
-            before, value = mpf(1), x
-            for n in range(2, NODES + 1):
-                before, value = value, ((2 * n - 1) * x * value - (n - 1) * before) / n
-            derivative = NODES * (before - x * value) / (1 - x * x)
-            x -= value / derivative
-        abscissas.append(x)
-        weights.append(2 / ((1 - x * x) * derivative**2))
-    return abscissas, weights
+            yield Node(s + d, weight / 2, *local)
+        tail, log_f, h = (at(series, mpf(-1)) for series in (of_tail, of_log, of_h))
+        s, u, derivative = s - 1, at(of_u, mpf(-1)), at(of_derivative, mpf(-1))
 
 
 def in_powers_of_w(node: Node) -> tuple[Series, Series]:
@@ -139,33 +118,23 @@ def with_derivatives(a: mpf, b: mpf, w: mpf, node: Node) -> tuple[mpf, mpf, mpf]
     return a, da, u * u * da - u * b - (slope + w * u) * db
 
 
-def table() -> tuple[list[mpf], list[mpf]]:
-    """w and f_KPZ(w)."""
-    positions = [n * STEP for n in range(round(END / STEP) + 1)]
-    sums = [mpf(0)] * len(positions)
+def f_kpz(positions: np.ndarray) -> np.ndarray:
+    exact = [mpf(round(20 * w)) / 20 for w in positions]  # the table's steps are of 1/20
+    sums = [mpf(0)] * len(exact)
     for node in nodes():
         of_a, of_b = in_powers_of_w(node)
-        for k, w in enumerate(positions):
+        for k, w in enumerate(exact):
             (a, da, d2a), (c, dc, d2c) = (
                 with_derivatives(at(of_a, v), at(of_b, v), v, node) for v in (w, -w)
             )
             sums[k] += node.weight * node.h * (d2a * c - 2 * da * dc + a * d2c)
-    return positions, [
-        (2 * total + 4 * LAST - 12 * w * w) / 4 for total, w in zip(sums, positions, strict=True)
-    ]
-
-
-def main() -> None:
-    mp.dps = DIGITS
-    print(
-        "# f_KPZ, the scaling function of stationary KPZ growth (Praehofer and Spohn 2004), for y >= 0; it is even."
+    return np.array(
+        [float((2 * total + 4 * LAST - 12 * w * w) / 4) for total, w in zip(sums, exact, strict=True)]
     )
-    print("# Made by workflow/lib/f_kpz.py. All digits are certain.")
-    print("y,f")
-    for w, f in zip(*table(), strict=True):
-        print(f"{float(w):.2f},{float(f):.12e}")
-    sys.stdout.flush()
 
 
-if __name__ == "__main__":
-    main()
+@pytest.mark.long
+def test_every_tenth_number_of_the_table() -> None:
+    y, f = np.loadtxt(ROOT / "workflow/lib/f_kpz.csv", delimiter=",", skiprows=3)[::10].T
+    with workdps(DIGITS):
+        assert f_kpz(y) == pytest.approx(f, rel=1e-12)
