@@ -68,7 +68,7 @@ def longest_ring(data: Data) -> str:
 
 
 def heat_exponent_without_momentum(data: Data) -> Number:
-    return number(*data.of("ext13", random_direction=True), "local_exponent", -1)
+    return number(_control(data), "local_exponent", -1)
 
 
 def heat_exponent_with_momentum(data: Data) -> Number:
@@ -81,15 +81,20 @@ def ring_with_momentum(data: Data) -> str:
 
 
 def _comparable(data: Data) -> Result:
-    (control,) = data.of("ext13", random_direction=True)
-    return _longest(data, **{name: control.parameters[name] for name in ("sigma", "fugacity")})
+    gas = _control(data).parameters
+    return _longest(data, sigma=gas["sigma"], fugacity=gas["fugacity"])
+
+
+def _control(data: Data) -> Result:
+    (result,) = data.of("ext13", random_direction=True)
+    return result
 
 
 def kappa_0_exponent(data: Data) -> Number:
     return without_particle_current(data)
 
 
-def _longest(data: Data, **gas: object) -> Result:
+def _longest(data: Data, **gas: float) -> Result:
     rings = data.of("ext13", random_direction=False, **gas)
     return max(rings, key=lambda one: float(one["heat_variance"].axes["time"][-1]))
 
