@@ -1,6 +1,7 @@
 """Numbers quoted in questions.yaml and misprints.yaml by the name of their function; none decides a claim."""
 
 from collections.abc import Sequence
+from typing import Any
 
 from workflow.claims.data import Data, number
 from workflow.claims.growth import (
@@ -94,7 +95,7 @@ def kappa_0_exponent(data: Data) -> Number:
     return without_particle_current(data)
 
 
-def _longest(data: Data, **gas: float) -> Result:
+def _longest(data: Data, **gas: Any) -> Result:
     rings = data.of("ext13", random_direction=False, **gas)
     return max(rings, key=lambda one: float(one["heat_variance"].axes["time"][-1]))
 
