@@ -15,9 +15,9 @@ from pathlib import Path
 from workflow.cluster.batches import divide, seconds_of_batches
 from workflow.lib.command import command
 from workflow.lib.configuration import Options, at_size
+from workflow.lib.figure_metadata import ROOT
 from workflow.lib.plan import QUALITIES, Run, load_plan
 
-ROOT = Path(__file__).parents[2]
 TABLE = ROOT / "workflow/config/seconds.csv"  # panel, series, cells, effort, cpu_seconds
 UNKNOWN = 900.0  # seconds assumed for a series that is not in the table
 DRAWING = 4.0  # CPU seconds of rendering a panel

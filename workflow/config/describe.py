@@ -10,10 +10,10 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
+from workflow.lib.figure_metadata import ROOT
 from workflow.lib.files import write_together
 from workflow.lib.units import SCHEMA
 
-ROOT = Path(__file__).parents[2]
 FORMAT = ROOT / "docs/format.md"
 FORMAT_SCHEMA = ROOT / "docs/format.schema.json"
 SIMPLE = {

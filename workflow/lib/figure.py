@@ -1,7 +1,8 @@
 """Entry point of the figure scripts: loads the results, renders and saves a panel.
 
 A script defines draw(results) and ends with `run(draw, title)`. A title that differs between panels is a function of the results.
-Units of columns that are not named after a quantity, an axis or an option are keyword arguments: `run(draw, title, deviation="1")`.
+Units of columns that are not named after a quantity, an axis or an option are keyword arguments, which also hold for the columns of
+their errors: `run(draw, title, deviation="1")`.
 """
 
 import argparse
@@ -26,7 +27,7 @@ Draw = Callable[[Sequence[Result]], Drawn]
 
 
 def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str) -> None:
-    """Renders the panel that the command line names. units: also of the columns of their errors."""
+    """Renders the panel that the command line names."""
     parser = argparse.ArgumentParser(description="Renders a panel from its results.")
     parser.add_argument("--data", type=Path, nargs="+", required=True, help="result files of the panel")
     parser.add_argument("--configuration", default="", help="hash of the panel's configuration")

@@ -10,23 +10,15 @@ def run_of(wildcards):
     return PLAN[wildcards.panel].run(wildcards.run)
 
 
-def extends_the_paper(panel):
-    return panel.startswith("ext")
-
-
 def priority_of_run(wildcards):
     """The paper's panels first, one after the other, and of a panel the longest runs first."""
-    later = [*PLAN].index(wildcards.panel) + len(PLAN) * extends_the_paper(wildcards.panel)
+    later = [*PLAN].index(wildcards.panel) + len(PLAN) * wildcards.panel.startswith("ext")
     return seconds_of_run(wildcards.panel, run_of(wildcards)) - 1e6 * later
-
-
-def script_of(panel):
-    return f"workflow/figures/{PLAN[panel].script}.py"
 
 
 @cache
 def sources_digest(script):
-    return digest_of_files([*sources_of(script), PACKAGES])
+    return digest_of_files([*sources_of(f"workflow/figures/{script}.py"), PACKAGES])
 
 
 def runs_shown_by(panel):

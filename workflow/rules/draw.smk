@@ -21,7 +21,7 @@ rule draw:
         command=lambda wildcards: drawing_command(
             PLAN, QUALITY, wildcards.panel, f"figures/{QUALITY}/{wildcards.panel}"
         ),
-        sources=lambda wildcards: sources_digest(script_of(wildcards.panel)),
+        sources=lambda wildcards: sources_digest(PLAN[wildcards.panel].script),
         runs=lambda wildcards: runs_shown_by(wildcards.panel),
     shell:
         "{params.command} 2> {log:q}"
