@@ -49,8 +49,8 @@ def caption(random: pd.DataFrame, results: Sequence[Result], window: tuple[float
         Spreading of a tagged particle in a closed chain, {parameters(results, *CHAIN, *GAS, "relaxation-time")}, {replicas(results)}.
         (a) Mean square displacement with random total momentum, as in the paper, and with zero total momentum; line: centre of
         mass of the former; dashed: t and t². (b) Local exponents. In the shaded window, t = {number(window[0])} to {number(window[1])}, the former has α =
-        {alpha[False]}, slightly below two as in the paper. It is not superdiffusion but drift of the centre of mass,
-        {with_error(100 * last.fraction, 100 * last.fraction_error)} % of it at the end. {without} {ERRORS}"""
+        {alpha[False]}, slightly below two as in the paper. It is drift of the centre of mass, not superdiffusion:
+        {with_error(100 * last.fraction, 100 * last.fraction_error)} % at the end. {without} {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
