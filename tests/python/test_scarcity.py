@@ -49,15 +49,6 @@ def test_no_result_is_lost_with_a_reader_of_standard_error(tmp_path: Path) -> No
     assert sorted(path.name for path in tmp_path.iterdir()) == FILES
 
 
-@pytest.mark.parametrize("option", ["help", "version", "describe"])
-@pytest.mark.parametrize("redirection", [">/dev/full", ">&-"])
-def test_text_that_standard_output_does_not_take(tmp_path: Path, option: str, redirection: str) -> None:
-    result = shell(tmp_path, redirection, {option: True})
-    assert result.returncode == 2
-    assert result.stderr.startswith("persistence: error: standard output cannot be written: ")
-    assert result.stderr.count("\n") == 1
-
-
 # More than is asked for before the run, less than the result: the failure comes at the end.
 LARGE = {
     "cells": 5,
@@ -122,7 +113,8 @@ BIG = {
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_during_a_long_setup(tmp_path: Path, name: str, number: signal.Signals) -> None:
     command = command_line(name, {**BIG[name], "output": "out.h5"})
-    process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE)
+    heeding = ["env", "--default-signal=INT", *command]  # also where a shell runs the tests in the background
+    process = subprocess.Popen(heeding, cwd=tmp_path, stderr=subprocess.PIPE)
     time.sleep(0.7)
     process.send_signal(number)
     begin = time.monotonic()
@@ -130,6 +122,6 @@ def test_a_signal_during_a_long_setup(tmp_path: Path, name: str, number: signal.
         process.communicate(timeout=60)
     finally:
         process.kill()
-    assert process.returncode == 128 + number
+    assert process.returncode in (128 + number, -number)  # a shell gives 128 + number for both
     assert time.monotonic() - begin < 4
     assert list(tmp_path.iterdir()) == []
