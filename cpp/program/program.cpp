@@ -24,14 +24,13 @@ std::string cost_path(const std::string& output) {
 
 /// Computing time and memory as JSON, stored apart from the results because they differ between runs with
 /// equal results.
-std::string cost(std::chrono::duration<double> wall, std::uint64_t events) {
+std::string cost(double wall, std::uint64_t events) {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   constexpr std::int64_t bytes_per_unit = 1024;  // Linux reports kilobytes
   return fmt::format(
       "{{\"wall_seconds\": {:.6f}, \"cpu_seconds\": {:.6f}, \"peak_memory_bytes\": {}, \"events\": {}}}\n",
-      wall.count(), static_cast<double>(std::clock()) / CLOCKS_PER_SEC, usage.ru_maxrss * bytes_per_unit,
-      events);
+      wall, static_cast<double>(std::clock()) / CLOCKS_PER_SEC, usage.ru_maxrss * bytes_per_unit, events);
 }
 
 /// JSON array of the quantities with their axes.
@@ -79,6 +78,10 @@ Program::Program(const std::string& name, const std::string& description)
   options_.choice("--progress", progress_.style, {"auto", "bar", "log", "none"},
                   "Display of progress on standard error", runtime);
   options_.flag("--describe", describe_, "Print options and quantities as JSON, then exit", runtime);
+}
+
+double Program::elapsed() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
 /// Throws UsageError if there is an output and it is no result of these options and this build.
@@ -130,7 +133,7 @@ ExitStatus Program::write(const Outcome& outcome) const {
 
 void Program::write(std::span<const std::byte> content, std::uint64_t events) const {
   write_atomically(output_, content);
-  const std::string spent = cost(std::chrono::steady_clock::now() - start_, events);
+  const std::string spent = cost(elapsed(), events);
   write_atomically(cost_path(output_), std::as_bytes(std::span(spent)));
 }
 

@@ -39,6 +39,7 @@ class Program {
   Options& options() { return options_; }
   Progress& progress() { return progress_; }
   const std::string& output() const { return output_; }
+  double elapsed() const;  // seconds since the start of the program
 
   /// Parses the command line, computes and writes; with --describe prints options and quantities as JSON
   /// instead. `quantities` describes what the parsed options compute, and throws UsageError if options that

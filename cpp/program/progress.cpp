@@ -15,8 +15,7 @@ namespace {
 
 std::string as_time(double seconds) {
   const auto whole = std::lround(seconds);
-  if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
-  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
 void print_error(const std::string& text) { std::fputs(text.c_str(), stderr); }

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 #include <signal.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -47,32 +50,33 @@ StudyProgram::StudyProgram(const std::string& name, const std::string& descripti
     : program_(name, description), threads_(std::max(1U, std::thread::hardware_concurrency())) {}
 
 int StudyProgram::run(int argc, char** argv, const std::function<Study()>& make) {
+  Options& options = this->options();
   constexpr auto runtime = Options::Role::runtime;
-  options().integer("--replicas", replicas_, {1, 100'000'000},
-                    "Independent replicas; with a target error, replicas per batch");
-  options().integer("--max-replicas", max_replicas_, {1, 100'000'000},
-                    "Largest number of replicas with a target error");
-  options().integer("--seed", seed_, {}, "Key of all random streams");
-  options().real("--target-error", target_error_, non_negative, "1",
-                 fmt::format("Add replicas, {} at least, until the relative standard error of the target "
-                             "quantity is below this with 95 % confidence; 0: no target",
-                             StoppingRule::least));
-  options().real("--target-absolute", target_absolute_, non_negative, "that of the target quantity",
-                 "The same for the standard error itself; 0: no target");
-  options().integer("--threads", threads_, {1, 4096}, "Threads; no result depends on them", runtime);
-  options().real(
+  options.integer("--replicas", replicas_, {1, 100'000'000},
+                  "Independent replicas; with a target error, replicas per batch");
+  options.integer("--max-replicas", max_replicas_, {1, 100'000'000},
+                  "Largest number of replicas with a target error");
+  options.integer("--seed", seed_, {}, "Key of all random streams");
+  options.real("--target-error", target_error_, non_negative, "1",
+               fmt::format("Add replicas, {} at least, until the relative standard error of the target "
+                           "quantity is below this with 95 % confidence; 0: no target",
+                           StoppingRule::least));
+  options.real("--target-absolute", target_absolute_, non_negative, "that of the target quantity",
+               "The same for the standard error itself; 0: no target");
+  options.integer("--threads", threads_, {1, 4096}, "Threads; no result depends on them", runtime);
+  options.real(
       "--time-limit", time_limit_, non_negative, "s",
       "Seconds after which no replica but the first two starts; those in progress are finished; 0: none",
       runtime);
-  options().real("--checkpoint-interval", checkpoint_interval_, positive, "s",
-                 "Seconds between checkpoints in OUTPUT.checkpoint", runtime);
-  options().flag("--resume", resume_, "Resume from OUTPUT.checkpoint if it exists", runtime);
-  options().text(
+  options.real("--checkpoint-interval", checkpoint_interval_, positive, "s",
+               "Seconds between checkpoints in OUTPUT.checkpoint", runtime);
+  options.flag("--resume", resume_, "Resume from OUTPUT.checkpoint if it exists", runtime);
+  options.text(
       "--part", part_,
       "Measure only these replicas, as 24-47, and write their records, to be joined; OUTPUT ends with .part",
       runtime);
-  options().text("--join", join_,
-                 "Take over what the parts in this folder have measured, and measure the rest", runtime);
+  options.text("--join", join_, "Take over what the parts in this folder have measured, and measure the rest",
+               runtime);
   const auto plan = [&] {
     require_consistent();
     study_ = make();
@@ -81,7 +85,7 @@ int StudyProgram::run(int argc, char** argv, const std::function<Study()>& make)
   const auto compute = [&] {
     prepare();
     const ExitStatus status = measure_and_write();
-    std::filesystem::remove(checkpoint_);
+    ::unlink(checkpoint_.c_str());
     return status;
   };
   return program_.run(argc, argv, plan, compute);
@@ -132,11 +136,11 @@ void StudyProgram::prepare() {
   format_.tallies = study_.tallies.tallies();
   checkpoint_ = program_.output() + ".checkpoint";
   if (resume_ && std::filesystem::exists(checkpoint_)) {
-    std::optional<FinishedReplicas> saved = format_.read(checkpoint_);
-    if (!saved)
+    if (std::optional<FinishedReplicas> saved = format_.read(checkpoint_))
+      finished_ = std::move(*saved);
+    else
       program_.progress().warn(fmt::format(
           "'{}' is of other options or another build and is ignored; the run starts anew", checkpoint_));
-    finished_ = std::move(saved).value_or(FinishedReplicas{});
   }
   if (!join_.empty()) finished_.merge(format_.join(join_));
   if (!part_.empty() && !options().given("--overwrite") && std::filesystem::exists(program_.output())) {
@@ -148,7 +152,7 @@ void StudyProgram::prepare() {
           program_.output()));
   }
   resumed_ = finished_.size();
-  next_checkpoint_ = elapsed() + checkpoint_interval_;
+  next_checkpoint_ = program_.elapsed() + checkpoint_interval_;
   note_signals();
 }
 
@@ -220,19 +224,17 @@ void StudyProgram::keep(const std::string& why) {
 void StudyProgram::measure(std::uint64_t first, std::uint64_t end) {
   next_ = first;
   active_ = std::min<std::uint64_t>(threads_, end - first);
-  std::vector<std::atomic<double>> fractions(active_);  // of the replicas in progress
   std::vector<std::jthread> threads;
   std::unique_lock lock(mutex_);  // released, so that no thread waits for it, before they are joined
   try {
-    for (auto& fraction : fractions) threads.emplace_back([&, end] { work(fraction, end); });
+    while (threads.size() < active_) threads.emplace_back([this, end] { work(end); });
   } catch (const std::system_error& error) {
     failed_ = true;
     throw UsageError(fmt::format("--threads {}: the system starts only {}: {}. Choose fewer.", threads_,
                                  threads.size(), error.code().message()));
   }
   const auto finished = [this] { return active_ == 0; };
-  while (!changed_.wait_for(lock, std::chrono::milliseconds(100), finished) && received_signal == 0)
-    report(fractions);
+  while (!changed_.wait_for(lock, std::chrono::milliseconds(100), finished) && received_signal == 0) report();
   if (received_signal != 0) {
     keep("interrupted");
     std::_Exit(static_cast<int>(ExitStatus::interrupted) + received_signal);
@@ -241,15 +243,16 @@ void StudyProgram::measure(std::uint64_t first, std::uint64_t end) {
 }
 
 /// Takes replicas until there is none, after a failure, and after the time limit except for the first two.
-void StudyProgram::work(std::atomic<double>& fraction, std::uint64_t end) {
+void StudyProgram::work(std::uint64_t end) {
+  double completed = 0;
   const auto heartbeat = [&](double part) {
-    fraction.store(part, std::memory_order_relaxed);
-    if (failed_.load(std::memory_order_relaxed)) throw std::runtime_error("another replica failed");
+    in_progress_ += part - std::exchange(completed, part);
+    if (failed_) throw std::runtime_error("another replica failed");
   };
   std::unique_lock lock(mutex_);
   for (;;) {
     while (finished_.contains(next_)) ++next_;
-    const bool too_late = time_limit_ > 0 && elapsed() >= time_limit_ && next_ >= 2;
+    const bool too_late = time_limit_ > 0 && program_.elapsed() >= time_limit_ && next_ >= 2;
     if (next_ >= end || failed_ || too_late) break;
     const std::uint64_t index = next_++;
     lock.unlock();
@@ -264,24 +267,19 @@ void StudyProgram::work(std::atomic<double>& fraction, std::uint64_t end) {
       if (!failure_) failure_ = std::current_exception();
       failed_ = true;  // every other replica stops at its next heartbeat
     }
-    fraction.store(0, std::memory_order_relaxed);
+    in_progress_ -= std::exchange(completed, 0);
   }
   --active_;
   changed_.notify_one();
 }
 
-double StudyProgram::elapsed() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-}
-
 /// The caller holds the mutex.
-void StudyProgram::report(const std::vector<std::atomic<double>>& fractions) {
-  auto done = static_cast<double>(finished_.size());
-  for (const auto& fraction : fractions) done += fraction.load(std::memory_order_relaxed);
-  program_.progress().show(done, static_cast<double>(needed_), static_cast<double>(resumed_));
-  if (warned_ || finished_.empty() || elapsed() < next_checkpoint_) return;
+void StudyProgram::report() {
+  program_.progress().show(static_cast<double>(finished_.size()) + in_progress_, static_cast<double>(needed_),
+                           static_cast<double>(resumed_));
+  if (warned_ || finished_.empty() || program_.elapsed() < next_checkpoint_) return;
   warned_ = !save("the run goes on without a checkpoint: ");  // the results matter more
-  next_checkpoint_ = elapsed() + checkpoint_interval_;
+  next_checkpoint_ = program_.elapsed() + checkpoint_interval_;
 }
 
 /// From the replicas 0, 1, ... up to the first one missing, at most `wanted`. A resumed run may have others,

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <exception>
@@ -53,13 +51,12 @@ class StudyProgram {
   void prepare();
   ExitStatus measure_and_write();
   void measure(std::uint64_t first, std::uint64_t end);
-  void work(std::atomic<double>& fraction, std::uint64_t end);
-  void report(const std::vector<std::atomic<double>>& fractions);
+  void work(std::uint64_t end);
+  void report();
   Outcome estimate(std::uint64_t wanted) const;
   bool save(const std::string& prefix);
   void keep(const std::string& why);
-  double target() const { return std::max(target_error_, target_absolute_); }  // 0: none
-  double elapsed() const;                                                      // seconds
+  double target() const { return target_error_ > 0 ? target_error_ : target_absolute_; }  // 0: none
 
   Program program_;
 
@@ -77,8 +74,7 @@ class StudyProgram {
 
   Study study_;
   RecordFile format_{};
-  std::string checkpoint_;  // path
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::string checkpoint_;      // path
   double next_checkpoint_ = 0;  // as elapsed()
   std::size_t resumed_ = 0;     // replicas from files
   std::uint64_t needed_ = 0;    // predicted number of replicas in all
@@ -92,6 +88,7 @@ class StudyProgram {
   std::size_t active_ = 0;  // threads
   std::exception_ptr failure_;
   std::atomic<bool> failed_{false};
+  std::atomic<double> in_progress_{0};  // sum of the completed parts of unfinished replicas
 };
 
 }  // namespace lorentz

@@ -273,13 +273,6 @@ TEST(Study, UsesTheLowestIndicesAtTheTimeLimitOfAResumedRun) {
   EXPECT_EQ(replicas_in(folder / "a.h5"), 2U);
 }
 
-TEST(Study, TakesAnyTimeLimitAndInterval) {
-  const TemporaryFolder folder;
-  for (const char* seconds : {"1e10", "1e300"})
-    EXPECT_EQ(run({"--output", folder / "a.h5", "--time-limit", seconds, "--checkpoint-interval", seconds}),
-              0);
-}
-
 // Before anything is measured.
 TEST(Study, WithoutItsTargetIsRefused) {
   const TemporaryFolder folder;
