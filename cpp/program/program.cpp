@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <array>
 #include <ctime>
@@ -140,6 +141,8 @@ void Program::write(std::span<const std::byte> content, std::uint64_t events) co
 int Program::run(int argc, char** argv, const std::function<std::vector<Description>()>& quantities,
                  const std::function<ExitStatus()>& compute) try {
   for (const int number : {SIGPIPE, SIGXFSZ}) ::signal(number, SIG_IGN);  // writing then fails with a message
+  for (const int number : {SIGINT, SIGTERM})
+    ::signal(number, [](int received) { ::_exit(static_cast<int>(ExitStatus::interrupted) + received); });
   const std::string version =
       fmt::format("{} {} (build {})", options_.program(), build_info.version, build_info.build_id);
   if (const std::optional<std::string> text = options_.parse(argc, argv, version)) {

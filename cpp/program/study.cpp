@@ -29,15 +29,12 @@ namespace {
 std::atomic<int> received_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free, "signal handlers may only access lock-free atomics");
 
-/// Records SIGINT, SIGTERM, SIGHUP and SIGXCPU from now on. SIGHUP remains ignored where it is, as by nohup.
+/// Records SIGINT, SIGTERM, SIGHUP and SIGXCPU from now on; a file that is being written is written to its
+/// end. SIGHUP remains ignored where it is, as by nohup.
 void note_signals() {
-  struct sigaction action{}, before{};
-  action.sa_handler = [](int number) { received_signal.store(number); };
-  action.sa_flags = SA_RESTART;  // a file that is being written is written to its end
-  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
-    sigaction(number, nullptr, &before);
-    if (number != SIGHUP || before.sa_handler != SIG_IGN) sigaction(number, &action, nullptr);
-  }
+  const auto note = [](int number) { received_signal.store(number); };
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU})
+    if (::signal(number, note) == SIG_IGN && number == SIGHUP) ::signal(number, SIG_IGN);
 }
 
 const Quantity& quantity_named(const Results& results, const std::string& name) {
