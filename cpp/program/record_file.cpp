@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <span>
 #include <system_error>
 
@@ -16,8 +15,8 @@ namespace {
 
 /// Whether the file ends with the checksum of its preceding bytes.
 bool is_whole(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::string content(std::filesystem::file_size(path), '\0');
+  std::ifstream(path, std::ios::binary).read(content.data(), static_cast<std::streamsize>(content.size()));
   constexpr std::size_t digits = 8;
   return content.size() > digits &&
          content.ends_with(crc32_of(std::as_bytes(std::span(content.data(), content.size() - digits))));

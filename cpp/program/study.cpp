@@ -79,13 +79,7 @@ int StudyProgram::run(int argc, char** argv, const std::function<Study()>& make)
     study_ = make();
     return quantities();
   };
-  const auto compute = [&] {
-    prepare();
-    const ExitStatus status = measure_and_write();
-    ::unlink(checkpoint_.c_str());
-    return status;
-  };
-  return program_.run(argc, argv, plan, compute);
+  return program_.run(argc, argv, plan, [this] { return compute(); });
 }
 
 std::vector<Description> StudyProgram::quantities() const {
@@ -154,7 +148,8 @@ void StudyProgram::prepare() {
 }
 
 /// A part at once, a run batch by batch until the last.
-ExitStatus StudyProgram::measure_and_write() try {
+ExitStatus StudyProgram::compute() try {
+  prepare();
   if (!part_.empty()) {
     needed_ = part_last_ - part_first_ + 1;
     measure(part_first_, part_last_ + 1);
@@ -162,6 +157,7 @@ ExitStatus StudyProgram::measure_and_write() try {
     std::uint64_t events = 0;
     for (const auto& [index, record] : finished_) events += record.events;
     program_.write(format_.content(finished_), events);
+    ::unlink(checkpoint_.c_str());
     return ExitStatus::done;
   }
   const StoppingRule rule{.batch = replicas_, .most = max_replicas_};
@@ -190,7 +186,9 @@ ExitStatus StudyProgram::measure_and_write() try {
       program_.progress().say(fmt::format("standard errors from {} replicas are uncertain by about {:.0f} %",
                                           outcome.replicas,
                                           100 / std::sqrt(2.0 * static_cast<double>(outcome.replicas - 1))));
-    return program_.write(outcome);
+    const ExitStatus status = program_.write(outcome);
+    ::unlink(checkpoint_.c_str());
+    return status;
   }
 } catch (...) {
   if (!finished_.empty()) keep("stopped");

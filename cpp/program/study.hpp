@@ -49,7 +49,7 @@ class StudyProgram {
   void require_consistent();
   std::vector<Description> quantities() const;
   void prepare();
-  ExitStatus measure_and_write();
+  ExitStatus compute();
   void measure(std::uint64_t first, std::uint64_t end);
   void work(std::uint64_t end);
   void report();
