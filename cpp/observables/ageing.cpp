@@ -74,7 +74,7 @@ void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& ru
   for (std::size_t k = 0; k < tallies.time.values.size(); ++k) {
     const double time = start + tallies.time.values[k];
     WindowMean mean(run, before, time);
-    run.observe_until(time, mean);
+    run.observe(mean, time);
     const double energy = scatterers_energy(run.chain());
     record[tallies.scatterer][k] = energy / cells;
     record[tallies.particle][k] = (run.chain().invariants().energy - energy) / chain.particles();

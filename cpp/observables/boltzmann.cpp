@@ -126,41 +126,35 @@ Results results(const KineticParameters& parameters, const RefinedSolution& solu
   return results;
 }
 
-class KineticProgram : public Program {
- public:
-  KineticProgram() : Program("boltzmann", "Kinetic equation of the open chain, solved to a given accuracy") {
-    declare(options(), parameters_);
-  }
-
- private:
-  std::vector<Description> quantities() override {
-    validate(parameters_, options().given("--positions"));
-    return descriptions(parameters_);
-  }
-
-  Outcome compute() override try {
-    quantities();
-    const double target = parameters_.target_error;
-    const RefinedSolution solution =
-        refine(parameters_.problem(), target, static_cast<int>(parameters_.coarsening));
-    const bool reached = solution.error <= target;
-    if (!reached)
-      progress().say(fmt::format("target not reached: the currents are known to {:.1e}, not to {:.1e}",
-                                 solution.error, target));
-    return {.results = results(parameters_, solution),
-            .streams = "none",
-            .events = static_cast<std::uint64_t>(solution.evaluations),
-            .target_quantity = "currents",
-            .target_error = target,
-            .achieved_error = solution.error,
-            .convergence = reached ? Convergence::reached : Convergence::not_reached};
-  } catch (const ConvergenceError& error) {
-    throw NumericalError(error.what());
-  }
-
-  KineticParameters parameters_;
-};
+Outcome solve(const KineticParameters& parameters, Progress& progress) try {
+  const double target = parameters.target_error;
+  const RefinedSolution solution =
+      refine(parameters.problem(), target, static_cast<int>(parameters.coarsening));
+  const bool reached = solution.error <= target;
+  if (!reached)
+    progress.say(fmt::format("target not reached: the currents are known to {:.1e}, not to {:.1e}",
+                             solution.error, target));
+  return {.results = results(parameters, solution),
+          .streams = "none",
+          .events = static_cast<std::uint64_t>(solution.evaluations),
+          .target_quantity = "currents",
+          .target_error = target,
+          .achieved_error = solution.error,
+          .convergence = reached ? Convergence::reached : Convergence::not_reached};
+} catch (const ConvergenceError& error) {
+  throw NumericalError(error.what());
+}
 
 }  // namespace
 
-int main(int argc, char** argv) { return KineticProgram().run(argc, argv); }
+int main(int argc, char** argv) {
+  Program program("boltzmann", "Kinetic equation of the open chain, solved to a given accuracy");
+  KineticParameters parameters;
+  declare(program.options(), parameters);
+  const auto quantities = [&] {
+    validate(parameters, program.options().given("--positions"));
+    return descriptions(parameters);
+  };
+  return program.run(argc, argv, quantities,
+                     [&] { return program.write(solve(parameters, program.progress())); });
+}

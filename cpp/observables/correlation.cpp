@@ -105,7 +105,7 @@ void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& ru
   const double total = run.chain().invariants().momentum;
   CellFields particles(run.chain().phase_point(0), chain);
   for (std::size_t j = 0; j <= std::max(intervals, lags.back()); ++j) {  // the last time may be rounded
-    run.observe_until(std::min(static_cast<double>(j) * interval, parameters.end_time()), particles);
+    run.observe(particles, std::min(static_cast<double>(j) * interval, parameters.end_time()));
     const std::vector<double> scatterers = run.chain().scatterers();
     momentum.add(momenta(particles, scatterers, parameters.root_mass()));
     heat.add(heat_field(particles, scatterers, 0.5 / parameters.zeta()));

@@ -54,7 +54,7 @@ void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& ru
   TaggedParticles particles(run, begin, parameters.ring.cell_length);
   for (std::size_t k = 0; k < tallies.time.values.size(); ++k) {
     const double time = begin + tallies.time.values[k];
-    run.observe_until(time, particles);
+    run.observe(particles, time);
     const Displacement mean = particles.displacement(time);
     record[tallies.square][k] = mean.square;
     record[tallies.absolute][k] = mean.absolute;

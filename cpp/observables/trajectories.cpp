@@ -176,65 +176,58 @@ class RowObserver {
   std::optional<Collision> last_;
 };
 
-class Trajectories : public Program {
- public:
-  Trajectories() : Program("trajectories", "World lines of the particles of a short chain") {
-    options().choice(
-        "--chain", parameters_.kind, {"closed", "open"},
-        "closed: a ring with --particles-per-cell, at the --temperature; open: between reservoirs");
-    declare(options(), parameters_);
-    declare(options(), parameters_.left, parameters_.right);
-    options().choice(
-        "--start", parameters_.start, {"empty", "warm"},
-        "Of an open chain. empty: no particles, scatterers at rest; warm: near the stationary state");
-    options().integer("--seed", parameters_.seed, {}, "Key of all random streams");
-  }
+std::uint64_t observe_ring(const Parameters& parameters, const Replica& replica, Flights& flights) {
+  ClosedRun run(parameters, replica);
+  run.relax();
+  RingObserver observer(run, parameters, flights);
+  run.observe(observer);
+  return run.chain().events();
+}
 
- private:
-  std::vector<Description> quantities() override {
-    validate(parameters_);
-    if (open())
-      validate(parameters_.open(), parameters_.end_time(), "--relaxation-time plus --observation-time");
-    std::vector<Description> all;
-    for (const Quantity& each : Flights(parameters_.window()).results()) all.push_back(each.what);
-    return all;
-  }
+std::uint64_t observe_row(const Parameters& parameters, const Replica& replica, Flights& flights) {
+  OpenRun run(parameters.open(), parameters.window(), replica);
+  run.observe(RowObserver(parameters, flights));
+  return run.events();
+}
 
-  Outcome compute() override {
-    quantities();
-    const Replica replica{StreamKey(parameters_.seed, 0), [](double) {}};
-    Flights flights(parameters_.window());
-    const std::uint64_t events = open() ? row(replica, flights) : ring(replica, flights);
-    return {.results = flights.results(),
-            .seed = parameters_.seed,
-            .streams = RandomStream::description,
-            .events = events,
-            .target_quantity = "none",
-            .target_error = nan,
-            .achieved_error = nan,
-            .convergence = Convergence::no_target,
-            .replicas = 1};
-  }
+Outcome observe(const Parameters& parameters) {
+  const Replica replica{StreamKey(parameters.seed, 0), [](double) {}};
+  Flights flights(parameters.window());
+  const std::uint64_t events =
+      (parameters.kind == "open" ? observe_row : observe_ring)(parameters, replica, flights);
+  return {.results = flights.results(),
+          .seed = parameters.seed,
+          .streams = RandomStream::description,
+          .events = events,
+          .target_quantity = "none",
+          .target_error = nan,
+          .achieved_error = nan,
+          .convergence = Convergence::no_target};
+}
 
-  bool open() const { return parameters_.kind == "open"; }
-
-  std::uint64_t ring(const Replica& replica, Flights& flights) const {
-    ClosedRun run(parameters_, replica);
-    run.relax();
-    RingObserver observer(run, parameters_, flights);
-    run.observe(observer);
-    return run.chain().events();
-  }
-
-  std::uint64_t row(const Replica& replica, Flights& flights) const {
-    OpenRun run(parameters_.open(), parameters_.window(), replica);
-    run.observe(RowObserver(parameters_, flights));
-    return run.events();
-  }
-
-  Parameters parameters_;
-};
+std::vector<Description> quantities(const Parameters& parameters) {
+  validate(parameters);
+  if (parameters.kind == "open")
+    validate(parameters.open(), parameters.end_time(), "--relaxation-time plus --observation-time");
+  std::vector<Description> all;
+  for (const Quantity& each : Flights(parameters.window()).results()) all.push_back(each.what);
+  return all;
+}
 
 }  // namespace
 
-int main(int argc, char** argv) { return Trajectories().run(argc, argv); }
+int main(int argc, char** argv) {
+  Program program("trajectories", "World lines of the particles of a short chain");
+  Parameters parameters;
+  Options& options = program.options();
+  options.choice("--chain", parameters.kind, {"closed", "open"},
+                 "closed: a ring with --particles-per-cell, at the --temperature; open: between reservoirs");
+  declare(options, parameters);
+  declare(options, parameters.left, parameters.right);
+  options.choice(
+      "--start", parameters.start, {"empty", "warm"},
+      "Of an open chain. empty: no particles, scatterers at rest; warm: near the stationary state");
+  options.integer("--seed", parameters.seed, {}, "Key of all random streams");
+  return program.run(
+      argc, argv, [&] { return quantities(parameters); }, [&] { return program.write(observe(parameters)); });
+}

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <stdexcept>
-#include <string>
 
 namespace lorentz {
 
@@ -23,12 +22,6 @@ struct UsageError : std::runtime_error {
 /// A computation failed and has no valid result.
 struct NumericalError : std::runtime_error {
   using std::runtime_error::runtime_error;
-};
-
-/// The run is stopped by a signal; signal 0: because another replica failed.
-struct Interrupted : std::runtime_error {
-  explicit Interrupted(int signal_number) : std::runtime_error("interrupted"), signal(signal_number) {}
-  int signal;
 };
 
 }  // namespace lorentz

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <stdexcept>
 
 #include "program/errors.hpp"
@@ -16,32 +17,29 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "values are stored as they are in memory");
 
 void check(herr_t status) {
-  if (status < 0) throw NumericalError("HDF5 could not write a result");
+  if (status < 0) throw NumericalError("HDF5 could not read or write an object");
 }
 
-Hdf5Handle memory_file() {
+unsigned long crc32(unsigned long crc, std::span<const std::byte> content) {
+  return ::crc32_z(crc, reinterpret_cast<const Bytef*>(content.data()), content.size());
+}
+
+hid_t memory_file() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are thrown, not printed
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose),
-      creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   constexpr std::size_t growth = 1 << 16;
   check(H5Pset_fapl_core(access, growth, false));
   check(H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V18));
-  check(H5Pset_obj_track_times(creation, false));
-  return {H5Fcreate("in memory", H5F_ACC_TRUNC, creation, access), H5Fclose};
+  return H5Fcreate("in memory", H5F_ACC_TRUNC, H5P_DEFAULT, access);
 }
 
-Hdf5Handle open_file(const std::string& path) {
+hid_t open_file(const std::string& path) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id < 0)
-    throw UsageError(fmt::format("'{}' cannot be read: it is not a complete HDF5 file. Remove it.", path));
-  return {id, H5Fclose};
-}
-
-Hdf5Handle without_times(hid_t property_class) {
-  const hid_t properties = H5Pcreate(property_class);
-  check(H5Pset_obj_track_times(properties, false));
-  return {properties, H5Pclose};
+    throw UsageError(fmt::format(
+        "'{}' cannot be read: it is not a complete HDF5 file. Remove it, or name another.", path));
+  return id;
 }
 
 /// A bool has the type that Python's h5py reads as one, a string is padded with null bytes.
@@ -65,46 +63,65 @@ Hdf5Handle type_of(const AttributeValue& value) {
   return {H5Tcopy(real ? H5T_IEEE_F64LE : count ? H5T_STD_U64LE : H5T_STD_I64LE), H5Tclose};
 }
 
+const void* data_of(const AttributeValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return text->c_str();
+  return std::visit([](const auto& each) -> const void* { return &each; }, value);
+}
+
+template <class Value>
+std::vector<Value> read(hid_t file, const std::string& path, hid_t type) {
+  const Hdf5Handle dataset(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose);
+  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
+  std::vector<Value> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  check(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+  return values;
+}
+
 }  // namespace
 
 Hdf5Handle::Hdf5Handle(hid_t id, Close close) : id_(id), close_(close) {
-  if (id < 0) throw NumericalError("HDF5 refused to make or open an object");
+  if (id < 0) throw NumericalError("HDF5 could not create or open an object");
 }
 
-Hdf5Writer::Hdf5Writer() : file_(memory_file()) {}
+Hdf5Writer::Hdf5Writer()
+    : file_(memory_file(), H5Fclose),
+      with_parents_(H5Pcreate(H5P_LINK_CREATE), H5Pclose),
+      without_times_(H5Pcreate(H5P_DATASET_CREATE), H5Pclose) {
+  check(H5Pset_create_intermediate_group(with_parents_, 1));
+  check(H5Pset_obj_track_times(without_times_, false));
+}
 
 void Hdf5Writer::group(const std::string& path) {
-  if (path.empty() || H5Lexists(file_, path.c_str(), H5P_DEFAULT) > 0) return;
-  group(path.substr(0, path.rfind('/')));
-  const Hdf5Handle made(
-      H5Gcreate2(file_, path.c_str(), H5P_DEFAULT, without_times(H5P_GROUP_CREATE), H5P_DEFAULT), H5Gclose);
+  const Hdf5Handle made(H5Gcreate2(file_, path.c_str(), with_parents_, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
 }
 
-void Hdf5Writer::write(const std::string& path, const Shape& shape, hid_t type,
+void Hdf5Writer::write(const std::string& group, const Description& what, hid_t type,
                        std::span<const std::byte> values) {
-  group(path.substr(0, path.rfind('/')));
-  const std::vector<hsize_t> size{shape.begin(), shape.end()};
-  const Hdf5Handle space(shape.empty()
-                             ? H5Screate(H5S_SCALAR)
-                             : H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr),
-                         H5Sclose);
-  if (static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)) * H5Tget_size(type) != values.size())
-    throw std::invalid_argument(fmt::format("{} does not have the size of its shape", path));
-  const Hdf5Handle dataset(H5Dcreate2(file_, path.c_str(), type, space, H5P_DEFAULT,
-                                      without_times(H5P_DATASET_CREATE), H5P_DEFAULT),
-                           H5Dclose);
+  const std::string path = group + '/' + what.name;
+  if (what.size() * H5Tget_size(type) != values.size())
+    throw std::invalid_argument(fmt::format("{} does not have the size of its axes", path));
+  std::vector<hsize_t> shape;
+  for (const Axis& axis : what.axes) shape.push_back(axis.values.size());
+  const Hdf5Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
+  const Hdf5Handle dataset(
+      H5Dcreate2(file_, path.c_str(), type, space, with_parents_, without_times_, H5P_DEFAULT), H5Dclose);
   if (!values.empty()) check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
-  const auto crc = ::crc32_z(0, reinterpret_cast<const Bytef*>(path.data()), path.size());
-  checksums_[path] = {::crc32_z(crc, reinterpret_cast<const Bytef*>(values.data()), values.size()),
-                      path.size() + values.size()};
+  attribute(path, "units", what.units);
+  attribute(path, "description", what.description);
+  for (unsigned i = 0; i < shape.size(); ++i) {
+    const std::string axis = group + '/' + what.axes[i].name;
+    if (!scales_.contains(axis)) continue;
+    const Hdf5Handle scale(H5Dopen2(file_, axis.c_str(), H5P_DEFAULT), H5Dclose);
+    check(H5DSattach_scale(dataset, scale, i));
+  }
+  checksums_[path] = {crc32(crc32(0, std::as_bytes(std::span(path))), values), path.size() + values.size()};
 }
 
-void Hdf5Writer::dataset(const std::string& path, const Shape& shape, std::span<const double> values) {
-  write(path, shape, H5T_IEEE_F64LE, std::as_bytes(values));
-}
-
-void Hdf5Writer::dataset(const std::string& path, const Shape& shape, std::span<const std::uint64_t> values) {
-  write(path, shape, H5T_STD_U64LE, std::as_bytes(values));
+void Hdf5Writer::axis(const std::string& group, const Axis& axis) {
+  array(group, {axis.name, axis.units, axis.description, {axis}}, axis.values);
+  const std::string& path = *scales_.insert(group + '/' + axis.name).first;
+  const Hdf5Handle scale(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose);
+  check(H5DSset_scale(scale, axis.name.c_str()));
 }
 
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, const AttributeValue& value) {
@@ -112,27 +129,14 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, c
   const Hdf5Handle attribute(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
                                                H5P_DEFAULT, H5P_DEFAULT),
                              H5Aclose);
-  const auto* text = std::get_if<std::string>(&value);
-  const void* data = std::visit([](const auto& each) -> const void* { return &each; }, value);
-  check(H5Awrite(attribute, type, text ? text->c_str() : data));
-}
-
-void Hdf5Writer::make_scale(const std::string& dataset, const std::string& name) {
-  const Hdf5Handle scale(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-  check(H5DSset_scale(scale, name.c_str()));
-}
-
-void Hdf5Writer::attach_scale(const std::string& dataset, std::size_t dimension, const std::string& scale) {
-  const Hdf5Handle array(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-  const Hdf5Handle axis(H5Dopen2(file_, scale.c_str(), H5P_DEFAULT), H5Dclose);
-  check(H5DSattach_scale(array, axis, static_cast<unsigned>(dimension)));
+  check(H5Awrite(attribute, type, data_of(value)));
 }
 
 std::string Hdf5Writer::digest(const std::string& group) const {
   unsigned long digest = 0;
   for (const auto& [path, checksum] : checksums_)
     if (path.starts_with(group + '/'))
-      digest = ::crc32_combine(digest, checksum.crc, static_cast<z_off_t>(checksum.bytes));
+      digest = ::crc32_combine(digest, checksum.first, static_cast<z_off_t>(checksum.second));
   return fmt::format("{:08x}", digest);
 }
 
@@ -143,53 +147,28 @@ std::vector<std::byte> Hdf5Writer::image() {
   return bytes;
 }
 
-Hdf5Reader::Hdf5Reader(const std::string& path) : path_(path), file_(open_file(path)) {}
-
-template <class Value>
-std::vector<Value> Hdf5Reader::read(const std::string& dataset, hid_t type) const {
-  try {
-    const Hdf5Handle handle(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
-    const Hdf5Handle space(H5Dget_space(handle), H5Sclose), stored(H5Dget_type(handle), H5Tclose);
-    std::vector<Value> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-    check(H5Tequal(stored, type) > 0 ? 0 : -1);
-    check(H5Dread(handle, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
-    return values;
-  } catch (const NumericalError&) {
-    throw UsageError(
-        fmt::format("'{}' has no dataset {} as this program writes it. Remove it.", path_, dataset));
-  }
-}
+Hdf5Reader::Hdf5Reader(const std::string& path) : file_(open_file(path), H5Fclose) {}
 
 std::vector<double> Hdf5Reader::doubles(const std::string& dataset) const {
-  return read<double>(dataset, H5T_IEEE_F64LE);
+  return read<double>(file_, dataset, H5T_IEEE_F64LE);
 }
 
 std::vector<std::uint64_t> Hdf5Reader::counts(const std::string& dataset) const {
-  return read<std::uint64_t>(dataset, H5T_STD_U64LE);
+  return read<std::uint64_t>(file_, dataset, H5T_STD_U64LE);
 }
 
-std::optional<AttributeValue> Hdf5Reader::attribute(const std::string& object,
-                                                    const std::string& name) const {
-  if (H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) <= 0) return {};
-  const Hdf5Handle attribute(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-                             H5Aclose);
-  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
-  if (H5Sget_simple_extent_npoints(space) != 1) return {};
-  std::string text(H5Tget_size(type), '\0');
-  for (AttributeValue value : {AttributeValue(false), AttributeValue(std::int64_t{}),
-                               AttributeValue(std::uint64_t{}), AttributeValue(0.0), AttributeValue(text)}) {
-    if (H5Tequal(type, type_of(value)) <= 0) continue;
-    void* data = std::visit([](auto& each) -> void* { return &each; }, value);
-    const bool is_text = std::holds_alternative<std::string>(value);
-    if (H5Aread(attribute, type, is_text ? text.data() : data) < 0) return {};
-    if (is_text) value = text.substr(0, text.find('\0'));
-    return value;
-  }
-  return {};
+bool Hdf5Reader::has_attribute(const std::string& object, const std::string& name,
+                               const AttributeValue& value) const {
+  const Hdf5Handle type = type_of(value);
+  std::vector<std::byte> stored(H5Tget_size(type));
+  H5T_class_t kind{};
+  std::size_t size = 0;
+  return H5LTget_attribute_info(file_, object.c_str(), name.c_str(), nullptr, &kind, &size) >= 0 &&
+         size == stored.size() &&
+         H5LTget_attribute(file_, object.c_str(), name.c_str(), type, stored.data()) >= 0 &&
+         std::memcmp(stored.data(), data_of(value), size) == 0;
 }
 
-std::string crc32_of(std::span<const std::byte> content) {
-  return fmt::format("{:08x}", ::crc32_z(0, reinterpret_cast<const Bytef*>(content.data()), content.size()));
-}
+std::string crc32_of(std::span<const std::byte> content) { return fmt::format("{:08x}", crc32(0, content)); }
 
 }  // namespace lorentz

@@ -5,12 +5,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "program/options.hpp"
+#include "statistics/tally.hpp"
 
 namespace lorentz {
 
@@ -30,23 +33,26 @@ class Hdf5Handle {
   Close close_;
 };
 
-using Shape = std::vector<std::size_t>;  // empty for a 0-d dataset
-
 /// Builds an HDF5 file in memory. Equal calls give equal bytes, because no time stamps are stored. Throws
 /// NumericalError if HDF5 fails.
 class Hdf5Writer {
  public:
   Hdf5Writer();
 
-  /// Datasets and attributes; groups along the path are created.
-  void dataset(const std::string& path, const Shape& shape, std::span<const double> values);
-  void dataset(const std::string& path, const Shape& shape, std::span<const std::uint64_t> values);
-  void attribute(const std::string& object, const std::string& name, const AttributeValue& value);
   void group(const std::string& path);
 
-  /// Makes a dataset a named dimension scale, and attaches it to a dimension of another.
-  void make_scale(const std::string& dataset, const std::string& name);
-  void attach_scale(const std::string& dataset, std::size_t dimension, const std::string& scale);
+  /// Writes GROUP/NAME, of type double or uint64, with its units and description; groups along the path are
+  /// created. Axes that axis() has written to the group are attached.
+  template <class Value>
+  void array(const std::string& group, const Description& what, const std::vector<Value>& values) {
+    write(group, what, std::is_same_v<Value, double> ? H5T_IEEE_F64LE : H5T_STD_U64LE,
+          std::as_bytes(std::span(values)));
+  }
+
+  /// Writes an axis as a dimension scale.
+  void axis(const std::string& group, const Axis& axis);
+
+  void attribute(const std::string& object, const std::string& name, const AttributeValue& value);
 
   /// CRC-32 over the datasets below a group, in ascending order of their paths, as 8 hexadecimal digits: of
   /// each, the path and then the values as they are stored, row-major and little-endian.
@@ -55,31 +61,25 @@ class Hdf5Writer {
   std::vector<std::byte> image();  // bytes of the file
 
  private:
-  void write(const std::string& path, const Shape& shape, hid_t type, std::span<const std::byte> values);
+  void write(const std::string& group, const Description& what, hid_t type,
+             std::span<const std::byte> values);
 
-  struct Checksum {
-    unsigned long crc;
-    std::size_t bytes;
-  };
-  Hdf5Handle file_;
-  std::map<std::string, Checksum> checksums_;  // of path and values, by path
+  Hdf5Handle file_, with_parents_, without_times_;                          // and two lists of properties
+  std::map<std::string, std::pair<unsigned long, std::size_t>> checksums_;  // CRC-32 and length, by path
+  std::set<std::string> scales_;                                            // paths
 };
 
-/// Reads files of Hdf5Writer. Throws UsageError, which names the file, if it is not as written.
+/// Reads files of Hdf5Writer. Throws UsageError if the file is not an HDF5 file, and NumericalError if it
+/// lacks a dataset.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(const std::string& path);
 
   std::vector<double> doubles(const std::string& dataset) const;
   std::vector<std::uint64_t> counts(const std::string& dataset) const;
-  /// None if there is no such attribute, or it is not of a type that Hdf5Writer writes.
-  std::optional<AttributeValue> attribute(const std::string& object, const std::string& name) const;
+  bool has_attribute(const std::string& object, const std::string& name, const AttributeValue& value) const;
 
  private:
-  template <class Value>
-  std::vector<Value> read(const std::string& dataset, hid_t type) const;
-
-  std::string path_;
   Hdf5Handle file_;
 };
 

@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <functional>
 #include <numeric>
-#include <span>
 #include <utility>
 
 #include "program/errors.hpp"
@@ -16,19 +16,18 @@ namespace lorentz {
 /// What distinguishes one option from another, and, from Options::add() on, what all have.
 struct Option {
   std::string type;
-  std::string limits;      // further members of describe(): "minimum", "word", "units", ...
-  std::string admissible;  // "a number at least 0"; empty for any text
   std::function<bool(const std::string&)> read;  // sets the value; false if the text is not admissible
   std::function<AttributeValue()> value;
+  std::string admissible = {};  // "a number at least 0"; empty for any text
+  std::string limits = {};      // further members of describe(): "minimum", "word", "units", ...
   std::string name = {}, help = {};
   Options::Role role = Options::Role::result;
-  bool given = false;
 };
 
 namespace {
 
 std::string json_of(const AttributeValue& value) {
-  if (const auto* text = std::get_if<std::string>(&value)) return as_json(*text);
+  if (const auto* text = std::get_if<std::string>(&value)) return '"' + *text + '"';
   const std::string number = as_text(value);
   const bool whole = std::holds_alternative<double>(value) && number.find_first_of(".e") == std::string::npos;
   return whole ? number + ".0" : number;
@@ -44,16 +43,13 @@ std::string limits(const Range<Number>& range) {
   const auto member = [](const char* name, Number value) {
     return fmt::format(R"(, "{}": {})", name, json_of(Recorded<Number>{value}));
   };
-  return (range.bounded_below() ? member(range.open_below ? "exclusive_minimum" : "minimum", range.low)
-                                : "") +
+  return member(range.open_below ? "exclusive_minimum" : "minimum", range.low) +
          (range.bounded_above() ? member("maximum", range.high) : "");
 }
 
 template <class Number>
 std::string interval(const Range<Number>& range) {
-  if (range.bounded_above())
-    return fmt::format("in {}{}, {}]", range.open_below ? '(' : '[', range.low, range.high);
-  if (!range.bounded_below()) return "that is finite";
+  if (range.bounded_above()) return fmt::format("in [{}, {}]", range.low, range.high);
   return fmt::format("{} {}", range.open_below ? "greater than" : "at least", range.low);
 }
 
@@ -73,23 +69,18 @@ bool read_number(const std::string& text, const Range<Number>& range, Number& va
 
 constexpr std::array<const char*, 3> powers{"", "N", "N^2"};
 
-/// Sets the value to a sum of terms, each with another power of N and a coefficient in the range.
+/// Sets the value to a sum of terms: a coefficient in the range, and a power of N.
 bool read_polynomial(const std::string& text, const Range<double>& range, Scaled& value) {
   value = {};
-  std::array<bool, 3> given{};
-  const char* at = text.data() + (text.starts_with('+') ? 1 : 0);
+  const char* at = text.data();
   const char* const end = text.data() + text.size();
   for (;; ++at) {
     double coefficient = 0;
     const auto [stop, error] = std::from_chars(at, end, coefficient);
-    const char* const next = std::find(stop, end, '+');
-    const auto power =
-        static_cast<std::size_t>(std::ranges::find(powers, std::string(stop, next)) - powers.begin());
-    if (error != std::errc{} || !range.contains(coefficient) || power == powers.size() || given[power])
-      return false;
-    value.coefficients[power] = coefficient;
-    given[power] = true;
-    at = next;
+    at = std::find(stop, end, '+');
+    const auto* const power = std::ranges::find(powers, std::string(stop, at));
+    if (error != std::errc{} || !range.contains(coefficient) || power == powers.end()) return false;
+    value.coefficients[static_cast<std::size_t>(power - powers.begin())] += coefficient;
     if (at == end) return true;
   }
 }
@@ -104,30 +95,43 @@ AttributeValue polynomial(const Scaled& value) {
   return fmt::format("{}", fmt::join(terms, "+"));
 }
 
+/// Sets the values to numbers separated by commas; false if they are not ascending and in the range.
+bool read_list(const std::string& text, const Range<double>& range, std::vector<double>& values) {
+  values.clear();
+  for (std::size_t begin = 0, end = 0; end != text.size(); begin = end + 1) {
+    end = std::min(text.find(',', begin), text.size());
+    double value = 0;
+    if (!read_number(text.substr(begin, end - begin), range, value)) return false;
+    values.push_back(value);
+  }
+  return !values.empty() && std::ranges::adjacent_find(values, std::greater_equal()) == values.end();
+}
+
 template <class Number>
 Option number(Number& value, Range<Number> range) {
   return {.type = std::is_integral_v<Number> ? "integer" : "number",
-          .limits = limits(range),
-          .admissible = number_in(range),
           .read = [&value, range](const std::string& text) { return read_number(text, range, value); },
-          .value = [&value] { return AttributeValue(Recorded<Number>{value}); }};
+          .value = [&value] { return AttributeValue(Recorded<Number>{value}); },
+          .admissible = number_in(range),
+          .limits = limits(range)};
 }
 
 /// The number is recorded as floating point, also where it is whole.
 template <class Number>
 Option number_or_word(std::optional<Number>& value, Range<Number> range, const std::string& word) {
-  return {
-      .type = std::is_integral_v<Number> ? "integer or word" : "number or word",
-      .limits = limits(range) + fmt::format(R"(, "word": {})", as_json(word)),
-      .admissible = number_in(range) + ", or " + word,
-      .read =
-          [&value, range, word](const std::string& text) {
-            if (text != word) return read_number(text, range, value.emplace());
-            value.reset();
-            return true;
-          },
-      .value = [&value,
-                word] { return value ? AttributeValue(static_cast<double>(*value)) : AttributeValue(word); }};
+  const auto read = [&value, range, word](const std::string& text) {
+    if (text != word) return read_number(text, range, value.emplace());
+    value.reset();
+    return true;
+  };
+  const auto recorded = [&value, word] {
+    return value ? AttributeValue(static_cast<double>(*value)) : AttributeValue(word);
+  };
+  return {.type = std::is_integral_v<Number> ? "integer or word" : "number or word",
+          .read = read,
+          .value = recorded,
+          .admissible = number_in(range) + ", or " + word,
+          .limits = limits(range) + fmt::format(R"(, "word": "{}")", word)};
 }
 
 /// Number of letters that differ: Levenshtein distance.
@@ -149,12 +153,6 @@ std::string as_text(const AttributeValue& value) {
   return std::visit([](const auto& each) { return fmt::format("{}", each); }, value);
 }
 
-std::string as_json(const std::string& text) {
-  std::string escaped;
-  for (const char each : text) escaped += (each == '"' || each == '\\' ? "\\" : "") + std::string(1, each);
-  return '"' + escaped + '"';
-}
-
 Options::Options(std::string program, const std::string& description)
     : program_(std::move(program)), app_(std::make_unique<CLI::App>(description, program_)) {
   app_->set_version_flag("--version", std::string{}, "Print version and build id, then exit");
@@ -169,7 +167,7 @@ void Options::add(const std::string& name, const std::string& units, const std::
   option.name = name;
   option.help = help;
   option.role = role;
-  if (!units.empty()) option.limits += fmt::format(R"(, "units": {})", as_json(units));
+  if (!units.empty()) option.limits += fmt::format(R"(, "units": "{}")", units);
   option.limits += fmt::format(R"(, "default": {})", json_of(option.value()));
   std::string text = help;
   if (!units.empty() && units != "1") text += fmt::format(" [{}]", units);
@@ -211,32 +209,20 @@ void Options::scaled(const std::string& name, Scaled& value, Range<double> range
                      const std::string& help) {
   add(name, units, help, Role::result,
       {.type = "number or polynomial in N",
-       .limits = limits(range),
-       .admissible = number_in(range) + ", or a sum of such, each alone or followed by N or N^2",
        .read = [&value, range](const std::string& text) { return read_polynomial(text, range, value); },
-       .value = [&value] { return polynomial(value); }});
+       .value = [&value] { return polynomial(value); },
+       .admissible = number_in(range) + ", or a sum of such, each alone or followed by N or N^2",
+       .limits = limits(range)});
 }
 
 void Options::ascending_list(const std::string& name, std::vector<double>& values, Range<double> range,
                              const std::string& units, const std::string& help) {
-  const auto read = [&values, range](const std::string& text) {
-    values.clear();
-    for (std::size_t begin = 0, end = 0; end != text.size(); begin = end + 1) {
-      end = std::min(text.find(',', begin), text.size());
-      double value = 0;
-      if (!read_number(text.substr(begin, end - begin), range, value) ||
-          (!values.empty() && value <= values.back()))
-        return false;
-      values.push_back(value);
-    }
-    return !values.empty();
-  };
   add(name, units, help, Role::result,
       {.type = "numbers",
-       .limits = limits(range),
+       .read = [&values, range](const std::string& text) { return read_list(text, range, values); },
+       .value = [&values] { return AttributeValue(fmt::format("{}", fmt::join(values, ","))); },
        .admissible = fmt::format("numbers {}, ascending, separated by commas", interval(range)),
-       .read = read,
-       .value = [&values] { return AttributeValue(fmt::format("{}", fmt::join(values, ","))); }});
+       .limits = limits(range)});
 }
 
 void Options::flag(const std::string& name, bool& value, const std::string& help, Role role) {
@@ -245,9 +231,10 @@ void Options::flag(const std::string& name, bool& value, const std::string& help
     return value || text == "false";
   };
   add(name, "", help, role,
-      {.type = "flag", .limits = {}, .admissible = "true or false", .read = read, .value = [&value] {
-         return AttributeValue(value);
-       }});
+      {.type = "flag",
+       .read = read,
+       .value = [&value] { return AttributeValue(value); },
+       .admissible = "true or false"});
 }
 
 void Options::choice(const std::string& name, std::string& value, const std::vector<std::string>& choices,
@@ -258,10 +245,10 @@ void Options::choice(const std::string& name, std::string& value, const std::vec
   };
   add(name, "", help, role,
       {.type = "choice",
-       .limits = fmt::format(R"(, "choices": ["{}"])", fmt::join(choices, R"(", ")")),
-       .admissible = fmt::format("one of {}", fmt::join(choices, ", ")),
        .read = read,
-       .value = [&value] { return AttributeValue(value); }});
+       .value = [&value] { return AttributeValue(value); },
+       .admissible = fmt::format("one of {}", fmt::join(choices, ", ")),
+       .limits = fmt::format(R"(, "choices": ["{}"])", fmt::join(choices, R"(", ")"))});
 }
 
 void Options::text(const std::string& name, std::string& value, const std::string& help, Role role) {
@@ -269,23 +256,16 @@ void Options::text(const std::string& name, std::string& value, const std::strin
     value = text;
     return true;
   };
-  add(name, "", help, role, {.type = "text", .limits = {}, .admissible = {}, .read = read, .value = [&value] {
-                               return AttributeValue(value);
-                             }});
+  add(name, "", help, role,
+      {.type = "text", .read = read, .value = [&value] { return AttributeValue(value); }});
 }
 
-bool Options::given(const std::string& name) const {
-  return std::ranges::any_of(options_,
-                             [&](const Option& option) { return option.given && option.name == name; });
-}
+bool Options::given(const std::string& name) const { return app_->count(name) > 0; }
 
 std::optional<std::string> Options::parse(int argc, const char* const* argv, const std::string& version) {
   const auto refuse = [this](const std::string& why) {
     throw UsageError(fmt::format("{}. Correct it; '{} --help' lists every option.", why, program_));
   };
-  for (const std::string word : std::span(argv, static_cast<std::size_t>(argc)))
-    if (word.starts_with("--") && word.find('=') + 1 == word.size())  // CLI11 would take the next word
-      refuse(fmt::format("{} is followed by nothing", word));
   try {
     app_->parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -305,11 +285,10 @@ std::optional<std::string> Options::parse(int argc, const char* const* argv, con
         options_, {}, [&](const Option& option) { return distance(option.name, name); });
     refuse(fmt::format("{} is not an option; the nearest one is {}", name, nearest->name));
   }
-  for (Option& option : options_) {
+  for (const Option& option : options_) {
     const std::vector<std::string>& values = app_->get_option(option.name)->results();
-    option.given = !values.empty();
     if (values.size() > 1) refuse(option.name + " is given more than once");
-    if (option.given && !option.read(values.front()))
+    if (!values.empty() && !option.read(values.front()))
       refuse(fmt::format("{}: '{}' cannot be used: it must be {}", option.name, values.front(),
                          option.admissible));
   }
@@ -327,9 +306,9 @@ std::vector<Parameter> Options::parameters() const {
 std::string Options::describe() const {
   std::vector<std::string> each;
   for (const Option& option : options_)
-    each.push_back(fmt::format(R"({{"name": {}, "type": {}, "description": {}{}, "affects_results": {}}})",
-                               as_json(option.name.substr(2)), as_json(option.type), as_json(option.help),
-                               option.limits, option.role == Role::result));
+    each.push_back(fmt::format(
+        R"({{"name": "{}", "type": "{}", "description": "{}"{}, "affects_results": {}}})",
+        option.name.substr(2), option.type, option.help, option.limits, option.role == Role::result));
   return fmt::format("[{}]", fmt::join(each, ",\n"));
 }
 

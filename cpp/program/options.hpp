@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -16,14 +15,13 @@ class App;
 
 namespace lorentz {
 
-/// The range of a number: [low, high], or (low, high] if the lower end is excluded.
+/// The range of a number: [low, high], or greater than low.
 template <class Number>
 struct Range {
-  Number low = std::numeric_limits<Number>::lowest();
+  Number low = 0;
   Number high = std::numeric_limits<Number>::max();
   bool open_below = false;
 
-  bool bounded_below() const { return low != std::numeric_limits<Number>::lowest() || low == 0; }
   bool bounded_above() const { return high != std::numeric_limits<Number>::max(); }
   bool contains(Number value) const { return (open_below ? value > low : value >= low) && value <= high; }
 };
@@ -47,9 +45,6 @@ struct Parameter {
 };
 
 std::string as_text(const AttributeValue& value);
-
-/// A string in JSON.
-std::string as_json(const std::string& text);
 
 struct Option;
 
@@ -78,7 +73,7 @@ class Options {
                     const std::string& word, const std::string& units, const std::string& help);
   void integer_or_word(const std::string& name, std::optional<std::uint32_t>& value,
                        Range<std::uint32_t> range, const std::string& word, const std::string& help);
-  /// A number, or a sum of a number and multiples of N and N^2, as 50+0.0004N^2.
+  /// A number, or a sum of multiples of 1, N and N^2, as 50+0.0004N^2.
   void scaled(const std::string& name, Scaled& value, Range<double> range, const std::string& units,
               const std::string& help);
   /// Increasing numbers, separated by commas.

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,8 +27,7 @@ struct Outcome {
   double target_error = 0;    // NaN without a target
   double achieved_error = 0;  // relative, or absolute if the target was
   Convergence convergence = Convergence::not_reached;
-  std::size_t replicas = 0;       // used for the results
-  std::vector<std::byte> part{};  // content of the output if it is a part of a run, which has no results
+  std::size_t replicas = 0;  // used for the results
 };
 
 /// Common part of every executable: options, one computation, one HDF5 file written atomically, a cost file
@@ -34,37 +35,32 @@ struct Outcome {
 class Program {
  public:
   Program(const std::string& name, const std::string& description);
-  Program(const Program&) = delete;
-  Program& operator=(const Program&) = delete;
-  virtual ~Program() = default;
 
   Options& options() { return options_; }
+  Progress& progress() { return progress_; }
+  const std::string& output() const { return output_; }
+  double elapsed() const;  // seconds since the start of the program
 
   /// Parses the command line, computes and writes; with --describe prints options and quantities as JSON
-  /// instead. Returns the exit status and never throws: errors are printed on standard error as one line.
-  int run(int argc, char** argv);
+  /// instead. `quantities` describes what the parsed options compute, and throws UsageError if options that
+  /// are valid one by one exclude each other; `compute` calls write(). Returns the exit status and never
+  /// throws: errors are printed on standard error as one line.
+  int run(int argc, char** argv, const std::function<std::vector<Description>()>& quantities,
+          const std::function<ExitStatus()>& compute);
 
- protected:
-  /// Quantities of the parsed options. Throws UsageError if options that are valid one by one exclude each
-  /// other.
-  virtual std::vector<Description> quantities() = 0;
-  virtual Outcome compute() = 0;
-  /// Called at the end with whether the output was written.
-  virtual void after_writing(bool) {}
-
-  const std::string& output() const { return output_; }
-  Progress& progress() { return *progress_; }
+  /// Writes the output and the cost file. Throws UsageError.
+  ExitStatus write(const Outcome& outcome) const;
+  void write(std::span<const std::byte> content, std::uint64_t events) const;
 
  private:
-  ExitStatus run_or_throw(int argc, char** argv);
-  std::string description_in_json();
   void require_replaceable() const;
-  void write_result(const Outcome& outcome) const;
+  int fail(ExitStatus status, const std::string& message);
 
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   Options options_;
-  std::string description_, output_, progress_style_ = "auto";
+  Progress progress_;
+  std::string description_, output_;
   bool describe_ = false, overwrite_ = false;
-  std::optional<Progress> progress_;
 };
 
 }  // namespace lorentz

@@ -15,37 +15,26 @@ namespace {
 
 std::string as_time(double seconds) {
   const auto whole = std::lround(seconds);
-  if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
-  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
 void print_error(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 }  // namespace
 
-Progress::Progress(std::string program, const std::string& style)
-    : program_(std::move(program)),
-      style_(style != "auto"           ? style
-             : ::isatty(STDERR_FILENO) ? "bar"
-                                       : "log") {}
-
-Progress::~Progress() {
-  if (bar_drawn_) print_error("\r\x1b[K");
-}
+Progress::Progress(std::string program) : program_(std::move(program)) {}
 
 void Progress::show(double done, double wanted, double resumed) {
   using Seconds = std::chrono::duration<double>;
   const Clock::time_point now = Clock::now();
-  if (style_ == "none" || now - last_shown_ < Seconds(style_ == "bar" ? 0.1 : 10)) return;
+  const bool bar = style == "bar" || (style == "auto" && ::isatty(STDERR_FILENO));
+  if (style == "none" || now - last_shown_ < Seconds(bar ? 0.1 : 10)) return;
   last_shown_ = now;
   const double fresh = done - resumed;
   const std::string remaining =
       fresh > 0 ? as_time(Seconds(now - start_).count() * (wanted - done) / fresh) + " left"
                 : std::string("time left unknown");
-  if (style_ == "log") {
-    print_error(fmt::format("{}: {:.1f} of {:.0f} replicas, {}\n", program_, done, wanted, remaining));
-    return;
-  }
+  if (!bar) return warn(fmt::format("{:.1f} of {:.0f} replicas, {}", done, wanted, remaining));
   constexpr int width = 30;
   const int filled = std::clamp(static_cast<int>(width * done / wanted), 0, width);
   print_error(fmt::format("\r{} [{:#<{}}{:.<{}}] {:.1f}/{:.0f} replicas, {}\x1b[K", program_, "", filled, "",
@@ -54,7 +43,7 @@ void Progress::show(double done, double wanted, double resumed) {
 }
 
 void Progress::say(const std::string& line) {
-  if (style_ != "none") warn(line);
+  if (style != "none") warn(line);
 }
 
 void Progress::warn(const std::string& line) {

@@ -9,11 +9,9 @@ namespace lorentz {
 /// lines, at most one every ten seconds.
 class Progress {
  public:
-  /// style: auto, bar, log or none; auto chooses bar on a terminal and log elsewhere.
-  Progress(std::string program, const std::string& style);
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  explicit Progress(std::string program);
+
+  std::string style = "auto";  // or bar, log, none; auto: bar on a terminal and log elsewhere
 
   /// done and wanted: numbers of replicas, fractions included; resumed: how many of them come from a file.
   void show(double done, double wanted, double resumed);
@@ -21,13 +19,13 @@ class Progress {
   /// Prints a line unless the style is none: a result, or why the run stops.
   void say(const std::string& line);
 
-  /// Prints a line in every style: something is wrong, and the run goes on.
+  /// Prints a line in every style: something is wrong.
   void warn(const std::string& line);
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  std::string program_, style_;
+  std::string program_;
   Clock::time_point start_ = Clock::now(), last_shown_ = start_;
   bool bar_drawn_ = false;
 };

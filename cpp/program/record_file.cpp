@@ -5,9 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <span>
-#include <sstream>
 #include <system_error>
-#include <utility>
 
 #include "program/errors.hpp"
 #include "program/hdf5_file.hpp"
@@ -17,18 +15,14 @@ namespace {
 
 /// Whether the file ends with the checksum of its preceding bytes.
 bool is_whole(const std::string& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  const std::string file = std::move(text).str();
+  std::string content(std::filesystem::file_size(path), '\0');
+  std::ifstream(path, std::ios::binary).read(content.data(), static_cast<std::streamsize>(content.size()));
   constexpr std::size_t digits = 8;
-  return file.size() > digits &&
-         file.ends_with(crc32_of(std::as_bytes(std::span(file.data(), file.size() - digits))));
+  return content.size() > digits &&
+         content.ends_with(crc32_of(std::as_bytes(std::span(content.data(), content.size() - digits))));
 }
 
 }  // namespace
-
-RecordFile::RecordFile(std::string identity, const std::vector<Description>& tallies)
-    : identity_(std::move(identity)), tallies_(tallies) {}
 
 std::vector<std::byte> RecordFile::content(const FinishedReplicas& finished) const {
   std::vector<std::uint64_t> indices, events;
@@ -36,23 +30,21 @@ std::vector<std::byte> RecordFile::content(const FinishedReplicas& finished) con
     indices.push_back(index);
     events.push_back(record.events);
   }
+  const Axis replica{"replica", "1", "Finished replicas", {indices.begin(), indices.end()}};
   Hdf5Writer file;
-  file.dataset("/replicas/index", {indices.size()}, indices);
-  file.dataset("/replicas/events", {events.size()}, events);
-  file.attribute("/replicas", "identity", identity_);
+  file.array("/replicas", {"index", "1", "Number of the replica, from 0", {replica}}, indices);
+  file.array("/replicas", {"events", "1", "Events of the replica", {replica}}, events);
+  file.attribute("/replicas", "identity", identity);
   std::size_t column = 0;
-  for (const Description& tally : tallies_) {
+  for (Description tally : tallies) {
     std::vector<double> values;
     for (const auto& [index, record] : finished) {
       const auto part = std::span(record.values).subspan(column, tally.size());
       values.insert(values.end(), part.begin(), part.end());
     }
-    Shape shape{indices.size()};
-    for (const Axis& axis : tally.axes) shape.push_back(axis.values.size());
-    file.dataset("/tallies/" + tally.name, shape, values);
-    file.attribute("/tallies/" + tally.name, "units", tally.units);
-    file.attribute("/tallies/" + tally.name, "description", tally.description);
     column += tally.size();
+    tally.axes.insert(tally.axes.begin(), replica);
+    file.array("/tallies", tally, values);
   }
   std::vector<std::byte> content = file.image();
   for (const char digit : crc32_of(content)) content.push_back(static_cast<std::byte>(digit));
@@ -60,22 +52,16 @@ std::vector<std::byte> RecordFile::content(const FinishedReplicas& finished) con
 }
 
 std::optional<FinishedReplicas> RecordFile::read(const std::string& path) const {
-  const auto require = [&path](bool whole) {
-    if (!whole)
-      throw UsageError(fmt::format("'{}' cannot be resumed or joined: it is damaged. Remove it.", path));
-  };
-  require(is_whole(path));
+  if (!is_whole(path))
+    throw UsageError(fmt::format("'{}' cannot be resumed or joined: it is damaged. Remove it.", path));
   const Hdf5Reader file(path);
-  if (file.attribute("/replicas", "identity") != AttributeValue(identity_)) return {};
+  if (!file.has_attribute("/replicas", "identity", identity)) return {};
   const std::vector<std::uint64_t> indices = file.counts("/replicas/index");
   const std::vector<std::uint64_t> events = file.counts("/replicas/events");
-  require(events.size() == indices.size());
   FinishedReplicas finished;
-  for (std::size_t row = 0; row < indices.size(); ++row) finished[indices[row]].events = events[row];
-  require(finished.size() == indices.size());
-  for (const Description& tally : tallies_) {
+  for (std::size_t row = 0; row < indices.size(); ++row) finished[indices[row]].events = events.at(row);
+  for (const Description& tally : tallies) {
     const std::vector<double> values = file.doubles("/tallies/" + tally.name);
-    require(values.size() == indices.size() * tally.size());
     for (std::size_t row = 0; row < indices.size(); ++row) {
       const auto part = std::span(values).subspan(row * tally.size(), tally.size());
       std::vector<double>& record = finished[indices[row]].values;
@@ -89,7 +75,7 @@ FinishedReplicas RecordFile::join(const std::string& folder) const {
   const auto refuse = [](const std::string& what, const std::string& why) {
     throw UsageError(fmt::format("--join '{}': {}. Measure parts into a folder with --part.", what, why));
   };
-  std::error_code unreadable;
+  std::error_code unreadable;  // is as good as empty
   FinishedReplicas joined;
   for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable)) {
     if (entry.path().extension() != part_suffix) continue;
@@ -97,7 +83,6 @@ FinishedReplicas RecordFile::join(const std::string& folder) const {
     if (!part) refuse(entry.path().string(), "it is of other options or another build");
     joined.merge(*part);
   }
-  if (unreadable) refuse(folder, unreadable.message());
   if (joined.empty()) refuse(folder, fmt::format("no file there ends with {}", part_suffix));
   return joined;
 }

@@ -20,11 +20,13 @@ struct ReplicaRecord {
 /// Finished replicas by index.
 using FinishedReplicas = std::map<std::uint64_t, ReplicaRecord>;
 
-/// Files with finished replicas of one run, checkpoints and parts: HDF5, and a checksum of what precedes it.
-class RecordFile {
- public:
-  /// identity: everything that the records depend on (parameters and build id).
-  RecordFile(std::string identity, const std::vector<Description>& tallies);
+/// Format of files with finished replicas of one run, checkpoints and parts: HDF5, and a checksum of what
+/// precedes it.
+struct RecordFile {
+  static constexpr auto part_suffix = ".part";
+
+  std::string identity;  // everything that the records depend on: parameters and build id
+  std::vector<Description> tallies;
 
   std::vector<std::byte> content(const FinishedReplicas& finished) const;
 
@@ -34,12 +36,6 @@ class RecordFile {
   /// The replicas of all files NAME.part in a folder. Throws UsageError if there is none, or one is damaged
   /// or of another run.
   FinishedReplicas join(const std::string& folder) const;
-
-  static constexpr auto part_suffix = ".part";
-
- private:
-  std::string identity_;
-  std::vector<Description> tallies_;
 };
 
 }  // namespace lorentz

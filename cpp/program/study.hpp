@@ -1,20 +1,17 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <exception>
 #include <functional>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "numerics/stream_key.hpp"
 #include "program/program.hpp"
 #include "program/record_file.hpp"
-#include "program/stopping_rule.hpp"
 #include "statistics/group.hpp"
 #include "statistics/tally.hpp"
 
@@ -23,8 +20,7 @@ namespace lorentz {
 /// Random streams and heartbeat of one replica, the input of its measurement.
 struct Replica {
   StreamKey key;  // of all its random numbers
-  /// The measurement calls it often with its completed part in [0, 1]. Throws Interrupted if the run must
-  /// end.
+  /// The measurement calls it often with its completed part in [0, 1]. Throws if the run must end.
   std::function<void(double)> heartbeat;
 };
 
@@ -39,32 +35,30 @@ struct Study {
 /// An executable that runs a study: measures replicas in threads until their number or the target error is
 /// reached, or a part of the replicas, with checkpoints, resumption and time limit. The record of a replica
 /// depends on its index alone, so results do not depend on threads and interruptions.
-class StudyProgram : public Program {
+class StudyProgram {
  public:
   StudyProgram(const std::string& name, const std::string& description);
 
+  Options& options() { return program_.options(); }
+
   /// `make` gives the study of the parsed options. It throws UsageError if options that are valid one by one
   /// exclude each other. Returns the exit status.
-  int run(int argc, char** argv, std::function<Study()> make);
+  int run(int argc, char** argv, const std::function<Study()>& make);
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  std::vector<Description> quantities() override;
-  Outcome compute() override;
-  void after_writing(bool written) override;
-
   void require_consistent();
-  Outcome whole();
-  Outcome part();
+  std::vector<Description> quantities() const;
+  void prepare();
+  ExitStatus compute();
   void measure(std::uint64_t first, std::uint64_t end);
-  void work(std::atomic<double>& fraction, std::uint64_t end);
-  void report(const std::vector<std::atomic<double>>& fractions);
+  void work(std::uint64_t end);
+  void report();
   Outcome estimate(std::uint64_t wanted) const;
-  bool is_last(const Outcome& outcome, std::uint64_t wanted);
-  void load_checkpoint();
   bool save(const std::string& prefix);
   void keep(const std::string& why);
+  double target() const { return target_error_ > 0 ? target_error_ : target_absolute_; }  // 0: none
+
+  Program program_;
 
   // Options. Without a target error a run has `replicas_` replicas; with one, batches of that size are added
   // until the StoppingRule is met.
@@ -75,16 +69,16 @@ class StudyProgram : public Program {
   double checkpoint_interval_ = 60;
   bool resume_ = false;
   std::string part_;  // "first-last" of the replicas to measure apart; empty: all
+  std::uint64_t part_first_ = 0, part_last_ = 0;
   std::string join_;  // folder with parts; empty: none
 
-  std::function<Study()> make_;
   Study study_;
-  std::optional<RecordFile> format_;
-  std::string checkpoint_;  // path
-  Clock::time_point deadline_, next_checkpoint_;
-  std::size_t resumed_ = 0;   // replicas from files
-  std::uint64_t needed_ = 0;  // predicted number of replicas in all
-  bool warned_ = false;       // of a checkpoint that cannot be written
+  RecordFile format_{};
+  std::string checkpoint_;      // path
+  double next_checkpoint_ = 0;  // as elapsed()
+  std::size_t resumed_ = 0;     // replicas from files
+  std::uint64_t needed_ = 0;    // predicted number of replicas in all
+  bool warned_ = false;         // of a checkpoint that cannot be written
 
   // Shared by the threads under the mutex.
   std::mutex mutex_;
@@ -94,6 +88,7 @@ class StudyProgram : public Program {
   std::size_t active_ = 0;  // threads
   std::exception_ptr failure_;
   std::atomic<bool> failed_{false};
+  std::atomic<double> in_progress_{0};  // sum of the completed parts of unfinished replicas
 };
 
 }  // namespace lorentz

@@ -3,6 +3,7 @@
 #include <concepts>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,13 +34,15 @@ class ClosedRun {
   /// Advances to the end of the relaxation without an observer.
   void relax() {
     NoObserver nobody;
-    observe_until(parameters_.relaxation_time, nobody);
+    observe(nobody, parameters_.relaxation_time);
   }
 
-  /// Advances to a time with an observer of collisions and flights (engine/observation.hpp). The clock of the
-  /// dynamics restarts at intervals, so that its resolution does not decrease in long runs.
+  /// Advances to a time, by default the end of the observation, with an observer of collisions and flights
+  /// (engine/observation.hpp). The clock of the dynamics restarts at intervals, so that its resolution does
+  /// not decrease in long runs.
   template <class Observer>
-  void observe_until(double time, Observer& observer) {
+  void observe(Observer& observer, std::optional<double> until = {}) {
+    const double time = until.value_or(parameters_.end_time());
     static_assert(
         std::same_as<Observer, NoObserver> ||
             requires(const Collision& collision) { observer.on_collision(collision); } ||
@@ -54,12 +57,6 @@ class ClosedRun {
       clock_start_ += longest_clock_;
     }
     simulate(chain_, clock(time), observer, heartbeat);
-  }
-
-  /// The same to the end of the observation.
-  template <class Observer>
-  void observe(Observer& observer) {
-    observe_until(parameters_.end_time(), observer);
   }
 
   const ClosedDynamics& chain() const { return chain_; }

@@ -1,15 +1,12 @@
 """The executable that solves the kinetic equation: layout, bad input, coverage of its errors."""
 
-import signal
-import subprocess
-import time
 from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from tests.python.conftest import SMALL, Program, command_line
+from tests.python.conftest import SMALL, Program
 from workflow.lib.load import Result, load
 
 QUANTITIES = {
@@ -131,18 +128,6 @@ def test_target_out_of_reach_is_said(boltzmann: Program, tmp_path: Path) -> None
     assert result.returncode == 4
     assert "target not reached" in result.stderr
     assert load(tmp_path / "out.h5").converged == "not reached"
-
-
-def test_interrupted_run_writes_nothing(tmp_path: Path) -> None:
-    command = command_line(
-        "boltzmann", dict.fromkeys(SMALL) | {"gamma": 1000, "sigma": -0.99, "output": "out.h5"}
-    )
-    process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE)
-    time.sleep(1)
-    process.send_signal(signal.SIGINT)
-    process.communicate(timeout=10)
-    assert process.returncode == 130
-    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(

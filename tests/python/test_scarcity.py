@@ -49,15 +49,6 @@ def test_no_result_is_lost_with_a_reader_of_standard_error(tmp_path: Path) -> No
     assert sorted(path.name for path in tmp_path.iterdir()) == FILES
 
 
-@pytest.mark.parametrize("option", ["help", "version", "describe"])
-@pytest.mark.parametrize("redirection", [">/dev/full", ">&-"])
-def test_text_that_standard_output_does_not_take(tmp_path: Path, option: str, redirection: str) -> None:
-    result = shell(tmp_path, redirection, {option: True})
-    assert result.returncode == 2
-    assert result.stderr.startswith("persistence: error: standard output cannot be written: ")
-    assert result.stderr.count("\n") == 1
-
-
 # More than is asked for before the run, less than the result: the failure comes at the end.
 LARGE = {
     "cells": 5,

@@ -46,8 +46,6 @@ TEST(Options, RefuseWhatIsNotThere) {
   expect_refused({"-s", "4"}, {"-s is not an option; "});
   expect_refused({"extra"}, {"unexpected argument 'extra'"});
   expect_refused({"--sigma"}, {"--sigma needs a value"});
-  for (const Arguments& empty : {Arguments{"--sigma="}, {"--sigma=", "0.5"}, {"--cells=", "--sigma", "0.5"}})
-    expect_refused(empty, {"= is followed by nothing"});
   expect_refused({"--sigma", "0.5", "--sigma", "0.3"}, {"--sigma is given more than once"});
   expect_refused({"--zero-total-momentum", "--zero-total-momentum"},
                  {"--zero-total-momentum is given more than once"});
@@ -129,9 +127,8 @@ TEST(Options, ScaleWithTheNumberOfCells) {
   EXPECT_EQ(example.window.at(40), 818);
   EXPECT_FALSE(example.parse({"--window", "0.5N^2+10"}));
   EXPECT_EQ(example.window.at(40), 810);
-  for (const std::string value :
-       {"N",    "1M",  "-1N", "1NN",   "0N",  "0",     "",     "nanN", "infN",  "+-1N",
-        "0x1N", "1 N", "1+",  "1++1N", "1+2", "1N+2N", "1N^3", "1N^",  "1+-1N", "0+1N"})
+  for (const std::string value : {"N", "1M", "-1N", "1NN", "0N", "0", "", "nanN", "infN", "+-1N", "0x1N",
+                                  "1 N", "1+", "1++1N", "1N^3", "1N^", "1+-1N", "0+1N"})
     expect_refused(
         {"--window", value},
         {"--window: '" + value +

@@ -40,7 +40,7 @@ struct Parts : testing::Test {
 };
 
 TEST_F(Parts, AreRangesOfTheReplicas) {
-  for (const char* text : {"3", "-", "3-", "-3", "4-3", "0-16", "a-b", "0-1-2", "0 - 1", "-1-2", "1.0-2"}) {
+  for (const char* text : {"3", "-", "3-", "-3", "4-3", "0-16", "a-b", "0-1-2", "-1-2", "1.0-2"}) {
     EXPECT_EQ(run({"--part", text, "--output", folder / "a.part"}, not_again), 2) << text;
     EXPECT_NE(complaints.find("0-15"), std::string::npos) << complaints;
   }
@@ -74,9 +74,9 @@ TEST_F(Parts, MayOverlap) {
 }
 
 TEST_F(Parts, ResumeFromTheirCheckpoint) {
-  EXPECT_EQ(measure_part("4-12", interrupted_at(9), {"--threads", "1"}), 128 + SIGINT);
+  EXPECT_EQ(measure_part("4-12", failing_at(9), {"--threads", "1"}), 3);
   EXPECT_FALSE(std::filesystem::exists(folder / "parts/4-12.part"));
-  EXPECT_EQ(measure_part("4-12", interrupted_at(5), {"--resume"}), 0);
+  EXPECT_EQ(measure_part("4-12", failing_at(5), {"--resume"}), 0);
   EXPECT_EQ(measure_part("0-3"), 0);
   EXPECT_EQ(measure_part("13-15"), 0);
   EXPECT_EQ(join_parts(), 0);
@@ -119,7 +119,6 @@ TEST_F(Parts, AreMissed) {
   EXPECT_NE(complaints.find("--part"), std::string::npos) << complaints;
   std::filesystem::remove(folder / "parts");
   EXPECT_EQ(join_parts(), 2);
-  EXPECT_NE(complaints.find("No such file"), std::string::npos) << complaints;
 }
 
 TEST_F(Parts, ExcludeWhatWouldChangeTheirNumber) {

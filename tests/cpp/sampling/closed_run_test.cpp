@@ -43,7 +43,7 @@ TEST(ClosedRun, WithoutScatterings) {
   ClosedRun run(parameters, replica);
   run.relax();
   Counter counter;
-  run.observe_until(parameters.end_time(), counter);
+  run.observe(counter);
   EXPECT_EQ(counter.collisions, 0U);
   const double shown = run.clock(parameters.end_time());
   EXPECT_GT(shown, 0);
@@ -65,7 +65,7 @@ TEST(ClosedRun, ObservesAfterTheRelaxationAndConserves) {
     run.relax();
     const std::uint64_t before = finished(run).events;
     Counter counter;
-    run.observe_until(parameters.end_time(), counter);
+    run.observe(counter);
     const Errors errors = finished(run);
     EXPECT_GT(before, 1000U);
     EXPECT_GE(counter.first, 2);
@@ -81,7 +81,7 @@ TEST(ClosedRun, TellsThatNoMomentumIsConserved) {
   const ClosedParameters parameters{.random_direction = true, .relaxation_time = 0, .observation_time = 1};
   ClosedRun run(parameters, replica);
   Counter counter;
-  run.observe_until(parameters.end_time(), counter);
+  run.observe(counter);
   EXPECT_GT(counter.collisions, 100U);
   EXPECT_LT(finished(run).energy, 1e-12);
   EXPECT_TRUE(std::isnan(finished(run).momentum));

@@ -69,10 +69,10 @@ inline int run(const Arguments& arguments, const MeasureValue& measurement = mea
   return status;
 }
 
-/// Measurement that is interrupted at one replica as by a signal.
-inline MeasureValue interrupted_at(std::uint64_t index) {
+/// Measurement that fails at one replica. The exit status is 3, and the finished replicas are kept.
+inline MeasureValue failing_at(std::uint64_t index) {
   return [index](const Replica& replica) {
-    if (replica.key.replica == index) throw Interrupted(SIGINT);
+    if (replica.key.replica == index) throw NumericalError("a replica failed");
     return measure(replica);
   };
 }

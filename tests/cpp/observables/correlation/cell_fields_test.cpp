@@ -33,7 +33,7 @@ TEST(CellFields, AreThoseOfTheReference) {
     CellFields particles(start, chain);
     double difference = 0, of_mutant = 0;
     for (const double time : {0.0, 0.4, 1.7, 6.0}) {
-      run.observe_until(time, particles);
+      run.observe(particles, time);
       while (reference.step(time, event)) {
       }
       const auto totals = reference.totals(time, 0.5), around = reference.totals(time);
