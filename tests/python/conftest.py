@@ -6,18 +6,37 @@ from pathlib import Path
 
 import pytest
 
+from workflow.lib.load import Result, load
+
 ROOT = Path(__file__).parents[2]
 
-# A chain that runs for a fraction of a second.
-SMALL = {"cells": 5, "particles-per-cell": 4, "relaxation-time": 5, "observation-time": 10, "replicas": 4}
+CLOSED = {"cells": 5, "particles-per-cell": 4, "relaxation-time": 5, "observation-time": 10, "replicas": 4}
+OPEN = {"cells": 5, "relaxation-time": 5, "observation-time": 10, "replicas": 4}
+# Options with which each program runs for a fraction of a second.
+SMALL: dict[str, dict[str, object]] = {
+    "persistence": CLOSED,
+    "waiting_time": CLOSED,
+    "displacement": CLOSED,
+    "ageing": CLOSED,
+    "correlation": {"cells": 101, "observation-time": 64, "times": "4,8,16", "replicas": 4},
+    "heat_current": {"cells": 20, "observation-time": 10, "times": "1,2,4", "fit-from": 1, "replicas": 4},
+    "energy_pulse": {"cells": 21, "particles-per-cell": 20, "times": "0.01,0.014", "replicas": 4},
+    "conductivity": OPEN,
+    "steady_profile": OPEN,
+    "momentum_flux": OPEN,
+    "particle_count": {"cells": 5, "times": "2,5,10", "replicas": 4},
+    "trajectories": {},
+    "boltzmann": {},
+}
 
 Program = Callable[..., subprocess.CompletedProcess]
+Measure = Callable[..., Result]
 
 
 def command_line(program: str, options: dict) -> list[str]:
     """A value of True gives a flag; None omits an option of SMALL."""
     words = [str(ROOT / "build/bin" / program)]
-    for name, value in {**SMALL, **options}.items():
+    for name, value in {**SMALL[program], **options}.items():
         if value is True:
             words.append(f"--{name}")
         elif value is not None:
@@ -47,3 +66,15 @@ def program(tmp_path: Path) -> Program:
 @pytest.fixture
 def persistence(program: Program) -> Program:
     return partial(program, "persistence")
+
+
+@pytest.fixture
+def measure(program: Program, tmp_path: Path) -> Measure:
+    """Runs a program and loads its result."""
+
+    def run(name: str, allowed: tuple[int, ...] = (0,), **options: object) -> Result:
+        done = program(name, **options)
+        assert done.returncode in allowed, done.stderr
+        return load(tmp_path / "out.h5")
+
+    return run

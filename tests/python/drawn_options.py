@@ -14,7 +14,7 @@ def powers(low: float, high: float) -> st.SearchStrategy[float]:
 
 
 def number(exponent: float) -> str:
-    """A power of ten as text, which may lie outside the range of a double."""
+    """A power of ten as text, which may be outside the range of a double."""
     whole = int(np.floor(exponent))
     return f"{10 ** (exponent - whole):.6f}e{whole}"
 

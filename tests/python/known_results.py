@@ -1,16 +1,19 @@
-"""Results whose truth is known, in place of those that simulations gave: for the runs of the plan, with its parameters."""
+"""Results with known values for the runs of the plan, with their parameters."""
 
+import math
 import zlib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from tests.python.conftest import ROOT
 from workflow.claims.data import Data, MissingError
+from workflow.claims.verdict import Number
 from workflow.lib.load import Quantity, Result
 from workflow.lib.plan import Panel, Run, data_path, load_plan
 
@@ -53,7 +56,7 @@ plan = cache(load_plan)
 
 
 class Known(Data):
-    """Every run of these panels has the results that the function gives for it; other panels have none."""
+    """Every run of these panels has the results that the function returns for it; other panels have none."""
 
     def __init__(
         self, fills: Mapping[str, Fill], quality: str = "paper", converged: str = "no target"
@@ -99,7 +102,7 @@ def axes(run: Run) -> dict[str, np.ndarray]:
 
 
 def quantity(run: Run, name: str, mean: np.ndarray, error: np.ndarray) -> Quantity:
-    """With the error of what is computed, if the run is not replicated."""
+    """With a standard error, or a discretisation error if the run is not replicated."""
     along = {axis: axes(run)[axis] for axis in QUANTITIES[run.program][name]}
     if run.replicated:
         count = np.full(mean.shape, run.options["replicas"])
@@ -108,7 +111,7 @@ def quantity(run: Run, name: str, mean: np.ndarray, error: np.ndarray) -> Quanti
 
 
 def uneven(run: Run) -> dict[str, Quantity]:
-    """All quantities of a run between 1 and 2, errors about a hundredth; no two of them alike, nor those of another run."""
+    """All quantities of a run: values from 1 to 2, errors from 0.01 to 0.02, different for every element and run."""
     random = np.random.default_rng(zlib.crc32(f"{run.name} {run.program} {run.options.get('seed')}".encode()))
     coordinates = axes(run)
     shapes = {
@@ -145,3 +148,62 @@ def truth(
         return found
 
     return fill
+
+
+# What the tests of the claims' numbers share: results in which no two values are alike, and the numbers they should give.
+PANELS = ("fig01", "fig02_upper", "fig03", "fig03_inset", "fig04a", "fig04b", "fig05", "fig06", "fig07", "fig07_inset",
+          "fig08", "fig09a", "fig09b", "ext01", "ext03", "ext05", "ext07", "ext09", "ext10")  # fmt: skip
+DATA = Known(dict.fromkeys(PANELS, uneven))
+
+
+def check(
+    numbers: Sequence[Number],
+    value: ArrayLike,
+    error: ArrayLike,
+    systematic: ArrayLike = 0,
+    freedom: float | None = None,
+) -> None:
+    """One number per value, in their order."""
+    assert len(numbers) == np.size(value)
+    found = np.array([(one.value, one.error, one.systematic) for one in numbers]).T
+    for column, expected in zip(found, (value, error, systematic), strict=True):
+        np.testing.assert_allclose(column, np.broadcast_to(expected, column.shape), rtol=1e-9, atol=1e-12)
+    assert freedom is None or {one.freedom for one in numbers} == {freedom}
+
+
+def freedom(panel: str, series: str, data: Known = DATA) -> int:
+    """One less than the replicas of a series."""
+    (replicas,) = {run.options["replicas"] for run in data.plan[panel].runs if run.series == series}
+    return int(replicas) - 1
+
+
+def of(panel: str, run: str, name: str, data: Known = DATA) -> tuple[np.ndarray, np.ndarray]:
+    """Mean and error of a quantity of the input."""
+    found = data.one(panel, run)[name]
+    return found.mean, found.error
+
+
+def each(panel: str, name: str, *runs: str) -> tuple[np.ndarray, np.ndarray]:
+    mean, error = np.array([of(panel, run, name) for run in runs]).T
+    return mean, error
+
+
+def relative_change(one: ArrayLike, other: ArrayLike, *errors: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+    """other/one - 1 with the error by the two derivatives."""
+    one, other = np.asarray(one), np.asarray(other)
+    return other / one - 1, np.sqrt((errors[1] / one) ** 2 + (other * errors[0] / one**2) ** 2)
+
+
+def line(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> tuple[float, float]:
+    """Slope and its error."""
+    solution, covariance = np.polyfit(
+        np.asarray(x), np.asarray(y), 1, w=1 / np.asarray(error), cov="unscaled"
+    )
+    return float(solution[0]), math.sqrt(covariance[0, 0])
+
+
+def power(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> tuple[float, float, float]:
+    """Exponent, its error, change without the first point."""
+    x, relative, y = np.log(x), np.asarray(error) / y, np.log(y)
+    exponent, spread = line(x, y, relative)
+    return exponent, spread, abs(line(x[1:], y[1:], relative[1:])[0] - exponent) if len(x) > 2 else 0

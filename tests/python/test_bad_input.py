@@ -1,4 +1,4 @@
-"""Bad input: exit status 2, no file, and a message with the problem, its reason and the remedy."""
+"""Bad input: exit status 2, no file, and one line with the problem, its reason and the remedy."""
 
 import os
 import resource
@@ -9,84 +9,151 @@ import pytest
 
 from tests.python.conftest import Program, command_line
 
-BAD_NUMBERS = [
-    ("sigma", "2", "[-1, 1]"),
-    ("sigma", "-1.0000001", "[-1, 1]"),
-    ("sigma", "nan", "[-1, 1]"),
-    ("sigma", "half", "[-1, 1]"),
-    ("sigma", "", "[-1, 1]"),
-    ("sigma", "0.5 ", "[-1, 1]"),
-    ("sigma", "0x1p-1", "[-1, 1]"),
-    ("cells", "0", "at least 1"),
-    ("cells", "-3", "at least 1"),
-    ("cells", "1.5", "whole number"),
-    ("cells", "99999999999999999999", "whole number"),
-    ("particles-per-cell", "0", "at least 1"),
-    ("temperature", "-1", "greater than 0"),
-    ("temperature", "0", "greater than 0"),
-    ("temperature", "inf", "greater than 0"),
-    ("temperature", "1e400", "greater than 0"),
-    ("scatterer-temperature", "-0.1", "at least 0"),
-    ("cell-length", "0", "greater than 0"),
-    ("relaxation-time", "-1", "at least 0"),
-    ("observation-time", "0", "greater than 0"),
-    ("replicas", "0", "at least 1"),
-    ("threads", "0", "at least 1"),
-    ("seed", "-1", "whole number"),
-    ("target-error", "-0.1", "at least 0"),
-    ("progress", "loud", "auto, bar, log, none"),
-]
+BAD: dict[str, list[tuple[dict[str, object], str]]] = {
+    "persistence": [
+        *(({"sigma": value}, "[-1, 1]") for value in ("2", "-1.0000001", "nan", "half", "", "0.5 ", "0x1p-1")),
+        ({"cells": "0"}, "[1, "),
+        ({"cells": "-3"}, "[1, "),
+        ({"cells": "1.5"}, "whole number"),
+        ({"cells": "99999999999999999999"}, "whole number"),
+        ({"cells": 4, "gamma": 4.1}, "--gamma exceeds --cells"),
+        ({"cells": 100_000_000, "particles-per-cell": 100_000_000}, "smaller chain"),
+        ({"particles-per-cell": "0"}, "[1, "),
+        *(({"temperature": value}, "greater than 0") for value in ("-1", "0", "inf", "1e400")),
+        ({"temperature": 1e301}, "--temperature"),
+        ({"scatterer-temperature": "-0.1"}, "at least 0"),
+        ({"cell-length": "0"}, "greater than 0"),
+        ({"relaxation-time": "-1"}, "at least 0"),
+        ({"observation-time": "0"}, "greater than 0"),
+        ({"observation-time": 1e300}, "--observation-time"),
+        ({"replicas": "0"}, "[1, "),
+        ({"threads": "0"}, "[1, "),
+        ({"seed": "-1"}, "whole number"),
+        ({"target-error": "-0.1"}, "at least 0"),
+        ({"target-error": 0.1, "target-absolute": 0.1}, "--target-absolute"),
+        ({"replicas": 100, "max-replicas": 99, "target-error": 0.1}, "--max-replicas 99"),
+        ({"progress": "loud"}, "auto, bar, log, none"),
+        ({"sigmma": "0.5"}, "--sigmma is not an option; the nearest one is --sigma."),
+        ({"output": None}, "FILE.h5"),
+    ],
+    "displacement": [
+        ({"decades": "0"}, "[1, 15]"),
+        ({"decades": 15, "observation-time": 1e-3, "relaxation-time": 100}, "--decades"),
+        ({"observation-time": 1e100, "cell-length": 1e100}, "displacement at the first time"),
+    ],
+    "ageing": [({"decades": 1, "fit-decades": 1.5}, "--fit-decades")],
+    "trajectories": [({"observation-time": 1e6, "cells": 100}, "more than 100000 flights, too many to plot")],
+    "energy_pulse": [
+        ({"times": "0.02,0.01"}, "ascend"),
+        ({"times": "0.02,x"}, "'0.02,x'"),
+        ({"times": "0.02"}, "Add another"),
+        ({"pulse-cells": 22}, "--pulse-cells exceeds --cells"),
+        ({"pulse-cells": 2}, "--pulse-cells is even"),
+        ({"cells": 6}, "--cells is less than 7"),
+        ({"gamma": "M"}, "'M'"),
+        ({"gamma": "0"}, "greater than 0"),
+        ({"pulse-energy": 1e301}, "--pulse-energy, --scatterer-temperature: the highest temperature"),
+        ({"relaxation-time": 1e9}, "thermal flights"),
+    ],
+    "correlation": [
+        ({"times": "0.2,0.3"}, "whole multiple"),
+        ({"times": "1e-9,1"}, "whole multiple"),
+        ({"times": "1"}, "Add another"),
+        ({"times": "1,2", "observation-time": 1.5}, "--observation-time"),
+        ({"cells": 5}, "Choose at least"),
+        ({"cells": 25}, "--cells: sound travels around the ring within the last of --times. Choose at least"),
+        ({"sigma": 1}, "--sigma is 1"),
+        ({"slowest": 3, "temperature": 4}, "--slowest exceeds the thermal momentum"),
+        ({"fugacity": 0}, "--fugacity"),
+    ],
+    "heat_current": [
+        ({"slowest": 3, "temperature": 4}, "--slowest exceeds the thermal momentum sqrt(--temperature)"),
+        ({"times": "1,2.5"}, "whole multiple"),
+        ({"times": "1,20", "cells": 200}, "--times goes beyond --observation-time"),
+        ({"fit-from": 3}, "--fit-from leaves fewer than two times"),
+        ({"fugacity": 1e12}, "more than 1e9 particles"),
+        ({"fugacity": 0}, "--fugacity"),
+    ],
+    "conductivity": [
+        ({"observation-time": "0N"}, "followed by N or N^2"),
+        ({"relaxation-time": 1e5, "observation-time": 1e-6}, "--observation-time"),
+        ({"cell-length": "2/N"}, "1/N"),
+        ({"observation-time": 1000, "cell-length": 1e-9}, "thermal flights"),
+        ({"nu-left": -1}, "at least 0"),
+        ({"nu-left": 1e12}, "particles inside"),
+        ({"temperature-left": 0}, "greater than 0"),
+        ({"start": "tepid"}, "empty, warm"),
+        ({"nu-left": 2e-150, "temperature-left": 1e-300}, "--temperature-left"),
+    ],
+    "momentum_flux": [
+        ({"momentum-bins": 21}, "--momentum-bins is odd"),
+        ({"momentum-max": "1e308"}, "the width of a bin"),
+        ({"temperature-left": 1e150, "cell-length": 1e73}, "[1e-140, 1e+140]"),
+        ({"cells": 10**8, "cell-length": 1, "momentum-bins": 10**5}, "--cells"),
+    ],
+    "steady_profile": [
+        ({"momentum-max": 0}, "--momentum-max"),
+        ({"momentum-max": "1e-320"}, "the width of a bin"),
+    ],
+    "particle_count": [
+        ({"times": "10"}, "later times"),
+        ({"cells": 4, "gamma": 4.1}, "--gamma exceeds --cells"),
+        (
+            {"momentum-max": 1e200, "times": "0.1,1", "cell-length": 1e-145, "nu-left": 0, "nu-right": 0,
+             "temperature-left": 1e-280, "temperature-right": 1e-280},
+            "--momentum-max, --times, --cell-length: the number of cells that the fastest particle passes",
+        ),
+    ],
+    "boltzmann": [
+        ({"gamma": "N"}, "Give --cells"),
+        ({"gamma": -1}, "[0, 1000]"),
+        ({"gamma": 1001}, "[0, 1000]"),
+        ({"coarsening": 5}, "[0, 4]"),
+        ({"sigma": 1}, "[-0.99, 0.99]"),
+        ({"momentum-max": "1e308"}, "the width of a bin"),
+        ({"momentum-max": "1e-12"}, "the hotter reservoir's thermal momentum"),
+        ({"momentum-bins": 3}, "--momentum-bins is odd"),
+        ({"cells": 0}, "or continuum"),
+        ({"cells": 2.5}, "whole number"),
+        ({"cells": 4, "gamma": 5}, "probability"),
+        ({"cells": 4, "positions": "0.5"}, "bonds"),
+        ({"positions": "0.5,0.2"}, "ascend"),
+        ({"positions": "0.5,1.2"}, "[0, 1]"),
+        ({"nu-left": 0, "nu-right": 0}, "no particles"),
+        ({"temperature-left": 0}, "greater than 0"),
+        ({"temperature-right": 1e150}, "--temperature-right"),
+    ],
+}  # fmt: skip
 
 
-def refused(result: subprocess.CompletedProcess, *words: str) -> None:
+def check_refusal(result: subprocess.CompletedProcess, name: str, *words: str) -> None:
     assert result.returncode == 2
     assert result.stdout == ""
-    assert result.stderr.startswith("persistence: error: ")
+    assert result.stderr.startswith(f"{name}: error: ")
     assert result.stderr.count("\n") == 1
     for word in words:
         assert word in result.stderr
 
 
-@pytest.mark.parametrize(("option", "value", "allowed"), BAD_NUMBERS)
-def test_value_outside_its_range(
-    persistence: Program, tmp_path: Path, option: str, value: str, allowed: str
-) -> None:
-    low, _, number = allowed.partition("at least ")
-    expected = (f"[{number}, ", f"at least {number}") if number and not low else (allowed,)
-    result = persistence(**{option: value})
-    refused(result, f"--{option}", f"'{value}'", "--help")
-    assert any(text in result.stderr for text in expected)
+@pytest.mark.parametrize(
+    ("name", "options", "words"), [(name, *case) for name, cases in BAD.items() for case in cases]
+)
+def test_refused(program: Program, tmp_path: Path, name: str, options: dict, words: str) -> None:
+    """The first option is named."""
+    check_refusal(program(name, **options), name, words, f"--{next(iter(options))}")
     assert list(tmp_path.iterdir()) == []
-
-
-def test_unknown_option(persistence: Program, tmp_path: Path) -> None:
-    refused(persistence(sigmma="0.5"), "--sigmma is not an option; the nearest one is --sigma.", "--help")
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_options_that_exclude_each_other(persistence: Program, tmp_path: Path) -> None:
-    refused(persistence(target_error=0.1, target_absolute=0.1), "--target-error", "--target-absolute")
-    refused(persistence(cells=100_000_000, particles_per_cell=100_000_000), "--cells", "smaller chain")
-    refused(
-        persistence(replicas=100, max_replicas=99, target_error=0.1), "--max-replicas 99", "smaller batch"
-    )
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_output_missing(persistence: Program) -> None:
-    refused(persistence(output=None), "--output", "FILE.h5")
 
 
 @pytest.mark.parametrize("target", ["no/such/folder/out.h5", "/proc/out.h5", "/dev/full", "folder"])
 def test_output_that_cannot_be_written(persistence: Program, tmp_path: Path, target: str) -> None:
     (tmp_path / "folder").mkdir()
-    refused(persistence(output=target), target, "Name a file")
+    check_refusal(persistence(output=target), "persistence", target, "Name a file")
     assert [path.name for path in tmp_path.iterdir()] == ["folder"]
 
 
 def test_cost_file_that_cannot_be_written(persistence: Program, tmp_path: Path) -> None:
     (tmp_path / "out.cost.json").mkdir()
-    refused(persistence(), "out.cost.json", "Name a file")
+    check_refusal(persistence(), "persistence", "out.cost.json", "Name a file")
     assert [path.name for path in tmp_path.iterdir()] == ["out.cost.json"]
 
 
@@ -108,5 +175,5 @@ def test_no_space_is_noticed_before_the_run(tmp_path: Path) -> None:
         check=False,
         preexec_fn=limit_file_size,
     )
-    refused(result, "out.h5", "Free space")
+    check_refusal(result, "persistence", "out.h5", "Free space")
     assert list(tmp_path.iterdir()) == []

@@ -44,7 +44,7 @@ def test_closure(tree: Path) -> None:
 
 
 def test_a_source_may_have_bytes_that_are_no_text(tree: Path) -> None:
-    """As the compiler admits them."""
+    """Compilers accept them in comments."""
     before = include_closure(tree / "cpp", "observables/a.cpp")
     with (tree / "cpp/engine/x.hpp").open("ab") as file:
         file.write(b"// caf\xe9\n")
@@ -52,7 +52,7 @@ def test_a_source_may_have_bytes_that_are_no_text(tree: Path) -> None:
 
 
 def test_a_header_beside_the_source_comes_before_that_of_the_root(tree: Path) -> None:
-    """As the compiler takes it."""
+    """As for the compiler."""
     (tree / "cpp/engine/model").mkdir()
     (tree / "cpp/engine/model/y.hpp").write_text("")
     closure = include_closure(tree / "cpp", "observables/a.cpp")

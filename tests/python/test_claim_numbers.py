@@ -1,5 +1,5 @@
 """The numbers that claims are judged by, from results in which no two values are alike: each is taken from the right run,
-quantity and place, with its error. Filling chains and closed chains."""
+quantity and element, with its error. Filling chains and closed chains."""
 
 import math
 from dataclasses import replace
@@ -7,8 +7,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.python.claim_numbers import DATA, check, each, freedom, of, relative_change
-from tests.python.known_results import Known, quantity, uneven
+from tests.python.known_results import (
+    DATA,
+    Known,
+    check,
+    each,
+    freedom,
+    of,
+    quantity,
+    relative_change,
+    uneven,
+)
 from workflow.claims.data import ratio
 from workflow.claims.judge import FUNCTIONS
 from workflow.claims.verdict import Number
@@ -104,9 +113,9 @@ def test_spreading(claim: str, panel: str, run: str, sigma: float, others: list[
     freedom = DATA.plan[panel].run(run).options["replicas"] - 1
     check(evidence.literal, value, error, abs(relaxed - value).max(), freedom)
     check(evidence.alternative, *each("ext01", "alpha", *others))
-    if claim == "C18":  # of two contents and relaxation times, which their labels tell
-        told = {number.label.rpartition(", n = ")[2] for number in evidence.alternative}
-        assert told == {"20, t_r = 10", "20, t_r = 1000", "80, t_r = 10"}
+    if claim == "C18":  # of two contents and relaxation times, which their labels state
+        labels = {number.label.rpartition(", n = ")[2] for number in evidence.alternative}
+        assert labels == {"20, t_r = 10", "20, t_r = 1000", "80, t_r = 10"}
 
 
 def test_exponents_and_drifts_of_every_sigma_but_0() -> None:

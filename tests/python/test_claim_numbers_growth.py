@@ -8,9 +8,8 @@ from functools import partial
 import numpy as np
 import pytest
 
-from tests.python.claim_numbers import check, freedom, of, power
-from tests.python.known_results import Known, quantity, truth, uneven
-from tests.python.known_worlds import drop_per_cell, linear_response
+from tests.python.known_results import Known, check, freedom, of, power, quantity, truth, uneven
+from tests.python.test_claim_verdicts import drop_per_cell, linear_response
 from workflow.claims.data import MissingError
 from workflow.claims.growth import equilibrium
 from workflow.claims.judge import FUNCTIONS
@@ -21,7 +20,7 @@ from workflow.lib.plan import Run
 
 
 def conductivities(run: Run, odd: int = 0) -> dict[str, Quantity]:
-    """About N, three times that at one size; wrong where the run is not stationary: N = 64 and the largest of fig. 8."""
+    """kappa is about N, three times that at the size odd, and 1000 times where the run is not stationary: N = 64 and the largest of fig. 8."""
     found = uneven(run)
     if run.program != "conductivity":
         return found
@@ -38,7 +37,7 @@ def conductivities(run: Run, odd: int = 0) -> dict[str, Quantity]:
 
 
 def current(run: Run, kappa: np.ndarray) -> Quantity:
-    """Of energy, where kappa has the temperatures of the baths."""
+    """Energy current for kappa at the temperatures of the baths."""
     return quantity(run, "energy_current", kappa * drop_per_cell(run), np.array(0.01))
 
 
@@ -48,7 +47,7 @@ SOME = Known(dict.fromkeys(("fig08", "fig09a", "fig09b", "ext09", "ext13"), cond
 def kappa(
     panel: str, sizes: Sequence[int], *series: str, data: Known = SOME, name: str = "kappa"
 ) -> tuple[list[int], np.ndarray, np.ndarray]:
-    """By size, of the series that has it."""
+    """Sizes, kappa and its errors."""
     names = {run.options["cells"]: run.name for run in SOME.plan[panel].runs if run.series in series}
     mean, error = np.array([of(panel, names[size], name, data) for size in sizes]).T
     return [*sizes], mean, error
@@ -149,7 +148,7 @@ def test_an_exponent_is_called_a_mean_slope_where_the_law_is_rejected() -> None:
 
 @pytest.mark.parametrize("few", [1, 2])
 def test_an_exponent_takes_two_sizes(few: int) -> None:
-    """Of ext. 9 that are stationary, beside fig. 8."""
+    """So many sizes of ext. 9 are stationary, besides fig. 8."""
 
     def fill(run: Run) -> dict[str, Quantity]:
         still = run.series.startswith("thinning") and run.options["cells"] in (16, 32)[:few]
@@ -180,7 +179,7 @@ def test_relation_of_pulse_and_conductivity(k: int, panel: str, sizes: list[int]
 
 
 def test_relation_of_sound_and_heat_in_equilibrium() -> None:
-    """Of every gas, with the sound of the longest record; nothing without a record of sound."""
+    """One number for every gas, with the sound of the longest record; none without a record of sound."""
     data = Known({**SOME.fills, "ext03": uneven})
     (sound,) = FUNCTIONS["C27"](Known({**data.fills, "ext14": uneven})).alternative
     heat, slope = equilibrium(data)[0], 1 / sound.value**2

@@ -7,8 +7,18 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from tests.python.claim_numbers import DATA, check, each, line, of, power, relative_change
-from tests.python.known_results import Known, quantity, uneven
+from tests.python.known_results import (
+    DATA,
+    Known,
+    check,
+    each,
+    line,
+    of,
+    power,
+    quantity,
+    relative_change,
+    uneven,
+)
 from workflow.claims.judge import FUNCTIONS
 from workflow.lib.fit import with_error
 from workflow.lib.load import Quantity
@@ -60,7 +70,7 @@ def test_densities() -> None:
 
 @pytest.mark.parametrize("smallest", [-0.01, 0.01])
 def test_the_smallest_chain_bounds_the_growth_at_the_ends(smallest: float) -> None:
-    """Whether it lies above or below the line of the others."""
+    """Whether it is above or below the line of the others."""
 
     def fill(run: Run) -> dict[str, Quantity]:
         size = run.options["cells"]
@@ -119,7 +129,7 @@ def test_equilibrium() -> None:
 
 
 def test_kinetic_halves() -> None:
-    """What is computed has a bound in place of an error."""
+    """Computed numbers have a bound instead of an error."""
 
     def halves(run: str) -> tuple[np.ndarray, np.ndarray]:
         found = DATA.one("fig03", run)["kurtosis"]
@@ -141,7 +151,7 @@ def test_kinetic_halves() -> None:
 
 
 def deviations(run: str) -> tuple[np.ndarray, np.ndarray]:
-    """Of what leaves from the continuum, with errors if simulated."""
+    """Deviation of the outgoing flux from the continuum, with errors if simulated."""
     exact, found = DATA.one("fig03_inset", "continuum")["flux"].mean, DATA.one("fig03_inset", run)["flux"]
     error = found.mean if found.standard_error is None else found.standard_error
     outer = [np.concatenate([array[0, :30], array[-1, 30:]]) for array in (found.mean, exact, error)]
@@ -152,7 +162,7 @@ SEEN, MOMENTUM = slice(10, 50), np.arange(-59, 60, 2)  # -39 to 39
 
 
 def multiple(size: int) -> tuple[float, float, np.ndarray]:
-    """By which factor a chain deviates as in mean field, by a line through the origin; and the deviation in mean field."""
+    """Ratio of the deviation to that in mean field, by a line through the origin, and the deviation in mean field."""
     value, error = (one[SEEN] for one in deviations(f"simulation_cells={size}"))
     theory = deviations(f"mean-field_cells={size}")[0]
     return *line_through_0(theory[SEEN], value, error), theory

@@ -5,9 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from tests.python.claim_numbers import check, freedom, of
-from tests.python.known_results import Fill, Known, axes, quantity, truth, uneven
-from tests.python.known_worlds import damped
+from tests.python.known_results import Fill, Known, axes, check, freedom, of, quantity, truth, uneven
+from tests.python.test_claim_verdicts import damped
 from workflow.claims.data import MissingError
 from workflow.claims.judge import FUNCTIONS
 from workflow.lib.load import Quantity, Result
@@ -150,7 +149,7 @@ def test_damping(apart: bool) -> None:
 
 
 def one_fit_off(k: int) -> Fill:
-    """Only what is fitted from the k-th time on differs from the exponent."""
+    """Only the fit from the k-th time on differs from the exponent."""
 
     def fill(run: Run) -> dict[str, Quantity]:
         later = np.full(len(uneven(run)["damping_exponent_from"].mean), 0.6)
@@ -164,7 +163,7 @@ def one_fit_off(k: int) -> Fill:
 
 
 def test_which_fits_bound_the_damping() -> None:
-    """Up to the half of the times, but never the first, which is the exponent itself."""
+    """Fits up to half of the times, without the first, which is the exponent itself."""
     for k in range(6):
         data = Known(dict.fromkeys(("fig09a", "fig09b", "ext14"), one_fit_off(k)))
         (weak,), (rare,) = FUNCTIONS["C27"](data).intended, FUNCTIONS["C28"](data).literal
@@ -173,15 +172,15 @@ def test_which_fits_bound_the_damping() -> None:
 
 
 @pytest.mark.parametrize(
-    ("drift", "told"),
+    ("drift", "begin"),
     [
         (0.02, "A power of t describes"),
         (-0.05, "No power of t describes"),
         (math.nan, "A power of t describes"),
     ],
 )
-def test_whether_a_power_describes_the_height_is_told(drift: float, told: str) -> None:
-    def said(**given: float) -> str:
+def test_whether_a_power_describes_the_height_is_stated(drift: float, begin: str) -> None:
+    def caveat(**given: float) -> str:
         rest = truth(damped("fig09b", 1)["fig09b"] | given, 0.001)
 
         def fill(run: Run) -> dict[str, Quantity]:
@@ -192,13 +191,13 @@ def test_whether_a_power_describes_the_height_is_told(drift: float, told: str) -
 
         return FUNCTIONS["C28"](Known({"fig09b": fill})).caveat
 
-    assert said().startswith(f"{told} the height: its exponent ")
-    assert ("over too few octaves" in said()) == math.isnan(drift)
-    assert "as the ring has closed" in said(energy_difference=1)
+    assert caveat().startswith(f"{begin} the height: its exponent ")
+    assert ("over too few octaves" in caveat()) == math.isnan(drift)
+    assert "as the ring has closed" in caveat(energy_difference=1)
 
 
 @pytest.mark.parametrize("known", [0, 1, 2, 5])
-def test_speeds_that_are_told(known: int) -> None:
+def test_speeds_that_are_stated(known: int) -> None:
     """The first and the last of those at which there is a moving peak."""
 
     def fill(run: Run) -> dict[str, Quantity]:

@@ -1,4 +1,4 @@
-"""The table of claims, what is told of them, and how a claim is judged."""
+"""The table of claims, its messages, and how a claim is judged."""
 
 import re
 from collections.abc import Callable
@@ -48,7 +48,9 @@ def test_rows_are_complete(claim: dict[str, str]) -> None:
         lambda text: text.encode().replace(b"Changes", b"Chang\xe9s", 1),
     ],
 )
-def test_a_damaged_table_is_told_in_one_line(tmp_path: Path, damage: Callable[[str], str | bytes]) -> None:
+def test_a_damaged_table_is_reported_in_one_line(
+    tmp_path: Path, damage: Callable[[str], str | bytes]
+) -> None:
     path = tmp_path / judge.CLAIMS_FILE
     path.parent.mkdir()
     content = damage((ROOT / judge.CLAIMS_FILE).read_text())

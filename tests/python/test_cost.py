@@ -76,7 +76,7 @@ def test_effort(options: dict, expected: float) -> None:
 
 
 def test_recorded_seconds(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of the parts, if their events are those of the result; parts of another division or of other options do not count."""
+    """Seconds of the parts count if their events are those of the result; parts of another division or of other options do not count."""
     monkeypatch.setattr(cost, "ROOT", tmp_path)
 
     def record(path: str, seconds: float, events: int) -> None:

@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from tests.python.conftest import ROOT, Program
+from tests.python.conftest import ROOT, command_line
 from workflow.figures.fig05 import law, tabulate
 from workflow.lib.columns import as_csv
 from workflow.lib.figure_metadata import MetadataError, Parents, embedded, file_hash, read_panel, sources_of
@@ -29,23 +29,32 @@ def draw(stem: Path, data: list[Path]) -> None:
     subprocess.run([*command, "--output", stem, "--data", *data], cwd=ROOT, check=True)
 
 
-@pytest.fixture
-def runs(persistence: Program, tmp_path: Path) -> list[Path]:
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+    folder = tmp_path_factory.mktemp("runs")
     paths = []
     for particles in (4, 8):
         for sigma in (-0.5, 0.5):
-            paths.append(tmp_path / f"{particles}_{sigma}.h5")
-            persistence(sigma=sigma, particles_per_cell=particles, output=paths[-1])
+            paths.append(folder / f"{particles}_{sigma}.h5")
+            options = {"sigma": sigma, "particles-per-cell": particles, "output": paths[-1]}
+            subprocess.run(command_line("persistence", options), check=True)
     return paths
 
 
-def test_panel_is_byte_stable_and_states_its_parents(runs: list[Path], tmp_path: Path) -> None:
-    draw(tmp_path / "1/smoke/panel", runs)
+@pytest.fixture(scope="module")
+def panel(runs: list[Path], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A rendered panel, without the extension of its files."""
+    stem = tmp_path_factory.mktemp("figures") / "smoke/panel"
+    draw(stem, runs)
+    return stem
+
+
+def test_panel_is_byte_stable_and_states_its_parents(panel: Path, runs: list[Path], tmp_path: Path) -> None:
     time.sleep(1.1)  # longer than the resolution of a time stamp
-    draw(tmp_path / "2/smoke/panel", runs)
-    files = [tmp_path / f"1/smoke/panel.{kind}" for kind in KINDS]
-    assert all(path.read_bytes() == (tmp_path / "2/smoke" / path.name).read_bytes() for path in files)
-    record = read_panel(tmp_path / "1/smoke/panel.json")
+    draw(tmp_path / "smoke/panel", runs)
+    files = [panel.with_suffix(f".{kind}") for kind in KINDS]
+    assert all(path.read_bytes() == (tmp_path / "smoke" / path.name).read_bytes() for path in files)
+    record = read_panel(panel.with_suffix(".json"))
     assert record["files"] == {path.name: file_hash(path) for path in files}
     parents = record["parents"]
     assert [embedded(path) for path in files] == [*[parents.as_json()] * 3, parents.digest()]
@@ -58,9 +67,8 @@ def test_panel_is_byte_stable_and_states_its_parents(runs: list[Path], tmp_path:
     assert parents.packages == file_hash(ROOT / "uv.lock")
 
 
-def test_table_has_the_numbers_of_the_results(runs: list[Path], tmp_path: Path) -> None:
-    draw(tmp_path / "panel", runs)
-    table = pd.read_csv(tmp_path / "panel.csv", comment="#")
+def test_table_has_the_numbers_of_the_results(panel: Path, runs: list[Path]) -> None:
+    table = pd.read_csv(panel.with_suffix(".csv"), comment="#")
     assert len(table) == len(runs)
     for run in runs:
         result = load(run)
@@ -81,10 +89,9 @@ def test_law_at_its_limits(runs: list[Path]) -> None:
 
 
 @pytest.mark.parametrize("kind", [*KINDS, "txt"])
-def test_a_damaged_or_foreign_file_is_refused_in_a_line(runs: list[Path], tmp_path: Path, kind: str) -> None:
-    draw(tmp_path / "panel", runs)
+def test_a_damaged_or_foreign_file_is_refused_in_a_line(panel: Path, tmp_path: Path, kind: str) -> None:
     path = tmp_path / f"panel.{kind}"
-    whole = path.read_bytes() if kind != "txt" else b"text"
+    whole = panel.with_suffix(path.suffix).read_bytes() if kind != "txt" else b"text"
     for size in (0, 1, 9, 50):
         path.write_bytes(whole[:size])
         with pytest.raises(MetadataError, match=path.name) as raised:

@@ -35,14 +35,14 @@ def test_error_and_goodness_over_samples() -> None:
 def test_text_has_two_digits_of_the_error() -> None:
     law = fit_power(SIZE, SIZE**0.5, 0.01 * SIZE**0.5)
     assert law.text == with_error(0.5, law.error)
-    told = {(1.86204, 0.00541): "1.8620(54)", (745.03, 8.24): "745.0(8.2)", (12345.6, 123.4): "12346(120)"}
-    told |= {
+    texts = {(1.86204, 0.00541): "1.8620(54)", (745.03, 8.24): "745.0(8.2)", (12345.6, 123.4): "12346(120)"}
+    texts |= {
         (0.5, 0.0996): "0.50(10)",
         (-0.322, 0.0517): "−0.322(52)",
         (2.5, np.nan): "2.5",
         (-2.5, 0): "−2.5",
     }
-    assert {numbers: with_error(*numbers) for numbers in told} == told
+    assert {numbers: with_error(*numbers) for numbers in texts} == texts
 
 
 def test_a_fit_is_drawn_where_it_is() -> None:

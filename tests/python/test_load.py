@@ -9,7 +9,6 @@ import h5py
 import numpy as np
 import pytest
 
-from tests.python.conftest import Program
 from workflow.lib.load import (
     FORMAT,
     FORMAT_VERSION,
@@ -183,8 +182,3 @@ def test_the_digest_of_results_by_hand_and_of_any_change(tmp_path: Path, measure
         assert results_digest(file["results"]) == f"{zlib.crc32(content):08x}"
         file["results/energy/mean"][1, 2] += 1e-9
         assert results_digest(file["results"]) != f"{zlib.crc32(content):08x}"
-
-
-def test_the_digest_is_the_one_that_a_program_states(persistence: Program, tmp_path: Path) -> None:
-    assert persistence().returncode == 0
-    assert load_statements(tmp_path / "out.h5")[2]

@@ -89,7 +89,7 @@ def test_fig05_covers_the_range_and_its_limits() -> None:
 
 
 def test_units_of_options_are_part_of_a_panels_configuration(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Its table states them."""
+    """The table of the panel states them."""
     panels = load_plan("smoke")
     before = {name: panel.hash() for name, panel in panels.items()}
     units = option_units() | {"cell-length": "energy"}

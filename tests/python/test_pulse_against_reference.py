@@ -3,15 +3,14 @@ program: neither engine, nor initial state, nor random numbers, nor the fit of t
 
 import subprocess
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.stats import chi2
 
-from tests.python.conftest import ROOT, Program
+from tests.python.conftest import ROOT, Measure
 from tests.python.test_pulse_peak import fit
-from workflow.lib.load import Result, load
+from workflow.lib.load import Result
 
 CELLS, PARTICLES, SIGMA, ENERGY, PULSE_ENERGY = 41, 20, 0.5, 5000, 50000
 TIMES = {"N": (0.02, 0.03, 0.045, 0.06), 1: (0.008, 0.01, 0.015, 0.02)}
@@ -57,16 +56,13 @@ def accepted(z: np.ndarray) -> bool:
 
 
 @pytest.mark.parametrize("gamma", ["N", 1])
-def test_profiles_and_exponent(program: Program, tmp_path: Path, gamma: str | int) -> None:
+def test_profiles_and_exponent(measure: Measure, gamma: str | int) -> None:
     times = TIMES[gamma]
 
     def pulse(**options: object) -> Result:
         physics = {"cells": CELLS, "particles_per_cell": PARTICLES, "sigma": SIGMA, "gamma": gamma}
         effort = {"times": ",".join(map(str, times)), "pairs_per_replica": 150, "replicas": 40}
-        unused = {"relaxation_time": 0, "observation_time": None}
-        done = program("energy_pulse", **physics | effort | unused | options)
-        assert done.returncode == 0, done.stderr
-        return load(tmp_path / "out.h5")
+        return measure("energy_pulse", **physics | effort | options)
 
     visited = CELLS if gamma == "N" else gamma
     z, exponent_score = scores(pulse(), visited, times)

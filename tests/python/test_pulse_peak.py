@@ -1,19 +1,16 @@
 """The moving peak of a pulse against exact results for free flight, and its errors over many seeds."""
 
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.optimize import least_squares
 from scipy.stats import chi2, f, norm
 
-from tests.python.conftest import Program
-from workflow.lib.load import Result, load
+from tests.python.conftest import Measure
 
 CELLS, PARTICLES, ENERGY, PULSE_ENERGY = 101, 20, 5000, 50000
-FREE = {"cells": CELLS, "particles_per_cell": PARTICLES, "gamma": 1e-9, "relaxation_time": 0,
-        "observation_time": None}  # fmt: skip
+FREE = {"cells": CELLS, "particles_per_cell": PARTICLES, "gamma": 1e-9}
 TIMES = (0.01, 0.0125, 0.016, 0.02, 0.025, 0.032, 0.04)
 
 
@@ -59,15 +56,9 @@ def free_profile(time: float) -> np.ndarray:
     return profile
 
 
-def pulse(program: Program, folder: Path, **options: object) -> Result:
-    done = program("energy_pulse", **options)
-    assert done.returncode == 0, done.stderr
-    return load(folder / "out.h5")
-
-
-def test_free_flight(program: Program, tmp_path: Path) -> None:
-    result = pulse(
-        program, tmp_path, **FREE, pairs_per_replica=100, replicas=100, times=",".join(map(str, TIMES))
+def test_free_flight(measure: Measure) -> None:
+    result = measure(
+        "energy_pulse", **FREE, pairs_per_replica=100, replicas=100, times=",".join(map(str, TIMES))
     )
     difference = result["energy_difference"]
     half = CELLS // 2
@@ -101,26 +92,6 @@ def test_free_flight(program: Program, tmp_path: Path) -> None:
     )
 
 
-def test_no_peak_yet(program: Program, tmp_path: Path) -> None:
-    """The first times, before the peak leaves the centre, are NaN and do not contribute to the exponent."""
-    options = {**FREE, "pairs_per_replica": 20, "replicas": 10}
-    late = pulse(program, tmp_path, **options, times="0.01,0.0125,0.016,0.02")
-    result = pulse(program, tmp_path, **options, times="0.0001,0.0005,0.01,0.0125,0.016,0.02")
-    for name, unknown in {
-        "peak": [0, 1], "peak_position": [0, 1], "peak_speed": [0, 1],
-        "local_damping_exponent": [0, 1], "damping_exponent_from": [0, 1],
-    }.items():  # fmt: skip
-        quantity = result[name]
-        nan = np.isin(np.arange(len(quantity.mean)), unknown)
-        assert (np.isnan(quantity.mean) == nan).all(), name
-        assert (np.isnan(quantity.standard_error) == nan).all(), name
-        assert (quantity.standard_error[~nan] > 0).all(), name
-    np.testing.assert_array_equal(result["local_damping_exponent"].axes["until"], [0.0005, 0.01, 0.02])
-    for name in ("damping_exponent", "peak_collapse"):
-        assert result[name].mean == pytest.approx(float(late[name].mean), rel=1e-12)
-        assert result[name].standard_error == pytest.approx(float(late[name].standard_error), rel=1e-9)
-
-
 SEEDS, MIRRORED, REPLICAS = 100, 50, 24
 
 
@@ -141,15 +112,21 @@ def mean_is_zero(samples: np.ndarray) -> bool:
 
 
 @pytest.mark.parametrize("gamma", ["N", 1])
-def test_errors_over_seeds(program: Program, tmp_path: Path, gamma: str | int) -> None:
+def test_errors_over_seeds(measure: Measure, gamma: str | int) -> None:
     """Spread over 100 seeds against the stored errors, for all quantities of the peak."""
     times = "0.007,0.01,0.014,0.02" if gamma == "N" else "0.006,0.008,0.012,0.018"
     found: dict[str, list[np.ndarray]] = {}
     for seed in range(SEEDS):
-        result = pulse(
-            program, tmp_path, cells=41, particles_per_cell=20, gamma=gamma, relaxation_time=0,
-            observation_time=None, pairs_per_replica=16, replicas=REPLICAS, times=times, seed=seed,
-        )  # fmt: skip
+        result = measure(
+            "energy_pulse",
+            cells=41,
+            particles_per_cell=20,
+            gamma=gamma,
+            pairs_per_replica=16,
+            replicas=REPLICAS,
+            times=times,
+            seed=seed,
+        )
         for name in ("peak", "peak_position", "peak_speed", "local_damping_exponent", "damping_exponent_from",
                      "damping_exponent", "damping_drift", "peak_collapse"):  # fmt: skip
             quantity = result[name]
@@ -170,15 +147,21 @@ def test_errors_over_seeds(program: Program, tmp_path: Path, gamma: str | int) -
 
 
 @pytest.mark.parametrize("gamma", ["N", 1])
-def test_mirror_symmetry(program: Program, tmp_path: Path, gamma: str | int) -> None:
+def test_mirror_symmetry(measure: Measure, gamma: str | int) -> None:
     """The odd part has mean 0 at all distances over many seeds, also on a ring with an even number of cells."""
     for cells in (41, 40):
         odd, errors, off_centre = [], [], []
         for seed in range(MIRRORED):
-            result = pulse(
-                program, tmp_path, cells=cells, particles_per_cell=20, gamma=gamma, relaxation_time=0,
-                observation_time=None, pairs_per_replica=8, replicas=REPLICAS, times="0.01,0.02", seed=seed,
-            )  # fmt: skip
+            result = measure(
+                "energy_pulse",
+                cells=cells,
+                particles_per_cell=20,
+                gamma=gamma,
+                pairs_per_replica=8,
+                replicas=REPLICAS,
+                times="0.01,0.02",
+                seed=seed,
+            )
             quantity, profile = result["odd_part"], result["energy_difference"].mean[-1]
             distance = quantity.axes["distance"].astype(int)
             right, left = profile[cells // 2 + distance], profile[cells // 2 - distance]

@@ -1,9 +1,7 @@
-"""Short versions of the series of the standard figures, with as many replicas, over many seeds: the spread over
-seeds agrees with the errors for that number of replicas. Of each panel and program one series, or over more seeds all.
-That of small chains of every program is in test_error_bars."""
+"""Short versions of every series of the standard figures, with as many replicas, over many seeds: the spread over seeds agrees
+with the errors for that number of replicas. test_error_bars.py has the errors of small chains of every program."""
 
 import subprocess
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -16,9 +14,9 @@ from workflow.lib.load import load
 from workflow.lib.plan import Run, load_plan
 from workflow.tradeoff.measure import shortened
 
-# Numbers of seeds, with what one run is taken of, and the factors by which errors may be too small or too large that so
-# many seeds tell for each quantity, and for all of them together.
-SEEDS = {12: ("program", 3, 7, 1.3), 40: ("series", 2, 3, 1.15)}
+SEEDS = 40
+# By which factors errors may be too small or too large, that so many seeds detect for each quantity, and for all together.
+TOO_SMALL, TOO_LARGE, TOGETHER = 2, 3, 1.15
 FACTORS = {"particle_count": 2e-3}  # factor of all times
 OTHERS = 5e-3
 IN_PLACE = {  # of the options of a program
@@ -43,13 +41,13 @@ NUMBERS = {
 }
 
 
-def middle_runs(by: str) -> dict[str, Run]:
-    """Of the replicated runs of every panel, by series or by program, the middle one."""
+def middle_runs() -> dict[str, Run]:
+    """The middle one of the replicated runs of each series."""
     found: dict[str, list[Run]] = {}
     for panel in load_plan("standard").values():
         for run in panel.runs:
             if run.replicated:
-                found.setdefault(f"{panel.name}-{getattr(run, by)}", []).append(run)
+                found.setdefault(f"{panel.name}-{run.series}", []).append(run)
     return {name: runs[len(runs) // 2] for name, runs in found.items()}
 
 
@@ -62,10 +60,10 @@ def in_small(run: Run) -> dict[str, object]:
     return options | IN_PLACE.get(run.program, {})
 
 
-def values(run: Run, folder: Path, seeds: int) -> dict[str, np.ndarray]:
+def values(run: Run, folder: Path) -> dict[str, np.ndarray]:
     """Every quantity of a series as an array [seed, (mean, error)]."""
     found: dict[str, list] = {name: [] for name in NUMBERS[run.program]}
-    for seed in range(seeds):
+    for seed in range(SEEDS):
         options = {**in_small(run), "seed": 1000 + seed}
         command = [str(ROOT / "build/bin" / run.program), *arguments(options)]
         command += ["--threads", "1", "--progress", "none", "--output", str(folder / "out.h5")]
@@ -83,66 +81,58 @@ def spread_over_error(pairs: np.ndarray) -> float:
     return float(mean.var(ddof=1) / np.mean(error**2))
 
 
-def plausible(ratio: float, seeds: int, replicas: int, trials: int) -> bool:
+def plausible(ratio: float, replicas: int, trials: int) -> bool:
     """Two-sided F test of the ratio, valid for normal records, at one false alarm in 10^4 for all trials."""
     tail = 1e-4 / (2 * trials)
-    freedom = (seeds - 1, seeds * (replicas - 1))
+    freedom = (SEEDS - 1, SEEDS * (replicas - 1))
     return f.isf(1 - tail, *freedom) < ratio < f.isf(tail, *freedom)
 
 
-@dataclass(frozen=True)
-class Spread:
-    """spread_over_error() and the number of replicas for every quantity of every series, over so many seeds."""
-
-    ratios: dict[str, tuple[float, int]]
-    seeds: int
+Ratios = dict[
+    str, tuple[float, int]
+]  # spread_over_error() and the number of replicas, by quantity of a series
 
 
-@pytest.fixture(
-    scope="module",
-    params=[pytest.param(seeds, marks=pytest.mark.long) for seeds in SEEDS],
-    ids=lambda seeds: f"{seeds} seeds",
-)
-def spread(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Spread:
-    folder, seeds = tmp_path_factory.mktemp("spread"), request.param
-    ratios = {
+@pytest.fixture(scope="module")
+def ratios(tmp_path_factory: pytest.TempPathFactory) -> Ratios:
+    folder = tmp_path_factory.mktemp("spread")
+    return {
         f"{name} {number}": (spread_over_error(pairs), int(run.options["replicas"]))
-        for name, run in middle_runs(SEEDS[seeds][0]).items()
-        for number, pairs in values(run, folder, seeds).items()
+        for name, run in middle_runs().items()
+        for number, pairs in values(run, folder).items()
     }
-    return Spread(ratios, seeds)
 
 
 def test_no_error_comes_from_fewer_than_32_replicas() -> None:
-    assert min(run.options["replicas"] for run in middle_runs("series").values()) >= 32
+    assert min(run.options["replicas"] for run in middle_runs().values()) >= 32
 
 
-def test_seeds_scatter_as_their_errors_say(spread: Spread) -> None:
+@pytest.mark.long
+def test_seeds_scatter_as_their_errors_predict(ratios: Ratios) -> None:
     def outliers(factor: float) -> list[str]:
         return [
             name
-            for name, (ratio, replicas) in spread.ratios.items()
-            if not plausible(factor * ratio, spread.seeds, replicas, len(spread.ratios))
+            for name, (ratio, replicas) in ratios.items()
+            if not plausible(factor * ratio, replicas, len(ratios))
         ]
 
     assert outliers(1) == []
     # Mutants: errors too small, and too large.
-    _, small, large, _ = SEEDS[spread.seeds]
-    assert len(outliers(small**2)) > 0.8 * len(spread.ratios)
-    assert len(outliers(1 / large**2)) > 0.8 * len(spread.ratios)
+    assert len(outliers(TOO_SMALL**2)) > 0.8 * len(ratios)
+    assert len(outliers(1 / TOO_LARGE**2)) > 0.8 * len(ratios)
 
 
-def test_errors_are_right_on_the_whole(spread: Spread) -> None:
+@pytest.mark.long
+def test_errors_are_right_on_the_whole(ratios: Ratios) -> None:
     """Joint test with one quantity of every series, because quantities of one series are correlated."""
-    firsts = {name.split()[0]: ratio for name, (ratio, _) in reversed(spread.ratios.items())}
-    freedom = (spread.seeds - 1) * len(firsts)
+    firsts = {name.split()[0]: ratio for name, (ratio, _) in reversed(ratios.items())}
+    freedom = (SEEDS - 1) * len(firsts)
 
     def plausible_sum(factor: float) -> bool:
-        total = factor * (spread.seeds - 1) * sum(firsts.values())
-        return chi2.isf(1 - 5e-5, freedom) < total < chi2.isf(5e-5, freedom)
+        total = factor * (SEEDS - 1) * sum(firsts.values())
+        return bool(chi2.isf(1 - 5e-5, freedom) < total < chi2.isf(5e-5, freedom))
 
     assert plausible_sum(1)
     # Mutants: errors too small or too large. The normalisation n instead of n - 1 would pass.
-    *_, factor = SEEDS[spread.seeds]
-    assert not plausible_sum(factor**2)
-    assert not plausible_sum(1 / factor**2)
+    assert not plausible_sum(TOGETHER**2)
+    assert not plausible_sum(1 / TOGETHER**2)

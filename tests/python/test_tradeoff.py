@@ -1,8 +1,6 @@
 """Trade-off: laws and comparisons on known samples, each measurement in short, and the results with and without a method."""
 
-import ast
 from dataclasses import replace
-from itertools import pairwise
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -84,7 +82,7 @@ def test_every_row_of_the_bias_has_the_setting_that_it_states(monkeypatch: pytes
 
 
 def test_error_falls_with_replicas(monkeypatch: pytest.MonkeyPatch) -> None:
-    """By the law 1/sqrt(replicas), in a program at its setting; every program has a panel in the figure."""
+    """The law is 1/sqrt(replicas), in a program at its setting; every program has a panel in the figure."""
     monkeypatch.setattr(accuracy, "REPLICAS", (30, 480))
     monkeypatch.setattr(accuracy, "TARGETS", (1e-2, 1e-4))
     table = accuracy.errors("persistence")
@@ -99,16 +97,8 @@ def test_error_falls_with_replicas(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_named_runs_are_planned() -> None:
-    """Adjacent constants of a module, and names with a slash, that begin with a panel."""
     panels = load_plan(measure.QUALITY)
-    names = {tuple(name.split("/")) for name in bench.RUNS}
-    for module in Path(tradeoff.__file__).parent.glob("*.py"):
-        for node in ast.walk(ast.parse(module.read_text())):
-            values = node.args if isinstance(node, ast.Call) else getattr(node, "elts", [])
-            names |= {*pairwise(value.value if isinstance(value, ast.Constant) else None for value in values)}
-    named = {(panel, name) for panel, name in names if panel in panels}
-    assert len(named) > 15
-    assert all(panels[panel].run(name) for panel, name in named)
+    assert all(panels[panel].run(name) for panel, name in (run.split("/") for run in bench.RUNS))
     for program, (panel, name, _) in accuracy.SETTINGS.items():
         assert panels[panel].run(name).program == program
 
@@ -131,6 +121,7 @@ def test_pulse_with_and_without_methods() -> None:
     assert rows[0]["factor"] > 1
 
 
+@pytest.mark.long  # test_error_bars.py tests predictions in short
 def test_prediction_of_a_target_error() -> None:
     row = accuracy.predicted("persistence")
     assert accuracy.FIRST_LOOK < row["least"] <= row["most"]
@@ -141,7 +132,7 @@ def test_prediction_of_a_target_error() -> None:
 def test_products(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """A table with units, printed, and its figure; of the drift, whose growth stays below that of one-sided rounding."""
+    """A table with units, also printed, and its figure; the drift grows less than with one-sided rounding."""
     monkeypatch.setattr(rounding, "LONGEST", 5.5)
     tradeoff.make("ext08", tmp_path / "new folder")
     lines = (tmp_path / "new folder/ext08.csv").read_text().splitlines()

@@ -3,14 +3,12 @@
 import heapq
 import itertools
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from tests.python.conftest import Program
-from workflow.lib.load import load
+from tests.python.conftest import Measure
 
 CELLS, SPACING, SIGMA, END = 5, 0.5, 0.3, 15
 LENGTH = CELLS * SPACING
@@ -27,12 +25,10 @@ Flights = Callable[..., pd.DataFrame]
 
 
 @pytest.fixture
-def flights(program: Program, tmp_path: Path) -> Flights:
+def flights(measure: Measure) -> Flights:
     def run(chain: str, **options: object) -> pd.DataFrame:
         fixed = {"cells": CELLS, "sigma": SIGMA, "cell_length": SPACING, "observation_time": END}
-        done = program("trajectories", chain=chain, replicas=None, **fixed, **options)
-        assert done.returncode == 0, done.stderr
-        quantities = load(tmp_path / "out.h5").quantities
+        quantities = measure("trajectories", chain=chain, **fixed, **options).quantities
         return pd.DataFrame({name: quantity.mean for name, quantity in quantities.items()})
 
     return run
@@ -43,7 +39,7 @@ def differ(a: float, b: float) -> bool:
 
 
 def violations(table: pd.DataFrame, ring: bool) -> set[str]:
-    """Of free flight, of the continuity of world lines, of eq. 2 and of the conservation of energy."""
+    """Violations of free flight, of continuity, of eq. 2 and of the conservation of energy."""
     found = set()
     moved = table.momentum * (table.end_time - table.start_time)
     if not np.allclose(table.end_position - table.start_position, moved, rtol=0, atol=1e-9):
@@ -135,11 +131,3 @@ def test_a_later_window_cuts_the_same_flights(flights: Flights) -> None:
     found = late[(late.start_time < END - 5) & late.scatterer_momentum.notna()]
     assert np.allclose(expected.start_time - 5, found.start_time.to_numpy(), rtol=0, atol=1e-6)
     assert np.allclose(expected.momentum, found.momentum.to_numpy(), rtol=0, atol=1e-6)
-
-
-def test_too_many_flights(program: Program, tmp_path: Path) -> None:
-    done = program("trajectories", replicas=None, cells=100, observation_time=1e6)
-    assert done.returncode == 2
-    assert done.stderr.count("\n") == 1
-    assert "more than 100000 flights, too many to plot. Choose a shorter time" in done.stderr
-    assert not (tmp_path / "out.h5").exists()

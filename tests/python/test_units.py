@@ -10,13 +10,11 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
-import pandas as pd
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.python.scale import ROUNDING, SCALES, Scale, agree
-from workflow.lib.columns import as_csv
 from workflow.lib.load import Result
 from workflow.lib.units import WORDS, Units, UnitsError, option_units, parse
 from workflow.tradeoff.measure import call
@@ -62,18 +60,6 @@ def test_other_texts_are_refused(text: str, words: str) -> None:
     with pytest.raises(UnitsError) as error:
         parse(text)
     assert words in str(error.value)
-
-
-@pytest.mark.parametrize(
-    ("known", "words"),
-    [
-        ({}, 'the columns n have no units; .* run\\(draw, title, n="1"\\)'),
-        ({"n": "m"}, "column n: 'm' in 'm' is not a unit"),
-    ],
-)
-def test_a_column_without_units_or_with_unknown_ones(known: dict[str, str], words: str) -> None:
-    with pytest.raises(UnitsError, match=words):
-        as_csv(pd.DataFrame({"n": [1.5], "label": ["a"]}), known)
 
 
 def test_scale() -> None:
@@ -164,7 +150,7 @@ def faults(plain: Result, scaled: Result, scale: Scale) -> list[str]:
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_every_number_scales_as_its_units_say(case: str) -> None:
+def test_every_number_scales_as_its_units(case: str) -> None:
     plain, *others = measured(case)
     for scale, scaled in zip(SCALES, others, strict=True):
         assert scaled.provenance["events"] == plain.provenance["events"]

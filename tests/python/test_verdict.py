@@ -1,4 +1,4 @@
-"""The rules of the verdicts, on numbers whose truth is known: how often each verdict is wrong, and what it can see."""
+"""The rules of the verdicts on numbers with known true values: how often a verdict is wrong, and its power."""
 
 import math
 
@@ -24,7 +24,7 @@ TRIALS, REPLICAS = 20000, 12
 
 
 def measured(truth: float, spread: float, numbers: int = 1) -> list[Reading]:
-    """From normal replicas, their error estimated from them; one reading per trial."""
+    """One reading per trial, from normal replicas, with an estimated error."""
     replicas = np.random.default_rng(1).normal(truth, spread, (TRIALS, numbers, REPLICAS))
     mean, error = replicas.mean(axis=2), replicas.std(axis=2, ddof=1) / math.sqrt(REPLICAS)
     return [
@@ -44,7 +44,7 @@ def within(count: int, probability: float) -> bool:
 
 @pytest.mark.parametrize("wrong", [Outcome.CONTRADICTED, Outcome.REPRODUCED])
 def test_wrong_verdicts_at_the_edge_are_as_frequent_as_the_level(wrong: Outcome) -> None:
-    """A true value on the edge is in the band and beside it: each verdict is wrong with half the two-sided level."""
+    """A true value on the edge is inside the band and outside it: each verdict is wrong with half the two-sided level."""
     assert within(share(measured(1, 0.2), wrong), LEVEL / 2)
 
 
@@ -53,7 +53,7 @@ def test_many_numbers_share_the_level() -> None:
     assert within(share(measured(1, 0.2, 5), Outcome.CONTRADICTED), 1 - (1 - each) ** 5)
 
 
-def test_what_lies_deep_inside_or_far_outside_is_seen() -> None:
+def test_numbers_deep_inside_or_far_outside_are_decided() -> None:
     assert share(measured(0, 0.2), Outcome.REPRODUCED) == TRIALS
     assert share(measured(3, 0.2), Outcome.CONTRADICTED) == TRIALS
     assert share(measured(0, 5), Outcome.UNDECIDED) > 0.95 * TRIALS

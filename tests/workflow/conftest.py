@@ -26,7 +26,7 @@ class Clone:
     folder: Path
 
     def run(self, *command: str, status: int | None = 0, **environment: str) -> Done:
-        """With a PATH, a HOME and what is given. status: that is expected, None for any."""
+        """Runs a command with PATH, HOME and the variables given. status: the expected one, None for any."""
         network = {name: value for name, value in os.environ.items() if NETWORK.match(name)}
         plain = {
             "PATH": f"{os.defpath}:{ROOT / '.cache/uv/bin'}",
@@ -49,16 +49,16 @@ class Clone:
         return self.run("/usr/bin/make", *arguments, status=status, **environment)
 
     def snakemake(self, *arguments: str, status: int | None = 0) -> str:
-        """What a bare snakemake prints."""
+        """Output of a bare snakemake."""
         command = (".venv/bin/snakemake", *arguments, "--config", "quality=smoke")
         return self.run(*command, status=status, TERM="dumb").stdout
 
     def module(self, name: str, *arguments: str, status: int | None = 0) -> str:
-        """What `python -m workflow.NAME` prints."""
+        """Output of `python -m workflow.NAME`."""
         return self.run(".venv/bin/python", "-P", "-m", f"workflow.{name}", *arguments, status=status).stdout
 
     def stale(self, target: str = "figures") -> set[str]:
-        """Jobs that would run, `panel/run` or `panel`."""
+        """Jobs that would run, as `panel/run` or `panel`."""
         outputs = OUTPUT.findall(self.snakemake("--dry-run", target))
         paths = [one.split(",")[0].strip() for one in outputs]
         return {"/".join(Path(path).with_suffix("").parts[2:]) for path in paths}
@@ -96,7 +96,7 @@ def clone_into(folder: Path, source: Path = ROOT) -> Clone:
 
 
 def share_build(clone: Clone) -> None:
-    """The compiler's cache of the project, so that make build compiles nothing twice."""
+    """Shares the compiler's cache of the project, so that make build compiles nothing twice."""
     if not (clone.folder / "build/ccache").exists() and (ROOT / "build/ccache").is_dir():
         (clone.folder / "build").mkdir(exist_ok=True)
         (clone.folder / "build/ccache").symlink_to(ROOT / "build/ccache")
@@ -118,8 +118,8 @@ def locked(path: Path) -> Iterator[None]:
 
 @pytest.fixture(scope="session")
 def clean(tmp_path_factory: pytest.TempPathFactory) -> Clone:
-    """A repository with nothing to commit and every figure at smoke quality. Of the workers the first makes what the project
-    lacks, and the others copy it."""
+    """A repository with nothing to commit and every figure at smoke quality. The first worker makes the missing products, and
+    the others copy them."""
     folder = tmp_path_factory.mktemp("clean")
     own = tmp_path_factory.getbasetemp()
     shared = (own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / "made"
@@ -136,7 +136,7 @@ def clean(tmp_path_factory: pytest.TempPathFactory) -> Clone:
 
 @pytest.fixture
 def kept(clean: Clone) -> Iterator[Clone]:
-    """The clean clone, with sources, products and Snakemake's records as they were when the test is over."""
+    """The clean clone. Sources, products and Snakemake's records are restored after the test."""
     places = (
         "data",
         "figures",
@@ -168,7 +168,7 @@ def files_below(place: Path) -> list[Path]:
     return [file for file in (place, *place.rglob("*")) if file.is_file() and "__pycache__" not in file.parts]
 
 
-Edit = Callable[[Clone], object]  # something done to a clone
+Edit = Callable[[Clone], object]  # changes a clone
 
 
 def append(path: str, text: str) -> Edit:

@@ -1,4 +1,4 @@
-"""A Slurm of one node that listens on loopback only, for tests. Root has to start it."""
+"""A Slurm cluster of one node on the loopback interface, for tests. It needs root."""
 
 import contextlib
 import os
@@ -55,7 +55,7 @@ def available() -> bool:
 
 
 def left_behind() -> bool:
-    """Whether the configuration is that of tests that were killed: its controller is gone."""
+    """Whether the configuration is that of killed tests, whose controller has ended."""
     if not INSTALLED.is_symlink() or not INSTALLED.readlink().parent.name.startswith(PREFIX):
         return False
     pid = INSTALLED.readlink().with_name("slurmctld.pid")
@@ -101,7 +101,7 @@ class Cluster:
         self._end("slurmctld")
 
     def stop(self) -> None:
-        """Jobs first, as those of a test that failed, then the daemons that can end them."""
+        """Ends jobs, which a failed test may have left, then the daemons that can end them."""
         with contextlib.suppress(subprocess.SubprocessError, AssertionError):
             self.command("scancel", "--user=root")
             soon(lambda: not self.command("squeue", "--noheader", "--states=RUNNING,COMPLETING"))
@@ -110,14 +110,14 @@ class Cluster:
             self._end(name)
 
     def command(self, *words: str) -> str:
-        """Output of a command of Slurm's; empty if it fails, as while the controller is away."""
+        """Output of a command of Slurm; empty if it fails, for instance without a controller."""
         done = subprocess.run(
             words, env={"PATH": PATH}, capture_output=True, text=True, timeout=60, check=False
         )
         return done.stdout if done.returncode == 0 else ""
 
     def jobs(self) -> list[str]:
-        """Numbers of the jobs that run."""
+        """Numbers of the running jobs."""
         return self.command("squeue", "--noheader", "--states=RUNNING", "--format=%i").split()
 
     def _run(self, name: str, *arguments: str, user: str | None = None) -> None:
@@ -151,7 +151,7 @@ def cluster() -> Iterator[Cluster]:
 
 
 def soon(find: Callable[[], T], seconds: float = 120) -> T:
-    """What is found, once it is true."""
+    """Waits for a true value and returns it."""
     deadline = time.monotonic() + seconds
     while not (found := find()):
         assert time.monotonic() < deadline, f"not within {seconds:g} seconds"

@@ -30,7 +30,7 @@ def edit_option(clone: Clone) -> None:
 
 
 def edit_record(clone: Clone) -> None:
-    """The figure and its record, so that they agree."""
+    """Edits the figure and its record, so that they agree."""
     append(f"{FIGURE}.csv", "1,2,3\n")(clone)
     path = clone.folder / f"{FIGURE}.json"
     record = json.loads(path.read_text())
@@ -105,64 +105,63 @@ def test_other_packages_and_compilers_are_not_checked(kept: Clone) -> None:
     path = kept.folder / "build/id/boltzmann.json"
     former = path.read_text()
     path.write_text(json.dumps(json.loads(former) | {"compiler": "another"}))
-    told = audit(kept, "--panel", "fig03", status=3)
+    printed = audit(kept, "--panel", "fig03", status=3)
     path.write_text(former)
-    assert f"not checked: {RESULT}: by another compiler" in told
+    assert f"not checked: {RESULT}: by another compiler" in printed
     (metadata,) = kept.folder.glob(".venv/lib/python3*/site-packages/matplotlib-*.dist-info/METADATA")
     former = metadata.read_text()
     metadata.unlink()  # uv links installed files to its cache
     metadata.write_text(former.replace("\nVersion: ", "\nVersion: 1", 1))
-    told = audit(kept, "--panel", "fig03", status=3)
+    printed = audit(kept, "--panel", "fig03", status=3)
     metadata.write_text(former)
-    assert f"not checked: {FIGURE}.pdf: other packages: matplotlib" in told
+    assert f"not checked: {FIGURE}.pdf: other packages: matplotlib" in printed
 
 
-@pytest.mark.parametrize("surrounding", [False, True])
-def test_a_crate_unpacked_elsewhere_holds(clean: Clone, tmp_path: Path, surrounding: bool) -> None:
-    """Of one panel with `=` in the names of its runs, without a repository or inside another."""
+def test_a_crate_unpacked_in_another_repository_holds(clean: Clone, tmp_path: Path) -> None:
+    """A panel with `=` in the names of its runs."""
     clean.module("provenance.crate", "--quality", "smoke", "--panel", "fig06")
-    if surrounding:
-        Clone(tmp_path).git("init", "--quiet")
+    Clone(tmp_path).git("init", "--quiet")
     with zipfile.ZipFile(clean.folder / "build/crate/lorentz-gas-smoke.zip") as archive:
         archive.extractall(tmp_path / "thesis")
     crate = Clone(tmp_path / "thesis")
     shutil.copytree(ROOT / ".cache", crate.folder / ".cache", ignore=shutil.ignore_patterns("mypy"))
-    told = crate.make("audit", "QUALITY=smoke").stdout
-    assert told.endswith("1 panels with their results: 0 broken, 0 not checked, all else holds\n")
-    assert "Not made at quality smoke: model, fig01, " in told
+    printed = crate.make("audit", "QUALITY=smoke").stdout
+    assert printed.endswith("1 panels with their results: 0 broken, 0 not checked, all else holds\n")
+    assert "Not made at quality smoke: model, fig01, " in printed
 
 
 def test_verify_reruns_a_panel(kept: Clone) -> None:
-    """With a fresh build that is already there."""
+    """With an existing fresh build."""
     shutil.copytree(kept.folder / "build/bin", kept.folder / "build/fresh", dirs_exist_ok=True)
     command = ["provenance.verify", "--quality", "smoke", "--sample", "1", "--panel", "fig03"]
     command += ["--programs", "build/fresh"]
-    assert kept.module(*command).endswith("3 results rerun: 0 differ\n")
     edit_value(kept)
-    assert f"{RESULT}: other bytes" in kept.module(*command, status=1)
+    printed = kept.module(*command, status=1)
+    assert f"{RESULT}: other bytes" in printed
+    assert printed.count(": equal bytes") == 2
 
 
 @pytest.mark.parametrize("kind", ["pdf", "png", "svg", "csv"])
 def test_where_a_copy_comes_from(clean: Clone, tmp_path: Path, kind: str) -> None:
     copied = shutil.copyfile(clean.folder / f"{FIGURE}.{kind}", tmp_path / f"a copy.{kind}")
-    told = clean.module("provenance.tree", str(copied), "--full")
+    printed = clean.module("provenance.tree", str(copied), "--full")
     identity = json.loads((clean.folder / "build/id/boltzmann.json").read_text())
     paths = (RESULT, "uv.lock", "workflow/figures/fig03.py", "workflow/lib/style.py")
     wanted = [identity["source_hash"], *(file_hash(clean.folder / path) for path in paths)]
-    assert all(f"{digest[:16]}  same here" in told for digest in wanted)
-    assert told.startswith(f"a copy.{kind} is {FIGURE}.{kind}, rendered at commit ")
-    assert "(clean)" in told
+    assert all(f"{digest[:16]}  same here" in printed for digest in wanted)
+    assert printed.startswith(f"a copy.{kind} is {FIGURE}.{kind}, rendered at commit ")
+    assert "(clean)" in printed
     with copied.open("ab") as file:
         file.write(b"\n")
-    told = clean.module("provenance.tree", str(copied), status=1)
-    assert "belongs to no panel here" in told
-    assert "panel fig03 at quality smoke" in told
+    printed = clean.module("provenance.tree", str(copied), status=1)
+    assert "belongs to no panel here" in printed
+    assert "panel fig03 at quality smoke" in printed
 
 
 def test_where_a_result_comes_from(kept: Clone) -> None:
-    told = kept.module("provenance.tree", RESULT)
-    assert told.startswith("paper.h5 is unmodified\n")
-    assert "program boltzmann: " in told
+    printed = kept.module("provenance.tree", RESULT)
+    assert printed.startswith("paper.h5 is unmodified\n")
+    assert "program boltzmann: " in printed
     edit_value(kept)
     assert "is edited or damaged" in kept.module("provenance.tree", RESULT, status=1)
 
@@ -171,6 +170,6 @@ def test_what_states_no_parents_is_refused_in_a_line(clean: Clone, tmp_path: Pat
     (tmp_path / "x.pdf").write_text("nothing")
     (tmp_path / "x.txt").write_text("nothing")
     for name, status in (("x.pdf", 1), ("x.txt", 1), ("missing.pdf", 2)):
-        told = clean.module("provenance.tree", str(tmp_path / name), status=status)
-        assert len(told.splitlines()) == 1
-        assert name in told
+        printed = clean.module("provenance.tree", str(tmp_path / name), status=status)
+        assert len(printed.splitlines()) == 1
+        assert name in printed

@@ -1,4 +1,4 @@
-"""make as users meet it: other environments, moved folders, other Pythons, machines without locks, mistyped options."""
+"""make in unusual environments and moved folders, with other Pythons, without file locks, and with mistyped options."""
 
 import os
 import shutil
@@ -10,7 +10,6 @@ import pytest
 from tests.workflow.conftest import ROOT, Clone, clone_into, copy_made, share_build
 from workflow.lib.plan import load_plan
 
-NOBODY = 65534  # a user without a home and without a name
 HOSTILE = {
     "LC_ALL": "de_DE.UTF-8",
     "TZ": "Asia/Kathmandu",
@@ -28,6 +27,7 @@ HOSTILE = {
     "PANEL": "none",
     "FRESH": "yes",
 }
+OFFLINE = {"UV_OFFLINE": "1", "http_proxy": "http://localhost:9"}
 
 
 @pytest.fixture(scope="module")
@@ -43,10 +43,14 @@ def moved(clean: Clone, tmp_path_factory: pytest.TempPathFactory) -> Clone:
 
 
 def test_a_moved_folder_and_an_unusual_environment_change_nothing(clean: Clone, moved: Clone) -> None:
+    """Without a network. Packages of the user stay."""
     products = moved.products()
     assert products == clean.products()
-    told = moved.make("figures", "QUALITY=smoke", **HOSTILE).stdout
-    assert "Nothing to be done" in told
+    (packages,) = moved.folder.glob(".venv/lib/python3*/site-packages")
+    (packages / "mine.py").write_text("x = 1\n")
+    printed = moved.make("figures", "QUALITY=smoke", **HOSTILE, **OFFLINE).stdout
+    assert "Nothing to be done" in printed
+    assert (packages / "mine.py").is_file()
     for path in products:
         if "fig03/" in path or "fig03." in path:
             (moved.folder / path).unlink()
@@ -65,20 +69,11 @@ def test_an_environment_without_interpreter_is_renewed(moved: Clone) -> None:
     assert "panel" in moved.make("status", "QUALITY=smoke").stdout
 
 
-def test_packages_of_the_user_stay_without_a_network(moved: Clone) -> None:
-    (packages,) = moved.folder.glob(".venv/lib/python3*/site-packages")
-    (packages / "mine.py").write_text("x = 1\n")
-    offline = {"UV_OFFLINE": "1", "http_proxy": "http://localhost:9"}
-    assert "Nothing to be done" in moved.make("figures", "QUALITY=smoke", **offline).stdout
-    assert (packages / "mine.py").is_file()
-
-
 def test_sources_from_the_future_are_compiled_once(moved: Clone) -> None:
     future = 2 * 86400 + (moved.folder / "Makefile").stat().st_mtime
     os.utime(moved.folder / "cpp/CMakeLists.txt", (future, future))
     moved.make("build")
-    log = moved.make("build").stdout
-    assert "dirty" not in log
+    assert "dirty" not in moved.make("build").stdout
 
 
 def test_a_user_without_name_and_home(moved: Clone) -> None:
@@ -127,15 +122,15 @@ def test_two_at_once_are_refused(clean: Clone) -> None:
 def test_rerun_from_scratch_is_compared_in_a_line(kept: Clone) -> None:
     kept.module("provenance.compare", "--quality", "smoke", "--panel", "fig03", "--keep")
     kept.snakemake("--forceall", "figures/smoke/fig03.pdf")
-    told = kept.module("provenance.compare", "--quality", "smoke", "--panel", "fig03")
-    assert told == "3 of 3 results agree with those in build/before/smoke, smallest p = 1\n"
+    printed = kept.module("provenance.compare", "--quality", "smoke", "--panel", "fig03")
+    assert printed == "3 of 3 results agree with those in build/before/smoke, smallest p = 1\n"
 
 
 def test_another_seed_has_a_folder_of_its_own_and_is_compared(kept: Clone) -> None:
     quality = "smoke_seed=7_replicas=5"
     kept.run(".venv/bin/snakemake", "--config", f"quality={quality}", "--", f"figures/{quality}/fig06.pdf")
-    told = kept.module("provenance.compare", "--quality", quality, "--panel", "fig06")
-    assert told.startswith("2 of 2 results agree with those in data/smoke, smallest p = 0.")
+    printed = kept.module("provenance.compare", "--quality", quality, "--panel", "fig06")
+    assert printed.startswith("2 of 2 results agree with those in data/smoke, smallest p = 0.")
     provenance = f"data/{quality}/fig06/all_sigma=0.h5"
     run = load_plan(quality)["fig06"].runs[0]
     assert run.options["replicas"] == 5
@@ -154,10 +149,10 @@ def test_another_seed_has_a_folder_of_its_own_and_is_compared(kept: Clone) -> No
     ],
 )
 def test_mistyped_options_get_a_line(clean: Clone, arguments: tuple[str, ...], line: str) -> None:
-    told = clean.make(*arguments, status=2).stdout
-    assert line in told
-    assert "Traceback" not in told
-    assert len(told.splitlines()) <= 2  # the second is make's own
+    printed = clean.make(*arguments, status=2).stdout
+    assert line in printed
+    assert "Traceback" not in printed
+    assert len(printed.splitlines()) <= 2  # the second is make's own
 
 
 def test_an_unknown_panel_gets_a_line(clean: Clone) -> None:
@@ -185,8 +180,8 @@ def test_missing_system_packages_are_named_for_those_without_rights(tmp_path: Pa
 
 
 def test_help_names_every_target(clean: Clone) -> None:
-    told = clean.make("help").stdout
+    printed = clean.make("help").stdout
     assert all(
-        f"make {target}" in told
+        f"make {target}" in printed
         for target in ("figures", "panel", "report", "audit", "verify", "status", "crate")
     )

@@ -1,12 +1,10 @@
-"""What Snakemake shows on a terminal and in a pipe, what it shows of a failure, and how it stops."""
+"""Snakemake's display on a terminal and in a pipe, after a failure and after Ctrl-C."""
 
 import os
 import pty
 import re
 import select
 import time
-
-import pytest
 
 from tests.workflow.conftest import Clone, append
 
@@ -15,7 +13,7 @@ PROFILE = "Using workflow specific profile profiles/default for setting default 
 
 
 def on_a_terminal(clone: Clone, *arguments: str, until: str = "", patience: float = 300) -> tuple[str, float]:
-    """What is shown, and the seconds from Ctrl-C, which is pressed when `until` has been shown, to the end."""
+    """The output, and the seconds from Ctrl-C, which is pressed when `until` has appeared, to the end."""
     process, terminal = pty.fork()
     if process == 0:
         os.chdir(clone.folder)
@@ -55,17 +53,9 @@ def test_a_failure_shows_the_end_of_its_log_alone(kept: Clone) -> None:
     assert last == "Failed: fig03; 0 of 1 done. Fix the cause; the same command resumes."
 
 
-@pytest.mark.parametrize(
-    ("option", "advice"),
-    [
-        ("--rerun-incomplete", "The same command resumes"),
-        ("--forceall", "without FRESH=yes it resumes"),
-    ],
-)
-def test_ctrl_c(kept: Clone, option: str, advice: str) -> None:
-    """And what it advises is so: without --forceall, the interrupted runs are left, and their panel."""
-    arguments = ("quality=standard", "panel=fig08", option, "--", "panel")
+def test_ctrl_c(kept: Clone) -> None:
+    arguments = ("quality=standard", "panel=fig08", "--rerun-incomplete", "--", "panel")
     shown, seconds = on_a_terminal(kept, *arguments, until=r"\d of \d+ done")
-    assert re.search(rf"Stopped: \d+ of \d+ done\..*{advice}", shown)
+    assert re.search(r"Stopped: \d+ of \d+ done\..*The same command resumes", shown)
     assert "Traceback" not in shown
     assert seconds < 10

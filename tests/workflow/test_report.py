@@ -1,19 +1,73 @@
-"""Report and gallery: complete, reproducible, self-contained, from unmodified products only."""
+"""Report and gallery: complete, reproducible, self-contained, from unmodified products only. In a browser the report is
+accessible on narrow and wide screens, light and dark."""
 
 import re
+import shutil
 from collections.abc import Iterator
+from dataclasses import dataclass, field
+from html.parser import HTMLParser
+from pathlib import Path
 
 import h5py
 import pytest
+from axe_playwright_python.sync_playwright import Axe
 from PIL import Image
+from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Page as Tab
 
 from tests.workflow.conftest import ROOT, Clone, files_below, replace
-from tests.workflow.webpage import Page
 from workflow.claims.judge import read_claims
 from workflow.lib.figure_metadata import embedded, read_panel
 from workflow.lib.plan import load_plan
 
 HTML = "figures/smoke/report.html"
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+# Elements without an end: those of HTML, and those of SVG that end themselves.
+VOID = {"meta", "img", "link", "br", "hr", "input"}
+
+
+@dataclass
+class Page(HTMLParser):
+    """Ids, links, loaded files, pictures and unclosed elements of an HTML page."""
+
+    ids: list[str] = field(default_factory=list)
+    links: list[str] = field(default_factory=list)
+    loaded: list[str] = field(default_factory=list)  # fetched by a browser to show the page
+    pictures: list[dict[str, str]] = field(default_factory=list)
+    faults: list[str] = field(default_factory=list)
+    open: list[str] = field(default_factory=list)
+    scripts: int = 0
+
+    def __post_init__(self) -> None:
+        super().__init__()
+
+    @classmethod
+    def of(cls, path: Path) -> "Page":
+        page = cls()
+        page.feed(path.read_text())
+        page.close()
+        page.faults += [f"{tag} is not closed" for tag in page.open]
+        return page
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.handle_startendtag(tag, attrs)
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        given = {name: value or "" for name, value in attrs}
+        if len(given) < len(attrs):
+            self.faults.append(f"{tag} repeats an attribute")
+        self.ids += [given["id"]] if "id" in given else []
+        self.links += [given["href"]] if tag == "a" else []
+        self.loaded += [given[name] for name in ("src", "srcset", "data", "poster") if name in given]
+        self.loaded += [given["href"]] if tag in ("link", "image", "use", "base") else []
+        self.pictures += [given] if tag == "img" or given.get("role") == "img" else []
+        self.scripts += tag == "script" and given.get("type") != "application/json"
+
+    def handle_endtag(self, tag: str) -> None:
+        if not self.open or self.open.pop() != tag:
+            self.faults.append(f"</{tag}> without a start tag")
 
 
 def report(clone: Clone) -> None:
@@ -118,3 +172,59 @@ def test_the_gallery_shows_unmodified_products_only(kept: Clone) -> None:
         kept, status=1
     )
     assert files_below(folder) == before
+
+
+def address(clone: Clone) -> str:
+    return (clone.folder / HTML).as_uri()
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    if CHROMIUM is None:
+        pytest.skip("no Chromium")
+    with sync_playwright() as player:
+        chromium = player.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield chromium
+        chromium.close()
+
+
+def opened(browser: Browser, clone: Clone, width: int = 1440, scheme: str = "light") -> Tab:
+    page = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme).new_page()
+    page.goto(address(clone))
+    return page
+
+
+@pytest.mark.parametrize(("width", "scheme"), [(400, "light"), (900, "dark"), (1440, "light")])
+def test_it_is_accessible_and_no_wider_than_the_screen(
+    browser: Browser, clone: Clone, width: int, scheme: str
+) -> None:
+    page = opened(browser, clone, width, scheme)
+    found = Axe().run(page).response
+    assert len(found["passes"]) > 20
+    assert [(one["id"], one["nodes"][0]["html"]) for one in found["violations"]] == []
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+
+
+def test_there_are_no_messages_and_no_requests(browser: Browser, clone: Clone) -> None:
+    page, messages, requests = browser.new_page(), [], []
+    page.on("console", lambda message: messages.append(message.text))
+    page.on("pageerror", lambda error: messages.append(str(error)))
+    page.on("request", lambda request: requests.append(request.url))
+    page.goto(address(clone))
+    assert messages == []
+    assert {url for url in requests if not url.startswith("data:")} == {address(clone)}
+
+
+def test_the_first_screen_has_the_answer_beside_its_picture(browser: Browser, clone: Clone) -> None:
+    page = opened(browser, clone)
+    rows, picture = page.locator(".questions tbody tr"), page.locator("#answer img").bounding_box()
+    assert rows.count() == 7
+    table = page.locator(".questions").bounding_box()
+    assert max(box["y"] + box["height"] for box in (table, picture)) <= 900
+    assert picture["x"] > table["x"] + table["width"]
+
+
+def test_every_picture_is_shown(browser: Browser, clone: Clone) -> None:
+    page = opened(browser, clone)
+    for panel in load_plan("smoke"):
+        assert page.locator(f"#{panel} img").evaluate("one => one.complete && one.naturalWidth > 0")

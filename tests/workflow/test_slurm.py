@@ -1,4 +1,4 @@
-"""On a cluster of one node: the bytes of a local run, whatever happens to the jobs."""
+"""On a cluster of one node, results have the bytes of a local run, also after jobs have failed."""
 
 import contextlib
 import os
@@ -34,7 +34,7 @@ def cluster() -> Iterator[slurm.Cluster]:
 def on_cluster(
     clone: Clone, *config: str, option: str = "--rerun-incomplete"
 ) -> Iterator[subprocess.Popen[str]]:
-    """Snakemake in a session of its own, of which nothing is left at the end."""
+    """Snakemake in its own session, which is killed at the end."""
     profile = ("--workflow-profile", "profiles/slurm", *PATIENCE.split(), option)
     with subprocess.Popen(
         [".venv/bin/snakemake", "panel", "--nolock", *profile, "--config", *config],
@@ -63,7 +63,7 @@ def products(clone: Clone, quality: str) -> dict[Path, bytes]:
 
 
 def test_parts_and_batches_give_the_same_bytes(cluster: slurm.Cluster, kept: Clone) -> None:
-    """And are fresh on one machine, too. A batch of 0.6 s splits every run; one of 30 minutes holds all."""
+    """The results are also fresh on one machine. A batch of 0.6 s splits every run; one of 30 minutes holds all."""
     before = products(kept, "smoke")
     for panel, batch, jobs in (("fig01", "0.01", 6), ("fig06", "30", 1)):
         for path in (kept.folder / f"data/smoke/{panel}").iterdir():
@@ -80,7 +80,7 @@ def test_parts_and_batches_give_the_same_bytes(cluster: slurm.Cluster, kept: Clo
 
 
 def processes(clone: Clone, program: str) -> list[int]:
-    """Of a program of this clone."""
+    """Processes of a program of this clone."""
     found = []
     for path in Path("/proc").glob("[0-9]*/cmdline"):
         with contextlib.suppress(OSError):

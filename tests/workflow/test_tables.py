@@ -1,4 +1,4 @@
-"""The tables of the figures: every column scales with the results that it was made from, as its units say."""
+"""The tables of the figures: every column scales with the results according to its units."""
 
 import importlib
 import json
@@ -22,7 +22,7 @@ PLAN = load_plan("smoke")
 
 
 def stated(table: Path) -> dict[str, str]:
-    """Units in the second line."""
+    """Units from the second line of a table."""
     line = table.read_text().split("\n", maxsplit=2)[1]
     assert line.startswith(UNITS_LINE)
     return json.loads(line.removeprefix(UNITS_LINE))
@@ -30,7 +30,7 @@ def stated(table: Path) -> dict[str, str]:
 
 @cache
 def tables(folder: Path, panel: str) -> tuple[pd.DataFrame, ...]:
-    """From the results as they are, then in other units."""
+    """Tables from the results in the default units, then in others."""
     draw = importlib.import_module(f"workflow.figures.{PLAN[panel].script}").draw
     results = [load(folder / path) for path in data_of(PLAN, panel, "smoke")]
     style.apply()
@@ -45,7 +45,7 @@ OPTION_AS_GIVEN = "spacing"  # a label: 1/N, or a length as it is configured
 
 
 def scales(folder: Path, panel: str, name: str, text: str) -> bool:
-    """Whether a column scales as these units say."""
+    """Whether a column scales according to these units."""
     plain, *others = tables(folder, panel)
     by_row = text.startswith(BY_ROW)
     for scale, scaled in zip(SCALES, others, strict=True):
@@ -57,7 +57,7 @@ def scales(folder: Path, panel: str, name: str, text: str) -> bool:
 
 
 @pytest.mark.parametrize("panel", PLAN)
-def test_every_column_scales_as_its_units_say(clean: Clone, panel: str) -> None:
+def test_every_column_scales_as_its_units(clean: Clone, panel: str) -> None:
     plain, *others = tables(clean.folder, panel)
     units = stated(clean.folder / f"figures/smoke/{panel}.csv")
     for other in others:

@@ -1,4 +1,4 @@
-"""The tutorial is followed to the letter, and what it states of paper.yaml holds."""
+"""The tutorial is executed literally, and its statements on paper.yaml hold."""
 
 import re
 import shutil
@@ -33,14 +33,14 @@ def follow(clone: Clone, block: re.Match[str]) -> str:
 
 
 def test_a_panel_of_your_own(own: Clone) -> None:
-    told = "".join(follow(own, block) for block in BLOCK.finditer(PANEL))
+    printed = "".join(follow(own, block) for block in BLOCK.finditer(PANEL))
     table = pd.read_csv(own.folder / "figures/standard/kappa_sigma.csv", comment="#")
     assert list(table.sigma) == SIGMA
     assert (table.kappa > 0).all()
-    assert "kappa_sigma" in told
-    assert "Dimensions:" in told
-    assert f"kappa at 0.6: {table.kappa[4]:.6g}"[:-1] in told
-    assert re.search(r"kappa: [0-9.]+ \+- [0-9.]+\n", told)
+    assert "kappa_sigma" in printed
+    assert "Dimensions:" in printed
+    assert f"kappa at 0.6: {table.kappa[4]:.6g}"[:-1] in printed
+    assert re.search(r"kappa: [0-9.]+ \+- [0-9.]+\n", printed)
     alone = load(own.folder / "kappa.h5")
     assert alone.converged == "reached"
     assert alone.provenance["achieved_error"] <= 0.02

@@ -6,10 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/closed_dynamics.hpp"
-#include "engine/closed_start.hpp"
-#include "reference/heap_simulator.hpp"
-#include "support/collisions.hpp"
 #include "support/sample.hpp"
 
 namespace free_flight_test {
@@ -73,60 +69,6 @@ TEST(FreeFlight, DrawsDependOnTheParticleAndItsOwnCountOnly) {
   }
   EXPECT_EQ(first, second);
   EXPECT_NE(first, other);
-}
-
-/// Collisions per particle, and their persistent part, of one replica at gamma = 1.
-struct Rates {
-  std::vector<double> collisions, persistent;
-};
-
-constexpr double end_time = 20;
-constexpr std::uint64_t replicas = 60;
-
-PhasePoint start(std::uint64_t seed, std::uint64_t replica) {
-  return closed_chain_start(chain_with(1), {500, 500}, false, {seed, replica});
-}
-
-Rates engine() {
-  Rates rates;
-  for (std::uint64_t replica = 0; replica < replicas; ++replica) {
-    ClosedDynamics dynamics(chain_with(1), start(1, replica), end_time, {1, replica});
-    support::Recorder recorder;
-    simulate(dynamics, end_time, recorder, support::nothing);
-    double persistent = 0;
-    for (const Collision& c : recorder.collisions)
-      persistent += c.particle_before * c.particle_after > 0 ? 1 : 0;
-    rates.collisions.push_back(static_cast<double>(recorder.collisions.size()) / 100);
-    rates.persistent.push_back(persistent / static_cast<double>(recorder.collisions.size()));
-  }
-  return rates;
-}
-
-Rates reference_simulator(double probability) {
-  Rates rates;
-  for (std::uint64_t replica = 0; replica < replicas; ++replica) {
-    auto simulator = reference::heap_simulator<double>(0.5, 1, start(2, replica));
-    simulator.scatter_with(probability, replica);
-    reference::HeapSimulator<double>::Event event{};
-    double count = 0, persistent = 0;
-    while (simulator.step(end_time, event)) {
-      ++count;
-      persistent += event.p_before * event.p_after > 0 ? 1 : 0;
-    }
-    rates.collisions.push_back(count / 100);
-    rates.persistent.push_back(persistent / count);
-  }
-  return rates;
-}
-
-TEST(FreeFlight, ChainAgreesWithTheReferenceThatVisitsEveryScatterer) {
-  const Rates ours = engine(), theirs = reference_simulator(0.2);
-  const auto z = [](const std::vector<double>& a, const std::vector<double>& b) {
-    return std::abs(support::z_score(support::sample(a), support::sample(b)));
-  };
-  EXPECT_LT(z(ours.collisions, theirs.collisions), 4);
-  EXPECT_LT(z(ours.persistent, theirs.persistent), 4);
-  EXPECT_GT(z(ours.collisions, reference_simulator(0.22).collisions), 4);
 }
 
 }  // namespace free_flight_test

@@ -97,17 +97,6 @@ TEST(Injector, IntervalsAreExponentialAndIndependent) {
   EXPECT_GT(z(square, 2.1), 4);
 }
 
-// Mutant: time() that take() leaves as it was.
-TEST(Injector, TimesAscend) {
-  Injector injector(bath, {9, 0}, Purpose::injection_left);
-  double before = 0;
-  for (int k = 0; k < 10'000; ++k) {
-    ASSERT_GT(injector.time(), before);
-    before = injector.time();
-    injector.take();
-  }
-}
-
 TEST(Injector, NothingComesAtRateZero) {
   EXPECT_EQ(Injector({0, 1}, {1, 0}, Purpose::injection_left).time(),
             std::numeric_limits<double>::infinity());

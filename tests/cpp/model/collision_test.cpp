@@ -68,7 +68,7 @@ TEST(Collision, EqualsTheClosedForm) {
 
 // sigma, or 1-|sigma|, is changed by one part in 1e11 on purpose. In addition 1+|sigma| is rounded to a
 // multiple of 2^-52: at sigma = 1 - 1e-12 this is one part in 1e4 of 1-sigma, hence 5e-5 of c.
-TEST(Collision, StandsForTheSigmaAskedFor) {
+TEST(Collision, HasTheSigmaRequested) {
   for (const double sigma : sigmas) {
     const double magnitude = std::abs(sigma);
     const bool exact = magnitude == 0 || magnitude == 1;
@@ -79,7 +79,7 @@ TEST(Collision, StandsForTheSigmaAskedFor) {
 
 // Velocities grow by at most sqrt(2) in the first collision, so the bound is twice that of one collision at
 // sqrt(2) max.
-TEST(Collision, StandsForEveryDigitOfSigmaNearTheLimits) {
+TEST(Collision, HasEveryDigitOfSigmaNearTheLimits) {
   for (int k = 6; k <= 16; ++k)
     for (const double sign : {-1, 1})
       EXPECT_EQ(CollisionRule(sign * (1 - std::pow(10, -k))).sigma(), sign * (1 - std::pow(10, -k))) << k;

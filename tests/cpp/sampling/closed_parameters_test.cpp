@@ -11,17 +11,6 @@ namespace closed_parameters_test {
 using namespace lorentz;
 using support::refused_as;
 
-TEST(ClosedParameters, DefaultsAreThoseOfFigure5) {
-  const ClosedChain chain = ClosedParameters{}.chain();
-  EXPECT_EQ(chain.cells, 11U);
-  EXPECT_EQ(chain.particles_per_cell, 20U);
-  EXPECT_EQ(chain.cell_length, 1);
-  EXPECT_EQ(chain.sigma, 0.5);
-  EXPECT_TRUE(chain.deterministic());
-  EXPECT_FALSE(chain.random_direction);
-  EXPECT_EQ(ClosedParameters{}.end_time(), 200);
-}
-
 // Mutants: scatterers left out, without their mass, or a mean with zero total momentum.
 TEST(ClosedParameters, MeansOfTheStart) {
   ClosedParameters parameters;  // 220 particles at 500; M = 3
@@ -42,26 +31,6 @@ TEST(ClosedParameters, TimesFollowFromSpeeds) {
   EXPECT_EQ(parameters.hottest(), 16);
   EXPECT_EQ(parameters.longest_clock(), 0x1p31);
   EXPECT_EQ(parameters.thermal_flight(), 1);
-}
-
-// Mutant: random_direction not handed on to the chain.
-TEST(ClosedParameters, AreReadFromTheCommandLine) {
-  ClosedParameters parameters;
-  Options options("example", "An example");
-  declare(options, parameters);
-  const char* unknown[] = {"example", "--random-direction"};  // not offered by all programs
-  EXPECT_THROW(options.parse(2, unknown, ""), UsageError);
-
-  Options more("example", "An example");
-  declare(more, parameters);
-  declare_random_direction(more, parameters);
-  const char* words[] = {
-      "example", "--gamma", "3", "--cells", "7", "--random-direction", "--zero-total-momentum"};
-  more.parse(7, words, "");
-  EXPECT_EQ(parameters.chain().gamma, 3);
-  EXPECT_EQ(parameters.chain().cells, 7U);
-  EXPECT_TRUE(parameters.chain().random_direction);
-  EXPECT_TRUE(parameters.zero_total_momentum);
 }
 
 // Mutants: the observation alone in place of the end; flights_of_one_clock in place of flights_of_a_year.

@@ -77,7 +77,7 @@ TEST(ClosedRun, ObservesAfterTheRelaxationAndConserves) {
 }
 
 // Momentum is not conserved if directions are drawn; energy is.
-TEST(ClosedRun, TellsThatNoMomentumIsConserved) {
+TEST(ClosedRun, ReportsThatNoMomentumIsConserved) {
   const ClosedParameters parameters{.random_direction = true, .relaxation_time = 0, .observation_time = 1};
   ClosedRun run(parameters, replica);
   Counter counter;

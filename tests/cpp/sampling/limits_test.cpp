@@ -14,8 +14,8 @@ using support::refusal, support::refused_as;
 
 constexpr Reservoir bath(double temperature) { return {1, temperature}; }
 
-// Mutants: an open bound; !(value < low || value > high), which admits NaN.
-TEST(Limits, AdmitTheirBoundsAndNothingBeyond) {
+// Mutants: an open bound; !(value < low || value > high), which accepts NaN.
+TEST(Limits, AcceptTheirBoundsAndNothingBeyond) {
   const auto check = [](double value) {
     return refusal([&] { require_within(value, 1, 2, "--a, --b", "their product"); });
   };

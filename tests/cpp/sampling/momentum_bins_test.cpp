@@ -20,17 +20,6 @@ TEST(MomentumBins, LieAboutZero) {
   EXPECT_EQ(parameters.bins().edge(2), 0);
 }
 
-TEST(MomentumBins, AreReadFromTheCommandLine) {
-  MomentumBinParameters parameters;
-  EXPECT_EQ(parameters.bins().count(), 100U);
-  EXPECT_EQ(parameters.bins().edge(100), 60);
-  Options options("example", "An example");
-  declare(options, parameters);
-  const char* words[] = {"example", "--momentum-bins", "6", "--momentum-max", "3"};
-  options.parse(5, words, "");
-  EXPECT_EQ(momentum_axis(parameters.bins()).values, (std::vector{-2.5, -1.5, -0.5, 0.5, 1.5, 2.5}));
-}
-
 // Mutant: validate() empty, so that 7 bins would silently become 6.
 TEST(MomentumBins, AreEven) {
   EXPECT_NO_THROW(validate(MomentumBinParameters{.count = 6}));

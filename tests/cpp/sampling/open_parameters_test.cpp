@@ -9,19 +9,6 @@ namespace open_parameters_test {
 using namespace lorentz;
 using support::refused_as;
 
-// Mutant: cell_length 1 by default.
-TEST(OpenParameters, DefaultsAreThoseOfFigure2) {
-  const OpenChain chain = OpenParameters{}.chain();
-  EXPECT_EQ(chain.cells, 30U);
-  EXPECT_EQ(chain.cell_length, 1. / 30);
-  EXPECT_TRUE(chain.deterministic());
-  EXPECT_EQ(chain.left.rate, 220);
-  EXPECT_EQ(chain.right.rate, 180);
-  EXPECT_NEAR(chain.left.rate * chain.left.mean_momentum(), chain.right.rate * chain.right.mean_momentum(),
-              1e-9);
-  EXPECT_EQ((OpenParameters{.scattering = {.cells = 5}, .cell_length = 2}.chain().cell_length), 2);
-}
-
 // Mutant: empty and warm exchanged.
 TEST(OpenParameters, Starts) {
   OpenParameters parameters{.scattering = {.cells = 5}};
@@ -57,28 +44,6 @@ TEST(OpenParameters, WindowFollowsTheRelaxation) {
       WindowParameters{.relaxation_time = {{0, 2, 0}}, .observation_time = {{3, 0, 0}}}.window(5);
   EXPECT_EQ(window.begin, 10);
   EXPECT_EQ(window.end, 13);
-}
-
-TEST(OpenParameters, AreReadFromTheCommandLine) {
-  OpenParameters parameters;
-  WindowParameters window;
-  Options options("example", "An example");
-  declare(options, parameters);
-  declare(options, window);
-  const char* words[] = {"example", "--gamma",
-                         "0",       "--start",
-                         "empty",   "--cell-length",
-                         "1/N",     "--relaxation-time",
-                         "4N",      "--temperature-right",
-                         "7",       "--nu-left",
-                         "0"};
-  options.parse(13, words, "");
-  EXPECT_EQ(parameters.chain().gamma, 0);
-  EXPECT_EQ(parameters.start, "empty");
-  EXPECT_EQ(parameters.chain().cell_length, 1. / 30);
-  EXPECT_EQ(window.window(30).begin, 120);
-  EXPECT_EQ(parameters.right.temperature, 7);
-  EXPECT_EQ(parameters.left.rate, 0);
 }
 
 // Mutants: a stay as long as the run; the hotter reservoir alone.

@@ -88,7 +88,7 @@ TEST(Group, HasStatisticsWithTheirOwnErrors) {
   EXPECT_EQ(results[1].count, (std::vector<std::uint64_t>{3, 3}));
 }
 
-// Mutants: the records as they were; control variates said to be used always.
+// Mutants: the records as they were; control variates reported as used in every case.
 TEST(Group, OfCorrectedRecords) {
   const Tallies tallies;
   const auto negative = [](const Records& given) {

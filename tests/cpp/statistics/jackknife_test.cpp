@@ -41,7 +41,7 @@ TEST(Jackknife, IsTheStandardErrorOfAMean) {
 
 // Rare events, such as the longest waiting times, occur in one replica only. Their part of the mean is not a
 // binary fraction, so that mean + (mean - x)/(R-1) would leave rounding errors, whose ratio is arbitrary.
-TEST(Jackknife, KnowsNoRatioWithoutTheOnlyReplicaThatHasOne) {
+TEST(Jackknife, HasNoRatioWithoutTheOnlyReplicaThatHasOne) {
   for (const int replicas : {3, 7, 24, 49}) {
     Records records(2);
     for (int i = 1; i < replicas; ++i) records.append(std::vector{0.0, 0.0});

@@ -41,7 +41,7 @@ PeakWindows windows_of(const Records& records) {
   return peak_windows(records, Tally{0, records.width()}, times.size());
 }
 
-/// Of a mean record that holds nothing but the profiles, and that lives on.
+/// Peak of a mean record with the profiles only. The record must outlive it.
 MovingPeak peak_of(const std::vector<double>& mean, const PeakWindows& windows) {
   return {mean, times, windows};
 }

@@ -54,7 +54,7 @@ TEST(Record, HoldsEveryTallyAtItsPlace) {
   EXPECT_TRUE(std::ranges::equal(view[tallies.table], record[tallies.table]));
 }
 
-// Mutants: fewer values, or more, copied without a word.
+// Mutants: fewer values, or more, copied silently.
 TEST(Record, RefusesArraysOfAnotherSize) {
   const Tallies tallies;
   Record record(tallies);

@@ -47,7 +47,7 @@ TEST(Blocking, RisesToTheErrorOfACorrelatedProcess) {
   EXPECT_TRUE(result.converged());
 }
 
-TEST(Blocking, TellsThatBlocksAreTooShort) {
+TEST(Blocking, FindsBlocksThatAreTooShort) {
   const Blocking result = blocking(process(0.98, 400, 8, 2, 3));
   EXPECT_GT(result.error.back(), 2 * result.error.front());
   EXPECT_FALSE(result.converged());

@@ -44,7 +44,7 @@ double reduced(const Records& records) {
   return zero_mean_p_value(*regress_out(records, support::on_last(records, 2)), support::columns(0, 3), 2);
 }
 
-/// Whether a count of 2000 trials lies within four standard deviations of the level.
+/// Whether a count of 2000 trials is within four standard deviations of the level.
 bool has_size(int count, double level) {
   return std::abs(count - 2000 * level) < 4 * std::sqrt(2000 * level * (1 - level));
 }

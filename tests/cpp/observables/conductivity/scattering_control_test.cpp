@@ -78,7 +78,7 @@ Found found(double sigma, double assumed_sigma, bool late) {
 
 // Mutants: the momentum after the collision, which depends on s and gives a nonzero mean; the wrong sign of
 // sigma, which reduces the explained variance only.
-TEST(ScatteringControl, HasMeanZeroAndKnowsTheNoise) {
+TEST(ScatteringControl, HasMeanZeroAndExplainsTheNoise) {
   for (const double sigma : {0.5, -0.3, 0.9}) {
     const Found right = found(sigma, sigma, false), late = found(sigma, sigma, true),
                 reversed = found(sigma, -sigma, false);
