@@ -1,0 +1,97 @@
+#include "observables/conductivity/ends_and_openings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace ends_and_openings_test {
+
+using namespace lorentz;
+
+/// A scatterer is hit: U before and after.
+Collision hit(std::uint32_t scatterer, double time, double before, double after) {
+  return {time, 0, scatterer, 0, 0, before, after};
+}
+
+/// Without injection, so that nothing is subtracted from the controls; eight blocks of length 1.
+const OpenChain chain{.cells = 3, .left = {0, 1}, .right = {0, 1}};
+const Window window{2, 10};
+
+std::vector<double> recorded(const EndsAndOpenings& observer, const BlockTallies& tallies, Tally tally) {
+  Record record(tallies);
+  observer.record(tallies, record);
+  return {record[tally].begin(), record[tally].end()};
+}
+
+// Mutants: an energy of u^2, or without the sign; a crossing that counts whole; exits left out; blocks from 0
+// on.
+TEST(EndsAndOpenings, Currents) {
+  const BlockTallies tallies;
+  EndsAndOpenings observer(chain, window);
+  observer.on_injection(End::left, 2.5, 2);
+  observer.on_exit(End::right, 3.5, 3);
+  observer.on_exit(End::left, 3.75, -1);
+  observer.on_injection(End::right, 9.5, -4);
+  for (const double outside : {1.9, 10.}) {
+    observer.on_injection(End::left, outside, 2);
+    observer.on_exit(End::left, outside, -2);
+  }
+  EXPECT_EQ(recorded(observer, tallies, tallies.energy_current),
+            (std::vector<double>{1, 2, 0, 0, 0, 0, 0, -4}));
+  EXPECT_EQ(recorded(observer, tallies, tallies.particle_current),
+            (std::vector<double>{0.5, 0, 0, 0, 0, 0, 0, -0.5}));
+  const std::vector<double> injection = recorded(observer, tallies, tallies.injection);
+  EXPECT_EQ(std::vector(injection.begin(), injection.begin() + 6), (std::vector<double>{1, 2, 2, 0, 0, 0}));
+  EXPECT_EQ(std::vector(injection.end() - 6, injection.end()), (std::vector<double>{0, 0, 0, 1, 4, 8}));
+}
+
+// Mutants: the momentum after the collision; the middle scatterer in place of the last.
+TEST(EndsAndOpenings, Temperatures) {
+  const BlockTallies tallies;
+  EndsAndOpenings observer(chain, window);
+  observer.on_collision(hit(0, 4.5, 2, 4));
+  observer.on_collision(hit(1, 5.5, 100, 100));
+  observer.finish({4, 100, 3}, 10);
+  EXPECT_EQ(recorded(observer, tallies, tallies.temperature),
+            (std::vector<double>{4, 9, 4, 9, 10, 9, 16, 9, 16, 9, 16, 9, 16, 9, 16, 9}));
+}
+
+// Two flights, one through the first cell to the last scatterer, one that reaches the first one before the
+// window. Mutants: arrivals at the end of the flight only; without the window.
+TEST(EndsAndOpenings, ArrivalsAndScatteringControl) {
+  const BlockTallies tallies;
+  OpenChain rare = chain;
+  rare.gamma = 1.5;  // half of those that arrive are scattered
+  rare.sigma = 0;    // and exchange momenta
+  EndsAndOpenings observer(rare, window);
+  observer.on_flight({.departure = 3,
+                      .arrival = 5.5,
+                      .velocity = 2,
+                      .from = 0,
+                      .first = 0,
+                      .last = 5,
+                      .time_per_place = 0.5});
+  observer.on_flight({.departure = 1,
+                      .arrival = 1.5,
+                      .velocity = 7,
+                      .from = 0,
+                      .first = 0,
+                      .last = 1,
+                      .time_per_place = 0.5});
+  observer.finish({1, 0, 3}, 10);
+  EXPECT_EQ(recorded(observer, tallies, tallies.arrivals), (std::vector<double>{1, 1}));
+  EXPECT_EQ(recorded(observer, tallies, tallies.arriving_energy), (std::vector<double>{4, 4}));
+  // It passed the first scatterer at 3.5: -1/2 (4 - 1); it was scattered by the last one at 5.5: +1/2 (4 -
+  // 9).
+  EXPECT_EQ(recorded(observer, tallies, tallies.scattering),
+            (std::vector<double>{0, 0, -1.5, 0, 0, 0, 0, -2.5, 0, 0, 0, 0, 0, 0, 0, 0}));
+}
+
+TEST(EndsAndOpenings, BothEndsMayBeOneCell) {
+  const BlockTallies tallies;
+  EndsAndOpenings observer({.cells = 1, .left = {0, 1}, .right = {0, 1}}, window);
+  observer.finish({3}, 10);
+  EXPECT_EQ(recorded(observer, tallies, tallies.temperature), std::vector<double>(16, 9));
+}
+
+}  // namespace ends_and_openings_test

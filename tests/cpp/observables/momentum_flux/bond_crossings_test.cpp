@@ -1,0 +1,88 @@
+#include "observables/momentum_flux/bond_crossings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace bond_crossings_test {
+
+using namespace lorentz;
+using Values = std::vector<double>;
+
+const OpenChain chain{.cells = 2, .left = {3, 2}, .right = {0, 1}};
+const Window window{2, 10};
+const Bins bins(4, 4);
+
+Values sums(const BondCrossings& observer, const BondTallies& tallies, Tally tally) {
+  Record record(tallies);
+  observer.record(tallies, record);
+  Values values(record[tally].begin(), record[tally].end());
+  for (double& value : values) value *= 8;
+  return values;
+}
+
+// One flight to the right over two bonds in the bin [0, 2), one to the left over the first bond in [-4, -2),
+// one that no bin holds. Mutants: bonds counted from the scatterers on; halves exchanged; bins before bonds;
+// p^3 for p^4.
+TEST(BondCrossings, ByMomentumAndDirection) {
+  const BondTallies tallies(2, bins);
+  BondCrossings observer(chain, window, bins);
+  observer.on_flight(
+      {.departure = 3, .arrival = 6, .velocity = 1, .from = 0, .first = 0, .last = 3, .time_per_place = 1});
+  observer.on_flight({.departure = 5,
+                      .arrival = 6,
+                      .velocity = -2.5,
+                      .from = 1,
+                      .first = 0,
+                      .last = 0,
+                      .time_per_place = 1});
+  observer.on_flight(
+      {.departure = 5, .arrival = 6, .velocity = 5, .from = 3, .first = 4, .last = 4, .time_per_place = 1});
+  EXPECT_EQ(sums(observer, tallies, tallies.crossings), (Values{1, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0}));
+  EXPECT_EQ(sums(observer, tallies, tallies.sums[0]), (Values{1, 0, 0, 1, 1, 1}));
+  EXPECT_EQ(sums(observer, tallies, tallies.sums[1]), (Values{6.25, 0, 0, 1, 1, 25}));
+  EXPECT_EQ(sums(observer, tallies, tallies.sums[2]), (Values{39.0625, 0, 0, 1, 1, 625}));
+}
+
+// Mutants: flights as a whole, which count the bond 0 reached at 1 and the bond 1 reached at 10.
+TEST(BondCrossings, WithinTheWindow) {
+  const BondTallies tallies(2, bins);
+  BondCrossings observer(chain, window, bins);
+  observer.on_flight(
+      {.departure = 1, .arrival = 4, .velocity = 1, .from = 0, .first = 0, .last = 3, .time_per_place = 1});
+  observer.on_flight(
+      {.departure = 9, .arrival = 11, .velocity = 1, .from = 1, .first = 2, .last = 3, .time_per_place = 1});
+  EXPECT_EQ(sums(observer, tallies, tallies.sums[0]), (Values{0, 0, 0, 0, 1, 0}));
+}
+
+// Mutants: the rate of the other reservoir; the edges with their sign; the whole injection in every bin.
+TEST(BondCrossings, ExpectedInjections) {
+  double sum = 0;
+  const Bins wide(40, 16);
+  for (std::size_t bin = 0; bin < 40; ++bin) {
+    const double expected = expected_injections(chain, window, wide, bin);
+    EXPECT_EQ(expected == 0, bin < 20) << bin;
+    sum += expected;
+  }
+  EXPECT_NEAR(sum, 3 * 8, 1e-12);
+  EXPECT_NEAR(expected_injections(chain, window, bins, 2), 24 * std::erf(2 / std::sqrt(2 * 2.)), 1e-12);
+}
+
+// Mutant: what came in not counted, or with the expected number of all bins.
+TEST(BondCrossings, InjectionsMinusTheirMean) {
+  const BondTallies tallies(2, bins);
+  BondCrossings observer(chain, window, bins);
+  observer.on_injection(End::left, 5, 1);
+  observer.on_injection(End::left, 5, 3);
+  observer.on_injection(End::left, 5, 1.5);
+  Record record(tallies);
+  observer.record(tallies, record);
+  const auto found = record[tallies.bin_injection];
+  EXPECT_EQ(found[0], 0);
+  EXPECT_DOUBLE_EQ(found[2], 2 - expected_injections(chain, window, bins, 2));
+  EXPECT_DOUBLE_EQ(found[3], 1 - expected_injections(chain, window, bins, 3));
+  EXPECT_EQ(record[tallies.injection][0], 3 - 24);
+}
+
+}  // namespace bond_crossings_test

@@ -1,0 +1,37 @@
+#include "sampling/injection_controls.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace injection_controls_test {
+
+using namespace lorentz;
+
+constexpr OpenChain chain{
+    .cells = 3, .left = {.rate = 5, .temperature = 2}, .right = {.rate = 0, .temperature = 8}};
+
+// Mutants: u in place of |u|; u^2 without the half; both ends in one.
+TEST(InjectionControls, SumWhatEachReservoirInjects) {
+  InjectionControls controls;
+  controls.add(End::right, -3);
+  controls.add(End::right, -1);
+  const auto found = controls.deviations(chain, 10);  // nothing is expected from the right
+  EXPECT_EQ(found[3], 2);
+  EXPECT_EQ(found[4], 4);
+  EXPECT_EQ(found[5], 5);
+}
+
+// Mutants: the duration left out; the means of the other reservoir.
+TEST(InjectionControls, SubtractTheKnownMeans) {
+  InjectionControls controls;
+  controls.add(End::left, 4);
+  const auto found = controls.deviations(chain, 10);
+  EXPECT_EQ(found[0], 1 - 50);
+  EXPECT_DOUBLE_EQ(found[1], 4 - 50 * std::sqrt(4 / std::numbers::pi));
+  EXPECT_DOUBLE_EQ(found[2], 8 - 50 * 1);
+  EXPECT_EQ(InjectionControls::axis().values.size(), found.size());
+}
+
+}  // namespace injection_controls_test
