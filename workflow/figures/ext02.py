@@ -38,7 +38,7 @@ def caption(exponents: pd.DataFrame, results: Sequence[Result]) -> str:
     return f"""
         Local exponents of κ = −J_U N/ΔT between neighbouring sizes, runs of ext. 9; {parameters(results, "gamma", "sigma")},
         {replicas(results)}. ΔT is that of (a) the first and the last scatterer, as in the paper, (b) the particles that arrive there, (c) the baths. Dashed: 1/3.
-        At the spacing λ = 1/N of the paper the gas thins out as the chain grows; at fixed λ large N is the thermodynamic limit. From the
+        At the paper's spacing λ = 1/N the gas thins out as the chain grows; fixed λ has a thermodynamic limit. From the
         smallest to the largest sizes the exponents of (a) go from {ranges}. Neighbouring points share a size; spacings are shifted sideways. {ERRORS}"""
 
 

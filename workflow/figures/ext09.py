@@ -88,7 +88,7 @@ def rival(part: pd.DataFrame, first: float) -> str:
     """What the sizes from the first on say of a power law."""
     (power,) = (one for one in fits(part.cells, part.kappa, part.kappa_error, first) if one.law == POWER)
     if power.p_value < LEVEL:
-        return "is rejected"
+        return "is"
     return f"with exponent {with_error(power.exponent, power.exponent_error)} is not either"
 
 
@@ -149,9 +149,9 @@ def caption(table: pd.DataFrame, results: Sequence[Result], spacing: Mapping[str
     held = f"It is not rejected {listed(found)}" if found else "It is rejected everywhere"
     return f"""
         Heat conductivity κ = −J_U N/(T_N − T_1) of open chains at the paper's spacing λ = 1/N, where the gas thins out, and at
-        fixed λ, the thermodynamic limit; {parameters(results, "gamma", "sigma")}, {baths(results[0])}, {replicas(results)}.
+        fixed λ; {parameters(results, "gamma", "sigma")}, {baths(results[0])}, {replicas(results)}.
         (a) Logarithmic axes. (b) Against the cube root of N; lines: a + b N^(1/3) where it is not rejected at the
-        {100 * LEVEL:.0f} % level. (c) Deviation from it; lines: other laws, fitted to the same sizes. {held}. {ERRORS}"""
+        {100 * LEVEL:.0f} % level. (c) Deviation from it; lines: other laws fitted to these sizes. {held}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:

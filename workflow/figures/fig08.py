@@ -80,8 +80,8 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         Heat conductivity κ = −J_U N/(T_N − T_1) of open chains against the number of cells N, {parameters(weak, "cell-length", "sigma")},
         {baths(weak[0])}, {replicas(results)}. Triangles: stronger drive, T_R/T_L = {number(table.drive.max())} (ext. 9). (a) κ; dashed
         grey: the paper's powers of N, blue: mean field, the kinetic equation of N scatterers. (b) Local exponents between neighbouring
-        sizes. For γ = 1 the exponent tends to {rare.iloc[-1]}. For γ = N there is no single power, as the gas thins out: from {often.iloc[0]} at the
-        smallest sizes the exponent rises above 1/2 and falls to {often.iloc[-1]} at the largest; {strong.iloc[-1]} at the stronger drive. {ERRORS}"""
+        sizes. For γ = 1 the exponent tends to {rare.iloc[-1]}. For γ = N no single power holds, as the gas thins out: from {often.iloc[0]} at the
+        smallest sizes the exponent rises above 1/2 and falls to {often.iloc[-1]} at the largest; {strong.iloc[-1]} at stronger drive. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
