@@ -13,7 +13,7 @@
 
 namespace lorentz {
 
-/// What distinguishes one option from another, and, from Options::add() on, what all have.
+/// One option. Options::add() fills in name, help and role.
 struct Option {
   std::string type;
   std::function<bool(const std::string&)> read;  // sets the value; false if the text is not admissible

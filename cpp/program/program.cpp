@@ -97,7 +97,7 @@ void Program::require_replaceable() const {
   };
   const Hdf5Reader file(output_);
   require(file.has_attribute("/provenance", "build_id", std::string(build_info.build_id)),
-          "no result of this program in this build");
+          "not a result of this build of the program");
   for (const auto& [name, value] : options_.parameters())
     require(file.has_attribute("/parameters", name, value), "a result with another --" + name);
 }

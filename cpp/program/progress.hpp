@@ -19,7 +19,7 @@ class Progress {
   /// Prints a line unless the style is none: a result, or why the run stops.
   void say(const std::string& line);
 
-  /// Prints a line in every style: something is wrong.
+  /// Prints a warning in every style, also `none`.
   void warn(const std::string& line);
 
  private:

@@ -112,10 +112,10 @@ void StudyProgram::require_consistent() {
   if (!(range >> part_first_ >> dash >> part_last_) || dash != '-' || !range.eof() ||
       part_first_ > part_last_ || part_last_ >= replicas_)
     throw UsageError(fmt::format(
-        "--part {} is no range of replicas. Give the first and the last, as 0-{}, of a run that has {}.",
+        "--part {} is not a range of replicas. Give the first and the last, as 0-{}, of a run that has {}.",
         part_, replicas_ - 1, replicas_));
   if (!program_.output().ends_with(RecordFile::part_suffix))
-    throw UsageError(fmt::format("--part writes records, not results. Let --output '{}' end with {}.",
+    throw UsageError(fmt::format("--part writes records, not results. The --output '{}' must end with {}.",
                                  program_.output(), RecordFile::part_suffix));
 }
 

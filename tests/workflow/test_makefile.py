@@ -95,8 +95,8 @@ def test_a_user_without_name_and_home(moved: Clone) -> None:
 @pytest.mark.parametrize(
     ("flock", "line", "status"),
     [
-        ("exit 75", "Another make runs in this folder", 1),
-        ("echo 'flock: 9: No locks available' >&2; exit 71", "No locks here (No locks available)", 0),
+        ("exit 75", "Another make is running in this folder", 1),
+        ("echo 'flock: 9: No locks available' >&2; exit 71", "File locks do not work here (No locks available)", 0),
     ],
 )
 def test_locks(clean: Clone, tmp_path: Path, flock: str, line: str, status: int) -> None:

@@ -57,7 +57,7 @@ if [ "$(id -u)" -eq 0 ] && command -v apt-get >/dev/null; then
     exit 0
   fi
   tail -n 20 "$log" >&2
-  echo "apt-get could not install them; the whole log is in $log" >&2
+  echo "apt-get failed (whole log: $log): fix the cause, or install the packages yourself, then run make again" >&2
   exit 1
 fi
 

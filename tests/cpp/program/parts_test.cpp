@@ -128,7 +128,7 @@ TEST_F(Parts, ExcludeWhatWouldChangeTheirNumber) {
                                 {"--join", folder / "parts"}})
     EXPECT_EQ(measure_part("0-3", not_again, more), 2) << more[0];
   EXPECT_EQ(run({"--part", "0-3", "--output", folder / "a.h5"}, not_again), 2);
-  EXPECT_NE(complaints.find("end with .part"), std::string::npos) << complaints;
+  EXPECT_NE(complaints.find("must end with .part"), std::string::npos) << complaints;
 }
 
 }  // namespace parts_test
