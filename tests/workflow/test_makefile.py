@@ -96,7 +96,11 @@ def test_a_user_without_name_and_home(moved: Clone) -> None:
     ("flock", "line", "status"),
     [
         ("exit 75", "Another make is running in this folder", 1),
-        ("echo 'flock: 9: No locks available' >&2; exit 71", "File locks do not work here (No locks available)", 0),
+        (
+            "echo 'flock: 9: No locks available' >&2; exit 71",
+            "File locks do not work here (No locks available)",
+            0,
+        ),
     ],
 )
 def test_locks(clean: Clone, tmp_path: Path, flock: str, line: str, status: int) -> None:

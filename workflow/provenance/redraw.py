@@ -1,8 +1,7 @@
-"""Renders a panel again in a temporary folder and compares bytes."""
+"""Renders a panel again in build/audit and compares bytes."""
 
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 from workflow.lib.figure_metadata import ROOT, file_hash, read_panel
@@ -11,7 +10,7 @@ from workflow.provenance.checks import Fault, Products, other_package
 
 
 def redraw(products: Products, panel: str) -> Fault | None:
-    """Fault of the first file whose bytes differ; None if all are equal."""
+    """Fault of the first file whose bytes differ, which stays for comparison; None if all are equal."""
     files = [path for path in drawings_of(products.quality, panel) if not path.endswith(".json")]
     drawn_with = read_panel(ROOT / files[0].replace(".pdf", ".json"))["parents"].python
     here = f"{sys.version_info.major}.{sys.version_info.minor}"
@@ -19,15 +18,17 @@ def redraw(products: Products, panel: str) -> Fault | None:
         return Fault(files[0], f"rendered by Python {drawn_with}, this is {here}", broken=False)
     if difference := other_package():
         return Fault(files[0], f"other packages: {difference}", broken=False)
-    with tempfile.TemporaryDirectory() as folder:
-        again = Path(folder) / products.quality
-        command = drawing_command(products.plan, products.quality, panel, str(again / panel))
-        words = ["bash", "-c", f"source workflow/environment/variables.sh; {command}"]
-        done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False)
-        if done.returncode:
-            last = (done.stderr.strip().splitlines() or ["no message"])[-1]
-            return Fault(files[0], f"cannot be rendered: {last}")
-        for path in files:
-            if file_hash(ROOT / path) != file_hash(again / Path(path).name):
-                return Fault(path, "rendering it again from its parents gives other bytes")
+    again = ROOT / "build/audit" / products.quality
+    command = drawing_command(products.plan, products.quality, panel, str(again / panel))
+    words = ["bash", "-c", f"source workflow/environment/variables.sh; {command}"]
+    done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False)
+    if done.returncode:
+        last = (done.stderr.strip().splitlines() or ["no message"])[-1]
+        return Fault(files[0], f"cannot be rendered: {last}")
+    for path in files:
+        other = again / Path(path).name
+        if file_hash(ROOT / path) != file_hash(other):
+            return Fault(path, f"rendering it again gives other bytes: compare {other.relative_to(ROOT)}")
+    for other in again.glob(f"{panel}.*"):
+        other.unlink()
     return None
