@@ -150,7 +150,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result], spacing: Mapping[str
     return f"""
         Heat conductivity κ = −J_U N/(T_N − T_1) of open chains at the paper's spacing λ = 1/N, where the gas thins out, and at
         fixed λ; {parameters(results, "gamma", "sigma")}, {baths(results[0])}, {replicas(results)}.
-        (a) Logarithmic axes. (b) Against the cube root of N; lines: a + b N^(1/3) where it is not rejected at the
+        (b) Lines: a + b N^(1/3) where it is not rejected at the
         {100 * LEVEL:.0f} % level. (c) Deviation from it; lines: other laws fitted to these sizes. {held}. {ERRORS}"""
 
 

@@ -78,7 +78,7 @@ def caption(results: Sequence[Result]) -> str:
         Density Ψ(τ) of the time between two scatterings of a particle in a closed chain,
         {parameters(results, *chain, *GAS, *WINDOW)}, {replicas(results)}. (a) Ψ; blue line:
         exact for σ = 0, n → ∞ and Gaussian momenta; at finite n only the amplitude is larger. (b), (c) Ψ times the paper's powers of τ. Black: power laws,
-        fitted by maximum likelihood in the shaded tail, with exponents {exponents}; the
+        fitted in the shaded tail, with exponents {exponents}; the
         paper has −{POWERS[0.0]} and −{POWERS[0.5]}. Open symbols: errors above {number(100 * UNSURE)} %; triangles: bins above the frame; empty bins
         omitted. {ERRORS}"""
 
