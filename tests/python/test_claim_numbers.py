@@ -21,6 +21,7 @@ from tests.python.known_results import (
 from workflow.claims.data import ratio
 from workflow.claims.judge import FUNCTIONS
 from workflow.claims.verdict import Number
+from workflow.lib.caption import scientific
 from workflow.lib.load import Quantity
 from workflow.lib.plan import Run
 
@@ -129,7 +130,7 @@ def test_exponents_and_drifts_of_every_sigma_but_0() -> None:
     drift, error = each("fig07_inset", "momentum_drift", *runs)
     evidence = FUNCTIONS["C22"](DATA)
     check(evidence.literal, np.log10(drift), error / drift / np.log(10), freedom=511)
-    assert f"The largest change is {drift.max():.1e}," in evidence.caveat
+    assert f"The largest change is {scientific(drift.max())}," in evidence.caveat
 
     evidence = FUNCTIONS["C21"](DATA)
     for numbers in (evidence.literal, evidence.intended):

@@ -134,7 +134,7 @@ def test_bands_as_they_are_written() -> None:
     assert Band.of("above 0") == Band(0, math.inf)
     assert Band.of("below -2") == Band(-math.inf, -2)
     for text in ("", "1", "2 to 1", "over 3", "nan to 1"):
-        with pytest.raises(ValueError, match=r"is no band|could not convert"):
+        with pytest.raises(ValueError, match=r"is not an acceptance band|could not convert"):
             Band.of(text)
 
 
