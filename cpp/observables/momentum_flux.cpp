@@ -129,6 +129,7 @@ Study momentum_flux(const Parameters& parameters) {
   require_fourth_powers(parameters.left, parameters.right);
   const OpenChain chain = parameters.chain();
   const Window window = parameters.times.window(chain.cells);
+  // Sums of p^4 per unit time, over up to 1e9 particles, stay finite.
   const double hottest = std::max(chain.left.temperature, chain.right.temperature);
   require_within(
       hottest * hottest * std::max(chain.left.rate + chain.right.rate, 1 / (window.end - window.begin)), 0,

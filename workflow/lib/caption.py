@@ -30,6 +30,7 @@ GAS = ("particles-per-cell", "temperature")
 BATHS = ("nu-left", "nu-right", "temperature-left", "temperature-right")
 WINDOW = ("relaxation-time", "observation-time")
 
+BASE = 10
 SMALLEST_P = -6  # power of ten; smaller p-values are printed as a bound
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 ERRORS = "Error bars: standard errors over replicas."
@@ -82,14 +83,14 @@ def replicas(results: Sequence[Result]) -> str:
 
 
 def scientific(value: float, digits: int = 2) -> str:
-    """3.8·10⁻¹⁵"""
+    """The value with this number of digits and a power of ten: 3.8·10⁻¹⁵."""
     mantissa, power = f"{value:.{digits - 1}e}".split("e")
     return f"{mantissa}·{power_of_ten(int(power))}".replace("-", "−")
 
 
 def power_of_ten(power: int) -> str:
-    """10⁻¹⁵"""
-    return str(10) + str(power).translate(SUPERSCRIPTS)
+    """The power as text: 10⁻¹⁵."""
+    return f"{BASE}{str(power).translate(SUPERSCRIPTS)}"
 
 
 def goodness(chi_square: float, freedom: int) -> str:
@@ -97,4 +98,4 @@ def goodness(chi_square: float, freedom: int) -> str:
     if freedom < 1:
         return "no degree of freedom to test it"
     p = p_value(chi_square, freedom)
-    return f"χ² = {chi_square:.1f} for {freedom}, p {f'= {p:.2g}' if p > 10**SMALLEST_P else f'< {power_of_ten(SMALLEST_P)}'}"
+    return f"χ² = {chi_square:.1f} for {freedom}, p {f'= {p:.2g}' if p > BASE**SMALLEST_P else f'< {power_of_ten(SMALLEST_P)}'}"

@@ -1,4 +1,4 @@
-"""Numbers quoted in questions.yaml and misprints.yaml by the name of their function; none decides a claim."""
+"""Numbers, gases and sizes quoted in questions.yaml and misprints.yaml by the name of their function; none decides a claim."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -51,7 +51,7 @@ def _sizes_of_half(data: Data, half: int) -> str:
 
 
 def kappa_exponent_dilute(data: Data) -> Number:
-    """Between baths at fixed density, of the two largest sizes."""
+    """Exponent of κ between baths at fixed density, from the two largest sizes."""
     return last_exponent(between_baths(data, "dilute"))
 
 
@@ -60,7 +60,7 @@ def kappa_exponent_dense(data: Data) -> Number:
 
 
 def heat_exponent(data: Data) -> Number:
-    """In the ring that was observed for the longest time."""
+    """Exponent of <Q²> over the last octave of the ring that was observed for the longest time."""
     return number(_longest(data), "local_exponent", -1, f"d ln⟨Q²⟩/d ln t at {longest_ring(data)}")
 
 
@@ -73,7 +73,7 @@ def heat_exponent_without_momentum(data: Data) -> Number:
 
 
 def heat_exponent_with_momentum(data: Data) -> Number:
-    """In the gas of the runs with random directions."""
+    """Exponent in the gas of the runs with random directions."""
     return number(_comparable(data), "local_exponent", -1)
 
 

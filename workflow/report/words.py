@@ -68,6 +68,7 @@ def value(number: Number) -> str:
 
 
 def value_or_text(found: Number | str) -> str:
+    """As value(); a text is returned as it is."""
     return found if isinstance(found, str) else value(found)
 
 
