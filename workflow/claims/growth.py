@@ -75,7 +75,7 @@ def last_exponents(data: Data) -> list[Number]:
     """Exponents of kappa between baths, in fig. 8 and in every series of ext09 that has been made."""
     try:
         series = [between_baths(data, name) for name in SERIES]
-    except MissingError:
+    except MissingError:  # no ext09 at all
         series = []
     return [last_exponent(runs) for runs in (sizes(data, "N"), *series) if len(runs) > 1]
 

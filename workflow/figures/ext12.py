@@ -16,10 +16,9 @@ from workflow.lib.fit import mean_of
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
-BESIDE = 1.12  # factor of the sizes at which neighbouring drives are plotted
 APART = 0.15  # of a place, by which starts are plotted beside each other
 WARM = "warm"
-LOOKS = [("o", style.SKY), ("s", style.BLACK), ("^", style.VERMILLION)]  # by drive, from weak to strong
+LOOKS = [("o", style.BLACK), ("s", style.SKY), ("^", style.VERMILLION)]  # by pair of sizes
 STARTS = {
     WARM: ("s", style.BLACK),
     "cold": ("v", style.BLUE),
@@ -42,7 +41,9 @@ def exponents(table: pd.DataFrame) -> pd.DataFrame:
         common = set.intersection(*(set(one.cells) for _, one in part.groupby("drive")))
         for ratio, one in part[part.cells.isin(common)].groupby("drive"):
             size, slope, error = local_exponents(one.cells, one.kappa, one.kappa_error)
-            columns = {"size": size, "exponent": slope, "exponent_error": error}
+            smaller, larger = one.cells.to_numpy()[:-1], one.cells.to_numpy()[1:]
+            columns = {"size": size, "smaller": smaller, "larger": larger}
+            columns |= {"exponent": slope, "exponent_error": error}
             parts.append(pd.DataFrame({"gas": name, "drive": ratio, **columns}))
     return pd.concat(parts, ignore_index=True)
 
@@ -61,12 +62,15 @@ def deviations(table: pd.DataFrame, quantity: str) -> pd.DataFrame:
 
 
 def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: str) -> None:
-    """Of one spacing, against the size."""
-    for place, ((ratio, one), shape) in enumerate(zip(found.groupby("drive"), LOOKS, strict=False)):
-        look = style.points(*shape, label=f"$T_R/T_L = {ratio:g}$")
-        axes.errorbar(BESIDE ** (place - 1) * one["size"], one.exponent, one.exponent_error, **look)
-    axes.set(title=rf"$\lambda = {spacing}$", ylim=(0, 0.7))
-    style.against_size(axes)
+    """Of one spacing, against the drive, between each two neighbouring sizes."""
+    for (sizes, one), shape in zip(found.groupby(["smaller", "larger"]), LOOKS, strict=False):
+        look = style.points(*shape, label="$N = {:g}$ to {:g}".format(*sizes))
+        axes.errorbar(one.drive, one.exponent, one.exponent_error, linestyle=":", **look)
+    drives = sorted(found.drive.unique())
+    axes.set(title=rf"$\lambda = {spacing}$", xscale="log", xlim=(drives[0] / 1.4, drives[-1] * 1.4), ylim=(0, 0.7))
+    axes.set_xticks(drives, [f"{ratio:g}" for ratio in drives])
+    axes.set_xticks([], minor=True)
+    axes.set_xlabel("$T_R/T_L$")
     style.guide_at(axes, 1 / 3, "")
 
 
@@ -90,8 +94,8 @@ def caption(slopes: pd.DataFrame, starts: pd.DataFrame, results: Sequence[Result
     kappa, current = (f"{largest[name]:.1f}" for name in COMPARED)
     return f"""
         Heat conductivity κ and particle current J_n of the open chains of ext. 9 for other drives and starts, {parameters(results, "gamma", "sigma")},
-        {replicas(results)}. (a)–(c) Local exponents of κ between neighbouring sizes, for ratios of the baths' temperatures of {drives} at
-        equal pressures, shifted sideways; dashed: 1/3. At these sizes they depend on the drive. (d)–(i) κ and J_n from several
+        {replicas(results)}. Top: local exponents of κ between neighbouring sizes against the ratio of the baths' temperatures, {drives} at
+        equal pressures; dashed: 1/3. At these sizes they depend on the drive. Middle and bottom: κ and J_n from several
         starts, relative to the mean over them: in equilibrium with the mean of the baths (warm), with the colder or the hotter one, and empty. They
         differ by up to {kappa} % in κ and {current} % in J_n. {ERRORS}"""
 
@@ -104,7 +108,7 @@ def draw(results: Sequence[Result]) -> Drawn:
         3,
         len(spacing),
         sharey="row",
-        figsize=(2.1 * style.COLUMN, 2 * style.HEIGHT),
+        figsize=(0.7 * len(spacing) * style.COLUMN, 2.1 * style.HEIGHT),
         height_ratios=[1.4, 1, 1],
     )
     for column, gas in zip(rows.T, spacing, strict=True):
@@ -125,5 +129,5 @@ def draw(results: Sequence[Result]) -> Drawn:
 
 
 if __name__ == "__main__":
-    pure = ("size", "exponent", "drive", "deviation")
+    pure = ("size", "smaller", "larger", "exponent", "drive", "deviation")
     run(draw, "Heat conductivity for several drives and starts", **dict.fromkeys(pure, "1"))

@@ -69,8 +69,8 @@ def caption(results: Sequence[Result]) -> str:
     return f"""
         Particles n_t(p) with momentum p in a chain that is empty at t = 0, times |p|; {parameters(results, "cells", "sigma", "gamma")},
         {baths(results[0])}, {replicas(results)}. The paper does not state the distance λ of the scatterers: columns; claims are
-        judged at λ = {JUDGED}. (a)–(c) Bins of width {number(bin_width(results[0]))}, too wide for the front; top: bin number, the paper's abscissa. (d)–(f) Logarithmic bins, both signs of p; circles: front p_0(t), where the density falls to half its
-        height. (g)–(i) p_0 over λ/2t. The front falls as t^a with a = {exponents} in the columns, not logarithmically.
+        judged at λ = {JUDGED}. Top: bins of width {number(bin_width(results[0]))}, too wide for the front; upper axis: bin number, the paper's abscissa. Middle: logarithmic bins, both signs of p; circles: front p_0(t), where the density falls to half its
+        height. Bottom: p_0 over λ/2t. The front falls as t^a with a = {exponents} in the columns, not logarithmically.
         {ERRORS}"""
 
 

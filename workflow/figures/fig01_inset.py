@@ -67,8 +67,8 @@ def caption(results: Sequence[Result]) -> str:
     slope, height = style.with_error(judged["log_slope"]), style.with_error(judged["plateau"], -1)
     return f"""
         Number n(t) of particles in a chain that is empty at t = 0; {parameters(results, "cells", "sigma", "gamma")},
-        {baths(results[0])}, {replicas(results)}. (a)–(c) n(t); line: a + b ln t, fitted in the shaded window, t = {number(first)} to {number(last)},
-        where no curvature is resolved. (d)–(f) Slope dn/d ln t between neighbouring times (circles) and height of |p| n_t(p) above the front, both signs
+        {baths(results[0])}, {replicas(results)}. Above: n(t); line: a + b ln t, fitted in the shaded window, t = {number(first)} to {number(last)},
+        where no curvature is resolved. Below: slope dn/d ln t between neighbouring times (circles) and height of |p| n_t(p) above the front, both signs
         (squares). They agree in a filled chain, which that with the largest λ is not yet: at λ = {JUDGED}, slope {slope} and height {height} at the end,
         logarithmic growth as in the paper. {ERRORS}"""
 

@@ -26,8 +26,16 @@ Schema = dict[str, Any]
 Keys = tuple[Any, ...]  # path in nested mappings and lists
 
 FOLDER = SCHEMA.parent
-EFFORT = ("cells", "max-replicas", "pairs-per-replica", "replicas", "target-absolute", "target-error")
-ALSO_PHYSICS = ("cells", "target-error")  # as well, in panels that plot against size or accuracy
+EFFORT = (
+    "cells",
+    "max-replicas",
+    "observation-time",
+    "pairs-per-replica",
+    "replicas",
+    "target-absolute",
+    "target-error",
+)
+ALSO_PHYSICS = ("cells", "observation-time", "target-error")  # given in paper.yaml, too
 OF_SERIES: Schema = {"program": True, "replicated": {"type": "boolean", "allowed": "true or false"}}
 NAME: Schema = {"type": "string", "pattern": "^[A-Za-z0-9_-]+$", "allowed": "letters, digits, _ and -"}
 NAMED: Schema = {"type": "object", "propertyNames": NAME, "minProperties": 1}
