@@ -64,8 +64,8 @@ def deviations(table: pd.DataFrame, quantity: str) -> pd.DataFrame:
 def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: str) -> None:
     """Of one spacing, against the drive, between each two neighbouring sizes."""
     for (sizes, one), shape in zip(found.groupby(["smaller", "larger"]), LOOKS, strict=False):
-        look = style.points(*shape, label="$N = {:g}$ to {:g}".format(*sizes))
-        axes.errorbar(one.drive, one.exponent, one.exponent_error, linestyle=":", **look)
+        look = style.points(*shape, label="$N = {:g}$ to {:g}".format(*sizes)) | {"linestyle": ":"}
+        axes.errorbar(one.drive, one.exponent, one.exponent_error, **look)
     drives = sorted(found.drive.unique())
     axes.set(title=rf"$\lambda = {spacing}$", xscale="log", xlim=(drives[0] / 1.4, drives[-1] * 1.4), ylim=(0, 0.7))
     axes.set_xticks(drives, [f"{ratio:g}" for ratio in drives])
