@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from workflow.claims.data import Data, number
+from workflow.claims.data import Data, MissingError, number
 from workflow.claims.growth import (
     BULK,
     between_baths,
@@ -18,6 +18,7 @@ from workflow.claims.verdict import Number
 from workflow.figures import ext13
 from workflow.lib import caption
 from workflow.lib.load import Result
+from workflow.report.words import value
 
 
 def kappa_of_small_chains(data: Data) -> Number:
@@ -50,13 +51,13 @@ def _sizes_of_half(data: Data, half: int) -> str:
     return f"N = {cells[0]} to {cells[-1]}"
 
 
-def kappa_exponent_dilute(data: Data) -> Number:
-    """Exponent of κ between baths at fixed density, from the two largest sizes."""
-    return last_exponent(between_baths(data, "dilute"))
-
-
-def kappa_exponent_dense(data: Data) -> Number:
-    return last_exponent(between_baths(data, "dense"))
+def kappa_at_fixed_density(data: Data) -> str:
+    """Exponents of κ between baths, from the two largest sizes of every fixed spacing."""
+    series = [between_baths(data, name) for name in ("dilute", "dense")]
+    found = [value(last_exponent(runs)) for runs in series if len(runs) > 1]
+    if not found:
+        raise MissingError("Fewer than two sizes of ext09 are stationary at this quality")
+    return caption.listed(found)
 
 
 def heat_exponent(data: Data) -> Number:
