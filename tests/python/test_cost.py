@@ -68,7 +68,7 @@ def test_an_unknown_series(monkeypatch: pytest.MonkeyPatch) -> None:
     [
         ({"cells": "continuum"}, 1),
         ({"cells": 20, "replicas": 3, "observation-time": 10, "relaxation-time": "5+0.05N"}, 48),
-        ({"replicas": 2, "pairs-per-replica": 4, "times": "0.1,0.5", "observation-time": 9}, 4),
+        ({"replicas": 2, "pairs-per-replica": 4, "times": "0.1,0.5"}, 4),
     ],
 )
 def test_effort(options: dict, expected: float) -> None:

@@ -87,7 +87,7 @@ def cells(options: Options) -> float:
 
 def effort(options: Options) -> float:
     """Replicas times pairs per replica times simulated time."""
-    last = str(options.get("times", options.get("observation-time", 1))).rpartition(",")[2]
+    last = str(options.get("observation-time", options.get("times", 1))).rpartition(",")[2]
     replicas = float(options.get("replicas", 1)) * float(options.get("pairs-per-replica", 1))
     return replicas * sum(at_size(time, cells(options)) for time in (last, options.get("relaxation-time", 0)))
 
