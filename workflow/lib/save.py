@@ -10,6 +10,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+import matplotlib as mpl
 from matplotlib.figure import Figure
 
 from workflow.lib.figure_metadata import PARENTS_LINE, Parents, commit
@@ -41,9 +42,11 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
         "svg": {"Title": text.title, "Creator": CREATOR, "Description": described, "Date": None},
     }
     contents = {}
-    for kind, metadata in pictures.items():
-        contents[kind] = _picture(figure, kind, metadata)
-        figure.set_layout_engine("none")  # keeps the layout of the first format
+    figure.get_layout_engine().execute(figure)
+    with mpl.rc_context({"figure.constrained_layout.use": False}):  # savefig would find the layout anew for every format
+        figure.set_layout_engine(None)
+        for kind, metadata in pictures.items():
+            contents[kind] = _picture(figure, kind, metadata)
     units, numbers = table.split("\n", maxsplit=1)
     head = [f"# {text.title}", units, f"# caption: {text.caption}", PARENTS_LINE + parents.digest()]
     contents["csv"] = "\n".join([*head, numbers]).encode()
