@@ -73,7 +73,7 @@ def test_standard_error_over_seeds(measure: Measure, name: str, quantity: str, o
         (
             "conductivity",
             "kappa",
-            {"cells": 8, "relaxation_time": "0.05N", "observation_time": 5, "target_error": 0.04},
+            {"cells": 8, "relaxation_time": "0.05N", "observation_time": 5, "target_error": 0.05},
         ),
     ],
 )

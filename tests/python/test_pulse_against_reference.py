@@ -13,6 +13,7 @@ from tests.python.test_pulse_peak import fit
 from workflow.lib.load import Result
 
 CELLS, PARTICLES, SIGMA, ENERGY, PULSE_ENERGY = 41, 20, 0.5, 5000, 50000
+PAIRS = {"N": 90, 1: 150}  # enough to find the mutants
 TIMES = {"N": (0.02, 0.03, 0.045, 0.06), 1: (0.008, 0.01, 0.015, 0.02)}
 
 
@@ -33,9 +34,9 @@ def damping_exponent(profiles: np.ndarray, times: tuple[float, ...]) -> float:
     return -np.polyfit(np.log(times), np.log(heights), 1)[0]
 
 
-def scores(result: Result, gamma: float, times: tuple[float, ...]) -> tuple[np.ndarray, float]:
+def scores(result: Result, gamma: float, times: tuple[float, ...], pairs: int) -> tuple[np.ndarray, float]:
     """z-scores of every cell reached by the pulse, at every time, and of the exponent."""
-    samples = reference(gamma, times, replicas=40, pairs=150)
+    samples = reference(gamma, times, replicas=40, pairs=pairs)
     mean, error = samples.mean(axis=0), samples.std(axis=0, ddof=1) / np.sqrt(len(samples))
     difference = result["energy_difference"]
     reached = np.abs(difference.mean) > 5 * difference.standard_error
@@ -57,18 +58,18 @@ def accepted(z: np.ndarray) -> bool:
 
 @pytest.mark.parametrize("gamma", ["N", 1])
 def test_profiles_and_exponent(measure: Measure, gamma: str | int) -> None:
-    times = TIMES[gamma]
+    times, pairs = TIMES[gamma], PAIRS[gamma]
 
     def pulse(**options: object) -> Result:
         physics = {"cells": CELLS, "particles_per_cell": PARTICLES, "sigma": SIGMA, "gamma": gamma}
-        effort = {"times": ",".join(map(str, times)), "pairs_per_replica": 150, "replicas": 40}
+        effort = {"times": ",".join(map(str, times)), "pairs_per_replica": pairs, "replicas": 40}
         return measure("energy_pulse", **physics | effort | options)
 
     visited = CELLS if gamma == "N" else gamma
-    z, exponent_score = scores(pulse(), visited, times)
+    z, exponent_score = scores(pulse(), visited, times, pairs)
     assert len(z) > 60
     assert accepted(z)
     assert abs(exponent_score) < 4
     # Mutants: lighter scatterers; a larger pulse.
-    assert not accepted(scores(pulse(sigma=0.4 if gamma == "N" else 0.3), visited, times)[0])
-    assert not accepted(scores(pulse(pulse_energy=53000), visited, times)[0])
+    assert not accepted(scores(pulse(sigma=0.4 if gamma == "N" else 0.3), visited, times, pairs)[0])
+    assert not accepted(scores(pulse(pulse_energy=53000), visited, times, pairs)[0])

@@ -92,7 +92,7 @@ def test_free_flight(measure: Measure) -> None:
     )
 
 
-SEEDS, MIRRORED, REPLICAS = 100, 50, 24
+SEEDS, MIRRORED, REPLICAS = 70, 40, 24
 
 
 def spread_accepted(values: np.ndarray, errors: np.ndarray) -> bool:
@@ -113,7 +113,7 @@ def mean_is_zero(samples: np.ndarray) -> bool:
 
 @pytest.mark.parametrize("gamma", ["N", 1])
 def test_errors_over_seeds(measure: Measure, gamma: str | int) -> None:
-    """Spread over 100 seeds against the stored errors, for all quantities of the peak."""
+    """Spread over 70 seeds against the stored errors, for all quantities of the peak."""
     times = "0.007,0.01,0.014,0.02" if gamma == "N" else "0.006,0.008,0.012,0.018"
     found: dict[str, list[np.ndarray]] = {}
     for seed in range(SEEDS):
@@ -122,7 +122,7 @@ def test_errors_over_seeds(measure: Measure, gamma: str | int) -> None:
             cells=41,
             particles_per_cell=20,
             gamma=gamma,
-            pairs_per_replica=16,
+            pairs_per_replica=10,
             replicas=REPLICAS,
             times=times,
             seed=seed,

@@ -71,6 +71,12 @@ class Clone:
         self.git("add", "--all")
         self.git("commit", "--quiet", "--allow-empty", "--message", "all")
 
+    def keep_only(self, *panels: str) -> None:
+        """Deletes results and figures of the other panels, as a check renders every panel again."""
+        for path in [*self.folder.glob("data/smoke/*"), *self.folder.glob("figures/smoke/*.*")]:
+            if path.stem not in panels:
+                shutil.rmtree(path) if path.is_dir() else path.unlink()
+
     def products(self) -> dict[str, bytes]:
         """Results and figures by path."""
         files = [

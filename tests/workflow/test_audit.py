@@ -92,11 +92,20 @@ def test_what_is_broken_is_named(kept: Clone, name: str) -> None:
     assert f"broken: {message}" in audit(kept, "--panel", "fig03", status=1)
 
 
+@pytest.mark.long  # the next test has four panels
 def test_all_of_it_holds(clean: Clone) -> None:
-    assert audit(clean).endswith(" 0 broken, 0 not checked, all else holds\n")
+    assert audit(clean).endswith("30 panels with their results: 0 broken, 0 not checked, all else holds\n")
+
+
+def test_four_panels_hold(kept: Clone) -> None:
+    """With results of their own, of others, and both."""
+    kept.keep_only("fig01", "fig01_inset", "ext12", "ext09")
+    printed = audit(kept)
+    assert printed.endswith("4 panels with their results: 0 broken, 0 not checked, all else holds\n")
 
 
 def test_what_is_not_in_the_plan_is_named(kept: Clone) -> None:
+    kept.keep_only("fig03")
     copy(RESULT, "data/smoke/fig03/mine.h5")(kept)
     assert "data/smoke/fig03/mine.h5: is not in the plan" in audit(kept, status=1)
 

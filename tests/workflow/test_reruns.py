@@ -130,6 +130,7 @@ def test_edited_products_are_named_by_audit_and_status(kept: Clone) -> None:
     result = kept.folder / "data/smoke/fig06/all_sigma=0.h5"
     result.write_bytes(result.read_bytes()[:-100])
     assert kept.stale() == {"fig06"}  # Snakemake compares checksums of inputs, and looks at no other product
+    kept.keep_only("fig03", "fig05", "fig06")
     printed = kept.module("provenance.audit", "--quality", "smoke", status=1)
     table = " ".join(kept.module("provenance.status", "--quality", "smoke").split())
     for fault in (

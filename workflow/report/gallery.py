@@ -55,6 +55,7 @@ def gallery(quality: str, root: Path = ROOT) -> None:
     """Writes all files or none. Raises ReportError."""
     context, folder = content(quality, root), root / GALLERY
     files = {folder / README: rendered("gallery.md", **context).encode()}
+    files[root / README] = with_blocks((root / README).read_text(), context).encode()
     for name in context["panels"]:
         stem = root / "figures" / quality / name
         files[folder / f"{name}.png"] = small(stem.with_suffix(".png"))
@@ -62,7 +63,6 @@ def gallery(quality: str, root: Path = ROOT) -> None:
             files[folder / f"{name}{kind}"] = stem.with_suffix(kind).read_bytes()
     for claim in context["claims"]:
         files[folder / "claims" / f"{claim['id']}.svg"] = rendered("strip.svg", claim=claim).encode()
-    files[root / README] = with_blocks((root / README).read_text(), context).encode()
     (folder / "claims").mkdir(parents=True, exist_ok=True)
     write_together(files)
 
