@@ -95,22 +95,22 @@ def test_waiting_times() -> None:
         check(FUNCTIONS[claim](data).literal, value, error, bound, 8191)
 
 
-def ext01(series: str, sigma: float, zero: bool, *times: int) -> list[str]:
-    name = f"{series}_sigma={sigma}_zero-total-momentum={zero}"
-    return [f"{name}_relaxation-time={time}" for time in times] or [name]
+def ext01(sigma: float, zero: bool) -> list[str]:
+    name = f"paper_sigma={sigma}_zero-total-momentum={zero}"
+    return [f"{name}_relaxation-time={time}" for time in (10, 1000)]
 
 
 @pytest.mark.parametrize(
     ("claim", "panel", "run", "sigma", "others"),
     [
-        ("C18", "fig07", "all", 0.5, [*ext01("paper", 0.5, True, 10, 1000), *ext01("dense", 0.5, True)]),
-        ("C19", "fig07_inset", "all_sigma=0", 0, ext01("dense", 0, False)),
+        ("C18", "fig07", "all", 0.5, [*ext01(0.5, True), "dense_sigma=0.5"]),
+        ("C19", "fig07_inset", "all_sigma=0", 0, ["dense-drift"]),
     ],
 )
 def test_spreading(claim: str, panel: str, run: str, sigma: float, others: list[str]) -> None:
     evidence = FUNCTIONS[claim](DATA)
     value, error = of(panel, run, "alpha")
-    relaxed, _ = each("ext01", "alpha", *ext01("paper", sigma, False, 10, 1000))
+    relaxed, _ = each("ext01", "alpha", *ext01(sigma, False))
     freedom = DATA.plan[panel].run(run).options["replicas"] - 1
     check(evidence.literal, value, error, abs(relaxed - value).max(), freedom)
     check(evidence.alternative, *each("ext01", "alpha", *others))

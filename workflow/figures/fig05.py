@@ -58,7 +58,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         Probability μ that a particle keeps its direction when it scatters, against the mass ratio, in closed chains,
         {parameters(results, "cells", "cell-length", "gamma", "temperature", "relaxation-time")}, n particles per cell, {replicas(results)}. (a) μ and
         the law arccos(σ)/π of Gaussian momenta at one temperature. (b) μ minus the law; dashes: the law at the
-        measured energies of particles and scatterers, which explains a part. The largest deviations are {listed(largest)}: the law is that of a dense chain,
+        measured energies of particles and scatterers, which explains a part. Largest deviations: {listed(largest)}; the law is that of a dense chain,
         and close to the paper's n = {table.particles_per_cell.min()}. {ERRORS}"""
 
 
