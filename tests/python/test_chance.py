@@ -57,7 +57,7 @@ def reference(chain: Chain) -> dict[str, np.ndarray]:
     words += [chain.replicas, 1, waiting_time_edges(chain)[0], BINS_PER_DECADE, BINS, *times]
     command = [str(word) for word in (ROOT / "build/bin/reference_closed_chain", *words)]
     output = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    rows = np.array([[float(word) for word in line.split()] for line in output.splitlines()])
+    rows = np.fromstring(output, sep=" ").reshape(chain.replicas, -1)
     moments, scatterings, persistent, waits = np.split(rows, 4 * len(times) + np.arange(3), axis=1)
     names = ("variance", "centre_of_mass", "mean_displacement", "scatterer_energy")
     found = dict(zip(names, np.moveaxis(moments.reshape(chain.replicas, -1, 4), 2, 0), strict=True))

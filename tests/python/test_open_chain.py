@@ -111,7 +111,7 @@ def test_number_of_particles_against_the_reference_simulator(measure: Measure) -
 @pytest.mark.parametrize("gamma", ["N", 1])
 def test_equilibrium(measure: Measure, gamma: str | int) -> None:
     """No currents; F and g are Gaussian at the temperature of the baths, by moments and by bins."""
-    options = {"cells": 8, "gamma": gamma, "replicas": 200, "relaxation_time": 50, "observation_time": 50}
+    options = {"cells": 8, "gamma": gamma, "replicas": 200, "relaxation_time": 20, "observation_time": 30}
     options |= {**EQUAL, "momentum_bins": BINS}
     profile = measure("steady_profile", **options)
     flux = measure("momentum_flux", **options)
