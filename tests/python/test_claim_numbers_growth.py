@@ -117,7 +117,7 @@ def test_heat_in_equilibrium() -> None:
     gas; the exponent itself; random directions among the gases."""
     data = Known({"fig08": conductivities, "ext11": response(), "ext13": uneven})
     evidence = FUNCTIONS["C24"](data)
-    rings = ("dilute-long", "dense-long", "light-longest")
+    rings = ("dilute-long", "dense-longest", "light-longest")
     found = {one.label.partition(", t = ")[0]: one for one in evidence.intended[:-1]}
     gases = ("ζ = 0.8, M = 3", "ζ = 1.6, M = 3", "ζ = 0.8, M = 0.33")
     assert len(found) == len(gases)

@@ -12,6 +12,11 @@ from workflow.lib.load import Result
 
 RUNS = {"deterministic": "γ = N", "rare": "γ = 1"}
 FROM_SIZE = 20  # smaller chains have no bulk
+DEVIATIONS = (  # quantity, what it is of, number of the first
+    ("rate_right", "rate to the right at scatterer", 1),
+    ("rate_left", "rate to the left at scatterer", 1),
+    ("particle_current", "particle current through bond", 0),
+)
 
 
 def _both(data: Data) -> list[tuple[Result, str]]:
@@ -60,11 +65,10 @@ def linear_rates(data: Data) -> Evidence:
     found = []
     for result, name in _both(data):
         scale = float(result["rate_right"].mean.mean())
-        for quantity in ("rate_right_deviation", "rate_left_deviation", "particle_current_deviation"):
-            word = quantity.removesuffix("_deviation").replace("_", " ")
-            where = "bond" if word == "particle current" else "scatterer"
-            for k in range(len(result[quantity].mean)):
-                found.append(number(result, quantity, k, f"{word} at {where} {k}, {name}").over(scale))
+        for quantity, words, first in DEVIATIONS:
+            for k in range(len(result[f"{quantity}_deviation"].mean)):
+                label = f"{words} {k + first}, {name}"
+                found.append(number(result, f"{quantity}_deviation", k, label).over(scale))
     return Evidence(found, found)
 
 

@@ -67,7 +67,9 @@ def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: str) -> None:
         look = style.points(*shape, label="$N = {:g}$ to {:g}".format(*sizes)) | {"linestyle": ":"}
         axes.errorbar(one.drive, one.exponent, one.exponent_error, **look)
     drives = sorted(found.drive.unique())
-    axes.set(title=rf"$\lambda = {spacing}$", xscale="log", xlim=(drives[0] / 1.4, drives[-1] * 1.4), ylim=(0, 0.7))
+    axes.set(
+        title=rf"$\lambda = {spacing}$", xscale="log", xlim=(drives[0] / 1.4, drives[-1] * 1.4), ylim=(0, 0.7)
+    )
     axes.set_xticks(drives, [f"{ratio:g}" for ratio in drives])
     axes.set_xticks([], minor=True)
     axes.set_xlabel("$T_R/T_L$")

@@ -43,7 +43,9 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
     }
     contents = {}
     figure.get_layout_engine().execute(figure)
-    with mpl.rc_context({"figure.constrained_layout.use": False}):  # savefig would find the layout anew for every format
+    with mpl.rc_context(
+        {"figure.constrained_layout.use": False}
+    ):  # savefig would find the layout anew for every format
         figure.set_layout_engine(None)
         for kind, metadata in pictures.items():
             contents[kind] = _picture(figure, kind, metadata)
