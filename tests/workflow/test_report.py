@@ -19,6 +19,8 @@ from tests.workflow.conftest import ROOT, Clone, files_below, replace
 from workflow.claims.judge import read_claims
 from workflow.lib.figure_metadata import embedded, read_panel
 from workflow.lib.plan import load_plan
+from workflow.report.gallery import gallery
+from workflow.report.sources import ReportError
 
 HTML = "figures/smoke/report.html"
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
@@ -124,12 +126,8 @@ def test_pictures_are_described(page: Page) -> None:
     assert all(picture.get("alt") or picture.get("aria-label") for picture in page.pictures)
 
 
-def gallery(clone: Clone, status: int = 0) -> str:
-    return clone.module("report.gallery", "--quality", "smoke", status=status)
-
-
 def test_the_gallery_has_every_panel_and_claim(kept: Clone) -> None:
-    gallery(kept)
+    kept.module("report.gallery", "--quality", "smoke")
     folder, panels = kept.folder / "docs/gallery", load_plan("smoke")
     assert {path.stem for path in folder.glob("*.png")} >= panels.keys()
     page = (folder / "README.md").read_text()
@@ -154,23 +152,25 @@ def test_the_gallery_has_every_panel_and_claim(kept: Clone) -> None:
 
 
 def test_the_gallery_shows_unmodified_products_only(kept: Clone) -> None:
+    def refused(reason: str) -> None:
+        with pytest.raises(ReportError, match=re.escape(reason)):
+            gallery("smoke", kept.folder)
+
     folder = kept.folder / "docs/gallery"
     before = files_below(folder)
     edited = kept.folder / "data/smoke/fig05/paper_sigma=0.h5"
     whole = edited.read_bytes()
     with h5py.File(edited, "r+") as file:
         file["results/mu/mean"][...] *= 1.001
-    assert f"{edited.name} was modified after it was written; run make audit" in gallery(kept, status=1)
+    refused(f"{edited.name} was modified after it was written; run make audit")
     edited.write_bytes(whole)
     picture = kept.folder / "figures/smoke/fig07.png"
     kept_picture = picture.read_bytes()
     picture.unlink()
-    assert "fig07.png is missing or damaged; run make figures QUALITY=smoke" in gallery(kept, status=1)
+    refused("fig07.png is missing or damaged; run make figures QUALITY=smoke")
     picture.write_bytes(kept_picture)
     replace("README.md", "<!-- end of the answer -->", "")(kept)
-    assert "has no line '<!-- end of the answer -->', which marks the answer; restore it" in gallery(
-        kept, status=1
-    )
+    refused("has no line '<!-- end of the answer -->', which marks the answer; restore it")
     assert files_below(folder) == before
 
 

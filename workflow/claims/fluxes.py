@@ -116,15 +116,16 @@ def _shaped(table: pd.DataFrame, cells: int, known: float) -> tuple[list[Number]
         replace(one.over(1 / size), error=spread * abs(one.value), freedom=known)
         for one in (*bins, *_at_zero(theory, cells))
     ]
-    told = f"It is {with_error(size, spread)} of that in mean field at N = {cells}, whose shape it has ({goodness(misfit, len(shape) - 1)})."
+    told = f"It is {with_error(size, spread)} of that in mean field at N = {cells}, whose shape it has ({goodness(misfit, np.count_nonzero(error) - 1)})."
     return scaled, told
 
 
 def _multiple(shape: np.ndarray, value: np.ndarray, error: np.ndarray) -> tuple[float, float, float]:
-    """Least-squares factor between values and shape, its error, and chi^2."""
-    variance = 1 / np.sum((shape / error) ** 2)
-    factor = variance * np.sum(shape * value / error**2)
-    return float(factor), float(np.sqrt(variance)), float(np.sum(((value - factor * shape) / error) ** 2))
+    """Least-squares factor between values and shape, its error, and chi^2, over bins with an error: with few replicas all may agree."""
+    weight = np.where(error > 0, error, np.inf) ** -2.0
+    variance = 1 / np.sum(weight * shape**2)
+    factor = variance * np.sum(weight * shape * value)
+    return float(factor), float(np.sqrt(variance)), float(np.sum(weight * (value - factor * shape) ** 2))
 
 
 def _at_zero(theory: pd.DataFrame, cells: int) -> list[Number]:

@@ -44,6 +44,7 @@ _FACTOR = re.compile(r"([a-z]+|1)(?:\^([1-9][0-9]?))?")
 _QUOTIENT = re.compile(r"([^/()]+)(?:/(?:([^/() ]+)|\(([^/()]+)\)))?")
 
 
+@cache
 def parse(text: str) -> Units:
     """Dimensions of a unit. Raises UnitsError if the text does not follow the grammar."""
     quotient = _QUOTIENT.fullmatch(text)
