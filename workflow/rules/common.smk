@@ -11,8 +11,9 @@ def run_of(wildcards):
 
 
 def priority_of_run(wildcards):
-    """The paper's panels first, one after the other, and of a panel the longest runs first."""
-    later = [*PLAN].index(wildcards.panel) + len(PLAN) * wildcards.panel.startswith("ext")
+    """Runs that the paper's panels show first, one panel after the other, and of a panel the longest runs first."""
+    users = (name for name, panel in PLAN.items() if wildcards.panel in (name, *panel.uses))
+    later = min([*PLAN].index(name) + len(PLAN) * name.startswith("ext") for name in users)
     return seconds_of_run(wildcards.panel, run_of(wildcards)) - 1e6 * later
 
 
