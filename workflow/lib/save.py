@@ -42,7 +42,8 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
         "svg": {"Title": text.title, "Creator": CREATOR, "Description": described, "Date": None},
     }
     contents = {}
-    figure.get_layout_engine().execute(figure)
+    if layout := figure.get_layout_engine():
+        layout.execute(figure)
     with mpl.rc_context(
         {"figure.constrained_layout.use": False}
     ):  # savefig would find the layout anew for every format
