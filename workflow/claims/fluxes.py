@@ -116,7 +116,7 @@ def _shaped(table: pd.DataFrame, cells: int, known: float) -> tuple[list[Number]
         replace(one.over(1 / size), error=spread * abs(one.value), freedom=known)
         for one in (*bins, *_at_zero(theory, cells))
     ]
-    told = f"It is {with_error(size, spread)} of that in mean field at N = {cells}, whose shape it has ({goodness(misfit, np.count_nonzero(error) - 1)})."
+    told = f"It is {with_error(size, spread)} of that in mean field at N = {cells}, whose shape it has ({goodness(misfit, int(np.count_nonzero(error)) - 1)})."
     return scaled, told
 
 
