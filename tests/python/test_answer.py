@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import ROOT
-from tests.python.known_results import DEFAULTS, QUANTITIES, Known, truth
-from workflow.claims.judge import Judgement, read_claims
+from tests.python.known_results import DEFAULTS, QUANTITIES, Known, truth, uneven
+from workflow.claims.judge import Judgement, judge_all, read_claims
 from workflow.claims.verdict import Band, Number, Outcome, Reading
 from workflow.lib.configuration import ConfigurationError
-from workflow.lib.plan import Run, load_plan
+from workflow.lib.load import Quantity
+from workflow.lib.plan import QUALITIES, Run, load_plan
 from workflow.report import numbers
 from workflow.report.questions import FILE, VERDICTS, answers, read_questions
 
@@ -97,6 +98,21 @@ def test_heat_transport_is_superdiffusive_if_the_longest_times_show_it(
     assert "do not conserve momentum, it is t^1.000(10): diffusion" in yes
     assert heat(0.9, 0.01, monkeypatch).startswith("No: ")
     assert heat(4 / 3, 0.1, monkeypatch).startswith("Undecided at quality paper")
+
+
+@pytest.mark.filterwarnings(
+    "ignore::RuntimeWarning"
+)  # of conductivities below 0, as the results are arbitrary
+@pytest.mark.parametrize("quality", QUALITIES)
+def test_every_quality_has_answers(quality: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Series that a quality leaves out end no report. Mutant: a number that takes the dilute chains of ext09 for granted."""
+
+    def fill(run: Run) -> dict[str, Quantity]:
+        return uneven(run) | truth({"stationary": 1, "current_correlation": 0.5}, 1e-9)(run)
+
+    monkeypatch.setitem(QUANTITIES["heat_current"], "heat_variance", ("time",))
+    data = Known(dict.fromkeys(load_plan(quality), fill), quality)
+    assert all(one["answer"] for one in answers(judge_all(data), data))
 
 
 def test_numbers_are_those_of_the_right_runs() -> None:
