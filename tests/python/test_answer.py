@@ -100,9 +100,8 @@ def test_heat_transport_is_superdiffusive_if_the_longest_times_show_it(
     assert heat(4 / 3, 0.1, monkeypatch).startswith("Undecided at quality paper")
 
 
-@pytest.mark.filterwarnings(
-    "ignore::RuntimeWarning"
-)  # of conductivities below 0, as the results are arbitrary
+# The results are arbitrary, some conductivities negative.
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
 @pytest.mark.parametrize("quality", QUALITIES)
 def test_every_quality_has_answers(quality: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Series that a quality leaves out end no report. Mutant: a number that takes the dilute chains of ext09 for granted."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from workflow.claims.data import Claim, Data, Evidence, combination, number, ratio
 from workflow.claims.verdict import Number
-from workflow.lib.fit import with_error
+from workflow.lib.fit import fit_multiple, with_error
 from workflow.lib.load import Result
 
 SPACINGS = {"paper": "1", "short": "0.05"}  # the other two, of which not every quality has both
@@ -71,14 +71,8 @@ def _misfits(result: Result) -> str:
     front = result["front"]
     time = front.axes["time"]
     return " and ".join(
-        f"{_misfit(front.mean, front.error, law):.0f}" for law in (1 / time, 1 / np.log(time))
+        f"{fit_multiple(law, front.mean, front.error)[2]:.0f}" for law in (1 / time, 1 / np.log(time))
     )
-
-
-def _misfit(value: np.ndarray, error: np.ndarray, law: np.ndarray) -> float:
-    """Chi square of value = a law."""
-    factor = np.sum(value * law / error**2) / np.sum(law**2 / error**2)
-    return float(np.sum(((value - factor * law) / error) ** 2))
 
 
 CLAIMS: dict[str, Claim] = {"C01": stationary_above_front, "C02": grows_as_logarithm, "C03": front_falls}

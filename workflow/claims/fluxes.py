@@ -20,7 +20,7 @@ from workflow.claims.data import (
 from workflow.claims.verdict import Number, with_systematic
 from workflow.figures import ext10, fig03_inset, fig04
 from workflow.lib.caption import goodness
-from workflow.lib.fit import with_error
+from workflow.lib.fit import fit_multiple, with_error
 from workflow.lib.load import Result
 
 # Nearly four thermal momenta of the hotter bath; beyond, a bin holds less than 1e-4 of the particles.
@@ -107,7 +107,7 @@ def _shaped(table: pd.DataFrame, cells: int, known: float) -> tuple[list[Number]
     value, error, shape = (
         one.to_numpy() for one in (simulation.deviation, simulation.error, theory.deviation)
     )
-    size, spread, misfit = _multiple(shape, value, error)
+    size, spread, misfit = fit_multiple(shape, value, error)
     bins = [
         Number(f"F_N - F as printed, N = {cells}, p = {row.momentum:g}", row.absolute_as_printed, 0.0)
         for row in theory.itertuples()
@@ -118,14 +118,6 @@ def _shaped(table: pd.DataFrame, cells: int, known: float) -> tuple[list[Number]
     ]
     told = f"It is {with_error(size, spread)} of that in mean field at N = {cells}, whose shape it has ({goodness(misfit, int(np.count_nonzero(error)) - 1)})."
     return scaled, told
-
-
-def _multiple(shape: np.ndarray, value: np.ndarray, error: np.ndarray) -> tuple[float, float, float]:
-    """Least-squares factor between values and shape, its error, and chi^2, over bins with an error: with few replicas all may agree."""
-    weight = np.where(error > 0, error, np.inf) ** -2.0
-    variance = 1 / np.sum(weight * shape**2)
-    factor = variance * np.sum(weight * shape * value)
-    return float(factor), float(np.sqrt(variance)), float(np.sum(weight * (value - factor * shape) ** 2))
 
 
 def _at_zero(theory: pd.DataFrame, cells: int) -> list[Number]:

@@ -64,7 +64,7 @@ def deviations(table: pd.DataFrame, quantity: str) -> pd.DataFrame:
 def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: str) -> None:
     """Of one spacing, against the drive, between each two neighbouring sizes."""
     for (sizes, one), shape in zip(found.groupby(["smaller", "larger"]), LOOKS, strict=False):
-        look = style.points(*shape, label="$N = {:g}$ to {:g}".format(*sizes)) | {"linestyle": ":"}
+        look = style.points(*shape, linestyle=":", label="$N = {:g}$ to {:g}".format(*sizes))
         axes.errorbar(one.drive, one.exponent, one.exponent_error, **look)
     drives = sorted(found.drive.unique())
     axes.set(

@@ -44,9 +44,8 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
     contents = {}
     if layout := figure.get_layout_engine():
         layout.execute(figure)
-    with mpl.rc_context(
-        {"figure.constrained_layout.use": False}
-    ):  # savefig would find the layout anew for every format
+    # With a layout engine, savefig would lay the figure out again for every format.
+    with mpl.rc_context({"figure.constrained_layout.use": False}):
         figure.set_layout_engine(None)
         for kind, metadata in pictures.items():
             contents[kind] = _picture(figure, kind, metadata)
