@@ -18,15 +18,16 @@ Study bare_run(const Parameters& parameters) {
   validate(parameters, parameters.times);
   const Tallies tallies;
   const double end = parameters.times.window(parameters.scattering.cells).end;
-  const auto measure = [=](const Replica& replica, Record& record) {
+  const auto sample = [=](const Replica& replica, TallySums& sums) {
     OpenRun run(parameters, {0, end}, replica);
-    run.observe(NoObserver());
-    record[tallies.events] = static_cast<double>(run.events());
+    NoObserver nobody;
+    run.observe(nobody);
+    sums[tallies.events] = static_cast<double>(run.events());
     return run.events();
   };
   Group group;
-  group.quantity("events", "1", "Events of a replica", [=](RecordView mean) { return mean[tallies.events]; });
-  return {.tallies = tallies, .measure = measure, .groups = {group}, .target = "events"};
+  group.quantity("events", "1", "Events of a replica", [=](TallyMeans mean) { return mean[tallies.events]; });
+  return {.tallies = tallies, .sample = sample, .groups = {group}, .target = "events"};
 }
 
 }  // namespace

@@ -11,7 +11,6 @@
 
 #include "observables/steady_profile/cell_profile.hpp"
 #include "observables/steady_profile/profile.hpp"
-#include "program/study.hpp"
 #include "sampling/open_run.hpp"
 #include "statistics/control_variates.hpp"
 
@@ -26,7 +25,7 @@ struct Parameters : OpenParameters {
 
 /// Quantities of a mean record.
 struct Profile {
-  RecordView mean;
+  TallyMeans mean;
   const CellTallies& tallies;
 
   Values temperature() const { return mean_of(tallies.temperature)(mean); }
@@ -64,7 +63,7 @@ Group profiles(const CellTallies& tallies, double bin_width) {
     return reduce_variance(records, {{measured, columns_of({tallies.injection})}});
   });
   const auto of = [&](auto&& formula) {
-    return [=](RecordView mean) { return formula(Profile{mean, tallies}); };
+    return [=](TallyMeans mean) { return formula(Profile{mean, tallies}); };
   };
   const auto density = [](const Profile& profile) {
     return DensityProfile(profile.mean[profile.tallies.density]);
@@ -117,15 +116,9 @@ Study steady_profile(const Parameters& parameters) {
   const Window window = parameters.times.window(chain.cells);
   const Bins bins = parameters.bins.bins();
   const CellTallies tallies(chain.cells, bins);
-  const auto measure = [=](const Replica& replica, Record& record) {
-    OpenRun run(parameters, window, replica);
-    run.observe(CellProfile(chain, window, bins)).record(tallies, record);
-    return run.events();
-  };
-  return {.tallies = tallies,
-          .measure = measure,
-          .groups = {profiles(tallies, bins.width())},
-          .target = "energy_current_mean"};
+  return open_study(
+      parameters, window, tallies, [=] { return CellProfile(chain, window, bins); },
+      {profiles(tallies, bins.width())}, "energy_current_mean");
 }
 
 }  // namespace

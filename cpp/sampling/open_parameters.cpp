@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/open_start.hpp"
+#include "model/rules.hpp"
 #include "sampling/limits.hpp"
 
 namespace lorentz {
@@ -14,7 +15,8 @@ OpenChain OpenParameters::chain() const {
           .sigma = scattering.sigma,
           .gamma = scattering.mean_scatterings(),
           .left = left,
-          .right = right};
+          .right = right,
+          .rule = rule_properties(scattering.rule).name};
 }
 
 PhasePoint OpenParameters::start_point(double age, const StreamKey& key) const {

@@ -17,8 +17,7 @@ namespace lorentz {
 struct OpenParameters {
   ScatteringParameters scattering{.cells = 30};
   std::optional<double> cell_length{};  // none: 1/N
-  Reservoir left{220, 900. / 11};
-  Reservoir right{180, 1100. / 9};
+  Reservoir left = default_left, right = default_right;
   std::string start = "warm";
 
   OpenChain chain() const;

@@ -29,9 +29,9 @@ struct Errors {
 
 Errors finished(const ClosedRun& run) {
   const ClosedTallies tallies;
-  Record record(tallies);
-  const std::uint64_t events = run.finish(tallies, record);
-  return {events, record[tallies.energy_drift], record[tallies.momentum_drift]};
+  TallySums sums(tallies);
+  const std::uint64_t events = run.finish(tallies, sums);
+  return {events, sums[tallies.energy_drift], sums[tallies.momentum_drift]};
 }
 
 // Particles that are too slow to arrive: nothing happens, and nothing drifts. The clock restarts after 2^32
@@ -121,10 +121,10 @@ TEST(ConservationErrors, AreMeansOverReplicas) {
   const ClosedTallies tallies;
   Records records(tallies.width());
   for (const double drift : {1., 3.}) {
-    Record record(tallies);
-    record[tallies.energy_drift] = drift;
-    record[tallies.momentum_drift] = 10 * drift;
-    records.append(record.values());
+    TallySums sums(tallies);
+    sums[tallies.energy_drift] = drift;
+    sums[tallies.momentum_drift] = 10 * drift;
+    records.append(sums.values());
   }
   const Study study = closed_study({}, tallies, {}, {}, "energy_drift");
   const Results results = study.groups.at(0).estimate(records);
