@@ -17,14 +17,14 @@ using namespace lorentz;
 constexpr int seeds = 3000;
 constexpr double significant = 4;  // standard errors
 
-/// TallySums of two sums, the ratio of whose means is estimated; the second one is 1 where a mean is estimated.
-struct TallySums {
+/// Record of two sums, the ratio of whose means is estimated; the second one is 1 where a mean is estimated.
+struct Record {
   double y, x;
 };
 
 struct Law {
   double mean, deviation, skewness;  // of the ratio, and of y - mean x over the mean of x
-  std::function<TallySums(std::mt19937_64&)> draw;
+  std::function<Record(std::mt19937_64&)> draw;
   bool relative;  // whether the target is relative
 
   /// Bias of the mean times the number of replicas [eq. 53].
@@ -32,12 +32,12 @@ struct Law {
 };
 
 Law normal(bool relative) {
-  return {1, 0.3, 0, [](std::mt19937_64& g) { return TallySums{std::normal_distribution(1., 0.3)(g), 1}; },
+  return {1, 0.3, 0, [](std::mt19937_64& g) { return Record{std::normal_distribution(1., 0.3)(g), 1}; },
           relative};
 }
 
 Law exponential(bool relative) {
-  return {1, 1, 2, [](std::mt19937_64& g) { return TallySums{std::exponential_distribution(1.)(g), 1}; },
+  return {1, 1, 2, [](std::mt19937_64& g) { return Record{std::exponential_distribution(1.)(g), 1}; },
           relative};
 }
 
@@ -45,7 +45,7 @@ Law lognormal() {
   constexpr double s = 0.5;
   const double v = std::sqrt(std::expm1(s * s));
   const auto draw = [](std::mt19937_64& g) {
-    return TallySums{std::lognormal_distribution(-s * s / 2, s)(g), 1};
+    return Record{std::lognormal_distribution(-s * s / 2, s)(g), 1};
   };
   return {1, v, v * (v * v + 3), draw, true};
 }
@@ -53,7 +53,7 @@ Law lognormal() {
 /// Law of the ratio of a lognormal numerator to a lognormal denominator of half its width.
 Law ratio() {
   const auto draw = [](std::mt19937_64& g) {
-    return TallySums{std::lognormal_distribution(-0.125, 0.5)(g),
+    return Record{std::lognormal_distribution(-0.125, 0.5)(g),
                   std::lognormal_distribution(-0.03125, 0.25)(g)};
   };
   return {1, std::sqrt(std::expm1(0.25) + std::expm1(0.0625)), NAN, draw, true};
@@ -63,7 +63,7 @@ Law ratio() {
 struct Sample {
   double replicas = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
 
-  void add(const TallySums& sums) {
+  void add(const Record& record) {
     replicas += 1;
     x += record.x, y += record.y;
     xx += record.x * record.x, xy += record.x * record.y, yy += record.y * record.y;

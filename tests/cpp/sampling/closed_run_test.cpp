@@ -78,13 +78,17 @@ TEST(ClosedRun, ObservesAfterTheRelaxationAndConserves) {
 
 // Momentum is not conserved if directions are drawn; energy is.
 TEST(ClosedRun, ReportsThatNoMomentumIsConserved) {
-  const ClosedParameters parameters{.random_direction = true, .relaxation_time = 0, .observation_time = 1};
+  const ClosedParameters parameters{.ring = {.scattering = {.cells = 11, .rule = "random-direction"}},
+                                    .relaxation_time = 0,
+                                    .observation_time = 1};
   ClosedRun run(parameters, replica);
   Counter counter;
   run.observe(counter);
   EXPECT_GT(counter.collisions, 100U);
   EXPECT_LT(finished(run).energy, 1e-12);
   EXPECT_TRUE(std::isnan(finished(run).momentum));
+  EXPECT_EQ(run.momentum_control(), 0);
+  EXPECT_NE(run.energy_control(), 0);
 }
 
 // Over replicas the controls have mean 0, and the variance of a normal square and of a sum of 9 normal

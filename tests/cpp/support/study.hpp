@@ -35,7 +35,7 @@ inline Study study_of(const MeasureValue& measurement) {
   Group group;
   group.quantity("value", "1", "A number", [=](TallyMeans mean) { return mean[tallies.value]; });
   return {.tallies = tallies,
-          .measure =
+          .sample =
               [=](const Replica& replica, TallySums& sums) {
                 sums[tallies.value] = measurement(replica);
                 return 10;
