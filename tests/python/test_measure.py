@@ -46,13 +46,19 @@ def test_a_result_is_reused_for_equal_options_and_the_same_build(
     assert len(files()) == 3
 
 
-def test_a_flag_and_a_target_that_is_not_reached() -> None:
+def test_a_flag() -> None:
     tree = measure(
-        "displacement", cells=4, zero_total_momentum=True, observation_time=1, decades=1, replicas=2,
-        max_replicas=2, target_error=1e-9,
-    )  # fmt: skip
+        "displacement", cells=4, zero_total_momentum=True, observation_time=1, decades=1, replicas=2
+    )
     assert tree.attrs["zero-total-momentum"]
     assert np.isfinite(tree["alpha"]["standard_error"])
+
+
+def test_a_target_quantity_that_is_not_determined() -> None:
+    """Without a moving peak; the exit status is 4."""
+    tree = measure("correlation", cells=25, sigma=-1, observation_time=1, times="0.5,1", replicas=2)
+    assert np.isnan(tree["damping_exponent"]["mean"])
+    assert np.isfinite(tree["momentum_correlation"]["mean"]).all()
 
 
 @pytest.mark.parametrize(

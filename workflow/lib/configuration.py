@@ -28,7 +28,6 @@ Keys = tuple[Any, ...]  # path in nested mappings and lists
 FOLDER = SCHEMA.parent
 EFFORT = (
     "cells",
-    "max-replicas",
     "observation-time",
     "pairs-per-replica",
     "replicas",
