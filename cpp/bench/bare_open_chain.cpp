@@ -6,18 +6,14 @@ namespace {
 
 using namespace lorentz;
 
-struct Parameters : OpenParameters {
-  WindowParameters times;
-};
-
 struct Tallies : TallySchema {
   ScalarTally events = tally("events", "1", "Collisions, injections and exits");
 };
 
-Study bare_run(const Parameters& parameters) {
-  validate(parameters, parameters.times);
+Study bare_run(const StationaryParameters& parameters) {
+  validate(parameters);
   const Tallies tallies;
-  const double end = parameters.times.window(parameters.scattering.cells).end;
+  const double end = parameters.window().end;
   const auto sample = [=](const Replica& replica, TallySums& sums) {
     OpenRun run(parameters, {0, end}, replica);
     NoObserver nobody;
@@ -34,8 +30,7 @@ Study bare_run(const Parameters& parameters) {
 
 int main(int argc, char** argv) {
   StudyProgram program("bare_open_chain", "An open chain without an observer");
-  Parameters parameters;
+  StationaryParameters parameters;
   declare(program.options(), parameters);
-  declare(program.options(), parameters.times);
   return program.run(argc, argv, [&] { return bare_run(parameters); });
 }

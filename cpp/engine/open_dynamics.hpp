@@ -89,15 +89,16 @@ void simulate(OpenDynamics& chain, double until, Observer& observer, Heartbeat&&
 /// the count of its collisions, because numbers of particles are reused.
 template <bool passing, CollisionRule Rule, class Observer, std::invocable<double> Heartbeat>
 void OpenDynamics::advance(const Rule& rule, double until, Observer& observer, Heartbeat&& heartbeat) {
-  const double scale = rule.scatterer_scale();
+  const Rule collide = rule;  // a copy: for the compiler a reference may alias
+  const double scale = collide.scatterer_scale();
   const auto arrive = [&](Flight flight) __attribute__((always_inline)) {
     const std::uint32_t cell = flight.target;
     const double time = flight.time, particle = flight.velocity, scatterer = scatterers_[cell];
     if constexpr (RandomRule<Rule>) {
       RandomStream random(key_, Purpose::collision, cell, drawn_[cell]++);
-      rule(flight.velocity, scatterers_[cell], cell, random);
+      collide(flight.velocity, scatterers_[cell], cell, random);
     } else {
-      rule(flight.velocity, scatterers_[cell], cell);
+      collide(flight.velocity, scatterers_[cell], cell);
     }
     notify(observer, Collision{time, flight.particle, cell, particle, flight.velocity, scale * scatterer,
                                scale * scatterers_[cell]});

@@ -28,10 +28,6 @@ namespace {
 
 using namespace lorentz;
 
-struct Parameters : OpenParameters {
-  WindowParameters times{.relaxation_time = {{0, 0.05, 0}}, .observation_time = {{400, 0, 0}}};
-};
-
 const WindowTallies of_window;
 
 Group::Prepared reduced(const Records& records) {
@@ -119,10 +115,10 @@ void add_stationarity(Group& group, const BlockTallies& tallies) {
   });
 }
 
-Study conductivity(const Parameters& parameters) {
-  validate(parameters, parameters.times);
+Study conductivity(const StationaryParameters& parameters) {
+  validate(parameters);
   const OpenChain chain = parameters.chain();
-  const Window window = parameters.times.window(chain.cells);
+  const Window window = parameters.window();
   const BlockTallies tallies;
   Group corrected([=](const Records& records) { return reduced(window_means(records, tallies)); });
   Group plain([=](const Records& records) { return Group::Prepared{window_means(records, tallies)}; });
@@ -146,8 +142,9 @@ Study conductivity(const Parameters& parameters) {
 
 int main(int argc, char** argv) {
   StudyProgram program("conductivity", "Heat conductivity of an open chain");
-  Parameters parameters;
+  StationaryParameters parameters;
+  parameters.relaxation_time = {{0, 0.05, 0}};
+  parameters.observation_time = {{400, 0, 0}};
   declare(program.options(), parameters);
-  declare(program.options(), parameters.times);
   return program.run(argc, argv, [&] { return conductivity(parameters); });
 }

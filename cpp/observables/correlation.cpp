@@ -208,8 +208,7 @@ void require_consistent(const Parameters& parameters) {
   if (!parameters.conserves_momentum())
     throw UsageError(
         "--rule, --sigma: momentum is not conserved, and there is no sound. Choose --rule elastic, and "
-        "--sigma "
-        "below 1.");
+        "--sigma below 1.");
   require_within(parameters.temperature, 1e-100, 1e100, "--temperature", "the unit of energy");
   require_within(parameters.zeta(), 1e-30, 1e9, "--fugacity, --cell-length", "their product");
   require_within(times.front() * std::sqrt(parameters.temperature) / parameters.ring.cell_length, 1e-30, 1e15,

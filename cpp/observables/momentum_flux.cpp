@@ -21,8 +21,7 @@ namespace {
 
 using namespace lorentz;
 
-struct Parameters : OpenParameters {
-  WindowParameters times;
+struct Parameters : StationaryParameters {
   MomentumBinParameters bins;
 };
 
@@ -123,11 +122,11 @@ std::vector<Group> flux_and_shape(const BondTallies& tallies, double bin_width,
 }
 
 Study momentum_flux(const Parameters& parameters) {
-  validate(parameters, parameters.times);
+  validate(parameters);
   validate(parameters.bins);
   require_fourth_powers(parameters.left, parameters.right);
   const OpenChain chain = parameters.chain();
-  const Window window = parameters.times.window(chain.cells);
+  const Window window = parameters.window();
   // Sums of p^4 per unit time, over up to 1e9 particles, stay finite.
   const double hottest = std::max(chain.left.temperature, chain.right.temperature);
   require_within(
@@ -148,7 +147,6 @@ int main(int argc, char** argv) {
   StudyProgram program("momentum_flux", "Momentum distribution of the particles in an open chain");
   Parameters parameters;
   declare(program.options(), parameters);
-  declare(program.options(), parameters.times);
   declare(program.options(), parameters.bins);
   return program.run(argc, argv, [&] { return momentum_flux(parameters); });
 }

@@ -13,8 +13,8 @@ using namespace lorentz;
 
 /// 1 if u' u > 0, else 0. The signs are compared, because the product could underflow, and without a branch,
 /// because branch prediction fails for random signs.
-std::uint64_t keeps_direction(double before, double after) {
-  const auto positive = [](double u) { return std::uint64_t{u > 0}; };
+int keeps_direction(double before, double after) {
+  const auto positive = [](double u) { return int{u > 0}; };
   return (positive(before) & positive(after)) | (positive(-before) & positive(-after));
 }
 
@@ -28,10 +28,10 @@ struct Encounters : Averages {
   explicit Encounters(const ClosedParameters&) {}
 
   void on_collision(const Collision& collision) {
-    count();
-    mu += static_cast<double>(keeps_direction(collision.particle_before, collision.particle_after));
+    mu += keeps_direction(collision.particle_before, collision.particle_after);
     particle_energy += 0.5 * collision.particle_before * collision.particle_before;
     scatterer_energy += 0.5 * collision.scatterer_before * collision.scatterer_before;
+    count();
   }
 };
 

@@ -18,8 +18,7 @@ namespace {
 
 using namespace lorentz;
 
-struct Parameters : OpenParameters {
-  WindowParameters times;
+struct Parameters : StationaryParameters {
   MomentumBinParameters bins;
 };
 
@@ -110,10 +109,10 @@ Group profiles(const CellTallies& tallies, double bin_width) {
 }
 
 Study steady_profile(const Parameters& parameters) {
-  validate(parameters, parameters.times);
+  validate(parameters);
   validate(parameters.bins);
   const OpenChain chain = parameters.chain();
-  const Window window = parameters.times.window(chain.cells);
+  const Window window = parameters.window();
   const Bins bins = parameters.bins.bins();
   const CellTallies tallies(chain.cells, bins);
   return open_study(
@@ -127,7 +126,6 @@ int main(int argc, char** argv) {
   StudyProgram program("steady_profile", "Profiles of an open chain in its stationary state");
   Parameters parameters;
   declare(program.options(), parameters);
-  declare(program.options(), parameters.times);
   declare(program.options(), parameters.bins);
   return program.run(argc, argv, [&] { return steady_profile(parameters); });
 }

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "sampling/closed_run.hpp"
@@ -15,79 +14,59 @@ namespace lorentz {
 /// or by a constant. A member of type Average declares a quantity; hooks (engine/observation.hpp) add to it.
 class Averages {
  public:
-  class Average {
-   public:
-    /// divisor: of the sum; none: the number of calls of count().
-    Average(Averages* observer, std::string_view name, std::string_view units, std::string_view description,
-            std::optional<double> divisor = {})
-        : name_(name), units_(units), description_(description), divisor_(divisor) {
+  struct Average {
+    double sum = 0;
+    std::int64_t count = 0;  // the part of the sum that was added as whole numbers, which is faster
+    const char *name, *units, *description;
+    std::optional<double> divisor;  // of the sum; none: the number of calls of count()
+
+    Average(Averages* observer, const char* of_name, const char* of_units, const char* of_description,
+            std::optional<double> of_divisor = {})
+        : name(of_name), units(of_units), description(of_description), divisor(of_divisor) {
       observer->all_.push_back(this);
     }
-    void operator+=(double value) { sum_ += value; }
-
-   private:
-    friend class AverageTallies;
-    double sum_ = 0;
-    std::string_view name_, units_, description_;
-    std::optional<double> divisor_;
+    void operator+=(double value) { sum += value; }
+    void operator+=(int value) { count += value; }
+    double total() const { return sum + static_cast<double>(count); }
   };
 
   Averages() = default;
   Averages(const Averages&) = delete;  // all_ points to members
   Averages& operator=(const Averages&) = delete;
 
+  void count() { ++count_; }
+  std::uint64_t counted() const { return count_; }
+  const std::vector<const Average*>& all() const { return all_; }
+
  protected:
   ~Averages() = default;
-  void count() { ++count_; }
 
  private:
-  friend class AverageTallies;
   std::uint64_t count_ = 0;
-  std::vector<Average*> all_;
-};
-
-/// Tallies of an observer's averages.
-class AverageTallies : public ClosedTallies {
- public:
-  explicit AverageTallies(const Averages& observer) {
-    for (const Averages::Average* each : observer.all_)
-      sums_.push_back(tally(each->name_, each->units_, "Sum over events of " + std::string(each->name_)));
-  }
-
-  void record(const Averages& observer, TallySums& sums) const {
-    sums[count_] = static_cast<double>(observer.count_);
-    for (std::size_t i = 0; i < sums_.size(); ++i) sums[sums_[i]] = observer.all_[i]->sum_;
-  }
-
-  Group group(const Averages& observer) const {
-    Group group;
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-      const Averages::Average& each = *observer.all_[i];
-      group.quantity(each.name_, each.units_, each.description_,
-                     [sum = sums_[i], count = count_, divisor = each.divisor_](TallyMeans mean) {
-                       return mean[sum] / divisor.value_or(mean[count]);
-                     });
-    }
-    return group;
-  }
-
- private:
-  ScalarTally count_ = tally("count", "1", "Events");
-  std::vector<ScalarTally> sums_;
+  std::vector<const Average*> all_;
 };
 
 /// Study of a closed chain by such an observer, which is constructed from the parameters.
 template <std::derived_from<Averages> Observer>
 Study closed_averages(const ClosedParameters& parameters, const std::string& target) {
   validate(parameters);
-  const Observer prototype(parameters);
-  const AverageTallies tallies(prototype);
+  ClosedTallies tallies;
+  const ScalarTally count = tallies.tally("count", "1", "Events");
+  std::vector<ScalarTally> columns;
+  Group group;
+  for (const Observer prototype(parameters); const Averages::Average* each : prototype.all()) {
+    const ScalarTally sum = columns.emplace_back(tallies.tally(each->name, each->units, each->description));
+    group.quantity(each->name, each->units, each->description, [=, divisor = each->divisor](TallyMeans mean) {
+      return mean[sum] / divisor.value_or(mean[count]);
+    });
+  }
   const auto observe = [=](ClosedRun& run, TallySums& sums) {
     Observer observer(parameters);
     run.observe(observer);
-    tallies.record(observer, sums);
+    sums[count] = static_cast<double>(observer.counted());
+    for (std::size_t i = 0; i < columns.size(); ++i) sums[columns[i]] = observer.all()[i]->total();
   };
-  return closed_study(parameters, tallies, observe, {tallies.group(prototype)}, target);
+  return closed_study(parameters, tallies, observe, {group}, target);
 }
 
 /// main() of a program of such a study.

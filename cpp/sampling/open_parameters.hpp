@@ -27,20 +27,20 @@ struct OpenParameters {
   PhasePoint start_point(double age, const StreamKey& key) const;
 };
 
-/// Parameters of the window of a stationary measurement.
-struct WindowParameters {
+/// Parameters of a measurement in the stationary state.
+struct StationaryParameters : OpenParameters {
   Scaled relaxation_time{{100, 0, 0}};
   Scaled observation_time{{1000, 0, 0}};
 
-  Window window(std::uint32_t cells) const;
+  Window window() const;
 };
 
 void declare(Options& options, OpenParameters& parameters);
-void declare(Options& options, WindowParameters& parameters);
+void declare(Options& options, StationaryParameters& parameters);
 
 /// Throw UsageError if options that are valid one by one exclude each other, for a run until `end`, which the
-/// options `times` determine, or for a window.
+/// options `times` determine.
 void validate(const OpenParameters& parameters, double end, const std::string& times);
-void validate(const OpenParameters& parameters, const WindowParameters& times);
+void validate(const StationaryParameters& parameters);
 
 }  // namespace lorentz
