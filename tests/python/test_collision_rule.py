@@ -1,10 +1,13 @@
 """Collision rules of the programs: what is exact for them, and what they refuse."""
 
+import importlib
+
 import numpy as np
 import pytest
 
-from tests.python.conftest import SMALL, Measure, Program
-from workflow.lib.load import Quantity
+from tests.python.conftest import ROOT, SMALL, Measure, Program
+from workflow.lib.figure import TheoryError
+from workflow.lib.load import Quantity, Result
 
 UNEQUAL = {"nu_left": 30, "nu_right": 10, "temperature_left": 100, "temperature_right": 400}
 EQUAL = {"nu_left": 200, "nu_right": 200, "temperature_left": 100, "temperature_right": 100}
@@ -93,3 +96,12 @@ def test_what_needs_the_elastic_rule_refuses_others(
     assert refused.returncode == 2
     assert words in refused.stderr
     assert refused.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("script", ["fig05", "fig03_inset", "ext11"])
+def test_laws_of_the_elastic_rule_are_not_plotted_for_others(script: str) -> None:
+    draw = importlib.import_module(f"workflow.figures.{script}").draw
+    with pytest.raises(
+        TheoryError, match=r"holds for elastic collisions only, and .* has the rule random-direction"
+    ):
+        draw([Result(ROOT, {"rule": "random-direction"}, {}, {})])
