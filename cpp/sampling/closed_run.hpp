@@ -68,7 +68,7 @@ class ClosedRun {
   double clock(double time) const { return time - clock_start_; }
 
   /// Control variate of mean 0: square of the conserved total momentum over its mean over replicas, minus 1
-  /// [eq. 33]. It is 0 if the momentum is zero or not conserved: what is forgotten is no control.
+  /// [eq. 33]. It is 0 if the momentum is zero or not conserved.
   double momentum_control() const;
 
   /// Control variate of mean 0: total energy over its mean over replicas, minus 1 [eq. 33]. It is 0 if the
