@@ -9,8 +9,10 @@
 /// Control variates are the numbers, momenta and energies that the reservoirs inject [eq. 31], which at gamma
 /// = N and with deterministic collisions are the only randomness, and for gamma < N the scattering
 /// martingales of the end scatterers [eq. 32], whose means are exact for every collision rule. Quantities
-/// named *_plain do without. Stationarity is tested by the differences between the halves of the window [eq.
+/// named *_plain do without. kappa is NaN, and the reason is printed, where reservoirs do not impose a
+/// difference of temperature. Stationarity is tested by the differences between the halves of the window [eq.
 /// 51], and by blocking, for which blocks must be longer than the correlation time [eq. 50].
+#include <fmt/format.h>
 #include <gsl/gsl_statistics_double.h>
 
 #include <cmath>
@@ -29,18 +31,29 @@ namespace {
 using namespace lorentz;
 
 const WindowTallies of_window;
+constexpr double level = 0.01;  // of the test of stationarity
 
 Group::Prepared reduced(const Records& records) {
   return reduce_variance(records, {{of_window.measured(), of_window.controls()}});
 }
 
-/// Difference of temperatures; NaN for equal ones, as in a single cell.
-double rise(double first, double last) {
-  return first == last ? std::numeric_limits<double>::quiet_NaN() : last - first;
+/// Why a chain has no heat conductivity, with the remedy; empty if it has one.
+std::string reason_without_kappa(const OpenChain& chain) {
+  if (chain.left.rate == 0 || chain.right.rate == 0)
+    return "heat is conducted between two reservoirs; choose --nu-left and --nu-right above 0";
+  if (chain.left.temperature == chain.right.temperature)
+    return "the reservoirs have one temperature; choose another --temperature-left or --temperature-right";
+  return chain.cells == 1 ? "a single cell has no difference of temperature; choose more --cells" : "";
 }
 
-void add_conductivity(Group& group, double cells, const std::string& suffix, const std::string& remark) {
-  const auto per_degree = [](TallyMeans mean) {
+void add_conductivity(Group& group, const OpenChain& chain, const std::string& suffix,
+                      const std::string& remark) {
+  const double cells = chain.cells;
+  const bool defined = reason_without_kappa(chain).empty();
+  const auto rise = [defined](double first, double last) {
+    return !defined || first == last ? std::numeric_limits<double>::quiet_NaN() : last - first;
+  };
+  const auto per_degree = [rise](TallyMeans mean) {
     return -mean[of_window.energy_current] /
            rise(mean[of_window.temperature][0], mean[of_window.temperature][1]);
   };
@@ -98,7 +111,7 @@ void add_stationarity(Group& group, const BlockTallies& tallies) {
       {"drift_p_value", "1", "p-value of the four drifts being 0, by Hotelling's T^2 test"},
       {"stationary", "1", "1: drift_p_value above 0.01, and blocking has converged"}};
   group.statistics(descriptions, [=](const Records& records) {
-    constexpr double level = 0.01, none = std::numeric_limits<double>::quiet_NaN();
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const Group::Prepared differences = reduced(half_differences(records, tallies));
     const double p_value = zero_mean_p_value(differences.records, of_window.currents_and_temperatures(),
                                              *differences.control_variates ? of_window.controls().size() : 0);
@@ -115,6 +128,26 @@ void add_stationarity(Group& group, const BlockTallies& tallies) {
   });
 }
 
+/// What restricts the meaning of the results.
+std::vector<std::string> remarks(const OpenChain& chain, const Results& results) {
+  std::vector<std::string> lines;
+  if (const std::string reason = reason_without_kappa(chain); !reason.empty())
+    lines.push_back("kappa is not defined: " + reason);
+  if (quantity_named(results, "stationary").mean.front() == 1) return lines;
+  const double p_value = quantity_named(results, "drift_p_value").mean.front();
+  if (std::isnan(p_value))
+    lines.emplace_back(
+        "not tested whether stationary: too few replicas, or nothing varies; choose more --replicas");
+  else if (p_value <= level)
+    lines.push_back(fmt::format(
+        "not stationary: the p-value of no drift is {:.1g}; choose a longer --relaxation-time", p_value));
+  else
+    lines.emplace_back(
+        "not stationary: correlations last longer than half the window; choose a longer "
+        "--observation-time");
+  return lines;
+}
+
 Study conductivity(const StationaryParameters& parameters) {
   validate(parameters);
   const OpenChain chain = parameters.chain();
@@ -124,18 +157,21 @@ Study conductivity(const StationaryParameters& parameters) {
   Group plain([=](const Records& records) { return Group::Prepared{window_means(records, tallies)}; });
   Group halves([=](const Records& records) { return reduced(half_differences(records, tallies)); });
   Group stationary;
-  add_conductivity(corrected, chain.cells, "", "");
+  add_conductivity(corrected, chain, "", "");
   corrected.statistics({{"current_correlation", "1", "Correlation coefficient over replicas of J_U and J_n"}},
                        [](const Records& records) {
                          return correlation_coefficient(records, of_window.energy_current,
                                                         of_window.particle_current);
                        });
-  add_conductivity(plain, chain.cells, "_plain", ", without control variates");
+  add_conductivity(plain, chain, "_plain", ", without control variates");
   add_drifts(halves);
   add_stationarity(stationary, tallies);
-  return open_study(
+  Study study = open_study(
       parameters, window, tallies, [=] { return EndsAndOpenings(chain, window); },
-      {corrected, plain, halves, stationary}, chain.cells > 1 ? "kappa" : "energy_current");
+      {corrected, plain, halves, stationary},
+      reason_without_kappa(chain).empty() ? "kappa" : "energy_current");
+  study.remarks = [chain](const Results& results) { return remarks(chain, results); };
+  return study;
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 /// momenta and energies injected in all. Each group is used if it reduces the variance on average. The jump
 /// at p = 0 is extrapolated by lines through two bins on either side. The kurtosis of one half of F,
 /// <p^4>/<p^2>^2, is 3 for a Gaussian half.
-#include <algorithm>
 #include <limits>
 #include <numeric>
 
@@ -127,12 +126,7 @@ Study momentum_flux(const Parameters& parameters) {
   require_fourth_powers(parameters.left, parameters.right);
   const OpenChain chain = parameters.chain();
   const Window window = parameters.window();
-  // Sums of p^4 per unit time, over up to 1e9 particles, stay finite.
-  const double hottest = std::max(chain.left.temperature, chain.right.temperature);
-  require_within(
-      hottest * hottest * std::max(chain.left.rate + chain.right.rate, 1 / (window.end - window.begin)), 0,
-      1e295, "--temperature-left, --temperature-right, --nu-left, --nu-right, --observation-time",
-      "the rate of crossings times the square of the temperature");
+  require_finite_currents(chain, window.end - window.begin, 2);
   const Bins bins = parameters.bins.bins();
   require_record_size((chain.cells + 1.0) * static_cast<double>(bins.count()), "--cells, --momentum-bins");
   const BondTallies tallies(chain.cells, bins);

@@ -1,12 +1,16 @@
 #include "program/atomic_file.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <memory>
+#include <random>
 #include <system_error>
 #include <vector>
 
@@ -15,19 +19,40 @@
 namespace lorentz {
 namespace {
 
+namespace fs = std::filesystem;
+
 void refuse(const std::string& path, const char* why, const char* remedy) {
   throw UsageError(fmt::format("'{}' cannot be written: {}. {}.", path, why, remedy));
 }
 
-/// Writes PATH.tmp to the disk and returns its name.
+/// Whether a name is NAME.XXXXXXXX.tmp with hexadecimal digits.
+bool is_temporary(const std::string& temporary, const std::string& name) {
+  constexpr std::size_t digits = 8;
+  const std::size_t first = name.size() + 1;
+  return temporary.starts_with(name + '.') &&
+         temporary.find_first_not_of("0123456789abcdef", first) == first + digits &&
+         temporary.substr(first + digits) == ".tmp";
+}
+
+/// Removes the temporary files of a path that no process writes any more: none takes an hour to be written.
+void remove_leftovers(const fs::path& path) {
+  std::error_code gone;  // removed by another process
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  for (const auto& entry : fs::directory_iterator(folder, gone))
+    if (is_temporary(entry.path().filename(), path.filename()) &&
+        entry.last_write_time(gone) < fs::file_time_type::clock::now() - std::chrono::hours(1))
+      fs::remove(entry.path(), gone);
+}
+
+/// Writes a temporary file to the disk and returns its name.
 std::string write_beside(const std::string& path, std::span<const std::byte> content) {
-  namespace fs = std::filesystem;
   std::error_code unknown;
   if (const fs::file_status status = fs::status(path, unknown);
       fs::exists(status) && !fs::is_regular_file(status))
     refuse(path, "it exists and is not a regular file", "Name a file that may be replaced");
-  const std::string temporary = path + ".tmp";
-  std::FILE* const file = std::fopen(temporary.c_str(), "wb");
+  remove_leftovers(path);
+  const std::string temporary = fmt::format("{}.{:08x}.tmp", path, std::random_device{}());
+  std::FILE* const file = std::fopen(temporary.c_str(), "wbx");
   if (!file) refuse(path, std::strerror(errno), "Name a file in an existing folder that you may write");
   const bool written = std::fwrite(content.data(), 1, content.size(), file) == content.size() &&
                        std::fflush(file) == 0 && ::fsync(::fileno(file)) == 0;
@@ -43,12 +68,29 @@ std::string write_beside(const std::string& path, std::span<const std::byte> con
 }  // namespace
 
 void write_atomically(const std::string& path, std::span<const std::byte> content) {
-  std::filesystem::rename(write_beside(path, content), path);
+  const std::string temporary = write_beside(path, content);
+  std::error_code error, unknown;
+  fs::rename(temporary, path, error);
+  if (!error) return;
+  fs::remove(temporary, unknown);
+  refuse(path, error.message().c_str(), "Name a file in a folder that you may write");
 }
 
 void require_writable(const std::string& path) {
   constexpr std::size_t usual_size = 1 << 18;  // bytes
-  std::filesystem::remove(write_beside(path, std::vector<std::byte>(usual_size)));
+  fs::remove(write_beside(path, std::vector<std::byte>(usual_size)));
+}
+
+std::vector<std::byte> read_whole(const std::string& path) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+  struct stat status{};
+  if (file && ::fstat(::fileno(file.get()), &status) == 0) {
+    std::vector<std::byte> content(static_cast<std::size_t>(status.st_size));
+    if (std::fread(content.data(), 1, content.size(), file.get()) == content.size()) return content;
+  }
+  throw UsageError(fmt::format(
+      "'{}' cannot be read: {}. Its content may be intact: make it readable, or name another file.", path,
+      std::strerror(errno)));
 }
 
 }  // namespace lorentz

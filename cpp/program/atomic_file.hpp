@@ -3,15 +3,22 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace lorentz {
 
-/// Writes a file atomically: as PATH.tmp, flushed to the disk, then renamed. Throws UsageError, and leaves
-/// the file as it was, if the folder is not writable or the disk is full.
+/// Writes a file atomically: under a temporary name in the same folder, flushed to the disk, then renamed.
+/// The names of two processes differ. Removes temporary files of this path that are older than an hour, which
+/// killed processes have left. Throws UsageError, and leaves the file as it was, if the folder is not
+/// writable or the disk is full.
 void write_atomically(const std::string& path, std::span<const std::byte> content);
 
 /// Throws UsageError if write_atomically(path, ...) could not write a result of usual size now. Called before
 /// a long run, so that the run does not fail at its end.
 void require_writable(const std::string& path);
+
+/// Content of a file, which may be locked, because files are replaced and not changed. Throws UsageError with
+/// the reason of the system if it cannot be read.
+std::vector<std::byte> read_whole(const std::string& path);
 
 }  // namespace lorentz

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "program/atomic_file.hpp"
 #include "program/errors.hpp"
 
 namespace lorentz {
@@ -33,12 +34,14 @@ hid_t memory_file() {
   return H5Fcreate("in memory", H5F_ACC_TRUNC, H5P_DEFAULT, access);
 }
 
-hid_t open_file(const std::string& path) {
+/// Opens a file in memory: HDF5 does not open files that another process has locked.
+hid_t open_file(const std::string& path, std::vector<std::byte>& content) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t id = H5LTopen_file_image(content.data(), content.size(),
+                                       H5LT_FILE_IMAGE_DONT_COPY | H5LT_FILE_IMAGE_DONT_RELEASE);
   if (id < 0)
-    throw UsageError(fmt::format(
-        "'{}' cannot be read: it is not a complete HDF5 file. Remove it, or name another.", path));
+    throw UsageError(
+        fmt::format("'{}' is not a complete HDF5 file. Name another, or replace it with --overwrite.", path));
   return id;
 }
 
@@ -147,7 +150,10 @@ std::vector<std::byte> Hdf5Writer::image() {
   return bytes;
 }
 
-Hdf5Reader::Hdf5Reader(const std::string& path) : file_(open_file(path), H5Fclose) {}
+Hdf5Reader::Hdf5Reader(const std::string& path) : Hdf5Reader(path, read_whole(path)) {}
+
+Hdf5Reader::Hdf5Reader(const std::string& path, std::vector<std::byte> content)
+    : content_(std::move(content)), file_(open_file(path, content_), H5Fclose) {}
 
 std::vector<double> Hdf5Reader::doubles(const std::string& dataset) const {
   return read<double>(file_, dataset, H5T_IEEE_F64LE);

@@ -69,18 +69,20 @@ class Hdf5Writer {
   std::set<std::string> scales_;                                            // paths
 };
 
-/// Reads files of Hdf5Writer. Throws UsageError if the file is not an HDF5 file, and NumericalError if it
-/// lacks a dataset.
+/// Reads files of Hdf5Writer. Throws UsageError if the file cannot be read or is not an HDF5 file, and
+/// NumericalError if it lacks a dataset.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(const std::string& path);
+  Hdf5Reader(const std::string& path, std::vector<std::byte> content);
 
   std::vector<double> doubles(const std::string& dataset) const;
   std::vector<std::uint64_t> counts(const std::string& dataset) const;
   bool has_attribute(const std::string& object, const std::string& name, const AttributeValue& value) const;
 
  private:
-  Hdf5Handle file_;
+  std::vector<std::byte> content_;
+  Hdf5Handle file_;  // in content_
 };
 
 /// CRC-32 as 8 hexadecimal digits.

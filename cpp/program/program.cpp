@@ -75,7 +75,10 @@ Program::Program(const std::string& name, const std::string& description)
     : options_(name, description), progress_(name), description_(description) {
   constexpr auto runtime = Options::Role::runtime;
   options_.text("--output", output_, "HDF5 file to write, whole or not at all (required)", runtime);
-  options_.flag("--overwrite", overwrite_, "Replace an output of other options or of another build", runtime);
+  options_.flag(
+      "--overwrite", overwrite_,
+      "Replace an output of other options or another build; without --resume, discard OUTPUT.checkpoint",
+      runtime);
   options_.choice("--progress", progress_.style, {"auto", "bar", "log", "none"},
                   "Display of progress on standard error", runtime);
   options_.flag("--describe", describe_, "Print options and quantities as JSON, then exit", runtime);

@@ -2,24 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <span>
 #include <system_error>
+#include <utility>
 
+#include "program/atomic_file.hpp"
 #include "program/errors.hpp"
 #include "program/hdf5_file.hpp"
 
 namespace lorentz {
 namespace {
 
-/// Whether the file ends with the checksum of its preceding bytes.
-bool is_whole(const std::string& path) {
-  std::string content(std::filesystem::file_size(path), '\0');
-  std::ifstream(path, std::ios::binary).read(content.data(), static_cast<std::streamsize>(content.size()));
+/// Whether the content ends with the checksum of its preceding bytes.
+bool is_whole(std::span<const std::byte> content) {
   constexpr std::size_t digits = 8;
-  return content.size() > digits &&
-         content.ends_with(crc32_of(std::as_bytes(std::span(content.data(), content.size() - digits))));
+  if (content.size() <= digits) return false;
+  const std::string checksum = crc32_of(content.first(content.size() - digits));
+  return std::ranges::equal(content.last(digits), std::as_bytes(std::span(checksum)));
 }
 
 }  // namespace
@@ -52,9 +53,10 @@ std::vector<std::byte> ReplicaFile::content(const FinishedReplicas& finished) co
 }
 
 std::optional<FinishedReplicas> ReplicaFile::read(const std::string& path) const {
-  if (!is_whole(path))
+  std::vector<std::byte> content = read_whole(path);
+  if (!is_whole(content))
     throw UsageError(fmt::format("'{}' cannot be resumed or joined: it is damaged. Remove it.", path));
-  const Hdf5Reader file(path);
+  const Hdf5Reader file(path, std::move(content));
   if (!file.has_attribute("/replicas", "identity", identity)) return {};
   const std::vector<std::uint64_t> indices = file.counts("/replicas/index");
   const std::vector<std::uint64_t> events = file.counts("/replicas/events");
@@ -75,7 +77,7 @@ FinishedReplicas ReplicaFile::join(const std::string& folder) const {
   const auto refuse = [](const std::string& what, const std::string& why) {
     throw UsageError(fmt::format("--join '{}': {}. Measure parts into a folder with --part.", what, why));
   };
-  std::error_code unreadable;  // is as good as empty
+  std::error_code unreadable;
   FinishedReplicas joined;
   for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable)) {
     if (entry.path().extension() != part_suffix) continue;
@@ -83,6 +85,7 @@ FinishedReplicas ReplicaFile::join(const std::string& folder) const {
     if (!part) refuse(entry.path().string(), "it is of other options or another build");
     joined.merge(*part);
   }
+  if (unreadable) refuse(folder, unreadable.message());
   if (joined.empty()) refuse(folder, fmt::format("no file there ends with {}", part_suffix));
   return joined;
 }

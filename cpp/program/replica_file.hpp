@@ -30,7 +30,8 @@ struct ReplicaFile {
 
   std::vector<std::byte> content(const FinishedReplicas& finished) const;
 
-  /// None if the file is of other options or another build. Throws UsageError if it is damaged.
+  /// None if the file is of other options or another build. Throws UsageError if it cannot be read or is
+  /// damaged.
   std::optional<FinishedReplicas> read(const std::string& path) const;
 
   /// The replicas of all files NAME.part in a folder. Throws UsageError if there is none, or one is damaged

@@ -37,10 +37,6 @@ void note_signals() {
     if (::signal(number, note) == SIG_IGN && number == SIGHUP) ::signal(number, SIG_IGN);
 }
 
-const Quantity& quantity_named(const Results& results, const std::string& name) {
-  return *std::ranges::find(results, name, [](const Quantity& each) { return each.what.name; });
-}
-
 }  // namespace
 
 StudyProgram::StudyProgram(const std::string& name, const std::string& description)
@@ -112,22 +108,32 @@ void StudyProgram::require_consistent() {
                                  program_.output(), ReplicaFile::part_suffix));
 }
 
-/// Loads the replicas of the checkpoint and of the parts.
+/// Loads the replicas of the checkpoint and of the parts. Throws UsageError if there is a checkpoint that
+/// neither --resume nor --overwrite refers to.
 void StudyProgram::prepare() {
   for (const Parameter& each : options().parameters())
     format_.identity += fmt::format("{} = {}\n", each.name, as_text(each.value));
   format_.identity += fmt::format("build_id = {}\n", build_info.build_id);
   format_.tallies = study_.tallies.tallies();
   checkpoint_ = program_.output() + ".checkpoint";
-  if (resume_ && std::filesystem::exists(checkpoint_)) {
-    if (std::optional<FinishedReplicas> saved = format_.read(checkpoint_))
-      finished_ = std::move(*saved);
-    else
-      program_.progress().warn(fmt::format(
-          "'{}' is of other options or another build and is ignored; the run starts anew", checkpoint_));
+  const bool overwrite = options().given("--overwrite");
+  if (std::error_code unknown;
+      (resume_ || !overwrite) && std::filesystem::is_regular_file(checkpoint_, unknown)) {
+    std::optional<FinishedReplicas> saved = format_.read(checkpoint_);
+    if (!saved && !overwrite)
+      throw UsageError(fmt::format(
+          "'{}' is of other options or another build. Choose another --output, or discard it with "
+          "--overwrite.",
+          checkpoint_));
+    if (saved && !resume_)
+      throw UsageError(
+          fmt::format("'{}' has {} replicas of this run. Continue with --resume, or discard them with "
+                      "--overwrite.",
+                      checkpoint_, saved->size()));
+    if (saved) finished_ = std::move(*saved);
   }
   if (!join_.empty()) finished_.merge(format_.join(join_));
-  if (!part_.empty() && !options().given("--overwrite") && std::filesystem::exists(program_.output())) {
+  if (!part_.empty() && !overwrite && std::filesystem::exists(program_.output())) {
     const std::optional<FinishedReplicas> former = format_.read(program_.output());
     if (!former || former->begin()->first != part_first_ || former->rbegin()->first != part_last_)
       throw UsageError(fmt::format(
@@ -157,7 +163,8 @@ ExitStatus StudyProgram::compute() try {
   needed_ = target() > 0 ? rule.next_look(0) : replicas_;
   for (std::uint64_t wanted = needed_;; wanted = rule.next_look(wanted)) {
     run_replicas(0, wanted);
-    const Outcome outcome = estimate(wanted);
+    Outcome outcome;
+    in_threads(1, [&] { outcome = estimate(wanted); });
     const double excess = outcome.achieved_error / target();
     const bool not_reached = outcome.convergence == Convergence::not_reached;
     const bool last =
@@ -179,6 +186,8 @@ ExitStatus StudyProgram::compute() try {
       program_.progress().say(fmt::format("standard errors from {} replicas are uncertain by about {:.0f} %",
                                           outcome.replicas,
                                           100 / std::sqrt(2.0 * static_cast<double>(outcome.replicas - 1))));
+    if (study_.remarks)
+      for (const std::string& remark : study_.remarks(outcome.results)) program_.progress().say(remark);
     const ExitStatus status = program_.write(outcome);
     ::unlink(checkpoint_.c_str());
     return status;
@@ -205,17 +214,28 @@ void StudyProgram::keep(const std::string& why) {
     program_.progress().say(fmt::format("{}; --resume continues from '{}'", state, checkpoint_));
 }
 
-/// Measures the replicas first ... end - 1 but those that are finished, in the order of the index, each in
-/// one thread. Returns when all are finished, or after the time limit when those in progress are; the
-/// finished ones then have the lowest indices. After a signal the process ends, with a checkpoint. Throws the
-/// first exception of a replica.
-void StudyProgram::run_replicas(std::uint64_t first, std::uint64_t end) {
-  next_ = first;
-  active_ = std::min<std::uint64_t>(threads_, end - first);
+/// Performs a task in each of some threads, which do not change the finished replicas without the mutex.
+/// Meanwhile reports progress and writes checkpoints. After a signal the process ends at once, with a
+/// checkpoint. Throws the first exception of a task.
+void StudyProgram::in_threads(std::uint64_t number, const std::function<void()>& task) {
+  active_ = number;
+  const auto perform = [&] {
+    std::exception_ptr failure;
+    try {
+      task();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    const std::scoped_lock lock(mutex_);
+    if (failure && !failure_) failure_ = failure;
+    if (failure) failed_ = true;  // every replica stops at its next heartbeat
+    --active_;
+    changed_.notify_one();
+  };
   std::vector<std::jthread> threads;
   std::unique_lock lock(mutex_);  // released, so that no thread waits for it, before they are joined
   try {
-    while (threads.size() < active_) threads.emplace_back([this, end] { work(end); });
+    while (threads.size() < number) threads.emplace_back(perform);
   } catch (const std::system_error& error) {
     failed_ = true;
     throw UsageError(fmt::format("--threads {}: the system starts only {}: {}. Choose fewer.", threads_,
@@ -228,6 +248,14 @@ void StudyProgram::run_replicas(std::uint64_t first, std::uint64_t end) {
     std::_Exit(static_cast<int>(ExitStatus::interrupted) + received_signal);
   }
   if (failure_) std::rethrow_exception(failure_);
+}
+
+/// Measures the replicas first ... end - 1 but those that are finished, in the order of the index, each in
+/// one thread. Returns when all are finished, or after the time limit when those in progress are; the
+/// finished ones then have the lowest indices.
+void StudyProgram::run_replicas(std::uint64_t first, std::uint64_t end) {
+  next_ = first;
+  in_threads(std::min<std::uint64_t>(threads_, end - first), [this, end] { work(end); });
 }
 
 /// Takes replicas until there is none, after a failure, and after the time limit except for the first two.
@@ -244,21 +272,13 @@ void StudyProgram::work(std::uint64_t end) {
     if (next_ >= end || failed_ || too_late) break;
     const std::uint64_t index = next_++;
     lock.unlock();
-    try {
-      TallySums sums(study_.tallies);
-      const std::uint64_t events = study_.sample({StreamKey(seed_, index), heartbeat}, sums);
-      sums.require_filled(study_.tallies);
-      lock.lock();
-      finished_.emplace(index, FinishedReplica{sums.values(), events});
-    } catch (...) {
-      if (!lock.owns_lock()) lock.lock();
-      if (!failure_) failure_ = std::current_exception();
-      failed_ = true;  // every other replica stops at its next heartbeat
-    }
+    TallySums sums(study_.tallies);
+    const std::uint64_t events = study_.sample({StreamKey(seed_, index), heartbeat}, sums);
+    sums.require_filled(study_.tallies);
+    lock.lock();
+    finished_.emplace(index, FinishedReplica{sums.values(), events});
     in_progress_ -= std::exchange(completed, 0);
   }
-  --active_;
-  changed_.notify_one();
 }
 
 /// The caller holds the mutex.

@@ -30,6 +30,8 @@ struct Study {
   std::function<std::uint64_t(const Replica&, TallySums&)> sample;  // of one replica; returns its events
   std::vector<Group> groups;
   std::string target;  // quantity of --target-error
+  /// Lines to print after the results: what restricts their meaning, and what to do. None if empty.
+  std::function<std::vector<std::string>(const Results&)> remarks{};
 };
 
 /// An executable that runs a study: measures replicas in threads until their number or the target error is
@@ -50,6 +52,7 @@ class StudyProgram {
   std::vector<Description> quantities() const;
   void prepare();
   ExitStatus compute();
+  void in_threads(std::uint64_t number, const std::function<void()>& task);
   void run_replicas(std::uint64_t first, std::uint64_t end);
   void work(std::uint64_t end);
   void report();

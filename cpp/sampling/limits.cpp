@@ -30,6 +30,15 @@ void require_fourth_powers(const Reservoir& left, const Reservoir& right) {
                    "a temperature");
 }
 
+void require_finite_currents(const OpenChain& chain, double duration, int power) {
+  const double hottest = std::max(chain.left.temperature, chain.right.temperature);
+  const double crossings = std::max(chain.left.rate + chain.right.rate, 1 / duration);
+  require_within(
+      power == 1 ? hottest * crossings : hottest * hottest * crossings, 0, 1e295,
+      "--temperature-left, --temperature-right, --nu-left, --nu-right, --observation-time",
+      fmt::format("the rate of crossings times {}the temperature", power == 1 ? "" : "the square of "));
+}
+
 void require_representable(const Extent& extent) {
   const double flight = extent.cell_length / std::sqrt(extent.hottest);
   const double flights = extent.end_time / flight;

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "model/closed_chain.hpp"
+#include "model/open_chain.hpp"
 #include "model/reservoir.hpp"
 
 namespace lorentz {
@@ -18,6 +19,10 @@ void require_record_size(double values, const std::string& options);
 
 /// Throws UsageError unless fourth powers of momenta are representable with full precision.
 void require_fourth_powers(const Reservoir& left, const Reservoir& right);
+
+/// Throws UsageError unless sums of the temperature to a power, over the crossings of up to 1e9 particles and
+/// per unit time of the window, are finite.
+void require_finite_currents(const OpenChain& chain, double duration, int power);
 
 /// Largest numbers of successive flights across a cell at thermal speed in a run. With 1e10, a clock that
 /// never restarts still resolves 1e-6 of a flight; with a clock that restarts, no run reaches 1e15 within a

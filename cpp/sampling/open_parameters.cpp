@@ -79,6 +79,7 @@ void validate(const StationaryParameters& parameters) {
   require_within(window.end / (window.end - window.begin), 1, flights_of_one_clock,
                  "--relaxation-time, --observation-time",
                  "the end of the run over the time of the measurement");
+  require_finite_currents(parameters.chain(), window.end - window.begin, 1);
 }
 
 }  // namespace lorentz

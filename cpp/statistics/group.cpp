@@ -1,5 +1,6 @@
 #include "statistics/group.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -37,6 +38,10 @@ void mask_errors_of_empty_bins(Quantity& quantity) {
 }
 
 }  // namespace
+
+const Quantity& quantity_named(const Results& results, std::string_view name) {
+  return *std::ranges::find(results, name, [](const Quantity& each) { return each.what.name; });
+}
 
 Estimate jackknife(const Records& records, const std::function<std::vector<double>(TallyMeans)>& f) {
   const std::vector<double> mean = records.mean();

@@ -23,6 +23,9 @@ struct Quantity {
 
 using Results = std::vector<Quantity>;
 
+/// The quantity of this name, which the results have.
+const Quantity& quantity_named(const Results& results, std::string_view name);
+
 /// Values and their standard errors, of the same length. An undefined error is NaN.
 struct Estimate {
   std::vector<double> mean;

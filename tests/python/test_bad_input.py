@@ -9,6 +9,10 @@ import pytest
 
 from tests.python.conftest import Program, command_line
 
+# One crossing carries an energy of 1e250 in a window of 1e-60.
+VIOLENT = {"temperature-left": 1e250, "temperature-right": 2e250, "nu-left": 1, "nu-right": 1, "cell-length": 1e65,
+           "relaxation-time": 0, "observation-time": 1e-60}  # fmt: skip
+
 BAD: dict[str, list[tuple[dict[str, object], str]]] = {
     "persistence": [
         *(({"sigma": value}, "[-1, 1]") for value in ("2", "-1.0000001", "nan", "half", "", "0.5 ", "0x1p-1")),
@@ -81,6 +85,7 @@ BAD: dict[str, list[tuple[dict[str, object], str]]] = {
         ({"temperature-left": 0}, "greater than 0"),
         ({"start": "tepid"}, "empty, warm"),
         ({"nu-left": 2e-150, "temperature-left": 1e-300}, "--temperature-left"),
+        (VIOLENT, "the rate of crossings times the temperature"),
     ],
     "momentum_flux": [
         ({"momentum-bins": 21}, "--momentum-bins is odd"),
@@ -91,6 +96,7 @@ BAD: dict[str, list[tuple[dict[str, object], str]]] = {
     "steady_profile": [
         ({"momentum-max": 0}, "--momentum-max"),
         ({"momentum-max": "1e-320"}, "the width of a bin"),
+        (VIOLENT, "the rate of crossings times the temperature"),
     ],
     "particle_count": [
         ({"times": "10"}, "later times"),

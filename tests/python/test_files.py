@@ -1,5 +1,6 @@
 """Files are written together or not at all."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -22,7 +23,7 @@ def test_a_failure_leaves_the_previous_files(tmp_path: Path, monkeypatch: pytest
     monkeypatch.setattr(Path, "write_bytes", full)
     with pytest.raises(OSError, match="No space left") as error:
         write_together({one: b"3", other: b"4"})
-    assert in_one_line(error.value) == f"{other}.tmp: No space left on device"
+    assert in_one_line(error.value) == f"{other}.{os.getpid()}.tmp: No space left on device"
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == {"one": b"1", "other": b"2"}
 
 

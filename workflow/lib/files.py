@@ -1,12 +1,13 @@
 """Atomic writing of files."""
 
+import os
 from collections.abc import Mapping
 from pathlib import Path
 
 
 def write_together(contents: Mapping[Path, bytes]) -> None:
     """Writes all files under other names, then renames them, so that a full disk keeps the old ones. Raises OSError."""
-    files = {path: path.with_name(f"{path.name}.tmp") for path in contents}
+    files = {path: path.with_name(f"{path.name}.{os.getpid()}.tmp") for path in contents}
     try:
         for path, file in files.items():
             file.write_bytes(contents[path])

@@ -3,13 +3,19 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <set>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "program/errors.hpp"
+#include "support/refusal.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace atomic_file_test {
@@ -47,11 +53,63 @@ TEST(AtomicFile, WritesAndReplaces) {
   }
 }
 
-TEST(AtomicFile, ReplacesWhatAKilledProcessLeft) {
+// Files of other names may be the user's own.
+TEST(AtomicFile, RemovesWhatAKilledProcessLeftAnHourAgo) {
   const TemporaryFolder folder;
-  support::write_file(folder / "file.tmp", "partial");
+  const Names others{"file",
+                     "file.tmp",
+                     "file.01234567.txt",
+                     "file.0123456g.tmp",
+                     "file.012345678.tmp",
+                     "files.01234567.tmp"};
+  const auto age = [&](const std::string& name, int minutes) {
+    support::write_file(folder / name, "partial");
+    std::filesystem::last_write_time(
+        folder / name, std::filesystem::file_time_type::clock::now() - std::chrono::minutes(minutes));
+  };
+  for (const std::string& name : others) age(name, 90);
+  age("file.01234567.tmp", 90);
+  age("file.89abcdef.tmp", 30);  // of a process that may still write it
   require_writable(folder / "file");
-  EXPECT_EQ(folder.names(), Names{});
+  Names left = others;
+  left.insert("file.89abcdef.tmp");
+  EXPECT_EQ(folder.names(), left);
+}
+
+TEST(AtomicFile, IsWrittenByProcessesAtOneTime) {
+  const TemporaryFolder folder;
+  std::vector<pid_t> children;
+  for (int i = 0; i < 6; ++i) {
+    children.push_back(::fork());
+    if (children.back() != 0) continue;
+    try {
+      for (int round = 0; round < 20; ++round) write(folder / "file", std::string(100'000, 'x'));
+    } catch (...) {
+      std::_Exit(1);
+    }
+    std::_Exit(0);
+  }
+  for (const pid_t child : children) {
+    int status = 1;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  EXPECT_EQ(folder.names(), Names{"file"});
+  EXPECT_EQ(content_of(folder / "file"), std::string(100'000, 'x'));
+}
+
+// A folder cannot be read as a file.
+TEST(AtomicFile, SaysWhyAFileCannotBeRead) {
+  const TemporaryFolder folder;
+  const auto message = [](const std::string& path) {
+    return support::refusal([&] { (void)read_whole(path); });
+  };
+  EXPECT_EQ(
+      message(folder / "absent"),
+      "'" + (folder / "absent") +
+          "' cannot be read: No such file or directory. Its content may be intact: make it readable, or "
+          "name another file.");
+  EXPECT_NE(message(folder.path()).find("Is a directory"), std::string::npos);
 }
 
 TEST(AtomicFile, AskingLeavesNothingBehindAndTouchesNothing) {

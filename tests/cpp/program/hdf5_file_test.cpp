@@ -1,6 +1,9 @@
 #include "program/hdf5_file.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
@@ -122,8 +125,21 @@ TEST(Hdf5File, SaysWhatIsMissing) {
   write_atomically(path, image());
   EXPECT_THROW((void)Hdf5Reader(path).doubles("/results/absent"), NumericalError);
   support::write_file(other, "not HDF5");
-  for (const std::string& each : {other, folder / "absent.h5"})
-    EXPECT_TRUE(support::refused_as("'" + each + "' cannot be read", [&] { Hdf5Reader{each}; }));
+  EXPECT_TRUE(support::refused_as("'" + other + "' is not a complete HDF5 file", [&] { Hdf5Reader{other}; }));
+  const std::string absent = folder / "absent.h5";
+  EXPECT_TRUE(support::refused_as("'" + absent + "' cannot be read: No such file or directory",
+                                  [&] { Hdf5Reader{absent}; }));
+}
+
+// The HDF5 library does not open a file that another process has locked.
+TEST(Hdf5File, IsReadWhereItIsLocked) {
+  const TemporaryFolder folder;
+  write_atomically(folder / "a.h5", image());
+  const int file = ::open((folder / "a.h5").c_str(), O_RDONLY);
+  ASSERT_EQ(::flock(file, LOCK_EX), 0);
+  EXPECT_LT(H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), 0);
+  EXPECT_EQ(Hdf5Reader(folder / "a.h5").doubles("/results/profile/mean"), reals);
+  ::close(file);
 }
 
 }  // namespace hdf5_file_test

@@ -119,6 +119,7 @@ TEST_F(Parts, AreMissed) {
   EXPECT_NE(complaints.find("--part"), std::string::npos) << complaints;
   std::filesystem::remove(folder / "parts");
   EXPECT_EQ(join_parts(), 2);
+  EXPECT_NE(complaints.find("No such file or directory"), std::string::npos) << complaints;
 }
 
 TEST_F(Parts, ExcludeWhatWouldChangeTheirNumber) {

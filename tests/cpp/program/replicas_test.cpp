@@ -19,8 +19,8 @@ using namespace support;
 using namespace std::chrono_literals;
 
 TEST(Replicas, PassOnAnExceptionAndKeepWhatIsFinished) {
-  const TemporaryFolder folder;
   for (const char* threads : {"1", "2", "5"}) {
+    const TemporaryFolder folder;
     const auto failing = [](const Replica& replica) {
       if (replica.key.replica == 20) throw NumericalError("the twentieth");
       return measure(replica);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "support/refusal.hpp"
 
@@ -38,6 +39,23 @@ TEST(Limits, OfTemperaturesWhoseFourthPowersOfMomentaAreStored) {
   EXPECT_NE(check(1e141, 1), "");
   EXPECT_NE(check(1, 1e141), "");
   EXPECT_NE(check(1e-141, 1), "");
+}
+
+// Mutants: one reservoir only; the rate or the window only; another power.
+TEST(Limits, OfCurrents) {
+  const auto check = [](Reservoir left, Reservoir right, double duration, int power) {
+    return refusal([&] { require_finite_currents({.left = left, .right = right}, duration, power); });
+  };
+  const Reservoir cold{1, 1}, hot{1, 1e290};
+  for (const auto& [left, right] : {std::pair(cold, hot), std::pair(hot, cold)}) {
+    EXPECT_EQ(check(left, right, 1, 1), "");
+    EXPECT_NE(check(left, right, 1e-6, 1), "");
+    EXPECT_NE(check({1e6, left.temperature}, right, 1, 1), "");
+  }
+  EXPECT_EQ(check(cold, {1, 1e147}, 1, 2), "");
+  EXPECT_EQ(check(cold, {1, 1e148}, 1, 1), "");
+  EXPECT_NE(check(cold, {1, 1e148}, 1, 2).find("the rate of crossings times the square of the temperature"),
+            std::string::npos);
 }
 
 TEST(Limits, NameTheOptionsThatLeadBeyondThem) {
