@@ -220,15 +220,14 @@ void StudyProgram::keep(const std::string& why) {
 void StudyProgram::in_threads(std::uint64_t number, const std::function<void()>& task) {
   active_ = number;
   const auto perform = [&] {
-    std::exception_ptr failure;
     try {
       task();
     } catch (...) {
-      failure = std::current_exception();
+      const std::scoped_lock lock(mutex_);
+      if (!failure_) failure_ = std::current_exception();
+      failed_ = true;  // every replica stops at its next heartbeat
     }
     const std::scoped_lock lock(mutex_);
-    if (failure && !failure_) failure_ = failure;
-    if (failure) failed_ = true;  // every replica stops at its next heartbeat
     --active_;
     changed_.notify_one();
   };

@@ -1,6 +1,5 @@
 """Common properties of all programs: provenance, determinism, interruption, targets and limits."""
 
-import fcntl
 import json
 import signal
 import subprocess
@@ -131,84 +130,6 @@ def test_interrupted_and_resumed_run_gives_the_same_bytes(
     assert program(name, **keywords, resume=True).returncode == 0
     assert (tmp_path / "out.h5").read_bytes() == (tmp_path / "whole.h5").read_bytes()
     assert not list(tmp_path.glob("*checkpoint*"))
-
-
-def test_no_interruption_loses_more_than_a_checkpoint_interval(program: Program, tmp_path: Path) -> None:
-    """Half of the time is that of the jackknife of 10,000 replicas."""
-    options = {"cells": 5, "particles-per-cell": 2, "relaxation-time": 0, "observation-time": 1, "decades": 11,
-               "replicas": 10_000, "threads": 1, "checkpoint-interval": 0.2}  # fmt: skip
-    keywords = {key.replace("-", "_"): value for key, value in options.items()}
-    begin = time.monotonic()
-    assert program("displacement", **keywords, output="whole.h5").returncode == 0
-    duration = time.monotonic() - begin
-    for part, number in ((0.3, signal.SIGINT), (0.6, signal.SIGTERM), (0.8, signal.SIGINT), (0.9, signal.SIGTERM)):
-        command = command_line("displacement", {**options, "output": "out.h5"})
-        process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.DEVNULL)
-        time.sleep(part * duration)
-        process.send_signal(number)
-        sent = time.monotonic()
-        assert process.wait(timeout=30) == 128 + number
-        assert time.monotonic() - sent < 2
-        assert program("displacement", **keywords, resume=True).returncode == 0
-        assert (tmp_path / "out.h5").read_bytes() == (tmp_path / "whole.h5").read_bytes()
-        assert sorted(path.name for path in tmp_path.glob("out*")) == ["out.cost.json", "out.h5"]
-        (tmp_path / "out.h5").unlink()
-
-
-def test_processes_with_one_output(tmp_path: Path) -> None:
-    command = command_line("persistence", {"output": "out.h5", "progress": "none"})
-    processes = [subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE) for _ in range(6)]
-    assert [process.communicate()[1] for process in processes] == [b""] * 6
-    assert [process.returncode for process in processes] == [0] * 6
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["out.cost.json", "out.h5"]
-
-
-def test_a_locked_output_is_not_damaged(persistence: Program, tmp_path: Path) -> None:
-    assert persistence().returncode == 0
-    with open(tmp_path / "out.h5") as file:
-        fcntl.flock(file, fcntl.LOCK_EX)
-        assert persistence(overwrite=None).returncode == 0
-        refused = persistence(overwrite=None, sigma=0.25)
-    assert refused.returncode == 2
-    assert "another --sigma" in refused.stderr
-
-
-def test_a_window_that_is_not_stationary_is_reported(program: Program) -> None:
-    options = {"cells": 16, "replicas": 32, "seed": 1, "progress": "log"}
-    drifting = program("conductivity", **options, start="empty", relaxation_time=0, observation_time=2)
-    assert drifting.returncode == 0
-    last = drifting.stderr.splitlines()[-1]
-    assert last.startswith("conductivity: not stationary: the p-value of no drift is ")
-    assert "--relaxation-time" in last
-    stationary = program("conductivity", **options, relaxation_time=50, observation_time=50)
-    assert "stationary" not in stationary.stderr
-    few = program("conductivity", **options | {"replicas": 1}, relaxation_time=50, observation_time=50)
-    assert few.stderr.splitlines()[-1].endswith("choose more --replicas")
-
-
-@pytest.mark.parametrize(
-    ("options", "remedy"),
-    [
-        ({"nu_left": 0, "nu_right": 0}, "--nu-right"),
-        ({"nu_left": 0}, "--nu-left"),
-        ({"nu_right": 0}, "--nu-right"),
-        ({"temperature_left": 100, "temperature_right": 100}, "--temperature-right"),
-        ({"cells": 1}, "--cells"),
-    ],
-)
-def test_a_conductivity_that_is_not_defined(
-    program: Program, tmp_path: Path, options: dict, remedy: str
-) -> None:
-    done = program("conductivity", **options, progress="log")
-    assert done.returncode == 0
-    [line] = [line for line in done.stderr.splitlines() if "kappa" in line]
-    assert line.startswith("conductivity: kappa is not defined: ")
-    assert remedy in line
-    result = load(tmp_path / "out.h5")
-    for name in ("kappa", "kappa_plain", "kappa_printed", "kappa_particle"):
-        assert np.isnan(result[name].mean)
-    assert result.provenance["target_quantity"] == "energy_current"
-    assert np.isfinite(result["energy_current"].mean)
 
 
 def test_a_closed_terminal_is_ignored_with_nohup(tmp_path: Path) -> None:
