@@ -2,7 +2,7 @@
 QUALITY := standard
 SAMPLE := 0.1
 BATCH = $(if $(PROFILE),30)
-OPTIONS := PANEL FRESH SEED REPLICAS JOBS FILE FULL PROFILE BATCH ACCOUNT PARTITION
+OPTIONS := PANEL FRESH SEED REPLICAS ERROR HOURS JOBS FILE FULL PROFILE BATCH ACCOUNT PARTITION
 KNOWN := QUALITY SAMPLE $(OPTIONS) CXX
 
 $(foreach name,$(OPTIONS),$(if $(filter environment,$(origin $(name))),$(eval $(name) :=)))
@@ -22,18 +22,19 @@ SHELL := /bin/bash
 
 export BASH_ENV := workflow/environment/variables.sh
 
-EFFORT := $(QUALITY)$(SEED:%=_seed=%)$(REPLICAS:%=_replicas=%)
+EFFORT := $(QUALITY)$(SEED:%=_seed=%)$(REPLICAS:%=_replicas=%)$(ERROR:%=_error=%)$(HOURS:%=_hours=%)
 PYTHON := .venv/bin/python -m
 OF := --quality '$(EFFORT)' $(PANEL:%=--panel='%')
 SNAKEMAKE := bash workflow/environment/one_at_a_time.sh .venv/bin/snakemake --nolock $(if $(FRESH),--forceall) \
   $(if $(PROFILE),--workflow-profile 'profiles/$(PROFILE)' $(JOBS:%=--jobs '%'),$(JOBS:%=--cores '%')) \
   $(if $(ACCOUNT)$(PARTITION),--default-resources $(ACCOUNT:%=slurm_account='%') $(PARTITION:%=slurm_partition='%')) \
   --config quality='$(EFFORT)' $(PANEL:%=panel='%') $(BATCH:%=batch='%') --
-COMPARE := $(if $(SEED)$(REPLICAS)$(FRESH),$(PYTHON) workflow.provenance.compare $(OF))
+COMPARE := $(if $(SEED)$(REPLICAS)$(ERROR)$(FRESH),$(PYTHON) workflow.provenance.compare $(OF))
 
 help:  ## This list
 	sed -nE 's/^([a-z -]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 17
 	echo 'Options: QUALITY=smoke|standard|paper|deep  PANEL=fig05  FRESH=yes  SEED=7  REPLICAS=200  JOBS=2'
+	echo 'Effort by error: ERROR=0.005, the relative standard error of the target quantity of every run; HOURS=2 bounds the time'
 	echo 'On a cluster (docs/cluster.md): PROFILE=slurm  BATCH=30  ACCOUNT=physics  PARTITION=short'
 figures: build  ## Build, simulate and render every figure: figures/QUALITY/*.pdf, .png, .svg, .csv
 	$(if $(FRESH),$(COMPARE) --keep)
@@ -45,11 +46,11 @@ panel: build  ## One panel, PANEL=fig05; FRESH=yes: rerun from scratch and compa
 	$(SNAKEMAKE) panel
 	$(COMPARE)
 	echo 'The panel is figures/$(EFFORT)/$(PANEL).pdf, .png, .svg and .csv'
-report: figures  ## The paper's claims against the results: figures/QUALITY/report.html
-	$(PYTHON) workflow.report.write --quality '$(EFFORT)'
+report: build  ## The paper's claims against the results: figures/QUALITY/report.html
+	$(SNAKEMAKE) report
 	echo 'The report is figures/$(EFFORT)/report.html'
-gallery: setup  ## docs/gallery and the answer in README.md, from the results at QUALITY
-	$(PYTHON) workflow.report.gallery --quality '$(EFFORT)'
+gallery: build  ## docs/gallery and the answer in README.md, from the results at QUALITY
+	$(SNAKEMAKE) gallery
 setup:  ## System packages, and Python packages in .venv
 	bash workflow/environment/setup.sh
 setup-dev:
@@ -68,8 +69,10 @@ status: installed  ## Fresh, stale (why) or missing; errors; CPU time
 	$(PYTHON) workflow.provenance.status $(OF)
 cost: installed  ## Estimated CPU time of a quality, or of PANEL=fig05
 	$(PYTHON) workflow.cluster.cost $(OF) $(BATCH:%=--batch=%)
-crate: installed  ## Figures, data, code and history as an RO-Crate in build/crate; PANEL=fig05
-	$(PYTHON) workflow.provenance.crate $(OF)
+crate: build  ## Figures, data, code and history as an RO-Crate in build/crate; PANEL=fig05
+	$(SNAKEMAKE) crate
+prune: build  ## Remove results and figures that no plan names: of former options, builds or scripts
+	$(PYTHON) workflow.provenance.obsolete
 test: setup-dev  ## Tests; make test-long: also those that take many minutes
 	bash workflow/environment/test.sh -m 'not long'
 test-long: setup-dev
@@ -84,8 +87,10 @@ format: setup-dev  ## Format every source in place
 	.venv/bin/snakefmt --no-format-shell --line-length 110 Snakefile workflow/rules
 describe: build  ## Options and quantities of the programs: schema of the configuration, docs/format.*
 	$(PYTHON) workflow.config.describe
-bench tradeoff: setup-dev build  ## Cost of an event; make tradeoff: accuracy against time
-	$(PYTHON) workflow.tradeoff.$@
+bench: setup-dev build  ## Cost of an event
+	$(PYTHON) workflow.tradeoff.bench
+tradeoff: setup-dev build  ## Accuracy against time, and rounding: figures/tradeoff
+	$(SNAKEMAKE) tradeoff
 docs: setup-dev  ## The documentation as a static site, build/docs/index.html
 	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --strict 2> >(grep -v '^INFO' >&2)
 	doxygen docs/Doxyfile
@@ -94,5 +99,5 @@ clean:  ## Remove programs, logs and caches; make distclean: also results, figur
 	rm -rf build .cache
 distclean: clean
 	rm -rf data/*/ figures/*/ .snakemake .venv
-.PHONY: help figures panel report gallery setup setup-dev installed build audit verify provenance status cost crate test test-long \
+.PHONY: help figures panel report gallery setup setup-dev installed build audit verify provenance status cost crate prune test test-long \
   check format describe bench tradeoff docs clean distclean

@@ -23,12 +23,12 @@ from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from workflow.cluster.cost import DRAWING, seconds_of_run
-from workflow.lib.plan import load_plan, with_used
+from workflow.lib.plan import data_path, load_plan, with_used
 
 Record = Any  # a logging.LogRecord with the fields of its event
 
 LAST = 12  # printed lines of the log of a failed job
-TARGETS = ("figures", "panel", "total")  # not jobs, though counted with them
+TARGETS = ("figures", "panel", "report", "gallery", "crate", "tradeoff", "total")  # not jobs, though counted with them
 STOPPING = ("Terminating processes on user request", "Will exit after finishing", "Cancelling snakemake")
 
 
@@ -89,19 +89,22 @@ class LogHandler(LogHandlerBase):
 
     def _start(self, job: Record) -> None:
         if not self._costs:
-            self._estimate(job.wildcards["quality"])
+            self._estimate()
         if job.rule_name == "simulate":
             del self._waiting[:1]
         self._failed.pop(name_of(job), None)  # a retry
         self._running[job.jobid] = job
 
-    def _estimate(self, quality: str) -> None:
+    def _estimate(self) -> None:
         """Assumes which runs wait, as events state only their number: those without a result, then the longest."""
-        plan, panel = load_plan(quality), re.search(r"\bpanel=(\S+)", self._command)
-        panels = with_used(plan, panel[1]) if panel else plan.values()
+        given = dict(re.findall(r"\b(quality|panel)=(\S+)", self._command))
+        quality, panel = given.get("quality", "standard"), given.get("panel")
+        plan = load_plan(quality)
+        panels = with_used(plan, panel) if panel else plan.values()
         runs = {f"{one.name}/{run.name}": (one.name, run) for one in panels for run in one.runs}
         self._costs = {name: seconds_of_run(*run) for name, run in runs.items()}
-        made = {name for name in runs if Path(f"data/{quality}/{name}.h5").exists()}
+        paths = {name: Path(data_path(quality, *run)) for name, run in runs.items()}
+        made = {name for name, path in paths.items() if path.exists()}
         order = sorted(runs, key=lambda name: (name in made, -self._costs[name]))
         self._waiting = [self._costs[name] for name in order][: self._runs]
 

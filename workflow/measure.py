@@ -1,21 +1,20 @@
 """One result from Python: `measure("conductivity", cells=64, gamma="N", replicas=64)["kappa"]`."""
 
-import hashlib
 import json
-import subprocess
 from typing import TYPE_CHECKING
 
-from workflow.lib.configuration import Options, arguments
+from workflow.lib.configuration import Options
+from workflow.lib.files import ROOT
 from workflow.lib.load import load
 from workflow.lib.nearest import nearest
+from workflow.lib.plan import Run, build_id
+from workflow.lib.program import ProgramError, execute
 from workflow.lib.units import SCHEMA
-from workflow.provenance.build_id import ROOT, built
 
 if TYPE_CHECKING:
     import xarray
 
 FOLDER = ROOT / "data/measured"
-NOT_CONVERGED = 4  # exit status: the result is written, and marked
 
 
 class MeasureError(ValueError):
@@ -32,15 +31,13 @@ def measure(program: str, **options: object) -> "xarray.DataTree":
     named: Options = {name.replace("_", "-"): value for name, value in sorted(options.items())}
     for name in named.keys() - known[program].keys():
         raise MeasureError(f"{program} has no option {name}; {nearest(name, known[program])}")
-    words = [program, *arguments(named)]
-    identity = hashlib.sha256(json.dumps([*words, built(program)["build_id"]]).encode()).hexdigest()
-    path = FOLDER / program / f"{identity[:16]}.h5"
+    build_id.cache_clear()  # the program may have been compiled again in this session
+    run = Run(program, program, named)
+    path = FOLDER / f"{run.name}.{run.identity}.h5"
     if not path.exists():
         path.parent.mkdir(parents=True, exist_ok=True)
-        words += ["--progress", "none", "--output", str(path)]
-        done = subprocess.run(
-            words, executable=ROOT / "build/bin" / program, stderr=subprocess.PIPE, text=True, check=False
-        )
-        if done.returncode not in (0, NOT_CONVERGED):
-            raise MeasureError(done.stderr.strip())
+        try:
+            execute(program, named, path, "--progress", "none")
+        except ProgramError as error:
+            raise MeasureError(str(error)) from error
     return load(path).to_xarray()

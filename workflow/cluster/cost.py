@@ -15,25 +15,26 @@ from pathlib import Path
 from workflow.cluster.batches import divide, seconds_of_batches
 from workflow.lib.command import command
 from workflow.lib.configuration import Options, at_size
-from workflow.lib.figure_metadata import ROOT
-from workflow.lib.plan import QUALITIES, Run, load_plan
+from workflow.lib.files import ROOT
+from workflow.lib.plan import QUALITIES, Run, data_path, load_plan
 
 TABLE = ROOT / "workflow/config/seconds.csv"  # panel, series, cells, effort, cpu_seconds
 UNKNOWN = 900.0  # seconds assumed for a series that is not in the table
 DRAWING = 4.0  # CPU seconds of rendering a panel
+PARTS = "build/parts"  # of runs on a cluster: PARTS/<quality>/<panel>/<run>.<identity>/
 
 
-def recorded_seconds(quality: str, panel: str, run: str) -> float | None:
-    """CPU seconds of the execution, or of all joined parts; None if not recorded."""
+def recorded_seconds(path: str) -> float | None:
+    """CPU seconds of the execution that wrote a result, or of all joined parts; None if not recorded."""
+    stem = path.removesuffix(".h5")
     try:
-        own = _cost(ROOT / f"data/{quality}/{panel}/{run}.cost.json")
-        divisions = [*(ROOT / f"build/parts/{quality}/{panel}/{run}").glob("*")]
-        parts = [[_cost(path) for path in folder.glob("*.cost.json")] for folder in divisions]
+        own = _cost(ROOT / f"{stem}.cost.json")
+        parts = [_cost(one) for one in (ROOT / PARTS / stem.removeprefix("data/")).glob("*.cost.json")]
     except (OSError, ValueError, KeyError, TypeError):
         return None
-    # Parts belong to this result if their events add up to its number. The cost of joining is negligible.
-    joined = [sum(part[0] for part in one) for one in parts if sum(part[1] for part in one) == own[1]]
-    return max([own[0], *joined])
+    # The cost of joining is negligible.
+    joined = sum(seconds for seconds, _ in parts) if sum(events for _, events in parts) == own[1] else 0.0
+    return max(own[0], joined)
 
 
 def _cost(path: Path) -> tuple[float, int]:
@@ -61,10 +62,9 @@ def estimated_seconds(panel: str, run: Run) -> float | None:
 def scaled_seconds(panel: str, run: Run) -> float | None:
     """CPU seconds scaled from a recorded execution at another quality; None without one."""
     for quality in QUALITIES:
-        seconds = recorded_seconds(quality, panel, run.name)
-        same = [one for one in load_plan(quality)[panel].runs if one.name == run.name] if seconds else []
-        if seconds and same:
-            return seconds * effort(run.options) / effort(same[0].options)
+        for other in (one for one in load_plan(quality)[panel].runs if one.name == run.name):
+            if seconds := recorded_seconds(data_path(quality, panel, other)):
+                return seconds * effort(run.options) / effort(other.options)
     return None
 
 
@@ -105,7 +105,7 @@ def main() -> None:
     options, _, panels = command(__doc__, batch=batch)
     jobs: list[float] = []
     for panel in panels:
-        recorded = [recorded_seconds(options.quality, panel.name, run.name) for run in panel.runs]
+        recorded = [recorded_seconds(data_path(options.quality, panel.name, run)) for run in panel.runs]
         seconds = [
             known or estimated_seconds(panel.name, run) or scaled_seconds(panel.name, run) or UNKNOWN
             for known, run in zip(recorded, panel.runs, strict=True)

@@ -10,8 +10,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from workflow.lib.figure_metadata import ROOT
-from workflow.lib.files import write_together
+from workflow.lib.files import ROOT, write_together
 from workflow.lib.units import SCHEMA
 
 FORMAT = ROOT / "docs/format.md"

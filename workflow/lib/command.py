@@ -26,3 +26,11 @@ def command(
         print(error, file=sys.stderr)
         sys.exit(2)
     return options, plan, with_used(plan, name) if name else [*plan.values()]
+
+
+def product_command(description: str | None) -> argparse.Namespace:
+    """Parses the command line of a script that writes a product of a whole quality."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--quality", required=True)
+    parser.add_argument("--identity", required=True, help="identity in the name of the record")
+    return parser.parse_args()

@@ -28,7 +28,6 @@ Keys = tuple[Any, ...]  # path in nested mappings and lists
 FOLDER = SCHEMA.parent
 EFFORT = (
     "cells",
-    "max-replicas",
     "observation-time",
     "pairs-per-replica",
     "replicas",
@@ -36,7 +35,12 @@ EFFORT = (
     "target-error",
 )
 ALSO_PHYSICS = ("cells", "observation-time", "target-error")  # given in paper.yaml, too
-OF_SERIES: Schema = {"program": True, "replicated": {"type": "boolean", "allowed": "true or false"}}
+SCALE: Schema = {"type": "number", "exclusiveMinimum": 0, "allowed": "a number greater than 0"}
+OF_SERIES: Schema = {
+    "program": True,
+    "replicated": {"type": "boolean", "allowed": "true or false"},
+    "target-scale": SCALE,  # size of a target quantity that can be 0, to which ERROR refers then
+}
 NAME: Schema = {"type": "string", "pattern": "^[A-Za-z0-9_-]+$", "allowed": "letters, digits, _ and -"}
 NAMED: Schema = {"type": "object", "propertyNames": NAME, "minProperties": 1}
 SAFE = YAML(typ="safe", pure=True)

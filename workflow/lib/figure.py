@@ -15,7 +15,9 @@ from matplotlib.figure import Figure
 
 from workflow.lib import style
 from workflow.lib.columns import as_csv, inherited
-from workflow.lib.figure_metadata import ROOT, Parents
+from workflow.lib.closure import FilesRead
+from workflow.lib.figure_metadata import Parents
+from workflow.lib.files import ROOT
 from workflow.lib.load import FormatError, Result, load
 from workflow.lib.save import Text, save
 from workflow.lib.units import UnitsError
@@ -30,7 +32,6 @@ def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str
     """Renders the panel that the command line names."""
     parser = argparse.ArgumentParser(description="Renders a panel from its results.")
     parser.add_argument("--data", type=Path, nargs="+", required=True, help="result files of the panel")
-    parser.add_argument("--configuration", default="", help="hash of the panel's configuration")
     parser.add_argument("--output", type=Path, required=True, help="figures/QUALITY/PANEL, without suffix")
     options = parser.parse_args()
     script = Path(sys.argv[0]).resolve()
@@ -38,6 +39,7 @@ def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str
         sys.exit(
             f"a script of {ROOT} runs in that folder, not in {Path.cwd()}: change to it, or run make setup if the project was moved"
         )
+    read = FilesRead()
     try:
         results = [load(path) for path in options.data]
         style.apply()
@@ -46,6 +48,11 @@ def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str
         saved = as_csv(table, inherited(results) | errors | units)
     except (FormatError, OSError, UnitsError) as error:
         sys.exit(str(error))
-    parents = Parents.of(str(script.relative_to(ROOT)), options.output, options.configuration, results)
+    parents = Parents.of(str(script.relative_to(ROOT)), options.output, results)
+    if unknown := read.beside(parents.sources):
+        sys.exit(
+            f"{script.name} reads {unknown[0]}, and no literal in its modules names that file, so that a change of it would not be "
+            "noticed: write the name as one literal, relative to the module's folder"
+        )
     name = title if isinstance(title, str) else title(results)
     save(figure, saved, options.output, Text(name, " ".join(caption.split())), parents)

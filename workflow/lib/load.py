@@ -1,6 +1,7 @@
 """Reads result files (docs/format.md)."""
 
 import os
+import re
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -12,6 +13,7 @@ import h5py
 import numpy as np
 import pandas as pd
 
+from workflow.lib.identity import IDENTITY
 from workflow.lib.nearest import nearest
 from workflow.lib.units import parse
 
@@ -108,6 +110,11 @@ class Result:
         if name not in self.quantities:
             raise FormatError(f"{self.path} has no quantity {name}; {nearest(name, self.quantities)}")
         return self.quantities[name]
+
+    @property
+    def run(self) -> str:
+        """Name of the run: that of the file without its identity."""
+        return re.sub(rf"\.{IDENTITY}$", "", self.path.stem)
 
     def ends(self, name: str) -> tuple[float, float]:
         """A parameter of the left and of the right bath."""

@@ -9,15 +9,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from workflow.lib.figure_metadata import (
-    PACKAGES,
-    ROOT,
-    MetadataError,
-    Parents,
-    embedded,
-    file_hash,
-    read_panel,
-)
+from workflow.lib.figure_metadata import MetadataError, Parents, embedded, read_panel
+from workflow.lib.files import ROOT, file_hash
 from workflow.lib.load import FormatError, load_statements
 from workflow.provenance.build_id import sources_of_program
 
@@ -48,8 +41,8 @@ def result_lines(stated: dict[str, Any], parameters: dict[str, Any]) -> Iterator
 
 
 def parent_lines(parents: Parents, few: int | None) -> Iterator[str]:
-    yield f"  panel {parents.panel} at quality {parents.quality}, configuration {parents.configuration[:SHORT]}"
-    yield f"  {state(PACKAGES, parents.packages)}, Python {parents.python}"
+    yield f"  panel {parents.panel} at quality {parents.quality}, identity {parents.identity}"
+    yield f"  Python {parents.python}"
     sources, data = [*parents.sources.items()], [*parents.data.items()]
     yield from (f"  {state(path, digest)}" for path, digest in sources[:few])
     yield from (f"  {state(path, one['sha256'])}, seed {one['seed']}" for path, one in data[:few])
@@ -86,10 +79,10 @@ def explain(path: Path, few: int | None) -> tuple[bool, list[str]]:
     stated = embedded(path)
     if path.suffix != ".csv":
         return False, [first, *parent_lines(Parents.parse(stated), few)]
-    for _, product, record in records():  # a CSV has only the digest
-        if record["parents"].digest() == stated:
+    for _, product, record in records():  # a CSV has only the identity
+        if record["parents"].identity == stated:
             return False, [f"{first} those of {product}", *parent_lines(record["parents"], few)]
-    return False, [f"{first} sha256 {stated}, of no panel here"]
+    return False, [f"{first} those of identity {stated}, of no panel here"]
 
 
 def main() -> None:

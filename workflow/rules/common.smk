@@ -1,9 +1,21 @@
-"""What the rules share: products and runs of panels."""
+"""What the rules share: runs of panels, products, and their records."""
+
+RECORDS = {
+    name: record_path(Path("figures", QUALITY, name), panel_identity(name, panel.script, DATA[name]))
+    for name, panel in PLAN.items()
+}
 
 
 def products_of(panel):
-    """Results too: Snakemake does not remake a missing intermediate whose products are there."""
-    return [*data_of(PLAN, panel, QUALITY), *drawings_of(QUALITY, panel)]
+    """Results too: Snakemake does not remake a missing result whose figure is there."""
+    return [*map(ancient, DATA[panel]), ancient(valid(RECORDS[panel]))]
+
+
+def valid(record):
+    """The path of a record, which is removed if its files are missing or edited, so that they are made again."""
+    if record.exists() and not is_whole(record):
+        record.unlink()
+    return record
 
 
 def run_of(wildcards):
@@ -15,17 +27,3 @@ def priority_of_run(wildcards):
     users = (name for name, panel in PLAN.items() if wildcards.panel in (name, *panel.uses))
     later = min([*PLAN].index(name) + len(PLAN) * name.startswith("ext") for name in users)
     return seconds_of_run(wildcards.panel, run_of(wildcards)) - 1e6 * later
-
-
-@cache
-def sources_digest(script):
-    return digest_of_files([*sources_of(f"workflow/figures/{script}.py"), PACKAGES])
-
-
-def runs_shown_by(panel):
-    """Their configurations and builds: inputs that an earlier, interrupted invocation remade are no trigger."""
-    panels = with_used(PLAN, panel)
-    return [
-        *(one.hash() for one in panels),
-        *sorted({BUILDS[run.program] for one in panels for run in one.runs}),
-    ]
