@@ -36,15 +36,21 @@ help:  ## This list
 	echo 'Options: QUALITY=smoke|standard|paper|deep  PANEL=fig05  FRESH=yes  SEED=7  REPLICAS=200  JOBS=2'
 	echo 'Effort by error: ERROR=0.005, the relative standard error of the target quantity of every run; HOURS=2 bounds the time'
 	echo 'On a cluster (docs/cluster.md): PROFILE=slurm  BATCH=30  ACCOUNT=physics  PARTITION=short'
+reached = $(if $(ERROR),$(PYTHON) workflow.provenance.errors $(OF))
+estimate = $(if $(ERROR),$(PYTHON) workflow.cluster.cost $(OF))
 figures: build  ## Build, simulate and render every figure: figures/QUALITY/*.pdf, .png, .svg, .csv
 	$(if $(FRESH),$(COMPARE) --keep)
+	$(estimate)
 	$(SNAKEMAKE) figures
 	$(COMPARE)
+	$(reached)
 	echo 'The figures are in figures/$(EFFORT). Next: make report'
 panel: build  ## One panel, PANEL=fig05; FRESH=yes: rerun from scratch and compare
 	$(if $(FRESH),$(COMPARE) --keep)
+	$(estimate)
 	$(SNAKEMAKE) panel
 	$(COMPARE)
+	$(reached)
 	echo 'The panel is figures/$(EFFORT)/$(PANEL).pdf, .png, .svg and .csv'
 report: build  ## The paper's claims against the results: figures/QUALITY/report.html
 	$(SNAKEMAKE) report

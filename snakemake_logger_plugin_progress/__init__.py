@@ -22,7 +22,7 @@ from rich.text import Text
 from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 
-from workflow.cluster.cost import DRAWING, seconds_of_run
+from workflow.cluster.cost import DRAWING, estimated_seconds
 from workflow.lib.plan import data_path, load_plan, with_used
 
 Record = Any  # a logging.LogRecord with the fields of its event
@@ -55,7 +55,8 @@ class LogHandler(LogHandlerBase):
         self._failed: dict[str, None] = {}  # ordered
         self._stopped = False
         self._cores = 0  # 0 on a cluster, where the remaining time depends on the queue
-        self._costs: dict[str, float] = {}  # estimated CPU seconds by panel/run
+        self._costs: dict[str, float] = {}  # estimated CPU seconds by panel/run, 0 if unknown
+        self._unknown = 0  # runs of unknown cost
         self._waiting: list[float] = []  # estimated CPU seconds of runs that have not started
         self._estimated = self._taken = 0.0  # CPU seconds of finished jobs
 
@@ -102,7 +103,9 @@ class LogHandler(LogHandlerBase):
         plan = load_plan(quality)
         panels = with_used(plan, panel) if panel else plan.values()
         runs = {f"{one.name}/{run.name}": (one.name, run) for one in panels for run in one.runs}
-        self._costs = {name: seconds_of_run(*run) for name, run in runs.items()}
+        estimated = {name: estimated_seconds(*run) for name, run in runs.items()}
+        self._unknown = sum(seconds is None for seconds in estimated.values())
+        self._costs = {name: seconds or 0.0 for name, seconds in estimated.items()}
         paths = {name: Path(data_path(quality, *run)) for name, run in runs.items()}
         made = {name for name, path in paths.items() if path.exists()}
         order = sorted(runs, key=lambda name: (name in made, -self._costs[name]))
@@ -170,7 +173,8 @@ class LogHandler(LogHandlerBase):
         costs = sum(self._waiting) + drawings * DRAWING + sum(map(self._cost, running))
         speed = self._taken / self._estimated if self._estimated else 1.0
         left = speed * costs - sum(elapsed(job) * job.threads for job in running)
-        return f"{done}, about {clock(max(left, 0.0) / self._cores)} left"
+        more = " and runs of unknown cost" if self._unknown else ""
+        return f"{done}, about {clock(max(left, 0.0) / self._cores)}{more} left"
 
     def _cost(self, job: Record) -> float:
         return self._costs.get(name_of(job), DRAWING)

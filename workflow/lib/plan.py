@@ -48,6 +48,8 @@ class Run:
     replicated: bool = True  # False for a deterministic program
     series: str = ""  # key in the configuration; the name also has the listed values
     hours: float | None = None  # wall time of all runs, after which a run with a target error stops
+    target: float | None = None  # ERROR: relative error of the target quantity, or error over its scale
+    scale: float | None = None  # of a target quantity that can be 0
 
     @cached_property
     def identity(self) -> str:
@@ -185,8 +187,8 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Q
             run = "_".join([series, *(f"{key}={_in_name(value)}" for key, value in chosen.items())])
             given = {**options, **chosen}
             completed = quality.complete(name, run, given, scale) if replicated else given
-            hours = quality.hours if replicated else None
-            runs.append(Run(run, program, completed, replicated, series, hours))
+            bound = (quality.hours, quality.error) if replicated else (None, None)
+            runs.append(Run(run, program, completed, replicated, series, *bound, scale))
     return Panel(name, panel.get("script", name), tuple(runs), tuple(panel.get("uses", ())))
 
 

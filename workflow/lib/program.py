@@ -19,7 +19,7 @@ class ProgramError(ValueError):
 def command_line(run: Run, programs: Path | str = "build/bin", limit: float | None = None) -> list[str]:
     """Words of the command of a run, without its output. limit: seconds after which no replica starts."""
     conduct = ["--threads", "1", "--resume"] if run.replicated else []
-    conduct += [] if limit is None else ["--time-limit", f"{limit:.0f}"]
+    conduct += [] if limit is None or not run.replicated else ["--time-limit", f"{limit:.0f}"]
     return [f"{programs}/{run.program}", *arguments(run.options), *conduct]
 
 

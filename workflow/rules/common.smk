@@ -22,6 +22,16 @@ def run_of(wildcards):
     return PLAN[wildcards.panel].run(wildcards.run)
 
 
+def limit_of_run(wildcards):
+    """Seconds after which a run with a target error starts no replica: with HOURS, its share of the time by estimated cost."""
+    if EFFORT.hours is None:
+        return None
+    panels = with_used(PLAN, PANEL) if PANEL else PLAN.values()
+    runs = [(panel.name, run) for panel in panels for run in panel.runs]
+    share = seconds_of_run(wildcards.panel, run_of(wildcards)) / sum(seconds_of_run(*run) for run in runs)
+    return 3600 * EFFORT.hours * (min(1, share * workflow.cores) if workflow.cores else 1)
+
+
 def priority_of_run(wildcards):
     """Runs that the paper's panels show first, one panel after the other, and of a panel the longest runs first."""
     users = (name for name, panel in PLAN.items() if wildcards.panel in (name, *panel.uses))
