@@ -79,7 +79,7 @@ class LogHandler(LogHandlerBase):
             self._extensions = record.stats.get("draw_extension", 0)
             if self._console.is_terminal:
                 self._live.start()
-        elif event == LogEvent.JOB_INFO and record.wildcards:  # the target has none
+        elif event == LogEvent.JOB_INFO and record.rule_name not in TARGETS:
             self._start(record)
         elif event == LogEvent.JOB_FINISHED and record.job_id in self._running:
             self._finish(self._running.pop(record.job_id))
@@ -124,7 +124,7 @@ class LogHandler(LogHandlerBase):
                 self._console.print(
                     f"The paper's figures are in figures/{job.wildcards['quality']}; extensions follow"
                 )
-        elif job.rule_name != "part":
+        elif job.rule_name in ("simulate", "join", "single"):
             value, doubts = outcome(Path(job.output[0]))
             if self._console.is_terminal or doubts:
                 self._console.print(f"{name}: {', '.join([value, *doubts])}, {self._state}")
@@ -205,8 +205,9 @@ def outcome(path: Path) -> tuple[str, list[str]]:
 
 
 def name_of(job: Record) -> str:
-    """`panel`, `panel/run` or `panel/run/replicas`."""
-    return "/".join(job.wildcards[key] for key in ("panel", "run", "part") if key in job.wildcards)
+    """`panel`, `panel/run` or `panel/run/replicas`, or the rule of another product."""
+    parts = [job.wildcards[key] for key in ("panel", "run", "part") if key in job.wildcards]
+    return "/".join(parts) or job.rule_name
 
 
 def elapsed(job: Record) -> float:

@@ -65,13 +65,12 @@ class Known(Data):
         self.plan: dict[str, Panel] = plan(quality)
         self.loaded, self.used = {}, {}
 
-    def _load(self, panel: str, run: str) -> tuple[str, Result]:
+    def _load(self, panel: str, run: Run) -> tuple[str, Result]:
         path = data_path(self.quality, panel, run)
         if panel not in self.fills:
             raise MissingError(f"{path} is missing, damaged or unreadable")
         if path not in self.loaded:
-            planned = self.plan[panel].run(run)
-            planned = replace(planned, options=DEFAULTS | planned.options)
+            planned = replace(run, options=DEFAULTS | run.options)
             provenance = {"program": planned.program, "converged": self.converged}
             quantities = dict(self.fills[panel](planned))
             self.loaded[path] = Result(Path(path), planned.options, provenance, quantities)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from workflow import measure as module
+from workflow.lib import plan
 from workflow.lib.load import load
 from workflow.measure import MeasureError, measure
 
@@ -18,7 +19,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def test_result_as_xarray_with_errors(folder: Path) -> None:
     tree = measure("steady_profile", **SMALL)
-    (path,) = folder.glob("steady_profile/*.h5")
+    (path,) = folder.glob("steady_profile.*.h5")
     result = load(path)
     assert set(tree.children) == set(result.quantities)
     assert (tree.attrs["cells"], tree.attrs["gamma"]) == (4, "N")
@@ -32,7 +33,7 @@ def test_a_result_is_reused_for_equal_options_and_the_same_build(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def files() -> list[tuple[Path, int]]:
-        return sorted((path, path.stat().st_mtime_ns) for path in folder.glob("*/*.h5"))
+        return sorted((path, path.stat().st_mtime_ns) for path in folder.glob("*.h5"))
 
     measure("steady_profile", **SMALL)
     first = files()
@@ -41,7 +42,7 @@ def test_a_result_is_reused_for_equal_options_and_the_same_build(
     measure("steady_profile", **SMALL, seed=2)
     second = files()
     assert len(second) == 2
-    monkeypatch.setattr(module, "built", lambda program: {"build_id": "another"})
+    monkeypatch.setattr(plan, "built", lambda program: {"build_id": "another"})
     measure("steady_profile", **SMALL)
     assert len(files()) == 3
 
@@ -69,4 +70,4 @@ def test_errors_are_one_line(program: str, options: dict[str, object], message: 
         measure(program, **options)
     assert str(error.value).startswith(message)
     assert "\n" not in str(error.value)
-    assert not [*folder.glob("*/*.h5")]
+    assert not [*folder.glob("*.h5")]

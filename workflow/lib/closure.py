@@ -1,6 +1,7 @@
 """Closure of a script: everything of the project that it reads."""
 
 import ast
+import os
 import re
 import sys
 from collections.abc import Iterable, Iterator
@@ -76,13 +77,13 @@ class FilesRead:
         sys.addaudithook(self._note)
 
     def _note(self, event: str, arguments: tuple[object, ...]) -> None:
-        if event == "open" and isinstance(arguments[0], str) and "r" in str(arguments[1] or "r"):
+        if event == "open" and isinstance(arguments[0], str) and not int(str(arguments[2])) & (os.O_WRONLY | os.O_RDWR):
             self._opened.add(arguments[0])
 
     def beside(self, closure: Iterable[str]) -> list[str]:
         """Sorted paths of the files that are not in a closure; products, environment and caches are no sources."""
         modules = {str(module.__file__) for module in [*sys.modules.values()] if getattr(module, "__file__", None)}
         paths = (Path(name).resolve() for name in self._opened | modules)
-        names = {str(path.relative_to(ROOT)) for path in paths if path.is_relative_to(ROOT) and path.suffix != ".pyc"}
-        made = {name for name in names if name.startswith((".", "build/", "figures/")) or name.endswith(".h5")}
+        names = {str(path.relative_to(ROOT)) for path in paths if path.is_relative_to(ROOT) and path.is_file()}
+        made = {name for name in names if name.startswith((".", "build/", "figures/")) or name.endswith((".h5", ".pyc"))}
         return sorted(names - made - {*closure})

@@ -25,6 +25,8 @@ from workflow.lib.units import UnitsError
 Drawn = tuple[
     Figure, pd.DataFrame, str
 ]  # figure, table of the plotted numbers, caption as one paragraph of plain text
+READ = FilesRead()  # from the first import of a script on
+
 Draw = Callable[[Sequence[Result]], Drawn]
 
 
@@ -39,7 +41,6 @@ def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str
         sys.exit(
             f"a script of {ROOT} runs in that folder, not in {Path.cwd()}: change to it, or run make setup if the project was moved"
         )
-    read = FilesRead()
     try:
         results = [load(path) for path in options.data]
         style.apply()
@@ -49,7 +50,7 @@ def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str
     except (FormatError, OSError, UnitsError) as error:
         sys.exit(str(error))
     parents = Parents.of(str(script.relative_to(ROOT)), options.output, results)
-    if unknown := read.beside(parents.sources):
+    if unknown := READ.beside(parents.sources):
         sys.exit(
             f"{script.name} reads {unknown[0]}, and no literal in its modules names that file, so that a change of it would not be "
             "noticed: write the name as one literal, relative to the module's folder"

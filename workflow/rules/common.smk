@@ -1,5 +1,9 @@
 """What the rules share: runs of panels, products, and their records."""
 
+from workflow.lib.closure import hashes_of
+from workflow.lib.files import file_hash, project_files
+from workflow.lib.identity import identity
+
 RECORDS = {
     name: record_path(Path("figures", QUALITY, name), panel_identity(name, panel.script, DATA[name]))
     for name, panel in PLAN.items()
@@ -37,3 +41,32 @@ def priority_of_run(wildcards):
     users = (name for name, panel in PLAN.items() if wildcards.panel in (name, *panel.uses))
     later = min([*PLAN].index(name) + len(PLAN) * name.startswith("ext") for name in users)
     return seconds_of_run(wildcards.panel, run_of(wildcards)) - 1e6 * later
+
+
+def identity_of(script, *inputs):
+    return identity(script, [*map(str, inputs)], hashes_of(script))
+
+
+def words_of(module, record):
+    """Command that writes a product with its record."""
+    return f".venv/bin/python -m {module} --quality {QUALITY} --identity {record.suffixes[-2].strip('.')}"
+
+
+def archive(wildcards):
+    """Path of the crate, which has the records of the panels and all sources."""
+    records = [str(RECORDS[panel]) for panel in ([PANEL] if PANEL else PLAN)]
+    content = identity(records, {path: file_hash(Path(path)) for path in project_files()})
+    return f"build/crate/lorentz-gas-{PACKED}.{content}.zip"
+
+
+PRODUCTS = [path for panel in PLAN for path in products_of(panel)]
+PACKED = f"{QUALITY}-{PANEL}" if PANEL else QUALITY
+BUILDS = sorted({build_id(run.program) for one in PLAN.values() for run in one.runs})
+REPORT, GALLERY, TRADEOFF = (
+    record_path(Path(stem), identity_of(script, *inputs))
+    for stem, script, inputs in (
+        (f"figures/{QUALITY}/report", "workflow/report/write.py", RECORDS.values()),
+        ("docs/gallery/gallery", "workflow/report/gallery.py", RECORDS.values()),
+        ("figures/tradeoff/tradeoff", "workflow/tradeoff/tradeoff.py", BUILDS),
+    )
+)

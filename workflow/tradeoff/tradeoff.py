@@ -46,6 +46,7 @@ def make(name: str) -> dict[Path, bytes]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--only", choices=TABLES, metavar="NAME", help=f"one of {', '.join(TABLES)}")
+    parser.add_argument("--quality", help="has no effect: the tables have efforts of their own")
     parser.add_argument("--identity", help="identity in the name of the record of all tables")
     options = parser.parse_args()
     subprocess.run(["bash", "workflow/environment/build.sh", *SIMULATORS], check=True)
