@@ -72,7 +72,7 @@ def test_every_column_scales_as_its_units(clean: Clone, panel: str) -> None:
 
 @pytest.mark.parametrize("panel", PLAN)
 def test_every_panel_has_a_caption(clean: Clone, panel: str) -> None:
-    caption = read_panel(clean.folder / f"figures/smoke/{panel}.json")["caption"]
+    caption = read_panel(clean.folder / clean.record(panel))["caption"]
     assert len(caption) >= 200
     assert len(caption.split()) <= 120
     assert caption == " ".join(caption.split())
