@@ -39,6 +39,12 @@ wildcard_constraints:
     identity=IDENTITY,
 
 
+if workflow.is_main_process:
+    shown = [PANEL] if PANEL else PLAN
+    for path in {path for name in shown if not valid(RECORDS[name]).exists() for path in DATA[name]}:
+        set_aside(path)
+
+
 rule figures:
     input:
         [path for panel in PLAN for path in products_of(panel)],

@@ -191,13 +191,11 @@ class LogHandler(LogHandlerBase):
 def outcome(path: Path) -> tuple[str, list[str]]:
     """Value `mu = 0.3289(30)`, or the error of an array; and the marks of the result."""
     from workflow.lib.fit import with_error  # noqa: PLC0415  0.5 s
-    from workflow.lib.load import NOT_REACHED, load  # noqa: PLC0415
+    from workflow.lib.load import load  # noqa: PLC0415
 
     result = load(path)
-    name = result.provenance["target_quantity"]
-    quantity, stationary = result.quantities.get(name), result.quantities.get("stationary")
-    doubts = ["target error not reached"] if result.converged == NOT_REACHED else []
-    doubts += ["not stationary"] if stationary is not None and (stationary.mean == 0).any() else []
+    name, doubts = result.provenance["target_quantity"], result.doubts
+    quantity = result.quantities.get(name)
     if quantity is None or quantity.mean.size > 1:
         return f"error of {name} {float(result.provenance['achieved_error']):.2g}", doubts
     error = quantity.error if quantity.discretisation_error is None else quantity.discretisation_error

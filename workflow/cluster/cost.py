@@ -18,9 +18,10 @@ from pathlib import Path
 
 from workflow.cluster.batches import divide, seconds_of_batches
 from workflow.lib.command import command
-from workflow.lib.configuration import Options, at_size
+from workflow.lib.configuration import Options
 from workflow.lib.files import ROOT
 from workflow.lib.plan import QUALITIES, Run, data_path, load_plan
+from workflow.lib.polynomial import at_size
 from workflow.lib.program import command_line
 
 TABLE = ROOT / "workflow/config/seconds.csv"  # panel, series, cells, effort, cpu_seconds

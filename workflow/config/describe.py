@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
+from workflow.lib import polynomial
 from workflow.lib.files import ROOT, write_together
 from workflow.lib.units import SCHEMA
 
@@ -19,7 +20,6 @@ SIMPLE = {
     "flag": {"type": "boolean", "allowed": "true or false"},
     "text": {"type": "string", "allowed": "text"},
 }
-NUMBER = r"([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?"
 LIMITS = {  # keyword of JSON Schema, and text
     "minimum": ("minimum", "at least"),
     "exclusive_minimum": ("exclusiveMinimum", "above"),
@@ -76,8 +76,8 @@ def schema(option: dict[str, Any]) -> dict[str, Any]:
     limits = {key: option[name] for name, (key, _) in LIMITS.items() if name in option}
     ranges = [f"{words} {option[name]:.15g}" for name, (_, words) in LIMITS.items() if name in option]
     allowed = " ".join([kind, *" and ".join(ranges).split()])
-    number = NUMBER if {*limits} - {"maximum"} else f"-?{NUMBER}"
-    term, pattern = rf"{number}(N(\^2)?)?", ""
+    number = polynomial.NUMBER if {*limits} - {"maximum"} else f"-?{polynomial.NUMBER}"
+    pattern = ""
     if kind == "numbers":
         kind, pattern, allowed = (
             "number",
@@ -87,7 +87,7 @@ def schema(option: dict[str, Any]) -> dict[str, Any]:
     elif "word" in option:
         pattern, allowed = option["word"], f"{allowed}, or {option['word']}"
     elif other:
-        pattern = rf"{term}(\+{term})*"
+        pattern = polynomial.pattern(number)
         allowed += ", or a sum of such, each alone or followed by N or N^2"
     found = {"type": [kind, "string"], "pattern": f"^({pattern})$"} if pattern else {"type": kind}
     units = {} if option["units"] in PURE else {"units": option["units"]}

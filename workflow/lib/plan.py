@@ -93,6 +93,8 @@ class Quality:
         for key, _, text in (one.partition("=") for one in given):
             if key not in EFFORTS:
                 raise ConfigurationError(f"{key}={text} is no effort; {nearest(key, EFFORTS)}")
+            if key in values:
+                raise ConfigurationError(f"{key}={text} is given more than once; give it once")
             pattern, number, allowed = EFFORTS[key]
             if not re.fullmatch(pattern, text) or (number is float and float(text) == 0):
                 raise ConfigurationError(f"{key.upper()}={text} is invalid; allowed: {allowed}")

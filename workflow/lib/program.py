@@ -1,7 +1,8 @@
 """Runs the programs of build/bin."""
 
+import signal
 import subprocess
-from collections.abc import Sequence
+import sys
 from pathlib import Path
 
 from workflow.lib.configuration import Options, arguments
@@ -24,11 +25,25 @@ def command_line(run: Run, programs: Path | str = "build/bin", limit: float | No
 
 
 def execute(
-    program: str, options: Options, output: Path, *more: str, programs: Path = PROGRAMS
-) -> subprocess.CompletedProcess[str]:
-    """Writes the result of a program. Raises ProgramError with its message."""
-    words: Sequence[str | Path] = [programs / program, *arguments(options), *more, "--output", output]
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
-    if done.returncode not in WRITTEN:
-        raise ProgramError(done.stderr.strip())
-    return done
+    program: str, options: Options, output: Path, *more: str, programs: Path = PROGRAMS, relay: bool = False
+) -> str:
+    """Writes the result of a program, and returns its messages; relay: prints them meanwhile. Raises ProgramError with them;
+    KeyboardInterrupt after the program has written its checkpoint."""
+    command: list[str | Path] = [programs / program, *arguments(options), *more, "--output", output]
+    lines: list[str] = []
+    # In a session of its own, the program gets an interrupt from here alone, once.
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True) as running:
+        assert running.stderr
+        try:
+            for line in running.stderr:
+                lines.append(line)
+                if relay and ": error: " not in line:
+                    print(line, end="", file=sys.stderr)
+        except KeyboardInterrupt:
+            running.send_signal(signal.SIGINT)
+            print(running.stderr.read(), end="", file=sys.stderr)
+            running.wait()
+            raise
+    if running.returncode not in WRITTEN:
+        raise ProgramError("".join(lines).strip())
+    return "".join(lines)

@@ -17,7 +17,6 @@ from pathlib import Path
 from typing import Any
 
 from workflow.lib.closure import PACKAGES, hashes_of
-from workflow.lib.configuration import at_size
 from workflow.lib.figure_metadata import (
     BUILD,
     MetadataError,
@@ -30,6 +29,7 @@ from workflow.lib.files import ROOT, file_hash
 from workflow.lib.identity import IDENTITY
 from workflow.lib.load import FormatError, load_statements
 from workflow.lib.plan import Panel, Run, data_path, with_used
+from workflow.lib.polynomial import at_size
 from workflow.lib.record import record_path, records_of
 from workflow.provenance.build_id import BuildError, built, sources_of_program
 

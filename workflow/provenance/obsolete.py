@@ -17,7 +17,7 @@ from workflow.lib.plan import QUALITIES, Panel, data_path, load_plan
 from workflow.provenance.build_id import BuildError
 from workflow.provenance.checks import Fault, Kind, Products
 
-OF_A_RESULT = re.compile(r"(.+)\.(?:h5|cost\.json|h5\.checkpoint|h5\.tmp)")
+OF_A_RESULT = re.compile(r"(.+)\.(?:h5|cost\.json|h5\.checkpoint|h5\.tmp|h5\.damaged)")
 OF_A_PANEL = re.compile(rf"([\w-]+)\.(?:pdf|png|svg|csv|html|{IDENTITY}\.json)")
 
 

@@ -22,6 +22,21 @@ def valid(record):
     return record
 
 
+def set_aside(path):
+    """Renames a damaged or edited result that is about to be read, so that it is made again."""
+    from workflow.lib.load import FormatError, load_statements  # 0.3 s, where a panel is rendered
+
+    try:
+        whole = not Path(path).exists() or load_statements(path)[-1]
+    except FormatError:
+        whole = False
+    except OSError:  # unreadable is not damaged
+        whole = True
+    if not whole:
+        print(f"{path} is edited or damaged and is made again; it is kept as {path}.damaged", file=sys.stderr)
+        Path(path).rename(f"{path}.damaged")
+
+
 def run_of(wildcards):
     return PLAN[wildcards.panel].run(wildcards.run)
 

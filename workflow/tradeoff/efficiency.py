@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from workflow.lib.configuration import at_size
+from workflow.lib.polynomial import at_size
 from workflow.lib.plan import Run
 from workflow.tradeoff.measure import Done, execute, planned, simulate
 

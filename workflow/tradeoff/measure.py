@@ -1,6 +1,5 @@
 """Executes programs and reference simulators and measures their CPU time."""
 
-import re
 import resource
 import subprocess
 import tempfile
@@ -11,13 +10,13 @@ from pathlib import Path
 
 import numpy as np
 
+from workflow.lib import polynomial
 from workflow.lib.load import Result, load
 from workflow.lib.plan import Run, load_plan
 from workflow.lib.program import PROGRAMS
 from workflow.lib.program import execute as execute_program
 
 QUALITY = "smoke"  # fewest pairs per replica and largest target errors
-NUMBER = re.compile(r"(?<!\^)\d+\.?\d*(e[+-]?\d+)?")  # not an exponent of N
 
 
 @dataclass(frozen=True)
@@ -34,7 +33,7 @@ def planned(panel: str, run: str) -> Run:
 
 def shortened(times: float | str, fraction: float) -> str:
     """Scales a time, each time of a list, or every term of a polynomial in N."""
-    return NUMBER.sub(lambda number: f"{fraction * float(number[0]):.6g}", str(times))
+    return polynomial.scaled(times, lambda number: fraction * number)
 
 
 def call(program: str, **options: object) -> Done:
@@ -42,8 +41,8 @@ def call(program: str, **options: object) -> Done:
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder) / "out.h5"
         named = {name.replace("_", "-"): value for name, value in options.items()}
-        done, seconds = _timed(lambda: execute_program(program, named, output))
-        return Done(load(output), seconds, done.stderr)
+        log, seconds = _timed(lambda: execute_program(program, named, output))
+        return Done(load(output), seconds, log)
 
 
 def execute(run: Run, **changes: object) -> Done:
@@ -55,13 +54,11 @@ def execute(run: Run, **changes: object) -> Done:
 def simulate(simulator: str, *words: object) -> tuple[np.ndarray, float]:
     """Table printed by a simulator of tests/cpp/reference, and its CPU seconds. Raises CalledProcessError."""
     command = [PROGRAMS / f"reference_{simulator}", *map(str, words)]
-    done, seconds = _timed(lambda: subprocess.run(command, check=True, capture_output=True, text=True))
-    return np.array([line.split() for line in done.stdout.splitlines()]), seconds
+    printed, seconds = _timed(lambda: subprocess.check_output(command, text=True))
+    return np.array([line.split() for line in printed.splitlines()]), seconds
 
 
-def _timed(
-    run: Callable[[], subprocess.CompletedProcess[str]],
-) -> tuple[subprocess.CompletedProcess[str], float]:
+def _timed(run: Callable[[], str]) -> tuple[str, float]:
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = run()
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
