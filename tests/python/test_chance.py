@@ -4,7 +4,6 @@ That no two replicas or seeds share a draw is tested in tests/cpp/engine/chance_
 every result alike, and only this comparison finds them.
 """
 
-import subprocess
 from dataclasses import asdict, dataclass, replace
 from functools import cache
 
@@ -12,7 +11,8 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from tests.python.conftest import ROOT, Measure
+from tests.python.conftest import Measure
+from workflow.tradeoff.measure import simulate
 
 
 @dataclass(frozen=True)
@@ -52,12 +52,10 @@ def reference(chain: Chain) -> dict[str, np.ndarray]:
     """Measurements of the reference simulator, [replica, ...]."""
     gamma = chain.cells if chain.gamma == "N" else chain.gamma
     times = chain.observation_time * 10 ** np.arange(-DECADES, 0.01, EVERY / POINTS_PER_DECADE)
-    words = [chain.cells, chain.particles_per_cell, chain.sigma, gamma, chain.temperature]
-    words += [chain.relaxation_time, chain.observation_time, "drawn" if chain.random_direction else "kept"]
-    words += [chain.replicas, 1, waiting_time_edges(chain)[0], BINS_PER_DECADE, BINS, *times]
-    command = [str(word) for word in (ROOT / "build/bin/reference_closed_chain", *words)]
-    output = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    rows = np.fromstring(output, sep=" ").reshape(chain.replicas, -1)
+    options = asdict(chain) | {"gamma": gamma, "times": ",".join(map(str, times)), "seed": 1}
+    options["rule"] = "random-direction" if options.pop("random_direction") else "elastic"
+    bins = {"first_edge": waiting_time_edges(chain)[0], "bins_per_decade": BINS_PER_DECADE, "bins": BINS}
+    rows = simulate("closed_chain", **options, **bins)[0].astype(float)
     moments, scatterings, persistent, waits = np.split(rows, 4 * len(times) + np.arange(3), axis=1)
     names = ("variance", "centre_of_mass", "mean_displacement", "scatterer_energy")
     found = dict(zip(names, np.moveaxis(moments.reshape(chain.replicas, -1, 4), 2, 0), strict=True))

@@ -1,7 +1,6 @@
 """Correlations of a closed chain in the stationary state: particles that fly freely against the exact result, a chain that
 scatters against the reference simulator, which shares no code with the program, and peaks against mode coupling."""
 
-import subprocess
 from functools import cache
 from itertools import pairwise
 
@@ -10,9 +9,10 @@ import pytest
 from scipy.integrate import quad
 from scipy.stats import chi2
 
-from tests.python.conftest import ROOT, Measure
+from tests.python.conftest import Measure
 from workflow.lib.load import Quantity, Result
 from workflow.lib.mode_coupling import Chain
+from workflow.tradeoff.measure import simulate
 
 FIELDS = ("momentum", "heat")
 CELLS, ZETA, T, SIGMA, SLOWEST = 25, 1.5, 4.0, 0.5, 0.01
@@ -86,10 +86,9 @@ def test_free_flight(correlation: Measure) -> None:
 @cache
 def reference(lag: float, replicas: int) -> dict[str, np.ndarray]:
     """By field: [replica, distance]."""
-    words = [ROOT / "build/bin/reference_correlation", CELLS, ZETA, SIGMA, T, SLOWEST, lag, replicas, 1]
-    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=True)
-    rows = [[float(word) for word in line.split()] for line in done.stdout.splitlines()]
-    sample = np.array(rows).reshape(replicas, len(FIELDS), CELLS)
+    gas = {"cells": CELLS, "fugacity": ZETA, "sigma": SIGMA, "temperature": T, "slowest": SLOWEST}
+    rows, _ = simulate("correlation", **gas, lag=lag, replicas=replicas, seed=1)
+    sample = rows.astype(float).reshape(replicas, len(FIELDS), CELLS)
     # Both signs of r are the same in the mean.
     sample = 0.5 * (sample + np.roll(sample[:, :, ::-1], 1, axis=2))
     return {name: sample[:, k] for k, name in enumerate(FIELDS)}

@@ -1,14 +1,14 @@
 """The observables of the open chain: agreement with the reference simulator, equilibrium."""
 
-import subprocess
 from functools import cache
 
 import numpy as np
 import pytest
 from scipy.stats import chi2, norm
 
-from tests.python.conftest import ROOT, Measure
+from tests.python.conftest import Measure
 from workflow.lib.load import Quantity
+from workflow.tradeoff.measure import simulate
 
 BATHS = {"nu_left": 220, "nu_right": 180, "temperature_left": 900 / 11, "temperature_right": 1100 / 9}
 EQUAL = {"nu_left": 200, "nu_right": 200, "temperature_left": 100, "temperature_right": 100}
@@ -18,10 +18,10 @@ BINS, MAX = 20, 60
 @cache
 def reference(cells: int, gamma: float, relaxation: float, observation: float) -> dict[str, np.ndarray]:
     """Measurements of the reference simulator with the default baths, [replica, value]."""
-    words = [ROOT / "build/bin/reference_open_chain", cells, 1 / cells, 0.5, gamma, *BATHS.values()]
-    words += [relaxation, observation, BINS, MAX, 100, 1]
-    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=True)
-    rows = np.array([[float(word) for word in line.split()] for line in done.stdout.splitlines()])
+    chain = {"cells": cells, "cell_length": 1 / cells, "sigma": 0.5, "gamma": gamma, **BATHS}
+    times = {"relaxation_time": relaxation, "observation_time": observation}
+    bins = {"momentum_bins": BINS, "momentum_max": MAX}
+    rows = simulate("open_chain", **chain, **times, **bins, replicas=100, seed=1)[0].astype(float)
     sizes = {
         **dict.fromkeys(("temperature_scatterer", "temperature_particle", "density"), cells),
         **dict.fromkeys(("rate_right", "rate_left"), cells),

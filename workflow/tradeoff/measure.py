@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from workflow.lib import polynomial
+from workflow.lib.configuration import arguments
 from workflow.lib.load import Result, load
 from workflow.lib.plan import Run, load_plan
 from workflow.lib.program import PROGRAMS
@@ -40,8 +41,7 @@ def call(program: str, **options: object) -> Done:
     """Executes a program; underscores in names of options become dashes. Raises ProgramError."""
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder) / "out.h5"
-        named = {name.replace("_", "-"): value for name, value in options.items()}
-        log, seconds = _timed(lambda: execute_program(program, named, output))
+        log, seconds = _timed(lambda: execute_program(program, _dashed(options), output))
         return Done(load(output), seconds, log)
 
 
@@ -51,11 +51,15 @@ def execute(run: Run, **changes: object) -> Done:
     return call(run.program, **run.options | {"progress": "log"} | threads | changes)
 
 
-def simulate(simulator: str, *words: object) -> tuple[np.ndarray, float]:
-    """Table printed by a simulator of tests/cpp/reference, and its CPU seconds. Raises CalledProcessError."""
-    command = [PROGRAMS / f"reference_{simulator}", *map(str, words)]
+def simulate(simulator: str, **options: object) -> tuple[np.ndarray, float]:
+    """Table printed by a simulator of tests/cpp/reference, as text, and its CPU seconds. Raises CalledProcessError."""
+    command = [str(PROGRAMS / "reference_simulator"), simulator, *arguments(_dashed(options))]
     printed, seconds = _timed(lambda: subprocess.check_output(command, text=True))
     return np.array([line.split() for line in printed.splitlines()]), seconds
+
+
+def _dashed(options: dict[str, object]) -> dict[str, object]:
+    return {name.replace("_", "-"): value for name, value in options.items()}
 
 
 def _timed(run: Callable[[], str]) -> tuple[str, float]:
