@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from workflow.config.describe import with_option
 from workflow.lib.plan import load_plan
 from workflow.tradeoff import accuracy, bench, bias, efficiency, measure, rounding, tradeoff
 from workflow.tradeoff.efficiency import Estimate
@@ -93,14 +94,18 @@ def test_error_falls_with_replicas(monkeypatch: pytest.MonkeyPatch) -> None:
     assert many.cpu_seconds > few.cpu_seconds > 0
     assert (accuracy.errors("boltzmann").error.to_numpy() <= accuracy.TARGETS).all()
     monkeypatch.setattr(accuracy, "errors", lambda program: table.assign(program=program))
-    assert len(accuracy.draw(accuracy.measure().query("program != 'boltzmann'")).axes) == 9
+    assert len(accuracy.draw(accuracy.measure().query("program != 'boltzmann'")).axes) == 12
 
 
 def test_named_runs_are_planned() -> None:
     panels = load_plan(measure.QUALITY)
     assert all(panels[panel].run(name) for panel, name in (run.split("/") for run in bench.RUNS))
-    for program, (panel, name, _) in accuracy.SETTINGS.items():
-        assert panels[panel].run(name).program == program
+
+
+@pytest.mark.parametrize("program", with_option("target-error"))
+def test_every_program_with_an_error_is_in_the_table_of_accuracy(program: str) -> None:
+    panel, name, _ = accuracy.SETTINGS[program]
+    assert measure.planned(panel, name).program == program
 
 
 def test_results_with_and_without_a_method() -> None:
@@ -121,7 +126,6 @@ def test_pulse_with_and_without_methods() -> None:
     assert rows[0]["factor"] > 1
 
 
-@pytest.mark.long  # test_error_bars.py tests predictions in short
 def test_prediction_of_a_target_error() -> None:
     row = accuracy.predicted("persistence")
     assert accuracy.FIRST_LOOK < row["least"] <= row["most"]

@@ -32,10 +32,21 @@ WIDTH = 118
 Described = dict[str, dict[str, Any]]  # by program
 
 
+def built(programs: Path = ROOT / "build/bin") -> list[str]:
+    """Names of the programs that CMake builds into this folder: those with a build id beside it."""
+    return sorted(path.stem for path in (programs.parent / "id").glob("[!.]*.json"))
+
+
+def with_option(name: str) -> list[str]:
+    """The built programs that declare this option."""
+    declared = json.loads(SCHEMA.read_text())["programs"]
+    return [program for program in built() if name in declared.get(program, ())]
+
+
 def descriptions(programs: Path) -> Described:
     """Descriptions of all programs. Some quantities exist only with a flag; `always` lists the others."""
     described = {}
-    for name in sorted(path.stem for path in (ROOT / "cpp/observables").glob("*.cpp")):
+    for name in built(programs):
         plain = _describe(programs / name)
         flags = [one["name"] for one in plain["options"] if one["type"] == "flag" and one["affects_results"]]
         variants = [plain, *(_describe(programs / name, f"--{flag}") for flag in flags)]
