@@ -372,7 +372,7 @@ EDGES: list[tuple[str, World, float]] = [
 def test_wrong_verdicts_are_no_more_frequent_than_the_level(
     claim: str, world: World, relative: float
 ) -> None:
-    """On the edge both are wrong, reproduced and contradicted. Mutant: half the error, which makes them several times as many."""
+    """On the edge both are wrong, reproduced and contradicted. Finds: half the error, which makes them several times as many."""
     random = np.random.default_rng(3)
     outcomes = []
     for _ in range(TRIALS):

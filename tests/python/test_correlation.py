@@ -75,7 +75,7 @@ def accepted(z: np.ndarray) -> bool:
 
 
 def test_free_flight(correlation: Measure) -> None:
-    """Mutant: another time."""
+    """Finds: another time."""
     result = correlation(sigma=-1, observation_time=2, times="0.5,2", replicas=1500)
     for index, time in enumerate((0.5, 2.0)):
         for name, z in scores(result, index, of_free_flight(time)).items():
@@ -96,7 +96,7 @@ def reference(lag: float, replicas: int) -> dict[str, np.ndarray]:
 
 @pytest.mark.parametrize("lag", [0.6, 3.0])
 def test_against_the_reference(correlation: Measure, lag: float) -> None:
-    """Mutant: heavier scatterers."""
+    """Finds: heavier scatterers."""
     sample = reference(lag, 4000)
     expected = {name: each.mean(axis=0) for name, each in sample.items()}
     errors = {name: each.std(axis=0, ddof=1) / np.sqrt(len(each)) for name, each in sample.items()}
@@ -122,7 +122,7 @@ def ratios(quantity: Quantity, index: int, expected: float) -> tuple[float, floa
 
 def test_sound_has_the_speed_and_the_area_of_the_theory(correlation: Measure) -> None:
     """At ζ = 0.8 and M = 1/3, where the peak settles first: within 3 %, the tail that mode coupling predicts besides, and four
-    standard errors. Mutants: heavier scatterers, fewer particles."""
+    standard errors. Finds: heavier scatterers, fewer particles."""
     gas = {"sigma": -0.5, "fugacity": 0.8, "temperature": 1, "slowest": None}
     ring = {"cells": 216, "observation_time": 512, "times": "16,32,64", "replicas": 300}
     result = correlation(**gas | ring)

@@ -100,7 +100,7 @@ def test_standard_error_over_seeds_where_a_target_ends_the_run(
     least, most = np.array(predicted).T
     as_predicted = np.count_nonzero((least <= counts) & (counts <= most))
     assert binom.cdf(as_predicted, SEEDS, 0.95) > 5e-4
-    # Mutant: the middle of the range, with half the spacing of the looks, an eighth, on either side.
+    # Finds: the middle of the range, with half the spacing of the looks, an eighth, on either side.
     middle = np.sqrt(least * most)
     assert binom.cdf(np.count_nonzero(abs(counts - middle) < middle / 16), SEEDS, 0.95) < 5e-4
     assert (errors <= options["target_error"] * abs(values)).all()

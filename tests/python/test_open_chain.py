@@ -81,7 +81,7 @@ def test_against_the_reference_simulator(measure: Measure, cells: int, gamma: st
                          for name, sample in found.items() for suffix in ("", "_plain")])  # fmt: skip
 
     assert np.abs(conductivity_scores()).max() < 4
-    # Mutants: baths exchanged; one bath slightly hotter.
+    # Finds: baths exchanged; one bath slightly hotter.
     assert np.abs(conductivity_scores(temperature_left=1100 / 9, temperature_right=900 / 11)).max() > 4
     assert np.abs(conductivity_scores(temperature_right=145)).max() > 4
 
@@ -123,7 +123,7 @@ def test_equilibrium(measure: Measure, gamma: str | int) -> None:
     assert abs(ends["energy_current"].mean) < 4 * ends["energy_current"].standard_error
     for name in ("temperature_first", "temperature_last"):
         assert abs(ends[name].mean - 100) < 4 * ends[name].standard_error
-        assert abs(ends[name].mean - 103) > 4 * ends[name].standard_error  # mutant: 3 % too hot
+        assert abs(ends[name].mean - 103) > 4 * ends[name].standard_error  # finds: 3 % too hot
 
     def gaussian(edges: np.ndarray, temperature: float) -> np.ndarray:
         return np.diff(norm.cdf(edges / np.sqrt(temperature)))

@@ -70,6 +70,6 @@ def test_profiles_and_exponent(measure: Measure, gamma: str | int) -> None:
     assert len(z) > 60
     assert accepted(z)
     assert abs(exponent_score) < 4
-    # Mutants: lighter scatterers; a larger pulse.
+    # Finds: lighter scatterers; a larger pulse.
     assert not accepted(scores(pulse(sigma=0.4 if gamma == "N" else 0.3), visited, times, pairs)[0])
     assert not accepted(scores(pulse(pulse_energy=53000), visited, times, pairs)[0])
