@@ -28,7 +28,15 @@ from workflow.lib.plan import data_path, load_plan, with_used
 Record = Any  # a logging.LogRecord with the fields of its event
 
 LAST = 12  # printed lines of the log of a failed job
-TARGETS = ("figures", "panel", "report", "gallery", "crate", "tradeoff", "total")  # not jobs, though counted with them
+TARGETS = (
+    "figures",
+    "panel",
+    "report",
+    "gallery",
+    "crate",
+    "tradeoff",
+    "total",
+)  # not jobs, though counted with them
 STOPPING = ("Terminating processes on user request", "Will exit after finishing", "Cancelling snakemake")
 
 

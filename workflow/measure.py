@@ -5,7 +5,7 @@ import itertools
 import json
 import warnings
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from workflow.lib.configuration import Options
 from workflow.lib.files import ROOT
@@ -19,7 +19,10 @@ if TYPE_CHECKING:
     import xarray
 
 FOLDER = ROOT / "data/measured"
-CONDUCT = ("threads", "time-limit")  # options that conduct a run; a result depends on the second, where it stops the run
+CONDUCT = (
+    "threads",
+    "time-limit",
+)  # options that conduct a run; a result depends on the second, where it stops the run
 
 
 class MeasureError(ValueError):
@@ -43,8 +46,12 @@ def measure(program: str, **options: object) -> "xarray.DataTree":
     for name in given.keys() - {*allowed}:
         raise MeasureError(f"{program} has no option {name}; {nearest(name, allowed)}")
     build_id.cache_clear()  # the program may have been compiled again in this session
-    listed = {name: [*value] for name, value in given.items() if _is_list(value)}
-    points = [_plain(dict(zip(listed, values, strict=True))) for values in itertools.product(*listed.values())]
+    listed: dict[str, list[Any]] = {
+        name: [*cast("Sequence[Any]", value)] for name, value in given.items() if _is_list(value)
+    }
+    points = [
+        _plain(dict(zip(listed, values, strict=True))) for values in itertools.product(*listed.values())
+    ]
     results = [_result(program, _plain(given | point), known[program]) for point in points]
     for point, result in zip(points, results, strict=True):
         if result.doubts:
@@ -89,12 +96,21 @@ def _combined(
     import xarray  # noqa: PLC0415
 
     def gridded(parts: "Sequence[xarray.Dataset]") -> "xarray.Dataset":
-        placed = [part.expand_dims({name: [value] for name, value in point.items()}) for part, point in zip(parts, points, strict=True)]
+        placed = [
+            part.expand_dims({name: [value] for name, value in point.items()})
+            for part, point in zip(parts, points, strict=True)
+        ]
         return xarray.combine_by_coords(placed, join="outer", combine_attrs="drop_conflicts")  # type: ignore[return-value]
 
     names = [name for name in trees[0].children if all(name in tree.children for tree in trees)]
     doubts = [xarray.Dataset({one: tree.attrs[one] for one in ("converged", "doubts")}) for tree in trees]
     root = gridded(doubts)
-    common = {key: value for key, value in trees[0].attrs.items() if all(tree.attrs.get(key) == value for tree in trees)}
+    common = {
+        key: value
+        for key, value in trees[0].attrs.items()
+        if all(tree.attrs.get(key) == value for tree in trees)
+    }
     root.attrs = {key: value for key, value in common.items() if key not in ("converged", "doubts", *listed)}
-    return xarray.DataTree.from_dict({"/": root, **{name: gridded([tree[name].to_dataset() for tree in trees]) for name in names}})
+    return xarray.DataTree.from_dict(
+        {"/": root, **{name: gridded([tree[name].to_dataset() for tree in trees]) for name in names}}
+    )

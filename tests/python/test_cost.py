@@ -63,8 +63,14 @@ def test_a_target_error_needs_replicas_as_its_inverse_square() -> None:
 
 
 def test_a_pilot_of_two_replicas() -> None:
-    run = Run("a", "persistence", {"cells": 8, "relaxation-time": 1, "observation-time": 50, "replicas": 40, "seed": 1})
-    few, many = (cost.pilot_seconds(replace(run, options=run.options | {"replicas": count})) for count in (20, 2000))
+    run = Run(
+        "a",
+        "persistence",
+        {"cells": 8, "relaxation-time": 1, "observation-time": 50, "replicas": 40, "seed": 1},
+    )
+    few, many = (
+        cost.pilot_seconds(replace(run, options=run.options | {"replicas": count})) for count in (20, 2000)
+    )
     assert few
     assert many
     assert 30 < many / few < 300

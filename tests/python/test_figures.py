@@ -14,9 +14,9 @@ import pytest
 
 from tests.python.conftest import ROOT, command_line
 from workflow.figures.fig05 import law, tabulate
-from workflow.lib.columns import as_csv
 from workflow.lib import closure
 from workflow.lib.closure import sources_of
+from workflow.lib.columns import as_csv
 from workflow.lib.figure_metadata import MetadataError, Parents, embedded, read_panel
 from workflow.lib.files import file_hash
 from workflow.lib.load import load
@@ -182,10 +182,23 @@ def test_the_closure_of_a_script(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 def test_a_script_that_reads_a_file_without_naming_it_is_refused(runs: list[Path], tmp_path: Path) -> None:
     script = ROOT / "workflow/figures/of_a_test.py"
     table = ROOT / "workflow/figures/of_a_test.csv"
-    script.write_text((ROOT / SCRIPT).read_text().replace("def draw(", 'open("workflow/figures/of_a" + "_test.csv")\n\n\ndef draw('))
+    script.write_text(
+        (ROOT / SCRIPT)
+        .read_text()
+        .replace("def draw(", 'open("workflow/figures/of_a" + "_test.csv")\n\n\ndef draw(')
+    )
     table.write_text("1")
     try:
-        command = [sys.executable, "-P", "-m", "workflow.figures.of_a_test", "--output", tmp_path / "a", "--data", *runs]
+        command = [
+            sys.executable,
+            "-P",
+            "-m",
+            "workflow.figures.of_a_test",
+            "--output",
+            tmp_path / "a",
+            "--data",
+            *runs,
+        ]
         done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     finally:
         script.unlink()

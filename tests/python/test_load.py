@@ -190,5 +190,7 @@ def test_the_digest_of_results_by_hand_and_of_any_change(tmp_path: Path, measure
         assert results_digest(file["results"]) == f"{zlib.crc32(content):08x}"
         file["results/energy/mean"][1, 2] += 1e-9
         assert results_digest(file["results"]) != f"{zlib.crc32(content):08x}"
-    with pytest.raises(FormatError, match="edited or damaged: its values differ from those written; remove it"):
+    with pytest.raises(
+        FormatError, match="edited or damaged: its values differ from those written; remove it"
+    ):
         load(path)

@@ -97,7 +97,14 @@ def test_points_have_independent_errors() -> None:
     times = np.linspace(2, 2.4, 40)
     shared, own = (
         [
-            [float(measure("conductivity", **common, **seed, sigma=sigma, observation_time=time)["energy_current_plain"]["mean"]) for sigma in sigmas]
+            [
+                float(
+                    measure("conductivity", **common, **seed, sigma=sigma, observation_time=time)[
+                        "energy_current_plain"
+                    ]["mean"]
+                )
+                for sigma in sigmas
+            ]
             for time, seed in zip(times, seeds, strict=True)
         ]
         for seeds in ([{"seed": number} for number in range(40)], [{}] * 40)
@@ -111,7 +118,9 @@ def test_doubts_are_warned_of() -> None:
     with pytest.warns(UserWarning, match="conductivity: not stationary"):
         assert measure("conductivity", **options).attrs["doubts"] == "not stationary"
     with pytest.warns(UserWarning, match="at cells = 4: target error not reached"):
-        tree = measure("persistence", cells=[4], replicas=4, target_error=1e-9, time_limit=1e-9, observation_time=1)
+        tree = measure(
+            "persistence", cells=[4], replicas=4, target_error=1e-9, time_limit=1e-9, observation_time=1
+        )
     assert tree["converged"].item() == "not reached"
 
 

@@ -133,9 +133,7 @@ def test_prediction_of_a_target_error() -> None:
     assert row["least_seconds"] / row["least"] == pytest.approx(row["most_seconds"] / row["most"])
 
 
-def test_products(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_products(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     """A table with units, also printed, and its figure; the drift grows less than with one-sided rounding."""
     monkeypatch.setattr(rounding, "LONGEST", 5.5)
     files = {path.name: content for path, content in tradeoff.make("ext08").items()}

@@ -72,7 +72,11 @@ class Clone:
 
     def result(self, run: str) -> str:
         """Path of the result of `panel/run`, of which there is one."""
-        found = [path for path in self.products() if re.fullmatch(rf"data/smoke/{re.escape(run)}\.{IDENTITY}\.h5", path)]
+        found = [
+            path
+            for path in self.products()
+            if re.fullmatch(rf"data/smoke/{re.escape(run)}\.{IDENTITY}\.h5", path)
+        ]
         assert len(found) == 1
         return found[0]
 

@@ -48,7 +48,9 @@ def test_a_terminal_has_a_line_per_run(kept: Clone) -> None:
 def test_a_failure_shows_the_end_of_its_log_alone(kept: Clone) -> None:
     append("workflow/figures/fig03.py", 'raise RuntimeError("broken here")\n')(kept)
     _, first, *log, last = kept.snakemake("figures", status=1).splitlines()
-    assert re.fullmatch(r"fig03 failed after 0:\d\d:\d\d\. build/logs/smoke/fig03\.[0-9a-f]{12}\.log ends with:", first)
+    assert re.fullmatch(
+        r"fig03 failed after 0:\d\d:\d\d\. build/logs/smoke/fig03\.[0-9a-f]{12}\.log ends with:", first
+    )
     assert log[-1] == "  RuntimeError: broken here"
     assert last == "Failed: fig03; 0 of 1 done. Fix the cause; the same command resumes."
 

@@ -59,14 +59,18 @@ def forget(clone: Clone) -> None:
 
 def other_times(clone: Clone) -> None:
     """As rsync without times: in the order of the copy."""
-    for number, file in enumerate(sorted(files_below(clone.folder / "data") + files_below(clone.folder / "figures"))):
+    for number, file in enumerate(
+        sorted(files_below(clone.folder / "data") + files_below(clone.folder / "figures"))
+    ):
         os.utime(file, (1e9 + 97 * number % 1000, 1e9 + 97 * number % 1000))
 
 
 def results_of_others(clone: Clone) -> None:
     """Results of another seed, of another build and of former options beside the planned ones."""
     for number, path in enumerate(sorted((clone.folder / "data/smoke").glob("*/*.h5"))):
-        shutil.copy(path, path.with_name(f"{path.name.rpartition('.')[0].rpartition('.')[0]}.{number:012x}.h5"))
+        shutil.copy(
+            path, path.with_name(f"{path.name.rpartition('.')[0].rpartition('.')[0]}.{number:012x}.h5")
+        )
 
 
 FIG07 = "decades: 6\n        fit-decades: 1\n"
@@ -161,7 +165,9 @@ def test_a_changed_source_is_named_by_audit_and_status(kept: Clone) -> None:
 def test_an_interrupted_rendering_keeps_the_pictures(kept: Clone) -> None:
     """Their record is missing, so that they are rendered by the next command."""
     before = kept.products()
-    replace("workflow/figures/fig06.py", "    run(draw", '    raise RuntimeError("interrupted")\n    run(draw')(kept)
+    replace(
+        "workflow/figures/fig06.py", "    run(draw", '    raise RuntimeError("interrupted")\n    run(draw'
+    )(kept)
     kept.snakemake("figures", status=1)
     assert kept.products() == before
     assert kept.stale() == {"fig06"}

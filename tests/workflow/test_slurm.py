@@ -31,9 +31,7 @@ def cluster() -> Iterator[slurm.Cluster]:
 
 
 @contextlib.contextmanager
-def on_cluster(
-    clone: Clone, *config: str, option: str = "--keep-going"
-) -> Iterator[subprocess.Popen[str]]:
+def on_cluster(clone: Clone, *config: str, option: str = "--keep-going") -> Iterator[subprocess.Popen[str]]:
     """Snakemake in its own session, which is killed at the end."""
     profile = ("--workflow-profile", "profiles/slurm", *PATIENCE.split(), option)
     with subprocess.Popen(

@@ -97,7 +97,9 @@ def pilot_seconds(run: Run) -> float | None:
     with tempfile.TemporaryDirectory() as folder:
         output = f"{folder}/pilot.h5"
         try:
-            subprocess.run([*words, "--output", output], capture_output=True, timeout=PILOT_SECONDS, check=False)
+            subprocess.run(
+                [*words, "--output", output], capture_output=True, timeout=PILOT_SECONDS, check=False
+            )
             return _cost(Path(folder) / "pilot.cost.json")[0] * replicas / float(few.get("replicas", 1))
         except (subprocess.TimeoutExpired, OSError, ValueError, KeyError):
             return None
@@ -159,7 +161,10 @@ def main() -> None:
     for panel in panels:
         recorded = [recorded_seconds(data_path(options.quality, panel.name, run)) for run in panel.runs]
         seconds = [
-            known or estimated_seconds(panel.name, run) or scaled_seconds(panel.name, run) or pilot_seconds(run)
+            known
+            or estimated_seconds(panel.name, run)
+            or scaled_seconds(panel.name, run)
+            or pilot_seconds(run)
             for known, run in zip(recorded, panel.runs, strict=True)
         ]
         found = [one for one in seconds if one is not None]

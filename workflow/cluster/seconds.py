@@ -29,7 +29,11 @@ def row(quality: str, panel: str, run: Run) -> Row | None:
     if run.scale is not None:
         error = float(result[result.provenance["target_quantity"]].error) / run.scale
     total = float(run.options.get("replicas", 1)) * effort(run.options)
-    texts = {"effort": f"{total:.6g}", "cpu_seconds": f"{seconds:.4g}", "error": f"{error:.3g}" if error > 0 else ""}
+    texts = {
+        "effort": f"{total:.6g}",
+        "cpu_seconds": f"{seconds:.4g}",
+        "error": f"{error:.3g}" if error > 0 else "",
+    }
     return {"panel": panel, "series": run.series, "cells": f"{cells(run.options):g}", **texts}
 
 
@@ -37,7 +41,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("qualities", nargs="+", choices=QUALITIES)
     with TABLE.open(newline="") as file:
-        known: dict[Key, Row] = {tuple(one[name] for name in COLUMNS[:3]): one for one in csv.DictReader(file)}
+        known: dict[Key, Row] = {
+            tuple(one[name] for name in COLUMNS[:3]): one for one in csv.DictReader(file)
+        }
     replicas: dict[Key, int] = {}
     for quality in parser.parse_args().qualities:
         for name, panel in load_plan(quality).items():

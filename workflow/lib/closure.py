@@ -43,7 +43,9 @@ def _used(path: str, source: str) -> tuple[str, ...]:
             module = ".".join([*above, *([node.module] if node.module else [])])
             used += [module, *(f"{module}.{alias.name}" for alias in node.names)]
     modules = [name.replace(".", "/") + ".py" for name in used if name.partition(".")[0] == package[0]]
-    literals = {node.value for node in nodes if isinstance(node, ast.Constant) and isinstance(node.value, str)}
+    literals = {
+        node.value for node in nodes if isinstance(node, ast.Constant) and isinstance(node.value, str)
+    }
     return (*modules, *(file for literal in literals for file in _files_named(literal, Path(path).parent)))
 
 
@@ -56,7 +58,9 @@ def _files_named(literal: str, folder: Path) -> Iterator[str]:
             yield str(place)
         elif (ROOT / place).is_dir() and above == folder:
             content = (ROOT / place).rglob("*")
-            yield from (str(one.relative_to(ROOT)) for one in content if one.is_file() and one.suffix != ".pyc")
+            yield from (
+                str(one.relative_to(ROOT)) for one in content if one.is_file() and one.suffix != ".pyc"
+            )
 
 
 @cache
@@ -77,13 +81,25 @@ class FilesRead:
         sys.addaudithook(self._note)
 
     def _note(self, event: str, arguments: tuple[object, ...]) -> None:
-        if event == "open" and isinstance(arguments[0], str) and not int(str(arguments[2])) & (os.O_WRONLY | os.O_RDWR):
+        if (
+            event == "open"
+            and isinstance(arguments[0], str)
+            and not int(str(arguments[2])) & (os.O_WRONLY | os.O_RDWR)
+        ):
             self._opened.add(arguments[0])
 
     def beside(self, closure: Iterable[str]) -> list[str]:
         """Sorted paths of the files that are not in a closure; products, environment and caches are no sources."""
-        modules = {str(module.__file__) for module in [*sys.modules.values()] if getattr(module, "__file__", None)}
+        modules = {
+            str(module.__file__) for module in [*sys.modules.values()] if getattr(module, "__file__", None)
+        }
         paths = (Path(name).resolve() for name in self._opened | modules)
-        names = {str(path.relative_to(ROOT)) for path in paths if path.is_relative_to(ROOT) and path.is_file()}
-        made = {name for name in names if name.startswith((".", "build/", "figures/")) or name.endswith((".h5", ".pyc"))}
+        names = {
+            str(path.relative_to(ROOT)) for path in paths if path.is_relative_to(ROOT) and path.is_file()
+        }
+        made = {
+            name
+            for name in names
+            if name.startswith((".", "build/", "figures/")) or name.endswith((".h5", ".pyc"))
+        }
         return sorted(names - made - {*closure})

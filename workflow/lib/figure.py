@@ -14,8 +14,8 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from workflow.lib import style
-from workflow.lib.columns import as_csv, inherited
 from workflow.lib.closure import FilesRead
+from workflow.lib.columns import as_csv, inherited
 from workflow.lib.figure_metadata import Parents
 from workflow.lib.files import ROOT
 from workflow.lib.load import FormatError, Result, load

@@ -41,11 +41,15 @@ def in_one_line(error: OSError) -> str:
 
 def project_files() -> list[str]:
     """Sources: files that git does not ignore, tracked or not; without a repository, all files that are neither products nor hidden."""
-    command = ["git", "-C", ROOT, "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    command = ["git", "-C", str(ROOT), "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     paths = sorted({path for path in done.stdout.split("\0") if path and (ROOT / path).is_file()})
     if "Snakefile" in paths:
         return paths
     paths = [str(path.relative_to(ROOT)) for path in sorted(ROOT.rglob("*")) if path.is_file()]
     products = (".", "build/", "figures/")
-    return [path for path in paths if not path.startswith(products) and not path.endswith((".h5", ".cost.json", ".pyc"))]
+    return [
+        path
+        for path in paths
+        if not path.startswith(products) and not path.endswith((".h5", ".cost.json", ".pyc"))
+    ]

@@ -157,7 +157,9 @@ def load(path: Path | str) -> Result:
     """Reads a result file. Raises FormatError, also if its values were edited, and OSError if the file is unreadable."""
     with _opened(path) as (file, provenance):
         if provenance["results_digest"] != results_digest(file["results"]):
-            raise FormatError("edited or damaged: its values differ from those written; remove it and make it again")
+            raise FormatError(
+                "edited or damaged: its values differ from those written; remove it and make it again"
+            )
         quantities = {name: _quantity(group) for name, group in file["results"].items()}
         return Result(Path(path), _attributes(file["parameters"]), provenance, quantities)
 

@@ -101,7 +101,9 @@ class Quality:
             values[key] = number(text)
         quality = cls(name, base, **values)
         if quality.error is not None and quality.replicas is not None:
-            raise ConfigurationError("ERROR and REPLICAS both determine the number of replicas; give one of them")
+            raise ConfigurationError(
+                "ERROR and REPLICAS both determine the number of replicas; give one of them"
+            )
         if quality.hours is not None and quality.error is None:
             raise ConfigurationError("HOURS bounds the time to reach an error; give ERROR=0.01, too")
         return quality
@@ -120,7 +122,9 @@ class Quality:
         if self.replicas is not None:
             options["replicas"] = self.replicas
         if self.error is not None:
-            target = {"target-error": self.error} if scale is None else {"target-absolute": self.error * scale}
+            target = (
+                {"target-error": self.error} if scale is None else {"target-absolute": self.error * scale}
+            )
             options |= {"replicas": BATCH, **target}
         return options | {
             "seed": _seed(f"{panel}/{run}" if self.seed is None else f"{panel}/{run}/{self.seed}")

@@ -27,7 +27,8 @@ def scaled(value: object, change: Callable[[float], float]) -> str:
     """The value with every coefficient changed; also of a list of numbers separated by commas."""
     items = [[TERM.fullmatch(term) for term in _terms(item)] for item in str(value).split(",")]
     return ",".join(
-        "+".join(f"{change(float(term[1])):.6g}{term[0][len(term[1]) :]}" for term in terms if term) for terms in items
+        "+".join(f"{change(float(term[1])):.6g}{term[0][len(term[1]) :]}" for term in terms if term)
+        for terms in items
     )
 
 

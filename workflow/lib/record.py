@@ -22,7 +22,9 @@ def record_path(stem: Path, identity_of_panel: str) -> Path:
 def records_of(stem: Path) -> list[Path]:
     """Records of products stem.*, of any identity."""
     name = re.compile(rf"{re.escape(stem.name)}\.{IDENTITY}\.json")
-    return sorted(path for path in stem.parent.glob(f"{glob.escape(stem.name)}*.json") if name.fullmatch(path.name))
+    return sorted(
+        path for path in stem.parent.glob(f"{glob.escape(stem.name)}*.json") if name.fullmatch(path.name)
+    )
 
 
 def is_whole(record: Path) -> bool:
@@ -34,7 +36,9 @@ def is_whole(record: Path) -> bool:
         return False
 
 
-def write_with_record(stem: Path, identity: str, contents: Mapping[Path, bytes], record: Mapping[str, Any]) -> None:
+def write_with_record(
+    stem: Path, identity: str, contents: Mapping[Path, bytes], record: Mapping[str, Any]
+) -> None:
     """Writes the files, then their record with the sha256 of each. Former records are removed before the first file is replaced, so
     that no record is beside files of another identity. Names of files are relative to the folder of the record. Raises OSError."""
     files = {str(path.relative_to(stem.parent)): content_hash(content) for path, content in contents.items()}

@@ -34,7 +34,9 @@ def main() -> None:
         print(f"Not made at quality {options.quality}: {', '.join(missing)}")
     broken, unchecked, obsolete = (sum(fault.kind is kind for fault in found) for kind in Kind)
     more = f", {obsolete} obsolete" if obsolete else ""
-    print(f"{len(shown)} panels with their results: {broken} broken, {unchecked} not checked{more}, all else holds")
+    print(
+        f"{len(shown)} panels with their results: {broken} broken, {unchecked} not checked{more}, all else holds"
+    )
     sys.exit(1 if broken else 3 if unchecked or not shown else 0)
 
 

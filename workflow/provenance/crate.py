@@ -16,9 +16,9 @@ from rocrate.model import ContextEntity, Entity
 from rocrate.rocrate import ROCrate
 
 from workflow.lib.citation import citation
+from workflow.lib.closure import PACKAGES
 from workflow.lib.command import command
 from workflow.lib.configuration import arguments
-from workflow.lib.closure import PACKAGES
 from workflow.lib.figure_metadata import read_panel
 from workflow.lib.files import ROOT, file_hash, project_files
 from workflow.lib.plan import with_used
@@ -137,7 +137,9 @@ def write(crate: ROCrate, folder: Path, archive: Path) -> None:
 
 
 def main() -> None:
-    options, plan, panels = command(__doc__, archive={"type": Path, "required": True, "help": "zip file to write"})
+    options, plan, panels = command(
+        __doc__, archive={"type": Path, "required": True, "help": "zip file to write"}
+    )
     products = Products(options.quality, plan)
     names = [options.panel] if options.panel else [panel.name for panel in panels]
     for fault in (fault for name in names for fault in products.faults(name)):

@@ -1,6 +1,5 @@
 """The files that the report is written from: unmodified products."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -24,7 +23,7 @@ class Products:
 
     root: Path
     quality: str
-    plan: Mapping[str, Panel]
+    plan: dict[str, Panel]
     used: dict[str, str] = field(default_factory=dict)
     records: dict[str, dict[str, Any]] = field(default_factory=dict)  # by panel, from read_panel()
 

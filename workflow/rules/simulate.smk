@@ -12,9 +12,7 @@ rule simulate:
         "build/logs/{quality}/{panel}/{run}.{identity}.log",
     priority: priority_of_run
     params:
-        command=lambda wildcards: shlex.join(
-            command_line(run_of(wildcards), limit=limit_of_run(wildcards))
-        ),
+        command=lambda wildcards: shlex.join(command_line(run_of(wildcards), limit=limit_of_run(wildcards))),
         join=lambda wildcards, input: shlex.join(["--join", os.path.dirname(input[0])]) if input else "",
     shell:
         "{params.command} {params.join} --progress log --output {output:q} 2> {log:q} || [ $? = 4 ]"

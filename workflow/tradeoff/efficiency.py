@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from workflow.lib.polynomial import at_size
 from workflow.lib.plan import Run
+from workflow.lib.polynomial import at_size
 from workflow.tradeoff.measure import Done, execute, planned, simulate
 
 WINDOW = 1 / 8  # fraction of the observation time, as the reference simulator is slow
