@@ -23,7 +23,7 @@ QUALITY = config.get("quality", "standard")
 try:
     EFFORT = Quality.of(QUALITY)
     PLAN = load_plan(QUALITY)
-    PANEL = config.get("panel") and panel_named(PLAN, config["panel"]).name
+    PANELS = [panel_named(PLAN, name).name for name in str(config.get("panel", "")).split()]
     DATA = {name: data_of(PLAN, name, QUALITY) for name in PLAN}
 except (ConfigurationError, BuildError) as error:
     sys.exit(str(error))
@@ -40,8 +40,7 @@ wildcard_constraints:
 
 
 if workflow.is_main_process:
-    shown = [PANEL] if PANEL else PLAN
-    for path in {path for name in shown if not valid(RECORDS[name]).exists() for path in DATA[name]}:
+    for path in {path for name in PANELS or PLAN if not valid(RECORDS[name]).exists() for path in DATA[name]}:
         set_aside(path)
 
 
@@ -52,7 +51,7 @@ rule figures:
 
 rule panel:
     input:
-        products_of(PANEL) if PANEL else [],
+        [path for panel in PANELS for path in products_of(panel)],
 
 
 include: "workflow/rules/simulate.smk"

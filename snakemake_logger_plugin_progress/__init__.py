@@ -7,6 +7,7 @@ Its messages are printed with --dry-run, --verbose, --printshellcmds and --debug
 
 import logging
 import re
+import shlex
 import sys
 import time
 from contextlib import suppress
@@ -106,10 +107,10 @@ class LogHandler(LogHandlerBase):
 
     def _estimate(self) -> None:
         """Assumes which runs wait, as events state only their number: those without a result, then the longest."""
-        given = dict(re.findall(r"\b(quality|panel)=(\S+)", self._command))
-        quality, panel = given.get("quality", "standard"), given.get("panel")
+        given = dict(word.partition("=")[::2] for word in shlex.split(self._command))
+        quality = given.get("quality", "standard")
         plan = load_plan(quality)
-        panels = with_used(plan, panel) if panel else plan.values()
+        panels = [panel for name in given.get("panel", "").split() or plan for panel in with_used(plan, name)]
         runs = {f"{one.name}/{run.name}": (one.name, run) for one in panels for run in one.runs}
         estimated = {name: estimated_seconds(*run) for name, run in runs.items()}
         self._unknown = sum(seconds is None for seconds in estimated.values())

@@ -194,6 +194,17 @@ def test_where_a_copy_comes_from(clean: Clone, tmp_path: Path, kind: str) -> Non
     assert "panel fig03 at quality smoke" in printed
 
 
+def test_a_parent_that_differs_is_listed_first(kept: Clone) -> None:
+    append("workflow/lib/units.py", "# more\n")(kept)
+    edit_value(kept)
+    first, _, _, *lines = kept.module("provenance.tree", f"{FIGURE}.pdf", status=1).splitlines()
+    assert first.startswith("fig03.pdf is figures/smoke/fig03.pdf, rendered at commit")
+    assert [line.split()[0] for line in lines[:2]] == ["workflow/lib/units.py", kept.result(RUN)]
+    assert all("other here" in line for line in lines[:2])
+    assert "other here" not in " ".join(lines[2:])
+    assert lines[-1].startswith("Parents have changed: make panel PANEL=fig03 QUALITY=smoke makes")
+
+
 def test_where_a_result_comes_from(kept: Clone) -> None:
     result = kept.result(RUN)
     printed = kept.module("provenance.tree", result)

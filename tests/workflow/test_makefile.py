@@ -163,6 +163,12 @@ def test_an_error_is_reached_or_the_time_is_bounded(kept: Clone) -> None:
         (("panel",), "PANEL is missing; try make panel PANEL=fig05"),
         (("provenance",), "FILE is missing; try make provenance FILE=figures/standard/fig05.pdf"),
         (("audit", "PANEL=fig5"), "fig5 is not a panel; did you mean fig05?"),
+        (("audit", "PANEL=3"), "3 is not a panel; choose one of model, "),
+        (("figures", "PANEL=fig03"), "PANEL has no effect on this target; try make panel PANEL=fig03"),
+        (("figures", "FRESH=0"), "FRESH=0 is invalid; give FRESH=yes, or leave it out"),
+        (("figures", "JOBS=0"), "JOBS=0 is invalid; give the number of jobs, at least 1"),
+        (("figures", "PROFILE=slrm"), "slrm is not a profile; did you mean slurm?"),
+        (("status", "SEED=-1"), "SEED=-1 is invalid; allowed: a whole number, at least 0"),
         (("status", "QUALITY=best"), "best is not a quality; choose one of smoke, standard, paper, deep"),
         (("panel", "PANEL=fig05", "ERROR=no"), "ERROR=no is invalid; allowed: a number greater than 0"),
     ],
@@ -196,6 +202,28 @@ def test_missing_system_packages_are_named_for_those_without_rights(tmp_path: Pa
             for name in line.split()
             for word in (name, name.removeprefix("lib"), "hdf5" if "hdf5" in name else "")
         }
+
+
+def test_several_panels_and_a_dry_run(kept: Clone) -> None:
+    for name in ("fig03", "fig06"):
+        (kept.folder / f"figures/smoke/{name}.csv").unlink()
+    names = "PANEL=fig03 fig06"
+    share_build(kept)
+    made = {
+        line
+        for line in kept.make("panel", names, "QUALITY=smoke", "DRY=yes").stdout.splitlines()
+        if "/" in line
+    }
+    assert {line.partition(".")[0] for line in made} == {"figures/smoke/fig03", "figures/smoke/fig06"}
+    assert not (kept.folder / "figures/smoke/fig03.csv").exists()
+    assert "In figures/smoke: fig03.pdf fig06.pdf and" in kept.make("panel", names, "QUALITY=smoke").stdout
+    (kept.folder / kept.result("fig06/all_sigma=0")).unlink()
+    printed = kept.make("audit", names, "QUALITY=smoke", status=2).stdout
+    assert "2 panels with their results: 2 broken" in printed  # the result, and the figure without it
+
+
+def test_slurm_without_its_commands_is_refused(clean: Clone) -> None:
+    assert "sbatch is not in PATH" in clean.make("figures", "PROFILE=slurm", status=2, PATH=os.defpath).stdout
 
 
 def test_help_names_every_target(clean: Clone) -> None:

@@ -19,7 +19,7 @@ def main() -> None:
     options, plan, panels = command(__doc__)
     products = Products(options.quality, plan)
     made = [panel for panel in panels if products.is_made(panel.name)]
-    shown = [panel for panel in made if options.panel in (None, panel.name)]
+    shown = [panel for panel in made if panel.name in (options.panel or plan)]
     figures = {panel.name: products.fault_of_figure(panel) for panel in shown}
     runs = [(panel.name, run) for panel in made for run in panel.runs]
     found = [fault for panel, run in runs if (fault := products.fault_of_result(panel, run))]
@@ -27,7 +27,7 @@ def main() -> None:
     with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as threads:
         whole = [name for name, fault in figures.items() if not fault]
         found += filter(None, threads.map(lambda name: redraw(products, name), whole))
-    found += faults(products, options.panel)
+    found += faults(products, options.panel or [])
     for fault in found:
         print(fault)
     if missing := [panel.name for panel in panels if panel not in made]:

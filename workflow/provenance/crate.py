@@ -137,11 +137,9 @@ def write(crate: ROCrate, folder: Path, archive: Path) -> None:
 
 
 def main() -> None:
-    options, plan, panels = command(
-        __doc__, archive={"type": Path, "required": True, "help": "zip file to write"}
-    )
+    options, plan, _ = command(__doc__, archive={"type": Path, "required": True, "help": "zip file to write"})
     products = Products(options.quality, plan)
-    names = [options.panel] if options.panel else [panel.name for panel in panels]
+    names = options.panel or [*plan]
     for fault in (fault for name in names for fault in products.faults(name)):
         sys.exit(f"{fault.path}: {fault.reason}; run make {'panel' if options.panel else 'figures'} first")
     folder = ROOT / "build/crate" / options.quality

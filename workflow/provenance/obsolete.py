@@ -5,7 +5,7 @@ The plans are those of all qualities, and those with SEED, REPLICAS, ERROR or HO
 
 import re
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
@@ -55,17 +55,18 @@ def obsolete(qualities: Iterable[str] = ()) -> list[Path]:
     return sorted(found)
 
 
-def faults(products: Products, panel: str | None) -> list[Fault]:
-    """Obsolete results and figures of a quality, or of one panel of it; none where they are unknown without a build."""
+def faults(products: Products, panels: Sequence[str]) -> list[Fault]:
+    """Obsolete results and figures of a quality, or of some panels of it; none where they are unknown without a build."""
     try:
         files = obsolete([products.quality])
     except BuildError:
         return []
-    paths = [str(file.relative_to(ROOT)) for file in files if file.suffix in (".h5", ".pdf")]
+    files = [file for file in files if file.suffix in (".h5", ".pdf")]
+    reason = "no plan names it; make prune removes it"
     return [
-        Fault(path, "no plan names it; make prune removes it", Kind.OBSOLETE)
-        for path in paths
-        if panel is None or panel in (Path(path).parent.name, Path(path).stem)
+        Fault(str(file.relative_to(ROOT)), reason, Kind.OBSOLETE)
+        for file in files
+        if not panels or {file.parent.name, file.stem} & {*panels}
     ]
 
 

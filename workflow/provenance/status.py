@@ -47,7 +47,7 @@ def main() -> None:
         cost = f"{sum(seconds):.1f}" if any(seconds) else ""
         table.add_row(panel.name, escape(state), worst_error(products, panel), cost)
     Console(width=None if sys.stdout.isatty() else WIDE).print(table)
-    if obsolete := faults(products, options.panel):
+    if obsolete := faults(products, options.panel or []):
         print(f"Obsolete: {len(obsolete)} results or figures that no plan names; make prune removes them")
 
 

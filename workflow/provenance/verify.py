@@ -54,7 +54,7 @@ def main() -> None:
                 same = False
             print(f"{number} of {len(runs)}: {path}: {'equal bytes' if same else 'other bytes'}", flush=True)
             differing += [] if same else [path]
-    if options.panel and (fault := redraw(products, options.panel)):
+    for fault in filter(None, (redraw(products, name) for name in options.panel or [])):
         print(fault)
         differing.append(fault.path)
     print(f"{len(runs)} results rerun: {len(differing)} differ")

@@ -45,8 +45,8 @@ def limit_of_run(wildcards):
     """Seconds after which a run with a target error starts no replica: with HOURS, its share of the time by estimated cost."""
     if EFFORT.hours is None:
         return None
-    panels = with_used(PLAN, PANEL) if PANEL else PLAN.values()
-    runs = [(panel.name, run) for panel in panels for run in panel.runs]
+    panels = {panel.name: panel for name in PANELS or PLAN for panel in with_used(PLAN, name)}
+    runs = [(name, run) for name, panel in panels.items() for run in panel.runs]
     share = seconds_of_run(wildcards.panel, run_of(wildcards)) / sum(seconds_of_run(*run) for run in runs)
     return 3600 * EFFORT.hours * (min(1, share * workflow.cores) if workflow.cores else 1)
 
@@ -69,13 +69,13 @@ def words_of(module, record):
 
 def archive(wildcards):
     """Path of the crate, which has the records of the panels and all sources."""
-    records = [str(RECORDS[panel]) for panel in ([PANEL] if PANEL else PLAN)]
+    records = [str(RECORDS[panel]) for panel in PANELS or PLAN]
     content = identity(records, {path: file_hash(Path(path)) for path in project_files()})
     return f"build/crate/lorentz-gas-{PACKED}.{content}.zip"
 
 
 PRODUCTS = [path for panel in PLAN for path in products_of(panel)]
-PACKED = f"{QUALITY}-{PANEL}" if PANEL else QUALITY
+PACKED = "-".join([QUALITY, *PANELS])
 BUILDS = sorted({build_id(run.program) for one in PLAN.values() for run in one.runs})
 REPORT, GALLERY, TRADEOFF = (
     record_path(Path(stem), identity_of(script, *inputs))

@@ -54,14 +54,14 @@ rule gallery_pages:
 
 rule archive:
     input:
-        products_of(PANEL) if PANEL else PRODUCTS,
+        [path for panel in PANELS or PLAN for path in products_of(panel)],
     output:
         f"build/crate/lorentz-gas-{PACKED}.{{identity}}.zip",
     log:
         "build/logs/crate.{identity}.log",
     params:
         words=f".venv/bin/python -m workflow.provenance.crate --quality {QUALITY}",
-        panel=f"--panel {PANEL}" if PANEL else "",
+        panel=" ".join(f"--panel {name}" for name in PANELS),
     shell:
         "{params.words} {params.panel} --archive {output:q} 2> {log:q}"
 
