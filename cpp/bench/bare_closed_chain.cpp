@@ -11,15 +11,16 @@ struct Tallies : ClosedTallies {
 };
 
 Study bare_run(const ClosedParameters& parameters) {
+  validate(parameters);
   const Tallies tallies;
-  const auto observe = [=](ClosedRun& run, Record& record) {
+  const auto observe = [=](ClosedRun& run, TallySums& sums) {
     NoObserver nobody;
     run.observe(nobody);
-    record[tallies.events] = static_cast<double>(run.chain().events());
+    sums[tallies.events] = static_cast<double>(run.chain().events());
   };
   Group group;
   group.quantity("events", "1", "Collisions of a replica",
-                 [=](RecordView mean) { return mean[tallies.events]; });
+                 [=](TallyMeans mean) { return mean[tallies.events]; });
   return closed_study(parameters, tallies, observe, {group}, "events");
 }
 

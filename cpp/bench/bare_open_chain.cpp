@@ -6,35 +6,31 @@ namespace {
 
 using namespace lorentz;
 
-struct Parameters : OpenParameters {
-  WindowParameters times;
-};
-
 struct Tallies : TallySchema {
   ScalarTally events = tally("events", "1", "Collisions, injections and exits");
 };
 
-Study bare_run(const Parameters& parameters) {
-  validate(parameters, parameters.times);
+Study bare_run(const StationaryParameters& parameters) {
+  validate(parameters);
   const Tallies tallies;
-  const double end = parameters.times.window(parameters.scattering.cells).end;
-  const auto measure = [=](const Replica& replica, Record& record) {
+  const double end = parameters.window().end;
+  const auto sample = [=](const Replica& replica, TallySums& sums) {
     OpenRun run(parameters, {0, end}, replica);
-    run.observe(NoObserver());
-    record[tallies.events] = static_cast<double>(run.events());
+    NoObserver nobody;
+    run.observe(nobody);
+    sums[tallies.events] = static_cast<double>(run.events());
     return run.events();
   };
   Group group;
-  group.quantity("events", "1", "Events of a replica", [=](RecordView mean) { return mean[tallies.events]; });
-  return {.tallies = tallies, .measure = measure, .groups = {group}, .target = "events"};
+  group.quantity("events", "1", "Events of a replica", [=](TallyMeans mean) { return mean[tallies.events]; });
+  return {.tallies = tallies, .sample = sample, .groups = {group}, .target = "events"};
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   StudyProgram program("bare_open_chain", "An open chain without an observer");
-  Parameters parameters;
+  StationaryParameters parameters;
   declare(program.options(), parameters);
-  declare(program.options(), parameters.times);
   return program.run(argc, argv, [&] { return bare_run(parameters); });
 }

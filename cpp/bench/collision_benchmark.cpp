@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "model/collision.hpp"
+#include "model/rules/elastic.hpp"
 #include "numerics/random.hpp"
 
 namespace {
@@ -16,7 +16,7 @@ using namespace lorentz;
 /// u' = -sigma u + c U, U' = c u + sigma U as printed, with c rounded once.
 struct PlainReflection {
   explicit PlainReflection(double s) : sigma(s), c(std::sqrt((1 - s) * (1 + s))) {}
-  void operator()(double& u, double& U) const {
+  void operator()(double& u, double& U, std::uint32_t) const {
     const double u_before = u;
     u = -sigma * u_before + c * U;
     U = c * u_before + sigma * U;
@@ -31,7 +31,7 @@ struct SplitReflection {
     const long double c = std::sqrt((1 - static_cast<long double>(s)) * (1 + static_cast<long double>(s)));
     c_low = static_cast<double>(c - c_high);
   }
-  __attribute__((target("fma"))) void operator()(double& u, double& U) const {
+  __attribute__((target("fma"))) void operator()(double& u, double& U, std::uint32_t) const {
     const double u_before = u;
     u = __builtin_fma(c_high, U, __builtin_fma(c_low, U, -sigma * u_before));
     U = __builtin_fma(c_high, u_before, __builtin_fma(c_low, u_before, sigma * U));
@@ -65,7 +65,7 @@ __attribute__((target("fma"))) void collisions(benchmark::State& state) {
   std::uint64_t pair = 1;
   for ([[maybe_unused]] const auto iteration : state) {
     pair = pair * 6364136223846793005ULL + 1442695040888963407ULL;  // the MMIX generator of Knuth
-    collide(particles[(pair >> 40) % population], scatterers[(pair >> 50) % population]);
+    collide(particles[(pair >> 40) % population], scatterers[(pair >> 50) % population], 0);
   }
   const auto drift = static_cast<double>(energy() / before - 1);
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()));
@@ -80,6 +80,6 @@ void cases(benchmark::internal::Benchmark* benchmark) {
 
 BENCHMARK_TEMPLATE(collisions, PlainReflection)->Apply(cases);
 BENCHMARK_TEMPLATE(collisions, SplitReflection)->Apply(cases);
-BENCHMARK_TEMPLATE(collisions, CollisionRule)->Apply(cases);
+BENCHMARK_TEMPLATE(collisions, Elastic)->Apply(cases);
 
 }  // namespace

@@ -99,7 +99,7 @@ class Queueless {
   void advance(std::uint32_t slot, Collisions& observer) {
     Flight& flight = flights_[slot];
     const double particle = flight.velocity, scatterer = scatterers_[flight.target];
-    collide_(flight.velocity, scatterers_[flight.target]);
+    collide_(flight.velocity, scatterers_[flight.target], flight.target);
     observer.on_collision(
         {flight.time, slot, flight.target, particle, flight.velocity, scatterer, scatterers_[flight.target]});
     for (std::int64_t from = flight.target; !fly<stochastic>(flight, from);) from = enter(flight);
@@ -128,7 +128,7 @@ class Queueless {
   }
 
   OpenChain chain_;
-  CollisionRule collide_{chain_.sigma};
+  Elastic collide_{chain_.sigma};
   GeometricCells cells_to_scattering_;
   RandomStream passes_{{1, 0}, Purpose::passes, 0};
   std::array<Injector, 2> injectors_;

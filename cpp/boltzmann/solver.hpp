@@ -18,8 +18,7 @@ namespace lorentz {
 struct KineticProblem {
   double sigma = 0.5;
   double gamma = 1;
-  Reservoir left{220, 900. / 11};
-  Reservoir right{180, 1100. / 9};
+  Reservoir left = default_left, right = default_right;
   int cells = 0;
 };
 

@@ -23,10 +23,10 @@ const ClosedChain& checked(const ClosedChain& chain, const PhasePoint& start) {
 ClosedDynamics::ClosedDynamics(const ClosedChain& chain, const PhasePoint& start, double end_time,
                                const StreamKey& key)
     : chain_(checked(chain, start)),
-      scatter_(chain),
-      scatterers_(scatter_.rule().scaled(start.scatterers)),
+      rule_(make_rule(chain.rule, chain.sigma)),
+      scatterers_(masses(rule_).scaled(start.scatterers)),
       free_flight_(chain, key, start.particles.size()),
-      queue_(first_flights(chain, start, free_flight_), expected_rate(chain, start), end_time) {}
+      queue_(first_flights(chain, start, rule_, free_flight_), expected_rate(chain, start), end_time) {}
 
 std::vector<double> ClosedDynamics::positions_from_targets(double time) const {
   std::vector<double> positions;
@@ -35,7 +35,7 @@ std::vector<double> ClosedDynamics::positions_from_targets(double time) const {
   return positions;
 }
 
-std::vector<double> ClosedDynamics::scatterers() const { return scatter_.rule().unscaled(scatterers_); }
+std::vector<double> ClosedDynamics::scatterers() const { return masses(rule_).unscaled(scatterers_); }
 
 PhasePoint ClosedDynamics::phase_point(double time) const {
   PhasePoint point{{}, scatterers()};
@@ -45,6 +45,9 @@ PhasePoint ClosedDynamics::phase_point(double time) const {
 }
 
 Invariants ClosedDynamics::invariants() const {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const double root_mass = masses(rule_).root_mass();
+  const RuleProperties& conserved = rule_properties(chain_.rule);
   Invariants sum;
   for (const Flight& flight : queue_.flights()) {
     sum.energy += 0.5 * flight.velocity * flight.velocity;
@@ -53,10 +56,11 @@ Invariants ClosedDynamics::invariants() const {
   }
   for (const double scatterer : scatterers()) {
     sum.energy += 0.5 * scatterer * scatterer;
-    sum.momentum += scatter_.rule().root_mass() * scatterer;
-    sum.momentum_scale += scatter_.rule().root_mass() * std::abs(scatterer);
+    sum.momentum += root_mass * scatterer;
+    sum.momentum_scale += root_mass * std::abs(scatterer);
   }
-  if (chain_.sigma == 1 || chain_.random_direction) sum.momentum = std::numeric_limits<double>::quiet_NaN();
+  if (!conserved.conserves_energy) sum.energy = none;
+  if (!conserved.conserves_momentum || chain_.sigma == 1) sum.momentum = none;
   return sum;
 }
 

@@ -2,6 +2,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <variant>
 #include <vector>
 
 #include "engine/event_loop.hpp"
@@ -11,6 +12,7 @@
 #include "engine/scattering.hpp"
 #include "model/closed_chain.hpp"
 #include "model/phase_point.hpp"
+#include "model/rules.hpp"
 
 namespace lorentz {
 
@@ -19,7 +21,7 @@ class ClosedDynamics {
  public:
   /// The number of particles is that of the start.
   /// Arrivals at or after end_time (> 0) are frozen; simulate() goes no further. key: of the random numbers
-  /// that gamma < N and a random direction need.
+  /// that gamma < N and the collision rule need.
   ClosedDynamics(const ClosedChain& chain, const PhasePoint& start, double end_time, const StreamKey& key);
 
   /// Sets the origin of time to `time`, where simulate() stopped: a clock resolves 2^-53 of its value.
@@ -41,12 +43,12 @@ class ClosedDynamics {
  private:
   template <class Observer, std::invocable<double> Heartbeat>
   friend void simulate(ClosedDynamics&, double, Observer&, Heartbeat&&);
-  template <bool stochastic, class Observer, std::invocable<double> Heartbeat>
-  void advance(double until, Observer& observer, Heartbeat&& heartbeat);
+  template <bool passing, CollisionRule Rule, class Observer, std::invocable<double> Heartbeat>
+  void advance(const Rule& rule, double until, Observer& observer, Heartbeat&& heartbeat);
 
   ClosedChain chain_;
-  Scattering scatter_;
-  std::vector<double> scatterers_;  // w, see CollisionRule
+  Rules rule_;
+  std::vector<double> scatterers_;  // w, see Elastic
   FreeFlight free_flight_;
   EventQueue queue_;
   std::uint64_t events_ = 0;
@@ -60,22 +62,24 @@ class ClosedDynamics {
 /// A particle with u = 0, or so slow that the flight's duration overflows, never arrives: it is frozen.
 template <class Observer, std::invocable<double> Heartbeat>
 void simulate(ClosedDynamics& chain, double until, Observer& observer, Heartbeat&& heartbeat) {
-  if (chain.free_flight_.deterministic())
-    chain.advance<false>(until, observer, heartbeat);
-  else
-    chain.advance<true>(until, observer, heartbeat);
+  const auto advance = [&](const auto& rule) {
+    if (chain.free_flight_.passing())
+      chain.advance<true>(rule, until, observer, heartbeat);
+    else
+      chain.advance<false>(rule, until, observer, heartbeat);
+  };
+  std::visit(advance, chain.rule_);
 }
 
-/// stochastic: see Scattering.
-template <bool stochastic, class Observer, std::invocable<double> Heartbeat>
-void ClosedDynamics::advance(double until, Observer& observer, Heartbeat&& heartbeat) {
-  const Scattering scatter = scatter_;
-  const double scale = scatter.rule().scatterer_scale();
+/// passing: see Scattering.
+template <bool passing, CollisionRule Rule, class Observer, std::invocable<double> Heartbeat>
+void ClosedDynamics::advance(const Rule& rule, double until, Observer& observer, Heartbeat&& heartbeat) {
+  const Scattering<Rule, passing> scatter(chain_, rule);
+  const double scale = rule.scatterer_scale();
   const auto arrive = [&](Flight flight) __attribute__((always_inline)) {
     const std::uint32_t cell = flight.target;
     const double particle = flight.velocity, scatterer = scatterers_[cell];
-    const Departure departure =
-        scatter.template operator()<stochastic>(flight, scatterers_[cell], free_flight_);
+    const Departure departure = scatter(flight, scatterers_[cell], free_flight_);
     notify(observer, Collision{departure.time, flight.particle, cell, particle, departure.velocity,
                                scale * scatterer, scale * scatterers_[cell]});
     if constexpr (requires { observer.on_flight(departure); }) observer.on_flight(departure);

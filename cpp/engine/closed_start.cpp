@@ -2,14 +2,14 @@
 
 #include <numeric>
 
-#include "model/collision.hpp"
+#include "model/rules/elastic.hpp"
 
 namespace lorentz {
 namespace {
 
 void remove_total_momentum(PhasePoint& start, double sigma) {
-  double total = CollisionRule(sigma).root_mass() *
-                 std::accumulate(start.scatterers.begin(), start.scatterers.end(), 0.0);
+  double total =
+      Elastic(sigma).root_mass() * std::accumulate(start.scatterers.begin(), start.scatterers.end(), 0.0);
   for (const Particle& particle : start.particles) total += particle.velocity;
   const double shift = total / static_cast<double>(start.particles.size());
   for (Particle& particle : start.particles) particle.velocity -= shift;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <variant>
 
 namespace lorentz {
 namespace {
@@ -23,21 +24,30 @@ Flight flight_over(const ClosedChain& chain, const Particle& particle, std::int6
 }  // namespace
 
 Flight first_flight(const ClosedChain& chain, const Particle& particle, std::uint32_t number,
-                    const FreeFlight& free_flight) {
+                    const Rules& rule, const FreeFlight& free_flight) {
   double velocity = particle.velocity;
-  std::uint64_t draws = particle.draws;
-  const std::int64_t cells = free_flight.deterministic() ? 1 : free_flight(number, draws, velocity);
+  const bool direction_drawn = std::visit(
+      [&]<class Rule>(const Rule&) {
+        if constexpr (DrawsDirection<Rule>) {
+          RandomStream random = free_flight.of_collision(number, particle.draws);
+          Rule::draw_direction(velocity, random);
+        }
+        return DrawsDirection<Rule>;
+      },
+      rule);
+  const std::int64_t cells = free_flight.passing() ? free_flight.cells(number, particle.draws) : 1;
   Flight flight = flight_over(chain, {particle.position, velocity}, cells, number);
-  flight.draws = draws;
+  flight.draws = particle.draws + (direction_drawn || free_flight.passing() ? 1 : 0);
   return flight;
 }
 
-std::vector<Flight> first_flights(const ClosedChain& chain, const PhasePoint& start,
+std::vector<Flight> first_flights(const ClosedChain& chain, const PhasePoint& start, const Rules& rule,
                                   const FreeFlight& free_flight) {
   std::vector<Flight> flights;
   flights.reserve(start.particles.size());
   for (const Particle& particle : start.particles)
-    flights.push_back(first_flight(chain, particle, static_cast<std::uint32_t>(flights.size()), free_flight));
+    flights.push_back(
+        first_flight(chain, particle, static_cast<std::uint32_t>(flights.size()), rule, free_flight));
   return flights;
 }
 

@@ -6,16 +6,17 @@
 #include "engine/free_flight.hpp"
 #include "model/closed_chain.hpp"
 #include "model/phase_point.hpp"
+#include "model/rules.hpp"
 
 namespace lorentz {
 
 /// The flight of a particle to the scatterer where it scatters first. Scatterers are at (i + 1/2) times the
 /// cell length.
 Flight first_flight(const ClosedChain& chain, const Particle& particle, std::uint32_t number,
-                    const FreeFlight& free_flight);
+                    const Rules& rule, const FreeFlight& free_flight);
 
 /// The same of every particle.
-std::vector<Flight> first_flights(const ClosedChain& chain, const PhasePoint& start,
+std::vector<Flight> first_flights(const ClosedChain& chain, const PhasePoint& start, const Rules& rule,
                                   const FreeFlight& free_flight);
 
 /// Collisions per unit time once the energy is shared equally: the mean |u| of all particles, over the mean

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "model/closed_chain.hpp"
@@ -29,38 +30,41 @@ class GeometricCells {
   double log_pass_probability_;
 };
 
-/// Sampler of the flight after a collision in a closed chain: the number of cells, and the direction where it
-/// is random.
-/// pdf: GeometricCells with q = gamma/N, both directions with probability 1/2; independent.
+/// Random numbers of a closed chain, for its collision rule and for the number of cells of the flight that
+/// follows.
+/// pdf: GeometricCells with q = gamma/N.
 /// Method: the random numbers come from counters, by (particle, draw); draws are counted by the particle, so
 /// two chains with the same key share them as long as their particles scatter equally often.
 /// Validity: scatterers in between are never visited, as each scatters independently of all else.
 /// Reference: Salmon et al., SC11, doi:10.1145/2063384.2063405 (counter-based random numbers).
 class FreeFlight {
  public:
+  /// particles: their number. Numbers beyond are copies of the chain, which share random numbers.
   FreeFlight(const ClosedChain& chain, const StreamKey& key, std::size_t particles)
       : passing_(!chain.deterministic()),
-        random_direction_(chain.random_direction),
         cells_to_scattering_(chain.gamma / chain.cells),
         key_(key),
         particles_(static_cast<std::uint32_t>(particles)) {}
 
-  /// Nothing is drawn: one cell, direction kept.
-  bool deterministic() const { return !passing_ && !random_direction_; }
+  /// Whether a particle may pass a scatterer: cells() is 1 otherwise.
+  bool passing() const { return passing_; }
 
-  /// Returns the number of cells and sets the direction of u. number: of the particle, modulo the number of
-  /// particles, so that several copies of the chain share random numbers. draws: those that the particle has
-  /// taken so far.
-  std::int64_t operator()(std::uint32_t number, std::uint64_t& draws, double& u) const {
-    const std::uint64_t draw = draws++;
-    const std::uint32_t particle = number % particles_;
-    if (random_direction_) u = std::copysign(u, uniform(key_, Purpose::direction, particle, draw) - 0.5);
-    if (!passing_) return 1;
-    return cells_to_scattering_(uniform(key_, Purpose::passes, particle, draw));
+  /// Number of cells to the next scattering. draw: number of those that the particle has taken before.
+  std::int64_t cells(std::uint32_t particle, std::uint64_t draw) const {
+    return cells_to_scattering_(stream(Purpose::passes, particle, draw).uniform());
+  }
+
+  /// Random numbers of the collision rule.
+  RandomStream of_collision(std::uint32_t particle, std::uint64_t draw) const {
+    return stream(Purpose::collision, particle, draw);
   }
 
  private:
-  bool passing_, random_direction_;
+  RandomStream stream(Purpose purpose, std::uint32_t particle, std::uint64_t draw) const {
+    return {key_, purpose, particle % particles_, draw};
+  }
+
+  bool passing_;
   GeometricCells cells_to_scattering_;
   StreamKey key_;
   std::uint32_t particles_;

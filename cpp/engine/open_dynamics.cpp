@@ -17,23 +17,18 @@ const PhasePoint& checked(const PhasePoint& start, const OpenChain& chain) {
 OpenDynamics::OpenDynamics(const OpenChain& chain, const PhasePoint& start, double end_time,
                            const StreamKey& key)
     : chain_(chain),
-      collide_(chain.sigma),
+      rule_(make_rule(chain.rule, chain.sigma)),
       cells_to_scattering_(chain.gamma / chain.cells),
       half_cell_(chain.cell_length / 2),
+      key_(key),
       passes_(key, Purpose::passes, 0),
       injectors_{Injector(chain.left, key, Purpose::injection_left),
                  Injector(chain.right, key, Purpose::injection_right)},
-      scatterers_(collide_.scaled(checked(start, chain).scatterers)),
+      scatterers_(masses(rule_).scaled(checked(start, chain).scatterers)),
+      drawn_(chain.cells, 0),
       newcomers_(start.particles),
       queue_({}, chain.left.rate + chain.right.rate, end_time) {}
 
-std::vector<double> OpenDynamics::scatterers() const { return collide_.unscaled(scatterers_); }
-
-double OpenDynamics::energy() const {
-  double twice_energy = 0;
-  for (const double U : scatterers()) twice_energy += U * U;
-  for (const Flight& flight : queue_.flights()) twice_energy += flight.velocity * flight.velocity;
-  return 0.5 * twice_energy;
-}
+std::vector<double> OpenDynamics::scatterers() const { return masses(rule_).unscaled(scatterers_); }
 
 }  // namespace lorentz

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <variant>
 #include <vector>
 
 #include "engine/event_loop.hpp"
@@ -14,9 +15,9 @@
 #include "engine/injector.hpp"
 #include "engine/observation.hpp"
 #include "engine/path.hpp"
-#include "model/collision.hpp"
 #include "model/open_chain.hpp"
 #include "model/phase_point.hpp"
+#include "model/rules.hpp"
 #include "numerics/random.hpp"
 
 namespace lorentz {
@@ -35,32 +36,30 @@ class OpenDynamics {
   /// U of every scatterer.
   std::vector<double> scatterers() const;
 
-  /// Energy of the scatterers and of the particles that scatter again; those on their last flight are not
-  /// counted.
-  double energy() const;
-
  private:
   template <class Observer, std::invocable<double> Heartbeat>
   friend void simulate(OpenDynamics&, double, Observer&, Heartbeat&&);
-  template <bool stochastic, class Observer, std::invocable<double> Heartbeat>
-  void advance(double until, Observer& observer, Heartbeat&& heartbeat);
-  template <bool stochastic, class Observer>
+  template <bool passing, CollisionRule Rule, class Observer, std::invocable<double> Heartbeat>
+  void advance(const Rule& rule, double until, Observer& observer, Heartbeat&& heartbeat);
+  template <bool passing, class Observer>
   void inject(End end, Observer& observer);
   /// Inlined and by value, so that the flight stays in registers: by reference an event takes 1.4 times as
   /// long (docs/numerics.md).
-  template <bool stochastic, class Observer>
+  template <bool passing, class Observer>
   [[gnu::always_inline]] void fly(Flight flight, double from, std::int64_t first, std::int64_t next_cell,
                                   Observer& observer);
-  template <bool stochastic, class Observer>
+  template <bool passing, class Observer>
   void announce_start(Observer& observer);
 
   OpenChain chain_;
-  CollisionRule collide_;
+  Rules rule_;
   GeometricCells cells_to_scattering_;
   double half_cell_;
+  StreamKey key_;
   RandomStream passes_;
   std::array<Injector, 2> injectors_;  // by End
-  std::vector<double> scatterers_;     // w, see CollisionRule
+  std::vector<double> scatterers_;     // w, see Elastic
+  std::vector<std::uint64_t> drawn_;   // collisions with random numbers so far, by cell
   std::vector<Particle> newcomers_;    // of the start, until the first call of simulate()
   IdPool ids_;
   EventQueue queue_;
@@ -77,37 +76,47 @@ class OpenDynamics {
 /// heartbeat(time) is called every 65536 events and may throw to stop.
 template <class Observer, std::invocable<double> Heartbeat>
 void simulate(OpenDynamics& chain, double until, Observer& observer, Heartbeat&& heartbeat) {
-  if (chain.chain_.deterministic())
-    chain.advance<false>(until, observer, heartbeat);
-  else
-    chain.advance<true>(until, observer, heartbeat);
+  const auto advance = [&](const auto& rule) {
+    if (chain.chain_.deterministic())
+      chain.advance<false>(rule, until, observer, heartbeat);
+    else
+      chain.advance<true>(rule, until, observer, heartbeat);
+  };
+  std::visit(advance, chain.rule_);
 }
 
-/// stochastic: whether a particle may pass a scatterer.
-template <bool stochastic, class Observer, std::invocable<double> Heartbeat>
-void OpenDynamics::advance(double until, Observer& observer, Heartbeat&& heartbeat) {
-  const double scale = collide_.scatterer_scale();
+/// passing: whether a particle may pass a scatterer. The random numbers of a rule are named by the cell and
+/// the count of its collisions, because numbers of particles are reused.
+template <bool passing, CollisionRule Rule, class Observer, std::invocable<double> Heartbeat>
+void OpenDynamics::advance(const Rule& rule, double until, Observer& observer, Heartbeat&& heartbeat) {
+  const Rule collide = rule;  // a copy: for the compiler a reference may alias
+  const double scale = collide.scatterer_scale();
   const auto arrive = [&](Flight flight) __attribute__((always_inline)) {
     const std::uint32_t cell = flight.target;
     const double time = flight.time, particle = flight.velocity, scatterer = scatterers_[cell];
-    collide_(flight.velocity, scatterers_[cell]);
+    if constexpr (RandomRule<Rule>) {
+      RandomStream random(key_, Purpose::collision, cell, drawn_[cell]++);
+      collide(flight.velocity, scatterers_[cell], cell, random);
+    } else {
+      collide(flight.velocity, scatterers_[cell], cell);
+    }
     notify(observer, Collision{time, flight.particle, cell, particle, flight.velocity, scale * scatterer,
                                scale * scatterers_[cell]});
     const std::int64_t step = direction(flight.velocity), place = 2 * std::int64_t{cell} + 1;
-    fly<stochastic>(flight, static_cast<double>(place), place + step, cell + step, observer);
+    fly<passing>(flight, static_cast<double>(place), place + step, cell + step, observer);
   };
-  announce_start<stochastic>(observer);
+  announce_start<passing>(observer);
   for (;;) {
     const End next = injectors_[0].time() <= injectors_[1].time() ? End::left : End::right;
     const double injection = injectors_[static_cast<std::size_t>(next)].time();
     process_arrivals(queue_, std::min(until, injection), events_, arrive, heartbeat);
     if (!(injection < until)) return;
-    inject<stochastic>(next, observer);
+    inject<passing>(next, observer);
     count_event(events_, injection, heartbeat);
   }
 }
 
-template <bool stochastic, class Observer>
+template <bool passing, class Observer>
 void OpenDynamics::inject(End end, Observer& observer) {
   Injector& injector = injectors_[static_cast<std::size_t>(end)];
   const double time = injector.time(), speed = injector.take();
@@ -115,16 +124,16 @@ void OpenDynamics::inject(End end, Observer& observer) {
   if constexpr (requires { observer.on_injection(end, time, u); }) observer.on_injection(end, time, u);
   const std::int64_t opening = end == End::left ? 0 : chain_.right_opening();
   const std::int64_t cell = end == End::left ? 0 : std::int64_t{chain_.cells} - 1;
-  fly<stochastic>({time, u, 0, ids_.take()}, static_cast<double>(opening), opening, cell, observer);
+  fly<passing>({time, u, 0, ids_.take()}, static_cast<double>(opening), opening, cell, observer);
 }
 
 /// Begins a flight at flight.time and at the position `from`, with the mark `first` ahead and the scatterer
 /// of next_cell as the next one.
-template <bool stochastic, class Observer>
+template <bool passing, class Observer>
 inline void OpenDynamics::fly(Flight flight, double from, std::int64_t first, std::int64_t next_cell,
                               Observer& observer) {
   const double u = flight.velocity, departure = flight.time;
-  const std::int64_t cells = stochastic ? cells_to_scattering_(passes_.uniform()) : 1;
+  const std::int64_t cells = passing ? cells_to_scattering_(passes_.uniform()) : 1;
   const std::int64_t target = next_cell + direction(u) * (cells - 1);
   const bool leaves = static_cast<std::uint64_t>(target) >= chain_.cells;  // negative ones too
   const std::int64_t last = std::clamp<std::int64_t>(2 * target + 1, 0, chain_.right_opening());
@@ -143,7 +152,7 @@ inline void OpenDynamics::fly(Flight flight, double from, std::int64_t first, st
   queue_.schedule(flight);
 }
 
-template <bool stochastic, class Observer>
+template <bool passing, class Observer>
 void OpenDynamics::announce_start(Observer& observer) {
   for (const Particle& particle : newcomers_) {
     const double from = particle.position / half_cell_;
@@ -151,7 +160,7 @@ void OpenDynamics::announce_start(Observer& observer) {
     const auto first = static_cast<std::int64_t>(rightwards ? std::floor(from) + 1 : std::ceil(from) - 1);
     // Scatterers are at odd positions.
     const std::int64_t cell = rightwards ? first / 2 : (first + 1) / 2 - 1;
-    fly<stochastic>({0, particle.velocity, 0, ids_.take()}, from, first, cell, observer);
+    fly<passing>({0, particle.velocity, 0, ids_.take()}, from, first, cell, observer);
   }
   newcomers_.clear();
 }

@@ -5,14 +5,14 @@ namespace lorentz {
 PairDynamics::PairDynamics(const ClosedChain& chain, const PhasePoint& plain, const PhasePoint& perturbed,
                            double end_time, const StreamKey& key, bool share)
     : chain_(chain),
-      scatter_(chain),
+      rule_(make_rule(chain.rule, chain.sigma)),
       free_flight_(chain, key, chain.particles()),
       indices_(chain.particles(), shared),
       diverged_flights_(1),
       scatterer_diverged_(chain.cells, 0),
       queue_(first_events(plain, perturbed, end_time, share), expected_rate(chain, plain), end_time) {
-  const std::vector<double> one = scatter_.rule().scaled(plain.scatterers);
-  const std::vector<double> other = scatter_.rule().scaled(perturbed.scatterers);
+  const std::vector<double> one = masses(rule_).scaled(plain.scatterers);
+  const std::vector<double> other = masses(rule_).scaled(perturbed.scatterers);
   for (std::uint32_t cell = 0; cell < chain.cells; ++cell) {
     scatterers_.push_back({one[cell], other[cell]});
     if (share && plain.scatterers[cell] == perturbed.scatterers[cell]) continue;
@@ -28,12 +28,12 @@ std::vector<Flight> PairDynamics::first_events(const PhasePoint& plain, const Ph
   std::vector<Flight> flights;
   for (std::uint32_t number = 0; number < chain_.particles(); ++number) {
     const Particle &one = plain.particles[number], &other = perturbed.particles[number];
-    const Flight flight = first_flight(chain_, one, number, free_flight_);
+    const Flight flight = first_flight(chain_, one, number, rule_, free_flight_);
     if (share && one.velocity == other.velocity && one.position == other.position) {
       if (flight.time < end_time) flights.push_back(flight);
       continue;
     }
-    Flight copy = first_flight(chain_, other, number, free_flight_);
+    Flight copy = first_flight(chain_, other, number, rule_, free_flight_);
     copy.particle += chain_.particles();
     flights.insert(flights.end(), {flight, copy});
     diverge_particle(flight, copy);

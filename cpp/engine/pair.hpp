@@ -4,6 +4,7 @@
 #include <concepts>
 #include <cstdint>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "engine/event_loop.hpp"
@@ -13,6 +14,7 @@
 #include "engine/scattering.hpp"
 #include "model/closed_chain.hpp"
 #include "model/phase_point.hpp"
+#include "model/rules.hpp"
 
 namespace lorentz {
 
@@ -34,10 +36,13 @@ class PairDynamics {
   /// stop.
   template <std::invocable<double> Heartbeat>
   void run(double until, Heartbeat&& heartbeat) {
-    if (free_flight_.deterministic())
-      advance<false>(until, heartbeat);
-    else
-      advance<true>(until, heartbeat);
+    const auto advance_with = [&](const auto& rule) {
+      if (free_flight_.passing())
+        advance<true>(rule, until, heartbeat);
+      else
+        advance<false>(rule, until, heartbeat);
+    };
+    std::visit(advance_with, rule_);
   }
 
   /// Calls visit(number, plain, perturbed) for every diverged particle, at a time between the last event and
@@ -56,23 +61,22 @@ class PairDynamics {
   /// Calls visit(cell, plain U, perturbed U) for every diverged scatterer.
   template <std::invocable<std::uint32_t, double, double> Visit>
   void for_each_diverged_scatterer(Visit&& visit) const {
-    const double scale = scatter_.rule().scatterer_scale();
+    const double scale = masses(rule_).scatterer_scale();
     for (const std::uint32_t cell : diverged_cells_)
       visit(cell, scale * scatterers_[cell][0], scale * scatterers_[cell][1]);
   }
 
-  /// Collisions in both trajectories, and how many of them were computed.
+  /// Collisions in both trajectories.
   std::uint64_t events() const { return shared_events_ * 2 + separate_events_; }
-  std::uint64_t computed() const { return shared_events_ + separate_events_; }
 
  private:
   static constexpr std::uint32_t shared = 0;
 
-  template <bool stochastic, class Heartbeat>
-  void advance(double until, Heartbeat&& heartbeat) {
-    const Scattering scatter = scatter_;
+  template <bool passing, CollisionRule Rule, class Heartbeat>
+  void advance(const Rule& rule, double until, Heartbeat&& heartbeat) {
+    const Scattering<Rule, passing> scatter(chain_, rule);
     const auto collide = [&](Flight& flight, double& w) {
-      scatter.template operator()<stochastic>(flight, w, free_flight_);
+      scatter(flight, w, free_flight_);
       queue_.schedule(flight);
     };
     const std::uint32_t particles = chain_.particles();
@@ -104,7 +108,7 @@ class PairDynamics {
                                    bool share);
 
   ClosedChain chain_;
-  Scattering scatter_;
+  Rules rule_;
   FreeFlight free_flight_;
   std::vector<std::uint32_t> indices_;                   // of particles in diverged_flights_, or shared
   std::vector<std::array<Flight, 2>> diverged_flights_;  // present ones, plain and perturbed; 0 is scratch

@@ -6,7 +6,7 @@
 #include "engine/flight.hpp"
 #include "engine/free_flight.hpp"
 #include "model/closed_chain.hpp"
-#include "model/collision.hpp"
+#include "model/collision_rule.hpp"
 
 namespace lorentz {
 
@@ -19,27 +19,32 @@ struct Departure {
   double duration;         // time to the next scattering; infinite for a particle at rest
 };
 
-/// A collision and the flight that follows it, on a ring of cells.
+/// A collision and the flight that follows it, on a ring of cells. passing: whether a particle may pass a
+/// scatterer; otherwise it scatters again at the neighbouring one.
+template <CollisionRule Rule, bool passing>
 class Scattering {
  public:
-  explicit Scattering(const ClosedChain& chain)
-      : cells_(chain.cells), cell_length_(chain.cell_length), collide_(chain.sigma) {}
+  Scattering(const ClosedChain& chain, const Rule& rule)
+      : cells_(chain.cells), cell_length_(chain.cell_length), collide_(rule) {}
 
-  const CollisionRule& rule() const { return collide_; }
-
-  /// Ends the flight at the scatterer w and begins the next one, in place. stochastic: whether free_flight
-  /// draws the next flight; otherwise the particle scatters again at the neighbouring scatterer.
-  template <bool stochastic>
+  /// Ends the flight at the scatterer w and begins the next one, in place.
   Departure operator()(Flight& flight, double& w, const FreeFlight& free_flight) const {
     double u = flight.velocity, scatterer = w;  // copies: for the compiler the references may alias
-    collide_(u, scatterer);
+    [[maybe_unused]] const std::uint64_t draw = flight.draws;
+    if constexpr (RandomRule<Rule> || passing) ++flight.draws;
+    if constexpr (RandomRule<Rule>) {
+      RandomStream random = free_flight.of_collision(flight.particle, draw);
+      collide_(u, scatterer, flight.target, random);
+    } else {
+      collide_(u, scatterer, flight.target);
+    }
     w = scatterer;
     std::int64_t cells = 1;
-    if constexpr (stochastic) cells = free_flight(flight.particle, flight.draws, u);
+    if constexpr (passing) cells = free_flight.cells(flight.particle, draw);
     flight.velocity = u;
     const double duration = static_cast<double>(cells) * cell_length_ / std::abs(u);
     const Departure departure{flight.time, flight.particle, u, direction(u) * cells, duration};
-    flight.target = stochastic ? cells_ahead(flight.target, departure.cells) : neighbour(flight.target, u);
+    flight.target = passing ? cells_ahead(flight.target, departure.cells) : neighbour(flight.target, u);
     flight.time += duration;
     return departure;
   }
@@ -60,7 +65,7 @@ class Scattering {
 
   std::uint32_t cells_;
   double cell_length_;
-  CollisionRule collide_;
+  Rule collide_;
 };
 
 }  // namespace lorentz

@@ -2,6 +2,9 @@
 
 #include <cstdint>
 #include <limits>
+#include <string_view>
+
+#include "model/rules/elastic.hpp"
 
 namespace lorentz {
 
@@ -13,15 +16,15 @@ struct ClosedChain {
   double cell_length = 1;
   double sigma = 0.5;                                      // (M-m)/(M+m)
   double gamma = std::numeric_limits<double>::infinity();  // mean number of scatterings in N cells
-  bool random_direction = false;  // draw the direction of the particle after a collision
+  std::string_view rule = Elastic::properties.name;        // of collisions
 
   std::uint32_t particles() const { return cells * particles_per_cell; }
   bool deterministic() const { return gamma >= cells; }  // a particle scatters at every scatterer
 };
 
-/// Energy and momentum of a closed chain [eq. 4], with the scale of the momentum's error. The momentum is NaN
-/// where it is not conserved: at sigma = 1, where the scatterers have infinite mass, and with random
-/// directions.
+/// Energy and momentum of a closed chain [eq. 4], with the scale of the momentum's error. What the collision
+/// rule does not conserve is NaN, and so is the momentum at sigma = 1, where the scatterers have infinite
+/// mass.
 struct Invariants {
   double energy = 0;          // sum of u^2/2 + sum of U^2/2
   double momentum = 0;        // sum p + sum P

@@ -2,14 +2,15 @@
 
 #include <cstdint>
 #include <limits>
+#include <string_view>
 
 #include "model/reservoir.hpp"
+#include "model/rules/elastic.hpp"
 
 namespace lorentz {
 
 /// Parameters of an open chain: a row of cells between two reservoirs, each cell with one fixed scatterer at
-/// its centre. A particle that reaches an opening is removed. The default reservoirs have equal pressures
-/// [eq. 29] and a nonzero particle current [eq. 30].
+/// its centre. A particle that reaches an opening is removed.
 ///
 /// Marks along the chain are numbered in half cells: the left opening is 0, bond j (between scatterers j - 1
 /// and j, which are counted from 0) is 2j, scatterer i is 2i + 1, the right opening is 2 cells.
@@ -18,8 +19,8 @@ struct OpenChain {
   double cell_length = 1. / 30;
   double sigma = 0.5;                                      // (M-m)/(M+m)
   double gamma = std::numeric_limits<double>::infinity();  // mean number of scatterings in N cells
-  Reservoir left{220, 900. / 11};
-  Reservoir right{180, 1100. / 9};
+  Reservoir left = default_left, right = default_right;
+  std::string_view rule = Elastic::properties.name;  // of collisions
 
   bool deterministic() const { return gamma >= cells; }  // a particle scatters at every scatterer
   std::int64_t right_opening() const { return 2 * std::int64_t{cells}; }

@@ -18,7 +18,7 @@ enum class Purpose : std::uint64_t {
   initial_particle_momentum = 1,
   initial_scatterer_momentum = 2,
   passes = 3,     // number of cells to the next scattering [eq. 7]
-  direction = 4,  // after a collision, with --random-direction
+  collision = 4,  // random numbers of a collision rule
   injection_left = 5,
   injection_right = 6,
   initial_chain = 7,   // warm start of an open chain
@@ -35,6 +35,13 @@ class RandomStream {
 
   RandomStream(const StreamKey& key, Purpose purpose, std::uint64_t entity)
       : key_{{key.seed, static_cast<std::uint64_t>(purpose)}}, counter_{{0, entity, key.replica, 0}} {}
+
+  /// Stream of one event, the `event`-th of the entity: counter (event, entity, replica, block). Entities
+  /// with many events store only their number, not a generator.
+  RandomStream(const StreamKey& key, Purpose purpose, std::uint64_t entity, std::uint64_t event)
+      : key_{{key.seed, static_cast<std::uint64_t>(purpose)}},
+        counter_{{event, entity, key.replica, 0}},
+        block_number_(3) {}
 
   /// Uniform on the open interval (0, 1). The upper 52 bits of a word give an odd multiple of 2^-53, so 0 and
   /// 1 do not occur.
@@ -60,7 +67,7 @@ class RandomStream {
   std::uint64_t next() {
     if (used_ == 4) {
       block_ = r123::Philox4x64()(counter_, key_);
-      ++counter_[0];
+      ++counter_[block_number_];
       used_ = 0;
     }
     return block_[used_++];
@@ -69,14 +76,7 @@ class RandomStream {
   r123::Philox4x64::key_type key_;
   r123::Philox4x64::ctr_type counter_;
   r123::Philox4x64::ctr_type block_{};
-  unsigned used_ = 4;
+  unsigned used_ = 4, block_number_ = 0;  // words used of the block; which counter counts the blocks
 };
-
-/// Uniform on (0, 1): the first number of block `draw` of the stream of (key, purpose, entity). Entities that
-/// draw single numbers store only how many they have drawn, not a generator.
-inline double uniform(const StreamKey& key, Purpose purpose, std::uint64_t entity, std::uint64_t draw) {
-  const r123::Philox4x64::key_type philox_key{{key.seed, static_cast<std::uint64_t>(purpose)}};
-  return RandomStream::unit_interval(r123::Philox4x64()({{draw, entity, key.replica, 0}}, philox_key)[0]);
-}
 
 }  // namespace lorentz

@@ -67,7 +67,7 @@ class WindowMean {
   double energy_, changes_ = 0;
 };
 
-void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& run, Record& record) {
+void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& run, TallySums& sums) {
   const ClosedChain chain = parameters.chain();
   const double cells = chain.cells, start = parameters.relaxation_time;
   double before = start;
@@ -76,12 +76,12 @@ void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& ru
     WindowMean mean(run, before, time);
     run.observe(mean, time);
     const double energy = scatterers_energy(run.chain());
-    record[tallies.scatterer][k] = energy / cells;
-    record[tallies.particle][k] = (run.chain().invariants().energy - energy) / chain.particles();
-    if (k > 0) record[tallies.scatterer_window][k - 1] = mean.value() / cells;
+    sums[tallies.scatterer][k] = energy / cells;
+    sums[tallies.particle][k] = (run.chain().invariants().energy - energy) / chain.particles();
+    if (k > 0) sums[tallies.scatterer_window][k - 1] = mean.value() / cells;
     before = time;
   }
-  record[tallies.total_energy] = run.energy_control();
+  sums[tallies.total_energy] = run.energy_control();
 }
 
 Group energies(const Parameters& parameters, const Tallies& tallies) {
@@ -104,13 +104,13 @@ Group energies(const Parameters& parameters, const Tallies& tallies) {
                  "Mean kinetic energy of a scatterer over a window", mean_of(tallies.scatterer_window));
   group.quantity(
       "decade_slope", {decade}, "energy", "Slope of scatterer_energy_mean against ln t in a decade",
-      [=](RecordView mean) {
+      [=](TallyMeans mean) {
         std::vector<double> slopes;
         for (const double first : decade.values)
           slopes.push_back(fit_logarithm(middles, mean[tallies.scatterer_window], first, 10 * first));
         return slopes;
       });
-  group.quantity("log_slope", "energy", "The same over the last --fit-decades decades", [=](RecordView mean) {
+  group.quantity("log_slope", "energy", "The same over the last --fit-decades decades", [=](TallyMeans mean) {
     return fit_logarithm(middles, mean[tallies.scatterer_window], fit_from, last);
   });
   return group;

@@ -7,9 +7,10 @@
 /// cell, hence the factor N. Both are stored. Currents are means over the two openings [eq. 26].
 ///
 /// Control variates are the numbers, momenta and energies that the reservoirs inject [eq. 31], which at gamma
-/// = N are the only randomness, and for gamma < N the scattering martingales of the end scatterers [eq. 32].
-/// Quantities named *_plain do without. Stationarity is tested by the differences between the halves of the
-/// window [eq. 51], and by blocking, for which blocks must be longer than the correlation time [eq. 50].
+/// = N and with deterministic collisions are the only randomness, and for gamma < N the scattering
+/// martingales of the end scatterers [eq. 32], whose means are exact for every collision rule. Quantities
+/// named *_plain do without. Stationarity is tested by the differences between the halves of the window [eq.
+/// 51], and by blocking, for which blocks must be longer than the correlation time [eq. 50].
 #include <gsl/gsl_statistics_double.h>
 
 #include <cmath>
@@ -20,17 +21,12 @@
 #include "observables/conductivity/ends_and_openings.hpp"
 #include "observables/conductivity/hotelling.hpp"
 #include "observables/conductivity/window_means.hpp"
-#include "program/study.hpp"
 #include "sampling/open_run.hpp"
 #include "statistics/control_variates.hpp"
 
 namespace {
 
 using namespace lorentz;
-
-struct Parameters : OpenParameters {
-  WindowParameters times{.relaxation_time = {{0, 0.05, 0}}, .observation_time = {{400, 0, 0}}};
-};
 
 const WindowTallies of_window;
 
@@ -44,28 +40,28 @@ double rise(double first, double last) {
 }
 
 void add_conductivity(Group& group, double cells, const std::string& suffix, const std::string& remark) {
-  const auto per_degree = [](RecordView mean) {
+  const auto per_degree = [](TallyMeans mean) {
     return -mean[of_window.energy_current] /
            rise(mean[of_window.temperature][0], mean[of_window.temperature][1]);
   };
-  const auto particle_temperature = [](RecordView mean, std::size_t end) {
+  const auto particle_temperature = [](TallyMeans mean, std::size_t end) {
     return mean[of_window.arriving_energy][end] / mean[of_window.arrivals][end];
   };
   const std::string conductivity_units = "energy/(time temperature)";
   group.quantity("energy_current" + suffix, "energy/time", "J_U, positive to the right" + remark,
-                 [](RecordView mean) { return mean[of_window.energy_current]; });
+                 [](TallyMeans mean) { return mean[of_window.energy_current]; });
   group.quantity("particle_current" + suffix, "1/time", "J_n, positive to the right" + remark,
-                 [](RecordView mean) { return mean[of_window.particle_current]; });
+                 [](TallyMeans mean) { return mean[of_window.particle_current]; });
   group.quantity("temperature_first" + suffix, "temperature", "<P^2>/M of the first scatterer" + remark,
-                 [](RecordView mean) { return mean[of_window.temperature][0]; });
+                 [](TallyMeans mean) { return mean[of_window.temperature][0]; });
   group.quantity("temperature_last" + suffix, "temperature", "<P^2>/M of the last scatterer" + remark,
-                 [](RecordView mean) { return mean[of_window.temperature][1]; });
+                 [](TallyMeans mean) { return mean[of_window.temperature][1]; });
   group.quantity("kappa" + suffix, conductivity_units, "-J_U N / (T_N - T_1)" + remark,
-                 [=](RecordView mean) { return per_degree(mean) * cells; });
+                 [=](TallyMeans mean) { return per_degree(mean) * cells; });
   group.quantity("kappa_printed" + suffix, conductivity_units,
                  "-J_U / (T_N - T_1), the paper's definition" + remark, per_degree);
   group.quantity("kappa_particle" + suffix, conductivity_units,
-                 "-J_U N / difference of <p^2>/m of the arrivals" + remark, [=](RecordView mean) {
+                 "-J_U N / difference of <p^2>/m of the arrivals" + remark, [=](TallyMeans mean) {
                    return -mean[of_window.energy_current] /
                           rise(particle_temperature(mean, 0), particle_temperature(mean, 1)) * cells;
                  });
@@ -83,13 +79,13 @@ Estimate correlation_coefficient(const Records& records, ScalarTally one, Scalar
 
 void add_drifts(Group& group) {
   group.quantity("energy_current_drift", "energy/time", "J_U, second half of the window minus first",
-                 [](RecordView mean) { return mean[of_window.energy_current]; });
+                 [](TallyMeans mean) { return mean[of_window.energy_current]; });
   group.quantity("particle_current_drift", "1/time", "J_n, second half minus first",
-                 [](RecordView mean) { return mean[of_window.particle_current]; });
+                 [](TallyMeans mean) { return mean[of_window.particle_current]; });
   group.quantity("temperature_first_drift", "temperature", "T_1, second half minus first",
-                 [](RecordView mean) { return mean[of_window.temperature][0]; });
+                 [](TallyMeans mean) { return mean[of_window.temperature][0]; });
   group.quantity("temperature_last_drift", "temperature", "T_N, second half minus first",
-                 [](RecordView mean) { return mean[of_window.temperature][1]; });
+                 [](TallyMeans mean) { return mean[of_window.temperature][1]; });
 }
 
 /// Error of J_U by blocking [eq. 50], p-value of the hypothesis that all four drifts are 0 [eq. 51], and
@@ -108,7 +104,7 @@ void add_stationarity(Group& group, const BlockTallies& tallies) {
                                              *differences.control_variates ? of_window.controls().size() : 0);
     Records currents(block_count);
     for (std::size_t replica = 0; replica < records.size(); ++replica)
-      currents.append(RecordView(records[replica])[tallies.energy_current]);
+      currents.append(TallyMeans(records[replica])[tallies.energy_current]);
     const Blocking blocks = blocking(currents);
     Estimate estimate{blocks.error, blocks.uncertainty};
     for (const double value : {p_value, p_value > level && blocks.converged() ? 1.0 : 0.0}) {
@@ -119,16 +115,11 @@ void add_stationarity(Group& group, const BlockTallies& tallies) {
   });
 }
 
-Study conductivity(const Parameters& parameters) {
-  validate(parameters, parameters.times);
+Study conductivity(const StationaryParameters& parameters) {
+  validate(parameters);
   const OpenChain chain = parameters.chain();
-  const Window window = parameters.times.window(chain.cells);
+  const Window window = parameters.window();
   const BlockTallies tallies;
-  const auto measure = [=](const Replica& replica, Record& record) {
-    OpenRun run(parameters, window, replica);
-    run.observe(EndsAndOpenings(chain, window)).record(tallies, record);
-    return run.events();
-  };
   Group corrected([=](const Records& records) { return reduced(window_means(records, tallies)); });
   Group plain([=](const Records& records) { return Group::Prepared{window_means(records, tallies)}; });
   Group halves([=](const Records& records) { return reduced(half_differences(records, tallies)); });
@@ -142,18 +133,18 @@ Study conductivity(const Parameters& parameters) {
   add_conductivity(plain, chain.cells, "_plain", ", without control variates");
   add_drifts(halves);
   add_stationarity(stationary, tallies);
-  return {.tallies = tallies,
-          .measure = measure,
-          .groups = {corrected, plain, halves, stationary},
-          .target = chain.cells > 1 ? "kappa" : "energy_current"};
+  return open_study(
+      parameters, window, tallies, [=] { return EndsAndOpenings(chain, window); },
+      {corrected, plain, halves, stationary}, chain.cells > 1 ? "kappa" : "energy_current");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   StudyProgram program("conductivity", "Heat conductivity of an open chain");
-  Parameters parameters;
+  StationaryParameters parameters;
+  parameters.relaxation_time = {{0, 0.05, 0}};
+  parameters.observation_time = {{400, 0, 0}};
   declare(program.options(), parameters);
-  declare(program.options(), parameters.times);
   return program.run(argc, argv, [&] { return conductivity(parameters); });
 }

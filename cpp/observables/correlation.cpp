@@ -14,25 +14,23 @@
 /// Sums of C_g over r are conserved: they are the variance of the total momentum over the number of cells.
 /// Each ring's own square of the total is replaced by its exact mean, a constant for all r [eq. 55].
 ///
-/// Particles slower than --slowest are missing at the start and form in the run, at the expense of the
-/// others. The heights of the peaks fall in proportion to --slowest: by 0.03 % with the default
-/// (docs/mode_coupling.md).
+/// Particles slower than the cut of the start are missing there and form in the run, at the expense of the
+/// others. The peaks are too low by 0.03 % (docs/mode_coupling.md).
 ///
 /// Sound must not travel around the ring within the longest time.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 
-#include "model/collision.hpp"
+#include "model/rules/elastic.hpp"
 #include "observables/correlation/cell_fields.hpp"
 #include "observables/correlation/ring_correlation.hpp"
 #include "observables/correlation/sound_peak.hpp"
-#include "observables/heat_current/sound.hpp"
 #include "program/errors.hpp"
 #include "sampling/closed_run.hpp"
+#include "sampling/equilibrium_parameters.hpp"
 #include "sampling/lags.hpp"
 #include "sampling/limits.hpp"
 #include "statistics/moving_peak.hpp"
@@ -41,18 +39,10 @@ namespace {
 
 using namespace lorentz;
 
-struct Parameters : ClosedParameters {
-  std::vector<double> times{2, 4, 8, 16, 32, 64};
+struct Parameters : EquilibriumParameters {
+  Parameters() : EquilibriumParameters({2, 4, 8, 16, 32, 64}) {}
 
-  Parameters() {
-    ring.scattering.cells = 160;
-    temperature = 1;
-    relaxation_time = 0;
-    observation_time = 256;
-  }
-
-  double root_mass() const { return CollisionRule(ring.scattering.sigma).root_mass(); }
-  double zeta() const { return fugacity.value() * ring.cell_length; }
+  double root_mass() const { return Elastic(ring.scattering.sigma).root_mass(); }
 
   /// Variance of the total momentum over the number of cells [eq. 55].
   double momentum_variance() const {
@@ -96,7 +86,7 @@ std::vector<double> centred(std::vector<double> profile) {
   return profile;
 }
 
-void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& run, Record& record) {
+void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& run, TallySums& sums) {
   const ClosedChain chain = parameters.chain();
   const double interval = parameters.times.front(), cells = chain.cells;
   const auto intervals = static_cast<std::size_t>(parameters.observation_time / interval * (1 + 1e-9));
@@ -114,15 +104,15 @@ void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& ru
   for (std::size_t k = 0; k < lags.size(); ++k) {
     std::vector<double> profile = centred(momentum.at(k));
     for (double& value : profile) value += correction;
-    record.set(tallies.momentum.row(k), profile);
-    record.set(tallies.heat.row(k), centred(heat.at(k)));
+    sums.set(tallies.momentum.row(k), profile);
+    sums.set(tallies.heat.row(k), centred(heat.at(k)));
   }
 }
 
 /// A formula for every time, of that time's profile.
 template <class Formula>
 auto at_every_time(Tally profiles, std::size_t times, Formula formula) {
-  return [=](RecordView mean) {
+  return [=](TallyMeans mean) {
     std::vector<double> values;
     for (std::size_t k = 0; k < times; ++k) values.push_back(formula(mean[profiles.row(k)], k));
     return values;
@@ -158,7 +148,7 @@ Group profiles(const Parameters& parameters, const Tallies& tallies) {
   Axis middle{"middle", "time", "Middle of two neighbouring times", {}};
   for (std::size_t k = 0; k + 1 < times.size(); ++k) middle.values.push_back(0.5 * (times[k] + times[k + 1]));
   const auto centroids = at_every_time(tallies.momentum, times.size(), centroid);
-  const auto speeds = [=](RecordView mean) {
+  const auto speeds = [=](TallyMeans mean) {
     const std::vector<double> position = centroids(mean);
     std::vector<double> values;
     for (std::size_t k = 0; k + 1 < times.size(); ++k)
@@ -197,7 +187,7 @@ Group sound_peak(const Parameters& parameters, const Tallies& tallies) {
       {"peak_width", "1", "Full width of the peak at half its height, in cells", {tallies.time}});
   Group group;
   group.quantities(descriptions, [=, profiles = tallies.momentum](const Records& records) {
-    return [=, windows = peak_windows(records, profiles, times.size())](RecordView mean) {
+    return [=, windows = peak_windows(records, profiles, times.size())](TallyMeans mean) {
       const MovingPeak peak(mean[profiles], times, windows);
       std::vector<double> values = peak.values();
       for (std::size_t k = 0; k < times.size(); ++k)
@@ -215,22 +205,16 @@ void require_consistent(const Parameters& parameters) {
   const std::vector<double>& times = parameters.times;
   if (times.size() < 2)
     throw UsageError("--times has one time: the damping exponent needs two. Add another.");
-  if (times.back() > parameters.observation_time)
-    throw UsageError("--times goes beyond --observation-time. Choose a longer one, or earlier times.");
-  if (parameters.ring.scattering.sigma == 1)
+  if (!parameters.conserves_momentum())
     throw UsageError(
-        "--sigma is 1: scatterers of infinite mass do not conserve momentum, and there is no sound. Choose a "
-        "smaller one.");
+        "--rule, --sigma: momentum is not conserved, and there is no sound. Choose --rule elastic, and "
+        "--sigma below 1.");
   require_within(parameters.temperature, 1e-100, 1e100, "--temperature", "the unit of energy");
   require_within(parameters.zeta(), 1e-30, 1e9, "--fugacity, --cell-length", "their product");
   require_within(times.front() * std::sqrt(parameters.temperature) / parameters.ring.cell_length, 1e-30, 1e15,
                  "--times", "the first in units of a thermal flight");
   const double least = std::max(7.0, std::ceil(2 * Range(parameters, times.back()).end));
-  if (cells < least)
-    throw UsageError(fmt::format(
-        "--cells: sound travels around the ring within the last of --times. Choose at least {:.0f} "
-        "cells, or earlier times.",
-        least));
+  require_before_sound_returns(parameters, least);
   // Of every snapshot, the transforms of two fields are kept until the longest lag.
   require_record_size(2.0 * cells * static_cast<double>(lags(times).back() + 1), "--cells, --times");
 }
@@ -248,15 +232,6 @@ Study correlation(const Parameters& parameters) {
 int main(int argc, char** argv) {
   StudyProgram program("correlation", "Sound and heat peaks in the correlations of a closed chain");
   Parameters parameters;
-  Options& options = program.options();
-  options.integer("--cells", parameters.ring.scattering.cells, {1, 100'000'000}, "Number of cells N");
-  options.real("--sigma", parameters.ring.scattering.sigma, {-1, 1}, "1", "Mass ratio (M-m)/(M+m)");
-  options.real("--cell-length", parameters.ring.cell_length, positive, "length",
-               "Distance between scatterers");
-  options.real("--temperature", parameters.temperature, positive, "temperature", "Temperature");
-  declare_stationary_start(options, parameters);
-  options.real("--observation-time", parameters.observation_time, positive, "time", "Time of the record");
-  options.ascending_list("--times", parameters.times, positive, "time",
-                         "Times between the two, multiples of the first");
+  declare(program.options(), parameters, "Times between the two, multiples of the first");
   return program.run(argc, argv, [&] { return correlation(parameters); });
 }

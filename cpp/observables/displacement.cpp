@@ -11,11 +11,13 @@
 /// Over the last --fit-decades decades alpha is the slope of ln <x^2> against ln t, and b the exponent of
 /// <x^2> ~ t ln(t/tau)^b [eq. 19], tau the time of a thermal flight. alpha = 1 and b = 0 mean t, b = -1 means
 /// t/ln t, alpha > 1 and b > 0 superdiffusion; both depend on the age of the chain [eq. 15, 20]. b is stored
-/// only without a common drift, which would dominate it.
+/// only without a common drift, which would dominate it. Where the collision rule does not conserve momentum,
+/// there is neither drift nor control variate.
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
+#include "model/rules.hpp"
 #include "observables/displacement/tagged_particles.hpp"
 #include "sampling/closed_run.hpp"
 #include "sampling/limits.hpp"
@@ -32,7 +34,9 @@ struct Parameters : ClosedParameters {
 
   Parameters() { observation_time = 1000; }
   std::vector<double> times() const { return log_times.times(observation_time); }
-  bool drifts() const { return mean_square_momentum() > 0 && !random_direction; }
+  bool drifts() const {
+    return mean_square_momentum() > 0 && rule_properties(ring.scattering.rule).conserves_momentum;
+  }
 };
 
 struct Tallies : ClosedTallies {
@@ -49,20 +53,20 @@ struct Tallies : ClosedTallies {
       : time{"time", "time", "Time since the end of the relaxation", times} {}
 };
 
-void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& run, Record& record) {
+void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& run, TallySums& sums) {
   const double begin = parameters.relaxation_time;
   TaggedParticles particles(run, begin, parameters.ring.cell_length);
   for (std::size_t k = 0; k < tallies.time.values.size(); ++k) {
     const double time = begin + tallies.time.values[k];
     run.observe(particles, time);
     const Displacement mean = particles.displacement(time);
-    record[tallies.square][k] = mean.square;
-    record[tallies.absolute][k] = mean.absolute;
-    record[tallies.fourth][k] = mean.fourth;
-    record[tallies.centre_square][k] = mean.mean * mean.mean;
-    record[tallies.mean][k] = mean.mean;
+    sums[tallies.square][k] = mean.square;
+    sums[tallies.absolute][k] = mean.absolute;
+    sums[tallies.fourth][k] = mean.fourth;
+    sums[tallies.centre_square][k] = mean.mean * mean.mean;
+    sums[tallies.mean][k] = mean.mean;
   }
-  record[tallies.momentum_square] = run.momentum_control();
+  sums[tallies.momentum_square] = run.momentum_control();
 }
 
 /// Plain records replace corrected ones if a corrected mean of squares is negative, as may happen with few
@@ -84,8 +88,8 @@ std::vector<Group> spreading(const Parameters& parameters, const Tallies& tallie
                     parameters.log_times.grid(times.back()).middles()};
   const double fit_from = parameters.log_times.fit_from(times.back()), tau = parameters.thermal_flight();
   const auto slope = [=](std::span<const double> y) { return fit_power(times, y, fit_from, times.back()); };
-  const auto alpha = [=](RecordView mean) { return slope(mean[tallies.square]); };
-  const auto alpha_relative = [=](RecordView mean) {
+  const auto alpha = [=](TallyMeans mean) { return slope(mean[tallies.square]); };
+  const auto alpha_relative = [=](TallyMeans mean) {
     std::vector<double> relative;
     for (std::size_t k = 0; k < times.size(); ++k)
       relative.push_back(mean[tallies.square][k] - mean[tallies.centre_square][k]);
@@ -101,15 +105,15 @@ std::vector<Group> spreading(const Parameters& parameters, const Tallies& tallie
                  "Mean square of the particles' mean displacement", mean_of(tallies.centre_square));
   group.quantity("mean_displacement", {tallies.time}, "length", "<x>; 0 by symmetry", mean_of(tallies.mean));
   group.quantity("local_slope", {middle}, "1", "d ln <x^2> / d ln t",
-                 [=](RecordView mean) { return local_exponents(times, mean[tallies.square]); });
+                 [=](TallyMeans mean) { return local_exponents(times, mean[tallies.square]); });
   group.quantity("alpha", "1", "Slope of ln <x^2> against ln t over the last --fit-decades decades", alpha);
   group.quantity("alpha_relative", "1", "The same without the part of the centre of mass", alpha_relative);
   group.quantity("alpha_difference", "1", "alpha minus alpha_relative",
-                 [=](RecordView mean) { return alpha(mean) - alpha_relative(mean); });
+                 [=](TallyMeans mean) { return alpha(mean) - alpha_relative(mean); });
   if (!parameters.drifts())
     group.quantity(
         "logarithmic_power", "1", "b of <x^2> ~ t ln(t/tau)^b over the same times: 0 for t, -1 for t/ln t",
-        [=](RecordView mean) { return fit_logarithmic_power(times, mean[tallies.square], fit_from, tau); });
+        [=](TallyMeans mean) { return fit_logarithmic_power(times, mean[tallies.square], fit_from, tau); });
   plain.quantity("variance_plain", {tallies.time}, "length^2", "<x^2>, without the control variate",
                  mean_of(tallies.square));
   plain.quantity("alpha_plain", "1", "alpha, without the control variate", alpha);
@@ -144,7 +148,6 @@ int main(int argc, char** argv) {
   StudyProgram program("displacement", "Spreading of a tagged particle in a closed chain");
   Parameters parameters;
   declare(program.options(), parameters);
-  declare_random_direction(program.options(), parameters);
   declare(program.options(), parameters.log_times);
   return program.run(argc, argv, [&] { return displacement(parameters); });
 }

@@ -32,9 +32,9 @@ struct Tallies : TallySchema {
         cell(numbered_axis("cell", "Cell number", parameters.ring.scattering.cells)) {}
 };
 
-/// Measures one replica: means over its pairs of trajectories.
-std::uint64_t measure(const PulseParameters& parameters, const Tallies& tallies, const Replica& replica,
-                      Record& record) {
+/// One replica: means over its pairs of trajectories.
+std::uint64_t average_pairs(const PulseParameters& parameters, const Tallies& tallies, const Replica& replica,
+                            TallySums& sums) {
   const std::size_t cells = tallies.cell.values.size();
   const std::uint32_t pairs = parameters.pairs_per_replica;
   std::uint64_t events = 0;
@@ -47,11 +47,11 @@ std::uint64_t measure(const PulseParameters& parameters, const Tallies& tallies,
       run.run(parameters.times[k]);
       const std::vector<double> difference = run.energy_difference();
       for (std::size_t cell = 0; cell < cells; ++cell)
-        record[tallies.energy_difference.row(k)][cell] += difference[cell] / pairs;
+        sums[tallies.energy_difference.row(k)][cell] += difference[cell] / pairs;
       error = std::max(error, run.conservation_error(difference));
     }
-    record[tallies.injected_energy] += run.injected_energy() / pairs;
-    record[tallies.sum_error] += error / pairs;
+    sums[tallies.injected_energy] += run.injected_energy() / pairs;
+    sums[tallies.sum_error] += error / pairs;
     events += run.events();
   }
   return events;
@@ -65,10 +65,10 @@ Group spreading(const Tallies& tallies) {
   group.quantity("energy_difference", {tallies.time, tallies.cell}, "energy",
                  "Energy per cell with the pulse minus without", mean_of(tallies.energy_difference));
   group.quantity("injected_energy", "energy", "Energy of the pulse",
-                 [=](RecordView mean) { return mean[tallies.injected_energy]; });
+                 [=](TallyMeans mean) { return mean[tallies.injected_energy]; });
   group.quantity("sum_error", "1",
                  "Largest |sum over cells - injected energy| / total energy, mean over pairs",
-                 [=](RecordView mean) { return mean[tallies.sum_error]; });
+                 [=](TallyMeans mean) { return mean[tallies.sum_error]; });
   std::vector<Description> of_peak = MovingPeak::descriptions(tallies.time, "energy");
   of_peak.push_back(
       {"centre_share", "1", "Part of the injected energy in the central five cells", {tallies.time}});
@@ -77,7 +77,7 @@ Group spreading(const Tallies& tallies) {
                      "Half of right minus left side: 0 by mirror symmetry",
                      {tallies.time, distance}});
   group.quantities(of_peak, [=](const Records& records) {
-    return [=, windows = peak_windows(records, tallies.energy_difference, times.size())](RecordView mean) {
+    return [=, windows = peak_windows(records, tallies.energy_difference, times.size())](TallyMeans mean) {
       const MovingPeak peak(mean[tallies.energy_difference], times, windows);
       std::vector<double> values = peak.values();
       for (const auto& each : {peak.centre_shares(mean[tallies.injected_energy]), peak.odd_parts()})
@@ -92,7 +92,7 @@ Study energy_pulse(const PulseParameters& parameters) {
   validate(parameters);
   const Tallies tallies(parameters);
   return {.tallies = tallies,
-          .measure = std::bind_front(measure, parameters, tallies),
+          .sample = std::bind_front(average_pairs, parameters, tallies),
           .groups = {spreading(tallies)},
           .target = "damping_exponent"};
 }

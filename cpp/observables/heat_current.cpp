@@ -2,14 +2,13 @@
 /// integrals over a time t of J_q = sum of u (u^2/2 - T) and J_n = sum of u, as mean squares per cell over
 /// all origins of time in a record and over replicas.
 ///
-/// Where momentum is conserved, mode coupling predicts [eq. M28]
+/// Where collisions conserve momentum, mode coupling predicts [eq. M28]
 ///
 ///   <Q^2>/N = (T lambda)^2 [ 4.5 A s^(4/3) + 2 D s ],  s = t sqrt(T)/lambda,
 ///
-/// and with random directions A = 0. J_n keeps a part proportional to the total momentum, which is subtracted
+/// elsewhere A = 0. J_n keeps a part proportional to the total momentum, which is subtracted
 /// exactly [eq. M31]. The totals of a ring fluctuate: at fixed totals <Q^2> would be smaller by a part of
 /// order t^2/N. Sound must not travel around the ring within the longest time.
-#include <fmt/format.h>
 #include <gsl/gsl_fit.h>
 
 #include <algorithm>
@@ -20,9 +19,9 @@
 #include <span>
 
 #include "observables/heat_current/currents.hpp"
-#include "observables/heat_current/sound.hpp"
 #include "program/errors.hpp"
 #include "sampling/closed_run.hpp"
+#include "sampling/equilibrium_parameters.hpp"
 #include "sampling/lags.hpp"
 #include "sampling/limits.hpp"
 #include "statistics/fit.hpp"
@@ -32,23 +31,15 @@ namespace {
 
 using namespace lorentz;
 
-struct Parameters : ClosedParameters {
-  std::vector<double> times{1, 2, 4, 8, 16, 32, 64};
+struct Parameters : EquilibriumParameters {
   double fit_from = 16;
 
-  Parameters() {
-    ring.scattering.cells = 160;
-    temperature = 1;
-    relaxation_time = 0;
-    observation_time = 256;
-  }
-
-  bool conserves_momentum() const { return !random_direction && ring.scattering.sigma < 1; }
+  Parameters() : EquilibriumParameters({1, 2, 4, 8, 16, 32, 64}) {}
 
   /// Q_n per time and total momentum, 2 zeta/(2 zeta + M) [eq. M31]; 0 where momentum is not conserved.
   double carried_by_momentum() const {
     if (!conserves_momentum()) return 0;
-    const double sigma = ring.scattering.sigma, in_particles = 2 * fugacity.value() * ring.cell_length;
+    const double sigma = ring.scattering.sigma, in_particles = 2 * zeta();
     return in_particles / (in_particles + (1 + sigma) / (1 - sigma));
   }
 };
@@ -83,7 +74,7 @@ std::vector<double> sums_of(const std::vector<double>& x) {
 }
 
 void observe(const Parameters& parameters, const Tallies& tallies, const std::vector<std::size_t>& windows,
-             ClosedRun& run, Record& record) {
+             ClosedRun& run, TallySums& sums) {
   const double interval = parameters.times.front(), cells = parameters.chain().cells;
   const auto whole = static_cast<std::size_t>(parameters.observation_time / interval * (1 + 1e-9));
   const std::size_t intervals = std::max(whole, windows.back());  // the last time may be rounded
@@ -95,8 +86,8 @@ void observe(const Parameters& parameters, const Tallies& tallies, const std::ve
   currents.finish();
   const std::vector<double> heat = sums_of(currents.heat()), number = sums_of(currents.number());
   for (std::size_t k = 0; k < windows.size(); ++k) {
-    record[tallies.heat][k] = mean_square(heat, windows[k], 0) / cells;
-    record[tallies.number][k] = mean_square(number, windows[k], drift) / cells;
+    sums[tallies.heat][k] = mean_square(heat, windows[k], 0) / cells;
+    sums[tallies.number][k] = mean_square(number, windows[k], drift) / cells;
   }
 }
 
@@ -124,7 +115,7 @@ std::vector<Group> variances(const Parameters& parameters, const Tallies& tallie
   const std::vector<double> times = tallies.time.values;
   const Axis middle{"middle", "time", "Geometric middle of two neighbouring times", geometric_middles(times)};
   const double T = parameters.temperature, length = parameters.ring.cell_length;
-  const auto fitted = [=, from = parameters.fit_from * (1 - 1e-9)](RecordView mean) {
+  const auto fitted = [=, from = parameters.fit_from * (1 - 1e-9)](TallyMeans mean) {
     const double unit = std::sqrt(T) / length;  // of the times
     std::vector<double> s, y;
     for (std::size_t k = 0; k < times.size(); ++k) {
@@ -140,37 +131,30 @@ std::vector<Group> variances(const Parameters& parameters, const Tallies& tallie
                  "<Q_n^2>/N without the part of the total momentum, if it is conserved",
                  mean_of(tallies.number));
   group.quantity("local_exponent", {middle}, "1", "d ln <Q^2> / d ln t between two times",
-                 [=](RecordView mean) { return local_exponents(times, mean[tallies.heat]); });
+                 [=](TallyMeans mean) { return local_exponents(times, mean[tallies.heat]); });
   group.quantity("amplitude", "1",
                  "A of <Q^2>/N = 4.5 A t^(4/3) + 2 D t from --fit-from on, in units of T and lambda",
-                 [=](RecordView mean) { return fitted(mean).amplitude; });
+                 [=](TallyMeans mean) { return fitted(mean).amplitude; });
   group.quantity("diffusion", "1", "D of the same fit",
-                 [=](RecordView mean) { return fitted(mean).diffusion; });
+                 [=](TallyMeans mean) { return fitted(mean).diffusion; });
   return {group};
 }
 
 /// Throws UsageError.
 void require_consistent(const Parameters& parameters) {
   const std::vector<double>& times = parameters.times;
-  if (times.back() > parameters.observation_time)
-    throw UsageError("--times goes beyond --observation-time. Choose a longer one, or earlier times.");
   if (std::ranges::count_if(times, [&](double time) { return time >= parameters.fit_from; }) < 2)
     throw UsageError("--fit-from leaves fewer than two times to fit. Choose an earlier one, or add times.");
   require_record_size(parameters.observation_time / times.front(), "--observation-time, --times");
-  const double cells = parameters.chain().cells, length = parameters.ring.cell_length;
-  const double T = parameters.temperature;
+  const double T = parameters.temperature, length = parameters.ring.cell_length;
   require_within(T * length, 1e-100, 1e100, "--temperature, --cell-length",
                  "the unit of heat, their product");
   require_within(times.front() * std::sqrt(T) / length, 1e-30, 1e15, "--times",
                  "the first in units of a thermal flight");
-  require_within(parameters.fugacity.value() * length, 1e-30, 1e9, "--fugacity, --cell-length",
-                 "their product");
-  const double reach = Sound::of(parameters).reach(times.back()) / length;
-  if (parameters.conserves_momentum() && 2 * reach > cells)
-    throw UsageError(fmt::format(
-        "--cells: sound travels around the ring within the last of --times. Choose at least {:.0f} "
-        "cells, or earlier times.",
-        std::ceil(2 * reach)));
+  require_within(parameters.zeta(), 1e-30, 1e9, "--fugacity, --cell-length", "their product");
+  if (parameters.conserves_momentum())
+    require_before_sound_returns(parameters,
+                                 std::ceil(2 * Sound::of(parameters).reach(times.back()) / length));
 }
 
 Study heat_current(const Parameters& parameters) {
@@ -188,17 +172,8 @@ int main(int argc, char** argv) {
   StudyProgram program("heat_current",
                        "Heat and particles that pass in a time in a closed chain in equilibrium");
   Parameters parameters;
-  Options& options = program.options();
-  options.integer("--cells", parameters.ring.scattering.cells, {1, 100'000'000}, "Number of cells N");
-  options.real("--sigma", parameters.ring.scattering.sigma, {-1, 1}, "1", "Mass ratio (M-m)/(M+m)");
-  options.real("--cell-length", parameters.ring.cell_length, positive, "length",
-               "Distance between scatterers");
-  options.real("--temperature", parameters.temperature, positive, "temperature", "Temperature");
-  declare_stationary_start(options, parameters);
-  declare_random_direction(options, parameters);
-  options.real("--observation-time", parameters.observation_time, positive, "time", "Time of the record");
-  options.ascending_list("--times", parameters.times, positive, "time",
-                         "Times over which the currents are integrated, multiples of the first");
-  options.real("--fit-from", parameters.fit_from, positive, "time", "First time of the fit");
+  declare(program.options(), parameters,
+          "Times over which the currents are integrated, multiples of the first");
+  program.options().real("--fit-from", parameters.fit_from, positive, "time", "First time of the fit");
   return program.run(argc, argv, [&] { return heat_current(parameters); });
 }

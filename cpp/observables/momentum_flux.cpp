@@ -12,7 +12,6 @@
 #include <numeric>
 
 #include "observables/momentum_flux/bond_crossings.hpp"
-#include "program/study.hpp"
 #include "sampling/limits.hpp"
 #include "sampling/momentum_bins.hpp"
 #include "sampling/open_run.hpp"
@@ -22,8 +21,7 @@ namespace {
 
 using namespace lorentz;
 
-struct Parameters : OpenParameters {
-  WindowParameters times;
+struct Parameters : StationaryParameters {
   MomentumBinParameters bins;
 };
 
@@ -38,7 +36,7 @@ std::vector<double> by_bond(std::size_t bonds, std::size_t inner, const Value& v
 
 /// F_N from a mean record.
 struct Flux {
-  RecordView mean;
+  TallyMeans mean;
   const BondTallies& tallies;
   double bin_width = 0;
 
@@ -61,7 +59,7 @@ struct Flux {
 
 /// Rates and moments of F_N by direction, from a mean record.
 struct HalfMoments {
-  RecordView mean;
+  TallyMeans mean;
   const BondTallies& tallies;
 
   double sum(std::size_t k, std::size_t bond, std::size_t side) const {
@@ -99,7 +97,7 @@ std::vector<Group> flux_and_shape(const BondTallies& tallies, double bin_width,
   const std::string units = "1/(time momentum)";
   const std::vector<Axis> bonds{tallies.bond}, bins{tallies.bond, tallies.momentum},
       halves{tallies.bond, tallies.half};
-  const auto flux = [=](RecordView mean) { return Flux{mean, tallies, bin_width}; };
+  const auto flux = [=](TallyMeans mean) { return Flux{mean, tallies, bin_width}; };
 
   const Regression by_all{columns_of({tallies.sums[0], tallies.sums[1], tallies.sums[2]}),
                           columns_of({tallies.injection})};
@@ -107,28 +105,28 @@ std::vector<Group> flux_and_shape(const BondTallies& tallies, double bin_width,
   Group moments([=](const Records& records) { return reduce_variance(records, {by_all}); });
   Group plain;
   fluxes.quantity("flux", bins, units, "F_N, crossings per unit time and momentum",
-                  [=](RecordView mean) { return flux(mean).all(); });
+                  [=](TallyMeans mean) { return flux(mean).all(); });
   fluxes.quantity("jump", bonds, units, "F_N at p = 0+ minus p = 0-",
-                  [=](RecordView mean) { return flux(mean).jump(); });
+                  [=](TallyMeans mean) { return flux(mean).jump(); });
   plain.quantity("flux_plain", bins, units, "F_N without control variates",
-                 [=](RecordView mean) { return flux(mean).all(); });
+                 [=](TallyMeans mean) { return flux(mean).all(); });
   moments.quantity("rate", halves, "1/time", "Crossings by direction",
-                   [=](RecordView mean) { return HalfMoments{mean, tallies}.rate(); });
+                   [=](TallyMeans mean) { return HalfMoments{mean, tallies}.rate(); });
   moments.quantity("square", halves, "momentum^2", "<p^2> by direction",
-                   [=](RecordView mean) { return HalfMoments{mean, tallies}.square(); });
+                   [=](TallyMeans mean) { return HalfMoments{mean, tallies}.square(); });
   moments.quantity("kurtosis", halves, "1", "<p^4>/<p^2>^2 by direction; 3 for a Gaussian half",
-                   [=](RecordView mean) { return HalfMoments{mean, tallies}.kurtosis(); });
+                   [=](TallyMeans mean) { return HalfMoments{mean, tallies}.kurtosis(); });
   moments.quantity("crossings", "1/time", "Crossings of a bond, mean over bonds",
-                   [=](RecordView mean) { return HalfMoments{mean, tallies}.crossings(); });
+                   [=](TallyMeans mean) { return HalfMoments{mean, tallies}.crossings(); });
   return {fluxes, moments, plain};
 }
 
 Study momentum_flux(const Parameters& parameters) {
-  validate(parameters, parameters.times);
+  validate(parameters);
   validate(parameters.bins);
   require_fourth_powers(parameters.left, parameters.right);
   const OpenChain chain = parameters.chain();
-  const Window window = parameters.times.window(chain.cells);
+  const Window window = parameters.window();
   // Sums of p^4 per unit time, over up to 1e9 particles, stay finite.
   const double hottest = std::max(chain.left.temperature, chain.right.temperature);
   require_within(
@@ -138,15 +136,9 @@ Study momentum_flux(const Parameters& parameters) {
   const Bins bins = parameters.bins.bins();
   require_record_size((chain.cells + 1.0) * static_cast<double>(bins.count()), "--cells, --momentum-bins");
   const BondTallies tallies(chain.cells, bins);
-  const auto measure = [=](const Replica& replica, Record& record) {
-    OpenRun run(parameters, window, replica);
-    run.observe(BondCrossings(chain, window, bins)).record(tallies, record);
-    return run.events();
-  };
-  return {.tallies = tallies,
-          .measure = measure,
-          .groups = flux_and_shape(tallies, bins.width(), regressions_by_bin(tallies, chain, window, bins)),
-          .target = "crossings"};
+  return open_study(
+      parameters, window, tallies, [=] { return BondCrossings(chain, window, bins); },
+      flux_and_shape(tallies, bins.width(), regressions_by_bin(tallies, chain, window, bins)), "crossings");
 }
 
 }  // namespace
@@ -155,7 +147,6 @@ int main(int argc, char** argv) {
   StudyProgram program("momentum_flux", "Momentum distribution of the particles in an open chain");
   Parameters parameters;
   declare(program.options(), parameters);
-  declare(program.options(), parameters.times);
   declare(program.options(), parameters.bins);
   return program.run(argc, argv, [&] { return momentum_flux(parameters); });
 }

@@ -9,7 +9,6 @@
 
 #include "observables/particle_count/census.hpp"
 #include "observables/particle_count/front.hpp"
-#include "program/study.hpp"
 #include "sampling/limits.hpp"
 #include "sampling/open_run.hpp"
 #include "statistics/fit.hpp"
@@ -32,7 +31,7 @@ struct Parameters : OpenParameters {
 
 /// Quantities of a mean record; `thermal` is the thermal momentum of the colder bath.
 struct Reading {
-  RecordView mean;
+  TallyMeans mean;
   const CensusTallies& tallies;
   const CensusGrid& grid;
   double thermal;
@@ -92,31 +91,31 @@ struct Reading {
 Group numbers_and_momenta(const CensusTallies& tallies, const CensusGrid& grid, double thermal) {
   const Axis between{"time", "time", "Geometric middle of two neighbouring times",
                      grid.number_grid.middles()};
-  const auto reading = [=](RecordView mean) { return Reading{mean, tallies, grid, thermal}; };
+  const auto reading = [=](TallyMeans mean) { return Reading{mean, tallies, grid, thermal}; };
   Group group;
   group.quantity("weighted_momentum_density", {tallies.time, tallies.p}, "1",
                  "|p| n_t(p), n_t being particles per unit momentum",
                  mean_of(tallies.momentum, grid.bins.width()));
   group.quantity("weighted_speed_density", {tallies.time, tallies.speed}, "1",
                  "|p| n_t(p), both signs, on logarithmic bins",
-                 [=](RecordView mean) { return reading(mean).speed_density(); });
+                 [=](TallyMeans mean) { return reading(mean).speed_density(); });
   group.quantity("total_number", {tallies.number_time}, "1", "Particles inside", mean_of(tallies.number));
   group.quantity("number_slope", {between}, "1", "d n / d ln t",
-                 [=](RecordView mean) { return reading(mean).number_slopes(); });
+                 [=](TallyMeans mean) { return reading(mean).number_slopes(); });
   group.quantity(
       "log_slope", "1", "Slope of n against ln t from the first of --times on",
-      [=](RecordView mean) { return reading(mean).late_slope(mean[tallies.number], grid.number_times); });
+      [=](TallyMeans mean) { return reading(mean).late_slope(mean[tallies.number], grid.number_times); });
   group.quantity("log_curvature", "1", "Slope of dn/d ln t against ln t over the same times; 0 if n ~ ln t",
-                 [=](RecordView mean) {
+                 [=](TallyMeans mean) {
                    return reading(mean).late_slope(reading(mean).number_slopes(), between.values);
                  });
   group.quantity("plateau", {tallies.time}, "1",
                  "|p| n_t(p) above the front, both signs: what dn/d ln t should be",
-                 [=](RecordView mean) { return reading(mean).plateaus(); });
+                 [=](TallyMeans mean) { return reading(mean).plateaus(); });
   group.quantity("front", {tallies.time}, "momentum",
                  "p_0(t): where |p| n_t(p) has fallen to half of the plateau",
-                 [=](RecordView mean) { return reading(mean).fronts(); });
-  group.quantity("front_exponent", "1", "Slope of ln p_0 against ln t", [=](RecordView mean) {
+                 [=](TallyMeans mean) { return reading(mean).fronts(); });
+  group.quantity("front_exponent", "1", "Slope of ln p_0 against ln t", [=](TallyMeans mean) {
     return fit_power(grid.times, reading(mean).fronts(), grid.times.front(), grid.times.back());
   });
   return group;
@@ -135,15 +134,9 @@ Study particle_count(const Parameters& parameters) {
   const CensusGrid grid(parameters.times, parameters.bins.bins(), chain.cell_length);
   const CensusTallies tallies(grid);
   const double thermal = std::sqrt(std::min(chain.left.temperature, chain.right.temperature));
-  const auto measure = [=](const Replica& replica, Record& record) {
-    OpenRun run(parameters, {0, grid.times.back()}, replica);
-    run.observe(Census(grid)).record(tallies, record);
-    return run.events();
-  };
-  return {.tallies = tallies,
-          .measure = measure,
-          .groups = {numbers_and_momenta(tallies, grid, thermal)},
-          .target = "log_slope"};
+  return open_study(
+      parameters, {0, grid.times.back()}, tallies, [=] { return Census(grid); },
+      {numbers_and_momenta(tallies, grid, thermal)}, "log_slope");
 }
 
 }  // namespace

@@ -11,7 +11,6 @@
 
 #include "observables/steady_profile/cell_profile.hpp"
 #include "observables/steady_profile/profile.hpp"
-#include "program/study.hpp"
 #include "sampling/open_run.hpp"
 #include "statistics/control_variates.hpp"
 
@@ -19,14 +18,13 @@ namespace {
 
 using namespace lorentz;
 
-struct Parameters : OpenParameters {
-  WindowParameters times;
+struct Parameters : StationaryParameters {
   MomentumBinParameters bins;
 };
 
 /// Quantities of a mean record.
 struct Profile {
-  RecordView mean;
+  TallyMeans mean;
   const CellTallies& tallies;
 
   Values temperature() const { return mean_of(tallies.temperature)(mean); }
@@ -64,7 +62,7 @@ Group profiles(const CellTallies& tallies, double bin_width) {
     return reduce_variance(records, {{measured, columns_of({tallies.injection})}});
   });
   const auto of = [&](auto&& formula) {
-    return [=](RecordView mean) { return formula(Profile{mean, tallies}); };
+    return [=](TallyMeans mean) { return formula(Profile{mean, tallies}); };
   };
   const auto density = [](const Profile& profile) {
     return DensityProfile(profile.mean[profile.tallies.density]);
@@ -111,21 +109,15 @@ Group profiles(const CellTallies& tallies, double bin_width) {
 }
 
 Study steady_profile(const Parameters& parameters) {
-  validate(parameters, parameters.times);
+  validate(parameters);
   validate(parameters.bins);
   const OpenChain chain = parameters.chain();
-  const Window window = parameters.times.window(chain.cells);
+  const Window window = parameters.window();
   const Bins bins = parameters.bins.bins();
   const CellTallies tallies(chain.cells, bins);
-  const auto measure = [=](const Replica& replica, Record& record) {
-    OpenRun run(parameters, window, replica);
-    run.observe(CellProfile(chain, window, bins)).record(tallies, record);
-    return run.events();
-  };
-  return {.tallies = tallies,
-          .measure = measure,
-          .groups = {profiles(tallies, bins.width())},
-          .target = "energy_current_mean"};
+  return open_study(
+      parameters, window, tallies, [=] { return CellProfile(chain, window, bins); },
+      {profiles(tallies, bins.width())}, "energy_current_mean");
 }
 
 }  // namespace
@@ -134,7 +126,6 @@ int main(int argc, char** argv) {
   StudyProgram program("steady_profile", "Profiles of an open chain in its stationary state");
   Parameters parameters;
   declare(program.options(), parameters);
-  declare(program.options(), parameters.times);
   declare(program.options(), parameters.bins);
   return program.run(argc, argv, [&] { return steady_profile(parameters); });
 }

@@ -186,7 +186,8 @@ std::uint64_t observe_ring(const Parameters& parameters, const Replica& replica,
 
 std::uint64_t observe_row(const Parameters& parameters, const Replica& replica, Flights& flights) {
   OpenRun run(parameters.open(), parameters.window(), replica);
-  run.observe(RowObserver(parameters, flights));
+  RowObserver observer(parameters, flights);
+  run.observe(observer);
   return run.events();
 }
 
@@ -206,9 +207,10 @@ Outcome observe(const Parameters& parameters) {
 }
 
 std::vector<Description> quantities(const Parameters& parameters) {
-  validate(parameters);
   if (parameters.kind == "open")
     validate(parameters.open(), parameters.end_time(), "--relaxation-time plus --observation-time");
+  else
+    validate(parameters);
   std::vector<Description> all;
   for (const Quantity& each : Flights(parameters.window()).results()) all.push_back(each.what);
   return all;

@@ -49,10 +49,10 @@ class WaitingTimes {
     bin.logarithms.add(departure.duration);
   }
 
-  void record(const Tallies& tallies, Record& record) const {
+  void record(const Tallies& tallies, TallySums& sums) const {
     for (std::size_t bin = 0; bin < bins_.size(); ++bin) {
-      record[tallies.count][bin] = static_cast<double>(bins_[bin].count);
-      record[tallies.log_sum][bin] = bins_[bin].logarithms.sum();
+      sums[tallies.count][bin] = static_cast<double>(bins_[bin].count);
+      sums[tallies.log_sum][bin] = bins_[bin].logarithms.sum();
     }
   }
 
@@ -98,20 +98,20 @@ Group waiting_times(const Parameters& parameters, const Tallies& tallies) {
     return bins.interval(factor * parameters.tail_from * parameters.thermal_flight() * (1 + 1e-9));
   };
   const std::size_t lowest = bin_of_cut(1.0 / 3), chosen = bin_of_cut(1), highest = bin_of_cut(3);
-  const auto by_cut = [=](RecordView mean) {
+  const auto by_cut = [=](TallyMeans mean) {
     return exponents(mean[tallies.count], mean[tallies.log_sum], edges);
   };
 
   Group group;
   group.quantity("density", {tallies.tau}, "1/time",
                  "Probability density of the time between two scatterings of a particle",
-                 [=](RecordView mean) { return density(mean[tallies.count], edges); });
+                 [=](TallyMeans mean) { return density(mean[tallies.count], edges); });
   group.quantity("exponent_by_cut", {cut}, "1", "Maximum-likelihood exponent of the tail above the cut",
                  by_cut);
   group.quantity("exponent", "1", "Exponent of the tail above --tail-from thermal flights",
-                 [=](RecordView mean) { return by_cut(mean)[chosen]; });
+                 [=](TallyMeans mean) { return by_cut(mean)[chosen]; });
   group.quantity("exponent_spread", "1", "Largest difference of exponents for cuts within a factor of three",
-                 [=](RecordView mean) {
+                 [=](TallyMeans mean) {
                    const std::vector<double> all = by_cut(mean);
                    const auto [low, high] =
                        std::ranges::minmax(std::span(all).subspan(lowest, highest + 1 - lowest));
@@ -124,10 +124,10 @@ Study waiting_time(const Parameters& parameters) {
   validate(parameters);
   const LogGrid bins = parameters.bins();
   const Tallies tallies(bins);
-  const auto observe = [=](ClosedRun& run, Record& record) {
+  const auto observe = [=](ClosedRun& run, TallySums& sums) {
     WaitingTimes waits(bins);
     run.observe(waits);
-    waits.record(tallies, record);
+    waits.record(tallies, sums);
   };
   return closed_study(parameters, tallies, observe, {waiting_times(parameters, tallies)}, "exponent");
 }

@@ -13,7 +13,7 @@
 #include "program/atomic_file.hpp"
 #include "program/build_info.hpp"
 #include "program/hdf5_file.hpp"
-#include "program/record_file.hpp"
+#include "program/replica_file.hpp"
 
 namespace lorentz {
 namespace {
@@ -88,7 +88,7 @@ double Program::elapsed() const {
 /// Throws UsageError if there is an output and it is no result of these options and this build.
 void Program::require_replaceable() const {
   std::error_code unknown;
-  if (overwrite_ || output_.ends_with(RecordFile::part_suffix) || !std::filesystem::exists(output_, unknown))
+  if (overwrite_ || output_.ends_with(ReplicaFile::part_suffix) || !std::filesystem::exists(output_, unknown))
     return;
   const auto require = [this](bool equal, const std::string& what) {
     if (!equal)

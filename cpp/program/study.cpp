@@ -51,8 +51,6 @@ int StudyProgram::run(int argc, char** argv, const std::function<Study()>& make)
   constexpr auto runtime = Options::Role::runtime;
   options.integer("--replicas", replicas_, {1, 100'000'000},
                   "Independent replicas; with a target error, replicas per batch");
-  options.integer("--max-replicas", max_replicas_, {1, 100'000'000},
-                  "Largest number of replicas with a target error");
   options.integer("--seed", seed_, {}, "Key of all random streams");
   options.real("--target-error", target_error_, non_negative, "1",
                fmt::format("Add replicas, {} at least, until the relative standard error of the target "
@@ -97,11 +95,6 @@ void StudyProgram::require_consistent() {
     throw UsageError(
         "--target-error and --target-absolute are both given: a run has one target. Leave out one of the "
         "two.");
-  if ((target() > 0 || options().given("--max-replicas")) && max_replicas_ < replicas_)
-    throw UsageError(
-        fmt::format("--max-replicas {} is below --replicas {}: not even one batch would be allowed. Choose a "
-                    "smaller batch or a larger maximum.",
-                    max_replicas_, replicas_));
   if (part_.empty()) return;
   if (target() > 0 || time_limit_ > 0 || !join_.empty())
     throw UsageError(
@@ -114,9 +107,9 @@ void StudyProgram::require_consistent() {
     throw UsageError(fmt::format(
         "--part {} is not a range of replicas. Give the first and the last, as 0-{}, of a run that has {}.",
         part_, replicas_ - 1, replicas_));
-  if (!program_.output().ends_with(RecordFile::part_suffix))
+  if (!program_.output().ends_with(ReplicaFile::part_suffix))
     throw UsageError(fmt::format("--part writes records, not results. The --output '{}' must end with {}.",
-                                 program_.output(), RecordFile::part_suffix));
+                                 program_.output(), ReplicaFile::part_suffix));
 }
 
 /// Loads the replicas of the checkpoint and of the parts.
@@ -152,23 +145,23 @@ ExitStatus StudyProgram::compute() try {
   prepare();
   if (!part_.empty()) {
     needed_ = part_last_ - part_first_ + 1;
-    measure(part_first_, part_last_ + 1);
+    run_replicas(part_first_, part_last_ + 1);
     program_.progress().say(fmt::format("replicas {} are measured, for --join", part_));
     std::uint64_t events = 0;
-    for (const auto& [index, record] : finished_) events += record.events;
+    for (const auto& [index, replica] : finished_) events += replica.events;
     program_.write(format_.content(finished_), events);
     ::unlink(checkpoint_.c_str());
     return ExitStatus::done;
   }
-  const StoppingRule rule{.batch = replicas_, .most = max_replicas_};
+  const StoppingRule rule{.batch = replicas_, .most = most_replicas};
   needed_ = target() > 0 ? rule.next_look(0) : replicas_;
   for (std::uint64_t wanted = needed_;; wanted = rule.next_look(wanted)) {
-    measure(0, wanted);
+    run_replicas(0, wanted);
     const Outcome outcome = estimate(wanted);
     const double excess = outcome.achieved_error / target();
     const bool not_reached = outcome.convergence == Convergence::not_reached;
     const bool last =
-        !not_reached || outcome.replicas < wanted || target() == 0 || wanted + replicas_ > max_replicas_;
+        !not_reached || outcome.replicas < wanted || target() == 0 || wanted + replicas_ > most_replicas;
     std::string forecast;
     if (!last && std::isfinite(excess)) {
       const StoppingRule::Forecast end = rule.forecast(outcome.replicas, excess);
@@ -216,7 +209,7 @@ void StudyProgram::keep(const std::string& why) {
 /// one thread. Returns when all are finished, or after the time limit when those in progress are; the
 /// finished ones then have the lowest indices. After a signal the process ends, with a checkpoint. Throws the
 /// first exception of a replica.
-void StudyProgram::measure(std::uint64_t first, std::uint64_t end) {
+void StudyProgram::run_replicas(std::uint64_t first, std::uint64_t end) {
   next_ = first;
   active_ = std::min<std::uint64_t>(threads_, end - first);
   std::vector<std::jthread> threads;
@@ -252,11 +245,11 @@ void StudyProgram::work(std::uint64_t end) {
     const std::uint64_t index = next_++;
     lock.unlock();
     try {
-      Record record(study_.tallies);
-      const std::uint64_t events = study_.measure({StreamKey(seed_, index), heartbeat}, record);
-      record.require_filled(study_.tallies);
+      TallySums sums(study_.tallies);
+      const std::uint64_t events = study_.sample({StreamKey(seed_, index), heartbeat}, sums);
+      sums.require_filled(study_.tallies);
       lock.lock();
-      finished_.emplace(index, ReplicaRecord{record.values(), events});
+      finished_.emplace(index, FinishedReplica{sums.values(), events});
     } catch (...) {
       if (!lock.owns_lock()) lock.lock();
       if (!failure_) failure_ = std::current_exception();
@@ -285,10 +278,10 @@ Outcome StudyProgram::estimate(std::uint64_t wanted) const {
                   .target_quantity = study_.target,
                   .target_error = target() > 0 ? target() : std::numeric_limits<double>::quiet_NaN()};
   Records records(study_.tallies.width());
-  for (const auto& [index, record] : finished_) {
+  for (const auto& [index, replica] : finished_) {
     if (index != records.size() || index == wanted) break;
-    records.append(record.values);
-    outcome.events += record.events;
+    records.append(replica.values);
+    outcome.events += replica.events;
   }
   outcome.replicas = records.size();
   for (const Group& group : study_.groups)

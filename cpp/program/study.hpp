@@ -11,30 +11,30 @@
 
 #include "numerics/stream_key.hpp"
 #include "program/program.hpp"
-#include "program/record_file.hpp"
+#include "program/replica_file.hpp"
 #include "statistics/group.hpp"
 #include "statistics/tally.hpp"
 
 namespace lorentz {
 
-/// Random streams and heartbeat of one replica, the input of its measurement.
+/// Random streams and heartbeat of one replica, the input of its simulation.
 struct Replica {
   StreamKey key;  // of all its random numbers
-  /// The measurement calls it often with its completed part in [0, 1]. Throws if the run must end.
+  /// The simulation calls it often with its completed part in [0, 1]. Throws if the run must end.
   std::function<void(double)> heartbeat;
 };
 
 /// Measurement over independent replicas: the tallies of a replica and the quantities estimated from them.
 struct Study {
   TallySchema tallies;
-  std::function<std::uint64_t(const Replica&, Record&)> measure;  // fills the record; returns the events
+  std::function<std::uint64_t(const Replica&, TallySums&)> sample;  // of one replica; returns its events
   std::vector<Group> groups;
   std::string target;  // quantity of --target-error
 };
 
 /// An executable that runs a study: measures replicas in threads until their number or the target error is
-/// reached, or a part of the replicas, with checkpoints, resumption and time limit. The record of a replica
-/// depends on its index alone, so results do not depend on threads and interruptions.
+/// reached, or a part of the replicas, with checkpoints, resumption and time limit. The tallies of a replica
+/// depend on its index alone, so results do not depend on threads and interruptions.
 class StudyProgram {
  public:
   StudyProgram(const std::string& name, const std::string& description);
@@ -50,7 +50,7 @@ class StudyProgram {
   std::vector<Description> quantities() const;
   void prepare();
   ExitStatus compute();
-  void measure(std::uint64_t first, std::uint64_t end);
+  void run_replicas(std::uint64_t first, std::uint64_t end);
   void work(std::uint64_t end);
   void report();
   Outcome estimate(std::uint64_t wanted) const;
@@ -62,7 +62,8 @@ class StudyProgram {
 
   // Options. Without a target error a run has `replicas_` replicas; with one, batches of that size are added
   // until the StoppingRule is met.
-  std::uint64_t replicas_ = 16, max_replicas_ = 1'000'000, seed_ = 1;
+  static constexpr std::uint64_t most_replicas = 1'000'000;  // with a target error, but at least one batch
+  std::uint64_t replicas_ = 16, seed_ = 1;
   std::uint32_t threads_ = 1;
   double target_error_ = 0, target_absolute_ = 0;  // 0: none
   double time_limit_ = 0;                          // seconds; 0: none
@@ -73,7 +74,7 @@ class StudyProgram {
   std::string join_;  // folder with parts; empty: none
 
   Study study_;
-  RecordFile format_{};
+  ReplicaFile format_{};
   std::string checkpoint_;      // path
   double next_checkpoint_ = 0;  // as elapsed()
   std::size_t resumed_ = 0;     // replicas from files

@@ -1,7 +1,11 @@
 #include "sampling/chain_parameters.hpp"
 
-#include <limits>
+#include <fmt/format.h>
 
+#include <limits>
+#include <vector>
+
+#include "model/rules.hpp"
 #include "program/errors.hpp"
 
 namespace lorentz {
@@ -15,6 +19,16 @@ void declare(Options& options, ScatteringParameters& parameters, Range<double> g
   options.real("--sigma", parameters.sigma, {-1, 1}, "1", "Mass ratio (M-m)/(M+m)");
   options.real_or_word("--gamma", parameters.gamma, gamma_range, "N", "1",
                        "Mean number of scatterings in N cells; N: every scatterer scatters");
+  declare_rule(options, parameters.rule);
+}
+
+void declare_rule(Options& options, std::string& rule) {
+  std::vector<std::string> names, descriptions;
+  for (const RuleProperties& each : rules::all) {
+    names.emplace_back(each.name);
+    descriptions.push_back(fmt::format("{}: {}", each.name, each.description));
+  }
+  options.choice("--rule", rule, names, fmt::format("Collision. {}", fmt::join(descriptions, "; ")));
 }
 
 void require_probability(std::optional<double> gamma, std::uint32_t cells) {
@@ -39,7 +53,8 @@ ClosedChain ClosedChainParameters::chain() const {
           .particles_per_cell = particles_per_cell,
           .cell_length = cell_length,
           .sigma = scattering.sigma,
-          .gamma = scattering.mean_scatterings()};
+          .gamma = scattering.mean_scatterings(),
+          .rule = rule_properties(scattering.rule).name};
 }
 
 void declare(Options& options, ClosedChainParameters& parameters) {

@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "model/closed_chain.hpp"
 #include "model/reservoir.hpp"
+#include "model/rules/elastic.hpp"
 #include "program/options.hpp"
 
 namespace lorentz {
@@ -14,12 +16,16 @@ struct ScatteringParameters {
   std::uint32_t cells = 0;
   double sigma = 0.5;             // (M-m)/(M+m)
   std::optional<double> gamma{};  // mean number of scatterings in N cells; none: N, every scatterer scatters
+  std::string rule{Elastic::properties.name};  // of collisions
 
   double mean_scatterings() const;  // gamma of the model: infinite for N
 };
 
-/// Declares --cells, --sigma and --gamma.
+/// Declares --cells, --sigma, --gamma and --rule.
 void declare(Options& options, ScatteringParameters& parameters, Range<double> gamma_range);
+
+/// Declares --rule.
+void declare_rule(Options& options, std::string& rule);
 
 /// Throws UsageError if particles would have to scatter more than once per cell; gamma none: N.
 void require_probability(std::optional<double> gamma, std::uint32_t cells);
@@ -36,7 +42,7 @@ struct ClosedChainParameters {
   ClosedChain chain() const;
 };
 
-/// Declares --cells, --sigma, --gamma, --particles-per-cell and --cell-length.
+/// Declares --cells, --sigma, --gamma, --rule, --particles-per-cell and --cell-length.
 void declare(Options& options, ClosedChainParameters& parameters);
 
 }  // namespace lorentz

@@ -1,9 +1,11 @@
 #include "sampling/closed_parameters.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
-#include "model/collision.hpp"
+#include "model/rules.hpp"
 #include "program/errors.hpp"
 #include "sampling/limits.hpp"
 
@@ -14,12 +16,14 @@ namespace {
 void require_stationary(const ClosedParameters& parameters) {
   const ClosedChain chain = parameters.chain();
   const StationaryMeasure measure = parameters.stationary_measure();
-  const double relative = measure.slowest / std::sqrt(measure.temperature);
-  if (relative > 1)
-    throw UsageError(
-        "--slowest exceeds the thermal momentum sqrt(--temperature): most particles would be missing. Choose "
-        "a smaller one, or a longer run.");
-  require_within(relative, 1e-100, 1, "--slowest, --temperature", "the least momentum over the thermal one");
+  const RuleProperties& rule = rule_properties(chain.rule);
+  if (rule.invariant != InvariantMeasure::maxwellian)
+    throw UsageError(fmt::format(
+        "--rule {}: its stationary state, in which a run starts, is not known. Choose another rule.",
+        rule.name));
+  require_within(measure.slowest / std::sqrt(measure.temperature), 1e-100, 1,
+                 "--observation-time, --cell-length, --temperature",
+                 "the least momentum over the thermal one");
   const double particles = chain.cells * mean_number(chain, measure);
   if (particles > 1e9)
     throw UsageError(
@@ -30,14 +34,15 @@ void require_stationary(const ClosedParameters& parameters) {
 
 }  // namespace
 
-ClosedChain ClosedParameters::chain() const {
-  ClosedChain chain = ring.chain();
-  chain.random_direction = random_direction;
-  return chain;
+ClosedChain ClosedParameters::chain() const { return ring.chain(); }
+
+bool ClosedParameters::conserves_momentum() const {
+  return rule_properties(ring.scattering.rule).conserves_momentum && ring.scattering.sigma < 1;
 }
 
 StationaryMeasure ClosedParameters::stationary_measure() const {
-  return {fugacity.value(), temperature, slowest.value_or(0.01 * ring.cell_length / end_time())};
+  const double whole_run = 0.01 * ring.cell_length / end_time();
+  return {fugacity.value(), temperature, std::min(whole_run, 1e-3 * std::sqrt(temperature))};
 }
 
 double ClosedParameters::hottest() const { return std::max(temperature, scatterer_temperature); }
@@ -45,7 +50,7 @@ double ClosedParameters::hottest() const { return std::max(temperature, scattere
 double ClosedParameters::mean_square_momentum() const {
   if (zero_total_momentum) return 0;
   const ClosedChain chain = this->chain();
-  const double root_mass = CollisionRule(chain.sigma).root_mass();
+  const double root_mass = Elastic(chain.sigma).root_mass();
   return chain.particles() * temperature + chain.cells * scatterer_temperature * root_mass * root_mass;
 }
 
@@ -73,21 +78,15 @@ void declare(Options& options, ClosedParameters& parameters) {
                "Time of the measurement");
 }
 
-void declare_random_direction(Options& options, ClosedParameters& parameters) {
-  options.flag("--random-direction", parameters.random_direction,
-               "Draw the direction of a particle after every collision");
-}
-
-void declare_stationary_start(Options& options, ClosedParameters& parameters) {
-  options.real("--fugacity", parameters.fugacity.emplace(1), positive, "1/length",
-               "z of the flux z exp(-p^2/2T) in the stationary state, from which a run starts");
-  options.real_or_word("--slowest", parameters.slowest, positive, "auto", "momentum",
-                       "Least momentum of a particle at the start; auto: 0.01 cell lengths in the whole run");
-}
-
 void validate(const ClosedParameters& parameters) {
   require_probability(parameters.ring.scattering.gamma, parameters.ring.scattering.cells);
   if (parameters.fugacity) return require_stationary(parameters);
+  if (parameters.zero_total_momentum && !rule_properties(parameters.ring.scattering.rule).conserves_momentum)
+    throw UsageError(
+        fmt::format("--zero-total-momentum: the rule {} does not conserve momentum, so that it does not "
+                    "remain zero. Leave "
+                    "it out, or choose another --rule.",
+                    parameters.ring.scattering.rule));
   require_possible(parameters.chain(), parameters.hottest(), parameters.end_time(), flights_of_a_year,
                    "--temperature, --scatterer-temperature", "--relaxation-time plus --observation-time");
 }

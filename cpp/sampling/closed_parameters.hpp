@@ -12,21 +12,23 @@ namespace lorentz {
 /// Parameters of a closed chain, its initial state and its measurement. Defaults: figure 5 of the paper.
 struct ClosedParameters {
   ClosedChainParameters ring{};
-  bool random_direction = false;     // draw the direction of the particle after a collision
   double temperature = 500;          // of the particles at the start
   double scatterer_temperature = 0;  // 0: at rest
   bool zero_total_momentum = false;
   /// z of a start from the stationary measure at `temperature`, instead of the Gaussian one with
   /// particles_per_cell.
   std::optional<double> fugacity{};
-  std::optional<double> slowest{};  // cut of that measure; none: a hundredth of a cell in the whole run
   double relaxation_time = 100;
   double observation_time = 100;
 
   ClosedChain chain() const;
   double end_time() const { return relaxation_time + observation_time; }
-  StationaryMeasure stationary_measure() const;  // Validity: with a fugacity
-  double hottest() const;                        // the higher one of the two temperatures
+  bool conserves_momentum() const;  // neither all rules do, nor scatterers of infinite mass
+
+  /// Measure of the start with a fugacity. A particle slower than its cut moves less than a hundredth of a
+  /// cell in the whole run.
+  StationaryMeasure stationary_measure() const;
+  double hottest() const;  // the higher one of the two temperatures
 
   /// Mean over replicas of the square of the total momentum [eq. 21].
   double mean_square_momentum() const;
@@ -42,14 +44,7 @@ struct ClosedParameters {
   double thermal_flight() const;
 };
 
-/// Declares all options except --random-direction.
 void declare(Options& options, ClosedParameters& parameters);
-
-/// Declares --random-direction, for the programs that offer it.
-void declare_random_direction(Options& options, ClosedParameters& parameters);
-
-/// Declares --fugacity and --slowest; the fugacity has a value then.
-void declare_stationary_start(Options& options, ClosedParameters& parameters);
 
 /// Throws UsageError if options that are valid one by one exclude each other.
 void validate(const ClosedParameters& parameters);

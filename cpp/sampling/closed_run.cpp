@@ -24,22 +24,21 @@ double relative(double change, double scale) { return change == 0 ? 0 : std::abs
 }  // namespace
 
 Study closed_study(const ClosedParameters& parameters, const ClosedTallies& tallies,
-                   const std::function<void(ClosedRun&, Record&)>& observe, std::vector<Group> groups,
+                   const std::function<void(ClosedRun&, TallySums&)>& observe, std::vector<Group> groups,
                    const std::string& target) {
-  validate(parameters);
   Group& conservation = groups.emplace_back();
   conservation.quantity("energy_drift", "1", "Mean over replicas of |change of total energy| / total energy",
-                        [=](RecordView mean) { return mean[tallies.energy_drift]; });
+                        [=](TallyMeans mean) { return mean[tallies.energy_drift]; });
   conservation.quantity("momentum_drift", "1",
                         "Mean over replicas of |change of total momentum| / sum of all |momenta|",
-                        [=](RecordView mean) { return mean[tallies.momentum_drift]; });
-  const auto measure = [=](const Replica& replica, Record& record) {
+                        [=](TallyMeans mean) { return mean[tallies.momentum_drift]; });
+  const auto sample = [=](const Replica& replica, TallySums& sums) {
     ClosedRun run(parameters, replica);
     run.relax();
-    observe(run, record);
-    return run.finish(tallies, record);
+    observe(run, sums);
+    return run.finish(tallies, sums);
   };
-  return {.tallies = tallies, .measure = measure, .groups = std::move(groups), .target = target};
+  return {.tallies = tallies, .sample = sample, .groups = std::move(groups), .target = target};
 }
 
 ClosedRun::ClosedRun(const ClosedParameters& parameters, const Replica& replica)
@@ -56,13 +55,13 @@ double ClosedRun::momentum_control() const {
 
 double ClosedRun::energy_control() const {
   const std::optional<double> mean = parameters_.mean_energy();
-  return mean ? start_.energy / *mean - 1 : 0;
+  return mean && std::isfinite(start_.energy) ? start_.energy / *mean - 1 : 0;
 }
 
-std::uint64_t ClosedRun::finish(const ClosedTallies& tallies, Record& record) const {
+std::uint64_t ClosedRun::finish(const ClosedTallies& tallies, TallySums& sums) const {
   const Invariants end = chain_.invariants();
-  record[tallies.energy_drift] = relative(end.energy - start_.energy, start_.energy);
-  record[tallies.momentum_drift] =
+  sums[tallies.energy_drift] = relative(end.energy - start_.energy, start_.energy);
+  sums[tallies.momentum_drift] =
       relative(end.momentum - start_.momentum, std::max(start_.momentum_scale, end.momentum_scale));
   return chain_.events();
 }

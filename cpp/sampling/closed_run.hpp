@@ -3,7 +3,6 @@
 #include <concepts>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,10 +15,9 @@
 namespace lorentz {
 
 /// Conservation errors of a closed chain, recorded by every observable of it: absolute relative changes of
-/// the invariants over a replica. They are purely numerical, because the dynamics conserves energy and
-/// momentum for every sigma [eq. 4]. The scale of the momentum's error is the larger one of sum |p| + sum |P|
-/// at the start and at the end, because scatterers may start at rest and heavy ones acquire large momenta of
-/// both signs.
+/// the invariants over a replica [eq. 4]. They are purely numerical; what the collision rule does not
+/// conserve is NaN. The scale of the momentum's error is the larger one of sum |p| + sum |P| at the start and
+/// at the end, because scatterers may start at rest and heavy ones acquire large momenta of both signs.
 struct ClosedTallies : TallySchema {
   ScalarTally energy_drift = tally("energy_drift", "1", "|Change of total energy| / total energy");
   ScalarTally momentum_drift =
@@ -37,12 +35,17 @@ class ClosedRun {
     observe(nobody, parameters_.relaxation_time);
   }
 
-  /// Advances to a time, by default the end of the observation, with an observer of collisions and flights
-  /// (engine/observation.hpp). The clock of the dynamics restarts at intervals, so that its resolution does
-  /// not decrease in long runs.
+  /// Advances to the end of the observation with an observer of collisions and flights
+  /// (engine/observation.hpp).
   template <class Observer>
-  void observe(Observer& observer, std::optional<double> until = {}) {
-    const double time = until.value_or(parameters_.end_time());
+  void observe(Observer& observer) {
+    observe(observer, parameters_.end_time());
+  }
+
+  /// Advances to a time. The clock of the dynamics restarts at intervals, so that its resolution does not
+  /// decrease in long runs.
+  template <class Observer>
+  void observe(Observer& observer, double time) {
     static_assert(
         std::same_as<Observer, NoObserver> ||
             requires(const Collision& collision) { observer.on_collision(collision); } ||
@@ -69,11 +72,11 @@ class ClosedRun {
   double momentum_control() const;
 
   /// Control variate of mean 0: total energy over its mean over replicas, minus 1 [eq. 33]. It is 0 if the
-  /// mean is unknown, as after a shift to zero total momentum.
+  /// mean is unknown, as after a shift to zero total momentum, or if the energy is not conserved.
   double energy_control() const;
 
   /// Records the conservation errors so far; returns the number of events.
-  std::uint64_t finish(const ClosedTallies& tallies, Record& record) const;
+  std::uint64_t finish(const ClosedTallies& tallies, TallySums& sums) const;
 
  private:
   const ClosedParameters& parameters_;
@@ -85,10 +88,9 @@ class ClosedRun {
 };
 
 /// Study of a closed chain: every replica relaxes, `observe` takes the run through its observation and fills
-/// the record, and the conservation errors are added. Throws UsageError if options that are valid one by one
-/// exclude each other.
+/// the tallies, and the conservation errors are added. The parameters are valid.
 Study closed_study(const ClosedParameters& parameters, const ClosedTallies& tallies,
-                   const std::function<void(ClosedRun&, Record&)>& observe, std::vector<Group> groups,
+                   const std::function<void(ClosedRun&, TallySums&)>& observe, std::vector<Group> groups,
                    const std::string& target);
 
 }  // namespace lorentz

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/open_start.hpp"
+#include "model/rules.hpp"
 #include "sampling/limits.hpp"
 
 namespace lorentz {
@@ -14,7 +15,8 @@ OpenChain OpenParameters::chain() const {
           .sigma = scattering.sigma,
           .gamma = scattering.mean_scatterings(),
           .left = left,
-          .right = right};
+          .right = right,
+          .rule = rule_properties(scattering.rule).name};
 }
 
 PhasePoint OpenParameters::start_point(double age, const StreamKey& key) const {
@@ -24,9 +26,9 @@ PhasePoint OpenParameters::start_point(double age, const StreamKey& key) const {
   return local_equilibrium_start(chain(), everywhere, everywhere, age, key);
 }
 
-Window WindowParameters::window(std::uint32_t cells) const {
-  const double begin = relaxation_time.at(cells);
-  return {begin, begin + observation_time.at(cells)};
+Window StationaryParameters::window() const {
+  const double begin = relaxation_time.at(scattering.cells);
+  return {begin, begin + observation_time.at(scattering.cells)};
 }
 
 void declare(Options& options, OpenParameters& parameters) {
@@ -39,7 +41,8 @@ void declare(Options& options, OpenParameters& parameters) {
                  "equilibrium with the colder, hotter reservoir");
 }
 
-void declare(Options& options, WindowParameters& parameters) {
+void declare(Options& options, StationaryParameters& parameters) {
+  declare(options, static_cast<OpenParameters&>(parameters));
   options.scaled("--relaxation-time", parameters.relaxation_time, non_negative, "time",
                  "Time before the measurement");
   options.scaled("--observation-time", parameters.observation_time, positive, "time",
@@ -70,8 +73,8 @@ void validate(const OpenParameters& parameters, double end, const std::string& t
   require_within(rate * stay, 0, most_particles, rates, "the number of particles inside");
 }
 
-void validate(const OpenParameters& parameters, const WindowParameters& times) {
-  const Window window = times.window(parameters.scattering.cells);
+void validate(const StationaryParameters& parameters) {
+  const Window window = parameters.window();
   validate(parameters, window.end, "--relaxation-time plus --observation-time");
   require_within(window.end / (window.end - window.begin), 1, flights_of_one_clock,
                  "--relaxation-time, --observation-time",

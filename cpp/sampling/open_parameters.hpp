@@ -17,8 +17,7 @@ namespace lorentz {
 struct OpenParameters {
   ScatteringParameters scattering{.cells = 30};
   std::optional<double> cell_length{};  // none: 1/N
-  Reservoir left{220, 900. / 11};
-  Reservoir right{180, 1100. / 9};
+  Reservoir left = default_left, right = default_right;
   std::string start = "warm";
 
   OpenChain chain() const;
@@ -28,20 +27,20 @@ struct OpenParameters {
   PhasePoint start_point(double age, const StreamKey& key) const;
 };
 
-/// Parameters of the window of a stationary measurement.
-struct WindowParameters {
+/// Parameters of a measurement in the stationary state.
+struct StationaryParameters : OpenParameters {
   Scaled relaxation_time{{100, 0, 0}};
   Scaled observation_time{{1000, 0, 0}};
 
-  Window window(std::uint32_t cells) const;
+  Window window() const;
 };
 
 void declare(Options& options, OpenParameters& parameters);
-void declare(Options& options, WindowParameters& parameters);
+void declare(Options& options, StationaryParameters& parameters);
 
 /// Throw UsageError if options that are valid one by one exclude each other, for a run until `end`, which the
-/// options `times` determine, or for a window.
+/// options `times` determine.
 void validate(const OpenParameters& parameters, double end, const std::string& times);
-void validate(const OpenParameters& parameters, const WindowParameters& times);
+void validate(const StationaryParameters& parameters);
 
 }  // namespace lorentz

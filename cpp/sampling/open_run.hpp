@@ -2,6 +2,9 @@
 
 #include <concepts>
 #include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/open_dynamics.hpp"
 #include "engine/relaxation.hpp"
@@ -21,9 +24,9 @@ class OpenRun {
 
   /// Advances to the window without an observer, then through it with an observer of collisions, flights,
   /// injections and exits (engine/observation.hpp). If the observer has finish(scatterers, end), it is
-  /// called at the end with U of every scatterer. Returns the observer.
+  /// called at the end with U of every scatterer.
   template <class Observer>
-  Observer observe(Observer observer) {
+  void observe(Observer& observer) {
     static_assert(
         std::same_as<Observer, NoObserver> ||
             requires(const Collision& collision) { observer.on_collision(collision); } ||
@@ -34,7 +37,6 @@ class OpenRun {
     simulate(chain_, window_.end, observer, heartbeat);
     if constexpr (requires { observer.finish(chain_.scatterers(), window_.end); })
       observer.finish(chain_.scatterers(), window_.end);
-    return observer;
   }
 
   std::uint64_t events() const { return chain_.events(); }
@@ -44,5 +46,20 @@ class OpenRun {
   const Replica& replica_;
   OpenDynamics chain_;
 };
+
+/// Study of an open chain: make_observer() gives the observer of a replica, which runs through the window and
+/// fills the tallies, observer.record(tallies, sums). The parameters are valid.
+template <class Tallies, std::invocable MakeObserver>
+Study open_study(const OpenParameters& parameters, const Window& window, const Tallies& tallies,
+                 const MakeObserver& make_observer, std::vector<Group> groups, const std::string& target) {
+  const auto sample = [=](const Replica& replica, TallySums& sums) {
+    OpenRun run(parameters, window, replica);
+    auto observer = make_observer();
+    run.observe(observer);
+    observer.record(tallies, sums);
+    return run.events();
+  };
+  return {.tallies = tallies, .sample = sample, .groups = std::move(groups), .target = target};
+}
 
 }  // namespace lorentz

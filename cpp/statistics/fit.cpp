@@ -58,10 +58,4 @@ std::vector<double> local_exponents(std::span<const double> x, std::span<const d
   return exponents;
 }
 
-std::vector<double> decay_exponents(std::span<const double> x, std::span<const double> y) {
-  std::vector<double> exponents = local_exponents(x, y);
-  for (double& exponent : exponents) exponent = -exponent;
-  return exponents;
-}
-
 }  // namespace lorentz

@@ -28,7 +28,4 @@ double fit_logarithmic_power(std::span<const double> x, std::span<const double> 
 /// Local exponents d ln y / d ln x between neighbouring points; NaN unless y is positive.
 std::vector<double> local_exponents(std::span<const double> x, std::span<const double> y);
 
-/// The same for a quantity that decays, -d ln y / d ln x.
-std::vector<double> decay_exponents(std::span<const double> x, std::span<const double> y);
-
 }  // namespace lorentz

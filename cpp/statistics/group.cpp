@@ -38,7 +38,7 @@ void mask_errors_of_empty_bins(Quantity& quantity) {
 
 }  // namespace
 
-Estimate jackknife(const Records& records, const std::function<std::vector<double>(RecordView)>& f) {
+Estimate jackknife(const Records& records, const std::function<std::vector<double>(TallyMeans)>& f) {
   const std::vector<double> mean = records.mean();
   const auto replicas = static_cast<double>(records.size());
   Estimate estimate{f(mean), {}};
@@ -77,7 +77,7 @@ Estimate jackknife(const Records& records, const std::function<std::vector<doubl
 void Group::quantity(std::string_view name, std::string_view units, std::string_view description,
                      Number formula) {
   quantity(name, {}, units, description,
-           [formula = std::move(formula)](RecordView mean) { return std::vector{formula(mean)}; });
+           [formula = std::move(formula)](TallyMeans mean) { return std::vector{formula(mean)}; });
 }
 
 void Group::quantity(std::string_view name, const std::vector<Axis>& axes, std::string_view units,
@@ -111,7 +111,7 @@ Results Group::estimate(const Records& measured) const {
 
   std::vector<Array> formulas;
   for (const auto& part : formulas_) formulas.push_back(part.of(records));
-  const Estimate all = jackknife(records, [&](RecordView mean) {
+  const Estimate all = jackknife(records, [&](TallyMeans mean) {
     std::vector<double> values;
     for (std::size_t i = 0; i < formulas.size(); ++i) {
       const std::vector<double> more = formulas[i](mean);
@@ -134,7 +134,7 @@ Results Group::estimate(const Records& measured) const {
 }
 
 Group::Array mean_of(Tally tally, double divisor) {
-  return [=](RecordView mean) {
+  return [=](TallyMeans mean) {
     std::vector<double> values(mean[tally].begin(), mean[tally].end());
     for (double& value : values) value /= divisor;
     return values;

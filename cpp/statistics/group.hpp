@@ -33,7 +33,7 @@ struct Estimate {
 /// 586 (1981)), se^2 = (R-1)/R sum_r (f_(r) - mean of f_(r))^2 [eq. 49]. Valid for independent replicas and
 /// smooth f. The bias of f, of order 1/R, is not corrected; se^2 is biased upwards. With fewer than two
 /// replicas the error is NaN.
-Estimate jackknife(const Records& records, const std::function<std::vector<double>(RecordView)>& f);
+Estimate jackknife(const Records& records, const std::function<std::vector<double>(TallyMeans)>& f);
 
 /// Quantities that are estimated together: from one preparation of the records, by one jackknife. Their
 /// descriptions exist before any record does (--describe).
@@ -48,8 +48,8 @@ class Group {
   using Prepare = std::function<Prepared(const Records&)>;
 
   /// Formulas of the mean record. The error of an array element that is 0 in all replicas is NaN.
-  using Number = std::function<double(RecordView)>;
-  using Array = std::function<std::vector<double>(RecordView)>;
+  using Number = std::function<double(TallyMeans)>;
+  using Array = std::function<std::vector<double>(TallyMeans)>;
 
   /// Without `prepare` the formulas are applied to the records as measured.
   explicit Group(Prepare prepare = {}) : prepare_(std::move(prepare)) {}

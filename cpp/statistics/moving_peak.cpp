@@ -109,11 +109,11 @@ double collapse_exponent(std::span<const Profile> profiles, double low, double h
 }
 
 PeakWindows peak_windows(const Records& records, Tally profiles, std::size_t times) {
-  const auto sides = [&](RecordView row) { return folded_profiles(row[profiles], times); };
+  const auto sides = [&](TallyMeans row) { return folded_profiles(row[profiles], times); };
   PeakWindows windows;
   const std::vector<double> mean = records.mean();
   for (const std::vector<double>& side : sides(mean)) windows.push_back(peak_window(side));
-  const Estimate heights = jackknife(records, [&](RecordView row) {
+  const Estimate heights = jackknife(records, [&](TallyMeans row) {
     const std::vector<std::vector<double>> folded = sides(row);
     std::vector<double> values;
     for (std::size_t k = 0; k < times; ++k) values.push_back(peak_in(windows[k], folded[k]).height);

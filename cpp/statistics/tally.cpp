@@ -39,12 +39,12 @@ ScalarTally TallySchema::tally(std::string_view name, std::string_view units, st
   return {tally(name, {}, units, description).first};
 }
 
-void Record::set(Tally tally, std::span<const double> values) {
+void TallySums::set(Tally tally, std::span<const double> values) {
   if (values.size() != tally.size) throw std::out_of_range("values of another size than the tally");
   std::ranges::copy(values, (*this)[tally].begin());
 }
 
-void Record::require_filled(const TallySchema& schema) const {
+void TallySums::require_filled(const TallySchema& schema) const {
   auto begin = accessed_.begin();
   for (const Description& each : schema.tallies()) {
     const auto end = begin + static_cast<std::ptrdiff_t>(each.size());

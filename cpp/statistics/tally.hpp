@@ -31,7 +31,7 @@ struct Description {
   std::size_t size() const;
 };
 
-/// Handle of an array in the record of a replica.
+/// Handle of an array in the tallies of a replica.
 struct Tally {
   std::size_t first, size;  // first column, number of columns
   std::size_t stride = 1;   // columns per step of the first index
@@ -40,7 +40,7 @@ struct Tally {
   Tally row(std::size_t i) const { return {first + i * stride, stride}; }
 };
 
-/// Handle of a number in the record of a replica.
+/// Handle of a number in the tallies of a replica.
 struct ScalarTally {
   std::size_t column;
 
@@ -54,7 +54,7 @@ using Columns = std::vector<std::size_t>;
 Columns columns_of(std::initializer_list<Tally> tallies);
 
 /// Tallies of a replica: their descriptions and columns. An observable derives its tallies from this class;
-/// each is declared once, and its handle is the only access to its values in Record and RecordView.
+/// each is declared once, and its handle is the only access to its values in TallySums and TallyMeans.
 class TallySchema {
  public:
   /// Declares an array. A tally is averaged over replicas, so it must be a sum, not a ratio.
@@ -70,10 +70,10 @@ class TallySchema {
   std::size_t width_ = 0;
 };
 
-/// Record of a replica, initially 0.
-class Record {
+/// Values of the tallies of one replica, initially 0.
+class TallySums {
  public:
-  explicit Record(const TallySchema& schema) : values_(schema.width()), accessed_(schema.width()) {}
+  explicit TallySums(const TallySchema& schema) : values_(schema.width()), accessed_(schema.width()) {}
 
   double& operator[](ScalarTally tally) { return (*this)[Tally(tally)][0]; }
   std::span<double> operator[](Tally tally) {
@@ -94,12 +94,12 @@ class Record {
   std::vector<bool> accessed_;  // first columns of tallies and of their rows
 };
 
-/// Read-only view of the mean record of replicas, or of one record.
-class RecordView {
+/// Read-only view of the means over replicas of the tallies, or of the values of one replica.
+class TallyMeans {
  public:
-  // NOLINTBEGIN(cppcoreguidelines-explicit-constructor): any record, of whatever type, can be viewed
-  RecordView(std::span<const double> values) : values_(values) {}
-  RecordView(const std::vector<double>& values) : values_(values) {}
+  // NOLINTBEGIN(cppcoreguidelines-explicit-constructor): any row of values can be viewed
+  TallyMeans(std::span<const double> values) : values_(values) {}
+  TallyMeans(const std::vector<double>& values) : values_(values) {}
   // NOLINTEND(cppcoreguidelines-explicit-constructor)
 
   double operator[](ScalarTally tally) const { return values_[tally.column]; }

@@ -4,6 +4,7 @@ import numpy as np
 from hypothesis import strategies as st
 
 LIMITS = [1 - 10.0**-k for k in range(1, 17)]
+RULES = [{"rule": "random-direction"}]  # besides the default
 SIGMAS = st.sampled_from([0.0, 1.0, -1.0, 5e-324, *LIMITS, *(-x for x in LIMITS)]) | st.floats(-1, 1)
 # log10 of the number of flights: runs that end soon, and runs that no machine could finish.
 FLIGHTS = st.floats(-3, 2) | st.floats(-300, -20) | st.floats(16, 300)
@@ -37,13 +38,12 @@ def closed(draw: st.DrawFn) -> dict[str, object]:
         "relaxation-time": draw(st.just("0") | FLIGHTS.map(lambda x: number(flight + x))),
         "observation-time": number(flight + draw(FLIGHTS)),
     }
-    return options | ({"zero-total-momentum": True} if draw(st.booleans()) else {})
+    return options | draw(st.sampled_from([{}, {"zero-total-momentum": True}, *RULES]))
 
 
 @st.composite
 def displaced(draw: st.DrawFn) -> dict[str, object]:
-    options = draw(closed()) | {"decades": draw(st.sampled_from([1, 6, 15]))}
-    return options | ({"random-direction": True} if draw(st.booleans()) else {})
+    return draw(closed()) | {"decades": draw(st.sampled_from([1, 6, 15]))}
 
 
 @st.composite
@@ -81,17 +81,13 @@ def equilibrium(draw: st.DrawFn) -> dict[str, object]:
     first = f"{mantissa}e{int(exponent) - 1}"
     options |= {"cells": draw(st.integers(1, 30)), "fugacity": number(flux), "fit-from": first}
     options |= {"times": f"{first},{options['observation-time']}"}
-    slow = draw(st.none() | st.floats(-12, 0.5) | st.floats(-300, 300))
-    if slow is not None:
-        options["slowest"] = number(np.log10(float(str(options["temperature"])) or 1e-300) / 2 + slow)
-    return options | ({"random-direction": True} if draw(st.booleans()) else {})
+    return options
 
 
 @st.composite
 def correlated(draw: st.DrawFn) -> dict[str, object]:
     options = draw(equilibrium()) | {"cells": draw(st.integers(7, 30))}
-    for name in ("fit-from", "random-direction"):
-        options.pop(name, None)
+    options.pop("fit-from")
     return options
 
 
@@ -114,6 +110,7 @@ def opened(draw: st.DrawFn) -> dict[str, object]:
         "temperature-left": number(temperature),
         "temperature-right": number(temperature + contrast),
         "start": draw(st.sampled_from(["empty", "warm"])),
+        **draw(st.sampled_from([{}, *RULES])),
         "relaxation-time": draw(st.sampled_from(["0", number(last - 1), number(last + 1)])),
         "observation-time": number(last),
     }

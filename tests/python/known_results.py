@@ -42,7 +42,7 @@ QUANTITIES: dict[str, dict[str, tuple[str, ...]]] = {
 DEFAULTS = {
     "cells": "continuum",
     "zero-total-momentum": False,
-    "random-direction": False,
+    "rule": "elastic",
 }  # where the plan leaves an option out
 
 Fill = Callable[[Run], Mapping[str, Quantity]]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import ROOT
-from tests.python.known_results import DEFAULTS, QUANTITIES, Known, truth, uneven
+from tests.python.known_results import QUANTITIES, Known, truth, uneven
 from workflow.claims.judge import Judgement, judge_all, read_claims
 from workflow.claims.verdict import Band, Number, Outcome, Reading
 from workflow.lib.configuration import ConfigurationError
@@ -73,14 +73,14 @@ def heat(exponent: float, error: float, monkeypatch: pytest.MonkeyPatch) -> str:
     monkeypatch.setitem(
         QUANTITIES, "heat_current", {"heat_variance": ("time",), "local_exponent": ("middle",)}
     )
-    monkeypatch.setitem(DEFAULTS, "random-direction", False)
-    rings = [run.options for run in load_plan("paper")["ext13"].runs if "random-direction" not in run.options]
+    rings = [run.options for run in load_plan("paper")["ext13"].runs if "rule" not in run.options]
     longest = max(float(options["times"].split(",")[-1]) for options in rings)
 
     def local_exponent(run: Run, middle: np.ndarray) -> np.ndarray:
-        decisive = 1.0 if run.options["random-direction"] else exponent
+        random = run.options["rule"] == "random-direction"
+        decisive = 1.0 if random else exponent
         return np.where(
-            (middle == middle[-1]) & (run.options["random-direction"] | (2 * middle[-1] / 1.5 == longest)),
+            (middle == middle[-1]) & (random | (2 * middle[-1] / 1.5 == longest)),
             decisive,
             0.7,
         )

@@ -21,7 +21,7 @@ class Chain:
 
     sigma: float = 0.5
     gamma: float | str = "N"
-    random_direction: bool = False
+    rule: str = "elastic"
     cells: int = 6
     particles_per_cell: int = 1
     temperature: float = 500
@@ -31,12 +31,11 @@ class Chain:
 
     @property
     def options(self) -> dict[str, object]:
-        """Options of a program. A flag is given only if it is set, because only `displacement` has it."""
-        return {name: value for name, value in asdict(self).items() if value is not False}
+        """Options of a program."""
+        return asdict(self)
 
     def __str__(self) -> str:
-        directions = "drawn" if self.random_direction else "kept"
-        return f"sigma={self.sigma},gamma={self.gamma},{directions},cells={self.cells}"
+        return f"sigma={self.sigma},gamma={self.gamma},{self.rule},cells={self.cells}"
 
 
 DECADES, POINTS_PER_DECADE, EVERY = 2, 8, 4  # times of the programs; every fourth is compared
@@ -53,7 +52,6 @@ def reference(chain: Chain) -> dict[str, np.ndarray]:
     gamma = chain.cells if chain.gamma == "N" else chain.gamma
     times = chain.observation_time * 10 ** np.arange(-DECADES, 0.01, EVERY / POINTS_PER_DECADE)
     options = asdict(chain) | {"gamma": gamma, "times": ",".join(map(str, times)), "seed": 1}
-    options["rule"] = "random-direction" if options.pop("random_direction") else "elastic"
     bins = {"first_edge": waiting_time_edges(chain)[0], "bins_per_decade": BINS_PER_DECADE, "bins": BINS}
     rows = simulate("closed_chain", **options, **bins)[0].astype(float)
     moments, scatterings, persistent, waits = np.split(rows, 4 * len(times) + np.arange(3), axis=1)
@@ -86,10 +84,9 @@ def measured(measure: Measure, chain: Chain) -> Measured:
 
     moments = ["variance", "variance_plain", "centre_of_mass", "mean_displacement"]
     add("displacement", moments, EVERY, decades=DECADES)
-    if not chain.random_direction:
-        add("ageing", ["scatterer_energy"], EVERY, decades=DECADES)
-        add("persistence", ["mu"])
-        add("waiting_time", ["density"])
+    add("ageing", ["scatterer_energy"], EVERY, decades=DECADES)
+    add("persistence", ["mu"])
+    add("waiting_time", ["density"])
     return found
 
 
@@ -100,12 +97,11 @@ def scores(found: Measured, chain: Chain) -> dict[str, np.ndarray]:
         name: average(sample[name.removesuffix("_plain")]) for name in found if name not in ("mu", "density")
     }
     often = sample["waits"].sum(axis=0) > 200  # often enough for a normal mean
-    if "mu" in found:
-        expected["mu"] = ratio(sample["persistent"], sample["scatterings"])
-        widths = np.diff(waiting_time_edges(chain))
-        density = ratio(sample["waits"], sample["scatterings"])
-        expected["density"] = tuple((x / widths)[often] for x in density)
-        found = found | {"density": tuple(x[:BINS][often] for x in found["density"])}
+    expected["mu"] = ratio(sample["persistent"], sample["scatterings"])
+    widths = np.diff(waiting_time_edges(chain))
+    density = ratio(sample["waits"], sample["scatterings"])
+    expected["density"] = tuple((x / widths)[often] for x in density)
+    found = found | {"density": tuple(x[:BINS][often] for x in found["density"])}
     return {
         name: (found[name][0] - mean) / np.hypot(found[name][1], error)
         for name, (mean, error) in expected.items()
@@ -120,10 +116,10 @@ def agree(z: dict[str, np.ndarray]) -> bool:
 
 CHAINS = [
     *(Chain(sigma, gamma) for gamma in ("N", 3, 1, 0.3) for sigma in (0.5, -0.4)),
-    *(Chain(sigma, gamma, random_direction=True) for gamma in ("N", 1) for sigma in (0.5, -0.4)),
+    *(Chain(sigma, gamma, rule="random-direction") for gamma in ("N", 1) for sigma in (0.5, -0.4)),
     # The paper's chain.
     Chain(
-        random_direction=True,
+        rule="random-direction",
         cells=11,
         particles_per_cell=20,
         relaxation_time=20,
@@ -139,10 +135,11 @@ def test_closed_chain_against_the_reference_simulator(measure: Measure, chain: C
     assert agree(z), z
 
 
-@pytest.mark.parametrize("chain", [Chain(gamma=1), Chain(gamma=1, random_direction=True)], ids=str)
+@pytest.mark.parametrize("chain", [Chain(gamma=1), Chain(gamma=1, rule="random-direction")], ids=str)
 def test_another_chain_does_not_agree(measure: Measure, chain: Chain) -> None:
     found = measured(measure, chain)
     assert agree(scores(found, chain))
+    other = "random-direction" if chain.rule == "elastic" else "elastic"
     for mutant in ({"sigma": 0.44}, {"gamma": 1.1}, {"temperature": 450}, {"relaxation_time": 1}):
         assert not agree(scores(found, replace(chain, **mutant))), mutant
-    assert not agree(scores(found, replace(chain, random_direction=not chain.random_direction)))
+    assert not agree(scores(found, replace(chain, rule=other)))

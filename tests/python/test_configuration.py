@@ -146,7 +146,7 @@ def test_an_unknown_panel(name: str, words: str) -> None:
 
 
 def test_arguments() -> None:
-    options = {"sigma": -0.5, "zero-total-momentum": True, "random-direction": False, "gamma": "N; touch x"}
+    options = {"sigma": -0.5, "zero-total-momentum": True, "separate": False, "gamma": "N; touch x"}
     assert arguments(options) == ["--sigma", "-0.5", "--zero-total-momentum", "--gamma", "N; touch x"]
 
 

@@ -59,6 +59,13 @@ def test_a_flag_and_a_target_that_is_not_reached() -> None:
     assert np.isfinite(tree["alpha"]["standard_error"])
 
 
+def test_a_target_quantity_that_is_not_determined() -> None:
+    """Without a moving peak; the exit status is 4."""
+    tree = measure("correlation", cells=25, sigma=-1, observation_time=1, times="0.5,1", replicas=2)
+    assert np.isnan(tree["damping_exponent"]["mean"])
+    assert np.isfinite(tree["momentum_correlation"]["mean"]).all()
+
+
 @pytest.mark.parametrize(
     ("program", "options", "message"),
     [

@@ -98,9 +98,11 @@ def test_displacement_with_known_momentum(measure: Measure) -> None:
     assert np.mean(plain_error**2) > 10 * np.mean(error**2)
 
 
-@pytest.mark.parametrize("option", ["zero_total_momentum", "random_direction"])
-def test_displacement_without_a_random_momentum_that_lasts(measure: Measure, option: str) -> None:
-    result = measure("displacement", **FEW, **{option: True}, replicas=20)
+@pytest.mark.parametrize("options", [{"zero_total_momentum": True}, {"rule": "random-direction"}])
+def test_displacement_without_a_random_momentum_that_lasts(
+    measure: Measure, options: dict[str, object]
+) -> None:
+    result = measure("displacement", **FEW, **options, replicas=20)
     for name in ("variance", "alpha"):
         assert np.array_equal(result[name].mean, result[f"{name}_plain"].mean)
 
@@ -114,7 +116,7 @@ def test_walls_confine(measure: Measure) -> None:
 
 
 def test_random_direction_conserves_energy(measure: Measure) -> None:
-    result = measure("displacement", random_direction=True, observation_time=50)
+    result = measure("displacement", rule="random-direction", observation_time=50)
     assert result["energy_drift"].mean < 1e-13
     assert np.isnan(result["momentum_drift"].mean)
 

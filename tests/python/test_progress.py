@@ -197,7 +197,7 @@ FILLING = {"relaxation_time": 0, "observation_time": 2, "replicas": 128}
         ("persistence", {"observation_time": 50, "replicas": 8}, (0, "mu = 0.", [])),
         (
             "persistence",
-            {"target_error": 1e-6, "max_replicas": 4},
+            {"target_error": 1e-6, "time_limit": 1e-9},
             (4, "mu = 0.", ["target error not reached"]),
         ),
         ("conductivity", {"start": "empty", **FILLING}, (0, "kappa = ", ["not stationary"])),

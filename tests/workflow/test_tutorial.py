@@ -3,6 +3,7 @@
 import re
 import shutil
 
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -12,7 +13,8 @@ from workflow.lib.plan import FOLDER, load_plan
 
 TEXT = (ROOT / "docs/tutorial.md").read_text()
 PANEL, _, REST = TEXT.partition("## An observable of your own")
-OBSERVABLE, _, GRAMMAR = REST.partition("## The grammar of paper.yaml")
+OBSERVABLE, _, REST = REST.partition("## A collision rule of your own")
+RULE, _, GRAMMAR = REST.partition("## The grammar of paper.yaml")
 BLOCK = re.compile(r"(?:`(?P<path>[\w./]+)`:\n\n)?```(?P<kind>\w+)\n(?P<text>.*?)```", re.DOTALL)
 SIGMA = [-0.9, -0.6, -0.3, 0.3, 0.6, 0.9]
 
@@ -55,6 +57,25 @@ def test_an_observable_of_your_own(own: Clone) -> None:
     assert (table.rate > 0).all()
     assert "| `collision_rate` | `rate` | 1/time |" in (own.folder / "docs/format.md").read_text()
     assert own.stale() == set()  # the other programs keep their build ids
+
+
+def test_a_collision_rule_of_your_own(own: Clone) -> None:
+    """Mutant: the rotation of (u, w) in place of (u, U)."""
+    try:
+        for block in BLOCK.finditer(RULE):
+            follow(own, block)
+        profile, mu = load(own.folder / "equilibrium.h5"), load(own.folder / "mu.h5")["mu"]
+        assert profile.parameters["rule"] == "random-rotation"
+        for name in ("temperature_scatterer", "temperature_particle"):
+            found = profile[name]
+            assert np.abs((found.mean - 100) / found.error).max() < 4, name
+            assert np.abs((found.mean - 102) / found.error).max() > 6, name
+        assert abs(mu.mean - 0.5) < 4 * mu.error < 0.01
+        refused = own.run("build/bin/persistence", "--rule", "rotation", "--output", "x.h5", status=2).stdout
+        assert "elastic, random-direction, random-rotation" in refused
+    finally:
+        own.git("checkout", "--quiet", "--", "cpp")
+        own.run("ninja", "-C", "build", "steady_profile", "persistence")
 
 
 def test_grammar(tmp_path) -> None:

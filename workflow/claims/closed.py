@@ -92,7 +92,7 @@ def _relaxed(data: Data, sigma: float) -> list[float]:
 def _drifting(data: Data, sigma: float, n: int) -> list[Result]:
     """Runs with the paper's random total momentum and n particles per cell."""
     chain = {"sigma": sigma, "particles_per_cell": n}
-    return data.of("ext01", None, zero_total_momentum=False, random_direction=False, **chain)
+    return data.of("ext01", None, zero_total_momentum=False, rule="elastic", **chain)
 
 
 def _without_drift(zero: list[Number]) -> str:
@@ -110,7 +110,7 @@ def superdiffusive(data: Data) -> Evidence:
 
 
 def diffusion_recovered(data: Data) -> Evidence:
-    found = _named(data.of("ext01", random_direction=True), "alpha", "α")
+    found = _named(data.of("ext01", rule="random-direction"), "alpha", "α")
     return Evidence(
         found, found, caveat="Waits of τ⁻² make t/ln t, whose exponent approaches 1 from below (ext01)."
     )

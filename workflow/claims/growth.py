@@ -126,7 +126,7 @@ def equilibrium(data: Data) -> tuple[list[Number], str]:
     for result in sorted(data.of("ext13"), key=lambda one: float(one["local_exponent"].axes["middle"][-1])):
         gas = ext13.chain(result)
         name = f"ζ = {gas.zeta:g}, M = {gas.mass:.2g}"
-        longest[bool(result.parameters["random-direction"]), name] = result
+        longest[result.parameters["rule"] == "random-direction", name] = result
     found, control = [], ""
     for (random, name), result in longest.items():
         label = f"d ln⟨Q²⟩/d ln t - 1, {name}, t = {result['local_exponent'].axes['middle'][-1]:.0f}"

@@ -23,12 +23,12 @@ LOOKS: dict[str, style.Look] = {
     ZERO: style.points("s", style.VERMILLION, "white"),
     RANDOM: style.points("D", style.GREEN, "white"),
 }
-LABELS = ("sigma", "particles-per-cell", "relaxation-time", "zero-total-momentum", "random-direction")
+LABELS = ("sigma", "particles-per-cell", "relaxation-time", "zero-total-momentum", "rule")
 APART = 0.1  # of a slot, by which kinds are plotted beside each other
 
 
 def kind(result: Result) -> str:
-    if result.parameters["random-direction"]:
+    if result.parameters["rule"] == "random-direction":
         return RANDOM
     return ZERO if result.parameters["zero-total-momentum"] else PAPER
 

@@ -15,7 +15,7 @@ import pandas as pd
 from workflow.figures.ext09 import LOOKS, by_spacing, gas, spacings
 from workflow.lib import style
 from workflow.lib.caption import BATHS, listed, parameters, replicas
-from workflow.lib.figure import Drawn, run
+from workflow.lib.figure import Drawn, require_elastic, run
 from workflow.lib.fit import Line, fit_line, with_error
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
@@ -133,6 +133,7 @@ def crossed(table: pd.DataFrame) -> str:
 
 
 def draw(results: Sequence[Result]) -> Drawn:
+    require_elastic(results, "the conductivity of mode coupling")
     table, spacing = tabulate(results), spacings(results)
     dense, thinning = (table[table.gas == name] for name in ("dense", "thinning"))
     law = fitted(dense)

@@ -18,7 +18,7 @@ from workflow.lib.mode_coupling import Chain, logarithm_at
 
 LOOKS = [("o", style.BLUE), ("s", style.VERMILLION), ("^", style.ORANGE)]
 RANDOM = style.points("D", style.GREEN, "white")
-GAS = ["random_direction", "zeta", "mass"]  # columns that tell gases apart
+GAS = ["rule", "zeta", "mass"]  # columns that tell gases apart
 
 
 def chain(result: Result, time: float = np.inf) -> Chain:
@@ -31,7 +31,7 @@ def chain(result: Result, time: float = np.inf) -> Chain:
 
 def predicted(result: Result, time: float) -> float:
     """<Q²> per cell without a normal part."""
-    if result.parameters["random-direction"] or time < result.parameters["fit-from"]:
+    if result.parameters["rule"] != "elastic" or time < result.parameters["fit-from"]:
         return np.nan
     return float(chain(result, time).heat_variance(time) * result.parameters["cell-length"])
 
@@ -42,7 +42,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     rows = []
     for result in results:
         heat, exponent, gas = result["heat_variance"], result["local_exponent"], chain(result)
-        of_gas = (result.parameters["random-direction"], gas.zeta, gas.mass)
+        of_gas = (result.parameters["rule"], gas.zeta, gas.mass)
         octaves = {
             "middle": exponent.axes["middle"],
             "local_exponent": exponent.mean,
@@ -68,7 +68,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 
 def label(gas: pd.Series) -> str:
-    random = ", random directions" if gas.random_direction else ""
+    random = ", random directions" if gas.rule == "random-direction" else ""
     return f"ζ = {number(gas.zeta)}, M = {number(gas.mass)}{random}"
 
 
@@ -80,7 +80,7 @@ def last_octave(part: pd.DataFrame) -> str:
 
 def amplitude(results: Sequence[Result]) -> str:
     """Fitted amplitude of the run over the longest time, relative to the predicted one in the middle of the fit."""
-    sound = [one for one in results if not one.parameters["random-direction"]]
+    sound = [one for one in results if one.parameters["rule"] == "elastic"]
     longest = max(sound, key=lambda one: one["heat_variance"].axes["time"][-1])
     first, last = longest.parameters["fit-from"], longest["heat_variance"].axes["time"][-1]
     gas = chain(longest, np.sqrt(first * last))
@@ -95,7 +95,7 @@ def draw(results: Sequence[Result]) -> Drawn:
     looks, said, reached = iter(LOOKS), [], []
     for _, part in table.groupby(GAS, sort=False):
         gas = part.iloc[0]
-        look = RANDOM if gas.random_direction else style.points(*next(looks))
+        look = RANDOM if gas.rule == "random-direction" else style.points(*next(looks))
         error = part.heat_variance_error / part.time
         left.errorbar(part.time, part.heat_variance / part.time, error, label=label(gas), **look)
         left.plot(part.time, part.predicted / part.time, color=look["color"])

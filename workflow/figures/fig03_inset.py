@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, WINDOW, baths, number, parameters, replicas
-from workflow.lib.figure import Drawn, run
+from workflow.lib.figure import Drawn, require_elastic, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
@@ -124,6 +124,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
 
 
 def draw(results: Sequence[Result]) -> Drawn:
+    require_elastic(results, "the kinetic equation")
     table = tabulate(results)
     size = (1.1 * style.COLUMN, 1.8 * style.HEIGHT)
     figure, panels = plt.subplot_mosaic([["left", "right"], ["decay", "decay"]], figsize=size)

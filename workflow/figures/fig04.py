@@ -34,6 +34,7 @@ def uncorrelated(results: Sequence[Result], like: Result) -> Result | None:
     """The solution of the kinetic equation for the same chain."""
     for result in results:
         same = style.gamma(result) == style.gamma(like) and result.ends("nu") == like.ends("nu")
+        same &= result.parameters["rule"] == like.parameters["rule"]
         if same and result.provenance["program"] == "boltzmann":
             return result
     return None

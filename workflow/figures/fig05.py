@@ -7,7 +7,7 @@ import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, listed, number, parameters, replicas
-from workflow.lib.figure import Drawn, run
+from workflow.lib.figure import Drawn, require_elastic, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import NOT_REACHED, Result
 
@@ -63,6 +63,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
 
 
 def draw(results: Sequence[Result]) -> Drawn:
+    require_elastic(results, "the law arccos(σ)/π")
     table = tabulate(results)
     figure, (above, below) = style.stacked(2.2, 1, height=1.4)
     sigma = np.sin(np.linspace(-np.pi / 2, np.pi / 2, 401))

@@ -30,6 +30,20 @@ READ = FilesRead()  # from the first import of a script on
 Draw = Callable[[Sequence[Result]], Drawn]
 
 
+class TheoryError(ValueError):
+    """A theory does not hold for the results."""
+
+
+def require_elastic(results: Sequence[Result], theory: str) -> None:
+    """Raises TheoryError if a result has another collision rule than the paper's."""
+    for result in results:
+        if result.parameters["rule"] != "elastic":
+            raise TheoryError(
+                f"{theory} holds for elastic collisions only, and {result.path} has the rule {result.parameters['rule']}: leave it "
+                "out of the panel"
+            )
+
+
 def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str) -> None:
     """Renders the panel that the command line names."""
     parser = argparse.ArgumentParser(description="Renders a panel from its results.")
@@ -47,7 +61,7 @@ def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str
         figure, table, caption = draw(results)
         errors = {f"{name}_error": text for name, text in units.items()}
         saved = as_csv(table, inherited(results) | errors | units)
-    except (FormatError, OSError, UnitsError) as error:
+    except (FormatError, OSError, TheoryError, UnitsError) as error:
         sys.exit(str(error))
     parents = Parents.of(str(script.relative_to(ROOT)), options.output, results)
     if unknown := READ.beside(parents.sources):

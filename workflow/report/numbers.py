@@ -88,7 +88,7 @@ def _comparable(data: Data) -> Result:
 
 
 def _control(data: Data) -> Result:
-    (result,) = data.of("ext13", random_direction=True)
+    (result,) = data.of("ext13", rule="random-direction")
     return result
 
 
@@ -97,7 +97,7 @@ def kappa_0_exponent(data: Data) -> Number:
 
 
 def _longest(data: Data, **gas: Any) -> Result:
-    rings = data.of("ext13", random_direction=False, **gas)
+    rings = data.of("ext13", rule="elastic", **gas)
     return max(rings, key=lambda one: float(one["heat_variance"].axes["time"][-1]))
 
 

@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "boltzmann/fields.hpp"
 #include "model/reservoir.hpp"
+#include "model/rules/elastic.hpp"
 #include "program/options.hpp"
 #include "sampling/momentum_bins.hpp"
 
@@ -16,8 +18,8 @@ struct KineticParameters {
   double sigma = 0.5;
   std::optional<double> gamma = 1;       // none: N, one scattering at each of the cells
   std::optional<std::uint32_t> cells{};  // none: continuum
-  Reservoir left{220, 900. / 11};
-  Reservoir right{180, 1100. / 9};
+  std::string rule{Elastic::properties.name};
+  Reservoir left = default_left, right = default_right;
   std::vector<double> positions{0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1};
   MomentumBinParameters bins;
   double target_error = 1e-10;

@@ -71,20 +71,20 @@ class EndsAndOpenings {
     for (EndCell& end : ends_) end.advance(scatterers[end.scatterer], end_time);
   }
 
-  void record(const BlockTallies& tallies, Record& record) const {
+  void record(const BlockTallies& tallies, TallySums& sums) const {
     for (std::size_t block = 0; block < block_count; ++block) {
-      record[tallies.energy_current][block] = energy_[block] / blocks_.length();
-      record[tallies.particle_current][block] = particles_[block] / blocks_.length();
+      sums[tallies.energy_current][block] = energy_[block] / blocks_.length();
+      sums[tallies.particle_current][block] = particles_[block] / blocks_.length();
       const auto injected = injections_[block].deviations(chain_, blocks_.length());
-      record.set(tallies.injection.row(block), injected);
+      sums.set(tallies.injection.row(block), injected);
     }
     for (std::size_t i = 0; i < ends_.size(); ++i) {
       const EndCell& end = ends_[i];
-      record[tallies.arriving_energy][i] = end.arriving_energy;
-      record[tallies.arrivals][i] = end.arrivals;
+      sums[tallies.arriving_energy][i] = end.arriving_energy;
+      sums[tallies.arrivals][i] = end.arrivals;
       for (std::size_t block = 0; block < block_count; ++block) {
-        record[tallies.temperature.row(block)][i] = end.scatterer_energy.sums()[block] / blocks_.length();
-        record[tallies.scattering.row(block)][i] = end.chance.sums()[block];
+        sums[tallies.temperature.row(block)][i] = end.scatterer_energy.sums()[block] / blocks_.length();
+        sums[tallies.scattering.row(block)][i] = end.chance.sums()[block];
       }
     }
   }

@@ -19,6 +19,10 @@ namespace lorentz {
 /// is bounded. The rest is -q times the sum of g over all arrivals, where g is c^2 (u^2 - U^2) plus a cross
 /// term of mean near 0: the excess of the scatterer's energy over that of all arriving particles, N/gamma
 /// times as many as are scattered. The regression removes the noise of the random selection among them.
+///
+/// Every function g of the velocities before the collision gives a martingale, so that the mean is 0 for
+/// every collision rule. This g is the change of U^2 where the scatterer is scattered elastically; with other
+/// rules the control is valid, but may reduce the variance less.
 class ScatteringControl {
  public:
   ScatteringControl(const OpenChain& chain, const Blocks& blocks)

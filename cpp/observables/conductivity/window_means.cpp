@@ -7,8 +7,8 @@ Records joined(const Records& records, const BlockTallies& blocks, bool differen
   const WindowTallies tallies;
   Records result(tallies.width());
   for (std::size_t replica = 0; replica < records.size(); ++replica) {
-    const RecordView row = records[replica];
-    Record window(tallies);
+    const TallyMeans row = records[replica];
+    TallySums window(tallies);
     const auto join = [&](Tally from, Tally to, double scale) {
       for (std::size_t i = 0; i < to.size; ++i) {
         double sum = 0;

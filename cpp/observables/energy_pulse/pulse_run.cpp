@@ -8,11 +8,15 @@
 #include "engine/closed_dynamics.hpp"
 #include "engine/closed_start.hpp"
 #include "program/errors.hpp"
-#include "sampling/conserved_fields.hpp"
 #include "sampling/limits.hpp"
 
 namespace lorentz {
 namespace {
+
+/// Number of the cell in which a particle is.
+std::uint32_t cell_of(const Particle& particle, const ClosedChain& chain) {
+  return std::min(static_cast<std::uint32_t>(particle.position / chain.cell_length), chain.cells - 1);
+}
 
 double energy(double velocity) { return 0.5 * velocity * velocity; }
 

@@ -72,17 +72,17 @@ class BondCrossings {
     injected_.add(u);
   }
 
-  void record(const BondTallies& tallies, Record& record) const {
+  void record(const BondTallies& tallies, TallySums& sums) const {
     const double duration = window_.end - window_.begin;
     const auto rate = [duration](double sum) { return sum / duration; };
-    std::ranges::transform(counts_.sums(), record[tallies.crossings].begin(), rate);
+    std::ranges::transform(counts_.sums(), sums[tallies.crossings].begin(), rate);
     for (const Direction side : {leftwards, rightwards})
       for (std::size_t k = 0; k < BondTallies::powers; ++k)
-        std::ranges::transform(moments_[side].sums(k), record[tallies.sums[k].row(side)].begin(), rate);
+        std::ranges::transform(moments_[side].sums(k), sums[tallies.sums[k].row(side)].begin(), rate);
     for (std::size_t bin = 0; bin < bins_.count(); ++bin)
-      record[tallies.bin_injection][bin] =
+      sums[tallies.bin_injection][bin] =
           injected_.weights()[bin] - expected_injections(chain_, window_, bins_, bin);
-    record.set(tallies.injection, injections_.deviations(chain_, duration));
+    sums.set(tallies.injection, injections_.deviations(chain_, duration));
   }
 
  private:

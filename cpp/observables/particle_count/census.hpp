@@ -78,13 +78,13 @@ class Census {
     at_number_times_.show(path, [&](std::size_t k) { number_[k] += 1; });
   }
 
-  void record(const CensusTallies& tallies, Record& record) const {
+  void record(const CensusTallies& tallies, TallySums& sums) const {
     for (std::size_t k = 0; k < linear_.size(); ++k) {
       const std::vector<double>& weights = linear_[k].weights();
-      record.set(tallies.momentum.row(k), weights);
-      record.set(tallies.by_speed.row(k), logarithmic_[k]);
+      sums.set(tallies.momentum.row(k), weights);
+      sums.set(tallies.by_speed.row(k), logarithmic_[k]);
     }
-    record.set(tallies.number, number_);
+    sums.set(tallies.number, number_);
   }
 
  private:

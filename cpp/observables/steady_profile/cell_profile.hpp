@@ -120,30 +120,29 @@ class CellProfile {
     for (std::uint32_t cell = 0; cell < chain_.cells; ++cell) advance(cell, scatterers[cell], end_time);
   }
 
-  void record(const CellTallies& tallies, Record& record) const {
+  void record(const CellTallies& tallies, TallySums& sums) const {
     const double duration = window_.end - window_.begin;
     const std::size_t cells = chain_.cells;
     const std::vector<double> to_right = streams_[rightwards].residence();
     const std::vector<double> to_left = streams_[leftwards].residence();
     for (std::size_t cell = 0; cell < cells; ++cell) {
-      record[tallies.temperature][cell] = scatterers_[cell].sums().front() / duration;
-      record[tallies.density][cell] = (to_right[cell] + to_left[cell]) / duration;
+      sums[tallies.temperature][cell] = scatterers_[cell].sums().front() / duration;
+      sums[tallies.density][cell] = (to_right[cell] + to_left[cell]) / duration;
     }
     for (const Direction side : {leftwards, rightwards}) {
       for (const std::size_t kind : {0, 1}) {
         const std::vector<double> at_marks = streams_[side].at_marks(kind, side == rightwards ? 1 : -1);
-        const auto at_scatterers =
-            record[(kind == 0 ? tallies.arrivals : tallies.arriving_squares).row(side)];
-        const auto at_bonds = record[(kind == 0 ? tallies.crossings : tallies.crossing_squares).row(side)];
+        const auto at_scatterers = sums[(kind == 0 ? tallies.arrivals : tallies.arriving_squares).row(side)];
+        const auto at_bonds = sums[(kind == 0 ? tallies.crossings : tallies.crossing_squares).row(side)];
         for (std::size_t cell = 0; cell < cells; ++cell)
           at_scatterers[cell] = at_marks[2 * cell + 1] / duration;
         for (std::size_t bond = 0; bond <= cells; ++bond) at_bonds[bond] = at_marks[2 * bond] / duration;
       }
     }
     for (const std::size_t end : {0, 1})
-      std::ranges::transform(momenta_[end].weights(), record[tallies.end_momentum.row(end)].begin(),
+      std::ranges::transform(momenta_[end].weights(), sums[tallies.end_momentum.row(end)].begin(),
                              [duration](double time) { return time / duration; });
-    record.set(tallies.injection, injections_.deviations(chain_, duration));
+    sums.set(tallies.injection, injections_.deviations(chain_, duration));
   }
 
  private:

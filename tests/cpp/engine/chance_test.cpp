@@ -9,6 +9,7 @@
 #include <iterator>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/closed_dynamics.hpp"
@@ -157,16 +158,19 @@ Draws open_passes(const StreamKey& key, const StreamKey& of_start) {
   return {{seen.cells}, chance_of_equal_cells(0.25)};
 }
 
-ClosedChain closed_chain(double scattering_probability, bool random_direction) {
+ClosedChain closed_chain(double scattering_probability, std::string_view rule) {
   ClosedChain chain;
   chain.cells = 64;
   chain.particles_per_cell = 1;
   chain.gamma = scattering_probability * chain.cells;
-  chain.random_direction = random_direction;
+  chain.rule = rule;
   return chain;
 }
 
-const ClosedChain passing = closed_chain(0.25, false), turning = closed_chain(1, true);
+const ClosedChain passing = closed_chain(0.25, Elastic::properties.name),
+                  turning = closed_chain(1, RandomDirection::properties.name);
+
+bool directions_drawn(const ClosedChain& chain) { return chain.rule == RandomDirection::properties.name; }
 
 /// Cells of every flight by particle and order, without the first flight.
 struct ClosedFlights {
@@ -174,12 +178,12 @@ struct ClosedFlights {
   std::vector<Sequence> drawn;
   void on_flight(const Departure& flight) {
     const auto cells = static_cast<double>(flight.cells);
-    drawn[flight.particle].push_back(chain.random_direction ? cells : std::abs(cells));
+    drawn[flight.particle].push_back(directions_drawn(chain) ? cells : std::abs(cells));
   }
 };
 
 double chance(const ClosedChain& chain) {
-  return chain.random_direction ? 0.5 : chance_of_equal_cells(chain.gamma / chain.cells);
+  return directions_drawn(chain) ? 0.5 : chance_of_equal_cells(chain.gamma / chain.cells);
 }
 
 constexpr double duration = 800;  // some hundred one-cell flights of every particle
@@ -197,6 +201,27 @@ Draws closed_passes(const StreamKey& key, const StreamKey& of_start) {
 
 Draws directions(const StreamKey& key, const StreamKey& of_start) {
   return closed_flights(turning, key, of_start);
+}
+
+/// Signs of u after the collisions at every cell.
+struct DirectionsAtCells {
+  std::vector<Sequence> drawn;
+  void on_collision(const Collision& collision) {
+    drawn[collision.scatterer].push_back(collision.particle_after > 0 ? 1 : -1);
+  }
+};
+
+std::vector<Sequence> directions_at_cells(const StreamKey& key, const StreamKey& of_start) {
+  OpenChain chain = open_chain(20, 1);
+  chain.rule = RandomDirection::properties.name;
+  OpenDynamics dynamics(chain, warm_start_of(chain, of_start), 150, key);
+  DirectionsAtCells seen{std::vector<Sequence>(chain.cells)};
+  simulate(dynamics, 150, seen, support::nothing);
+  return seen.drawn;
+}
+
+Draws open_directions(const StreamKey& key, const StreamKey& of_start) {
+  return {directions_at_cells(key, of_start), 0.5};
 }
 
 /// key: of the stream under test; of_start: of the start before it.
@@ -234,8 +259,22 @@ INSTANTIATE_TEST_SUITE_P(
                     Source{"InjectionLeft", injections<End::left>},
                     Source{"InjectionRight", injections<End::right>},
                     Source{"PassesOfAnOpenChain", open_passes}, Source{"PassesOfAClosedChain", closed_passes},
-                    Source{"Directions", directions}),
+                    Source{"Directions", directions}, Source{"DirectionsOfAnOpenChain", open_directions}),
     [](const auto& source) { return source.param.name; });
+
+// The random numbers of a collision in an open chain are named by the cell and the count of its collisions.
+// Mutants: by the cell alone, by the count alone, by the number of the particle, which is reused.
+TEST(ChanceOfAnOpenChain, EveryCollisionOfACellHasNumbersOfItsOwn) {
+  const StreamKey key(3, 2);
+  const std::vector<Sequence> drawn = directions_at_cells(key, key);
+  for (std::uint32_t cell = 0; cell < drawn.size(); ++cell)
+    for (std::uint64_t count = 0; count < drawn[cell].size(); ++count) {
+      const double expected = RandomStream(key, Purpose::collision, cell, count).uniform() > 0.5 ? 1 : -1;
+      ASSERT_EQ(drawn[cell][count], expected) << cell << " " << count;
+    }
+  for (std::size_t cell = 1; cell < drawn.size(); ++cell)
+    EXPECT_FALSE(share({{drawn[0]}, 0.5}, {{drawn[cell]}, 0.5})) << cell;
+}
 
 /// Particles of the plain trajectory of a pair without sharing.
 std::vector<Particle> plain_particles(const PairDynamics& pair, double time, std::size_t size) {
@@ -259,7 +298,7 @@ Draws pair_flights(const ClosedChain& chain, const PhasePoint& start, const Stre
     for (std::size_t i = 0; i < now.size(); ++i) {
       if (now[i].velocity == last[i].velocity) continue;
       const double cells = std::round(last[i].velocity * (time - departure[i]));
-      if (departure[i] >= 0) drawn[i].push_back(chain.random_direction ? cells : std::abs(cells));
+      if (departure[i] >= 0) drawn[i].push_back(directions_drawn(chain) ? cells : std::abs(cells));
       departure[i] = time;
     }
     last = now;

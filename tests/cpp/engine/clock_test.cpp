@@ -42,8 +42,7 @@ Arrivals arrivals(double sigma, double flights, int restarts = 0) {
 }
 
 Arrivals in_extended_precision(double sigma) {
-  auto simulator =
-      reference::heap_simulator<long double>(CollisionRule(sigma).sigma(), cell_length, start(sigma));
+  auto simulator = reference::heap_simulator<long double>(Elastic(sigma).sigma(), cell_length, start(sigma));
   Arrivals result(11);
   reference::HeapSimulator<long double>::Event event{};
   for (std::size_t k = 0; k < events && simulator.step(1e9L, event); ++k)

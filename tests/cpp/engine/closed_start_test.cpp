@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "model/collision.hpp"
+#include "model/rules/elastic.hpp"
 #include "support/plausible.hpp"
 
 namespace closed_start_test {
@@ -95,7 +95,7 @@ TEST(InitialState, ShiftsTheTotalMomentumToZero) {
     const PhasePoint free = closed_chain_start(other, temperatures, false, {1, 0});
     const PhasePoint shifted = closed_chain_start(other, temperatures, true, {1, 0});
     EXPECT_EQ(free.scatterers, shifted.scatterers);
-    const double root_mass = CollisionRule(sigma).root_mass();
+    const double root_mass = Elastic(sigma).root_mass();
     long double total = 0;
     double magnitude = 0;
     for (const Particle& particle : shifted.particles) {

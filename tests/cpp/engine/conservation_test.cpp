@@ -50,7 +50,7 @@ class Steps {
 /// squares of the steps, not to the total, and makes the scores smaller by less than a factor of 2.
 struct Invariances {
   Invariances(double sigma, std::size_t particles)
-      : root_mass(CollisionRule(sigma).root_mass()), energy(particles), momentum(particles) {}
+      : root_mass(Elastic(sigma).root_mass()), energy(particles), momentum(particles) {}
 
   void on_collision(const Collision& c) {
     const long double u = c.particle_before, u2 = c.particle_after;
@@ -81,7 +81,7 @@ Outcome run(double sigma, std::uint64_t events, std::uint64_t seed) {
 
 constexpr std::uint64_t ten_million = 10'000'000;
 
-// The hard cases are simple fractions (see collision.hpp) and the limits.
+// The hard cases are simple fractions (model/rules/elastic.hpp) and the limits.
 TEST(Conservation, ErrorsStaySmallAndGrowAsTheRootOfTheNumberOfCollisions) {
   for (const double sigma : {-1 + 1e-12, -0.9, -0.5, 0.3, 1.0 / 3, 0.5, 0.6, 0.8, 0.9, 1 - 1e-12}) {
     const Outcome outcome = run(sigma, ten_million, 1);
@@ -124,10 +124,10 @@ TEST(Conservation, ScoreFindsALinearDrift) {
     u = -sigma * before + c * scatterer;
     scatterer = c * before + sigma * scatterer;
   };
-  const CollisionRule rule(sigma);
+  const Elastic rule(sigma);
   const auto as_in_the_engine = [&rule](double& u, double& scatterer) {
     double w = scatterer / rule.scatterer_scale();
-    rule(u, w);
+    rule(u, w, 0);
     scatterer = rule.scatterer_scale() * w;
   };
   EXPECT_LT(std::abs(encounters(as_in_the_engine, ten_million).as_walks_of_particles()), 4);
@@ -172,7 +172,7 @@ double mean_drift_score(const Law& law, int groups, std::uint64_t events) {
     const long double before = energy();
     for (std::uint64_t event = 0; event < events; ++event) {
       const std::uint64_t draw = generator();
-      law(particles[draw % particles.size()], scatterers[(draw >> 32) % scatterers.size()]);
+      law(particles[draw % particles.size()], scatterers[(draw >> 32) % scatterers.size()], 0);
     }
     drifts.push_back(static_cast<double>(energy() / before - 1));
   }
@@ -184,7 +184,7 @@ double mean_drift_score(const Law& law, int groups, std::uint64_t events) {
 struct HardlyDetuned {
   double light = 0.5 * (1 + 1e-13), heavy = 2 - light;
   double scatterer_scale() const { return std::sqrt(heavy / light); }
-  void operator()(double& u, double& w) const {
+  void operator()(double& u, double& w, std::uint32_t /*cell*/) const {
     const double relative = w - u;
     u += heavy * relative;
     w -= light * relative;
@@ -192,7 +192,7 @@ struct HardlyDetuned {
 };
 
 TEST(Conservation, NothingIsLeftOfADriftThatABillionCollisionsWouldShow) {
-  EXPECT_LT(std::abs(mean_drift_score(CollisionRule(0.5), 24, 5 * ten_million)), 4);
+  EXPECT_LT(std::abs(mean_drift_score(Elastic(0.5), 24, 5 * ten_million)), 4);
   EXPECT_GT(std::abs(mean_drift_score(HardlyDetuned(), 24, 5 * ten_million)), 4);
 }
 

@@ -17,7 +17,7 @@ using namespace lorentz;
 /// Velocities: as long as both meet the same sequence of (particle, scatterer), they are images under
 /// the same orthogonal map, which conserves the length of the error vector: rounding errors add up and
 /// are never amplified. They are independent, so their squares add up. A collision adds at most 14
-/// units of 2^-53 in u and in U (collision_test.cpp), a few times the root mean square; the reference
+/// units of 2^-53 in u and in U (elastic_test.cpp), a few times the root mean square; the reference
 /// simulator, whose formula is shorter, adds no more.
 ///
 /// Times: each flight adds (cell length / |u|) |du / u| and its own roundings. Errors of times reach the
@@ -58,7 +58,7 @@ void compare(const ClosedChain& chain, std::size_t events, std::uint64_t seed) {
                                   << chain.particles_per_cell << " particles per cell");
   const PhasePoint start = closed_chain_start(chain, {500, 100}, false, {seed, 0});
   // The engine detunes sigma by a part in 1e11, which this comparison resolves.
-  const double sigma = CollisionRule(chain.sigma).sigma();
+  const double sigma = Elastic(chain.sigma).sigma();
   auto simulator = reference::heap_simulator<Real>(sigma, chain.cell_length, start);
   const Real root_mass = std::sqrt(simulator.scatterer_mass());
   ClosedDynamics dynamics(chain, start, 1e6, {1, 0});

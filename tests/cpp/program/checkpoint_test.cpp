@@ -11,7 +11,7 @@
 #include "program/atomic_file.hpp"
 #include "program/errors.hpp"
 #include "program/hdf5_file.hpp"
-#include "program/record_file.hpp"
+#include "program/replica_file.hpp"
 #include "support/refusal.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -26,7 +26,7 @@ const std::string identity = "sigma = 0.5\nbuild_id = abc\n";
 /// A number and a pair, as in some_replicas().
 const std::vector<Description> tallies{{"a", "1", "A number"},
                                        {"b", "momentum", "A pair", {{"i", "1", "", {0, 1}}}}};
-const RecordFile format{identity, tallies};
+const ReplicaFile format{identity, tallies};
 
 FinishedReplicas some_replicas() {
   return {{0, {{0.1, -0.0, 5e-324}, 3}}, {1, {{1e308, 2, 3}, 0}}, {1ULL << 40, {{-1, 1.0 / 3, 7}, ~0ULL}}};
@@ -73,7 +73,7 @@ TEST(Checkpoint, OfAnotherRunHasNoReplicas) {
   checkpoint.save(some_replicas());
   for (const std::string& other : {std::string("sigma = 0.4\nbuild_id = abc\n"), identity + " ",
                                    identity.substr(0, identity.size() - 1), std::string()})
-    EXPECT_FALSE((RecordFile{other, tallies}.read(checkpoint.path))) << other;
+    EXPECT_FALSE((ReplicaFile{other, tallies}.read(checkpoint.path))) << other;
 }
 
 TEST(Checkpoint, AFlippedBitIsFound) {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "program/record_file.hpp"
+#include "program/replica_file.hpp"
 #include "support/study.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -77,16 +77,16 @@ TEST(Replicas, WithATallyThatIsNeverFilledAreRefused) {
     Tally forgotten = tally("forgotten", {numbered_axis("place", "Where", 3)}, "1", "Three numbers");
   };
   const Tallies tallies;
-  Record record(tallies);
-  record[tallies.value] = 1;
+  TallySums sums(tallies);
+  sums[tallies.value] = 1;
   try {
-    record.require_filled(tallies);
+    sums.require_filled(tallies);
     FAIL();
   } catch (const std::logic_error& error) {
     EXPECT_NE(std::string(error.what()).find("forgotten"), std::string::npos) << error.what();
   }
-  record[tallies.forgotten.row(1)][0] = 2;
-  EXPECT_NO_THROW(record.require_filled(tallies));
+  sums[tallies.forgotten.row(1)][0] = 2;
+  EXPECT_NO_THROW(sums.require_filled(tallies));
 }
 
 }  // namespace replicas_test

@@ -197,17 +197,9 @@ TEST(Study, StopsAtTheTargetErrorOnABatchBoundary) {
 
   EXPECT_EQ(with({"--target-error", "10"}), 0);  // never with fewer than 64
   EXPECT_EQ(replicas_in(folder / "a.h5"), 64U);
-  EXPECT_EQ(with({"--target-error", "10", "--max-replicas", "20"}), 4);
-  EXPECT_EQ(replicas_in(folder / "a.h5"), 16U);
-  EXPECT_EQ(with({"--target-error", "1e-6", "--max-replicas", "100"}), 4);
-  EXPECT_EQ(replicas_in(folder / "a.h5"), 96U);
   EXPECT_EQ(with({"--target-error", "1e-6", "--time-limit", "1e-9"}), 4);
   EXPECT_EQ(replicas_in(folder / "a.h5"), 2U);
   EXPECT_EQ(with({"--target-error", "0.1", "--target-absolute", "0.1"}), 2);
-  for (const char* target : {"--target-error", "--target-absolute"})
-    EXPECT_EQ(with({target, "0.1", "--max-replicas", "7"}), 2);
-  EXPECT_EQ(with({"--max-replicas", "7"}), 2);
-  EXPECT_NE(complaints.find("--max-replicas 7 is below --replicas 8"), std::string::npos) << complaints;
 }
 
 TEST(Study, SaysWhereTheRunEnds) {

@@ -40,6 +40,17 @@ class OpenHeapSimulator {
     next_injection(false, 0);
   }
 
+  /// Draws the direction of a particle after every collision, each with probability 1/2.
+  void draw_directions(std::uint64_t seed) {
+    directions_drawn_ = true;
+    coin_.seed(seed);
+  }
+
+  /// <P^2>/M of the scatterer of a cell over the window, and the currents through a bond.
+  double temperature(std::size_t cell) const { return scatterer_[cell] / parameters_.observation; }
+  double particle_current(std::size_t bond) const { return particles_[bond] / parameters_.observation; }
+  double energy_current(std::size_t bond) const { return energy_[bond] / parameters_.observation; }
+
   /// Processes all events before `end`. Returns the number of collisions.
   std::uint64_t run(double end) {
     std::uint64_t collisions = 0;
@@ -139,6 +150,7 @@ class OpenHeapSimulator {
     const double sigma = parameters_.sigma, p = event.p;
     event.p = -sigma * p + (1 - sigma) * P_[cell];
     P_[cell] = (1 + sigma) * p + sigma * P_[cell];
+    if (directions_drawn_ && std::bernoulli_distribution(0.5)(coin_)) event.p = -event.p;
     return true;
   }
 
@@ -157,7 +169,8 @@ class OpenHeapSimulator {
   }
 
   OpenHeapParameters parameters_;
-  std::mt19937_64 generator_;
+  std::mt19937_64 generator_, coin_;
+  bool directions_drawn_ = false;
   std::priority_queue<Event> events_;
   std::vector<double> P_, changed_;
   std::vector<int> occupied_;

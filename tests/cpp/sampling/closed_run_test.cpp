@@ -29,9 +29,9 @@ struct Errors {
 
 Errors finished(const ClosedRun& run) {
   const ClosedTallies tallies;
-  Record record(tallies);
-  const std::uint64_t events = run.finish(tallies, record);
-  return {events, record[tallies.energy_drift], record[tallies.momentum_drift]};
+  TallySums sums(tallies);
+  const std::uint64_t events = run.finish(tallies, sums);
+  return {events, sums[tallies.energy_drift], sums[tallies.momentum_drift]};
 }
 
 // Particles that are too slow to arrive: nothing happens, and nothing drifts. The clock restarts after 2^32
@@ -78,13 +78,17 @@ TEST(ClosedRun, ObservesAfterTheRelaxationAndConserves) {
 
 // Momentum is not conserved if directions are drawn; energy is.
 TEST(ClosedRun, ReportsThatNoMomentumIsConserved) {
-  const ClosedParameters parameters{.random_direction = true, .relaxation_time = 0, .observation_time = 1};
+  const ClosedParameters parameters{.ring = {.scattering = {.cells = 11, .rule = "random-direction"}},
+                                    .relaxation_time = 0,
+                                    .observation_time = 1};
   ClosedRun run(parameters, replica);
   Counter counter;
   run.observe(counter);
   EXPECT_GT(counter.collisions, 100U);
   EXPECT_LT(finished(run).energy, 1e-12);
   EXPECT_TRUE(std::isnan(finished(run).momentum));
+  EXPECT_EQ(run.momentum_control(), 0);
+  EXPECT_NE(run.energy_control(), 0);
 }
 
 // Over replicas the controls have mean 0, and the variance of a normal square and of a sum of 9 normal
@@ -121,10 +125,10 @@ TEST(ConservationErrors, AreMeansOverReplicas) {
   const ClosedTallies tallies;
   Records records(tallies.width());
   for (const double drift : {1., 3.}) {
-    Record record(tallies);
-    record[tallies.energy_drift] = drift;
-    record[tallies.momentum_drift] = 10 * drift;
-    records.append(record.values());
+    TallySums sums(tallies);
+    sums[tallies.energy_drift] = drift;
+    sums[tallies.momentum_drift] = 10 * drift;
+    records.append(sums.values());
   }
   const Study study = closed_study({}, tallies, {}, {}, "energy_drift");
   const Results results = study.groups.at(0).estimate(records);

@@ -38,10 +38,17 @@ TEST(OpenParameters, StartsFromEquilibriumWithOneReservoir) {
   }
 }
 
+StationaryParameters stationary(Scaled relaxation_time, Scaled observation_time) {
+  StationaryParameters parameters;
+  parameters.scattering.cells = 5;
+  parameters.relaxation_time = relaxation_time;
+  parameters.observation_time = observation_time;
+  return parameters;
+}
+
 // Finds: the observation counted from 0.
 TEST(OpenParameters, WindowFollowsTheRelaxation) {
-  const Window window =
-      WindowParameters{.relaxation_time = {{0, 2, 0}}, .observation_time = {{3, 0, 0}}}.window(5);
+  const Window window = stationary({{0, 2, 0}}, {{3, 0, 0}}).window();
   EXPECT_EQ(window.begin, 10);
   EXPECT_EQ(window.end, 13);
 }
@@ -70,10 +77,9 @@ TEST(OpenParameters, AreRefusedTogether) {
 
 // Finds: the relaxation in place of the end.
 TEST(OpenParameters, WindowsAreNotTooShort) {
-  const OpenParameters parameters;
-  EXPECT_NO_THROW(validate(parameters, WindowParameters{{1e5}, {1e-4}}));
+  EXPECT_NO_THROW(validate(stationary({{1e5}}, {{1e-4}})));
   EXPECT_TRUE(refused_as("--relaxation-time, --observation-time: the end of the run over the time",
-                         [&] { validate(parameters, WindowParameters{{1e5}, {1e-6}}); }));
+                         [] { validate(stationary({{1e5}}, {{1e-6}})); }));
 }
 
 }  // namespace open_parameters_test

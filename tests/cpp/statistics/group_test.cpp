@@ -29,8 +29,8 @@ Records records() {
 TEST(Group, JackknifeTheMeanRecord) {
   const Tallies tallies;
   Group group;
-  group.quantity("mean", "time", "A mean", [=](RecordView mean) { return mean[tallies.a]; });
-  group.quantity("ratio", "1", "A ratio", [=](RecordView mean) { return mean[tallies.a] / mean[tallies.b]; });
+  group.quantity("mean", "time", "A mean", [=](TallyMeans mean) { return mean[tallies.a]; });
+  group.quantity("ratio", "1", "A ratio", [=](TallyMeans mean) { return mean[tallies.a] / mean[tallies.b]; });
   const Results results = group.estimate(records());
   ASSERT_EQ(results.size(), 2U);
   EXPECT_EQ(results[0].what.name, "mean");
@@ -52,7 +52,7 @@ TEST(Group, AnElementThatIsZeroEverywhereHasNoError) {
   const Tallies tallies;
   Group group;
   group.quantity("pair", {tallies.place}, "1", "Two", mean_of(tallies.pair));
-  group.quantity("zero", "1", "A number", [=](RecordView mean) { return mean[tallies.pair][0]; });
+  group.quantity("zero", "1", "A number", [=](TallyMeans mean) { return mean[tallies.pair][0]; });
   const Results results = group.estimate(records());
   EXPECT_EQ(results[0].mean, (std::vector<double>{0, 3}));
   EXPECT_TRUE(std::isnan(results[0].standard_error[0]));
@@ -67,7 +67,7 @@ TEST(Group, ChoosesACommonFormulaOnce) {
   Group group;
   group.quantities({{"once", "1", "It"}, {"twice", "1", "Twice"}}, [&](const Records&) {
     ++chosen;
-    return [=](RecordView mean) { return std::vector{mean[tallies.a], 2 * mean[tallies.a]}; };
+    return [=](TallyMeans mean) { return std::vector{mean[tallies.a], 2 * mean[tallies.a]}; };
   });
   EXPECT_EQ(group.descriptions().size(), 2U);
   const Results results = group.estimate(records());
@@ -102,7 +102,7 @@ TEST(Group, OfCorrectedRecords) {
   };
   for (const std::optional<bool> used : {std::optional<bool>(), std::optional(false), std::optional(true)}) {
     Group corrected([&](const Records& given) { return Group::Prepared{negative(given), used}; });
-    corrected.quantity("mean", "1", "A mean", [=](RecordView mean) { return mean[tallies.a]; });
+    corrected.quantity("mean", "1", "A mean", [=](TallyMeans mean) { return mean[tallies.a]; });
     const Results results = corrected.estimate(records());
     EXPECT_EQ(results[0].mean, std::vector{-3.});
     EXPECT_EQ(results[0].control_variates, used);
@@ -114,9 +114,9 @@ TEST(Group, OfAnotherSizeThanTheirAxesAreRefused) {
   const Tallies tallies;
   Group group;
   group.quantity("long", {tallies.place}, "1", "Three values for two places",
-                 [](RecordView) { return std::vector<double>(3); });
+                 [](TallyMeans) { return std::vector<double>(3); });
   group.quantity("short", {tallies.place}, "1", "One value for two places",
-                 [](RecordView) { return std::vector<double>(1); });
+                 [](TallyMeans) { return std::vector<double>(1); });
   EXPECT_THROW(group.estimate(records()), std::logic_error);
 }
 

@@ -20,7 +20,7 @@ std::vector<double> identity(std::span<const double> mean) { return {mean.begin(
 std::vector<double> ratio(std::span<const double> mean) { return {mean[1] / mean[0]}; }
 
 Estimate jackknife_of(const Records& records, std::vector<double> (*f)(std::span<const double>)) {
-  return jackknife(records, [&](RecordView mean) { return f(mean[Tally{0, records.width()}]); });
+  return jackknife(records, [&](TallyMeans mean) { return f(mean[Tally{0, records.width()}]); });
 }
 
 // For the mean, the leave-one-out values are the mean plus (mean - x_r)/(R-1), and the jackknife error is the

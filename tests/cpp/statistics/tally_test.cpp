@@ -39,29 +39,29 @@ TEST(TallySchema, KeepsDescriptionsInOrder) {
 }
 
 // Finds: a record that is not zero at first; a span that begins at the first tally.
-TEST(Record, HoldsEveryTallyAtItsPlace) {
+TEST(TallySums, HoldsEveryTallyAtItsPlace) {
   const Tallies tallies;
-  Record record(tallies);
-  EXPECT_EQ(record.values(), std::vector<double>(8, 0));
-  record[tallies.number] += 2;
-  record[tallies.table][4] = 3;
-  record[tallies.last] = 5;
-  EXPECT_EQ(record.values(), (std::vector<double>{2, 0, 0, 0, 0, 3, 0, 5}));
+  TallySums sums(tallies);
+  EXPECT_EQ(sums.values(), std::vector<double>(8, 0));
+  sums[tallies.number] += 2;
+  sums[tallies.table][4] = 3;
+  sums[tallies.last] = 5;
+  EXPECT_EQ(sums.values(), (std::vector<double>{2, 0, 0, 0, 0, 3, 0, 5}));
 
-  const RecordView view(record.values());
+  const TallyMeans view(sums.values());
   EXPECT_EQ(view[tallies.number], 2);
   EXPECT_EQ(view[tallies.last], 5);
-  EXPECT_TRUE(std::ranges::equal(view[tallies.table], record[tallies.table]));
+  EXPECT_TRUE(std::ranges::equal(view[tallies.table], sums[tallies.table]));
 }
 
 // Finds: fewer values, or more, copied silently.
-TEST(Record, RefusesArraysOfAnotherSize) {
+TEST(TallySums, RefusesArraysOfAnotherSize) {
   const Tallies tallies;
-  Record record(tallies);
-  record.set(tallies.table, std::vector<double>{1, 2, 3, 4, 5, 6});
-  EXPECT_EQ(record.values(), (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 0}));
-  EXPECT_THROW(record.set(tallies.table, std::vector<double>(5)), std::out_of_range);
-  EXPECT_THROW(record.set(tallies.table, std::vector<double>(7)), std::out_of_range);
+  TallySums sums(tallies);
+  sums.set(tallies.table, std::vector<double>{1, 2, 3, 4, 5, 6});
+  EXPECT_EQ(sums.values(), (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 0}));
+  EXPECT_THROW(sums.set(tallies.table, std::vector<double>(5)), std::out_of_range);
+  EXPECT_THROW(sums.set(tallies.table, std::vector<double>(7)), std::out_of_range);
 }
 
 }  // namespace tally_test

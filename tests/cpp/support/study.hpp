@@ -33,11 +33,11 @@ struct ValueTallies : TallySchema {
 inline Study study_of(const MeasureValue& measurement) {
   const ValueTallies tallies;
   Group group;
-  group.quantity("value", "1", "A number", [=](RecordView mean) { return mean[tallies.value]; });
+  group.quantity("value", "1", "A number", [=](TallyMeans mean) { return mean[tallies.value]; });
   return {.tallies = tallies,
-          .measure =
-              [=](const Replica& replica, Record& record) {
-                record[tallies.value] = measurement(replica);
+          .sample =
+              [=](const Replica& replica, TallySums& sums) {
+                sums[tallies.value] = measurement(replica);
                 return 10;
               },
           .groups = {group},

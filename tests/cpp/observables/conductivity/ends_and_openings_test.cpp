@@ -18,9 +18,9 @@ const OpenChain chain{.cells = 3, .left = {0, 1}, .right = {0, 1}};
 const Window window{2, 10};
 
 std::vector<double> recorded(const EndsAndOpenings& observer, const BlockTallies& tallies, Tally tally) {
-  Record record(tallies);
-  observer.record(tallies, record);
-  return {record[tally].begin(), record[tally].end()};
+  TallySums sums(tallies);
+  observer.record(tallies, sums);
+  return {sums[tally].begin(), sums[tally].end()};
 }
 
 // Finds: an energy of u^2, or without the sign; a crossing that counts whole; exits left out; blocks from 0

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "model/collision.hpp"
+#include "model/rules/elastic.hpp"
 #include "reference/heap_simulator.hpp"
 #include "sampling/closed_run.hpp"
 #include "support/sample.hpp"
@@ -27,7 +27,7 @@ TEST(CellFields, AreThoseOfTheReference) {
     const Replica replica{{5, 2}, [](double) {}};
     ClosedRun run(parameters, replica);
     const PhasePoint start = run.chain().phase_point(0);
-    const CollisionRule rule(sigma);
+    const Elastic rule(sigma);
     auto reference = reference::heap_simulator<long double>(rule.sigma(), chain.cell_length, start);
     reference::HeapSimulator<long double>::Event event{};
     CellFields particles(start, chain);
@@ -59,7 +59,7 @@ struct Moments {
 Moments moments(double zeta, double theta, double temperature) {
   const ClosedChain chain{.cells = 400, .sigma = 0.5};
   const StationaryMeasure measure{.fugacity = zeta, .temperature = temperature, .slowest = 1e-3};
-  const double root_mass = CollisionRule(chain.sigma).root_mass(), cells = chain.cells;
+  const double root_mass = Elastic(chain.sigma).root_mass(), cells = chain.cells;
   Moments found;
   for (std::uint64_t replica = 0; replica < 100; ++replica) {
     const PhasePoint start = stationary_start(chain, measure, {3, replica});

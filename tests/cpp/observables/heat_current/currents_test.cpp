@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/collision.hpp"
+#include "model/rules/elastic.hpp"
 #include "reference/heap_simulator.hpp"
 
 namespace currents_test {
@@ -27,7 +27,7 @@ Sums by_flights(const ClosedParameters& parameters, const Blocks& blocks, const 
                 bool overlap) {
   const ClosedChain chain = parameters.chain();
   const PhasePoint start = stationary_start(chain, parameters.stationary_measure(), key);
-  const double sigma = CollisionRule(chain.sigma).sigma();
+  const double sigma = Elastic(chain.sigma).sigma();
   auto simulator = reference::heap_simulator<long double>(sigma, chain.cell_length, start);
   Sums sums;
   const auto fly = [&](double v, double begin, double end) {

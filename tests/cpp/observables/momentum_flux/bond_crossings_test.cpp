@@ -15,9 +15,9 @@ const Window window{2, 10};
 const Bins bins(4, 4);
 
 Values sums(const BondCrossings& observer, const BondTallies& tallies, Tally tally) {
-  Record record(tallies);
-  observer.record(tallies, record);
-  Values values(record[tally].begin(), record[tally].end());
+  TallySums sums(tallies);
+  observer.record(tallies, sums);
+  Values values(sums[tally].begin(), sums[tally].end());
   for (double& value : values) value *= 8;
   return values;
 }
@@ -76,13 +76,13 @@ TEST(BondCrossings, InjectionsMinusTheirMean) {
   observer.on_injection(End::left, 5, 1);
   observer.on_injection(End::left, 5, 3);
   observer.on_injection(End::left, 5, 1.5);
-  Record record(tallies);
-  observer.record(tallies, record);
-  const auto found = record[tallies.bin_injection];
+  TallySums sums(tallies);
+  observer.record(tallies, sums);
+  const auto found = sums[tallies.bin_injection];
   EXPECT_EQ(found[0], 0);
   EXPECT_DOUBLE_EQ(found[2], 2 - expected_injections(chain, window, bins, 2));
   EXPECT_DOUBLE_EQ(found[3], 1 - expected_injections(chain, window, bins, 3));
-  EXPECT_EQ(record[tallies.injection][0], 3 - 24);
+  EXPECT_EQ(sums[tallies.injection][0], 3 - 24);
 }
 
 }  // namespace bond_crossings_test

@@ -24,9 +24,9 @@ struct CellProfileTallies : testing::Test {
 
   /// Of the whole window.
   std::vector<double> sums(Tally tally) const {
-    Record record(tallies);
-    observer.record(tallies, record);
-    std::vector<double> values(record[tally].begin(), record[tally].end());
+    TallySums sums(tallies);
+    observer.record(tallies, sums);
+    std::vector<double> values(sums[tally].begin(), sums[tally].end());
     for (double& value : values) value *= 8;
     return values;
   }

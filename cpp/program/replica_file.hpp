@@ -12,20 +12,20 @@
 namespace lorentz {
 
 /// Tallies of a replica, sums whose mean over replicas is meaningful, and its number of events.
-struct ReplicaRecord {
+struct FinishedReplica {
   std::vector<double> values;
   std::uint64_t events = 0;
 };
 
 /// Finished replicas by index.
-using FinishedReplicas = std::map<std::uint64_t, ReplicaRecord>;
+using FinishedReplicas = std::map<std::uint64_t, FinishedReplica>;
 
 /// Format of files with finished replicas of one run, checkpoints and parts: HDF5, and a checksum of what
 /// precedes it.
-struct RecordFile {
+struct ReplicaFile {
   static constexpr auto part_suffix = ".part";
 
-  std::string identity;  // everything that the records depend on: parameters and build id
+  std::string identity;  // everything that the tallies depend on: parameters and build id
   std::vector<Description> tallies;
 
   std::vector<std::byte> content(const FinishedReplicas& finished) const;

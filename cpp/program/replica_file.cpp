@@ -1,4 +1,4 @@
-#include "program/record_file.hpp"
+#include "program/replica_file.hpp"
 
 #include <fmt/format.h>
 
@@ -24,11 +24,11 @@ bool is_whole(const std::string& path) {
 
 }  // namespace
 
-std::vector<std::byte> RecordFile::content(const FinishedReplicas& finished) const {
+std::vector<std::byte> ReplicaFile::content(const FinishedReplicas& finished) const {
   std::vector<std::uint64_t> indices, events;
-  for (const auto& [index, record] : finished) {
+  for (const auto& [index, one] : finished) {
     indices.push_back(index);
-    events.push_back(record.events);
+    events.push_back(one.events);
   }
   const Axis replica{"replica", "1", "Finished replicas", {indices.begin(), indices.end()}};
   Hdf5Writer file;
@@ -38,8 +38,8 @@ std::vector<std::byte> RecordFile::content(const FinishedReplicas& finished) con
   std::size_t column = 0;
   for (Description tally : tallies) {
     std::vector<double> values;
-    for (const auto& [index, record] : finished) {
-      const auto part = std::span(record.values).subspan(column, tally.size());
+    for (const auto& [index, one] : finished) {
+      const auto part = std::span(one.values).subspan(column, tally.size());
       values.insert(values.end(), part.begin(), part.end());
     }
     column += tally.size();
@@ -51,7 +51,7 @@ std::vector<std::byte> RecordFile::content(const FinishedReplicas& finished) con
   return content;
 }
 
-std::optional<FinishedReplicas> RecordFile::read(const std::string& path) const {
+std::optional<FinishedReplicas> ReplicaFile::read(const std::string& path) const {
   if (!is_whole(path))
     throw UsageError(fmt::format("'{}' cannot be resumed or joined: it is damaged. Remove it.", path));
   const Hdf5Reader file(path);
@@ -64,14 +64,14 @@ std::optional<FinishedReplicas> RecordFile::read(const std::string& path) const 
     const std::vector<double> values = file.doubles("/tallies/" + tally.name);
     for (std::size_t row = 0; row < indices.size(); ++row) {
       const auto part = std::span(values).subspan(row * tally.size(), tally.size());
-      std::vector<double>& record = finished[indices[row]].values;
-      record.insert(record.end(), part.begin(), part.end());
+      std::vector<double>& of_replica = finished[indices[row]].values;
+      of_replica.insert(of_replica.end(), part.begin(), part.end());
     }
   }
   return finished;
 }
 
-FinishedReplicas RecordFile::join(const std::string& folder) const {
+FinishedReplicas ReplicaFile::join(const std::string& folder) const {
   const auto refuse = [](const std::string& what, const std::string& why) {
     throw UsageError(fmt::format("--join '{}': {}. Measure parts into a folder with --part.", what, why));
   };

@@ -1,13 +1,32 @@
 #pragma once
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "numerics/elementary.hpp"
 #include "sampling/closed_parameters.hpp"
 
 namespace lorentz {
 
+/// Parameters of a record of a closed chain in its stationary state, from which it starts.
+struct EquilibriumParameters : ClosedParameters {
+  std::vector<double> times;  // over which the record is correlated
+
+  explicit EquilibriumParameters(std::vector<double> default_times);
+
+  double zeta() const { return fugacity.value() * ring.cell_length; }
+};
+
+/// Declares --cells, --sigma, --rule, --cell-length, --temperature, --fugacity, --observation-time and
+/// --times. use: of the times, for the help.
+void declare(Options& options, EquilibriumParameters& parameters, const std::string& use);
+
+/// Throws UsageError if options that are valid one by one exclude each other.
+void validate(const EquilibriumParameters& parameters);
+
 /// Sound in the stationary state of a closed chain, for infinitely many slow particles [eqs. M11, M12, M17].
+/// Validity: where momentum is conserved.
 struct Sound {
   double speed;          // c, a length over a time
   double self_coupling;  // lambda_s, length^(3/2)/time
@@ -25,5 +44,8 @@ struct Sound {
     return speed * time + std::sqrt(second_moment) * elementary::pow(self_coupling * time, 2. / 3);
   }
 };
+
+/// Throws UsageError if --cells is below `least`, with which sound does not travel around the ring.
+void require_before_sound_returns(const EquilibriumParameters& parameters, double least);
 
 }  // namespace lorentz

@@ -1,4 +1,4 @@
-#include "model/collision.hpp"
+#include "model/rules/elastic.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-namespace collision_test {
+namespace elastic_test {
 
-using lorentz::CollisionRule;
+using lorentz::Elastic;
 
 constexpr double unit = 0x1p-53;  // largest relative error of one rounding
 
@@ -30,10 +30,10 @@ struct Pair {
   double u, scatterer;
 };
 
-Pair collide(const CollisionRule& rule, Pair before) {
+Pair collide(const Elastic& rule, Pair before) {
   double u = before.u;
   double w = before.scatterer / rule.scatterer_scale();
-  rule(u, w);
+  rule(u, w, 0);
   return {u, rule.scatterer_scale() * w};
 }
 
@@ -52,9 +52,9 @@ std::vector<Pair> velocities() {
 
 double larger(Pair pair) { return std::max(std::abs(pair.u), std::abs(pair.scatterer)); }
 
-TEST(Collision, EqualsTheClosedForm) {
+TEST(Elastic, EqualsTheClosedForm) {
   for (const double sigma : sigmas) {
-    const CollisionRule rule(sigma);
+    const Elastic rule(sigma);
     const long double s = rule.sigma();
     const long double c = std::sqrt((1 - s) * (1 + s));
     for (const Pair before : velocities()) {
@@ -68,26 +68,26 @@ TEST(Collision, EqualsTheClosedForm) {
 
 // sigma, or 1-|sigma|, is changed by one part in 1e11 on purpose. In addition 1+|sigma| is rounded to a
 // multiple of 2^-52: at sigma = 1 - 1e-12 this is one part in 1e4 of 1-sigma, hence 5e-5 of c.
-TEST(Collision, HasTheSigmaRequested) {
+TEST(Elastic, HasTheSigmaRequested) {
   for (const double sigma : sigmas) {
     const double magnitude = std::abs(sigma);
     const bool exact = magnitude == 0 || magnitude == 1;
     const double bound = exact ? 0 : 1.01e-11 * std::min(magnitude, 1 - magnitude) + 2 * unit;
-    EXPECT_LE(std::abs(CollisionRule(sigma).sigma() - sigma), bound);
+    EXPECT_LE(std::abs(Elastic(sigma).sigma() - sigma), bound);
   }
 }
 
 // Velocities grow by at most sqrt(2) in the first collision, so the bound is twice that of one collision at
 // sqrt(2) max.
-TEST(Collision, HasEveryDigitOfSigmaNearTheLimits) {
+TEST(Elastic, HasEveryDigitOfSigmaNearTheLimits) {
   for (int k = 6; k <= 16; ++k)
     for (const double sign : {-1, 1})
-      EXPECT_EQ(CollisionRule(sign * (1 - std::pow(10, -k))).sigma(), sign * (1 - std::pow(10, -k))) << k;
+      EXPECT_EQ(Elastic(sign * (1 - std::pow(10, -k))).sigma(), sign * (1 - std::pow(10, -k))) << k;
 }
 
-TEST(Collision, IsItsOwnInverse) {
+TEST(Elastic, IsItsOwnInverse) {
   for (const double sigma : sigmas) {
-    const CollisionRule rule(sigma);
+    const Elastic rule(sigma);
     for (const Pair before : velocities()) {
       const Pair back = collide(rule, collide(rule, before));
       const double bound = 2 * std::sqrt(2.0) * roundings * unit * larger(before);
@@ -98,9 +98,9 @@ TEST(Collision, IsItsOwnInverse) {
 }
 
 // The stored coefficients conserve both invariants exactly, so the error of sigma does not contribute.
-TEST(Collision, ConservesEnergyAndMomentum) {
+TEST(Elastic, ConservesEnergyAndMomentum) {
   for (const double sigma : sigmas) {
-    const CollisionRule rule(sigma);
+    const Elastic rule(sigma);
     const long double root_mass = rule.root_mass();
     for (const Pair before : velocities()) {
       const Pair after = collide(rule, before);
@@ -119,8 +119,8 @@ TEST(Collision, ConservesEnergyAndMomentum) {
   }
 }
 
-TEST(Collision, ExchangesVelocitiesBitForBitAtEqualMasses) {
-  const CollisionRule rule(0);
+TEST(Elastic, ExchangesVelocitiesBitForBitAtEqualMasses) {
+  const Elastic rule(0);
   ASSERT_EQ(rule.scatterer_scale(), 1);
   ASSERT_EQ(rule.root_mass(), 1);
   const double tiny = std::numeric_limits<double>::denorm_min();
@@ -128,15 +128,15 @@ TEST(Collision, ExchangesVelocitiesBitForBitAtEqualMasses) {
   for (const double first : values) {
     for (const double second : values) {
       double u = first, w = second;
-      rule(u, w);
+      rule(u, w, 0);
       EXPECT_EQ(std::bit_cast<std::uint64_t>(u), std::bit_cast<std::uint64_t>(second));
       EXPECT_EQ(std::bit_cast<std::uint64_t>(w), std::bit_cast<std::uint64_t>(first));
     }
   }
 }
 
-TEST(Collision, LimitsAreExact) {
-  const CollisionRule wall(1), feather(-1);
+TEST(Elastic, LimitsAreExact) {
+  const Elastic wall(1), feather(-1);
   for (const Pair before : velocities()) {
     const Pair reflected = collide(wall, before);
     ASSERT_EQ(reflected.u, -before.u);
@@ -147,11 +147,11 @@ TEST(Collision, LimitsAreExact) {
   }
 }
 
-TEST(Collision, RefusesSigmaOutOfRange) {
+TEST(Elastic, RefusesSigmaOutOfRange) {
   const double infinity = std::numeric_limits<double>::infinity();
   const double next = std::nextafter(1.0, 2.0);
   for (const double sigma : {next, -next, 2.0, -2.0, infinity, -infinity, std::nan("")})
-    EXPECT_THROW(CollisionRule{sigma}, std::invalid_argument) << sigma;
+    EXPECT_THROW(Elastic{sigma}, std::invalid_argument) << sigma;
 }
 
-}  // namespace collision_test
+}  // namespace elastic_test

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 #include <vector>
+
+#include "model/collision_rule.hpp"
 
 namespace lorentz {
 
@@ -32,10 +35,17 @@ namespace lorentz {
 /// their rounding errors have the same sign on average, and the energy drifts. Therefore sigma, or 1-|sigma|
 /// in the second form, is multiplied by 1 + 1e-11, a change far below every other error. The remaining energy
 /// error is a random walk (docs/numerics.md). 0 and +-1 are exact.
-class CollisionRule {
+class Elastic {
  public:
+  static constexpr RuleProperties properties{.name = "elastic",
+                                             .description = "energy and momentum are conserved",
+                                             .conserves_energy = true,
+                                             .conserves_momentum = true,
+                                             .invariant = InvariantMeasure::maxwellian,
+                                             .kinetic_equation = true};
+
   /// Throws std::invalid_argument unless -1 <= sigma <= 1.
-  explicit CollisionRule(double sigma) {
+  explicit Elastic(double sigma) {
     if (!(sigma >= -1 && sigma <= 1)) throw std::invalid_argument("sigma must lie in [-1, 1]");
     if (std::abs(sigma) < 0.5)
       use_exchange_form(detuning * sigma);
@@ -45,7 +55,7 @@ class CollisionRule {
 
   /// One collision, in place: u is the velocity of the particle, w the scaled velocity of the scatterer [eq.
   /// 3].
-  void operator()(double& u, double& w) const {
+  void operator()(double& u, double& w, std::uint32_t /*cell*/) const {
     const double from_scatterer = scatterer_weight_ * w, from_particle = particle_weight_ * u;
     const double relative = from_scatterer - from_particle;
     const double particle_base = particle_takes_ ? from_scatterer : u;

@@ -1,0 +1,47 @@
+#include "sampling/equilibrium_parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "program/errors.hpp"
+
+namespace lorentz {
+
+EquilibriumParameters::EquilibriumParameters(std::vector<double> default_times)
+    : times(std::move(default_times)) {
+  ring.scattering.cells = 160;
+  temperature = 1;
+  fugacity = 1;
+  relaxation_time = 0;
+  observation_time = 256;
+}
+
+void declare(Options& options, EquilibriumParameters& parameters, const std::string& use) {
+  options.integer("--cells", parameters.ring.scattering.cells, {1, 100'000'000}, "Number of cells N");
+  options.real("--sigma", parameters.ring.scattering.sigma, {-1, 1}, "1", "Mass ratio (M-m)/(M+m)");
+  declare_rule(options, parameters.ring.scattering.rule);
+  options.real("--cell-length", parameters.ring.cell_length, positive, "length",
+               "Distance between scatterers");
+  options.real("--temperature", parameters.temperature, positive, "temperature", "Temperature");
+  options.real("--fugacity", *parameters.fugacity, positive, "1/length",
+               "z of the flux z exp(-p^2/2T) in the stationary state, from which a run starts");
+  options.real("--observation-time", parameters.observation_time, positive, "time", "Time of the record");
+  options.ascending_list("--times", parameters.times, positive, "time", use);
+}
+
+void validate(const EquilibriumParameters& parameters) {
+  validate(static_cast<const ClosedParameters&>(parameters));
+  if (parameters.times.back() > parameters.observation_time)
+    throw UsageError("--times goes beyond --observation-time. Choose a longer one, or earlier times.");
+}
+
+void require_before_sound_returns(const EquilibriumParameters& parameters, double least) {
+  if (parameters.ring.scattering.cells < least)
+    throw UsageError(fmt::format(
+        "--cells: sound travels around the ring within the last of --times. Choose at least {:.0f} cells, or "
+        "earlier times.",
+        least));
+}
+
+}  // namespace lorentz

@@ -1,0 +1,122 @@
+#include "model/rules.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <variant>
+#include <vector>
+
+#include "support/sample.hpp"
+
+namespace rules_test {
+
+using namespace lorentz;
+
+constexpr std::uint64_t collisions = 100'000;
+const std::vector<double> sigmas = {-0.9, -0.3, 0, 0.5, 0.8};
+
+struct Velocities {
+  double u, U;  // of the particle and of the scatterer
+};
+
+/// Collisions of independent normal u and U, before and after.
+struct Encounters {
+  std::vector<Velocities> before, after;
+};
+
+Encounters encounters(const Rules& any, std::uint64_t seed) {
+  Encounters seen;
+  RandomStream normal({seed, 0}, Purpose::initial_particle_momentum, 0);
+  for (std::uint64_t count = 0; count < collisions; ++count) {
+    double u = normal.gaussian();
+    const double U = normal.gaussian(), scale = masses(any).scatterer_scale();
+    double w = U / scale;
+    seen.before.push_back({u, U});
+    std::visit(
+        [&]<class Rule>(const Rule& rule) {
+          if constexpr (RandomRule<Rule>) {
+            RandomStream random({seed, 0}, Purpose::collision, 0, count);
+            rule(u, w, 0, random);
+          } else {
+            rule(u, w, 0);
+          }
+        },
+        any);
+    seen.after.push_back({u, scale * w});
+  }
+  return seen;
+}
+
+double largest_change(const Encounters& seen, auto&& value) {
+  double largest = 0;
+  for (std::size_t k = 0; k < collisions; ++k)
+    largest = std::max(largest, std::abs(value(seen.after[k]) - value(seen.before[k])));
+  return largest;
+}
+
+/// Scores of the mean of products that vanish for independent normal u and U.
+std::vector<double> scores(const std::vector<Velocities>& all) {
+  std::vector<std::vector<double>> products(7);
+  for (const auto& [u, U] : all) {
+    const double u2 = u * u - 1, U2 = U * U - 1;
+    const std::vector<double> values = {u, U, u * U, u2, U2, u2 * U2, std::abs(u) * U};
+    for (std::size_t k = 0; k < values.size(); ++k) products[k].push_back(values[k]);
+  }
+  std::vector<double> scores;
+  for (const std::vector<double>& each : products)
+    scores.push_back(std::abs(support::z_score(support::sample(each), 0)));
+  return scores;
+}
+
+// Of every rule. Mutants: each of the three properties stated otherwise.
+TEST(Rules, HaveThePropertiesThatTheyState) {
+  for (const RuleProperties& rule : rules::all) {
+    for (const double sigma : sigmas) {
+      const Rules any = make_rule(rule.name, sigma);
+      const double root_mass = masses(any).root_mass();
+      const Encounters seen = encounters(any, 1);
+      const double energy = largest_change(seen, [](const Velocities& v) { return v.u * v.u + v.U * v.U; });
+      const double momentum =
+          largest_change(seen, [&](const Velocities& v) { return v.u + root_mass * v.U; });
+      EXPECT_EQ(energy < 1e-12, rule.conserves_energy) << rule.name << " " << sigma;
+      EXPECT_EQ(momentum < 1e-12, rule.conserves_momentum) << rule.name << " " << sigma;
+      const double largest = std::ranges::max(scores(seen.after));
+      EXPECT_EQ(largest < 5, rule.invariant == InvariantMeasure::maxwellian) << rule.name << " " << largest;
+    }
+  }
+}
+
+// Mutants: the energy shared unequally; the direction drawn with unequal probabilities.
+TEST(Rules, ScoresFindAnotherMeasure) {
+  std::vector<Velocities> hotter = encounters(Elastic(0.5), 1).after, biased = hotter;
+  for (Velocities& v : hotter) v.u *= 1.02;
+  for (std::size_t k = 0; k < collisions; ++k)
+    biased[k].u = std::copysign(biased[k].u, k % 100 < 52 ? 1.0 : -1.0);
+  EXPECT_GT(std::ranges::max(scores(hotter)), 5);
+  EXPECT_GT(std::ranges::max(scores(biased)), 5);
+}
+
+TEST(Rules, AreMadeByName) {
+  EXPECT_TRUE(std::holds_alternative<Elastic>(make_rule("elastic", 0.5)));
+  EXPECT_TRUE(std::holds_alternative<RandomDirection>(make_rule("random-direction", 0.5)));
+  EXPECT_EQ(rule_properties("random-direction").name, RandomDirection::properties.name);
+  EXPECT_THROW(make_rule("inelastic", 0.5), std::invalid_argument);
+  EXPECT_THROW(rule_properties("inelastic"), std::invalid_argument);
+  EXPECT_THROW(make_rule("elastic", 2), std::invalid_argument);
+}
+
+// The elastic collision in speed. Mutants: the direction kept; the scatterer's drawn too.
+TEST(RandomDirection, IsElasticButForTheSignOfTheParticle) {
+  const Encounters drawn = encounters(RandomDirection(0.4), 1), elastic = encounters(Elastic(0.4), 1);
+  std::vector<double> changed;
+  for (std::size_t k = 0; k < collisions; ++k) {
+    ASSERT_EQ(std::abs(drawn.after[k].u), std::abs(elastic.after[k].u));
+    ASSERT_EQ(drawn.after[k].U, elastic.after[k].U);
+    changed.push_back(drawn.after[k].u == elastic.after[k].u ? 0 : 1);
+  }
+  EXPECT_LT(std::abs(support::z_score(support::sample(changed), 0.5)), 4);
+}
+
+}  // namespace rules_test

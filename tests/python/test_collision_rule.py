@@ -1,0 +1,107 @@
+"""Collision rules of the programs: what is exact for them, and what they refuse."""
+
+import importlib
+
+import numpy as np
+import pytest
+
+from tests.python.conftest import ROOT, SMALL, Measure, Program
+from workflow.lib.figure import TheoryError
+from workflow.lib.load import Quantity, Result
+
+UNEQUAL = {"nu_left": 30, "nu_right": 10, "temperature_left": 100, "temperature_right": 400}
+EQUAL = {"nu_left": 200, "nu_right": 200, "temperature_left": 100, "temperature_right": 100}
+SAME_PRESSURE = {"nu_left": 200, "nu_right": 100, "temperature_left": 50, "temperature_right": 200}
+RANDOM = {"rule": "random-direction"}
+
+
+def score(quantity: Quantity, expected: float | np.ndarray) -> float:
+    """The largest."""
+    return float(np.abs((quantity.mean - expected) / quantity.standard_error).max())
+
+
+@pytest.mark.parametrize(("cells", "gamma"), [(1, "N"), (5, "N"), (5, 2), (12, 3)])
+def test_currents_of_independent_walkers(measure: Measure, cells: int, gamma: float | str) -> None:
+    """Scatterers without mass keep the speed. A scatterer reflects with the probability r = q/2, and a row of N transmits
+    1/(1 + N r/(1 - r)). Slow particles, which are still inside, carry little energy. Mutant: three scatterers more."""
+    chain = {"cells": cells, "gamma": gamma, "sigma": -1, "relaxation_time": 50, "observation_time": 400}
+    result = measure("conductivity", **chain, **UNEQUAL, **RANDOM, replicas=200)
+    reflected = 0.5 if gamma == "N" else float(gamma) / cells / 2
+
+    def current(scatterers: int) -> float:
+        injected = (30 * 100 - 10 * 400) / 2
+        return injected / (1 + scatterers * reflected / (1 - reflected))
+
+    for name in ("energy_current", "energy_current_plain"):
+        assert score(result[name], current(cells)) < 4, name
+    assert score(result["energy_current"], current(cells + 3)) > 6
+
+
+@pytest.mark.parametrize("gamma", ["N", 3])
+def test_equilibrium_with_random_directions(measure: Measure, gamma: float | str) -> None:
+    """Temperatures of scatterers and particles are those of the baths, and no current flows [eq. 8]. Mutant: by 2 %."""
+    times = {"relaxation_time": 20, "observation_time": 100}
+    result = measure(
+        "steady_profile", cells=8, gamma=gamma, sigma=0.3, **times, **EQUAL, **RANDOM, replicas=64
+    )
+    for name in ("temperature_scatterer", "temperature_particle"):
+        assert score(result[name], 100) < 4, name
+        assert score(result[name], 102) > 6, name
+    for name in ("particle_current", "energy_current", "temperature_difference"):
+        assert score(result[name], 0) < 4, name
+
+
+def test_heat_conductivity_grows_only_where_momentum_is_conserved(measure: Measure) -> None:
+    """At fixed spacing and equal pressures."""
+
+    def kappa(cells: int, rule: str) -> tuple[float, float]:
+        chain = {"cells": cells, "cell_length": 0.1, "rule": rule, **SAME_PRESSURE}
+        result = measure("conductivity", **chain, relaxation_time=30, observation_time=200, replicas=64)[
+            "kappa"
+        ]
+        return float(result.mean), float(result.standard_error)
+
+    def growth(rule: str) -> float:
+        (short, short_error), (long, long_error) = kappa(4, rule), kappa(16, rule)
+        return (long - short) / float(np.hypot(short_error, long_error))
+
+    assert growth("elastic") > 3
+    assert growth("random-direction") < 0
+
+
+def test_every_program_has_rules(program: Program) -> None:
+    for name in SMALL:
+        refused = program(name, rule="inelastic")
+        assert refused.returncode == 2
+        assert "--rule" in refused.stderr
+        assert "elastic, random-direction" in refused.stderr
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "words"),
+    [
+        ("boltzmann", {}, "--rule random-direction: its kinetic equation is not solved here"),
+        ("correlation", {}, "--rule, --sigma: momentum is not conserved, and there is no sound"),
+        (
+            "persistence",
+            {"zero_total_momentum": True},
+            "--zero-total-momentum: the rule random-direction does not",
+        ),
+    ],
+)
+def test_what_needs_the_elastic_rule_refuses_others(
+    program: Program, name: str, options: dict[str, object], words: str
+) -> None:
+    refused = program(name, **options, **RANDOM)
+    assert refused.returncode == 2
+    assert words in refused.stderr
+    assert refused.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("script", ["fig05", "fig03_inset", "ext11"])
+def test_laws_of_the_elastic_rule_are_not_plotted_for_others(script: str) -> None:
+    draw = importlib.import_module(f"workflow.figures.{script}").draw
+    with pytest.raises(
+        TheoryError, match=r"holds for elastic collisions only, and .* has the rule random-direction"
+    ):
+        draw([Result(ROOT, {"rule": "random-direction"}, {}, {})])
