@@ -130,7 +130,7 @@ class CellProfile {
       record[tallies.density][cell] = (to_right[cell] + to_left[cell]) / duration;
     }
     for (const Direction side : {leftwards, rightwards}) {
-      for (const std::size_t kind : {0, 1}) {
+      for (const std::size_t kind : {0U, 1U}) {
         const std::vector<double> at_marks = streams_[side].at_marks(kind, side == rightwards ? 1 : -1);
         const auto at_scatterers =
             record[(kind == 0 ? tallies.arrivals : tallies.arriving_squares).row(side)];
@@ -140,7 +140,7 @@ class CellProfile {
         for (std::size_t bond = 0; bond <= cells; ++bond) at_bonds[bond] = at_marks[2 * bond] / duration;
       }
     }
-    for (const std::size_t end : {0, 1})
+    for (const std::size_t end : {0U, 1U})
       std::ranges::transform(momenta_[end].weights(), record[tallies.end_momentum.row(end)].begin(),
                              [duration](double time) { return time / duration; });
     record.set(tallies.injection, injections_.deviations(chain_, duration));
