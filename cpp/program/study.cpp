@@ -20,6 +20,7 @@
 #include "program/atomic_file.hpp"
 #include "program/build_info.hpp"
 #include "program/errors.hpp"
+#include "program/missing_in_libcxx.hpp"
 #include "program/stopping_rule.hpp"
 
 namespace lorentz {
@@ -212,7 +213,7 @@ void StudyProgram::keep(const std::string& why) {
 void StudyProgram::run_replicas(std::uint64_t first, std::uint64_t end) {
   next_ = first;
   active_ = std::min<std::uint64_t>(threads_, end - first);
-  std::vector<std::jthread> threads;
+  std::vector<JoiningThread> threads;
   std::unique_lock lock(mutex_);  // released, so that no thread waits for it, before they are joined
   try {
     while (threads.size() < active_) threads.emplace_back([this, end] { work(end); });
@@ -234,7 +235,7 @@ void StudyProgram::run_replicas(std::uint64_t first, std::uint64_t end) {
 void StudyProgram::work(std::uint64_t end) {
   double completed = 0;
   const auto heartbeat = [&](double part) {
-    in_progress_ += part - std::exchange(completed, part);
+    add(in_progress_, part - std::exchange(completed, part));
     if (failed_) throw std::runtime_error("another replica failed");
   };
   std::unique_lock lock(mutex_);
@@ -255,7 +256,7 @@ void StudyProgram::work(std::uint64_t end) {
       if (!failure_) failure_ = std::current_exception();
       failed_ = true;  // every other replica stops at its next heartbeat
     }
-    in_progress_ -= std::exchange(completed, 0);
+    add(in_progress_, -std::exchange(completed, 0));
   }
   --active_;
   changed_.notify_one();

@@ -63,8 +63,7 @@ TEST(PulseRun, IsTheSameWithSeparateTrajectories) {
     parameters.ring.scattering.gamma = gamma;
     parameters.relaxation_time = 0.01;
     PulseRun together(parameters, key, nothing);
-    parameters.separate = true;
-    PulseRun separate(parameters, key, nothing);
+    PulseRun separate(parameters, key, nothing, false);
     together.run(0.02);
     separate.run(0.02);
     const std::vector<double> a = together.energy_difference(), b = separate.energy_difference();
