@@ -8,6 +8,7 @@ Its messages are printed with --dry-run, --verbose, --printshellcmds and --debug
 import logging
 import re
 import shlex
+import signal
 import sys
 import time
 from contextlib import suppress
@@ -151,6 +152,9 @@ class LogHandler(LogHandlerBase):
     def _message(self, text: str, level: int) -> None:
         """Prints errors, except those that follow from a failed job or from Ctrl-C."""
         self._stopped = self._stopped or text.startswith(STOPPING)
+        if self._stopped:
+            with suppress(ValueError):  # not in the main thread
+                signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second Ctrl-C would end in a traceback
         follows = self._stopped or self._failed or "CalledProcessError" in text  # JOB_ERROR comes next
         if text.startswith("Nothing to be done") or (level >= logging.ERROR and not follows):
             self._console.print(text)
