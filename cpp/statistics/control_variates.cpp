@@ -1,8 +1,9 @@
 #include "statistics/control_variates.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "numerics/summation.hpp"
@@ -37,10 +38,14 @@ MatrixXd standardised(const Records& records, const Columns& columns) {
 }
 
 PseudoInverse pseudo_inverse(const MatrixXd& x) {
-  Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition(x.rows(), x.cols());
-  decomposition.setThreshold(1e-8);
-  decomposition.compute(x);
-  return {decomposition.pseudoInverse(), decomposition.rank()};
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> products(x.transpose() * x);
+  const ArrayXd values = products.eigenvalues();
+  const double smallest =
+      values.maxCoeff() * static_cast<double>(x.cols()) * std::numeric_limits<double>::epsilon();
+  const ArrayXd inverse = (values > smallest).select(1 / values, 0);
+  const MatrixXd& vectors = products.eigenvectors();
+  return {vectors * inverse.matrix().asDiagonal() * (vectors.transpose() * x.transpose()),
+          (values > smallest).count()};
 }
 
 std::optional<Records> regress_out(const Records& records, const Regression& regression) {
