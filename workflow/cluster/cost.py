@@ -76,12 +76,14 @@ def expected_replicas(panel: str, run: Run) -> float | None:
     return max(LEAST, replicas * bound**2)
 
 
+_plan = cache(load_plan)  # read for many runs
+
+
 def scaled_seconds(panel: str, run: Run) -> float | None:
     """CPU seconds scaled from a recorded execution at another quality; None without one, or with a target error."""
-    for quality in QUALITIES:
-        for other in (one for one in load_plan(quality)[panel].runs if one.name == run.name):
-            seconds = recorded_seconds(data_path(quality, panel, other))
-            if seconds and run.target is None:
+    for quality in QUALITIES if run.target is None else ():
+        for other in (one for one in _plan(quality)[panel].runs if one.name == run.name):
+            if seconds := recorded_seconds(data_path(quality, panel, other)):
                 replicas = float(run.options.get("replicas", 1)) / float(other.options.get("replicas", 1))
                 return seconds * replicas * effort(run.options) / effort(other.options)
     return None
