@@ -2,15 +2,22 @@
 QUALITY := standard
 SAMPLE := 0.1
 BATCH = $(if $(PROFILE),30)
-OPTIONS := PANEL FRESH SEED REPLICAS JOBS FILE FULL PROFILE BATCH ACCOUNT PARTITION
+OPTIONS := PANEL FRESH SEED REPLICAS ERROR HOURS JOBS DRY FILE FULL PROFILE BATCH ACCOUNT PARTITION
 KNOWN := QUALITY SAMPLE $(OPTIONS) CXX
 
 $(foreach name,$(OPTIONS),$(if $(filter environment,$(origin $(name))),$(eval $(name) :=)))
-override FRESH := $(filter-out no,$(FRESH))
-override FULL := $(filter-out no,$(FULL))
-nearest = $(shell python3 -c 'import difflib, sys; print(*difflib.get_close_matches(sys.argv[1].upper(), sys.argv[2:], 1, 0))' $1 $(KNOWN))
+nearest = $(shell python3 -c 'import difflib, sys; print(*difflib.get_close_matches(sys.argv[1], sys.argv[2:], 1, 0))' $1)
+upper = $(shell printf %s '$1' | tr a-z A-Z)
 $(foreach name,$(filter-out $(KNOWN),$(foreach one,$(.VARIABLES),$(if $(filter command,$(origin $(one))),$(one)))),\
-  $(error $(name) is not an option; did you mean $(call nearest,$(name))?))
+  $(error $(name) is not an option; did you mean $(call nearest,$(call upper,$(name)) $(KNOWN))?))
+$(foreach name,FRESH FULL DRY,$(if $(filter-out yes no,$($(name))),$(error $(name)=$($(name)) is invalid; give $(name)=yes, or leave it out)))
+$(foreach name,FRESH FULL DRY,$(eval override $(name) := $(filter yes,$($(name)))))
+$(if $(JOBS),$(if $(shell printf %s '$(JOBS)' | grep -xE '[1-9][0-9]*'),,$(error JOBS=$(JOBS) is invalid; give the number of jobs, at least 1)))
+$(if $(filter figures report gallery,$(MAKECMDGOALS)),$(if $(PANEL),$(error PANEL has no effect on this target; try make panel PANEL=$(PANEL))))
+PROFILES := $(notdir $(wildcard profiles/*))
+$(if $(PROFILE),$(if $(filter $(PROFILE),$(PROFILES)),,$(error $(PROFILE) is not a profile; did you mean $(call nearest,$(PROFILE) $(PROFILES))?)))
+$(if $(PROFILE),$(if $(shell grep -x 'executor: slurm' 'profiles/$(PROFILE)/config.yaml'),$(if $(shell command -v sbatch),,\
+  $(error sbatch is not in PATH, so that no job can be submitted to Slurm; run make on a login node))))
 $(if $(filter panel,$(MAKECMDGOALS)),$(if $(PANEL),,$(error PANEL is missing; try make panel PANEL=fig05)))
 $(if $(filter provenance,$(MAKECMDGOALS)),$(if $(FILE),,$(error FILE is missing; try make provenance FILE=figures/standard/fig05.pdf)))
 
@@ -22,34 +29,39 @@ SHELL := /bin/bash
 
 export BASH_ENV := workflow/environment/variables.sh
 
-EFFORT := $(QUALITY)$(SEED:%=_seed=%)$(REPLICAS:%=_replicas=%)
+EFFORT := $(QUALITY)$(SEED:%=_seed=%)$(REPLICAS:%=_replicas=%)$(ERROR:%=_error=%)$(HOURS:%=_hours=%)
 PYTHON := .venv/bin/python -m
-OF := --quality '$(EFFORT)' $(PANEL:%=--panel='%')
-SNAKEMAKE := bash workflow/environment/one_at_a_time.sh .venv/bin/snakemake --nolock $(if $(FRESH),--forceall) \
+OF := --quality '$(EFFORT)' $(foreach panel,$(PANEL),--panel='$(panel)')
+SNAKEMAKE := bash workflow/environment/one_at_a_time.sh .venv/bin/snakemake --nolock $(if $(FRESH),--forceall) $(if $(DRY),--dry-run) \
   $(if $(PROFILE),--workflow-profile 'profiles/$(PROFILE)' $(JOBS:%=--jobs '%'),$(JOBS:%=--cores '%')) \
   $(if $(ACCOUNT)$(PARTITION),--default-resources $(ACCOUNT:%=slurm_account='%') $(PARTITION:%=slurm_partition='%')) \
-  --config quality='$(EFFORT)' $(PANEL:%=panel='%') $(BATCH:%=batch='%') --
-COMPARE := $(if $(SEED)$(REPLICAS)$(FRESH),$(PYTHON) workflow.provenance.compare $(OF))
+  --config quality='$(EFFORT)' $(if $(PANEL),panel='$(PANEL)') $(BATCH:%=batch='%') --
+COMPARE := $(if $(SEED)$(REPLICAS)$(ERROR)$(FRESH),$(PYTHON) workflow.provenance.compare $(OF))
+ESTIMATE := $(if $(ERROR),$(PYTHON) workflow.cluster.cost $(OF))
+REACHED := $(if $(ERROR),$(PYTHON) workflow.provenance.errors $(OF))
+# Makes a target of Snakemake and prints a line; with DRY=yes prints the files that would be made.
+define MAKE_TARGET
+$(if $(DRY),,$(ESTIMATE))
+$(if $(DRY),,$(if $(FRESH),$(COMPARE) --keep))
+$(SNAKEMAKE) $1 $(if $(DRY),| sed -nE 's/^ *output: //p; /^Nothing/p')
+$(if $(DRY),,$(if $(filter figures panel,$1),$(COMPARE)))
+$(if $(DRY),,$(if $(filter figures panel,$1),$(REACHED)))
+$(if $(DRY),,echo '$2')
+endef
 
 help:  ## This list
 	sed -nE 's/^([a-z -]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 17
-	echo 'Options: QUALITY=smoke|standard|paper|deep  PANEL=fig05  FRESH=yes  SEED=7  REPLICAS=200  JOBS=2'
+	echo 'Options: QUALITY=smoke|standard|paper|deep  PANEL=fig05  FRESH=yes  SEED=7  REPLICAS=200  JOBS=2  DRY=yes'
+	echo 'Effort by error: ERROR=0.005, the relative standard error of the target quantity of every run; HOURS=2 bounds the time'
 	echo 'On a cluster (docs/cluster.md): PROFILE=slurm  BATCH=30  ACCOUNT=physics  PARTITION=short'
 figures: build  ## Build, simulate and render every figure: figures/QUALITY/*.pdf, .png, .svg, .csv
-	$(if $(FRESH),$(COMPARE) --keep)
-	$(SNAKEMAKE) figures
-	$(COMPARE)
-	echo 'The figures are in figures/$(EFFORT). Next: make report'
+	$(call MAKE_TARGET,figures,The figures are in figures/$(EFFORT). Next: make report)
 panel: build  ## One panel, PANEL=fig05; FRESH=yes: rerun from scratch and compare
-	$(if $(FRESH),$(COMPARE) --keep)
-	$(SNAKEMAKE) panel
-	$(COMPARE)
-	echo 'The panel is figures/$(EFFORT)/$(PANEL).pdf, .png, .svg and .csv'
-report: figures  ## The paper's claims against the results: figures/QUALITY/report.html
-	$(PYTHON) workflow.report.write --quality '$(EFFORT)'
-	echo 'The report is figures/$(EFFORT)/report.html'
-gallery: setup  ## docs/gallery and the answer in README.md, from the results at QUALITY
-	$(PYTHON) workflow.report.gallery --quality '$(EFFORT)'
+	$(call MAKE_TARGET,panel,In figures/$(EFFORT): $(PANEL:%=%.pdf) and .png .svg .csv)
+report: build  ## The paper's claims against the results: figures/QUALITY/report.html
+	$(call MAKE_TARGET,report,The report is figures/$(EFFORT)/report.html)
+gallery: build  ## docs/gallery and the answer in README.md, from the results at QUALITY
+	$(call MAKE_TARGET,gallery,The gallery is docs/gallery)
 setup:  ## System packages, and Python packages in .venv
 	bash workflow/environment/setup.sh
 setup-dev:
@@ -68,8 +80,10 @@ status: installed  ## Fresh, stale (why) or missing; errors; CPU time
 	$(PYTHON) workflow.provenance.status $(OF)
 cost: installed  ## Estimated CPU time of a quality, or of PANEL=fig05
 	$(PYTHON) workflow.cluster.cost $(OF) $(BATCH:%=--batch=%)
-crate: installed  ## Figures, data, code and history as an RO-Crate in build/crate; PANEL=fig05
-	$(PYTHON) workflow.provenance.crate $(OF)
+crate: build  ## Figures, data, code and history as an RO-Crate in build/crate; PANEL=fig05
+	$(call MAKE_TARGET,crate,The crate is in build/crate)
+prune: build  ## Remove results and figures that no plan names: of former options, builds or scripts
+	$(PYTHON) workflow.provenance.obsolete
 test: setup-dev  ## Tests; make test-long: also those that take many minutes
 	bash workflow/environment/test.sh -m 'not long'
 test-long: setup-dev
@@ -84,8 +98,10 @@ format: setup-dev  ## Format every source in place
 	.venv/bin/snakefmt --no-format-shell --line-length 110 Snakefile workflow/rules
 describe: build  ## Options and quantities of the programs: schema of the configuration, docs/format.*
 	$(PYTHON) workflow.config.describe
-bench tradeoff: setup-dev build  ## Cost of an event; make tradeoff: accuracy against time
-	$(PYTHON) workflow.tradeoff.$@
+bench: setup-dev build  ## Cost of an event
+	$(PYTHON) workflow.tradeoff.bench
+tradeoff: setup-dev build  ## Accuracy against time, and rounding: figures/tradeoff
+	$(SNAKEMAKE) tradeoff
 docs: setup-dev  ## The documentation as a static site, build/docs/index.html
 	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --strict 2> >(grep -v '^INFO' >&2)
 	doxygen docs/Doxyfile
@@ -94,5 +110,5 @@ clean:  ## Remove programs, logs and caches; make distclean: also results, figur
 	rm -rf build .cache
 distclean: clean
 	rm -rf data/*/ figures/*/ .snakemake .venv
-.PHONY: help figures panel report gallery setup setup-dev installed build audit verify provenance status cost crate test test-long \
+.PHONY: help figures panel report gallery setup setup-dev installed build audit verify provenance status cost crate prune test test-long \
   check format describe bench tradeoff docs clean distclean

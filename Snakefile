@@ -1,27 +1,30 @@
-"""Every figure of the paper: programs write data/<quality>/<panel>/<run>.h5, scripts render figures/<quality>/<panel>.*
+"""Every figure of the paper: programs write data/<quality>/<panel>/<run>.<identity>.h5, scripts render figures/<quality>/<panel>.*
+and their record <panel>.<identity>.json
 
-Parameters decide what reruns (profiles/default): options and build id of a program, sources and configuration of a script. Time
-stamps have no effect.
+What determines a product is in its name. A missing name is made; neither time stamps nor Snakemake's own records decide.
 """
 
 import os
 import shlex
 import sys
-from functools import cache
+from pathlib import Path
 
-from workflow.cluster.cost import seconds_of_run
-from workflow.lib.configuration import ConfigurationError, arguments
-from workflow.lib.figure_metadata import PACKAGES, digest_of_files, sources_of
-from workflow.lib.plan import data_of, drawing_command, drawings_of, load_plan, panel_named, with_used
-from workflow.provenance.build_id import BuildError, built
+from workflow.cluster.cost import PARTS, seconds_of_run
+from workflow.lib.configuration import ConfigurationError
+from workflow.lib.figure_metadata import panel_identity
+from workflow.lib.identity import IDENTITY
+from workflow.lib.plan import Quality, build_id, data_of, drawing_command, load_plan, panel_named, with_used
+from workflow.lib.program import command_line
+from workflow.lib.record import is_whole, record_path
+from workflow.provenance.build_id import BuildError
 
 shell.prefix("source workflow/environment/variables.sh; ")  # a bare `snakemake` gives the same bytes as make
 QUALITY = config.get("quality", "standard")
 try:
+    EFFORT = Quality.of(QUALITY)
     PLAN = load_plan(QUALITY)
-    PANEL = config.get("panel") and panel_named(PLAN, config["panel"]).name
-    PROGRAMS = {run.program for panel in PLAN.values() for run in panel.runs}
-    BUILDS = {program: built(program)["build_id"] for program in PROGRAMS}
+    PANELS = [panel_named(PLAN, name).name for name in str(config.get("panel", "")).split()]
+    DATA = {name: data_of(PLAN, name, QUALITY) for name in PLAN}
 except (ConfigurationError, BuildError) as error:
     sys.exit(str(error))
 
@@ -30,9 +33,15 @@ include: "workflow/rules/common.smk"
 
 
 wildcard_constraints:
-    quality=QUALITY,
-    panel="[^/]+",
+    quality=f"{EFFORT.base}|{QUALITY}",
+    panel="[^/.]+",
     run="[^/]+",
+    identity=IDENTITY,
+
+
+if workflow.is_main_process:
+    for path in {path for name in PANELS or PLAN if not valid(RECORDS[name]).exists() for path in DATA[name]}:
+        set_aside(path)
 
 
 rule figures:
@@ -42,11 +51,12 @@ rule figures:
 
 rule panel:
     input:
-        products_of(PANEL) if PANEL else [],
+        [path for panel in PANELS for path in products_of(panel)],
 
 
 include: "workflow/rules/simulate.smk"
 include: "workflow/rules/draw.smk"
+include: "workflow/rules/products.smk"
 
 
 if "batch" in config:

@@ -7,6 +7,8 @@ Its messages are printed with --dry-run, --verbose, --printshellcmds and --debug
 
 import logging
 import re
+import shlex
+import signal
 import sys
 import time
 from contextlib import suppress
@@ -22,13 +24,21 @@ from rich.text import Text
 from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 
-from workflow.cluster.cost import DRAWING, seconds_of_run
-from workflow.lib.plan import load_plan, with_used
+from workflow.cluster.cost import DRAWING, estimated_seconds
+from workflow.lib.plan import data_path, load_plan, with_used
 
 Record = Any  # a logging.LogRecord with the fields of its event
 
 LAST = 12  # printed lines of the log of a failed job
-TARGETS = ("figures", "panel", "total")  # not jobs, though counted with them
+TARGETS = (
+    "figures",
+    "panel",
+    "report",
+    "gallery",
+    "crate",
+    "tradeoff",
+    "total",
+)  # not jobs, though counted with them
 STOPPING = ("Terminating processes on user request", "Will exit after finishing", "Cancelling snakemake")
 
 
@@ -55,7 +65,8 @@ class LogHandler(LogHandlerBase):
         self._failed: dict[str, None] = {}  # ordered
         self._stopped = False
         self._cores = 0  # 0 on a cluster, where the remaining time depends on the queue
-        self._costs: dict[str, float] = {}  # estimated CPU seconds by panel/run
+        self._costs: dict[str, float] = {}  # estimated CPU seconds by panel/run, 0 if unknown
+        self._unknown = 0  # runs of unknown cost
         self._waiting: list[float] = []  # estimated CPU seconds of runs that have not started
         self._estimated = self._taken = 0.0  # CPU seconds of finished jobs
 
@@ -78,7 +89,7 @@ class LogHandler(LogHandlerBase):
             self._extensions = record.stats.get("draw_extension", 0)
             if self._console.is_terminal:
                 self._live.start()
-        elif event == LogEvent.JOB_INFO and record.wildcards:  # the target has none
+        elif event == LogEvent.JOB_INFO and record.rule_name not in TARGETS:
             self._start(record)
         elif event == LogEvent.JOB_FINISHED and record.job_id in self._running:
             self._finish(self._running.pop(record.job_id))
@@ -89,19 +100,24 @@ class LogHandler(LogHandlerBase):
 
     def _start(self, job: Record) -> None:
         if not self._costs:
-            self._estimate(job.wildcards["quality"])
+            self._estimate()
         if job.rule_name == "simulate":
             del self._waiting[:1]
         self._failed.pop(name_of(job), None)  # a retry
         self._running[job.jobid] = job
 
-    def _estimate(self, quality: str) -> None:
+    def _estimate(self) -> None:
         """Assumes which runs wait, as events state only their number: those without a result, then the longest."""
-        plan, panel = load_plan(quality), re.search(r"\bpanel=(\S+)", self._command)
-        panels = with_used(plan, panel[1]) if panel else plan.values()
+        given = dict(word.partition("=")[::2] for word in shlex.split(self._command))
+        quality = given.get("quality", "standard")
+        plan = load_plan(quality)
+        panels = [panel for name in given.get("panel", "").split() or plan for panel in with_used(plan, name)]
         runs = {f"{one.name}/{run.name}": (one.name, run) for one in panels for run in one.runs}
-        self._costs = {name: seconds_of_run(*run) for name, run in runs.items()}
-        made = {name for name in runs if Path(f"data/{quality}/{name}.h5").exists()}
+        estimated = {name: estimated_seconds(*run) for name, run in runs.items()}
+        self._unknown = sum(seconds is None for seconds in estimated.values())
+        self._costs = {name: seconds or 0.0 for name, seconds in estimated.items()}
+        paths = {name: Path(data_path(quality, *run)) for name, run in runs.items()}
+        made = {name for name, path in paths.items() if path.exists()}
         order = sorted(runs, key=lambda name: (name in made, -self._costs[name]))
         self._waiting = [self._costs[name] for name in order][: self._runs]
 
@@ -118,7 +134,7 @@ class LogHandler(LogHandlerBase):
                 self._console.print(
                     f"The paper's figures are in figures/{job.wildcards['quality']}; extensions follow"
                 )
-        elif job.rule_name != "part":
+        elif job.rule_name in ("simulate", "join", "single"):
             value, doubts = outcome(Path(job.output[0]))
             if self._console.is_terminal or doubts:
                 self._console.print(f"{name}: {', '.join([value, *doubts])}, {self._state}")
@@ -136,6 +152,9 @@ class LogHandler(LogHandlerBase):
     def _message(self, text: str, level: int) -> None:
         """Prints errors, except those that follow from a failed job or from Ctrl-C."""
         self._stopped = self._stopped or text.startswith(STOPPING)
+        if self._stopped:
+            with suppress(ValueError):  # not in the main thread
+                signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second Ctrl-C would end in a traceback
         follows = self._stopped or self._failed or "CalledProcessError" in text  # JOB_ERROR comes next
         if text.startswith("Nothing to be done") or (level >= logging.ERROR and not follows):
             self._console.print(text)
@@ -167,7 +186,8 @@ class LogHandler(LogHandlerBase):
         costs = sum(self._waiting) + drawings * DRAWING + sum(map(self._cost, running))
         speed = self._taken / self._estimated if self._estimated else 1.0
         left = speed * costs - sum(elapsed(job) * job.threads for job in running)
-        return f"{done}, about {clock(max(left, 0.0) / self._cores)} left"
+        more = " and runs of unknown cost" if self._unknown else ""
+        return f"{done}, about {clock(max(left, 0.0) / self._cores)}{more} left"
 
     def _cost(self, job: Record) -> float:
         return self._costs.get(name_of(job), DRAWING)
@@ -184,13 +204,11 @@ class LogHandler(LogHandlerBase):
 def outcome(path: Path) -> tuple[str, list[str]]:
     """Value `mu = 0.3289(30)`, or the error of an array; and the marks of the result."""
     from workflow.lib.fit import with_error  # noqa: PLC0415  0.5 s
-    from workflow.lib.load import NOT_REACHED, load  # noqa: PLC0415
+    from workflow.lib.load import load  # noqa: PLC0415
 
     result = load(path)
-    name = result.provenance["target_quantity"]
-    quantity, stationary = result.quantities.get(name), result.quantities.get("stationary")
-    doubts = ["target error not reached"] if result.converged == NOT_REACHED else []
-    doubts += ["not stationary"] if stationary is not None and (stationary.mean == 0).any() else []
+    name, doubts = result.provenance["target_quantity"], result.doubts
+    quantity = result.quantities.get(name)
     if quantity is None or quantity.mean.size > 1:
         return f"error of {name} {float(result.provenance['achieved_error']):.2g}", doubts
     error = quantity.error if quantity.discretisation_error is None else quantity.discretisation_error
@@ -198,8 +216,9 @@ def outcome(path: Path) -> tuple[str, list[str]]:
 
 
 def name_of(job: Record) -> str:
-    """`panel`, `panel/run` or `panel/run/replicas`."""
-    return "/".join(job.wildcards[key] for key in ("panel", "run", "part") if key in job.wildcards)
+    """`panel`, `panel/run` or `panel/run/replicas`, or the rule of another product."""
+    parts = [job.wildcards[key] for key in ("panel", "run", "part") if key in job.wildcards]
+    return "/".join(parts) or job.rule_name
 
 
 def elapsed(job: Record) -> float:

@@ -1,21 +1,28 @@
-"""One result from Python: `measure("conductivity", cells=64, gamma="N", replicas=64)["kappa"]`."""
+"""Results from Python: `measure("conductivity", cells=[16, 32], gamma="N", replicas=64)["kappa"]`."""
 
 import hashlib
+import itertools
 import json
-import subprocess
-from typing import TYPE_CHECKING
+import warnings
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, cast
 
-from workflow.lib.configuration import Options, arguments
-from workflow.lib.load import load
+from workflow.lib.configuration import Options
+from workflow.lib.files import ROOT
+from workflow.lib.load import Result, load
 from workflow.lib.nearest import nearest
+from workflow.lib.plan import Run, build_id
+from workflow.lib.program import ProgramError, execute
 from workflow.lib.units import SCHEMA
-from workflow.provenance.build_id import ROOT, built
 
 if TYPE_CHECKING:
     import xarray
 
 FOLDER = ROOT / "data/measured"
-NOT_CONVERGED = 4  # exit status: the result is written, and marked
+CONDUCT = (
+    "threads",
+    "time-limit",
+)  # options that conduct a run; a result depends on the second, where it stops the run
 
 
 class MeasureError(ValueError):
@@ -23,24 +30,87 @@ class MeasureError(ValueError):
 
 
 def measure(program: str, **options: object) -> "xarray.DataTree":
-    """Runs a program, unless its result of these options and this build is in data/measured, and returns what
-    Result.to_xarray() does. Options are those of the command line, with underscores for dashes and True for a flag.
+    """Runs a program and returns what Result.to_xarray() does. Options are those of the command line, with underscores for dashes and
+    True for a flag; also threads and time_limit. A list of values of an option gives every quantity its dimension.
+
+    The seed follows from program and options, so that two calls with different options have independent errors; `seed=1` in several
+    calls shares their random numbers. A result of these options and this build in data/measured is not measured again. An interrupted
+    call writes a checkpoint, from which the next one continues. Warns if a run was not stationary or missed its target error.
+
     Raises MeasureError; BuildError if the program is missing or older than its sources."""
     known = json.loads(SCHEMA.read_text("utf-8"))["programs"]
     if program not in known:
         raise MeasureError(f"{program} is not a program; {nearest(program, known)}")
-    named: Options = {name.replace("_", "-"): value for name, value in sorted(options.items())}
-    for name in named.keys() - known[program].keys():
-        raise MeasureError(f"{program} has no option {name}; {nearest(name, known[program])}")
-    words = [program, *arguments(named)]
-    identity = hashlib.sha256(json.dumps([*words, built(program)["build_id"]]).encode()).hexdigest()
-    path = FOLDER / program / f"{identity[:16]}.h5"
+    given = {name.replace("_", "-"): value for name, value in sorted(options.items())}
+    allowed = [*known[program], *CONDUCT]
+    for name in given.keys() - {*allowed}:
+        raise MeasureError(f"{program} has no option {name}; {nearest(name, allowed)}")
+    build_id.cache_clear()  # the program may have been compiled again in this session
+    listed: dict[str, list[Any]] = {
+        name: [*cast("Sequence[Any]", value)] for name, value in given.items() if _is_list(value)
+    }
+    points = [
+        _plain(dict(zip(listed, values, strict=True))) for values in itertools.product(*listed.values())
+    ]
+    results = [_result(program, _plain(given | point), known[program]) for point in points]
+    for point, result in zip(points, results, strict=True):
+        if result.doubts:
+            where = "".join(f" at {name} = {value}" for name, value in point.items())
+            warnings.warn(f"{program}{where}: {', '.join(result.doubts)}", stacklevel=2)
+    trees = [result.to_xarray() for result in results]
+    return _combined(trees, points, listed) if listed else trees[0]
+
+
+def _is_list(value: object) -> bool:
+    return not isinstance(value, str) and (isinstance(value, Sequence) or getattr(value, "ndim", 0) == 1)
+
+
+def _plain(options: Mapping[str, Any]) -> Options:
+    """Numbers of NumPy as those of Python, and whole ones as integers."""
+    plain = {name: getattr(value, "item", lambda value=value: value)() for name, value in options.items()}
+    whole = {name: int(one) for name, one in plain.items() if isinstance(one, float) and one.is_integer()}
+    return plain | whole
+
+
+def _result(program: str, options: Options, known: Mapping[str, Any]) -> Result:
+    threads = {name: options.pop(name) for name in ("threads",) if name in options}
+    if "seed" in known and "seed" not in options:
+        text = json.dumps([program, options], sort_keys=True)
+        options["seed"] = int.from_bytes(hashlib.sha256(text.encode()).digest()[:4], "big")
+    run = Run(program, program, options)
+    path = FOLDER / f"{run.name}.{run.identity}.h5"
     if not path.exists():
         path.parent.mkdir(parents=True, exist_ok=True)
-        words += ["--progress", "none", "--output", str(path)]
-        done = subprocess.run(
-            words, executable=ROOT / "build/bin" / program, stderr=subprocess.PIPE, text=True, check=False
-        )
-        if done.returncode not in (0, NOT_CONVERGED):
-            raise MeasureError(done.stderr.strip())
-    return load(path).to_xarray()
+        resume = ["--resume", "--progress", "log"] if "seed" in known else []
+        try:
+            execute(program, options | threads, path, *resume, relay=True)
+        except ProgramError as error:
+            raise MeasureError(str(error)) from error
+    return load(path)
+
+
+def _combined(
+    trees: "Sequence[xarray.DataTree]", points: Sequence[dict[str, Any]], listed: Mapping[str, list[Any]]
+) -> "xarray.DataTree":
+    """Quantities of all points, with a dimension per list. Axes of different lengths are filled up with NaN."""
+    import xarray  # noqa: PLC0415
+
+    def gridded(parts: "Sequence[xarray.Dataset]") -> "xarray.Dataset":
+        placed = [
+            part.expand_dims({name: [value] for name, value in point.items()})
+            for part, point in zip(parts, points, strict=True)
+        ]
+        return xarray.combine_by_coords(placed, join="outer", combine_attrs="drop_conflicts")  # type: ignore[return-value]
+
+    names = [name for name in trees[0].children if all(name in tree.children for tree in trees)]
+    doubts = [xarray.Dataset({one: tree.attrs[one] for one in ("converged", "doubts")}) for tree in trees]
+    root = gridded(doubts)
+    common = {
+        key: value
+        for key, value in trees[0].attrs.items()
+        if all(tree.attrs.get(key) == value for tree in trees)
+    }
+    root.attrs = {key: value for key, value in common.items() if key not in ("converged", "doubts", *listed)}
+    return xarray.DataTree.from_dict(
+        {"/": root, **{name: gridded([tree[name].to_dataset() for tree in trees]) for name in names}}
+    )

@@ -1,7 +1,5 @@
 #include "boltzmann/panels.hpp"
 
-#include <gsl/gsl_sf_bessel.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -16,6 +14,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double smallest_phase = 0.5;  // k times half the width of a panel: below, the Gauss rule is used
+
 /// Integrals of P_0, ..., P_(order-1) from -1 to a point: (P_(n+1) - P_(n-1)) / (2n+1).
 VectorXd legendre_integrals(int order, double point) {
   const VectorXd values = legendre_polynomials(order, point);
@@ -26,18 +26,30 @@ VectorXd legendre_integrals(int order, double point) {
   return integrals;
 }
 
-/// Spherical Bessel functions j_0, ..., j_(size-1) at z >= 0. For n < z the upward recurrence is stable, and
-/// GSL's continued fraction is slow.
+/// Spherical Bessel functions j_0, ..., j_(size-1) at z > smallest_phase. For n < z the upward recurrence is
+/// stable. For n > z the downward one is, which starts with a continued fraction for j_size/j_(size-1) and is
+/// normalised by j_0 = sin(z)/z and j_0 - z j_1 = cos(z) (DLMF 10.51, 10.74).
 void spherical_bessel(double z, VectorXd& values) {
   const auto size = static_cast<int>(values.size());
-  if (z < size) {
-    gsl_sf_bessel_jl_steed_array(size - 1, z, values.data());
+  const double sine = elementary::sin(z), cosine = elementary::cos(z);
+  if (z >= size) {
+    values[0] = sine / z;
+    if (size > 1) values[1] = (values[0] - cosine) / z;
+    for (Index n = 1; n + 1 < size; ++n)
+      values[n + 1] = static_cast<double>(2 * n + 1) / z * values[n] - values[n - 1];
     return;
   }
-  values[0] = elementary::sin(z) / z;
-  if (size > 1) values[1] = (values[0] - elementary::cos(z)) / z;
-  for (Index n = 1; n + 1 < size; ++n)
-    values[n + 1] = static_cast<double>(2 * n + 1) / z * values[n] - values[n - 1];
+  double ratio = 0;
+  for (int n = size + 60; n >= size; --n) ratio = z / (2 * n + 1 - z * ratio);
+  double above = ratio, here = 1;  // j_(n+1), j_n up to a factor
+  values[size - 1] = here;
+  for (Index n = size - 1; n > 0; --n) {
+    const double below = static_cast<double>(2 * n + 1) / z * here - above;
+    above = here;
+    values[n - 1] = here = below;
+  }
+  const double one = z * here, other = here - z * above;
+  values *= (one * sine + other * cosine) / (one * one + other * other);
 }
 
 }  // namespace
@@ -99,6 +111,7 @@ FourierIntegrals Panels::fourier(const VectorXd& k) const {
   FourierIntegrals result{MatrixXd(rows, size()), MatrixXd(rows, size()), MatrixXd(rows, size())};
   for (std::size_t panel = 0; panel < count(); ++panel) {
     for (Index row = 0; row < rows; ++row) {
+      if (k[row] * half_width(panel) <= smallest_phase) continue;
       spherical_bessel(k[row] * half_width(panel), bessel);
       for (Index n = 0; n < order_; ++n)
         (n % 2 == 0 ? even_terms : odd_terms)(n, row) = (n % 4 < 2 ? 2 : -2) * bessel[n];
@@ -116,7 +129,7 @@ FourierIntegrals Panels::fourier(const VectorXd& k) const {
   // cancellation.
   for (std::size_t panel = 0; panel < count(); ++panel)
     for (Index row = 0; row < rows; ++row) {
-      if (k[row] * half_width(panel) > 0.5) continue;
+      if (k[row] * half_width(panel) > smallest_phase) continue;
       const Eigen::ArrayXd phase = k[row] * nodes_.segment(first(panel), order_).array();
       const Eigen::ArrayXd weights = weights_.segment(first(panel), order_).array();
       result.cosine.row(row).segment(first(panel), order_) = weights * phase.unaryExpr(&elementary::cos);

@@ -1,7 +1,5 @@
 #include "numerics/gauss_legendre.hpp"
 
-#include <gsl/gsl_sf_legendre.h>
-
 #include <algorithm>
 #include <numbers>
 
@@ -10,8 +8,11 @@
 namespace lorentz {
 
 Eigen::VectorXd legendre_polynomials(int degree, double point) {
-  Eigen::VectorXd values(degree + 1);
-  gsl_sf_legendre_Pl_array(degree, std::clamp(point, -1.0, 1.0), values.data());
+  Eigen::VectorXd values = Eigen::VectorXd::Ones(degree + 1);
+  const double x = std::clamp(point, -1.0, 1.0);
+  if (degree > 0) values[1] = x;
+  for (int n = 1; n < degree; ++n)
+    values[n + 1] = ((2 * n + 1) * x * values[n] - n * values[n - 1]) / (n + 1);
   return values;
 }
 

@@ -10,9 +10,7 @@ struct GaussRule {
 };
 
 /// Gauss-Legendre rule of any order >= 1, exact for polynomials of degree 2 order - 1. Newton's method finds
-/// the roots of P_order, starting from Tricomi's asymptotic approximation. GSL's rules beyond its tabulated
-/// orders are not used, because they start from the C library's cosine, whose last digit depends on the
-/// processor (numerics/elementary.hpp).
+/// the roots of P_order, starting from Tricomi's asymptotic approximation.
 GaussRule gauss_legendre(int order);
 
 /// Values of the Legendre polynomials P_0, ..., P_degree at a point, which is clamped to [-1, 1].

@@ -13,7 +13,6 @@
 /// difference of temperature. Stationarity is tested by the differences between the halves of the window [eq.
 /// 51], and by blocking, for which blocks must be longer than the correlation time [eq. 50].
 #include <fmt/format.h>
-#include <gsl/gsl_statistics_double.h>
 
 #include <cmath>
 #include <functional>
@@ -83,9 +82,8 @@ void add_conductivity(Group& group, const OpenChain& chain, const std::string& s
 /// Correlation coefficient r over replicas of two tallies with the error of normal records, (1 - r^2)/sqrt(R
 /// - 1); NaN if one does not vary.
 Estimate correlation_coefficient(const Records& records, ScalarTally one, ScalarTally other) {
-  const double* const values = records.values().data();
-  const double found = gsl_stats_correlation(values + one.column, records.width(), values + other.column,
-                                             records.width(), records.size());
+  const Eigen::MatrixXd x = centred(standardised(records, {one.column, other.column}));
+  const double found = x.col(0).dot(x.col(1)) / (x.col(0).norm() * x.col(1).norm());
   const double r = std::abs(found) <= 1 ? found : std::numeric_limits<double>::quiet_NaN();
   return {{r}, {(1 - r * r) / std::sqrt(static_cast<double>(records.size()) - 1)}};
 }

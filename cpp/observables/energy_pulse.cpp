@@ -5,11 +5,12 @@
 /// The ring is folded about its centre by mirror symmetry [eq. 45] before the moving peak is fitted
 /// (statistics/peak.hpp). At times without a peak, as before it leaves the centre, all quantities of the peak
 /// are NaN, and fits use the other times. At gamma = 1 the result is compared with free flight [eq. 47].
-#include <malloc.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "observables/energy_pulse/pulse_run.hpp"
 #include "program/study.hpp"

@@ -9,8 +9,6 @@
 /// elsewhere A = 0. J_n keeps a part proportional to the total momentum, which is subtracted
 /// exactly [eq. M31]. The totals of a ring fluctuate: at fixed totals <Q^2> would be smaller by a part of
 /// order t^2/N. Sound must not travel around the ring within the longest time.
-#include <gsl/gsl_fit.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -104,10 +102,8 @@ struct Growth {
       y.push_back(heat[k] / times[k]);
       weight.push_back(1 / (y.back() * y.back() * times[k]));
     }
-    double intercept = 0, slope = 0, unused = 0;
-    gsl_fit_wlinear(x.data(), 1, weight.data(), 1, y.data(), 1, x.size(), &intercept, &slope, &unused,
-                    &unused, &unused, &unused);
-    return {slope / 4.5, intercept / 2};
+    const Line line = fit_line(x, y, weight);
+    return {line.slope / 4.5, line.intercept / 2};
   }
 };
 

@@ -2,8 +2,10 @@
 
 #include <hdf5.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <set>
 #include <span>
@@ -42,9 +44,13 @@ class Hdf5Writer {
   void group(const std::string& path);
 
   /// Writes GROUP/NAME, of type double or uint64, with its units and description; groups along the path are
-  /// created. Axes that axis() has written to the group are attached.
+  /// created. Axes that axis() has written to the group are attached. Every NaN is written as the same one,
+  /// because the sign of 0/0 depends on the processor.
   template <class Value>
-  void array(const std::string& group, const Description& what, const std::vector<Value>& values) {
+  void array(const std::string& group, const Description& what, std::vector<Value> values) {
+    if constexpr (std::is_same_v<Value, double>)
+      std::ranges::replace_if(
+          values, [](double x) { return x != x; }, std::numeric_limits<double>::quiet_NaN());
     write(group, what, std::is_same_v<Value, double> ? H5T_IEEE_F64LE : H5T_STD_U64LE,
           std::as_bytes(std::span(values)));
   }

@@ -4,12 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <functional>
 #include <numeric>
 #include <utility>
 
 #include "program/errors.hpp"
+#include "program/missing_in_libcxx.hpp"
 
 namespace lorentz {
 
@@ -63,7 +63,7 @@ template <class Number>
 bool read_number(const std::string& text, const Range<Number>& range, Number& value) {
   const char* begin = text.data() + (text.starts_with('+') && !text.starts_with("+-") ? 1 : 0);
   const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(begin, end, value);
+  const auto [stop, error] = from_chars(begin, end, value);
   return error == std::errc{} && stop == end && range.contains(value);
 }
 
@@ -76,7 +76,7 @@ bool read_polynomial(const std::string& text, const Range<double>& range, Scaled
   const char* const end = text.data() + text.size();
   for (;; ++at) {
     double coefficient = 0;
-    const auto [stop, error] = std::from_chars(at, end, coefficient);
+    const auto [stop, error] = from_chars(at, end, coefficient);
     at = std::find(stop, end, '+');
     const auto* const power = std::ranges::find(powers, std::string(stop, at));
     if (error != std::errc{} || !range.contains(coefficient) || power == powers.end()) return false;

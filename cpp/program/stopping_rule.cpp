@@ -1,9 +1,9 @@
 #include "program/stopping_rule.hpp"
 
-#include <gsl/gsl_cdf.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include "numerics/special_functions.hpp"
 
 namespace lorentz {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 /// estimate [eq. 52].
 double bound(std::uint64_t used, double probability) {
   const auto freedom = static_cast<double>(used - 1);
-  return std::sqrt(freedom / gsl_cdf_chisq_Qinv(probability, freedom));
+  return std::sqrt(freedom / chi_square_quantile(probability, freedom));
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "program/atomic_file.hpp"
 #include "program/build_info.hpp"
 #include "program/errors.hpp"
+#include "program/missing_in_libcxx.hpp"
 #include "program/stopping_rule.hpp"
 
 namespace lorentz {
@@ -231,7 +232,7 @@ void StudyProgram::in_threads(std::uint64_t number, const std::function<void()>&
     --active_;
     changed_.notify_one();
   };
-  std::vector<std::jthread> threads;
+  std::vector<JoiningThread> threads;
   std::unique_lock lock(mutex_);  // released, so that no thread waits for it, before they are joined
   try {
     while (threads.size() < number) threads.emplace_back(perform);
@@ -261,7 +262,7 @@ void StudyProgram::run_replicas(std::uint64_t first, std::uint64_t end) {
 void StudyProgram::work(std::uint64_t end) {
   double completed = 0;
   const auto heartbeat = [&](double part) {
-    in_progress_ += part - std::exchange(completed, part);
+    add(in_progress_, part - std::exchange(completed, part));
     if (failed_) throw std::runtime_error("another replica failed");
   };
   std::unique_lock lock(mutex_);
@@ -276,7 +277,7 @@ void StudyProgram::work(std::uint64_t end) {
     sums.require_filled(study_.tallies);
     lock.lock();
     finished_.emplace(index, FinishedReplica{sums.values(), events});
-    in_progress_ -= std::exchange(completed, 0);
+    add(in_progress_, -std::exchange(completed, 0));
   }
 }
 

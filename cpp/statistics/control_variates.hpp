@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstddef>
+#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
@@ -9,19 +9,20 @@
 
 namespace lorentz {
 
-/// Values minus their mean.
-std::vector<double> centred(std::vector<double> x);
+/// Columns minus their means.
+Eigen::MatrixXd centred(const Eigen::MatrixXd& x);
 
-/// Columns divided by the norm of their deviations from the mean, without overflow or underflow. A column
-/// that varies by no more than its rounding error becomes 0.
-std::vector<std::vector<double>> standardised(const Records& records, const Columns& columns);
+/// Columns of records divided by the norm of their deviations from the mean, without overflow or underflow. A
+/// column that varies by no more than its rounding error becomes 0.
+Eigen::MatrixXd standardised(const Records& records, const Columns& columns);
 
-/// Pseudo-inverse of the matrix of scalar products of vectors, and its rank.
+/// Pseudo-inverse of a matrix of standardised columns, and its rank. Columns that others determine to 1 part
+/// in 10^8 do not count.
 struct PseudoInverse {
-  std::vector<std::vector<double>> elements;
-  std::size_t rank;
+  Eigen::MatrixXd matrix;
+  Eigen::Index rank;
 };
-PseudoInverse inverse_of_products(const std::vector<std::vector<double>>& x);
+PseudoInverse pseudo_inverse(const Eigen::MatrixXd& x);
 
 /// Measured columns and the control variates on which they are regressed.
 struct Regression {

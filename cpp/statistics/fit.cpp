@@ -1,7 +1,5 @@
 #include "statistics/fit.hpp"
 
-#include <gsl/gsl_fit.h>
-
 #include <limits>
 #include <stdexcept>
 
@@ -9,13 +7,22 @@
 
 namespace lorentz {
 
-Line fit_line(std::span<const double> x, std::span<const double> y) {
+Line fit_line(std::span<const double> x, std::span<const double> y, std::span<const double> weights) {
   if (x.size() < 2 || x.size() != y.size()) throw std::invalid_argument("a line needs two points");
-  Line line{};
-  double variance_00 = 0, variance_01 = 0, variance_11 = 0, squares = 0;
-  gsl_fit_linear(x.data(), 1, y.data(), 1, x.size(), &line.intercept, &line.slope, &variance_00, &variance_01,
-                 &variance_11, &squares);
-  return line;
+  const auto weight = [&](std::size_t i) { return weights.empty() ? 1 : weights[i]; };
+  double sum = 0, mean_x = 0, mean_y = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    sum += weight(i);
+    mean_x += (x[i] - mean_x) * (weight(i) / sum);
+    mean_y += (y[i] - mean_y) * (weight(i) / sum);
+  }
+  double covariance = 0, variance = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    covariance += weight(i) * (x[i] - mean_x) * (y[i] - mean_y);
+    variance += weight(i) * (x[i] - mean_x) * (x[i] - mean_x);
+  }
+  const double slope = covariance / variance;
+  return {mean_y - slope * mean_x, slope};
 }
 
 double fit_power(std::span<const double> x, std::span<const double> y, double from, double to) {

@@ -1,10 +1,13 @@
 #include "statistics/group.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
+
+#include "numerics/summation.hpp"
 
 namespace lorentz {
 namespace {
@@ -53,11 +56,16 @@ Estimate jackknife(const Records& records, const std::function<std::vector<doubl
     return estimate;
   }
 
-  // Extended precision: where only one replica contributes to a sum, the sum without it is exactly 0, and no
-  // ratio of rounding errors occurs.
-  std::vector<long double> sums(mean.size(), 0);
+  // Compensated sums of scaled numbers: where only one replica contributes to a sum, the sum without it is
+  // exactly 0, and no ratio of rounding errors occurs.
+  std::vector<double> scale(mean.size(), 0);
   for (std::size_t replica = 0; replica < records.size(); ++replica)
-    for (std::size_t i = 0; i < mean.size(); ++i) sums[i] += records[replica][i];
+    for (std::size_t i = 0; i < mean.size(); ++i)
+      scale[i] = std::max(scale[i], std::abs(records[replica][i]));
+  for (double& each : scale) each = towards_one(each);
+  std::vector<CompensatedSum> sums(mean.size());
+  for (std::size_t replica = 0; replica < records.size(); ++replica)
+    for (std::size_t i = 0; i < mean.size(); ++i) sums[i].add(scale[i] * records[replica][i]);
 
   // Welford's algorithm is stable if the leave-one-out values differ in their last digits only. It
   // accumulates the root of the sum of squares, because squares of large or small numbers overflow or
@@ -65,13 +73,13 @@ Estimate jackknife(const Records& records, const std::function<std::vector<doubl
   std::vector<double> centre(quantities, 0), root(quantities, 0), without(mean.size());
   for (std::size_t replica = 0; replica < records.size(); ++replica) {
     for (std::size_t i = 0; i < mean.size(); ++i)
-      without[i] = static_cast<double>((sums[i] - records[replica][i]) / (replicas - 1));
+      without[i] = sums[i].without(scale[i] * records[replica][i]) / (replicas - 1) / scale[i];
     const std::vector<double> value = f(without);
     for (std::size_t k = 0; k < quantities; ++k) {
       const double deviation = value[k] - centre[k];
       centre[k] += deviation / static_cast<double>(replica + 1);
-      root[k] =
-          std::hypot(root[k], std::sqrt(std::abs(deviation)) * std::sqrt(std::abs(value[k] - centre[k])));
+      root[k] = Eigen::numext::hypot(
+          root[k], std::sqrt(std::abs(deviation)) * std::sqrt(std::abs(value[k] - centre[k])));
     }
   }
   for (const double each : root)

@@ -1,8 +1,7 @@
 #include "statistics/tally.hpp"
 
-#include <gsl/gsl_statistics_double.h>
-
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -60,9 +59,17 @@ void Records::append(std::span<const double> row) {
 }
 
 std::vector<double> Records::mean() const {
-  std::vector<double> result;
+  if (size() == 0) return std::vector(width_, std::numeric_limits<double>::quiet_NaN());
+  // Running means do not overflow. The mean deviation from them corrects their rounding errors.
+  std::vector<double> result(width_, 0), deviation(width_, 0);
+  for (std::size_t replica = 0; replica < size(); ++replica)
+    for (std::size_t column = 0; column < width_; ++column)
+      result[column] += ((*this)[replica][column] - result[column]) / static_cast<double>(replica + 1);
+  for (std::size_t replica = 0; replica < size(); ++replica)
+    for (std::size_t column = 0; column < width_; ++column)
+      deviation[column] += (*this)[replica][column] - result[column];
   for (std::size_t column = 0; column < width_; ++column)
-    result.push_back(gsl_stats_mean(rows_.data() + column, width_, size()));
+    result[column] += deviation[column] / static_cast<double>(size());
   return result;
 }
 

@@ -1,19 +1,16 @@
 """Results with known values for the runs of the plan, with their parameters."""
 
-import math
 import zlib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from tests.python.conftest import ROOT
 from workflow.claims.data import Data, MissingError
-from workflow.claims.verdict import Number
 from workflow.lib.load import Quantity, Result
 from workflow.lib.plan import Panel, Run, data_path, load_plan
 
@@ -65,13 +62,12 @@ class Known(Data):
         self.plan: dict[str, Panel] = plan(quality)
         self.loaded, self.used = {}, {}
 
-    def _load(self, panel: str, run: str) -> tuple[str, Result]:
+    def _load(self, panel: str, run: Run) -> tuple[str, Result]:
         path = data_path(self.quality, panel, run)
         if panel not in self.fills:
             raise MissingError(f"{path} is missing, damaged or unreadable")
         if path not in self.loaded:
-            planned = self.plan[panel].run(run)
-            planned = replace(planned, options=DEFAULTS | planned.options)
+            planned = replace(run, options=DEFAULTS | run.options)
             provenance = {"program": planned.program, "converged": self.converged}
             quantities = dict(self.fills[panel](planned))
             self.loaded[path] = Result(Path(path), planned.options, provenance, quantities)
@@ -127,10 +123,12 @@ def uneven(run: Run) -> dict[str, Quantity]:
 
 
 def truth(
-    given: Truth, relative: float, random: np.random.Generator | None = None
+    given: Truth, relative: float | Mapping[str, float], random: np.random.Generator | None = None
 ) -> Callable[[Run], dict[str, Quantity]]:
-    """The quantities given, with this relative error, or this error where they vanish. With random numbers they are measured:
-    normal values with errors that are estimated from as many replicas as the run has."""
+    """The quantities given, with this relative error, or this error where they vanish; relative errors of single quantities beside
+    that of all others, "*". With random numbers, quantities of replicated runs are measured: normal values with errors that are
+    estimated from as many replicas as the run has."""
+    relative = relative if isinstance(relative, Mapping) else {"*": relative}
 
     def fill(run: Run) -> dict[str, Quantity]:
         coordinates = axes(run)
@@ -139,8 +137,8 @@ def truth(
             grids = np.meshgrid(*(coordinates[axis] for axis in QUANTITIES[run.program][name]), indexing="ij")
             value = given[name](run, *grids) if callable(given[name]) else given[name]
             mean = np.array(np.broadcast_to(value, grids[0].shape if grids else ()), dtype=float)
-            error = relative * np.where(mean == 0, 1, abs(mean))
-            if random is not None and name != "stationary":
+            error = relative.get(name, relative["*"]) * np.where(mean == 0, 1, abs(mean))
+            if random is not None and run.replicated and name != "stationary":
                 mean = mean + error * random.standard_normal(mean.shape)
                 freedom = run.options["replicas"] - 1
                 error = error * np.sqrt(random.chisquare(freedom, mean.shape) / freedom)
@@ -148,62 +146,3 @@ def truth(
         return found
 
     return fill
-
-
-# What the tests of the claims' numbers share: results in which no two values are alike, and the numbers they should give.
-PANELS = ("fig01", "fig02_upper", "fig03", "fig03_inset", "fig04a", "fig04b", "fig05", "fig06", "fig07", "fig07_inset",
-          "fig08", "fig09a", "fig09b", "ext01", "ext03", "ext05", "ext07", "ext09", "ext10")  # fmt: skip
-DATA = Known(dict.fromkeys(PANELS, uneven))
-
-
-def check(
-    numbers: Sequence[Number],
-    value: ArrayLike,
-    error: ArrayLike,
-    systematic: ArrayLike = 0,
-    freedom: float | None = None,
-) -> None:
-    """One number per value, in their order."""
-    assert len(numbers) == np.size(value)
-    found = np.array([(one.value, one.error, one.systematic) for one in numbers]).T
-    for column, expected in zip(found, (value, error, systematic), strict=True):
-        np.testing.assert_allclose(column, np.broadcast_to(expected, column.shape), rtol=1e-9, atol=1e-12)
-    assert freedom is None or {one.freedom for one in numbers} == {freedom}
-
-
-def freedom(panel: str, series: str, data: Known = DATA) -> int:
-    """One less than the replicas of a series."""
-    (replicas,) = {run.options["replicas"] for run in data.plan[panel].runs if run.series == series}
-    return int(replicas) - 1
-
-
-def of(panel: str, run: str, name: str, data: Known = DATA) -> tuple[np.ndarray, np.ndarray]:
-    """Mean and error of a quantity of the input."""
-    found = data.one(panel, run)[name]
-    return found.mean, found.error
-
-
-def each(panel: str, name: str, *runs: str) -> tuple[np.ndarray, np.ndarray]:
-    mean, error = np.array([of(panel, run, name) for run in runs]).T
-    return mean, error
-
-
-def relative_change(one: ArrayLike, other: ArrayLike, *errors: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
-    """other/one - 1 with the error by the two derivatives."""
-    one, other = np.asarray(one), np.asarray(other)
-    return other / one - 1, np.sqrt((errors[1] / one) ** 2 + (other * errors[0] / one**2) ** 2)
-
-
-def line(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> tuple[float, float]:
-    """Slope and its error."""
-    solution, covariance = np.polyfit(
-        np.asarray(x), np.asarray(y), 1, w=1 / np.asarray(error), cov="unscaled"
-    )
-    return float(solution[0]), math.sqrt(covariance[0, 0])
-
-
-def power(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> tuple[float, float, float]:
-    """Exponent, its error, change without the first point."""
-    x, relative, y = np.log(x), np.asarray(error) / y, np.log(y)
-    exponent, spread = line(x, y, relative)
-    return exponent, spread, abs(line(x[1:], y[1:], relative[1:])[0] - exponent) if len(x) > 2 else 0

@@ -104,7 +104,7 @@ def test_heat_transport_is_superdiffusive_if_the_longest_times_show_it(
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 @pytest.mark.parametrize("quality", QUALITIES)
 def test_every_quality_has_answers(quality: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Series that a quality leaves out end no report. Mutant: a number that takes the dilute chains of ext09 for granted."""
+    """Series that a quality leaves out end no report. Finds: a number that takes the dilute chains of ext09 for granted."""
 
     def fill(run: Run) -> dict[str, Quantity]:
         return uneven(run) | truth({"stationary": 1, "current_correlation": 0.5}, 1e-9)(run)
@@ -115,7 +115,7 @@ def test_every_quality_has_answers(quality: str, monkeypatch: pytest.MonkeyPatch
 
 
 def test_numbers_are_those_of_the_right_runs() -> None:
-    """Mutants: another chain, relaxation time, half of the sizes, or the smallest change of momentum."""
+    """Finds: another chain, relaxation time, half of the sizes, or the smallest change of momentum."""
     fills = {
         "fig07": truth({"alpha": 1.85}, 0.001),
         "ext01": truth(

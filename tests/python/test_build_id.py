@@ -1,6 +1,7 @@
 """The build id changes if and only if an input of the build changes."""
 
 import json
+import os
 import re
 import subprocess
 import sys
@@ -9,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.provenance.build_id import include_closure
+from workflow.provenance.build_id import built, include_closure
 
 SCRIPT = ROOT / "workflow/provenance/build_id.py"
 
@@ -31,9 +32,9 @@ def tree(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def identify(tree: Path, flags: str = "-O3") -> dict:
+def identify(tree: Path, flags: str = "-O3", version: str = "1") -> dict:
     command = [sys.executable, "-I", str(SCRIPT), "--root", "cpp", "--source", "observables/a.cpp"]
-    command += ["--version", "1", "--compiler", "g 1", f"--flags={flags}", "--libraries", "l 1"]
+    command += ["--version", version, "--compiler", "g 1", f"--flags={flags}", "--libraries", "l 1"]
     subprocess.run([*command, "--output", "out/a", "--depfile", "out.d"], cwd=tree, check=True)
     return json.loads((tree / "out/a.json").read_text())
 
@@ -68,6 +69,7 @@ def test_id_follows_sources_and_flags_only(tree: Path) -> None:
     assert identify(tree) == first
     assert (tree / "out/a.json").stat().st_mtime_ns == stamp  # not rewritten
     assert identify(tree, flags="-O2")["build_id"] != first["build_id"]
+    assert identify(tree, version="2")["build_id"] == first["build_id"]  # a release keeps results
     (tree / "cpp/engine/own.hpp").write_text("// changed\n")
     assert identify(tree)["source_hash"] != first["source_hash"]
 
@@ -76,6 +78,32 @@ def test_id_names_no_place(tree: Path) -> None:
     identify(tree)
     for name in ("out/a.json", "out/a.cpp"):
         assert str(tree) not in (tree / name).read_text()
+
+
+def test_the_libraries_and_definitions_that_change_results_are_named() -> None:
+    identity = built("boltzmann")
+    libraries = {library.split()[0] for library in identity["libraries"].split(", ")}
+    assert libraries == {"CLI11", "Eigen", "HDF5", "Random123", "SLEEF", "fmt"}
+    assert "-DEIGEN_DONT_VECTORIZE" in identity["flags"].split()
+    assert re.fullmatch(r"(GNU|Clang|AppleClang) [0-9.]+", identity["compiler"])  # without the processor
+
+
+def test_another_compiler_or_a_failure_starts_a_new_configuration(tmp_path: Path) -> None:
+    def compiler(cxx: str = "") -> str:
+        """Name of the compiler in the identity; the message of a failure."""
+        environment = {"PATH": os.environ["PATH"], "BUILD": str(tmp_path)} | ({"CXX": cxx} if cxx else {})
+        command = ["bash", "workflow/environment/build.sh", "id/persistence.json"]
+        done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            return done.stderr
+        return json.loads((tmp_path / "id/persistence.json").read_text())["compiler"].split()[0]
+
+    usual = compiler()
+    assert compiler("clang++") == "Clang"
+    assert compiler() == usual
+    assert "the compiler CXX=no-such-compiler is not installed; install it" in compiler("no-such-compiler")
+    assert "compiler identification is unknown" in compiler("true")
+    assert compiler() == usual
 
 
 def test_every_source_that_programs_link_is_in_a_closure() -> None:

@@ -4,7 +4,6 @@ That no two replicas or seeds share a draw is tested in tests/cpp/engine/chance_
 every result alike, and only this comparison finds them.
 """
 
-import subprocess
 from dataclasses import asdict, dataclass, replace
 from functools import cache
 
@@ -12,7 +11,8 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from tests.python.conftest import ROOT, Measure
+from tests.python.conftest import Measure
+from workflow.tradeoff.measure import simulate
 
 
 @dataclass(frozen=True)
@@ -34,13 +34,8 @@ class Chain:
         """Options of a program."""
         return asdict(self)
 
-    @property
-    def directions(self) -> str:
-        """Word of the reference simulator."""
-        return "kept" if self.rule == "elastic" else "drawn"
-
     def __str__(self) -> str:
-        return f"sigma={self.sigma},gamma={self.gamma},{self.directions},cells={self.cells}"
+        return f"sigma={self.sigma},gamma={self.gamma},{self.rule},cells={self.cells}"
 
 
 DECADES, POINTS_PER_DECADE, EVERY = 2, 8, 4  # times of the programs; every fourth is compared
@@ -56,12 +51,9 @@ def reference(chain: Chain) -> dict[str, np.ndarray]:
     """Measurements of the reference simulator, [replica, ...]."""
     gamma = chain.cells if chain.gamma == "N" else chain.gamma
     times = chain.observation_time * 10 ** np.arange(-DECADES, 0.01, EVERY / POINTS_PER_DECADE)
-    words = [chain.cells, chain.particles_per_cell, chain.sigma, gamma, chain.temperature]
-    words += [chain.relaxation_time, chain.observation_time, chain.directions]
-    words += [chain.replicas, 1, waiting_time_edges(chain)[0], BINS_PER_DECADE, BINS, *times]
-    command = [str(word) for word in (ROOT / "build/bin/reference_closed_chain", *words)]
-    output = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    rows = np.fromstring(output, sep=" ").reshape(chain.replicas, -1)
+    options = asdict(chain) | {"gamma": gamma, "times": ",".join(map(str, times)), "seed": 1}
+    bins = {"first_edge": waiting_time_edges(chain)[0], "bins_per_decade": BINS_PER_DECADE, "bins": BINS}
+    rows = simulate("closed_chain", **options, **bins)[0].astype(float)
     moments, scatterings, persistent, waits = np.split(rows, 4 * len(times) + np.arange(3), axis=1)
     names = ("variance", "centre_of_mass", "mean_displacement", "scatterer_energy")
     found = dict(zip(names, np.moveaxis(moments.reshape(chain.replicas, -1, 4), 2, 0), strict=True))

@@ -112,6 +112,8 @@ def test_errors_of_ratios_and_sums() -> None:
     assert (found.value, found.freedom) == (2, 7)
     assert found.error == pytest.approx(2 * (0.075**2 + 0.1**2) ** 0.5)
     assert found.systematic == pytest.approx(0.05)
+    vanishing = ratio(Number("", 0.0, 0.3, 5, 0.1), Number("", -2.0, 0.5, 4, 0.2), "r")
+    assert (vanishing.value, vanishing.error, vanishing.systematic, vanishing.freedom) == (0, 0.15, 0.05, 4)
     total = combination([one, other], [1, -2], "d", 1)
     assert (total.value, total.freedom, total.systematic) == (-1, 7, 0.1)
     assert total.error == pytest.approx(0.5)

@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from workflow.lib.configuration import FOLDER, ConfigurationError, arguments, at_size, read
+from workflow.lib.configuration import FOLDER, ConfigurationError, arguments, read
 from workflow.lib.plan import load_plan, panel_named
+from workflow.lib.polynomial import at_size
 
 
 @pytest.fixture
@@ -142,12 +143,6 @@ def test_an_unknown_panel(name: str, words: str) -> None:
     with pytest.raises(ConfigurationError) as raised:
         panel_named(load_plan("smoke"), name)
     assert str(raised.value).startswith(words)
-
-
-@pytest.mark.parametrize("name", ["best", "smoke_seed=07", "smoke_replicas=0", "smoke_seed=1_seed=2"])
-def test_an_unknown_quality(name: str) -> None:
-    with pytest.raises(ConfigurationError, match=f"{name} is not a quality; choose one of smoke, standard"):
-        load_plan(name)
 
 
 def test_arguments() -> None:

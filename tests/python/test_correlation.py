@@ -1,7 +1,6 @@
 """Correlations of a closed chain in the stationary state: particles that fly freely against the exact result, a chain that
 scatters against the reference simulator, which shares no code with the program, and peaks against mode coupling."""
 
-import subprocess
 from functools import cache
 from itertools import pairwise
 
@@ -10,9 +9,10 @@ import pytest
 from scipy.integrate import quad
 from scipy.stats import chi2
 
-from tests.python.conftest import ROOT, Measure
+from tests.python.conftest import Measure
 from workflow.lib.load import Quantity, Result
 from workflow.lib.mode_coupling import Chain
+from workflow.tradeoff.measure import simulate
 
 FIELDS = ("momentum", "heat")
 CELLS, ZETA, T, SIGMA = 25, 1.5, 4.0, 0.5
@@ -77,7 +77,7 @@ def accepted(z: np.ndarray) -> bool:
 
 
 def test_free_flight(correlation: Measure) -> None:
-    """Mutant: another time."""
+    """Finds: another time."""
     result = correlation(sigma=-1, observation_time=OBSERVED, times="0.5,2", replicas=400)
     for index, time in enumerate((0.5, 2.0)):
         for name, z in scores(result, index, of_free_flight(time)).items():
@@ -88,10 +88,9 @@ def test_free_flight(correlation: Measure) -> None:
 @cache
 def reference(lag: float, replicas: int) -> dict[str, np.ndarray]:
     """By field: [replica, distance]."""
-    words = [ROOT / "build/bin/reference_correlation", CELLS, ZETA, SIGMA, T, SLOWEST, lag, replicas, 1]
-    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=True)
-    rows = [[float(word) for word in line.split()] for line in done.stdout.splitlines()]
-    sample = np.array(rows).reshape(replicas, len(FIELDS), CELLS)
+    gas = {"cells": CELLS, "fugacity": ZETA, "sigma": SIGMA, "temperature": T, "slowest": SLOWEST}
+    rows, _ = simulate("correlation", **gas, lag=lag, replicas=replicas, seed=1)
+    sample = rows.astype(float).reshape(replicas, len(FIELDS), CELLS)
     # Both signs of r are the same in the mean.
     sample = 0.5 * (sample + np.roll(sample[:, :, ::-1], 1, axis=2))
     return {name: sample[:, k] for k, name in enumerate(FIELDS)}
@@ -99,7 +98,7 @@ def reference(lag: float, replicas: int) -> dict[str, np.ndarray]:
 
 @pytest.mark.parametrize("lag", [0.6, 3.0])
 def test_against_the_reference(correlation: Measure, lag: float) -> None:
-    """Mutant: heavier scatterers."""
+    """Finds: heavier scatterers."""
     sample = reference(lag, 4000)
     expected = {name: each.mean(axis=0) for name, each in sample.items()}
     errors = {name: each.std(axis=0, ddof=1) / np.sqrt(len(each)) for name, each in sample.items()}
@@ -125,7 +124,7 @@ def ratios(quantity: Quantity, index: int, expected: float) -> tuple[float, floa
 
 def test_sound_has_the_speed_and_the_area_of_the_theory(correlation: Measure) -> None:
     """At ζ = 0.8 and M = 1/3, where the peak settles first: within 3 %, the tail that mode coupling predicts besides, and four
-    standard errors. Mutants: heavier scatterers, fewer particles."""
+    standard errors. Finds: heavier scatterers, fewer particles."""
     gas = {"sigma": -0.5, "fugacity": 0.8, "temperature": 1}
     ring = {"cells": 216, "observation_time": 512, "times": "16,32,64", "replicas": 300}
     result = correlation(**gas | ring)

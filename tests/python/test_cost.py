@@ -42,10 +42,39 @@ def test_estimates_against_executions(panel: str) -> None:
 
 
 @pytest.mark.parametrize("quality", QUALITIES)
-def test_every_run_has_an_estimate(quality: str) -> None:
-    assert all(
-        estimated_seconds(name, run) for name, panel in load_plan(quality).items() for run in panel.runs
+def test_runs_of_the_table_have_estimates(quality: str) -> None:
+    """Panels of the user need not be in it."""
+    listed = {panel for panel, _ in cost._table()}
+    runs = [(name, run) for name, panel in load_plan(quality).items() if name in listed for run in panel.runs]
+    assert len(listed) > 20
+    assert all(estimated_seconds(name, run) for name, run in runs)
+
+
+def test_a_target_error_needs_replicas_as_its_inverse_square() -> None:
+    row = {"cells": 8.0, "cpu_seconds": 2.0, "error": 0.5}
+    run = Run("a", "persistence", {"cells": 8, "observation-time": 10, "replicas": 16}, target=0.01)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(cost, "_table", lambda: {("mine", ""): [row]})
+        # 250 replicas have an error of 0.5/sqrt(2500) = 0.01; its upper bound is (1 + 1.645/sqrt(500)) times as large.
+        assert cost.expected_replicas("mine", run) == pytest.approx(250 * (1 + 1.645 / 500**0.5) ** 2)
+        assert estimated_seconds("mine", run) == pytest.approx(20 * 250 * (1 + 1.645 / 500**0.5) ** 2)
+        assert cost.expected_replicas("mine", replace(run, target=1)) == cost.LEAST
+        assert estimated_seconds("other", run) is None
+
+
+def test_a_pilot_of_two_replicas() -> None:
+    run = Run(
+        "a",
+        "persistence",
+        {"cells": 8, "relaxation-time": 1, "observation-time": 50, "replicas": 40, "seed": 1},
     )
+    few, many = (
+        cost.pilot_seconds(replace(run, options=run.options | {"replicas": count})) for count in (20, 2000)
+    )
+    assert few
+    assert many
+    assert 30 < many / few < 300
+    assert cost.pilot_seconds(replace(run, options=run.options | {"sigma": 2})) is None
 
 
 def test_an_unknown_series(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -54,7 +83,7 @@ def test_an_unknown_series(monkeypatch: pytest.MonkeyPatch) -> None:
     mine = replace(run, series="mine")
     assert estimated_seconds("fig07", mine) is None
     assert seconds_of_run("fig07", mine) == cost.UNKNOWN
-    monkeypatch.setattr(cost, "recorded_seconds", lambda quality, *_: 2.0 if quality == "smoke" else None)
+    monkeypatch.setattr(cost, "recorded_seconds", lambda path: 2.0 if path.startswith("data/smoke") else None)
     few = load_plan("smoke")["fig07"].runs[0].options["replicas"]
     assert scaled_seconds("fig07", mine) == pytest.approx(2 * run.options["replicas"] / few)
     monkeypatch.setattr(cost, "recorded_seconds", lambda *_: None)
@@ -65,8 +94,8 @@ def test_an_unknown_series(monkeypatch: pytest.MonkeyPatch) -> None:
     ("options", "expected"),
     [
         ({"cells": "continuum"}, 1),
-        ({"cells": 20, "replicas": 3, "observation-time": 10, "relaxation-time": "5+0.05N"}, 48),
-        ({"replicas": 2, "pairs-per-replica": 4, "times": "0.1,0.5"}, 4),
+        ({"cells": 20, "replicas": 3, "observation-time": 10, "relaxation-time": "5+0.05N"}, 16),
+        ({"replicas": 2, "pairs-per-replica": 4, "times": "0.1,0.5"}, 2),
     ],
 )
 def test_effort(options: dict, expected: float) -> None:
@@ -74,22 +103,24 @@ def test_effort(options: dict, expected: float) -> None:
 
 
 def test_recorded_seconds(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Seconds of the parts count if their events are those of the result; parts of another division or of other options do not count."""
+    """Seconds of the parts count if their events are those of the result; parts of other options do not count."""
     monkeypatch.setattr(cost, "ROOT", tmp_path)
 
     def record(path: str, seconds: float, events: int) -> None:
         (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / path).write_text(json.dumps({"cpu_seconds": seconds, "events": events}))
 
-    assert recorded_seconds("smoke", "fig05", "a") is None
-    record("data/smoke/fig05/a.cost.json", 0.1, 30)
-    record("build/parts/smoke/fig05/a/old/batch0_0-3.part.cost.json", 9.0, 29)
-    assert recorded_seconds("smoke", "fig05", "a") == 0.1
-    record("build/parts/smoke/fig05/a/new/batch0_0-1.part.cost.json", 2.0, 10)
-    record("build/parts/smoke/fig05/a/new/batch1_2-3.part.cost.json", 3.0, 20)
-    assert recorded_seconds("smoke", "fig05", "a") == 5.0
-    (tmp_path / "data/smoke/fig05/a.cost.json").write_text("{")
-    assert recorded_seconds("smoke", "fig05", "a") is None
+    path = "data/smoke/fig05/a.012345678901.h5"
+    assert recorded_seconds(path) is None
+    record("data/smoke/fig05/a.012345678901.cost.json", 0.1, 30)
+    record("build/parts/smoke/fig05/a.ffffffffffff/batch0_0-3.part.cost.json", 9.0, 30)
+    assert recorded_seconds(path) == 0.1
+    record("build/parts/smoke/fig05/a.012345678901/batch0_0-1.part.cost.json", 2.0, 10)
+    assert recorded_seconds(path) == 0.1
+    record("build/parts/smoke/fig05/a.012345678901/batch1_2-3.part.cost.json", 3.0, 20)
+    assert recorded_seconds(path) == 5.0
+    (tmp_path / "data/smoke/fig05/a.012345678901.cost.json").write_text("{")
+    assert recorded_seconds(path) is None
 
 
 def test_wall_time() -> None:

@@ -7,6 +7,7 @@ import pytest
 from scipy.stats import binom, chi2
 
 from tests.python.conftest import Measure, Program
+from workflow.config.describe import with_option
 from workflow.lib.load import load
 from workflow.tradeoff.accuracy import PREDICTION
 
@@ -34,34 +35,40 @@ SOUND = {"cells": 101, "observation_time": 64, "times": "4,8,16"}
 OPEN = {"cells": 4, "relaxation_time": 0.5, "observation_time": 4}
 
 
-@pytest.mark.parametrize(
-    ("name", "quantity", "options"),
-    [
-        ("persistence", "mu", {"sigma": -0.8}),
-        ("persistence", "mu", {"sigma": 0.5}),
-        ("waiting_time", "exponent", {"sigma": 0.5, "observation_time": 50}),
-        ("displacement", "alpha", {"sigma": 0.5, "decades": 2, "observation_time": 20}),
-        ("displacement", "alpha", {"sigma": -0.5, "decades": 2, "zero_total_momentum": True}),
-        ("ageing", "log_slope", {"sigma": 0.5, "decades": 2, "relaxation_time": 0}),
-        ("heat_current", "amplitude", EQUILIBRIUM),
-        ("correlation", "peak", SOUND),
-        ("steady_profile", "temperature_difference", OPEN),
-        ("steady_profile", "density_excess", OPEN | {"gamma": 1}),
-        ("momentum_flux", "square", OPEN),
-        ("momentum_flux", "jump", OPEN | {"gamma": 0.3}),
-        ("particle_count", "log_slope", {"cells": 4, "times": "1,2,4"}),
+PULSE = {"cells": 7, "particles_per_cell": 20, "times": "0.02,0.04", "pairs_per_replica": 2}
+CASES: dict[str, list[tuple[str, dict]]] = {
+    "persistence": [("mu", {"sigma": -0.8}), ("mu", {"sigma": 0.5})],
+    "waiting_time": [("exponent", {"sigma": 0.5, "observation_time": 50})],
+    "displacement": [
+        ("alpha", {"sigma": 0.5, "decades": 2, "observation_time": 20}),
+        ("alpha", {"sigma": -0.5, "decades": 2, "zero_total_momentum": True}),
     ],
-)
-def test_standard_error_over_seeds(measure: Measure, name: str, quantity: str, options: dict) -> None:
-    """Of an array, its last element. tests/python/test_pulse_peak.py has the errors of pulses, test_open_chain.py those of
-    conductivities."""
+    "ageing": [("log_slope", {"sigma": 0.5, "decades": 2, "relaxation_time": 0})],
+    "heat_current": [("amplitude", EQUILIBRIUM)],
+    "correlation": [("peak", SOUND)],
+    "steady_profile": [("temperature_difference", OPEN), ("density_excess", OPEN | {"gamma": 1})],
+    "momentum_flux": [("square", OPEN), ("jump", OPEN | {"gamma": 0.3})],
+    "particle_count": [("log_slope", {"cells": 4, "times": "1,2,4"})],
+    "conductivity": [("energy_current", OPEN)],
+    "energy_pulse": [("energy_difference", PULSE)],
+}
+
+
+@pytest.mark.parametrize("name", with_option("replicas"))
+def test_standard_error_over_seeds(measure: Measure, name: str) -> None:
+    """Of an array, its last element."""
+    for quantity, options in CASES[name]:
+        check_standard_error(measure, name, quantity, options)
+
+
+def check_standard_error(measure: Measure, name: str, quantity: str, options: dict) -> None:
     estimates = []
     for seed in range(SEEDS):
-        result = measure(name, seed=seed, replicas=REPLICAS, **options)[quantity]
+        result = measure(name, (0, 4), seed=seed, replicas=REPLICAS, **options)[quantity]
         estimates.append((result.mean.flat[-1], result.standard_error.flat[-1]))
     values, errors = np.array(estimates).T
     assert accepted(chi_square(values, errors))
-    # Mutants: the standard deviation of one replica instead of the mean; errors wrong by a factor of two.
+    # The standard deviation of one replica instead of the mean, and errors wrong by a factor of two, are found.
     for factor in (np.sqrt(REPLICAS), 2, 0.5):
         assert not accepted(chi_square(values, factor * errors))
 
@@ -93,7 +100,7 @@ def test_standard_error_over_seeds_where_a_target_ends_the_run(
     least, most = np.array(predicted).T
     as_predicted = np.count_nonzero((least <= counts) & (counts <= most))
     assert binom.cdf(as_predicted, SEEDS, 0.95) > 5e-4
-    # Mutant: the middle of the range, with half the spacing of the looks, an eighth, on either side.
+    # Finds: the middle of the range, with half the spacing of the looks, an eighth, on either side.
     middle = np.sqrt(least * most)
     assert binom.cdf(np.count_nonzero(abs(counts - middle) < middle / 16), SEEDS, 0.95) < 5e-4
     assert (errors <= options["target_error"] * abs(values)).all()

@@ -10,7 +10,7 @@ from workflow.lib.plan import Run
 
 def test_laws_are_horizontal_and_the_runs_are_those_of_one_start() -> None:
     """Height as t^(-2/3) and position as t, but 0.5 % a unit of ln t off for the other start, and the first time without a peak.
-    Mutants: another power; the first run of fig. 9."""
+    Finds: another power; the first run of fig. 9."""
 
     def fill(run: Run) -> dict[str, Quantity]:
         time = axes(run)["time"]

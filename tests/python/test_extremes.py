@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from tests.python.conftest import ROOT
 from tests.python.drawn_options import PROGRAMS, SIGMAS
+from workflow.config.describe import built
 from workflow.lib.load import NOT_REACHED, Result, load
 
 DRAWN = settings(
@@ -78,7 +79,7 @@ def check_physics(result: Result) -> None:
         assert 0 <= result["mu"].mean <= 1
 
 
-@pytest.mark.parametrize("name", PROGRAMS)
+@pytest.mark.parametrize("name", built())
 def test_right_or_refused(name: str) -> None:
     @DRAWN
     @given(PROGRAMS[name])

@@ -14,10 +14,14 @@ import pytest
 
 from tests.python.conftest import ROOT, command_line
 from workflow.figures.fig05 import law, tabulate
+from workflow.lib import closure
+from workflow.lib.closure import sources_of
 from workflow.lib.columns import as_csv
-from workflow.lib.figure_metadata import MetadataError, Parents, embedded, file_hash, read_panel, sources_of
+from workflow.lib.figure_metadata import MetadataError, Parents, embedded, read_panel
+from workflow.lib.files import file_hash
 from workflow.lib.load import load
 from workflow.lib.plan import load_plan
+from workflow.lib.record import is_whole, record_path, records_of, write_with_record
 from workflow.lib.save import Text, save
 
 KINDS = ("pdf", "png", "svg", "csv")
@@ -25,7 +29,7 @@ SCRIPT = "workflow/figures/fig05.py"
 
 
 def draw(stem: Path, data: list[Path]) -> None:
-    command = [sys.executable, "-P", "-m", "workflow.figures.fig05", "--configuration", "c0ffee"]
+    command = [sys.executable, "-P", "-m", "workflow.figures.fig05"]
     subprocess.run([*command, "--output", stem, "--data", *data], cwd=ROOT, check=True)
 
 
@@ -54,17 +58,18 @@ def test_panel_is_byte_stable_and_states_its_parents(panel: Path, runs: list[Pat
     draw(tmp_path / "smoke/panel", runs)
     files = [panel.with_suffix(f".{kind}") for kind in KINDS]
     assert all(path.read_bytes() == (tmp_path / "smoke" / path.name).read_bytes() for path in files)
-    record = read_panel(panel.with_suffix(".json"))
+    (path,) = records_of(panel)
+    record = read_panel(path)
     assert record["files"] == {path.name: file_hash(path) for path in files}
     parents = record["parents"]
-    assert [embedded(path) for path in files] == [*[parents.as_json()] * 3, parents.digest()]
-    assert (parents.panel, parents.quality, parents.configuration) == ("panel", "smoke", "c0ffee")
+    assert [embedded(path) for path in files] == [*[parents.as_json()] * 3, parents.identity]
+    assert path.name == f"panel.{parents.identity}.json"
+    assert (parents.panel, parents.quality) == ("panel", "smoke")
     provenance = load(runs[0]).provenance
-    identity = {"build_id": provenance["build_id"], "seed": provenance["seed"]}
-    assert parents.data == {str(path): {"sha256": file_hash(path)} | identity for path in runs}
+    stated = {"build_id": provenance["build_id"], "seed": provenance["seed"]}
+    assert parents.data == {str(path): {"sha256": file_hash(path)} | stated for path in runs}
     assert parents.builds[provenance["build_id"]]["source_hash"] == provenance["source_hash"]
-    assert parents.sources == {path: file_hash(ROOT / path) for path in sources_of(SCRIPT)}
-    assert parents.packages == file_hash(ROOT / "uv.lock")
+    assert parents.sources == {path: file_hash(ROOT / path) for path in (*sources_of(SCRIPT), "uv.lock")}
 
 
 def test_table_has_the_numbers_of_the_results(panel: Path, runs: list[Path]) -> None:
@@ -110,7 +115,7 @@ def test_a_damaged_record_is_refused(tmp_path: Path, content: str) -> None:
 
 def test_nothing_is_left_where_the_disk_is_full(tmp_path: Path) -> None:
     figure, _ = plt.subplots()
-    parents = Parents("a", "smoke", {}, {}, {}, "", "", "")
+    parents = Parents("a", "smoke", {}, {}, {}, "")
     limit = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (1000, limit[1]))
     try:
@@ -135,3 +140,69 @@ def test_imports_are_followed() -> None:
     assert all(
         (ROOT / f"workflow/figures/{panel.script}.py").is_file() for panel in load_plan("smoke").values()
     )
+
+
+def test_a_record_is_whole_if_its_files_are_as_stated(tmp_path: Path) -> None:
+    stem = tmp_path / "fig05"
+    write_with_record(stem, "0" * 12, {stem.with_suffix(".csv"): b"1"}, {})
+    other = tmp_path / "fig05_inset.000000000000.json"  # of another panel
+    other.write_text("{}")
+    write_with_record(stem, "1" * 12, {stem.with_suffix(".csv"): b"2"}, {})
+    assert records_of(stem) == [record_path(stem, "1" * 12)]
+    assert other.exists()
+    assert is_whole(record_path(stem, "1" * 12))
+    stem.with_suffix(".csv").write_bytes(b"3")
+    assert not is_whole(record_path(stem, "1" * 12))
+    stem.with_suffix(".csv").unlink()
+    assert not is_whole(record_path(stem, "1" * 12))
+
+
+CLOSURE = {
+    "workflow/figures/mine.py": "from . import beside\nfrom .helpers import F\nimport workflow.lib.fit\nNAME = 'table.csv'\n",
+    "workflow/figures/beside.py": "PAGES = Path(__file__).parent / 'pages'\n",
+    "workflow/figures/helpers.py": "F = 'config/units.json'\n",
+    "workflow/figures/table.csv": "1",
+    "workflow/figures/pages/a.txt": "a",
+    "workflow/config/units.json": "{}",
+    "workflow/lib/fit.py": "from workflow.lib import growth\n",
+    "workflow/lib/growth.py": "'figures'\n",  # of another folder
+    "workflow/figures/unused.py": "",
+}
+
+
+def test_the_closure_of_a_script(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Relative imports, files that a literal names, and folders; not what nothing names."""
+    for path, text in CLOSURE.items():
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / path).write_text(text)
+    monkeypatch.setattr(closure, "ROOT", tmp_path)
+    assert sources_of("workflow/figures/mine.py") == sorted(CLOSURE.keys() - {"workflow/figures/unused.py"})
+
+
+def test_a_script_that_reads_a_file_without_naming_it_is_refused(runs: list[Path], tmp_path: Path) -> None:
+    script = ROOT / "workflow/figures/of_a_test.py"
+    table = ROOT / "workflow/figures/of_a_test.csv"
+    script.write_text(
+        (ROOT / SCRIPT)
+        .read_text()
+        .replace("def draw(", 'open("workflow/figures/of_a" + "_test.csv")\n\n\ndef draw(')
+    )
+    table.write_text("1")
+    try:
+        command = [
+            sys.executable,
+            "-P",
+            "-m",
+            "workflow.figures.of_a_test",
+            "--output",
+            tmp_path / "a",
+            "--data",
+            *runs,
+        ]
+        done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    finally:
+        script.unlink()
+        table.unlink()
+    assert done.returncode == 1
+    assert "of_a_test.py reads workflow/figures/of_a_test.csv, and no literal" in done.stderr
+    assert [*tmp_path.iterdir()] == []

@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 from jsonschema import Draft202012Validator, FormatChecker
 
-from tests.python.conftest import ROOT, SMALL, Program, command_line
-from workflow.config.describe import signature
+from tests.python.conftest import ROOT, Program, command_line
+from workflow.config.describe import built, signature
 from workflow.lib.load import NOT_REACHED
 from workflow.lib.units import UnitsError, parse
 
@@ -110,7 +110,7 @@ def inconsistencies(file: h5py.File) -> Iterator[str]:
         yield f"{state}, though {name} is nan"
 
 
-@pytest.mark.parametrize("name", SMALL)
+@pytest.mark.parametrize("name", built())
 def test_files_have_the_format_and_the_same_bytes_for_any_threads(
     program: Program, tmp_path: Path, name: str
 ) -> None:

@@ -37,7 +37,7 @@ def test_a_parameter_has_to_lower_chi_square_by_two() -> None:
 
 
 def test_exponent_and_its_error() -> None:
-    """Mutant: an error that ignores the factor, which is fitted too."""
+    """Finds: an error that ignores the factor, which is fitted too."""
     scores = []
     for seed in range(300):
         power = fits(SIZES, *noisy(TRUTH[POWER], 0.01, seed), first=16)[-1]

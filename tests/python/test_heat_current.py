@@ -45,7 +45,7 @@ def test_short_times_have_the_variances_of_the_currents(heat_current: Measure) -
     assert np.abs(scores(result["heat_variance"], 2 * ZETA * T**3 * time**2)).max() < 4
     assert np.abs(scores(result["number_variance"], projected * time**2)).max() < 4
     assert np.abs(result["local_exponent"].mean - 2).max() < 0.01
-    # Mutants: the current of energy, whose variance is 6ζT³ larger, and no projection.
+    # Finds: the current of energy, whose variance is 6ζT³ larger, and no projection.
     assert np.abs(scores(result["heat_variance"], 4 * ZETA * T**3 * time**2)).min() > 10
     assert np.abs(scores(result["number_variance"], 2 * ZETA * T * time**2)).min() > 10
 
@@ -78,7 +78,7 @@ def test_drawn_directions(heat_current: Measure) -> None:
     for name, power in (("heat_variance", 1), ("number_variance", 0)):
         expected = np.array([of_walkers(time, power) for time in times])
         assert np.abs(scores(result[name], expected)).max() < 4, name
-        # Mutant: windows longer by 5 %.
+        # Finds: windows longer by 5 %.
         longer = np.array([of_walkers(1.05 * time, power) for time in times])
         assert np.abs(scores(result[name], longer)).max() > 6, name
 
@@ -97,7 +97,7 @@ def test_growth_is_the_weighted_fit(heat_current: Measure) -> None:
 
     found = [float(result[name].mean) for name in ("amplitude", "diffusion")]
     np.testing.assert_allclose(found, fitted(np.sqrt(time) / y), rtol=1e-9)
-    assert not np.allclose(found, fitted(np.ones_like(time)), rtol=1e-3)  # mutant: without weights
+    assert not np.allclose(found, fitted(np.ones_like(time)), rtol=1e-3)  # finds: without weights
 
 
 def test_sound_must_not_come_around(program: Program) -> None:

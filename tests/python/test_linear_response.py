@@ -13,7 +13,7 @@ def response(forces: list[float], noise: np.ndarray, covariance: np.ndarray) -> 
 
 
 def test_matrix_symmetry_and_conductivity() -> None:
-    """Mutant: forces in the columns' place."""
+    """Finds: forces in the columns' place."""
     still = np.zeros((2, 2))
     row = onsager(response([-2e-3, 0.2], np.zeros(2), still), response([0, 0.05], np.zeros(2), still))
     assert [row[name] for name in ("L_uu", "L_un", "L_nu", "L_nn")] == pytest.approx([2e7, 2e5, 2e5, 2.2e3])
@@ -22,7 +22,7 @@ def test_matrix_symmetry_and_conductivity() -> None:
 
 
 def test_errors() -> None:
-    """Mutant: the correlation of the currents left out, which makes the error of kappa_0 larger."""
+    """Finds: the correlation of the currents left out, which makes the error of kappa_0 larger."""
     errors = np.array([1.0, 0.01])
     covariance = np.outer(errors, errors) * [[1, 0.98], [0.98, 1]]
     random, scores = np.random.default_rng(1), {"kappa_0": [], "L_un": [], "asymmetry": []}

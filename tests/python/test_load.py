@@ -41,6 +41,12 @@ def write(path: Path, axes: Mapping[str, np.ndarray], values: Mapping[str, np.nd
         for name in values:
             for i, axis in enumerate(axes):
                 group[name].dims[i].attach_scale(group[axis])
+        seal(file)
+
+
+def seal(file: h5py.File) -> None:
+    """States the digest of the present values."""
+    file["provenance"].attrs["results_digest"] = results_digest(file["results"])
 
 
 @pytest.fixture
@@ -97,6 +103,7 @@ def test_dimensions_without_a_scale_of_their_own_are_refused(tmp_path: Path, mea
         write(path, {"time": TIME, "cell": CELL}, measured)
         with h5py.File(path, "r+") as file:
             spoil(file["results/energy"])
+            seal(file)
         with pytest.raises(FormatError, match="each dimension needs one dimension scale"):
             load(path)
 
@@ -105,6 +112,7 @@ def test_what_belongs_to_no_dimension_is_refused(tmp_path: Path, measured: dict)
     write(tmp_path / "a.h5", {"time": TIME, "cell": CELL}, measured)
     with h5py.File(tmp_path / "a.h5", "r+") as file:
         file["results/energy/more"] = TIME
+        seal(file)
     with pytest.raises(FormatError, match="more are neither values nor axes"):
         load(tmp_path / "a.h5")
 
@@ -182,3 +190,7 @@ def test_the_digest_of_results_by_hand_and_of_any_change(tmp_path: Path, measure
         assert results_digest(file["results"]) == f"{zlib.crc32(content):08x}"
         file["results/energy/mean"][1, 2] += 1e-9
         assert results_digest(file["results"]) != f"{zlib.crc32(content):08x}"
+    with pytest.raises(
+        FormatError, match="edited or damaged: its values differ from those written; remove it"
+    ):
+        load(path)

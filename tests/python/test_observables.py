@@ -38,7 +38,7 @@ def test_waiting_times_at_sigma_0_are_the_exact_ones(measure: Measure) -> None:
         return float(np.abs((density.mean[seen] - expected) / density.standard_error[seen]).max())
 
     assert largest_score(lambda t: np.exp(-((thermal / t) ** 2) / 2)) < 4
-    # Mutants: another temperature; momenta without the flux weight.
+    # Finds: another temperature; momenta without the flux weight.
     assert largest_score(lambda t: np.exp(-1.05 * (thermal / t) ** 2 / 2)) > 4
     assert largest_score(lambda t: erfc(thermal / t / np.sqrt(2))) > 40
 
@@ -93,7 +93,7 @@ def test_displacement_with_known_momentum(measure: Measure) -> None:
         return abs(float(sample.mean() / sample.std(ddof=1))) * np.sqrt(len(sample))
 
     assert difference(1) < 4
-    # Mutant: the mean square of the particles' momentum only, 20 / (20 + 4 x 9) of the total.
+    # Finds: the mean square of the particles' momentum only, 20 / (20 + 4 x 9) of the total.
     assert difference(20 / 56) > 10
     assert np.mean(plain_error**2) > 10 * np.mean(error**2)
 

@@ -7,9 +7,9 @@ import pytest
 
 from tests.python.conftest import ROOT
 from workflow.lib import plan
-from workflow.lib.configuration import EFFORT, FOLDER
-from workflow.lib.plan import QUALITIES, Quality, load_plan
-from workflow.lib.units import option_units
+from workflow.lib.configuration import EFFORT, FOLDER, ConfigurationError
+from workflow.lib.identity import identity
+from workflow.lib.plan import BATCH, QUALITIES, Quality, Run, data_path, load_plan
 
 
 @pytest.fixture
@@ -54,7 +54,7 @@ def test_seeds_stay_as_they_are() -> None:
 
 
 def test_replicas_of_the_user_replace_a_target_error() -> None:
-    options = {"replicas": 32, "max-replicas": 64, "target-error": 0.1, "target-absolute": 0.1, "sigma": 0}
+    options = {"replicas": 32, "target-error": 0.1, "target-absolute": 0.1, "sigma": 0}
     completed = Quality.of("smoke_replicas=5").complete("fig05", "paper", options)
     assert {key: completed[key] for key in completed if key != "seed"} == {"replicas": 5, "sigma": 0}
     assert Quality.of("smoke_seed=7_replicas=5").arguments == "QUALITY=smoke SEED=7 REPLICAS=5"
@@ -88,13 +88,59 @@ def test_fig05_covers_the_range_and_its_limits() -> None:
     assert len([sigma for sigma in sigmas if -0.99 <= sigma <= 0.99]) >= 19
 
 
-def test_units_of_options_are_part_of_a_panels_configuration(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The table of the panel states them."""
-    panels = load_plan("smoke")
-    before = {name: panel.hash() for name, panel in panels.items()}
-    units = option_units() | {"cell-length": "energy"}
-    monkeypatch.setattr(plan, "option_units", lambda: units)
-    changed = {name for name, panel in panels.items() if panel.hash() != before[name]}
-    assert changed == {
-        name for name, panel in panels.items() if any("cell-length" in run.options for run in panel.runs)
+def test_an_error_replaces_replicas() -> None:
+    quality = Quality.of("smoke_seed=7_error=0.005_hours=2")
+    assert quality.arguments == "QUALITY=smoke SEED=7 ERROR=0.005 HOURS=2.0"
+    completed = quality.complete("fig05", "paper", {"replicas": 500, "sigma": 0})
+    assert {key: completed[key] for key in completed if key != "seed"} == {
+        "replicas": BATCH,
+        "target-error": 0.005,
+        "sigma": 0,
     }
+    assert quality.complete("fig05", "paper", {}, 200)["target-absolute"] == 1
+    runs = load_plan("smoke_error=0.01")["ext13"].runs
+    assert {run.series: "target-absolute" in run.options for run in runs} == {
+        run.series: run.series == "random" for run in runs
+    }
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("best", "best is not a quality; choose one of"),
+        ("smoke_seed=07", "SEED=07 is invalid"),
+        ("smoke_seed=1_seed=2", "seed=2 is given more than once"),
+        ("smoke_seed=-1", "SEED=-1 is invalid; allowed: a whole number, at least 0"),
+        ("smoke_replicas=0", "REPLICAS=0 is invalid"),
+        ("smoke_error=0", "ERROR=0 is invalid; allowed: a number greater than 0"),
+        ("smoke_error=x", "ERROR=x is invalid"),
+        ("smoke_erorr=1", "erorr=1 is no effort; did you mean error?"),
+        ("smoke_error=1_replicas=2", "ERROR and REPLICAS both determine"),
+        ("smoke_hours=1", "HOURS bounds the time to reach an error"),
+    ],
+)
+def test_invalid_efforts(name: str, message: str) -> None:
+    with pytest.raises(ConfigurationError) as error:
+        Quality.of(name)
+    assert str(error.value).startswith(message)
+
+
+def test_what_determines_a_result_is_in_its_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    run = Run("a", "persistence", {"sigma": 0.5, "cells": 8, "seed": 1})
+    same = Run("b", "persistence", {"cells": 8.0, "seed": 1, "sigma": 0.5})
+    others = [
+        Run("a", "persistence", {"sigma": 0.5, "cells": 8, "seed": 2}),
+        Run("a", "persistence", {"sigma": 0.5, "cells": 8}),
+        Run("a", "ageing", run.options),
+        Run("a", "persistence", run.options, hours=2),
+    ]
+    assert run.identity == same.identity
+    monkeypatch.setattr(plan, "build_id", lambda program: "another")
+    names = {one.identity for one in (run, *others, Run("a", "persistence", run.options))}
+    assert len(names) == 2 + len(others)
+    assert data_path("standard_seed=7", "fig05", run) == f"data/standard/fig05/a.{run.identity}.h5"
+
+
+def test_booleans_and_numbers_differ() -> None:
+    assert len({identity({"a": one}) for one in (True, False, 1, "1", 1.5)}) == 5
+    assert identity(1) == identity(1.0)

@@ -145,65 +145,6 @@ def test_a_closed_terminal_is_ignored_with_nohup(tmp_path: Path) -> None:
     assert (tmp_path / "out.h5").is_file()
 
 
-def test_checkpoints_that_are_not_resumed(persistence: Program, tmp_path: Path) -> None:
-    options = {"replicas": 300, "observation-time": 2000, "checkpoint-interval": 0.1, "threads": 1}
-    keywords = {key.replace("-", "_"): value for key, value in options.items()}
-    process = subprocess.Popen(command_line("persistence", {**options, "output": "out.h5"}), cwd=tmp_path,
-                               stderr=subprocess.DEVNULL)  # fmt: skip
-    path = tmp_path / "out.h5.checkpoint"
-    deadline = time.monotonic() + 30
-    while not path.exists() and time.monotonic() < deadline:
-        time.sleep(0.01)
-    process.terminate()
-    assert process.wait(timeout=10) == 128 + signal.SIGTERM
-    whole = path.read_bytes()
-
-    content = bytearray(whole)
-    with h5py.File(path) as file:  # one bit of a number, which HDF5 does not notice
-        content[file["tallies/energy_drift"].id.get_offset()] ^= 1
-    path.write_bytes(content)
-    damaged = persistence(**keywords, resume=True)
-    assert damaged.returncode == 2
-    assert "'out.h5.checkpoint' cannot be resumed or joined: it is damaged. Remove it" in damaged.stderr
-    assert damaged.stderr.count("\n") == 1
-
-    path.write_bytes(whole)
-    for resume, reason in ((True, "is of other options or another build"), (None, "replicas of this run")):
-        refused = persistence(**(keywords if not resume else {}), resume=resume, overwrite=None)
-        assert refused.returncode == 2
-        assert refused.stderr.count("\n") == 1
-        assert reason in refused.stderr
-        assert path.read_bytes() == whole
-    assert persistence(resume=True).returncode == 0
-    persistence(output="fresh.h5")
-    assert (tmp_path / "out.h5").read_bytes() == (tmp_path / "fresh.h5").read_bytes()
-    assert not list(tmp_path.glob("*checkpoint*"))
-
-
-def test_output_of_other_options_is_kept(persistence: Program, tmp_path: Path) -> None:
-    persistence()
-    before = (tmp_path / "out.h5").read_bytes()
-    refused = persistence(sigma=0.25, overwrite=None)
-    assert refused.returncode == 2
-    assert "another --sigma" in refused.stderr
-    assert "--overwrite" in refused.stderr
-    assert (tmp_path / "out.h5").read_bytes() == before
-    assert persistence(overwrite=None).returncode == 0
-    assert persistence(sigma=0.25).returncode == 0
-    assert load(tmp_path / "out.h5").parameters["sigma"] == 0.25
-
-
-def test_target_error_is_reached_in_whole_batches(persistence: Program, tmp_path: Path) -> None:
-    assert persistence(target_error=0.004, replicas=8).returncode == 0
-    result = load(tmp_path / "out.h5")
-    assert result.converged == "reached"
-    assert result.provenance["achieved_error"] <= 0.004
-    assert result["mu"].count % 8 == 0
-    assert result["mu"].count >= 64
-    relative = float(result["mu"].standard_error / result["mu"].mean)
-    assert result.provenance["achieved_error"] == pytest.approx(relative, rel=1e-12)
-
-
 def test_target_that_is_not_reached_is_reported(persistence: Program, tmp_path: Path) -> None:
     result = persistence(target_error=1e-9, replicas=4, time_limit=1e-9, progress="log")
     assert result.returncode == 4

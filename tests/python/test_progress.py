@@ -34,7 +34,7 @@ def handler_of(**output: bool) -> LogHandler:
 @pytest.fixture
 def handler(monkeypatch: pytest.MonkeyPatch) -> LogHandler:
     """Two runs of 8 s and a drawing on one core."""
-    monkeypatch.setattr(progress, "seconds_of_run", lambda *_: 8)
+    monkeypatch.setattr(progress, "estimated_seconds", lambda *_: 8)
     monkeypatch.setattr(
         progress, "outcome", lambda path: ("mu = 0.3289(30)", ["not stationary"] * (path.stem == "b"))
     )

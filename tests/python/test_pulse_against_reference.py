@@ -1,16 +1,16 @@
 """Profiles and exponent of the energy pulse against the reference simulator, which shares no code with the
 program: neither engine, nor initial state, nor random numbers, nor the fit of the peak."""
 
-import subprocess
 from functools import cache
 
 import numpy as np
 import pytest
 from scipy.stats import chi2
 
-from tests.python.conftest import ROOT, Measure
+from tests.python.conftest import Measure
 from tests.python.test_pulse_peak import fit
 from workflow.lib.load import Result
+from workflow.tradeoff.measure import simulate
 
 CELLS, PARTICLES, SIGMA, ENERGY, PULSE_ENERGY = 41, 20, 0.5, 5000, 50000
 PAIRS = {"N": 90, 1: 150}  # enough to find the mutants
@@ -20,11 +20,11 @@ TIMES = {"N": (0.02, 0.03, 0.045, 0.06), 1: (0.008, 0.01, 0.015, 0.02)}
 @cache
 def reference(gamma: float, times: tuple[float, ...], *, replicas: int, pairs: int) -> np.ndarray:
     """Energy differences [replica, time, cell]."""
-    command = [ROOT / "build/bin/reference_pulse", CELLS, PARTICLES, SIGMA, gamma, ENERGY, PULSE_ENERGY]
-    words = [*command, pairs, replicas, 1, "shared", *times]
-    output = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=True).stdout
-    rows = [[float(word) for word in line.split()] for line in output.splitlines()]
-    return np.array(rows).reshape(replicas, len(times), CELLS)
+    chain = {"cells": CELLS, "particles_per_cell": PARTICLES, "sigma": SIGMA, "gamma": gamma}
+    pulse = {"energy": ENERGY, "pulse_energy": PULSE_ENERGY, "times": ",".join(map(str, times))}
+    effort = {"pairs_per_replica": pairs, "replicas": replicas, "seed": 1}
+    rows, _ = simulate("pulse", **chain, **pulse, **effort, start="shared")
+    return rows.astype(float).reshape(replicas, len(times), CELLS)
 
 
 def damping_exponent(profiles: np.ndarray, times: tuple[float, ...]) -> float:
@@ -70,6 +70,6 @@ def test_profiles_and_exponent(measure: Measure, gamma: str | int) -> None:
     assert len(z) > 60
     assert accepted(z)
     assert abs(exponent_score) < 4
-    # Mutants: lighter scatterers; a larger pulse.
+    # Finds: lighter scatterers; a larger pulse.
     assert not accepted(scores(pulse(sigma=0.4 if gamma == "N" else 0.3), visited, times, pairs)[0])
     assert not accepted(scores(pulse(pulse_energy=53000), visited, times, pairs)[0])

@@ -15,6 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.python.scale import ROUNDING, SCALES, Scale, agree
+from workflow.config.describe import built
 from workflow.lib.load import Result
 from workflow.lib.units import WORDS, Units, UnitsError, option_units, parse
 from workflow.tradeoff.measure import call
@@ -182,11 +183,13 @@ def mutants(result: Result) -> Iterator[tuple[str, Result]]:
                     yield f"{name}/{axis} in {wrong}", changed
 
 
-@pytest.mark.parametrize("program", sorted({program for program, _ in CASES.values()}))
+@pytest.mark.parametrize("program", built())
 def test_every_wrong_unit_is_found(program: str) -> None:
     """Found in at least one case of the program, because a quantity may be NaN or 0 in others."""
     missed: set[str] | None = None
-    for case in (name for name, (its_program, _) in CASES.items() if its_program == program):
+    cases = [name for name, (its_program, _) in CASES.items() if its_program == program]
+    assert cases, f"{program} has no entry in CASES: add it"
+    for case in cases:
         plain, *others = measured(case)
         unseen = {
             place

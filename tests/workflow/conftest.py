@@ -12,10 +12,13 @@ from pathlib import Path
 
 import pytest
 
+from workflow.lib.identity import IDENTITY
+from workflow.lib.record import records_of
+
 ROOT = Path(__file__).parents[2]
-MADE = ("data/smoke", "figures/smoke", ".snakemake/metadata", "build/bin", "build/id")
+MADE = ("data/smoke", "figures/smoke", "build/bin", "build/id")
 NETWORK = re.compile(r"SSL_CERT_|UV_|PIP_|(https?|all|no)_proxy$", re.IGNORECASE)
-OUTPUT = re.compile(r"^\s*output: (.*)$", re.MULTILINE)
+OUTPUT = re.compile(rf"^\s*output: \w+/\w+/(.*)\.{IDENTITY}\.\w+$", re.MULTILINE)
 Done = subprocess.CompletedProcess[str]
 
 
@@ -59,9 +62,27 @@ class Clone:
 
     def stale(self, target: str = "figures") -> set[str]:
         """Jobs that would run, as `panel/run` or `panel`."""
-        outputs = OUTPUT.findall(self.snakemake("--dry-run", target))
-        paths = [one.split(",")[0].strip() for one in outputs]
-        return {"/".join(Path(path).with_suffix("").parts[2:]) for path in paths}
+        return {*OUTPUT.findall(self.snakemake("--dry-run", target))}
+
+    def stale_path(self, panel: str) -> str:
+        """Path of the record of a panel that is to be made."""
+        listed = self.snakemake("--dry-run", "figures")
+        (path,) = {*re.findall(rf"output: (figures/smoke/{panel}\.{IDENTITY}\.json)", listed)}
+        return path
+
+    def result(self, run: str) -> str:
+        """Path of the result of `panel/run`, of which there is one."""
+        found = [
+            path
+            for path in self.products()
+            if re.fullmatch(rf"data/smoke/{re.escape(run)}\.{IDENTITY}\.h5", path)
+        ]
+        assert len(found) == 1
+        return found[0]
+
+    def record(self, panel: str) -> str:
+        (path,) = records_of(self.folder / "figures/smoke" / panel)
+        return str(path.relative_to(self.folder))
 
     def git(self, *arguments: str) -> None:
         author = ["-c", "user.name=Nobody", "-c", "user.email=nobody@example.org"]
@@ -74,7 +95,7 @@ class Clone:
     def keep_only(self, *panels: str) -> None:
         """Deletes results and figures of the other panels, as a check renders every panel again."""
         for path in [*self.folder.glob("data/smoke/*"), *self.folder.glob("figures/smoke/*.*")]:
-            if path.stem not in panels:
+            if path.name.partition(".")[0] not in panels:
                 shutil.rmtree(path) if path.is_dir() else path.unlink()
 
     def products(self) -> dict[str, bytes]:
@@ -136,13 +157,14 @@ def clean(tmp_path_factory: pytest.TempPathFactory) -> Clone:
         copy_made(shared if shared.exists() else ROOT, folder)
         if not shared.exists():
             clone.snakemake("figures")
+            clone.module("provenance.obsolete")
             copy_made(folder, shared)
     return clone
 
 
 @pytest.fixture
 def kept(clean: Clone) -> Iterator[Clone]:
-    """The clean clone. Sources, products and Snakemake's records are restored after the test."""
+    """The clean clone. Sources and products are restored after the test."""
     places = (
         "data",
         "figures",
@@ -152,7 +174,6 @@ def kept(clean: Clone) -> Iterator[Clone]:
         "docs",
         "README.md",
         "uv.lock",
-        ".snakemake/metadata",
         "build/id",
     )
     before = {
@@ -201,3 +222,7 @@ def copy(source: str, target: str) -> Edit:
 
 def delete(path: str) -> Edit:
     return lambda clone: (clone.folder / path).unlink()
+
+
+def delete_result(run: str) -> Edit:
+    return lambda clone: (clone.folder / clone.result(run)).unlink()

@@ -3,15 +3,16 @@
 import json
 import shutil
 import zipfile
+from collections.abc import Callable
 from pathlib import Path
 
 import h5py
 import pytest
 
-from tests.workflow.conftest import ROOT, Clone, Edit, append, copy, delete, replace
-from workflow.lib.figure_metadata import file_hash
+from tests.workflow.conftest import ROOT, Clone, Edit, append, copy, delete, delete_result, replace
+from workflow.lib.files import file_hash
 
-RESULT = "data/smoke/fig03/paper.h5"
+RUN = "fig03/paper"
 FIGURE = "figures/smoke/fig03"
 
 
@@ -20,44 +21,54 @@ def audit(clone: Clone, *arguments: str, status: int = 0) -> str:
 
 
 def edit_value(clone: Clone) -> None:
-    with h5py.File(clone.folder / RESULT, "r+") as file:
+    with h5py.File(clone.folder / clone.result(RUN), "r+") as file:
         file["results/particle_current/mean"][...] *= 1.001
 
 
 def edit_option(clone: Clone) -> None:
-    with h5py.File(clone.folder / RESULT, "r+") as file:
+    with h5py.File(clone.folder / clone.result(RUN), "r+") as file:
         file["parameters"].attrs["sigma"] = 0.25
 
 
 def edit_record(clone: Clone) -> None:
     """Edits the figure and its record, so that they agree."""
     append(f"{FIGURE}.csv", "1,2,3\n")(clone)
-    path = clone.folder / f"{FIGURE}.json"
+    path = clone.folder / clone.record("fig03")
     record = json.loads(path.read_text())
     record["files"]["fig03.csv"] = file_hash(clone.folder / f"{FIGURE}.csv")
     path.write_text(json.dumps(record))
 
 
-def halve(path: str) -> Edit:
+def halve(name: Callable[[Clone], str]) -> Edit:
     def edit(clone: Clone) -> None:
-        content = (clone.folder / path).read_bytes()
-        (clone.folder / path).write_bytes(content[: len(content) // 2])
+        path = clone.folder / name(clone)
+        path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
 
     return edit
 
 
+def of_run(clone: Clone) -> str:
+    return clone.result(RUN)
+
+
+def of_record(clone: Clone) -> str:
+    return clone.record("fig03")
+
+
+def exchange(clone: Clone) -> None:
+    shutil.copyfile(clone.folder / clone.result("fig03/equal"), clone.folder / clone.result(RUN))
+
+
+# {result} and {record}: the paths before the edit.
 BROKEN: dict[str, tuple[Edit, str]] = {
-    "value edited": (edit_value, f"{RESULT}: edited or damaged: its values differ from those written"),
-    "option edited": (edit_option, f"{RESULT}: stale: it has --sigma 0.25, the configuration 0.5"),
-    "result copied in part": (halve(RESULT), f"{RESULT}: "),
-    "result exchanged": (
-        copy("data/smoke/fig03/equal.h5", RESULT),
-        f"{RESULT}: stale: it has --temperature-left",
-    ),
-    "result missing": (delete(RESULT), f"{RESULT}: is missing"),
+    "value edited": (edit_value, "{result}: edited or damaged: its values differ from those written"),
+    "option edited": (edit_option, "{result}: stale: it has --sigma 0.25, the configuration 0.5"),
+    "result copied in part": (halve(of_run), "{result}: "),
+    "result exchanged": (exchange, "{result}: stale: it has --temperature-left"),
+    "result missing": (delete_result(RUN), "{result}: is missing"),
     "table edited": (
         append(f"{FIGURE}.csv", "1,2,3\n"),
-        f"{FIGURE}.csv: edited or replaced: it differs from its hash in fig03.json",
+        f"{FIGURE}.csv: edited or replaced: it differs from its hash in fig03.",
     ),
     "table and record edited": (
         edit_record,
@@ -67,7 +78,7 @@ BROKEN: dict[str, tuple[Edit, str]] = {
         copy("figures/smoke/fig05.png", f"{FIGURE}.png"),
         f"{FIGURE}.png: edited or replaced",
     ),
-    "record copied in part": (halve(f"{FIGURE}.json"), f"{FIGURE}.json: "),
+    "record copied in part": (halve(of_record), "{record}: "),
     "figure missing": (delete(f"{FIGURE}.svg"), f"{FIGURE}.svg: is missing"),
     "script": (
         append("workflow/figures/fig03.py", "# more\n"),
@@ -76,11 +87,11 @@ BROKEN: dict[str, tuple[Edit, str]] = {
     "packages": (append("uv.lock", "# more\n"), f"{FIGURE}.pdf: stale: uv.lock has changed"),
     "C++ source": (
         append("cpp/boltzmann/solver.cpp", "// more\n"),
-        f"{RESULT}: stale: the sources of boltzmann have changed",
+        "{result}: stale: the sources of boltzmann have changed",
     ),
     "parameter": (
         replace("workflow/config/paper.yaml", "momentum-bins: 240", "momentum-bins: 238"),
-        f"{RESULT}: stale: it has --momentum-bins 240, the configuration 238",
+        "{result}: stale: it has --momentum-bins 240, the configuration 238",
     ),
 }
 
@@ -88,6 +99,7 @@ BROKEN: dict[str, tuple[Edit, str]] = {
 @pytest.mark.parametrize("name", BROKEN)
 def test_what_is_broken_is_named(kept: Clone, name: str) -> None:
     edit, message = BROKEN[name]
+    message = message.format(result=kept.result(RUN), record=kept.record("fig03"))
     edit(kept)
     assert f"broken: {message}" in audit(kept, "--panel", "fig03", status=1)
 
@@ -106,17 +118,31 @@ def test_four_panels_hold(kept: Clone) -> None:
 
 def test_what_is_not_in_the_plan_is_named(kept: Clone) -> None:
     kept.keep_only("fig03")
-    copy(RESULT, "data/smoke/fig03/mine.h5")(kept)
-    assert "data/smoke/fig03/mine.h5: is not in the plan" in audit(kept, status=1)
+    copy(kept.result(RUN), "data/smoke/fig03/mine.h5")(kept)
+    for arguments in ((), ("--panel", "fig03")):
+        printed = audit(kept, *arguments)
+        assert "obsolete: data/smoke/fig03/mine.h5: no plan names it; make prune removes it" in printed
+        assert "0 broken, 0 not checked, 1 obsolete" in printed
+    assert "Obsolete: 1 results or figures" in kept.module("provenance.status", "--quality", "smoke")
+    assert "Removed 1 results and 0 other files" in kept.module("provenance.obsolete")
+    assert "obsolete" not in audit(kept)
+
+
+def test_a_panel_needs_the_results_that_it_plots_and_no_other_figure(kept: Clone) -> None:
+    kept.keep_only("fig08", "ext09")
+    for path in (kept.folder / "figures/smoke").glob("ext09.*"):
+        path.unlink()
+    printed = audit(kept, "--panel", "fig08")
+    assert printed == "1 panels with their results: 0 broken, 0 not checked, all else holds\n"
 
 
 def test_other_packages_and_compilers_are_not_checked(kept: Clone) -> None:
-    path = kept.folder / "build/id/boltzmann.json"
+    path, result = kept.folder / "build/id/boltzmann.json", kept.result(RUN)
     former = path.read_text()
-    path.write_text(json.dumps(json.loads(former) | {"compiler": "another"}))
+    path.write_text(json.dumps(json.loads(former) | {"compiler": "another", "build_id": "0" * 64}))
     printed = audit(kept, "--panel", "fig03", status=3)
     path.write_text(former)
-    assert f"not checked: {RESULT}: by another compiler" in printed
+    assert f"not checked: {result}: by another compiler" in printed
     (metadata,) = kept.folder.glob(".venv/lib/python3*/site-packages/matplotlib-*.dist-info/METADATA")
     former = metadata.read_text()
     metadata.unlink()  # uv links installed files to its cache
@@ -128,9 +154,10 @@ def test_other_packages_and_compilers_are_not_checked(kept: Clone) -> None:
 
 def test_a_crate_unpacked_in_another_repository_holds(clean: Clone, tmp_path: Path) -> None:
     """A panel with `=` in the names of its runs."""
-    clean.module("provenance.crate", "--quality", "smoke", "--panel", "fig06")
+    packed = ("--archive", "build/crate/fig06.zip")
+    clean.module("provenance.crate", "--quality", "smoke", "--panel", "fig06", *packed)
     Clone(tmp_path).git("init", "--quiet")
-    with zipfile.ZipFile(clean.folder / "build/crate/lorentz-gas-smoke.zip") as archive:
+    with zipfile.ZipFile(clean.folder / packed[1]) as archive:
         archive.extractall(tmp_path / "thesis")
     crate = Clone(tmp_path / "thesis")
     shutil.copytree(ROOT / ".cache", crate.folder / ".cache", ignore=shutil.ignore_patterns("mypy"))
@@ -146,7 +173,7 @@ def test_verify_reruns_a_panel(kept: Clone) -> None:
     command += ["--programs", "build/fresh"]
     edit_value(kept)
     printed = kept.module(*command, status=1)
-    assert f"{RESULT}: other bytes" in printed
+    assert f"{kept.result(RUN)}: other bytes" in printed
     assert printed.count(": equal bytes") == 2
 
 
@@ -155,7 +182,7 @@ def test_where_a_copy_comes_from(clean: Clone, tmp_path: Path, kind: str) -> Non
     copied = shutil.copyfile(clean.folder / f"{FIGURE}.{kind}", tmp_path / f"a copy.{kind}")
     printed = clean.module("provenance.tree", str(copied), "--full")
     identity = json.loads((clean.folder / "build/id/boltzmann.json").read_text())
-    paths = (RESULT, "uv.lock", "workflow/figures/fig03.py", "workflow/lib/style.py")
+    paths = (clean.result(RUN), "uv.lock", "workflow/figures/fig03.py", "workflow/lib/style.py")
     wanted = [identity["source_hash"], *(file_hash(clean.folder / path) for path in paths)]
     assert all(f"{digest[:16]}  same here" in printed for digest in wanted)
     assert printed.startswith(f"a copy.{kind} is {FIGURE}.{kind}, rendered at commit ")
@@ -167,12 +194,24 @@ def test_where_a_copy_comes_from(clean: Clone, tmp_path: Path, kind: str) -> Non
     assert "panel fig03 at quality smoke" in printed
 
 
+def test_a_parent_that_differs_is_listed_first(kept: Clone) -> None:
+    append("workflow/lib/units.py", "# more\n")(kept)
+    edit_value(kept)
+    first, _, _, *lines = kept.module("provenance.tree", f"{FIGURE}.pdf", status=1).splitlines()
+    assert first.startswith("fig03.pdf is figures/smoke/fig03.pdf, rendered at commit")
+    assert [line.split()[0] for line in lines[:2]] == ["workflow/lib/units.py", kept.result(RUN)]
+    assert all("other here" in line for line in lines[:2])
+    assert "other here" not in " ".join(lines[2:])
+    assert lines[-1].startswith("Parents have changed: make panel PANEL=fig03 QUALITY=smoke makes")
+
+
 def test_where_a_result_comes_from(kept: Clone) -> None:
-    printed = kept.module("provenance.tree", RESULT)
-    assert printed.startswith("paper.h5 is unmodified\n")
+    result = kept.result(RUN)
+    printed = kept.module("provenance.tree", result)
+    assert printed.startswith(f"{Path(result).name} is unmodified\n")
     assert "program boltzmann: " in printed
     edit_value(kept)
-    assert "is edited or damaged" in kept.module("provenance.tree", RESULT, status=1)
+    assert "is edited or damaged" in kept.module("provenance.tree", result, status=1)
 
 
 def test_what_states_no_parents_is_refused_in_a_line(clean: Clone, tmp_path: Path) -> None:

@@ -22,7 +22,7 @@ from urllib3 import HTTPResponse
 
 from tests.workflow.conftest import Clone, append
 
-FOLDER, ARCHIVE = "build/crate/smoke", "build/crate/lorentz-gas-smoke.zip"
+FOLDER, ARCHIVE = "build/crate/smoke", "build/crate/fig03.zip"
 METADATA = "ro-crate-metadata.json"
 CONTEXT = "https://w3id.org/ro/crate/1.1/context"
 TERMS_OF_1_1 = {"ComputationalWorkflow": "https://bioschemas.org/ComputationalWorkflow"}
@@ -34,7 +34,8 @@ Entities = dict[str, dict]
 
 
 def pack(clone: Clone, status: int = 0) -> str:
-    return clone.module("provenance.crate", "--quality", "smoke", "--panel", "fig03", status=status)
+    command = ("provenance.crate", "--quality", "smoke", "--panel", "fig03", "--archive", ARCHIVE)
+    return clone.module(*command, status=status)
 
 
 @pytest.fixture(scope="module")
@@ -68,7 +69,7 @@ def test_every_run_and_figure_is_an_action(packed: Clone) -> None:
     assert {*actions} == {"workflow", "job/fig03", "job/fig03/paper", "job/fig03/equal", "job/fig03/exchange"}
     run, drawing = actions["job/fig03/paper"], actions["job/fig03"]
     assert run["description"].startswith("boltzmann --sigma 0.5 --gamma 1 --nu-left 220 ")
-    assert run["result"] == {"@id": "data/smoke/fig03/paper.h5"}
+    assert run["result"] == {"@id": packed.result("fig03/paper")}
     assert drawing["instrument"] == {"@id": "workflow/figures/fig03.py"}
     assert run["result"] in drawing["object"]
     assert len(drawing["result"]) == 5
@@ -83,10 +84,23 @@ def test_equal_inputs_give_equal_bytes_that_name_no_folder(packed: Clone) -> Non
     assert [(packed.folder / path).read_bytes() for path in (ARCHIVE, f"{FOLDER}/{METADATA}")] == first
 
 
+def test_a_second_make_crate_does_nothing(kept: Clone) -> None:
+    """New sources are packed, tracked or not."""
+    command = (".venv/bin/snakemake", "--config", "quality=smoke", "panel=fig03", "--", "crate")
+    kept.run(*command)
+    (archive,) = (kept.folder / "build/crate").glob("lorentz-gas-smoke-fig03.*.zip")
+    assert "Nothing to be done" in kept.run(*command).stdout
+    (kept.folder / "workflow/figures/mine.py").write_text("x = 1\n")
+    kept.run(*command)
+    (other,) = {*(kept.folder / "build/crate").glob("lorentz-gas-smoke-fig03.*.zip")} - {archive}
+    with zipfile.ZipFile(other) as content:
+        assert "workflow/figures/mine.py" in content.namelist()
+
+
 def test_what_has_been_edited_is_not_packed(packed: Clone, kept: Clone) -> None:
     before = (packed.folder / ARCHIVE).read_bytes()
     append("figures/smoke/fig03.csv", "1,2\n")(kept)
-    assert "fig03.csv: edited or replaced: it differs from its hash in fig03.json" in pack(kept, status=1)
+    assert "fig03.csv: edited or replaced: it differs from its hash in fig03." in pack(kept, status=1)
     assert (packed.folder / ARCHIVE).read_bytes() == before
 
 

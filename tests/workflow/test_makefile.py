@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from tests.workflow.conftest import ROOT, Clone, clone_into, copy_made, share_build
-from workflow.lib.plan import load_plan
+from workflow.lib.load import load
+from workflow.lib.plan import data_path, load_plan
 
 HOSTILE = {
     "LC_ALL": "de_DE.UTF-8",
@@ -56,9 +57,7 @@ def test_a_moved_folder_and_an_unusual_environment_change_nothing(clean: Clone, 
     moved.make("panel", "PANEL=fig03", "QUALITY=smoke", **HOSTILE, **OFFLINE)
     assert (packages / "mine.py").is_file()
     after = moved.products()
-    assert {path for path in after if after[path] != products[path]} <= {
-        "figures/smoke/fig03.json"
-    }  # the commit
+    assert {path for path in after if after[path] != products[path]} <= {moved.record("fig03")}  # the commit
 
 
 def test_an_environment_without_interpreter_is_renewed(moved: Clone) -> None:
@@ -125,20 +124,35 @@ def test_two_at_once_are_refused(clean: Clone) -> None:
 
 def test_rerun_from_scratch_is_compared_in_a_line(kept: Clone) -> None:
     kept.module("provenance.compare", "--quality", "smoke", "--panel", "fig03", "--keep")
-    kept.snakemake("--forceall", "figures/smoke/fig03.pdf")
+    kept.snakemake("--forceall", kept.record("fig03"))
     printed = kept.module("provenance.compare", "--quality", "smoke", "--panel", "fig03")
-    assert printed == "3 of 3 results agree with those in build/before/smoke, smallest p = 1\n"
+    assert printed == "3 of 3 results agree with those in build/before/data/smoke, smallest p = 1\n"
 
 
-def test_another_seed_has_a_folder_of_its_own_and_is_compared(kept: Clone) -> None:
+def test_another_seed_has_figures_of_its_own_and_is_compared(kept: Clone) -> None:
     quality = "smoke_seed=7_replicas=5"
-    kept.run(".venv/bin/snakemake", "--config", f"quality={quality}", "--", f"figures/{quality}/fig06.pdf")
+    kept.run(".venv/bin/snakemake", "--config", f"quality={quality}", "panel=fig06", "--", "panel")
     printed = kept.module("provenance.compare", "--quality", quality, "--panel", "fig06")
     assert printed.startswith("2 of 2 results agree with those in data/smoke, smallest p = 0.")
-    provenance = f"data/{quality}/fig06/all_sigma=0.h5"
     run = load_plan(quality)["fig06"].runs[0]
     assert run.options["replicas"] == 5
-    assert f"seed {run.options['seed']}" in kept.module("provenance.tree", provenance)
+    path = data_path(quality, "fig06", run)
+    assert f"seed {run.options['seed']}" in kept.module("provenance.tree", path)
+    assert (kept.folder / f"figures/{quality}/fig06.pdf").is_file()
+
+
+def test_an_error_is_reached_or_the_time_is_bounded(kept: Clone) -> None:
+    quality = "smoke_error=0.02"
+    kept.run(".venv/bin/snakemake", "--config", f"quality={quality}", "panel=fig06", "--", "panel")
+    printed = kept.module("provenance.errors", "--quality", quality, "--panel", "fig06")
+    assert printed == "2 of 2 runs have reached an error of 0.02\n"
+    for run in load_plan(quality)["fig06"].runs:
+        assert load(kept.folder / data_path(quality, "fig06", run)).provenance["achieved_error"] < 0.02
+    bounded = f"{quality[:-4]}1e-5_hours=0.0002"
+    kept.run(".venv/bin/snakemake", "--config", f"quality={bounded}", "panel=fig06", "--", "panel")
+    printed = kept.module("provenance.errors", "--quality", bounded, "--panel", "fig06")
+    assert printed.startswith("0 of 2 runs have reached an error of 1e-05\n  fig06/all_sigma=0: error ")
+    assert "of exponent, requested 1e-05" in printed
 
 
 @pytest.mark.parametrize(
@@ -149,7 +163,14 @@ def test_another_seed_has_a_folder_of_its_own_and_is_compared(kept: Clone) -> No
         (("panel",), "PANEL is missing; try make panel PANEL=fig05"),
         (("provenance",), "FILE is missing; try make provenance FILE=figures/standard/fig05.pdf"),
         (("audit", "PANEL=fig5"), "fig5 is not a panel; did you mean fig05?"),
+        (("audit", "PANEL=3"), "3 is not a panel; choose one of model, "),
+        (("figures", "PANEL=fig03"), "PANEL has no effect on this target; try make panel PANEL=fig03"),
+        (("figures", "FRESH=0"), "FRESH=0 is invalid; give FRESH=yes, or leave it out"),
+        (("figures", "JOBS=0"), "JOBS=0 is invalid; give the number of jobs, at least 1"),
+        (("figures", "PROFILE=slrm"), "slrm is not a profile; did you mean slurm?"),
+        (("status", "SEED=-1"), "SEED=-1 is invalid; allowed: a whole number, at least 0"),
         (("status", "QUALITY=best"), "best is not a quality; choose one of smoke, standard, paper, deep"),
+        (("status", "ERROR=no"), "ERROR=no is invalid; allowed: a number greater than 0"),
     ],
 )
 def test_mistyped_options_get_a_line(clean: Clone, arguments: tuple[str, ...], line: str) -> None:
@@ -181,6 +202,28 @@ def test_missing_system_packages_are_named_for_those_without_rights(tmp_path: Pa
             for name in line.split()
             for word in (name, name.removeprefix("lib"), "hdf5" if "hdf5" in name else "")
         }
+
+
+def test_several_panels_and_a_dry_run(kept: Clone) -> None:
+    for name in ("fig03", "fig06"):
+        (kept.folder / f"figures/smoke/{name}.csv").unlink()
+    names = "PANEL=fig03 fig06"
+    share_build(kept)
+    made = {
+        line
+        for line in kept.make("panel", names, "QUALITY=smoke", "DRY=yes").stdout.splitlines()
+        if "/" in line
+    }
+    assert {line.partition(".")[0] for line in made} == {"figures/smoke/fig03", "figures/smoke/fig06"}
+    assert not (kept.folder / "figures/smoke/fig03.csv").exists()
+    assert "In figures/smoke: fig03.pdf fig06.pdf and" in kept.make("panel", names, "QUALITY=smoke").stdout
+    (kept.folder / kept.result("fig06/all_sigma=0")).unlink()
+    printed = kept.make("audit", names, "QUALITY=smoke", status=2).stdout
+    assert "2 panels with their results: 2 broken" in printed  # the result, and the figure without it
+
+
+def test_slurm_without_its_commands_is_refused(clean: Clone) -> None:
+    assert "sbatch is not in PATH" in clean.make("figures", "PROFILE=slurm", status=2, PATH=os.defpath).stdout
 
 
 def test_help_names_every_target(clean: Clone) -> None:

@@ -6,14 +6,16 @@ import re
 import select
 import time
 
+import pytest
+
 from tests.workflow.conftest import Clone, append
 
 CONTROL = re.compile(r"\x1b\[[0-9;?]*[a-zA-Z]")
 PROFILE = "Using workflow specific profile profiles/default for setting default command line arguments."
 
 
-def on_a_terminal(clone: Clone, *arguments: str, until: str = "", patience: float = 300) -> tuple[str, float]:
-    """The output, and the seconds from Ctrl-C, which is pressed when `until` has appeared, to the end."""
+def on_a_terminal(clone: Clone, *arguments: str, until: str = "", times: int = 1, patience: float = 300) -> tuple[str, float]:
+    """The output, and the seconds from the last Ctrl-C, which is pressed when `until` has appeared, to the end."""
     process, terminal = pty.fork()
     if process == 0:
         os.chdir(clone.folder)
@@ -27,7 +29,9 @@ def on_a_terminal(clone: Clone, *arguments: str, until: str = "", patience: floa
             except OSError:  # the end of the terminal
                 break
         if until and not pressed and re.search(until, shown):
-            os.write(terminal, b"\x03")
+            for _ in range(times):
+                os.write(terminal, b"\x03")
+                time.sleep(0.3)
             pressed = time.monotonic()
     os.waitpid(process, 0)
     os.close(terminal)
@@ -48,14 +52,17 @@ def test_a_terminal_has_a_line_per_run(kept: Clone) -> None:
 def test_a_failure_shows_the_end_of_its_log_alone(kept: Clone) -> None:
     append("workflow/figures/fig03.py", 'raise RuntimeError("broken here")\n')(kept)
     _, first, *log, last = kept.snakemake("figures", status=1).splitlines()
-    assert re.fullmatch(r"fig03 failed after 0:\d\d:\d\d\. build/logs/smoke/fig03\.log ends with:", first)
+    assert re.fullmatch(
+        r"fig03 failed after 0:\d\d:\d\d\. build/logs/smoke/fig03\.[0-9a-f]{12}\.log ends with:", first
+    )
     assert log[-1] == "  RuntimeError: broken here"
     assert last == "Failed: fig03; 0 of 1 done. Fix the cause; the same command resumes."
 
 
-def test_ctrl_c(kept: Clone) -> None:
-    arguments = ("quality=standard", "panel=fig08", "--rerun-incomplete", "--", "panel")
-    shown, seconds = on_a_terminal(kept, *arguments, until=r"\d of \d+ done")
+@pytest.mark.parametrize("times", [1, 3])
+def test_ctrl_c(kept: Clone, times: int) -> None:
+    arguments = ("quality=standard", "panel=fig08", "--", "panel")
+    shown, seconds = on_a_terminal(kept, *arguments, until=r"\d of \d+ done", times=times)
     assert re.search(r"Stopped: \d+ of \d+ done\..*The same command resumes", shown)
     assert "Traceback" not in shown
     assert seconds < 10

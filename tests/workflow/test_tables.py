@@ -2,6 +2,7 @@
 
 import importlib
 import json
+import re
 from functools import cache
 from pathlib import Path
 
@@ -72,7 +73,7 @@ def test_every_column_scales_as_its_units(clean: Clone, panel: str) -> None:
 
 @pytest.mark.parametrize("panel", PLAN)
 def test_every_panel_has_a_caption(clean: Clone, panel: str) -> None:
-    caption = read_panel(clean.folder / f"figures/smoke/{panel}.json")["caption"]
+    caption = read_panel(clean.folder / clean.record(panel))["caption"]
     assert len(caption) >= 200
     assert len(caption.split()) <= 120
     assert caption == " ".join(caption.split())
@@ -82,6 +83,9 @@ def test_columns_without_units_are_refused() -> None:
     table = pd.DataFrame({"sigma": [0.5, 1], "label": ["a", 1], "sound": [True, False], "time": [1, 2]})
     with pytest.raises(UnitsError, match="the columns sigma, time have no units"):
         as_csv(table, {})
+    spaced = pd.DataFrame({"my column": [1.0]})
+    with pytest.raises(UnitsError, match=re.escape('run(draw, title, **{"my column": "1"})')):
+        as_csv(spaced, {})
     with pytest.raises(UnitsError, match="'second/furlong'"):
         as_csv(table, {"sigma": "1", "time": "second/furlong"})
     partly = pd.concat([table, table[["sigma", "time"]]])  # truth values are missing in its last rows

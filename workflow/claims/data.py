@@ -35,7 +35,7 @@ class Data:
     def of(self, panel: str, program: str | None = None, **parameters: object) -> list[Result]:
         """The panel's own runs with these parameters (underscores for dashes). Raises MissingError if there is none."""
         wanted = {name.replace("_", "-"): value for name, value in parameters.items()}
-        runs = [run.name for run in self._runs(panel) if program in (None, run.program)]
+        runs = [run for run in self._runs(panel) if program in (None, run.program)]
         found = {
             path: result
             for path, result in (self._load(panel, run) for run in runs)
@@ -47,9 +47,10 @@ class Data:
         return [*found.values()]
 
     def one(self, panel: str, run: str) -> Result:
-        if run not in {each.name for each in self._runs(panel)}:
+        named = [each for each in self._runs(panel) if each.name == run]
+        if not named:
             raise MissingError(f"{panel} has no run {run} at quality {self.quality}")
-        path, result = self._load(panel, run)
+        path, result = self._load(panel, named[0])
         self.used[path] = result
         return result
 
@@ -58,7 +59,7 @@ class Data:
             raise MissingError(f"there is no panel {panel}")
         return self.plan[panel].runs
 
-    def _load(self, panel: str, run: str) -> tuple[str, Result]:
+    def _load(self, panel: str, run: Run) -> tuple[str, Result]:
         path = data_path(self.quality, panel, run)
         if path not in self.loaded:
             try:

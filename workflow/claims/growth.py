@@ -68,7 +68,7 @@ def largest_sizes(runs: Sequence[Result]) -> list[Result]:
 
 def between_baths(data: Data, series: str) -> list[Result]:
     """Stationary runs of a series of ext09, by N."""
-    return _stationary([one for one in data.of("ext09") if one.path.stem.startswith(series)])
+    return _stationary([one for one in data.of("ext09") if one.run.startswith(series)])
 
 
 def last_exponents(data: Data) -> list[Number]:

@@ -1,6 +1,7 @@
-"""CPU seconds of runs: recorded by the programs, or estimated from config/seconds.csv.
+"""CPU seconds of runs: recorded by the programs, or estimated from config/seconds.csv, or measured with two replicas.
 
-The table has the effort (replicas times simulated time) and the CPU seconds of one execution per panel, series and size.
+The table has the effort (replicas times simulated time), the CPU seconds and the error of the target quantity of one execution per
+panel, series and size. workflow/cluster/seconds.py writes it from the results of a quality.
 """
 
 import csv
@@ -8,32 +9,40 @@ import heapq
 import json
 import math
 import os
+import subprocess
+import tempfile
+from dataclasses import replace
 from datetime import timedelta
 from functools import cache
 from pathlib import Path
 
 from workflow.cluster.batches import divide, seconds_of_batches
 from workflow.lib.command import command
-from workflow.lib.configuration import Options, at_size
-from workflow.lib.figure_metadata import ROOT
-from workflow.lib.plan import QUALITIES, Run, load_plan
+from workflow.lib.configuration import Options
+from workflow.lib.files import ROOT
+from workflow.lib.plan import QUALITIES, Run, data_path, load_plan
+from workflow.lib.polynomial import at_size
+from workflow.lib.program import command_line
 
 TABLE = ROOT / "workflow/config/seconds.csv"  # panel, series, cells, effort, cpu_seconds
-UNKNOWN = 900.0  # seconds assumed for a series that is not in the table
+UNKNOWN = 900.0  # seconds assumed by the jobs of a cluster for a series that is not in the table
+PILOT, PILOT_SECONDS = 2, 20  # replicas of a trial, and the longest time that it takes
+LEAST = 64  # replicas that a target error needs (cpp/program/stopping_rule.hpp)
 DRAWING = 4.0  # CPU seconds of rendering a panel
+PARTS = "build/parts"  # of runs on a cluster: PARTS/<quality>/<panel>/<run>.<identity>/
 
 
-def recorded_seconds(quality: str, panel: str, run: str) -> float | None:
-    """CPU seconds of the execution, or of all joined parts; None if not recorded."""
+def recorded_seconds(path: str) -> float | None:
+    """CPU seconds of the execution that wrote a result, or of all joined parts; None if not recorded."""
+    stem = path.removesuffix(".h5")
     try:
-        own = _cost(ROOT / f"data/{quality}/{panel}/{run}.cost.json")
-        divisions = [*(ROOT / f"build/parts/{quality}/{panel}/{run}").glob("*")]
-        parts = [[_cost(path) for path in folder.glob("*.cost.json")] for folder in divisions]
+        own = _cost(ROOT / f"{stem}.cost.json")
+        parts = [_cost(one) for one in (ROOT / PARTS / stem.removeprefix("data/")).glob("*.cost.json")]
     except (OSError, ValueError, KeyError, TypeError):
         return None
-    # Parts belong to this result if their events add up to its number. The cost of joining is negligible.
-    joined = [sum(part[0] for part in one) for one in parts if sum(part[1] for part in one) == own[1]]
-    return max([own[0], *joined])
+    # The cost of joining is negligible.
+    joined = sum(seconds for seconds, _ in parts) if sum(events for _, events in parts) == own[1] else 0.0
+    return max(own[0], joined)
 
 
 def _cost(path: Path) -> tuple[float, int]:
@@ -47,36 +56,82 @@ def seconds_of_run(panel: str, run: Run) -> int:
 
 
 def estimated_seconds(panel: str, run: Run) -> float | None:
-    """CPU seconds from the table, by a power law through the nearest two sizes; None if the series is not in it."""
-    known, size = _table().get((panel, run.series), {}), cells(run.options)
+    """CPU seconds from the table; None if the series is not in it, or has no error there and the run has a target."""
+    rate = _at_size(panel, run, "cpu_seconds")
+    replicas = expected_replicas(panel, run)
+    return None if rate is None or replicas is None else replicas * effort(run.options) * rate
+
+
+def expected_replicas(panel: str, run: Run) -> float | None:
+    """Number of replicas, 1 without them; with a target error, the number at which the upper bound of the error reaches it [eq. 52];
+    None if the error is unknown."""
+    target = run.target
+    if target is None or not run.replicated:
+        return float(run.options.get("replicas", 1))
+    unit = _at_size(panel, run, "error")  # of one unit of effort
+    if unit is None:
+        return None
+    replicas = (unit / target) ** 2 / effort(run.options)
+    bound = 1 + 1.645 / math.sqrt(2 * max(replicas, LEAST))  # of a standard error, relative to its estimate
+    return max(LEAST, replicas * bound**2)
+
+
+_plan = cache(load_plan)  # read for many runs
+
+
+def scaled_seconds(panel: str, run: Run) -> float | None:
+    """CPU seconds scaled from a recorded execution at another quality; None without one, or with a target error."""
+    for quality in QUALITIES if run.target is None else ():
+        for other in (one for one in _plan(quality)[panel].runs if one.name == run.name):
+            if seconds := recorded_seconds(data_path(quality, panel, other)):
+                replicas = float(run.options.get("replicas", 1)) / float(other.options.get("replicas", 1))
+                return seconds * replicas * effort(run.options) / effort(other.options)
+    return None
+
+
+def pilot_seconds(run: Run) -> float | None:
+    """CPU seconds of a run, from an execution of two replicas; None if these take too long, or with a target error."""
+    if run.target is not None:
+        return None
+    replicas = float(run.options.get("replicas", 1))
+    few = {"replicas": min(PILOT, replicas)} if run.replicated else {}
+    words = command_line(replace(run, options=run.options | few), ROOT / "build/bin")
+    with tempfile.TemporaryDirectory() as folder:
+        output = f"{folder}/pilot.h5"
+        try:
+            subprocess.run(
+                [*words, "--output", output], capture_output=True, timeout=PILOT_SECONDS, check=False
+            )
+            return _cost(Path(folder) / "pilot.cost.json")[0] * replicas / float(few.get("replicas", 1))
+        except (subprocess.TimeoutExpired, OSError, ValueError, KeyError):
+            return None
+
+
+@cache
+def _table() -> dict[tuple[str, str], list[dict[str, float]]]:
+    """Sizes with CPU seconds and error of one unit of effort, by panel and series. An error falls as the root of the effort."""
+    table: dict[tuple[str, str], list[dict[str, float]]] = {}
+    with TABLE.open(newline="") as file:
+        for row in csv.DictReader(file):
+            size, effort, seconds = (float(row[name]) for name in ("cells", "effort", "cpu_seconds"))
+            of_a_unit = {"cells": size, "cpu_seconds": seconds / effort}
+            if row["error"]:
+                of_a_unit["error"] = float(row["error"]) * math.sqrt(effort)
+            table.setdefault((row["panel"], row["series"]), []).append(of_a_unit)
+    return table
+
+
+def _at_size(panel: str, run: Run, name: str) -> float | None:
+    """A column of the table, by a power law through the nearest two sizes; None if the series has too few."""
+    size = cells(run.options)
+    known = {row["cells"]: row[name] for row in _table().get((panel, run.series), []) if row.get(name)}
     if size in known:
-        return effort(run.options) * known[size]
+        return known[size]
     if len(known) < 2:
         return None
     near, next_to_it = sorted(known, key=lambda one: abs(math.log(one / size)))[:2]
     power = math.log(known[next_to_it] / known[near]) / math.log(next_to_it / near)
-    return effort(run.options) * float(known[near] * (size / near) ** power)
-
-
-def scaled_seconds(panel: str, run: Run) -> float | None:
-    """CPU seconds scaled from a recorded execution at another quality; None without one."""
-    for quality in QUALITIES:
-        seconds = recorded_seconds(quality, panel, run.name)
-        same = [one for one in load_plan(quality)[panel].runs if one.name == run.name] if seconds else []
-        if seconds and same:
-            return seconds * effort(run.options) / effort(same[0].options)
-    return None
-
-
-@cache
-def _table() -> dict[tuple[str, str], dict[float, float]]:
-    """CPU seconds per unit of effort, by panel and series, and size."""
-    table: dict[tuple[str, str], dict[float, float]] = {}
-    with TABLE.open(newline="") as file:
-        for row in csv.DictReader(file):
-            series = table.setdefault((row["panel"], row["series"]), {})
-            series[float(row["cells"])] = float(row["cpu_seconds"]) / float(row["effort"])
-    return table
+    return float(known[near] * (size / near) ** power)
 
 
 def cells(options: Options) -> float:
@@ -86,10 +141,10 @@ def cells(options: Options) -> float:
 
 
 def effort(options: Options) -> float:
-    """Replicas times pairs per replica times simulated time."""
+    """Pairs per replica times simulated time of a replica."""
     last = str(options.get("observation-time", options.get("times", 1))).rpartition(",")[2]
-    replicas = float(options.get("replicas", 1)) * float(options.get("pairs-per-replica", 1))
-    return replicas * sum(at_size(time, cells(options)) for time in (last, options.get("relaxation-time", 0)))
+    times = (last, options.get("relaxation-time", 0))
+    return float(options.get("pairs-per-replica", 1)) * sum(at_size(time, cells(options)) for time in times)
 
 
 def wall(jobs: list[float], cores: int) -> timedelta:
@@ -104,17 +159,25 @@ def main() -> None:
     batch = {"type": float, "help": "minutes per job on a cluster"}
     options, _, panels = command(__doc__, batch=batch)
     jobs: list[float] = []
+    unknown = 0
     for panel in panels:
-        recorded = [recorded_seconds(options.quality, panel.name, run.name) for run in panel.runs]
+        recorded = [recorded_seconds(data_path(options.quality, panel.name, run)) for run in panel.runs]
         seconds = [
-            known or estimated_seconds(panel.name, run) or scaled_seconds(panel.name, run) or UNKNOWN
+            known
+            or estimated_seconds(panel.name, run)
+            or scaled_seconds(panel.name, run)
+            or pilot_seconds(run)
             for known, run in zip(recorded, panel.runs, strict=True)
         ]
-        jobs += [*seconds, DRAWING]
+        found = [one for one in seconds if one is not None]
+        unknown += len(seconds) - len(found)
+        jobs += [*found, DRAWING]
         source = f"{len(seconds) - recorded.count(None)} of {len(seconds)} runs recorded"
-        print(f"{panel.name:<18}{wall([*seconds, DRAWING], 1)!s:>17}  {source}")
+        source += f", {len(seconds) - len(found)} unknown" if len(found) < len(seconds) else ""
+        print(f"{panel.name:<18}{wall([*found, DRAWING], 1)!s:>17}  {source}")
     cores = os.cpu_count() or 1
-    print(f"CPU time: {wall(jobs, 1)}. Wall time on {cores} cores here: {wall(jobs, cores)}")
+    more = f", and {unknown} runs of unknown cost" if unknown else ""
+    print(f"CPU time: {wall(jobs, 1)}{more}. Wall time on {cores} cores here: {wall(jobs, cores)}")
     if options.batch:
         batches = seconds_of_batches(divide(panels, 60 * options.batch, seconds_of_run))
         times = ", ".join(f"{wall(batches, cores)} on {cores}" for cores in (100, 1000, 10000))

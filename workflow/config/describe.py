@@ -10,8 +10,8 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from workflow.lib.figure_metadata import ROOT
-from workflow.lib.files import write_together
+from workflow.lib import polynomial
+from workflow.lib.files import ROOT, write_together
 from workflow.lib.units import SCHEMA
 
 FORMAT = ROOT / "docs/format.md"
@@ -20,7 +20,6 @@ SIMPLE = {
     "flag": {"type": "boolean", "allowed": "true or false"},
     "text": {"type": "string", "allowed": "text"},
 }
-NUMBER = r"([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?"
 LIMITS = {  # keyword of JSON Schema, and text
     "minimum": ("minimum", "at least"),
     "exclusive_minimum": ("exclusiveMinimum", "above"),
@@ -33,10 +32,21 @@ WIDTH = 118
 Described = dict[str, dict[str, Any]]  # by program
 
 
+def built(programs: Path = ROOT / "build/bin") -> list[str]:
+    """Names of the programs that CMake builds into this folder: those with a build id beside it."""
+    return sorted(path.stem for path in (programs.parent / "id").glob("[!.]*.json"))
+
+
+def with_option(name: str) -> list[str]:
+    """The built programs that declare this option."""
+    declared = json.loads(SCHEMA.read_text())["programs"]
+    return [program for program in built() if name in declared.get(program, ())]
+
+
 def descriptions(programs: Path) -> Described:
     """Descriptions of all programs. Some quantities exist only with a flag; `always` lists the others."""
     described = {}
-    for name in sorted(path.stem for path in (ROOT / "cpp/observables").glob("*.cpp")):
+    for name in built(programs):
         plain = _describe(programs / name)
         flags = [one["name"] for one in plain["options"] if one["type"] == "flag" and one["affects_results"]]
         variants = [plain, *(_describe(programs / name, f"--{flag}") for flag in flags)]
@@ -77,8 +87,8 @@ def schema(option: dict[str, Any]) -> dict[str, Any]:
     limits = {key: option[name] for name, (key, _) in LIMITS.items() if name in option}
     ranges = [f"{words} {option[name]:.15g}" for name, (_, words) in LIMITS.items() if name in option]
     allowed = " ".join([kind, *" and ".join(ranges).split()])
-    number = NUMBER if {*limits} - {"maximum"} else f"-?{NUMBER}"
-    term, pattern = rf"{number}(N(\^2)?)?", ""
+    number = polynomial.NUMBER if {*limits} - {"maximum"} else f"-?{polynomial.NUMBER}"
+    pattern = ""
     if kind == "numbers":
         kind, pattern, allowed = (
             "number",
@@ -88,7 +98,7 @@ def schema(option: dict[str, Any]) -> dict[str, Any]:
     elif "word" in option:
         pattern, allowed = option["word"], f"{allowed}, or {option['word']}"
     elif other:
-        pattern = rf"{term}(\+{term})*"
+        pattern = polynomial.pattern(number)
         allowed += ", or a sum of such, each alone or followed by N or N^2"
     found = {"type": [kind, "string"], "pattern": f"^({pattern})$"} if pattern else {"type": kind}
     units = {} if option["units"] in PURE else {"units": option["units"]}

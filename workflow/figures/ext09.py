@@ -38,7 +38,7 @@ ABOVE = 14  # points that the axis of N takes above (b)
 
 def gas(result: Result) -> str:
     """How the gas behaves as the chain grows, by the name of the run."""
-    return result.path.stem.partition("_")[0].partition("-")[0]
+    return result.run.partition("_")[0].partition("-")[0]
 
 
 def spacings(results: Sequence[Result]) -> dict[str, str]:

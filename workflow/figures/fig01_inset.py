@@ -63,7 +63,7 @@ def draw_slopes(axes: Axes, table: pd.DataFrame, result: Result) -> None:
 
 def caption(results: Sequence[Result]) -> str:
     first, last = results[0]["plateau"].axes["time"][[0, -1]]
-    (judged,) = (result for result in results if result.path.stem == "unit-chain")
+    (judged,) = (result for result in results if result.run == "unit-chain")
     slope, height = style.with_error(judged["log_slope"]), style.with_error(judged["plateau"], -1)
     return f"""
         Number n(t) of particles in a chain that is empty at t = 0; {parameters(results, "cells", "sigma", "gamma")},

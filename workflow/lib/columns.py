@@ -30,7 +30,8 @@ def inherited(results: Sequence[Result]) -> dict[str, str]:
             for axis, units in quantity.axis_units.items():
                 found[axis].add(units)
         for option in result.parameters:
-            found[option.replace("-", "_")].add(option_units().get(option, "1"))
+            for name in (option, option.replace("-", "_")):
+                found[name].add(option_units().get(option, "1"))
     return {name: units.pop() for name, units in found.items() if len(units) == 1}
 
 
@@ -49,7 +50,9 @@ def _units(table: pd.DataFrame, known: Mapping[str, str]) -> dict[str, str]:
     numbers = [name for name in table if not _is_label(table[name])]
     without = [name for name in numbers if name not in known]
     if without:
-        declared = ", ".join(f'{name}="1"' for name in without)
+        declared = ", ".join(
+            f'{name}="1"' if name.isidentifier() else f'**{{"{name}": "1"}}' for name in without
+        )
         raise UnitsError(
             f"the columns {', '.join(without)} have no units; name them after a quantity, or declare their units in the "
             f"script: run(draw, title, {declared})"

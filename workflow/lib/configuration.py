@@ -4,8 +4,6 @@ schema.json, written by `make describe`, has a JSON Schema of every option of ev
 """
 
 import json
-import math
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -35,11 +33,15 @@ EFFORT = (
     "target-error",
 )
 ALSO_PHYSICS = ("cells", "observation-time", "target-error")  # given in paper.yaml, too
-OF_SERIES: Schema = {"program": True, "replicated": {"type": "boolean", "allowed": "true or false"}}
+SCALE: Schema = {"type": "number", "exclusiveMinimum": 0, "allowed": "a number greater than 0"}
+OF_SERIES: Schema = {
+    "program": True,
+    "replicated": {"type": "boolean", "allowed": "true or false"},
+    "target-scale": SCALE,  # size of a target quantity that can be 0, to which ERROR refers then
+}
 NAME: Schema = {"type": "string", "pattern": "^[A-Za-z0-9_-]+$", "allowed": "letters, digits, _ and -"}
 NAMED: Schema = {"type": "object", "propertyNames": NAME, "minProperties": 1}
 SAFE = YAML(typ="safe", pure=True)
-TERM = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?:(N)(?:\^(2))?)?", re.ASCII)
 
 
 class ConfigurationError(ValueError):
@@ -118,12 +120,6 @@ def arguments(options: Options) -> list[str]:
         if value is not False:
             words += [f"--{name}"] if value is True else [f"--{name}", str(value)]
     return words
-
-
-def at_size(value: object, size: float) -> float:
-    """Value at N = size of a number or a polynomial such as 50+0.0004N^2; nan for other text."""
-    terms = [TERM.fullmatch(term) for term in re.split(r"(?<![eE])\+", str(value))]
-    return sum(float(term[1]) * size ** int(term[3] or bool(term[2])) if term else math.nan for term in terms)
 
 
 def _panels(programs: dict[str, Schema]) -> Schema:

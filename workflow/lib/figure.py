@@ -14,8 +14,10 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from workflow.lib import style
+from workflow.lib.closure import FilesRead
 from workflow.lib.columns import as_csv, inherited
-from workflow.lib.figure_metadata import ROOT, Parents
+from workflow.lib.figure_metadata import Parents
+from workflow.lib.files import ROOT
 from workflow.lib.load import FormatError, Result, load
 from workflow.lib.save import Text, save
 from workflow.lib.units import UnitsError
@@ -23,6 +25,8 @@ from workflow.lib.units import UnitsError
 Drawn = tuple[
     Figure, pd.DataFrame, str
 ]  # figure, table of the plotted numbers, caption as one paragraph of plain text
+READ = FilesRead()  # from the first import of a script on
+
 Draw = Callable[[Sequence[Result]], Drawn]
 
 
@@ -44,7 +48,6 @@ def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str
     """Renders the panel that the command line names."""
     parser = argparse.ArgumentParser(description="Renders a panel from its results.")
     parser.add_argument("--data", type=Path, nargs="+", required=True, help="result files of the panel")
-    parser.add_argument("--configuration", default="", help="hash of the panel's configuration")
     parser.add_argument("--output", type=Path, required=True, help="figures/QUALITY/PANEL, without suffix")
     options = parser.parse_args()
     script = Path(sys.argv[0]).resolve()
@@ -60,6 +63,11 @@ def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str
         saved = as_csv(table, inherited(results) | errors | units)
     except (FormatError, OSError, TheoryError, UnitsError) as error:
         sys.exit(str(error))
-    parents = Parents.of(str(script.relative_to(ROOT)), options.output, options.configuration, results)
+    parents = Parents.of(str(script.relative_to(ROOT)), options.output, results)
+    if unknown := READ.beside(parents.sources):
+        sys.exit(
+            f"{script.name} reads {unknown[0]}, and no literal in its modules names that file, so that a change of it would not be "
+            "noticed: write the name as one literal, relative to the module's folder"
+        )
     name = title if isinstance(title, str) else title(results)
     save(figure, saved, options.output, Text(name, " ".join(caption.split())), parents)

@@ -1,27 +1,28 @@
-"""Parents of a figure, by hash: embedded in PDF, PNG and SVG, as a digest in CSV, and in full in `<panel>.json`."""
+"""Parents of a figure, by hash: embedded in PDF, PNG and SVG, and in the record `<panel>.<identity>.json`.
 
-import ast
-import hashlib
+The identity of a panel is a hash of what determines its files: names of its results, which have identities of their own, script with
+its closure, and packages. The CSV states it.
+"""
+
 import json
 import logging
-import re
 import subprocess
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
 
+from workflow.lib.closure import hashes_of
+from workflow.lib.files import ROOT, file_hash
+from workflow.lib.identity import identity
+
 if TYPE_CHECKING:  # imports that would delay every start of Snakemake by 0.5 s
     from workflow.lib.load import Result
 
-ROOT = Path(__file__).parents[2]
-PACKAGES = "uv.lock"
 BUILD = ("program", "source_hash", "compiler", "flags", "libraries")
-TABLE = re.compile(r'with_name\("([\w.]+)"\)')  # a table that a module reads from its own folder
-PARENTS_LINE = "# parents: sha256 "  # of a CSV
+IDENTITY_LINE = "# identity: "  # of a CSV
 
 
 class MetadataError(ValueError):
@@ -36,13 +37,11 @@ class Parents:
     quality: str
     data: dict[str, dict[str, Any]]  # path: sha256, build_id, seed
     builds: dict[str, dict[str, str]]  # build id: program, source_hash, compiler, flags, libraries
-    sources: dict[str, str]  # the script and the modules that it imports
-    packages: str  # uv.lock
+    sources: dict[str, str]  # closure of the script, and the locked packages
     python: str  # version
-    configuration: str  # of the panel
 
     @classmethod
-    def of(cls, script: str, stem: Path, configuration: str, results: "Sequence[Result]") -> "Parents":
+    def of(cls, script: str, stem: Path, results: "Sequence[Result]") -> "Parents":
         """Parents of the panel that the script renders to figures/QUALITY/PANEL.*"""
         stated = {str(result.path): result.provenance for result in results}
         return cls(
@@ -53,10 +52,8 @@ class Parents:
                 for path, one in stated.items()
             },
             builds={one["build_id"]: {name: one[name] for name in BUILD} for one in stated.values()},
-            sources={path: file_hash(ROOT / path) for path in sources_of(script)},
-            packages=file_hash(ROOT / PACKAGES),
+            sources=hashes_of(script),
             python=f"{sys.version_info.major}.{sys.version_info.minor}",
-            configuration=configuration,
         )
 
     @classmethod
@@ -69,56 +66,24 @@ class Parents:
 
     def inputs(self) -> dict[str, str]:
         """All input files with their hashes."""
-        return (
-            {path: one["sha256"] for path, one in self.data.items()}
-            | self.sources
-            | {PACKAGES: self.packages}
-        )
+        return {path: one["sha256"] for path, one in self.data.items()} | self.sources
+
+    @property
+    def identity(self) -> str:
+        return _panel_identity(self.panel, [*self.data], self.sources)
 
     def as_json(self) -> str:
         return json.dumps(vars(self), sort_keys=True)
 
-    def digest(self) -> str:
-        return hashlib.sha256(self.as_json().encode()).hexdigest()
+
+def panel_identity(panel: str, script: str, data: Sequence[str]) -> str:
+    """Identity of a panel that a script renders from the results at these paths. Raises OSError."""
+    return _panel_identity(panel, data, hashes_of(f"workflow/figures/{script}.py"))
 
 
-def file_hash(path: Path) -> str:
-    """sha256 of the content. Raises OSError."""
-    return hashlib.sha256(path.read_bytes()).hexdigest()
-
-
-def digest_of_files(paths: Iterable[str]) -> str:
-    """sha256 over names and contents of files of the project. Raises OSError."""
-    lines = "".join(f"{path} {file_hash(ROOT / path)}\n" for path in paths)
-    return hashlib.sha256(lines.encode()).hexdigest()
-
-
-def sources_of(script: str) -> list[str]:
-    """Sorted paths of the script, of all modules of the project that it imports, directly or indirectly, and of their tables."""
-    found: set[str] = set()
-    waiting = [script]
-    while waiting:
-        path = waiting.pop()
-        if path not in found and (ROOT / path).is_file():
-            found.add(path)
-            source = (ROOT / path).read_text("utf-8") if path.endswith(".py") else ""
-            waiting += _imported(source)
-            waiting += [str(Path(path).with_name(name)) for name in TABLE.findall(source)]
-    return sorted(found)
-
-
-@cache  # panels have most imports in common
-def _imported(source: str) -> tuple[str, ...]:
-    """Paths of the modules in `import workflow.a.b`, `from workflow.a.b import c` and `from workflow.a import b`."""
-    try:
-        nodes = [*ast.walk(ast.parse(source))]
-    except SyntaxError:  # reported where the script runs
-        return ()
-    names = [alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names]
-    for node in nodes:
-        if isinstance(node, ast.ImportFrom) and node.module:
-            names += [node.module, *(f"{node.module}.{alias.name}" for alias in node.names)]
-    return tuple(name.replace(".", "/") + ".py" for name in names if name.startswith("workflow."))
+def _panel_identity(panel: str, data: Sequence[str], sources: dict[str, str]) -> str:
+    """The folder of a quality is no part of it: the names of the results determine their content."""
+    return identity(panel, ["/".join(Path(path).parts[-2:]) for path in data], sources)
 
 
 def commit() -> dict[str, Any]:
@@ -142,7 +107,7 @@ def _git(*arguments: str) -> str:
 
 
 def read_panel(path: Path) -> dict[str, Any]:
-    """Reads `<panel>.json`: panel, quality, title, caption, commit, clean, files (name: sha256), parents. Raises MetadataError,
+    """Reads the record of a panel: panel, quality, title, caption, commit, clean, files (name: sha256), parents. Raises MetadataError,
     OSError."""
     try:
         content: dict[str, Any] = json.loads(path.read_text("utf-8"))
@@ -152,7 +117,7 @@ def read_panel(path: Path) -> dict[str, Any]:
 
 
 def embedded(path: Path) -> str:
-    """Parents recorded in a file: their JSON, or its digest in a CSV. Raises MetadataError, OSError."""
+    """Parents recorded in a file as JSON; in a CSV the identity of its panel. Raises MetadataError, OSError."""
     readers = {".csv": _of_table, ".svg": _of_svg, ".png": _of_png, ".pdf": _of_pdf}
     if path.suffix not in readers:
         raise MetadataError(f"{path.name} has no provenance: only {', '.join(readers)} and .h5 files have")
@@ -166,7 +131,7 @@ def embedded(path: Path) -> str:
 
 def _of_table(path: Path) -> str:
     with path.open(encoding="utf-8") as lines:
-        return next(line for line in lines if line.startswith(PARENTS_LINE)).split()[-1]
+        return next(line for line in lines if line.startswith(IDENTITY_LINE)).split()[-1]
 
 
 def _of_svg(path: Path) -> str:

@@ -1,16 +1,32 @@
-"""Atomic writing of files."""
+"""Files of the project: hashes, and atomic writing."""
 
+import hashlib
 import os
-from collections.abc import Mapping
+import subprocess
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+ROOT = Path(__file__).parents[2]
 
-def write_together(contents: Mapping[Path, bytes]) -> None:
-    """Writes all files under other names, then renames them, so that a full disk keeps the old ones. Raises OSError."""
+
+def content_hash(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()
+
+
+def file_hash(path: Path) -> str:
+    """sha256 of the content. Raises OSError."""
+    return content_hash(path.read_bytes())
+
+
+def write_together(contents: Mapping[Path, bytes], instead_of: Iterable[Path] = ()) -> None:
+    """Writes all files under other names, removes the files that they replace, then renames them in order, so that a full disk keeps
+    the old ones. Raises OSError."""
     files = {path: path.with_name(f"{path.name}.{os.getpid()}.tmp") for path in contents}
     try:
         for path, file in files.items():
             file.write_bytes(contents[path])
+        for path in instead_of:
+            path.unlink(missing_ok=True)
         for path, file in files.items():
             file.replace(path)
     finally:
@@ -22,3 +38,19 @@ def in_one_line(error: OSError) -> str:
     """File name and error as one line."""
     names = [str(name) for name in (error.filename, error.filename2) if name is not None]
     return f"{' to '.join(names)}: {error.strerror}" if names else str(error)
+
+
+def project_files() -> list[str]:
+    """Sources: files that git does not ignore, tracked or not; without a repository, all files that are neither products nor hidden."""
+    command = ["git", "-C", str(ROOT), "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    paths = sorted({path for path in done.stdout.split("\0") if path and (ROOT / path).is_file()})
+    if "Snakefile" in paths:
+        return paths
+    paths = [str(path.relative_to(ROOT)) for path in sorted(ROOT.rglob("*")) if path.is_file()]
+    products = (".", "build/", "figures/")
+    return [
+        path
+        for path in paths
+        if not path.startswith(products) and not path.endswith((".h5", ".cost.json", ".pyc"))
+    ]

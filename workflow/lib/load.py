@@ -1,6 +1,7 @@
 """Reads result files (docs/format.md)."""
 
 import os
+import re
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -12,6 +13,7 @@ import h5py
 import numpy as np
 import pandas as pd
 
+from workflow.lib.identity import IDENTITY
 from workflow.lib.nearest import nearest
 from workflow.lib.units import parse
 
@@ -109,6 +111,11 @@ class Result:
             raise FormatError(f"{self.path} has no quantity {name}; {nearest(name, self.quantities)}")
         return self.quantities[name]
 
+    @property
+    def run(self) -> str:
+        """Name of the run: that of the file without its identity."""
+        return re.sub(rf"\.{IDENTITY}$", "", self.path.stem)
+
     def ends(self, name: str) -> tuple[float, float]:
         """A parameter of the left and of the right bath."""
         return float(self.parameters[f"{name}-left"]), float(self.parameters[f"{name}-right"])
@@ -121,11 +128,12 @@ class Result:
         return found
 
     def to_xarray(self) -> "xarray.DataTree":
-        """A Dataset of every quantity, by its name; the parameters are the attributes."""
+        """A Dataset of every quantity, by its name; the attributes are the parameters, `converged`, and the doubts."""
         import xarray  # noqa: PLC0415
 
         datasets = {name: quantity.to_xarray() for name, quantity in self.quantities.items()}
-        return xarray.DataTree.from_dict({"/": xarray.Dataset(attrs=self.parameters), **datasets})
+        attributes = self.parameters | {"converged": self.converged, "doubts": ", ".join(self.doubts)}
+        return xarray.DataTree.from_dict({"/": xarray.Dataset(attrs=attributes), **datasets})
 
     @property
     def converged(self) -> str:
@@ -133,14 +141,25 @@ class Result:
         return str(self.provenance["converged"])
 
     @property
+    def doubts(self) -> list[str]:
+        """What a user of the numbers has to know: a missed target error, a run that was not stationary."""
+        found = ["target error not reached"] if self.converged == NOT_REACHED else []
+        stationary = self.quantities.get("stationary")
+        return found + (["not stationary"] if stationary is not None and (stationary.mean != 1).any() else [])
+
+    @property
     def sound(self) -> bool:
         """Whether the run was stationary and did not miss its target error. Raises FormatError without a test of stationarity."""
-        return bool(self.converged != NOT_REACHED and self["stationary"].mean == 1)
+        return bool(self["stationary"].mean.size and not self.doubts)
 
 
 def load(path: Path | str) -> Result:
-    """Reads a result file. Raises FormatError, and OSError if the file is unreadable."""
+    """Reads a result file. Raises FormatError, also if its values were edited, and OSError if the file is unreadable."""
     with _opened(path) as (file, provenance):
+        if provenance["results_digest"] != results_digest(file["results"]):
+            raise FormatError(
+                "edited or damaged: its values differ from those written; remove it and make it again"
+            )
         quantities = {name: _quantity(group) for name, group in file["results"].items()}
         return Result(Path(path), _attributes(file["parameters"]), provenance, quantities)
 

@@ -1,11 +1,11 @@
-"""Plan of the configuration: the panels and their runs."""
+"""Plan of the configuration: the panels, their runs, and the names of their products."""
 
 import hashlib
 import itertools
-import json
 import re
 import shlex
 from dataclasses import dataclass
+from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
 
@@ -16,12 +16,26 @@ from workflow.lib.configuration import (
     load_configuration,
     programs_of,
 )
+from workflow.lib.identity import identity
 from workflow.lib.nearest import nearest
-from workflow.lib.units import option_units
+from workflow.provenance.build_id import built
 
-KINDS = ("pdf", "png", "svg", "csv", "json")
 QUALITIES = ("smoke", "standard", "paper", "deep")
-STOPPING = ("target-error", "target-absolute", "max-replicas")  # options that add replicas to a run
+STOPPING = ("target-error", "target-absolute")  # options that add replicas to a run
+BATCH = 16  # replicas between two checks of a target error
+NUMBER = r"[0-9]+\.?[0-9]*|[0-9]*\.?[0-9]+|[0-9]+\.?[0-9]*[eE]-?[0-9]+"
+EFFORTS: dict[str, tuple[str, Any, str]] = {  # pattern, type and description of the allowed values
+    "seed": ("0|[1-9][0-9]*", int, "a whole number, at least 0"),
+    "replicas": ("[1-9][0-9]*", int, "a whole number, at least 1"),
+    "error": (NUMBER, float, "a number greater than 0"),
+    "hours": (NUMBER, float, "a number greater than 0"),
+}
+
+
+@cache  # each is read for many runs
+def build_id(program: str) -> str:
+    """Raises BuildError."""
+    return str(built(program)["build_id"])
 
 
 @dataclass(frozen=True)
@@ -33,6 +47,15 @@ class Run:
     options: Options
     replicated: bool = True  # False for a deterministic program
     series: str = ""  # key in the configuration; the name also has the listed values
+    hours: float | None = None  # wall time of all runs, after which a run with a target error stops
+    target: float | None = None  # ERROR: relative error of the target quantity, or error over its scale
+    scale: float | None = None  # of a target quantity that can be 0
+
+    @cached_property
+    def identity(self) -> str:
+        """What determines the result: program, build, options, and a bound on the time. Raises BuildError."""
+        bound = [] if self.hours is None else [self.hours]
+        return identity(self.program, build_id(self.program), self.options, *bound)
 
 
 @dataclass(frozen=True)
@@ -47,48 +70,62 @@ class Panel:
     def run(self, name: str) -> Run:
         return next(run for run in self.runs if run.name == name)
 
-    def hash(self) -> str:
-        """sha256 of the configuration of the panel: options, effort, and units of the options."""
-        runs = [[run.name, run.program, run.options] for run in self.runs]
-        units = {
-            name: unit
-            for name, unit in option_units().items()
-            if any(name in run.options for run in self.runs)
-        }
-        content = [self.name, self.script, runs, self.uses, units]
-        return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
-
 
 @dataclass(frozen=True)
 class Quality:
-    """A quality, by the name of its folders: `standard`, or `standard_seed=7_replicas=200` with the seed and number of replicas of
-    the command line."""
+    """A quality with the effort of the command line, by the name of its folder of figures: `standard`, or
+    `standard_seed=7_replicas=200`."""
 
     name: str
     base: str
     seed: int | None = None
     replicas: int | None = None
+    error: float | None = None  # relative standard error of the target quantity of every run
+    hours: float | None = None
 
     @classmethod
     def of(cls, name: str) -> "Quality":
-        """Parses the name of the folders. Raises ConfigurationError."""
-        parts = re.fullmatch(r"([a-z]+)(?:_seed=(0|[1-9][0-9]*))?(?:_replicas=([1-9][0-9]*))?", name)
-        if not parts or parts[1] not in QUALITIES:
-            raise ConfigurationError(f"{name} is not a quality; choose one of {', '.join(QUALITIES)}")
-        seed, replicas = (None if part is None else int(part) for part in parts.groups()[1:])
-        return cls(name, parts[1], seed, replicas)
+        """Parses the name of the folder. Raises ConfigurationError."""
+        base, *given = name.split("_")
+        if base not in QUALITIES:
+            raise ConfigurationError(f"{base} is not a quality; choose one of {', '.join(QUALITIES)}")
+        values: dict[str, Any] = {}
+        for key, _, text in (one.partition("=") for one in given):
+            if key not in EFFORTS:
+                raise ConfigurationError(f"{key}={text} is no effort; {nearest(key, EFFORTS)}")
+            if key in values:
+                raise ConfigurationError(f"{key}={text} is given more than once; give it once")
+            pattern, number, allowed = EFFORTS[key]
+            if not re.fullmatch(pattern, text) or (number is float and float(text) == 0):
+                raise ConfigurationError(f"{key.upper()}={text} is invalid; allowed: {allowed}")
+            values[key] = number(text)
+        quality = cls(name, base, **values)
+        if quality.error is not None and quality.replicas is not None:
+            raise ConfigurationError(
+                "ERROR and REPLICAS both determine the number of replicas; give one of them"
+            )
+        if quality.hours is not None and quality.error is None:
+            raise ConfigurationError("HOURS bounds the time to reach an error; give ERROR=0.01, too")
+        return quality
 
     @property
     def arguments(self) -> str:
         """Arguments of make."""
-        given = {"QUALITY": self.base, "SEED": self.seed, "REPLICAS": self.replicas}
+        given = {"QUALITY": self.base, **{key.upper(): getattr(self, key) for key in EFFORTS}}
         return " ".join(f"{name}={value}" for name, value in given.items() if value is not None)
 
-    def complete(self, panel: str, run: str, options: Options) -> Options:
-        """Adds to the options of a replicated run its seed and, if given, the number of replicas."""
-        if self.replicas is not None:
+    def complete(self, panel: str, run: str, options: Options, scale: float | None = None) -> Options:
+        """Adds to the options of a replicated run its seed and, if given, the number of replicas or the target error. scale: size of
+        a target quantity that can be 0."""
+        if self.replicas is not None or self.error is not None:
             options = {key: value for key, value in options.items() if key not in STOPPING}
+        if self.replicas is not None:
             options["replicas"] = self.replicas
+        if self.error is not None:
+            target = (
+                {"target-error": self.error} if scale is None else {"target-absolute": self.error * scale}
+            )
+            options |= {"replicas": BATCH, **target}
         return options | {
             "seed": _seed(f"{panel}/{run}" if self.seed is None else f"{panel}/{run}/{self.seed}")
         }
@@ -123,24 +160,20 @@ def with_used(plan: dict[str, Panel], name: str) -> list[Panel]:
     return [plan[one] for one in (*plan[name].uses, name)]
 
 
-def data_path(quality: str, panel: str, run: str) -> str:
-    return f"data/{quality}/{panel}/{run}.h5"
+def data_path(quality: str, panel: str, run: Run) -> str:
+    """Path of a result. Raises BuildError."""
+    return f"data/{quality.partition('_')[0]}/{panel}/{run.name}.{run.identity}.h5"
 
 
 def data_of(plan: dict[str, Panel], name: str, quality: str) -> list[str]:
-    """Paths of the result files that a panel plots."""
-    return [data_path(quality, panel.name, run.name) for panel in with_used(plan, name) for run in panel.runs]
+    """Paths of the results that a panel plots. Raises BuildError."""
+    return [data_path(quality, panel.name, run) for panel in with_used(plan, name) for run in panel.runs]
 
 
-def drawings_of(quality: str, panel: str) -> list[str]:
-    return [f"figures/{quality}/{panel}.{kind}" for kind in KINDS]
-
-
-def drawing_command(plan: dict[str, Panel], quality: str, name: str, stem: str) -> str:
+def drawing_command(script: str, stem: str, data: list[str]) -> str:
     """Shell command that renders a panel to stem.*"""
-    panel = plan[name]
-    words = [".venv/bin/python", "-m", f"workflow.figures.{panel.script}", "--configuration", panel.hash()]
-    return shlex.join([*words, "--output", stem, "--data", *data_of(plan, name, quality)])
+    words = [".venv/bin/python", "-m", f"workflow.figures.{script}", "--output", stem, "--data", *data]
+    return shlex.join(words)
 
 
 def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Quality) -> Panel:
@@ -148,7 +181,7 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Q
     for series, program in programs_of(panel).items():
         own = dict(panel["series"][series])
         own.pop("program", None)
-        replicated = own.pop("replicated", True)
+        replicated, scale = own.pop("replicated", True), own.pop("target-scale", None)
         default = efforts["default"] if replicated else {}
         effort = efforts.get("panels", {}).get(name, {}).get(series, {})
         options = {**panel.get("common", {}), **own, **default, **effort}
@@ -159,8 +192,9 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Q
             chosen = dict(zip(listed, values, strict=True))
             run = "_".join([series, *(f"{key}={_in_name(value)}" for key, value in chosen.items())])
             given = {**options, **chosen}
-            completed = quality.complete(name, run, given) if replicated else given
-            runs.append(Run(run, program, completed, replicated, series))
+            completed = quality.complete(name, run, given, scale) if replicated else given
+            bound = (quality.hours, quality.error) if replicated else (None, None)
+            runs.append(Run(run, program, completed, replicated, series, *bound, scale))
     return Panel(name, panel.get("script", name), tuple(runs), tuple(panel.get("uses", ())))
 
 

@@ -1,11 +1,9 @@
-"""Writes a panel: PDF, PNG, SVG, the plotted numbers as CSV, and `<panel>.json`; each file has a record of the parents.
+"""Writes a panel: PDF, PNG, SVG, the plotted numbers as CSV, and its record `<panel>.<identity>.json`.
 
-Equal inputs give equal bytes, except for the commit in `<panel>.json`: no file has a time, host, user or absolute path.
+Equal inputs give equal bytes, except for the commit in the record: no file has a time, host, user or absolute path.
 """
 
-import hashlib
 import io
-import json
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -13,8 +11,8 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
-from workflow.lib.figure_metadata import PARENTS_LINE, Parents, commit
-from workflow.lib.files import write_together
+from workflow.lib.figure_metadata import IDENTITY_LINE, Parents, commit
+from workflow.lib.record import write_with_record
 from workflow.lib.style import FONTS
 
 CREATOR = "lorentz-gas"
@@ -27,7 +25,7 @@ class Text:
 
 
 def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -> None:
-    """Writes stem.pdf, .png, .svg, .csv and .json, all or none. table: text from columns.as_csv()."""
+    """Writes stem.pdf, .png, .svg, .csv and then their record, all or none. table: text from columns.as_csv()."""
     described = parents.as_json()
     pictures: dict[str, dict[str, Any]] = {
         "pdf": {
@@ -50,17 +48,11 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
         for kind, metadata in pictures.items():
             contents[kind] = _picture(figure, kind, metadata)
     units, numbers = table.split("\n", maxsplit=1)
-    head = [f"# {text.title}", units, f"# caption: {text.caption}", PARENTS_LINE + parents.digest()]
+    head = [f"# {text.title}", units, f"# caption: {text.caption}", IDENTITY_LINE + parents.identity]
     contents["csv"] = "\n".join([*head, numbers]).encode()
-    hashes = {
-        f"{stem.name}.{kind}": hashlib.sha256(content).hexdigest() for kind, content in contents.items()
-    }
-    record = {"panel": stem.name, "quality": stem.parent.name, **asdict(text), **commit(), "files": hashes}
-    contents["json"] = (
-        json.dumps(record | {"parents": vars(parents)}, indent=1, ensure_ascii=False) + "\n"
-    ).encode()
-    stem.parent.mkdir(parents=True, exist_ok=True)
-    write_together({stem.with_suffix(f".{kind}"): content for kind, content in contents.items()})
+    record = {"panel": stem.name, "quality": stem.parent.name, **asdict(text), **commit()}
+    files = {stem.with_suffix(f".{kind}"): content for kind, content in contents.items()}
+    write_with_record(stem, parents.identity, files, record | {"parents": vars(parents)})
 
 
 def _picture(figure: Figure, kind: str, metadata: dict[str, Any]) -> bytes:

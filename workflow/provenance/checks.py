@@ -1,6 +1,7 @@
 """Checks of results and figures against the present sources, parameters, build and packages.
 
-A fault is `broken` if a difference was found, and `not checked` if a comparison is impossible.
+The names of products have the identity of what determines them. Where the planned one is missing, another one of its run or panel
+is compared, so that the difference can be named.
 """
 
 import re
@@ -8,69 +9,113 @@ import tomllib
 from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
+from enum import Enum
 from functools import cache
 from importlib import metadata
 from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
-from workflow.lib.configuration import at_size
+from workflow.lib.closure import PACKAGES, hashes_of
 from workflow.lib.figure_metadata import (
     BUILD,
-    PACKAGES,
-    ROOT,
     MetadataError,
     Parents,
     embedded,
-    file_hash,
+    panel_identity,
     read_panel,
-    sources_of,
 )
+from workflow.lib.files import ROOT, file_hash
+from workflow.lib.identity import IDENTITY
 from workflow.lib.load import FormatError, load_statements
-from workflow.lib.plan import Panel, Run, data_of, data_path, drawings_of
+from workflow.lib.plan import Panel, Run, data_path, with_used
+from workflow.lib.polynomial import at_size
+from workflow.lib.record import record_path, records_of
 from workflow.provenance.build_id import BuildError, built, sources_of_program
 
 SIZES = (2, 3, 5)  # N at which polynomials are compared
+
+
+class Kind(Enum):
+    BROKEN = "broken"
+    UNCHECKED = "not checked"  # a comparison is impossible
+    OBSOLETE = "obsolete"  # no plan names it
 
 
 @dataclass(frozen=True)
 class Fault:
     path: str
     reason: str
-    broken: bool = True
+    kind: Kind = Kind.BROKEN
 
     def __str__(self) -> str:
-        return f"{'broken' if self.broken else 'not checked'}: {self.path}: {self.reason}"
+        return f"{self.kind.value}: {self.path}: {self.reason}"
 
 
 @dataclass(frozen=True)
 class Products:
-    """Results and figures of one quality."""
+    """Results and figures of one quality, with the effort of the command line."""
 
     quality: str
     plan: dict[str, Panel]
 
+    def results_of(self, panel: str) -> list[str]:
+        """Paths of the results that a panel plots."""
+        return [self.result(one.name, run) for one in with_used(self.plan, panel) for run in one.runs]
+
+    def result(self, panel: str, run: Run) -> str:
+        """Path of the result of a run: the planned one, or else the most recent one of the run."""
+        try:
+            planned = data_path(self.quality, panel, run)
+        except BuildError:  # an unpacked crate has no build
+            planned = f"data/{self.quality.partition('_')[0]}/{panel}/{run.name}.h5"
+        if (ROOT / planned).exists():
+            return planned
+        others = re.compile(rf"{re.escape(run.name)}\.{IDENTITY}\.h5")
+        found = [path for path in (ROOT / planned).parent.glob("*.h5") if others.fullmatch(path.name)]
+        fitting = [path for path in found if not self._fault(str(path.relative_to(ROOT)), run)]
+        latest = max(fitting or found, key=lambda path: path.stat().st_mtime, default=ROOT / planned)
+        return str(latest.relative_to(ROOT))
+
+    def stem(self, panel: str) -> str:
+        return f"figures/{self.quality}/{panel}"
+
+    def record(self, panel: Panel) -> str:
+        """Path of the record of a panel: that of its present results and sources, or else another one."""
+        present = panel_identity(panel.name, panel.script, self.results_of(panel.name))
+        path = record_path(Path(self.stem(panel.name)), present)
+        others = [] if (ROOT / path).exists() else records_of(ROOT / self.stem(panel.name))
+        return str(others[0].relative_to(ROOT)) if others else str(path)
+
+    def files_of(self, panel: Panel) -> list[str]:
+        """Paths of the figure files of a panel, then of their record. Raises MetadataError, OSError."""
+        record = self.record(panel)
+        return [*(f"figures/{self.quality}/{name}" for name in read_panel(ROOT / record)["files"]), record]
+
     def is_made(self, panel: str) -> bool:
         """Whether any product of the panel exists. A panel without products is not a fault: a crate may have only some panels."""
-        data = [data_path(self.quality, panel, run.name) for run in self.plan[panel].runs]
-        return any((ROOT / path).exists() for path in [*data, *drawings_of(self.quality, panel)])
+        data = [self.result(panel, run) for run in self.plan[panel].runs]
+        return any((ROOT / path).exists() for path in data) or bool(records_of(ROOT / self.stem(panel)))
 
     def faults(self, panel: str) -> Iterator[Fault]:
-        """Faults of the results of the panel, then of its figure."""
-        for run in self.plan[panel].runs:
-            if fault := self.fault_of_result(panel, run):
-                yield fault
+        """Faults of the results that the panel plots, then of its figure."""
+        for one in with_used(self.plan, panel):
+            for run in one.runs:
+                if fault := self.fault_of_result(one.name, run):
+                    yield fault
         if fault := self.fault_of_figure(self.plan[panel]):
             yield fault
 
     def fault_of_result(self, panel: str, run: Run) -> Fault | None:
-        path = data_path(self.quality, panel, run.name)
+        return self._fault(self.result(panel, run), run)
+
+    def _fault(self, path: str, run: Run) -> Fault | None:
         if not (ROOT / path).exists():
             return Fault(path, "is missing")
         try:
             stated, parameters, whole = load_statements(ROOT / path)
         except OSError as error:
-            return Fault(path, f"cannot be read: {error.strerror}", broken=False)
+            return Fault(path, f"cannot be read: {error.strerror}", Kind.UNCHECKED)
         except FormatError as error:
             return Fault(path, str(error).removeprefix(f"{ROOT / path}").strip(": "))
         if not whole:
@@ -84,49 +129,42 @@ class Products:
         return _fault_of_build(path, run.program, stated)
 
     def fault_of_figure(self, panel: Panel) -> Fault | None:
-        *files, record = drawings_of(self.quality, panel.name)
-        if missing := [path for path in (*files, record) if not (ROOT / path).exists()]:
-            return Fault(missing[0], "is missing")
+        record = self.record(panel)
+        if not (ROOT / record).exists():
+            return Fault(record, "is missing")
         try:
             stated = read_panel(ROOT / record)
-            for path in files:
-                if file_hash(ROOT / path) != stated["files"].get(Path(path).name):
-                    return Fault(path, f"edited or replaced: it differs from its hash in {Path(record).name}")
-            return self._fault_of_parents(panel, stated["parents"], files)
+            files = {str(Path(record).with_name(name)): digest for name, digest in stated["files"].items()}
+            for path, digest in files.items():
+                if not (ROOT / path).exists():
+                    return Fault(path, "is missing")
+                if file_hash(ROOT / path) != digest:
+                    reason = f"edited or replaced: it differs from its hash in {Path(record).name}; run make figures"
+                    return Fault(path, reason)
+            return self._fault_of_parents(panel, stated["parents"], [*files])
         except MetadataError as error:
             return Fault(record, str(error))
         except OSError as error:
-            return Fault(str(error.filename or record), f"cannot be read: {error.strerror}", broken=False)
+            reason = f"cannot be read: {error.strerror}"
+            return Fault(str(error.filename or record), reason, Kind.UNCHECKED)
 
     def _fault_of_parents(self, panel: Panel, parents: Parents, files: list[str]) -> Fault | None:
         for path in files:
-            if embedded(ROOT / path) not in (parents.as_json(), parents.digest()):
+            if embedded(ROOT / path) not in (parents.as_json(), parents.identity):
                 return Fault(
                     path, "edited or replaced: its parents differ from those in the record of the panel"
                 )
-        picture = files[0]
-        if {*parents.data} != {*data_of(self.plan, panel.name, self.quality)}:
-            return Fault(picture, "stale: it plots other runs than the configuration")
-        if parents.configuration != panel.hash():
-            return Fault(picture, "stale: the configuration of the panel has changed")
+        picture, present = files[0], self.results_of(panel.name)
+        if other := [*({*parents.data} ^ {*present})]:
+            return Fault(picture, f"stale: it plots other results than the configuration: {min(other)}")
         for path, one in parents.data.items():
             if not (ROOT / path).exists():
                 return Fault(picture, f"its result {path} is missing")
             if _hash(ROOT / path) != one["sha256"]:
                 return Fault(picture, f"stale: {path} has changed")
-        sources = [*sources_of(f"workflow/figures/{panel.script}.py"), PACKAGES]
-        present = {path: _hash(ROOT / path) for path in sources}
-        changed = dict(present.items() ^ (parents.sources | {PACKAGES: parents.packages}).items())
+        sources = hashes_of(f"workflow/figures/{panel.script}.py")
+        changed = dict(sources.items() ^ parents.sources.items())
         return Fault(picture, f"stale: {min(changed)} has changed") if changed else None
-
-    def obsolete(self) -> Iterator[Fault]:
-        """Results and figures of this quality that are not in the plan."""
-        known = {path for panel in self.plan for path in data_of(self.plan, panel, self.quality)}
-        known |= {path for panel in self.plan for path in drawings_of(self.quality, panel)}
-        for pattern in (f"data/{self.quality}/*/*.h5", f"figures/{self.quality}/*.pdf"):
-            for path in sorted(str(one.relative_to(ROOT)) for one in ROOT.glob(pattern)):
-                if path not in known:
-                    yield Fault(path, "is not in the plan: obsolete or misplaced; remove it")
 
 
 @cache
@@ -148,7 +186,7 @@ def _fault_of_build(path: str, program: str, stated: dict[str, Any]) -> Fault | 
             other = (
                 f"by another {name.removesuffix('s')}: {stated[name]}, the present build has {build[name]}"
             )
-            return Fault(path, other, broken=False)
+            return Fault(path, other, Kind.UNCHECKED)
     return None
 
 

@@ -5,25 +5,29 @@ Exit status: 1 if a result differs by more than its errors.
 
 import shutil
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 from scipy.special import stdtr
 
 from workflow.lib.command import command
-from workflow.lib.figure_metadata import ROOT, file_hash
+from workflow.lib.files import ROOT, file_hash
 from workflow.lib.load import Quantity, load
-from workflow.lib.plan import Quality, data_path
+from workflow.lib.plan import Panel, Quality, data_path, load_plan
 
 BEFORE = Path("build/before")
 SIGNIFICANCE = 1e-4  # p-value of the largest deviation in a result
 COMPUTED = 1e6  # degrees of freedom assumed for a discretisation error
 
 
-def keep(quality: str) -> None:
+def keep(quality: str, panels: Sequence[Panel]) -> None:
     """Copies the results that a rerun replaces. An interrupted rerun keeps those from before its first start."""
-    if (ROOT / "data" / quality).is_dir() and not (ROOT / BEFORE / quality).exists():
-        shutil.copytree(ROOT / "data" / quality, ROOT / BEFORE / quality)
+    for path in (data_path(quality, panel.name, run) for panel in panels for run in panel.runs):
+        kept = ROOT / BEFORE / path
+        if (ROOT / path).is_file() and not kept.exists():
+            kept.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(ROOT / path, kept)
 
 
 def p_value(one: Path, other: Path) -> float:
@@ -51,15 +55,18 @@ def main() -> None:
     keeping = {"action": "store_true", "help": "keep the present results for the comparison after the rerun"}
     options, _, panels = command(__doc__, keep=keeping)
     if options.keep:
-        keep(options.quality)
+        keep(options.quality, panels)
         return
     quality = Quality.of(options.quality)
-    against = BEFORE / quality.name if quality.name == quality.base else Path("data") / quality.base
+    base = load_plan(quality.base)
+    again = quality.name == quality.base  # a rerun from scratch
+    against = BEFORE / "data" / quality.base if again else Path("data") / quality.base
     values: dict[str, float] = {}
     for panel in panels:
         for run in panel.runs:
-            path = data_path(quality.name, panel.name, run.name)
-            other = against / panel.name / f"{run.name}.h5"
+            path = data_path(quality.name, panel.name, run)
+            other = data_path(quality.base, panel.name, base[panel.name].run(run.name))
+            other = str(BEFORE / other) if again else other
             if (ROOT / other).is_file():
                 same = file_hash(ROOT / path) == file_hash(ROOT / other)
                 values[path] = 1.0 if same else p_value(ROOT / path, ROOT / other)
@@ -71,7 +78,7 @@ def main() -> None:
     print(f"{agree} of {len(values)} results agree with those in {against}, smallest p = {smallest:.2g}")
     for path, p in differing.items():
         print(f"  {path}: p = {p:.2g}")
-    shutil.rmtree(ROOT / BEFORE / quality.name, ignore_errors=True)
+    shutil.rmtree(ROOT / BEFORE / "data" / quality.base, ignore_errors=True)
     sys.exit(1 if differing else 0)
 
 

@@ -5,7 +5,6 @@ Equal inputs give equal bytes: the crate has no time of day, host, user or folde
 
 import shlex
 import shutil
-import subprocess
 import sys
 from collections.abc import Iterable
 from datetime import date
@@ -17,13 +16,14 @@ from rocrate.model import ContextEntity, Entity
 from rocrate.rocrate import ROCrate
 
 from workflow.lib.citation import citation
+from workflow.lib.closure import PACKAGES
 from workflow.lib.command import command
 from workflow.lib.configuration import arguments
-from workflow.lib.figure_metadata import PACKAGES, ROOT, file_hash, read_panel
-from workflow.lib.plan import data_of, data_path, drawings_of, with_used
+from workflow.lib.figure_metadata import read_panel
+from workflow.lib.files import ROOT, file_hash, project_files
+from workflow.lib.plan import with_used
 from workflow.provenance.checks import Products
 
-FOLDER = ROOT / "build/crate"
 RUN = "https://w3id.org/ro/wfrun"
 PROFILES = {
     f"{RUN}/process/0.5": "Process Run Crate",
@@ -63,8 +63,9 @@ def pack(products: Products, panels: list[str]) -> ROCrate:
     quality, plan, crate = products.quality, products.plan, new_crate(products.quality)
     shown = {one.name: one for name in panels for one in with_used(plan, name)}
     scripts = {name: f"workflow/figures/{plan[name].script}.py" for name in panels}
-    data = {path for name in panels for path in data_of(plan, name, quality)}
-    figures = {path for name in panels for path in drawings_of(quality, name)}
+    data = {path for name in panels for path in products.results_of(name)}
+    drawn = {name: products.files_of(plan[name]) for name in panels}
+    figures = {path for paths in drawn.values() for path in paths}
     files = {
         path: add_file(crate, path, path in scripts.values())
         for path in sorted({*project_files(), *data, *figures})
@@ -89,12 +90,11 @@ def pack(products: Products, panels: list[str]) -> ROCrate:
             properties["isBasedOn"] = files[f"cpp/observables/{run.program}.cpp"]
             tool = crate.get(f"#program/{run.program}") or add(crate, f"#program/{run.program}", properties)
             command = shlex.join([run.program, *arguments(run.options)])
-            output = data_path(quality, panel.name, run.name)
+            output = products.result(panel.name, run)
             actions.append(action(f"job/{panel.name}/{run.name}", tool, command, settings, [output]))
     for name, script in scripts.items():
-        products_of_panel = drawings_of(quality, name)
-        parents = read_panel(ROOT / products_of_panel[-1])["parents"].inputs()
-        actions.append(action(f"job/{name}", files[script], f"Renders {name}", parents, products_of_panel))
+        parents = read_panel(ROOT / products.record(plan[name]))["parents"].inputs()
+        actions.append(action(f"job/{name}", files[script], f"Renders {name}", parents, drawn[name]))
     crate.root_dataset["mentions"] = actions
     return crate
 
@@ -121,21 +121,9 @@ def compact(values: list[Entity]) -> Entity | list[Entity]:
     return values[0] if len(values) == 1 else values
 
 
-def project_files() -> list[str]:
-    """Files that git tracks; without a repository, all files that are neither products nor hidden."""
-    done = subprocess.run(["git", "-C", ROOT, "ls-files", "-z"], capture_output=True, text=True, check=False)
-    tracked = [path for path in done.stdout.split("\0") if path and (ROOT / path).is_file()]
-    if "Snakefile" in tracked:
-        return tracked
-    paths = [str(path.relative_to(ROOT)) for path in sorted(ROOT.rglob("*")) if path.is_file()]
-    products = (".", "build/", "data/", "figures/")
-    return [path for path in paths if not path.startswith(products) and "__pycache__" not in path]
-
-
-def write(crate: ROCrate, folder: Path) -> Path:
-    """Writes the folder and a zip archive of it, both atomically. Returns the path of the archive."""
+def write(crate: ROCrate, folder: Path, archive: Path) -> None:
+    """Writes the folder and a zip archive of it, both atomically."""
     unfinished = folder.with_name(f"{folder.name}.tmp")
-    archive = folder.with_name(f"lorentz-gas-{folder.name}.zip")
     shutil.rmtree(unfinished, ignore_errors=True)
     crate.write(unfinished)
     with ZipFile(archive.with_suffix(".tmp"), "w") as content:
@@ -145,17 +133,18 @@ def write(crate: ROCrate, folder: Path) -> Path:
             content.writestr(entry, path.read_bytes(), ZIP_DEFLATED)
     shutil.rmtree(folder, ignore_errors=True)
     unfinished.replace(folder)
-    return archive.with_suffix(".tmp").replace(archive)
+    archive.with_suffix(".tmp").replace(archive)
 
 
 def main() -> None:
-    options, plan, panels = command(__doc__)
+    options, plan, _ = command(__doc__, archive={"type": Path, "required": True, "help": "zip file to write"})
     products = Products(options.quality, plan)
-    for fault in (fault for panel in panels for fault in products.faults(panel.name)):
+    names = options.panel or [*plan]
+    for fault in (fault for name in names for fault in products.faults(name)):
         sys.exit(f"{fault.path}: {fault.reason}; run make {'panel' if options.panel else 'figures'} first")
-    names = [options.panel] if options.panel else [panel.name for panel in panels]
-    archive = write(pack(products, names), FOLDER / options.quality)
-    print(f"The crate is {archive.relative_to(ROOT)}, unpacked in build/crate/{options.quality}")
+    folder = ROOT / "build/crate" / options.quality
+    write(pack(products, names), folder, ROOT / options.archive)
+    print(f"The crate is {options.archive}, unpacked in {folder.relative_to(ROOT)}")
 
 
 if __name__ == "__main__":

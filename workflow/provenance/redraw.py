@@ -4,22 +4,23 @@ import subprocess
 import sys
 from pathlib import Path
 
-from workflow.lib.figure_metadata import ROOT, file_hash, read_panel
-from workflow.lib.plan import drawing_command, drawings_of
-from workflow.provenance.checks import Fault, Products, other_package
+from workflow.lib.figure_metadata import read_panel
+from workflow.lib.files import ROOT, file_hash
+from workflow.lib.plan import drawing_command
+from workflow.provenance.checks import Fault, Kind, Products, other_package
 
 
 def redraw(products: Products, panel: str) -> Fault | None:
     """Fault of the first file whose bytes differ, which stays for comparison; None if all are equal."""
-    files = [path for path in drawings_of(products.quality, panel) if not path.endswith(".json")]
-    drawn_with = read_panel(ROOT / files[0].replace(".pdf", ".json"))["parents"].python
+    *files, record = products.files_of(products.plan[panel])
+    drawn_with = read_panel(ROOT / record)["parents"].python
     here = f"{sys.version_info.major}.{sys.version_info.minor}"
     if drawn_with != here:
-        return Fault(files[0], f"rendered by Python {drawn_with}, this is {here}", broken=False)
+        return Fault(files[0], f"rendered by Python {drawn_with}, this is {here}", Kind.UNCHECKED)
     if difference := other_package():
-        return Fault(files[0], f"other packages: {difference}", broken=False)
+        return Fault(files[0], f"other packages: {difference}", Kind.UNCHECKED)
     again = ROOT / "build/audit" / products.quality
-    command = drawing_command(products.plan, products.quality, panel, str(again / panel))
+    command = drawing_command(products.plan[panel].script, str(again / panel), products.results_of(panel))
     words = ["bash", "-c", f"source workflow/environment/variables.sh; {command}"]
     done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False)
     if done.returncode:

@@ -9,20 +9,21 @@ from rich.table import Table
 
 from workflow.cluster.cost import recorded_seconds
 from workflow.lib.command import command
-from workflow.lib.figure_metadata import ROOT
+from workflow.lib.files import ROOT
 from workflow.lib.load import FormatError, load_provenance
-from workflow.lib.plan import Panel, data_path
+from workflow.lib.plan import Panel
 from workflow.provenance.checks import Products
+from workflow.provenance.obsolete import faults
 
 WIDE = 150  # columns if the output is not a terminal
 
 
-def worst_error(quality: str, panel: Panel) -> str:
+def worst_error(products: Products, panel: Panel) -> str:
     """Largest error of the results of a panel; of those with a target, error and target."""
     errors, aimed = [], []
     for run in panel.runs:
         try:
-            provenance = load_provenance(ROOT / data_path(quality, panel.name, run.name))
+            provenance = load_provenance(ROOT / products.result(panel.name, run))
             achieved, target = (float(provenance[name]) for name in ("achieved_error", "target_error"))
         except (FormatError, OSError, KeyError, TypeError, ValueError):
             continue
@@ -41,10 +42,13 @@ def main() -> None:
         state = "fresh" if products.is_made(panel.name) else "missing"
         if state == "fresh" and (fault := next(products.faults(panel.name), None)):
             state = f"{fault.path.rpartition('/')[2]}: {fault.reason}"
-        seconds = [recorded_seconds(options.quality, panel.name, run.name) or 0.0 for run in panel.runs]
+        paths = [products.result(panel.name, run) for run in panel.runs]
+        seconds = [recorded_seconds(path) or 0.0 for path in paths]
         cost = f"{sum(seconds):.1f}" if any(seconds) else ""
-        table.add_row(panel.name, escape(state), worst_error(options.quality, panel), cost)
+        table.add_row(panel.name, escape(state), worst_error(products, panel), cost)
     Console(width=None if sys.stdout.isatty() else WIDE).print(table)
+    if obsolete := faults(products, options.panel or []):
+        print(f"Obsolete: {len(obsolete)} results or figures that no plan names; make prune removes them")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """Prints the provenance of a product or a copy of it: its parents down to sources, parameters and seeds.
 
-Exit status: 0 if the hash of the file is in the record of a panel here, or if a result is unmodified; 1 if not; 2 for bad input.
+Exit status: 0 if the hash of the file is in the record of a panel here, or a result is unmodified, and no parent differs here; 1 if
+not; 2 for bad input.
 """
 
 import argparse
@@ -9,15 +10,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from workflow.lib.figure_metadata import (
-    PACKAGES,
-    ROOT,
-    MetadataError,
-    Parents,
-    embedded,
-    file_hash,
-    read_panel,
-)
+from workflow.lib.figure_metadata import MetadataError, Parents, embedded, read_panel
+from workflow.lib.files import ROOT, file_hash
 from workflow.lib.load import FormatError, load_statements
 from workflow.provenance.build_id import sources_of_program
 
@@ -25,10 +19,12 @@ SHORT = 16  # printed digits of a hash
 FEW = 3  # printed entries of a list without --full
 
 
+OTHER, MISSING, SAME = "other here", "missing here", "same here"  # in the order of printing
+
+
 def state(path: str, digest: str) -> str:
     here = file_hash(ROOT / path) if (ROOT / path).is_file() else None
-    compared = {None: "missing here", digest: "same here"}.get(here, "other here")
-    return f"{path}  {digest[:SHORT]}  {compared}"
+    return {None: MISSING, digest: SAME}.get(here, OTHER)
 
 
 def build_lines(build: dict[str, Any]) -> Iterator[str]:
@@ -37,7 +33,7 @@ def build_lines(build: dict[str, Any]) -> Iterator[str]:
     except OSError:
         same = False
     yield f"  program {build['program']}: {build['compiler']}, {build['flags']}; {build['libraries']}"
-    yield f"    sources {build['source_hash'][:SHORT]}  {'same here' if same else 'other here'}"
+    yield f"    sources {build['source_hash'][:SHORT]}  {SAME if same else OTHER}"
 
 
 def result_lines(stated: dict[str, Any], parameters: dict[str, Any]) -> Iterator[str]:
@@ -48,15 +44,25 @@ def result_lines(stated: dict[str, Any], parameters: dict[str, Any]) -> Iterator
 
 
 def parent_lines(parents: Parents, few: int | None) -> Iterator[str]:
-    yield f"  panel {parents.panel} at quality {parents.quality}, configuration {parents.configuration[:SHORT]}"
-    yield f"  {state(PACKAGES, parents.packages)}, Python {parents.python}"
-    sources, data = [*parents.sources.items()], [*parents.data.items()]
-    yield from (f"  {state(path, digest)}" for path, digest in sources[:few])
-    yield from (f"  {state(path, one['sha256'])}, seed {one['seed']}" for path, one in data[:few])
+    """All parents that differ here, then a few of the others."""
+    yield f"  panel {parents.panel} at quality {parents.quality}, identity {parents.identity}"
+    yield f"  Python {parents.python}"
+    inputs = {path: (digest, "") for path, digest in parents.sources.items()}
+    inputs |= {path: (one["sha256"], f", seed {one['seed']}") for path, one in parents.data.items()}
+    by_state: dict[str, list[str]] = {OTHER: [], MISSING: [], SAME: []}
+    for path, (digest, seed) in inputs.items():
+        found = state(path, digest)
+        by_state[found].append(f"  {path}  {digest[:SHORT]}  {found}{seed}")
+    for found, lines in by_state.items():
+        shown = None if found == OTHER else few
+        yield from lines[:shown]
+        if hidden := len(lines) - len(lines[:shown]):
+            yield f"  and {hidden} more that are {found}, shown with FULL=yes"
     for build in parents.builds.values():
         yield from build_lines(build)
-    if hidden := len(sources[few:]) + len(data[few:]) if few else 0:
-        yield f"  and {hidden} more sources and results, shown with FULL=yes"
+    if by_state[OTHER]:
+        base, *_ = parents.quality.partition("_")
+        yield f"Parents have changed: make panel PANEL={parents.panel} QUALITY={base} makes the panel from those here"
 
 
 def records() -> Iterator[tuple[str, str, dict[str, Any]]]:
@@ -86,10 +92,10 @@ def explain(path: Path, few: int | None) -> tuple[bool, list[str]]:
     stated = embedded(path)
     if path.suffix != ".csv":
         return False, [first, *parent_lines(Parents.parse(stated), few)]
-    for _, product, record in records():  # a CSV has only the digest
-        if record["parents"].digest() == stated:
+    for _, product, record in records():  # a CSV has only the identity
+        if record["parents"].identity == stated:
             return False, [f"{first} those of {product}", *parent_lines(record["parents"], few)]
-    return False, [f"{first} sha256 {stated}, of no panel here"]
+    return False, [f"{first} those of identity {stated}, of no panel here"]
 
 
 def main() -> None:
@@ -105,7 +111,7 @@ def main() -> None:
     except (FormatError, MetadataError) as error:
         sys.exit(str(error))
     print(*lines, sep="\n")
-    sys.exit(0 if known else 1)
+    sys.exit(0 if known and not any(OTHER in line for line in lines) else 1)
 
 
 if __name__ == "__main__":

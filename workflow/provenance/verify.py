@@ -12,14 +12,12 @@ import tempfile
 from pathlib import Path
 
 from workflow.lib.command import command
-from workflow.lib.configuration import arguments
-from workflow.lib.figure_metadata import ROOT, file_hash
-from workflow.lib.plan import data_path
+from workflow.lib.files import ROOT, file_hash
+from workflow.lib.program import ProgramError, execute
 from workflow.provenance.checks import Products
 from workflow.provenance.redraw import redraw
 
 FRESH = ROOT / "build/verify"
-WRITTEN = (0, 4)  # exit statuses with a result
 
 
 def compile_afresh() -> Path:
@@ -36,9 +34,9 @@ def main() -> None:
         sample={"type": float, "required": True, "help": "fraction of the results if no panel is given"},
         programs={"type": Path, "help": "folder of executables; by default they are compiled"},
     )
-    quality = options.quality
-    runs = [(panel.name, run) for panel in panels for run in panel.runs]
-    runs = [(panel, run) for panel, run in runs if (ROOT / data_path(quality, panel, run.name)).is_file()]
+    quality, products = options.quality, Products(options.quality, plan)
+    runs = [(products.result(panel.name, run), run) for panel in panels for run in panel.runs]
+    runs = [(path, run) for path, run in runs if (ROOT / path).is_file()]
     if not options.panel:
         runs = random.sample(runs, min(len(runs), max(1, round(options.sample * len(runs)))))
     if not runs:
@@ -47,15 +45,16 @@ def main() -> None:
     programs = options.programs or compile_afresh()
     differing = []
     with tempfile.TemporaryDirectory() as folder:
-        for number, (panel, run) in enumerate(runs, 1):
-            path, again = data_path(quality, panel, run.name), Path(folder) / "again.h5"
-            again.unlink(missing_ok=True)
-            rerun = [str(ROOT / programs / run.program), *arguments(run.options), "--output", str(again)]
-            done = subprocess.run(rerun, capture_output=True, text=True, check=False)
-            same = done.returncode in WRITTEN and file_hash(again) == file_hash(ROOT / path)
+        for number, (path, run) in enumerate(runs, 1):
+            again = Path(folder) / f"{number}.h5"
+            try:
+                execute(run.program, run.options, again, programs=ROOT / programs)
+                same = file_hash(again) == file_hash(ROOT / path)
+            except ProgramError:
+                same = False
             print(f"{number} of {len(runs)}: {path}: {'equal bytes' if same else 'other bytes'}", flush=True)
             differing += [] if same else [path]
-    if options.panel and (fault := redraw(Products(quality, plan), options.panel)):
+    for fault in filter(None, (redraw(products, name) for name in options.panel or [])):
         print(fault)
         differing.append(fault.path)
     print(f"{len(runs)} results rerun: {len(differing)} differ")

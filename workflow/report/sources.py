@@ -1,16 +1,16 @@
-"""The files that the report is written from: unmodified products, and sources."""
+"""The files that the report is written from: unmodified products."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from workflow.claims.data import Data
-from workflow.claims.judge import CLAIMS_FILE, Judgement, judge_all
-from workflow.lib.citation import CITATION
-from workflow.lib.figure_metadata import PACKAGES, MetadataError, file_hash, read_panel, sources_of
+from workflow.claims.judge import Judgement, judge_all
+from workflow.lib.figure_metadata import MetadataError, panel_identity, read_panel
+from workflow.lib.files import file_hash
 from workflow.lib.load import FormatError, load_statements
-
-SCRIPT = "workflow/report/write.py"
+from workflow.lib.plan import Panel, data_of
+from workflow.lib.record import record_path
 
 
 class ReportError(ValueError):
@@ -23,6 +23,7 @@ class Products:
 
     root: Path
     quality: str
+    plan: dict[str, Panel]
     used: dict[str, str] = field(default_factory=dict)
     records: dict[str, dict[str, Any]] = field(default_factory=dict)  # by panel, from read_panel()
 
@@ -37,12 +38,16 @@ class Products:
         """Raises ReportError."""
         if panel not in self.records:
             try:
-                self.records[panel] = read_panel(self.root / f"figures/{self.quality}/{panel}.json")
+                self.records[panel] = read_panel(self.path_of_record(panel))
             except (OSError, MetadataError) as error:
                 raise ReportError(
-                    f"{panel} is missing or damaged ({error}); run make figures QUALITY={self.quality}"
+                    f"{panel} is missing, stale or damaged ({error}); run make figures QUALITY={self.quality}"
                 ) from error
         return self.records[panel]
+
+    def path_of_record(self, panel: str) -> Path:
+        present = panel_identity(panel, self.plan[panel].script, data_of(self.plan, panel, self.quality))
+        return record_path(self.root / "figures" / self.quality / panel, present)
 
     def file(self, path: str) -> Path:
         """Raises ReportError if it is missing or modified."""
@@ -60,13 +65,3 @@ class Products:
         if not whole:
             raise ReportError(f"{path} was modified after it was written; run make audit, then make figures")
         return here
-
-
-def source_hashes(root: Path) -> dict[str, str]:
-    """Of modules, templates, texts, the table of claims, the citation and the locked packages."""
-    folder = (root / SCRIPT).parent
-    beside = [
-        str(path.relative_to(root)) for path in folder.rglob("*") if path.is_file() and path.suffix != ".pyc"
-    ]
-    paths = {*sources_of(SCRIPT), *beside, CLAIMS_FILE, CITATION, PACKAGES}
-    return {path: file_hash(root / path) for path in sorted(paths)}

@@ -1,9 +1,8 @@
 """Runs as jobs of a cluster: parts of their replicas, joined on the login node to the result of a single execution.
 
-Inputs of a run are not part of its identity (rerun-triggers): a joined result is fresh on one machine, too.
+Parts are not part of the identity of a run: a joined result has the name and the bytes of a single execution.
 """
 
-import hashlib
 import math
 import re
 
@@ -23,10 +22,9 @@ ruleorder: join > single > simulate
 
 def parts_of_run(wildcards):
     """Part files of a run; none if the run is not split."""
-    run, name = run_of(wildcards), f"{wildcards.panel}/{wildcards.run}"
-    parts = [part.name for part in DIVISION.get(name, [])]
-    identity = hashlib.sha256(f"{run.options} {BUILDS[run.program]} {parts}".encode()).hexdigest()[:16]
-    return [f"build/parts/{QUALITY}/{name}/{identity}/{part}.part" for part in parts]
+    name = f"{wildcards.panel}/{wildcards.run}"
+    folder = f"{PARTS}/{wildcards.quality}/{name}.{wildcards.identity}"
+    return [f"{folder}/{part.name}.part" for part in DIVISION.get(name, [])]
 
 
 def minutes(wildcards, attempt):
@@ -55,9 +53,9 @@ use rule simulate as single with:
 
 use rule simulate as part with:
     output:
-        temp("build/parts/{quality}/{panel}/{run}/{identity}/{batch}_{part}.part"),
+        temp(f"{PARTS}/{{quality}}/{{panel}}/{{run}}.{{identity}}/{{batch}}_{{part}}.part"),
     log:
-        "build/logs/{quality}/{panel}/{run}/{identity}/{batch}_{part}.log",
+        "build/logs/{quality}/{panel}/{run}.{identity}/{batch}_{part}.log",
     wildcard_constraints:
         batch="batch[0-9]+",
         part="[0-9]+-[0-9]+",

@@ -1,32 +1,27 @@
-"""One panel from its results: figures/<quality>/<panel>.{pdf,png,svg,csv,json}."""
+"""One panel from its results: figures/<quality>/<panel>.{pdf,png,svg,csv}, and then their record.
+
+Only the record is an output, as Snakemake removes outputs before a job starts, and good pictures stay until new ones are there.
+"""
 
 
 rule draw:
     input:
-        lambda wildcards: data_of(PLAN, wildcards.panel, QUALITY),
+        lambda wildcards: ancient(DATA[wildcards.panel]),
     output:
-        multiext("figures/{quality}/{panel}", ".pdf", ".svg", ".csv", ".json"),
-        png=report(
-            "figures/{quality}/{panel}.png",
-            caption="../report/caption.rst",
-            category="{quality}",
-            labels={"panel": "{panel}"},
-        ),
+        "figures/{quality}/{panel}.{identity}.json",
     log:
-        "build/logs/{quality}/{panel}.log",
+        "build/logs/{quality}/{panel}.{identity}.log",
     wildcard_constraints:
-        panel="(?!ext)[^/]+",
+        panel="(?!ext)[^/.]+",
     priority: 10**9  # before any run
     params:
         command=lambda wildcards: drawing_command(
-            PLAN, QUALITY, wildcards.panel, f"figures/{QUALITY}/{wildcards.panel}"
+            PLAN[wildcards.panel].script, f"figures/{QUALITY}/{wildcards.panel}", DATA[wildcards.panel]
         ),
-        sources=lambda wildcards: sources_digest(PLAN[wildcards.panel].script),
-        runs=lambda wildcards: runs_shown_by(wildcards.panel),
     shell:
         "{params.command} 2> {log:q}"
 
 
 use rule draw as draw_extension with:
     wildcard_constraints:
-        panel="ext[^/]+",
+        panel="ext[^/.]+",

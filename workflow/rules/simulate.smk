@@ -1,4 +1,4 @@
-"""One run of a program: data/<quality>/<panel>/<run>.h5.
+"""One run of a program: data/<quality>/<panel>/<run>.<identity>.h5.
 
 Exit status 4: stopped before the target error; the result and the figure are marked. --resume continues from the checkpoint of an
 interrupted program.
@@ -7,17 +7,12 @@ interrupted program.
 
 rule simulate:
     output:
-        "data/{quality}/{panel}/{run}.h5",
+        "data/{quality}/{panel}/{run}.{identity}.h5",
     log:
-        "build/logs/{quality}/{panel}/{run}.log",
+        "build/logs/{quality}/{panel}/{run}.{identity}.log",
     priority: priority_of_run
     params:
-        program=lambda wildcards: run_of(wildcards).program,
-        options=lambda wildcards: shlex.join(arguments(run_of(wildcards).options)),
-        build=lambda wildcards: BUILDS[run_of(wildcards).program],
-        resume=lambda wildcards: "--threads 1 --resume" if run_of(wildcards).replicated else "",
-        # No trigger of a rerun, as it depends on the input.
+        command=lambda wildcards: shlex.join(command_line(run_of(wildcards), limit=limit_of_run(wildcards))),
         join=lambda wildcards, input: shlex.join(["--join", os.path.dirname(input[0])]) if input else "",
     shell:
-        "build/bin/{params.program} {params.options} {params.resume} {params.join} --progress log --output {output:q}"
-        " 2> {log:q} || [ $? = 4 ]"
+        "{params.command} {params.join} --progress log --output {output:q} 2> {log:q} || [ $? = 4 ]"

@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from workflow.config.describe import with_option
 from workflow.lib import style
 from workflow.tradeoff.measure import Done, execute, planned, shortened
 
@@ -15,7 +16,7 @@ TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)  # of the kinetic equation, which has no repl
 FIRST_LOOK = 64  # replicas at the first comparison of error and target
 REDUCTION = 4  # of the error at the first look, to the target
 PREDICTION = re.compile(r"the run ends after (\d+) to (\d+)")  # replicas, in the log of a program
-SETTINGS = {  # a cheap run of every program, and the simulated fraction of its times
+SETTINGS = {  # a cheap run of every program with an error, and the simulated fraction of its times
     "persistence": ("fig05", "paper_sigma=0.5", 0.5),
     "waiting_time": ("fig06", "all_sigma=0.5", 0.5),
     "displacement": ("ext07", "spreading_relaxation-time=1", 0.5),
@@ -25,6 +26,8 @@ SETTINGS = {  # a cheap run of every program, and the simulated fraction of its 
     "momentum_flux": ("fig04a", "rare", 0.1),
     "steady_profile": ("fig02_upper", "rare", 0.1),
     "particle_count": ("fig01", "short", 0.005),
+    "correlation": ("ext03", "light", 1),
+    "heat_current": ("ext13", "light", 1),
     "boltzmann": ("fig03_convergence", "resolution_gamma=50_target-error=1e-05", 1),
 }
 
@@ -62,14 +65,17 @@ def errors(program: str) -> pd.DataFrame:
 
 
 def measure() -> pd.DataFrame:
-    table = pd.concat(map(errors, SETTINGS), ignore_index=True)
+    table = pd.concat(map(errors, with_option("target-error")), ignore_index=True)
     return table.assign(uncertainty=uncertainty(table.error, table.replicas))
 
 
 def draw(table: pd.DataFrame) -> Figure:
-    figure, axes = plt.subplots(3, 3, figsize=(2 * style.COLUMN, 2 * style.HEIGHT), sharex=True, sharey=True)
     sampled = table.dropna(subset="replicas").groupby(["program", "quantity"], sort=False)
-    for one, ((program, quantity), rows) in zip(axes.flat, sampled, strict=True):
+    size = (2 * style.COLUMN, 8 / 3 * style.HEIGHT)
+    figure, axes = plt.subplots(-(-len(sampled) // 3), 3, figsize=size, sharex=True, sharey=True)
+    for empty in axes.flat[len(sampled) :]:
+        empty.set_axis_off()
+    for one, ((program, quantity), rows) in zip(axes.flat, sampled, strict=False):
         seconds, error, replicas = rows[["cpu_seconds", "error", "replicas"]].to_numpy().T
         law = amplitude(seconds, error, replicas)
         one.errorbar(seconds, error, rows.uncertainty, marker="o", color=style.BLUE, **style.POINTS)
@@ -93,4 +99,4 @@ def predicted(program: str) -> dict[str, object]:
 
 
 def predictions() -> pd.DataFrame:
-    return pd.DataFrame([predicted(program) for program in SETTINGS if program != "boltzmann"])
+    return pd.DataFrame([predicted(program) for program in with_option("replicas")])

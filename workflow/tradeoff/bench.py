@@ -12,7 +12,8 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib.plan import Run
-from workflow.tradeoff.measure import PROGRAMS, execute, planned
+from workflow.lib.program import PROGRAMS
+from workflow.tradeoff.measure import execute, planned
 
 RUNS = ("ext07/energy", "fig05/paper_sigma=0.5", "fig07/all", "fig06/all_sigma=0.5",
         "fig08/deterministic_cells=16", "fig08/rare_cells=64", "fig01/paper", "fig04b/deterministic", "fig04a/rare",

@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from workflow.lib.configuration import at_size
 from workflow.lib.plan import Run
+from workflow.lib.polynomial import at_size
 from workflow.tradeoff.measure import Done, execute, planned, simulate
 
 WINDOW = 1 / 8  # fraction of the observation time, as the reference simulator is slow
@@ -54,10 +54,11 @@ def conductivity(run: Run, cells: int, replicas: tuple[int, int]) -> Iterator[Ro
     changes = {"start": "empty", "relaxation-time": relaxation, "observation-time": observation}
     done = execute(run, cells=cells, replicas=replicas[1], **changes)
     gamma = cells if options["gamma"] == "N" else options["gamma"]
-    baths = (options[f"{name}-{side}"] for name in ("nu", "temperature") for side in ("left", "right"))
-    no_bins, seed = (2, 1), 1
-    rows, seconds = simulate("open_chain", cells, 1 / cells, options["sigma"], gamma, *baths, relaxation,
-                             observation, *no_bins, replicas[0], seed)  # fmt: skip
+    baths = {name: options[name] for name in ("nu-left", "nu-right", "temperature-left", "temperature-right")}
+    chain = {"cells": cells, "cell_length": 1 / cells, "sigma": options["sigma"], "gamma": gamma, **baths}
+    times = {"relaxation_time": relaxation, "observation_time": observation}
+    effort = {"momentum_bins": 2, "momentum_max": 1, "replicas": replicas[0], "seed": 1}  # bins are not used
+    rows, seconds = simulate("open_chain", **chain, **times, **effort)
     # Five values per cell and the particle currents of N + 1 bonds precede the energy currents.
     plain = averaged(rows.astype(float)[:, [6 * cells + 1, 7 * cells + 1]].mean(axis=1), seconds)
     engine, both = stored(done, "energy_current_plain"), stored(done, "energy_current")
@@ -78,18 +79,16 @@ def spreading(panel: str, name: str, label: str) -> Iterator[Row]:
 
 def pulse(run: Run, replicas: tuple[int, int]) -> Iterator[Row]:
     """Gains for the energies at the last time in the cells that the pulse has reached; gamma = N."""
-    options, times = run.options, run.options["times"].split(",")
-    names = ("cells", "particles-per-cell", "sigma", "cells", "energy", "pulse-energy", "pairs-per-replica")
+    names = ("cells", "particles-per-cell", "sigma", "energy", "pulse-energy", "pairs-per-replica", "times")
+    options = {name: run.options[name] for name in names} | {"gamma": run.options["cells"]}
     done = execute(run, replicas=replicas[1])
     last = stored(done, "energy_difference", -1)
     reached = last.value > 5 * last.error
-    engine, plain, seed = stored(done, "energy_difference", (-1, reached)), [], 1
+    engine, plain = stored(done, "energy_difference", (-1, reached)), []
     for start in ("independent", "shared"):
-        rows, seconds = simulate(
-            "pulse", *(options[name] for name in names), replicas[0], seed, start, *times
-        )
-        energies = rows.astype(float).reshape(replicas[0], len(times), -1)
-        plain.append(averaged(energies[:, -1, reached], seconds))
+        rows, seconds = simulate("pulse", **options, start=start, replicas=replicas[0], seed=1)
+        last_energies = rows.astype(float)[:, -options["cells"] :]
+        plain.append(averaged(last_energies[:, reached], seconds))
     yield compared("one start for both", "energies", *plain)
     yield compared("engine", "energies", plain[1], engine)
     yield compared("both", "energies", plain[0], engine)

@@ -55,8 +55,8 @@ def draw(table: pd.DataFrame) -> Figure:
 
 def measure_types() -> pd.DataFrame:
     """Change of the energy of a closed chain of the reference simulator for three floating-point types."""
-    options, seed = planned("fig05", "paper_sigma=0.3").options, 1
+    options = planned("fig05", "paper_sigma=0.3").options
     names = ("cells", "particles-per-cell", "sigma", "temperature", "observation-time")
-    rows, _ = simulate("drift", *(options[name] for name in names), seed)
+    rows, _ = simulate("drift", **{name: options[name] for name in names}, seed=1)
     kinds = {"type": str, "events": int, "relative_change": float}
     return pd.DataFrame(rows, columns=[*kinds]).astype(kinds)

@@ -4,15 +4,17 @@ Measured times differ between executions; `make figures` therefore excludes thes
 """
 
 import argparse
+import io
 import subprocess
 from pathlib import Path
 
 from workflow.lib import style
 from workflow.lib.columns import as_csv
+from workflow.lib.files import ROOT
+from workflow.lib.record import write_with_record
 from workflow.tradeoff import accuracy, bias, efficiency, rounding
 
-FOLDER = Path("figures/tradeoff")
-SIMULATORS = ("reference_open_chain", "reference_pulse", "reference_drift")
+FOLDER = ROOT / "figures/tradeoff"
 TABLES = {
     "ext06": accuracy.measure,
     "ext06_efficiency": efficiency.measure,
@@ -24,26 +26,34 @@ TABLES = {
 FIGURES = {"ext06": accuracy.draw, "ext08": rounding.draw}
 
 
-def make(name: str, folder: Path = FOLDER) -> None:
+def make(name: str) -> dict[Path, bytes]:
+    """Measures a table, prints it, and returns it and its figure by path."""
     table = TABLES[name]()
-    folder.mkdir(parents=True, exist_ok=True)
     units = {column: "second" if column.endswith("seconds") else "1" for column in table} | bias.UNITS
-    (folder / f"{name}.csv").write_text(as_csv(table, units))
+    files = {FOLDER / f"{name}.csv": as_csv(table, units).encode()}
     print(f"{name}\n{table.to_string(index=False, float_format='{:.3g}'.format, na_rep='-')}\n", flush=True)
     if name in FIGURES:
         style.apply()
         figure = FIGURES[name](table)
         for kind in ("pdf", "png"):
-            figure.savefig(folder / f"{name}.{kind}")
+            picture = io.BytesIO()
+            figure.savefig(picture, format=kind)
+            files[FOLDER / f"{name}.{kind}"] = picture.getvalue()
+    return files
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--only", choices=TABLES, metavar="NAME", help=f"one of {', '.join(TABLES)}")
-    only = parser.parse_args().only
-    subprocess.run(["bash", "workflow/environment/build.sh", *SIMULATORS], check=True)
-    for name in [only] if only else TABLES:
-        make(name)
+    parser.add_argument("--quality", help="has no effect: the tables have efforts of their own")
+    parser.add_argument("--identity", help="identity in the name of the record of all tables")
+    options = parser.parse_args()
+    subprocess.run(["bash", "workflow/environment/build.sh", "reference_simulator"], check=True)
+    if options.only:
+        make(options.only)
+    else:
+        files = {path: content for name in TABLES for path, content in make(name).items()}
+        write_with_record(FOLDER / "tradeoff", options.identity, files, {})
 
 
 if __name__ == "__main__":

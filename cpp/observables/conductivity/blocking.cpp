@@ -1,7 +1,6 @@
 #include "observables/conductivity/blocking.hpp"
 
-#include <gsl/gsl_statistics_double.h>
-
+#include <Eigen/Core>
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -20,14 +19,11 @@ Blocking blocking(const Records& blocks) {
   // Rows are stored one after another, so joining neighbours joins blocks of one replica until one block per
   // replica is left.
   std::vector<double> means = blocks.values();
-  double scale = 0;  // largest modulus; dividing by it prevents overflow of the squares
-  for (const double mean : means) scale = std::max(scale, std::abs(mean));
-  if (scale > 0)
-    for (double& mean : means) mean /= scale;
   Blocking result;
   for (std::size_t width = blocks.width();; width /= 2) {
     const auto count = static_cast<double>(means.size());
-    const double error = scale * std::sqrt(gsl_stats_variance(means.data(), 1, means.size()) / count);
+    const Eigen::Map<const Eigen::ArrayXd> all(means.data(), static_cast<Eigen::Index>(means.size()));
+    const double error = (all - all.mean()).matrix().stableNorm() / std::sqrt(count * (count - 1));
     result.error.push_back(error);
     result.uncertainty.push_back(error / std::sqrt(2 * (count - 1)));
     if (width == 1) return result;

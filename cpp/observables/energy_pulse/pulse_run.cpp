@@ -72,15 +72,16 @@ PulseRun::Start PulseRun::start(const PulseParameters& parameters, const StreamK
   return start;
 }
 
-PulseRun::PulseRun(const PulseParameters& parameters, const StreamKey& key, const Heartbeat& heartbeat)
-    : PulseRun(parameters, key, heartbeat, start(parameters, key, heartbeat)) {}
+PulseRun::PulseRun(const PulseParameters& parameters, const StreamKey& key, const Heartbeat& heartbeat,
+                   bool share)
+    : PulseRun(parameters, key, heartbeat, share, start(parameters, key, heartbeat)) {}
 
-PulseRun::PulseRun(const PulseParameters& parameters, const StreamKey& key, Heartbeat heartbeat,
+PulseRun::PulseRun(const PulseParameters& parameters, const StreamKey& key, Heartbeat heartbeat, bool share,
                    const Start& start)
     : chain_(parameters.ring.chain()),
       heartbeat_(std::move(heartbeat)),
       relaxation_events_(start.events),
-      pair_(chain_, start.plain, start.pulsed, parameters.times.back(), key, !parameters.separate),
+      pair_(chain_, start.plain, start.pulsed, parameters.times.back(), key, share),
       injected_energy_(sum(energy_difference())),
       total_energy_(energy(start.plain) + injected_energy_) {}
 
@@ -122,8 +123,6 @@ void declare(Options& options, PulseParameters& parameters) {
   options.ascending_list("--times", parameters.times, positive, "time", "Times after the pulse");
   options.integer("--pairs-per-replica", parameters.pairs_per_replica, {1, 1'000'000},
                   "Pairs of trajectories, with the pulse and without, that a replica averages over");
-  options.flag("--separate", parameters.separate,
-               "Simulate both trajectories in full; the result is the same", Options::Role::runtime);
 }
 
 void validate(const PulseParameters& parameters) {

@@ -24,7 +24,6 @@ struct PulseParameters {
   std::vector<double> times{0.01, 0.02, 0.03, 0.04, 0.05,
                             0.06, 0.08, 0.1,  0.12};  // before the peaks meet on the ring
   std::uint32_t pairs_per_replica = 16;
-  bool separate = false;  // simulate both trajectories in full
 };
 
 void declare(Options& options, PulseParameters& parameters);
@@ -38,7 +37,9 @@ class PulseRun {
  public:
   using Heartbeat = std::function<void(double)>;
 
-  PulseRun(const PulseParameters& parameters, const StreamKey& key, const Heartbeat& heartbeat);
+  /// share: false simulates both trajectories in full. Energy differences then have other rounding errors.
+  PulseRun(const PulseParameters& parameters, const StreamKey& key, const Heartbeat& heartbeat,
+           bool share = true);
 
   /// Advances both trajectories to a time after the pulse.
   void run(double time);
@@ -59,7 +60,8 @@ class PulseRun {
     std::uint64_t events = 0;  // of the relaxation
   };
   static Start start(const PulseParameters& parameters, const StreamKey& key, const Heartbeat& heartbeat);
-  PulseRun(const PulseParameters& parameters, const StreamKey& key, Heartbeat heartbeat, const Start& start);
+  PulseRun(const PulseParameters& parameters, const StreamKey& key, Heartbeat heartbeat, bool share,
+           const Start& start);
 
   ClosedChain chain_;
   Heartbeat heartbeat_;

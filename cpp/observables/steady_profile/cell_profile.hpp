@@ -130,7 +130,7 @@ class CellProfile {
       sums[tallies.density][cell] = (to_right[cell] + to_left[cell]) / duration;
     }
     for (const Direction side : {leftwards, rightwards}) {
-      for (const std::size_t kind : {0, 1}) {
+      for (const std::size_t kind : {0U, 1U}) {
         const std::vector<double> at_marks = streams_[side].at_marks(kind, side == rightwards ? 1 : -1);
         const auto at_scatterers = sums[(kind == 0 ? tallies.arrivals : tallies.arriving_squares).row(side)];
         const auto at_bonds = sums[(kind == 0 ? tallies.crossings : tallies.crossing_squares).row(side)];
@@ -139,7 +139,7 @@ class CellProfile {
         for (std::size_t bond = 0; bond <= cells; ++bond) at_bonds[bond] = at_marks[2 * bond] / duration;
       }
     }
-    for (const std::size_t end : {0, 1})
+    for (const std::size_t end : {0U, 1U})
       std::ranges::transform(momenta_[end].weights(), sums[tallies.end_momentum.row(end)].begin(),
                              [duration](double time) { return time / duration; });
     sums.set(tallies.injection, injections_.deviations(chain_, duration));

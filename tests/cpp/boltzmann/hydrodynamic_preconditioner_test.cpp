@@ -82,7 +82,7 @@ class Equilibrium {
 
 double distance(const Flux& a, const Flux& b) { return (a - b).norm() / b.norm(); }
 
-// Eigenvalues [eq. 42]. Mutant: the eigenvalues of -sigma.
+// Eigenvalues [eq. 42]. Finds: the eigenvalues of -sigma.
 TEST(LinearisedCollisions, HaveHermiteFunctionsAsEigenfunctions) {
   for (const double sigma : {-0.7, 0.5}) {
     const Equilibrium gas(sigma, 1);
@@ -100,7 +100,7 @@ TEST(LinearisedCollisions, HaveHermiteFunctionsAsEigenfunctions) {
 }
 
 // Six modes have their own eigenvalues and two more the shared ones, so 1 - L G' is inverted exactly for
-// these eight and only approximately for others. Mutant: the preconditioner for -sigma, whose odd modes have
+// these eight and only approximately for others. Finds: the preconditioner for -sigma, whose odd modes have
 // other eigenvalues.
 TEST(HydrodynamicPreconditioner, InvertsTheLinearisedOperatorForTheSlowModes) {
   for (const double sigma : {-0.7, 0.5}) {
@@ -121,7 +121,7 @@ TEST(HydrodynamicPreconditioner, InvertsTheLinearisedOperatorForTheSlowModes) {
   }
 }
 
-// At gamma = 50, 9 to 18 steps instead of 52 to 75. Mutant: the preconditioner for -sigma, 22 and 31 steps.
+// At gamma = 50, 9 to 18 steps instead of 52 to 75. Finds: the preconditioner for -sigma, 22 and 31 steps.
 TEST(HydrodynamicPreconditioner, SavesSteps) {
   const LinearMap none = [](const VectorXd& v) { return v; };
   for (const double sigma : {-0.9, 0.5, 0.9}) {

@@ -317,7 +317,7 @@ TEST(ChanceOfThePulse, RelaxationAndPulseShareNoDraw) {
 
     PhasePoint relaxed = relaxing.phase_point(duration);
     EXPECT_FALSE(share(relaxation, pair_flights(chain, relaxed, key)));
-    for (Particle& particle : relaxed.particles) particle.draws = 0;  // mutant: draws counted from 0 again
+    for (Particle& particle : relaxed.particles) particle.draws = 0;  // finds: draws counted from 0 again
     EXPECT_TRUE(share(relaxation, pair_flights(chain, relaxed, key)));
   }
 }

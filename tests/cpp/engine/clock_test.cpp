@@ -59,7 +59,7 @@ bool same_order(const Arrivals& a, const Arrivals& b) {
   return true;
 }
 
-// Programs restart the clock of a closed chain every 2^32 thermal flights. Mutant: at 2^40.
+// Programs restart the clock of a closed chain every 2^32 thermal flights. Finds: at 2^40.
 TEST(Clock, KeepsTheOrderOfEventsAsLongAsItRuns) {
   for (const double sigma : {-0.9, 0.0, 0.5}) {
     const Arrivals exact = in_extended_precision(sigma);

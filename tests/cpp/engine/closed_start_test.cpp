@@ -47,7 +47,7 @@ TEST(InitialState, PlacesParticlesEvenlyInTheirOwnCells) {
   }
   const auto place_of = [&](std::size_t i) { return place(i, point.particles[i]); };
   EXPECT_TRUE(plausible(evenness(place_of), 99));
-  // Mutant: the last two hundredths of each cell are left out.
+  // Finds: the last two hundredths of each cell are left out.
   EXPECT_FALSE(plausible(evenness([&](std::size_t i) { return 0.98 * place_of(i); }), 99));
 }
 
@@ -65,7 +65,7 @@ TEST(InitialState, DrawsVelocitiesAtTheTemperatures) {
   EXPECT_TRUE(plausible(particles, chain.particles()));
   EXPECT_TRUE(plausible(scatterers, chain.cells));
   EXPECT_LT(std::abs(mean) / std::sqrt(temperatures.particles / chain.particles()), 4);
-  // Mutants: the temperature taken as the mean energy u^2/2; the particles' temperature for scatterers.
+  // Finds: the temperature taken as the mean energy u^2/2; the particles' temperature for scatterers.
   EXPECT_FALSE(plausible(particles / 2, chain.particles()));
   EXPECT_FALSE(plausible(scatterers * temperatures.scatterers / temperatures.particles, chain.cells));
 }

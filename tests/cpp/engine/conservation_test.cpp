@@ -114,7 +114,7 @@ Steps encounters(const Law& law, std::uint64_t events) {
   return energy;
 }
 
-// Mutant: the reflection as printed, with c = sqrt(1-sigma^2) rounded. sigma^2 + c^2 differs from 1, so every
+// Finds: the reflection as printed, with c = sqrt(1-sigma^2) rounded. sigma^2 + c^2 differs from 1, so every
 // collision errs in the same direction.
 TEST(Conservation, ScoreFindsALinearDrift) {
   const double sigma = 0.5;

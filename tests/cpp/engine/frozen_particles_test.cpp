@@ -46,7 +46,7 @@ TEST(FrozenParticles, AreThoseThatStop) {
   }
   EXPECT_EQ(std::count(stopped.begin(), stopped.end(), true), chain.cells);
 
-  // They stay where they stopped. Mutant: the flight and position() disagree on the direction of u = 0.
+  // They stay where they stopped. Finds: the flight and position() disagree on the direction of u = 0.
   ClosedDynamics dynamics(chain, start, 20, {1, 0});
   NoObserver nobody;
   simulate(dynamics, 20, nobody, nothing);

@@ -50,7 +50,7 @@ double z(const std::vector<double>& values, double exact) {
   return std::abs(support::z_score(support::sample(values), exact));
 }
 
-// [eq. 5], [eq. 6]. Mutants: the energy that the paper injects, nu T per unit time; momenta of the flux of a
+// [eq. 5], [eq. 6]. Finds: the energy that the paper injects, nu T per unit time; momenta of the flux of a
 // Maxwellian gas, |p| exp(-p^2/2T); a rate that is 3 % off.
 TEST(Injector, MomentaAreHalfGaussian) {
   const Injections seen = inject(bath, 7);
@@ -65,7 +65,7 @@ TEST(Injector, MomentaAreHalfGaussian) {
   EXPECT_GT(z(inject({1.03 * bath.rate, bath.temperature}, 7).count, expected_count), 4);
 }
 
-// The variance of the count is its mean; its own error is sqrt(2/R) of it. Mutants: intervals as regular as
+// The variance of the count is its mean; its own error is sqrt(2/R) of it. Finds: intervals as regular as
 // the sums of two exponentials, which halve the variance, or their square, which raises it.
 TEST(Injector, CountsArePoisson) {
   const double error = support::sample(inject(bath, 7).count).standard_error;

@@ -148,7 +148,7 @@ struct InWindow {
   }
 };
 
-// The sums agree to the last digit, observed from the start or from the window on. Mutants: no notification
+// The sums agree to the last digit, observed from the start or from the window on. Finds: no notification
 // of pending flights, or of pending exits, or notification of all flights of the relaxation.
 TEST(OpenDynamics, AnUnobservedRelaxationChangesNothing) {
   for (const double gamma : {infinity, 2., 0.}) {

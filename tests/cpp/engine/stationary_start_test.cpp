@@ -54,7 +54,7 @@ double faster(const Particle& particle) {
   return above(std::abs(particle.velocity)) / above(measure.slowest);
 }
 
-// Poissonian numbers: mean 2 zeta Lambda, variance as large, no covariance between neighbours. Mutants: a
+// Poissonian numbers: mean 2 zeta Lambda, variance as large, no covariance between neighbours. Finds: a
 // mean of 2 z Lambda, and the same number in every cell.
 TEST(StationaryStart, NumbersOfParticlesArePoissonian) {
   const std::vector<double> found = numbers(start());
@@ -73,7 +73,7 @@ TEST(StationaryStart, NumbersOfParticlesArePoissonian) {
   EXPECT_LT(std::abs(products) / std::sqrt(cells), 4);
 }
 
-// Mutant: momenta of the flux, p exp(-p^2/2T), without the factor of a particle's time in the cell.
+// Finds: momenta of the flux, p exp(-p^2/2T), without the factor of a particle's time in the cell.
 TEST(StationaryStart, SpeedsFollowTheirDensityIndependentlyOfPositions) {
   const PhasePoint point = start();
   const double length = chain.cells * chain.cell_length;
@@ -90,7 +90,7 @@ TEST(StationaryStart, SpeedsFollowTheirDensityIndependentlyOfPositions) {
 }
 
 // Mean and variance of sums over particles (Campbell): of p^2 sign(p) the mean is 0, of p^2 it is 2 zeta T
-// per cell but for the cut. Mutant: momenta to the right only.
+// per cell but for the cut. Finds: momenta to the right only.
 TEST(StationaryStart, DirectionsAreEven) {
   const PhasePoint point = start();
   double signs = 0, flux = 0, squares = 0;
@@ -104,7 +104,7 @@ TEST(StationaryStart, DirectionsAreEven) {
   EXPECT_LT(std::abs(flux - chain.cells * 2 * zeta * T * std::exp(-cut)) / std::sqrt(squares), 4);
 }
 
-// Mutant: U smaller by 10 %.
+// Finds: U smaller by 10 %.
 TEST(StationaryStart, ScatterersHaveTheTemperature) {
   double squares = 0;
   const PhasePoint point = start();
@@ -146,7 +146,7 @@ std::pair<std::vector<double>, std::vector<double>> later(double time, double sc
   return {collisions, energies};
 }
 
-// A scatterer meets 2 times the integral of z exp(-p^2/2T) particles per time. Mutant: scatterers that start
+// A scatterer meets 2 times the integral of z exp(-p^2/2T) particles per time. Finds: scatterers that start
 // with U smaller by 40 %.
 TEST(StationaryStart, IsStationary) {
   const double time = 3, rate = 2 * 3 * std::sqrt(std::numbers::pi * 4 / 2);

@@ -58,7 +58,7 @@ MatrixXd cyclic_shift(Index size) {
   return matrix;
 }
 
-// Mutant: no orthogonalisation against the last basis vector.
+// Finds: no orthogonalisation against the last basis vector.
 TEST(Gmres, SolvesASystemInAsManyStepsAsItHasDimensions) {
   for (const Index size : {1, 2, 5, 12}) {
     const MatrixXd a = well_conditioned(size, 1);
@@ -77,7 +77,7 @@ TEST(Gmres, TakesOneStepForEveryEigenvalue) {
   EXPECT_LT(residual(a, found.solution, ones(9)), 1e-12);
 }
 
-// Mutant: y is returned instead of x = P y.
+// Finds: y is returned instead of x = P y.
 TEST(Gmres, ThePreconditionerChangesTheStepsOnly) {
   const MatrixXd a = well_conditioned(12, 3);
   const VectorXd b = random_matrix(12, 1, 4);
@@ -91,7 +91,7 @@ TEST(Gmres, ThePreconditionerChangesTheStepsOnly) {
   EXPECT_LT((other.solution - exact).norm(), 1e-11 * exact.norm());
 }
 
-// The result minimises the residual over the Krylov space. Mutants: the limit off by one; Givens rotations in
+// The result minimises the residual over the Krylov space. Finds: the limit off by one; Givens rotations in
 // the wrong direction.
 TEST(Gmres, MinimisesTheResidualWithinTheLimit) {
   const MatrixXd a = well_conditioned(20, 6);

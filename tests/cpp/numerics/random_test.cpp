@@ -111,7 +111,7 @@ TEST(Random, UniformHasTheMomentsOfTheUniformDistributionAndStaysInside) {
   EXPECT_TRUE(inside);
 }
 
-// Mutants: two common errors of the radius in the Box-Muller formula, and the cosine of half the angle.
+// Finds: two common errors of the radius in the Box-Muller formula, and the cosine of half the angle.
 TEST(Random, MomentsRejectWrongGaussians) {
   RandomStream stream({1, 0}, Purpose::initial_position, 0);
   const auto direction = [&] { return std::cos(2 * std::numbers::pi * stream.uniform()); };

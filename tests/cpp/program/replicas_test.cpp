@@ -70,7 +70,7 @@ TEST(Replicas, FinishTheLowestIndicesBeforeADeadline) {
   }
 }
 
-// Mutant: a tally that is never filled gives 0 in every result.
+// Finds: a tally that is never filled gives 0 in every result.
 TEST(Replicas, WithATallyThatIsNeverFilledAreRefused) {
   struct Tallies : TallySchema {
     ScalarTally value = tally("value", "1", "A number");

@@ -125,7 +125,7 @@ Runs by_rule(const Law& law, double ideal, std::uint64_t batch) {
   return many(law, ideal, [&](std::uint64_t used) { return rule.next_look(used); }, &StoppingRule::reached);
 }
 
-/// Mutant: a run ends as soon as the error is below the target, from the first batch of two or more on.
+/// Finds: a run ends as soon as the error is below the target, from the first batch of two or more on.
 Runs at_once(const Law& law, double ideal, std::uint64_t batch) {
   const auto next = [=](std::uint64_t used) { return std::max<std::uint64_t>(used + batch, 2); };
   return many(law, ideal, next, [](std::uint64_t, double excess) { return excess <= 1; });
@@ -233,7 +233,7 @@ TEST(StoppingRule, RunsEndWhereTheFirstLookForetells) {
       EXPECT_GT(found.runs, 100);
       EXPECT_GT(excess(found.within, found.runs), -significant)
           << batch << ' ' << ideal << ": " << found.within;
-      EXPECT_LT(excess(found.as_likely, found.runs), -significant);  // mutant: no range
+      EXPECT_LT(excess(found.as_likely, found.runs), -significant);  // finds: no range
     }
 }
 

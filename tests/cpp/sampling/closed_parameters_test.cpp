@@ -11,7 +11,7 @@ namespace closed_parameters_test {
 using namespace lorentz;
 using support::refused_as;
 
-// Mutants: scatterers left out, without their mass, or a mean with zero total momentum.
+// Finds: scatterers left out, without their mass, or a mean with zero total momentum.
 TEST(ClosedParameters, MeansOfTheStart) {
   ClosedParameters parameters;  // 220 particles at 500; M = 3
   EXPECT_EQ(parameters.mean_square_momentum(), 220 * 500);
@@ -24,7 +24,7 @@ TEST(ClosedParameters, MeansOfTheStart) {
   EXPECT_FALSE(parameters.mean_energy().has_value());
 }
 
-// Mutants: the temperature of the particles in place of the higher one, and the other way round.
+// Finds: the temperature of the particles in place of the higher one, and the other way round.
 TEST(ClosedParameters, TimesFollowFromSpeeds) {
   const ClosedParameters parameters{
       .ring = {.cell_length = 2}, .temperature = 4, .scatterer_temperature = 16};
@@ -33,7 +33,7 @@ TEST(ClosedParameters, TimesFollowFromSpeeds) {
   EXPECT_EQ(parameters.thermal_flight(), 1);
 }
 
-// Mutants: the observation alone in place of the end; flights_of_one_clock in place of flights_of_a_year.
+// Finds: the observation alone in place of the end; flights_of_one_clock in place of flights_of_a_year.
 TEST(ClosedParameters, AreRefusedTogether) {
   ClosedParameters parameters{.temperature = 1, .relaxation_time = 0, .observation_time = 9e14};
   EXPECT_NO_THROW(validate(parameters));

@@ -35,7 +35,7 @@ Errors finished(const ClosedRun& run) {
 }
 
 // Particles that are too slow to arrive: nothing happens, and nothing drifts. The clock restarts after 2^32
-// thermal flights of the scatterers, 232 times here. Mutants: the clock not restarted; clock_start_ not
+// thermal flights of the scatterers, 232 times here. Finds: the clock not restarted; clock_start_ not
 // moved.
 TEST(ClosedRun, WithoutScatterings) {
   const ClosedParameters parameters{
@@ -55,7 +55,7 @@ TEST(ClosedRun, WithoutScatterings) {
   EXPECT_EQ(errors.momentum, 0);
 }
 
-// Mutants: the relaxation observed; a start of 0 energy or momentum in place of that of the chain, which
+// Finds: the relaxation observed; a start of 0 energy or momentum in place of that of the chain, which
 // makes the errors 1 and 0.02; events since the relaxation only.
 TEST(ClosedRun, ObservesAfterTheRelaxationAndConserves) {
   for (const double sigma : {-0.7, 0., 0.5, 0.9}) {
@@ -92,7 +92,7 @@ TEST(ClosedRun, ReportsThatNoMomentumIsConserved) {
 }
 
 // Over replicas the controls have mean 0, and the variance of a normal square and of a sum of 9 normal
-// squares. Mutants: the mean of the particles alone, by which both are off by far as M = 19; the momentum not
+// squares. Finds: the mean of the particles alone, by which both are off by far as M = 19; the momentum not
 // squared.
 TEST(ClosedRun, ControlsHaveMeanZero) {
   const ClosedParameters parameters{
@@ -112,7 +112,7 @@ TEST(ClosedRun, ControlsHaveMeanZero) {
   EXPECT_NEAR(support::sample(momenta).standard_error * std::sqrt(2000), std::sqrt(2), 0.2);
 }
 
-// Mutant: a control of -1 where the mean is 0 or not known.
+// Finds: a control of -1 where the mean is 0 or not known.
 TEST(ClosedRun, HasNoControlsWithZeroTotalMomentum) {
   const ClosedParameters parameters{.zero_total_momentum = true};
   const ClosedRun run(parameters, replica);
@@ -120,7 +120,7 @@ TEST(ClosedRun, HasNoControlsWithZeroTotalMomentum) {
   EXPECT_EQ(run.energy_control(), 0);
 }
 
-// Mutant: the two exchanged.
+// Finds: the two exchanged.
 TEST(ConservationErrors, AreMeansOverReplicas) {
   const ClosedTallies tallies;
   Records records(tallies.width());

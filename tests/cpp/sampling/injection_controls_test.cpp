@@ -12,7 +12,7 @@ using namespace lorentz;
 constexpr OpenChain chain{
     .cells = 3, .left = {.rate = 5, .temperature = 2}, .right = {.rate = 0, .temperature = 8}};
 
-// Mutants: u in place of |u|; u^2 without the half; both ends in one.
+// Finds: u in place of |u|; u^2 without the half; both ends in one.
 TEST(InjectionControls, SumWhatEachReservoirInjects) {
   InjectionControls controls;
   controls.add(End::right, -3);
@@ -23,7 +23,7 @@ TEST(InjectionControls, SumWhatEachReservoirInjects) {
   EXPECT_EQ(found[5], 5);
 }
 
-// Mutants: the duration left out; the means of the other reservoir.
+// Finds: the duration left out; the means of the other reservoir.
 TEST(InjectionControls, SubtractTheKnownMeans) {
   InjectionControls controls;
   controls.add(End::left, 4);

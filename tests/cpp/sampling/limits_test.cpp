@@ -15,7 +15,7 @@ using support::refusal, support::refused_as;
 
 constexpr Reservoir bath(double temperature) { return {1, temperature}; }
 
-// Mutants: an open bound; !(value < low || value > high), which accepts NaN.
+// Finds: an open bound; !(value < low || value > high), which accepts NaN.
 TEST(Limits, AcceptTheirBoundsAndNothingBeyond) {
   const auto check = [](double value) {
     return refusal([&] { require_within(value, 1, 2, "--a, --b", "their product"); });
@@ -30,7 +30,7 @@ TEST(Limits, AcceptTheirBoundsAndNothingBeyond) {
   EXPECT_NE(check(std::numeric_limits<double>::quiet_NaN()), "");
 }
 
-// Mutant: one reservoir only.
+// Finds: one reservoir only.
 TEST(Limits, OfTemperaturesWhoseFourthPowersOfMomentaAreStored) {
   const auto check = [](double left, double right) {
     return refusal([&] { require_fourth_powers(bath(left), bath(right)); });
@@ -98,7 +98,7 @@ TEST(Limits, OfTheSizeOfARecord) {
             "--cells, --bins: a replica would keep 2e+08 values, more than 1e8. Choose fewer of either.");
 }
 
-// Mutant: the product in 32 bits, which is 0 for 65536 times 65536.
+// Finds: the product in 32 bits, which is 0 for 65536 times 65536.
 TEST(Limits, OfTheNumberOfParticles) {
   const auto check = [](std::uint32_t cells, std::uint32_t particles_per_cell) {
     return refusal([&] {

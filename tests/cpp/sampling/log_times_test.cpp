@@ -8,7 +8,7 @@ namespace log_times_test {
 
 using namespace lorentz;
 
-// Mutant: no assignment of the last time, which the grid misses by a rounding for some of these.
+// Finds: no assignment of the last time, which the grid misses by a rounding for some of these.
 TEST(LogTimes, EndWithTheObservation) {
   for (const double last : {0.3, 1., 7., 1e3, 12345.678, 1e6}) {
     const std::vector<double> times = LogTimeParameters{.decades = 3}.times(last);
@@ -19,7 +19,7 @@ TEST(LogTimes, EndWithTheObservation) {
   }
 }
 
-// Mutants: without the factor 1 - 1e-9, the first point is left out by a rounding for some; decades in place
+// Finds: without the factor 1 - 1e-9, the first point is left out by a rounding for some; decades in place
 // of fit_decades.
 TEST(LogTimes, FitBeginsWithAPointOfTheGrid) {
   const LogTimeParameters parameters{.decades = 6, .fit_decades = 2};

@@ -10,7 +10,7 @@ namespace momentum_bins_test {
 
 using namespace lorentz;
 
-// Mutants: the edges on the axis; bins from 0 on.
+// Finds: the edges on the axis; bins from 0 on.
 TEST(MomentumBins, LieAboutZero) {
   const MomentumBinParameters parameters{.count = 4, .max = 2};
   const Axis axis = momentum_axis(parameters.bins());
@@ -20,14 +20,14 @@ TEST(MomentumBins, LieAboutZero) {
   EXPECT_EQ(parameters.bins().edge(2), 0);
 }
 
-// Mutant: validate() empty, so that 7 bins would silently become 6.
+// Finds: validate() empty, so that 7 bins would silently become 6.
 TEST(MomentumBins, AreEven) {
   EXPECT_NO_THROW(validate(MomentumBinParameters{.count = 6}));
   EXPECT_TRUE(support::refused_as("--momentum-bins is odd: no edge would lie at 0",
                                   [] { validate(MomentumBinParameters{.count = 7}); }));
 }
 
-// Mutants: the last edge in place of the width; no lower or no upper limit.
+// Finds: the last edge in place of the width; no lower or no upper limit.
 TEST(MomentumBins, HaveEdgesThatAreNumbers) {
   const auto check = [](double width) {
     return support::refusal([&] { validate(MomentumBinParameters{.count = 100'000, .max = 5e4 * width}); });

@@ -9,7 +9,7 @@ namespace open_parameters_test {
 using namespace lorentz;
 using support::refused_as;
 
-// Mutant: empty and warm exchanged.
+// Finds: empty and warm exchanged.
 TEST(OpenParameters, Starts) {
   OpenParameters parameters{.scattering = {.cells = 5}};
   EXPECT_GT(parameters.start_point(10, {1, 0}).particles.size(), 10U);
@@ -19,7 +19,7 @@ TEST(OpenParameters, Starts) {
   EXPECT_EQ(empty.scatterers, std::vector<double>(5, 0));
 }
 
-// Mutants: cold and hot exchanged; the left reservoir for both.
+// Finds: cold and hot exchanged; the left reservoir for both.
 TEST(OpenParameters, StartsFromEquilibriumWithOneReservoir) {
   const auto temperature = [](const OpenParameters& parameters) {
     double sum = 0;
@@ -46,14 +46,14 @@ StationaryParameters stationary(Scaled relaxation_time, Scaled observation_time)
   return parameters;
 }
 
-// Mutant: the observation counted from 0.
+// Finds: the observation counted from 0.
 TEST(OpenParameters, WindowFollowsTheRelaxation) {
   const Window window = stationary({{0, 2, 0}}, {{3, 0, 0}}).window();
   EXPECT_EQ(window.begin, 10);
   EXPECT_EQ(window.end, 13);
 }
 
-// Mutants: a stay as long as the run; the hotter reservoir alone.
+// Finds: a stay as long as the run; the hotter reservoir alone.
 TEST(OpenParameters, AreRefusedTogether) {
   const auto refused = [](const std::string& beginning, const OpenParameters& parameters, double end) {
     return refused_as(beginning, [&] { validate(parameters, end, "--times"); });
@@ -75,7 +75,7 @@ TEST(OpenParameters, AreRefusedTogether) {
       refused("--temperature-left, --temperature-right: the highest temperature", {.right = {1, 1e301}}, 1));
 }
 
-// Mutant: the relaxation in place of the end.
+// Finds: the relaxation in place of the end.
 TEST(OpenParameters, WindowsAreNotTooShort) {
   EXPECT_NO_THROW(validate(stationary({{1e5}}, {{1e-4}})));
   EXPECT_TRUE(refused_as("--relaxation-time, --observation-time: the end of the run over the time",

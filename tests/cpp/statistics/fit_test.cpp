@@ -23,7 +23,7 @@ TEST(Fit, FindsExactLinesAndPowers) {
   EXPECT_NEAR(fit_power(x, power, 2, 5), -2.0 / 3, 1e-13);
 }
 
-// For points off a line, the slope is cov(x, y)/var(x). Mutant: the line through the first and the last
+// For points off a line, the slope is cov(x, y)/var(x). Finds: the line through the first and the last
 // point.
 TEST(Fit, WeighsAllPointsEqually) {
   const std::vector<double> x = {0, 1, 2, 3}, y = {0, 2, 1, 1};
@@ -32,7 +32,7 @@ TEST(Fit, WeighsAllPointsEqually) {
   EXPECT_NEAR(line.intercept, 0.7, 1e-15);
 }
 
-// The range includes both of its ends and nothing beyond. Mutants: one end excluded; all points used.
+// The range includes both of its ends and nothing beyond. Finds: one end excluded; all points used.
 TEST(Fit, PowersUseTheirRangeOnly) {
   const std::vector<double> x = {1, 2, 4, 8}, y = {1000, 1, 16, 0};
   EXPECT_NEAR(fit_power(x, y, 2, 4), 4, 1e-13);

@@ -25,7 +25,7 @@ Records records() {
 }
 
 // The error of a mean is s/sqrt(n); that of a ratio is written out with every replica left out.
-// Mutants: the mean of ratios in place of the ratio of means; an error of the records in place of the mean.
+// Finds: the mean of ratios in place of the ratio of means; an error of the records in place of the mean.
 TEST(Group, JackknifeTheMeanRecord) {
   const Tallies tallies;
   Group group;
@@ -47,7 +47,7 @@ TEST(Group, JackknifeTheMeanRecord) {
   EXPECT_NEAR(results[1].standard_error[0], std::sqrt(2. / 3 * squares), 1e-14);
 }
 
-// Mutants: 0 as error of an empty bin; NaN for a number that is 0.
+// Finds: 0 as error of an empty bin; NaN for a number that is 0.
 TEST(Group, AnElementThatIsZeroEverywhereHasNoError) {
   const Tallies tallies;
   Group group;
@@ -60,7 +60,7 @@ TEST(Group, AnElementThatIsZeroEverywhereHasNoError) {
   EXPECT_EQ(results[1].standard_error, std::vector<double>{0});
 }
 
-// Mutant: the formula chosen for every mean.
+// Finds: the formula chosen for every mean.
 TEST(Group, ChoosesACommonFormulaOnce) {
   const Tallies tallies;
   int chosen = 0;
@@ -75,7 +75,7 @@ TEST(Group, ChoosesACommonFormulaOnce) {
   EXPECT_EQ(chosen, 1);
 }
 
-// Mutant: a jackknife of the statistic.
+// Finds: a jackknife of the statistic.
 TEST(Group, HasStatisticsWithTheirOwnErrors) {
   Group group;
   group.statistics({{"one", "1", "One"}, {"pair", "1", "Two", {numbered_axis("place", "Where", 2)}}},
@@ -88,7 +88,7 @@ TEST(Group, HasStatisticsWithTheirOwnErrors) {
   EXPECT_EQ(results[1].count, (std::vector<std::uint64_t>{3, 3}));
 }
 
-// Mutants: the records as they were; control variates reported as used in every case.
+// Finds: the records as they were; control variates reported as used in every case.
 TEST(Group, OfCorrectedRecords) {
   const Tallies tallies;
   const auto negative = [](const Records& given) {
@@ -109,7 +109,7 @@ TEST(Group, OfCorrectedRecords) {
   }
 }
 
-// Mutant: only the total is compared, so that one value too many and one too few shift names silently.
+// Finds: only the total is compared, so that one value too many and one too few shift names silently.
 TEST(Group, OfAnotherSizeThanTheirAxesAreRefused) {
   const Tallies tallies;
   Group group;

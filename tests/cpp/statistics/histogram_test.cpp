@@ -26,7 +26,7 @@ double neighbour(double x, int steps) {
 }
 
 // The bin number is nondecreasing in steps of one and changes within two units in the last place of every
-// edge; the two halves are mirror images. Mutant: adding half the number of bins before truncation, which
+// edge; the two halves are mirror images. Finds: adding half the number of bins before truncation, which
 // rounds -1e-17 to 0.
 TEST(Bins, ChangeAtTheEdges) {
   for (const double max : {3., 60., 0.7, 1e-150, 1e150}) {
@@ -60,7 +60,7 @@ TEST(Bins, DivideTheRangeEvenly) {
   EXPECT_EQ(bins.middles(), (std::vector<double>{-1.25, -0.75, -0.25, 0.25, 0.75, 1.25}));
 }
 
-// Mutants: values outside are counted in the last bin; weights are replaced by 1.
+// Finds: values outside are counted in the last bin; weights are replaced by 1.
 TEST(Histogram, SumsWeightsAndLeavesOutWhatLiesOutside) {
   Histogram histogram(Bins(4, 2));
   for (const double value : {-2.5, -1.5, -0.5, 0.5, 0.5, 2., 7.}) histogram.add(value);

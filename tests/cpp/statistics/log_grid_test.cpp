@@ -22,7 +22,7 @@ TEST(LogGrid, HasEqualFactorsAndFindsIntervals) {
   }
 }
 
-// A point belongs exactly to the interval above it. Mutants: cells of the table twice as wide, so that some
+// A point belongs exactly to the interval above it. Finds: cells of the table twice as wide, so that some
 // contain two points; a point counted in the interval below.
 TEST(LogGrid, FindsIntervalsNextToPointsAndBeyondTheEnds) {
   for (const std::size_t per_decade : {1, 8, 10, 37}) {

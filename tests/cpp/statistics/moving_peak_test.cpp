@@ -46,7 +46,7 @@ MovingPeak peak_of(const std::vector<double>& mean, const PeakWindows& windows) 
   return {mean, times, windows};
 }
 
-// Mutants: the profile not folded; times exchanged; a slope with its sign; a width of t^1/2.
+// Finds: the profile not folded; times exchanged; a slope with its sign; a width of t^1/2.
 TEST(MovingPeak, FollowsGaussianPeaks) {
   const std::vector<double> mean = profiles();
   const PeakWindows windows = windows_of(records_of({profiles(0.9), profiles(1.1)}));
@@ -65,7 +65,7 @@ TEST(MovingPeak, FollowsGaussianPeaks) {
   EXPECT_NEAR(peak.collapse(), 1, 0.02);  // the width grows as t, the height falls as 1/t
 }
 
-// Ends by hand. Mutants: neighbouring times; ends that occur twice where times are sparse; a short octave
+// Ends by hand. Finds: neighbouring times; ends that occur twice where times are sparse; a short octave
 // left at the end; equal parts of t.
 TEST(MovingPeak, OctavesDivideTheTimesEvenly) {
   using Times = std::vector<double>;
@@ -79,7 +79,7 @@ TEST(MovingPeak, OctavesDivideTheTimesEvenly) {
   EXPECT_EQ(octaves({1}), (Times{1}));
 }
 
-// Heights 8, 4 and 1 at the times 1, 2 and 4: exponents 1 and 2, which drift by 1/ln 2. Mutants: the same
+// Heights 8, 4 and 1 at the times 1, 2 and 4: exponents 1 and 2, which drift by 1/ln 2. Finds: the same
 // sign as d ln peak; a difference of exponents instead of a slope; a fit over all times.
 TEST(MovingPeak, ExponentsOfOctavesAndTheirDrift) {
   std::vector<double> mean = profiles();
@@ -92,7 +92,7 @@ TEST(MovingPeak, ExponentsOfOctavesAndTheirDrift) {
   EXPECT_NEAR(peak.exponent_drift(), 1 / std::numbers::ln2, 3e-3);
 }
 
-// Mutants: the even part; the left side minus the right one; a share of one side.
+// Finds: the even part; the left side minus the right one; a share of one side.
 TEST(MovingPeak, OddPartAndCentre) {
   const std::vector<double> mean = profiles(1, 0.5);
   const MovingPeak peak = peak_of(mean, PeakWindows(times.size()));
@@ -107,7 +107,7 @@ TEST(MovingPeak, OddPartAndCentre) {
 }
 
 // A peak that has not left the centre at the first time: what derives from it is NaN, the rest uses the other
-// times. Mutants: a height of 0; a fit that includes it; NaN for all.
+// times. Finds: a height of 0; a fit that includes it; NaN for all.
 TEST(MovingPeak, IsNoneBeforeThePeakHasLeftTheCentre) {
   std::vector<double> mean = profiles();
   for (int cell = 0; cell < cells; ++cell) mean[cell] = std::exp(-0.02 * (cell - centre) * (cell - centre));
@@ -127,7 +127,7 @@ TEST(MovingPeak, IsNoneBeforeThePeakHasLeftTheCentre) {
 }
 
 // The mean has a peak, but without the second replica the profile rises to the far side: no error could be
-// had. Mutant: windows of the mean alone.
+// had. Finds: windows of the mean alone.
 TEST(PeakWindows, HoldThePeakWhicheverReplicaIsLeftOut) {
   std::vector<double> none(times.size() * cells);
   for (std::size_t i = 0; i < none.size(); ++i)

@@ -17,7 +17,7 @@ struct Tallies : TallySchema {
   ScalarTally last = tally("last", "time", "Another number");
 };
 
-// Mutants: the width before the tally is added; the size of the first axis alone.
+// Finds: the width before the tally is added; the size of the first axis alone.
 TEST(TallySchema, LaysTalliesSideBySide) {
   const Tallies tallies;
   EXPECT_EQ(tallies.width(), 8U);
@@ -38,7 +38,7 @@ TEST(TallySchema, KeepsDescriptionsInOrder) {
   EXPECT_TRUE(described[2].axes.empty());
 }
 
-// Mutants: a record that is not zero at first; a span that begins at the first tally.
+// Finds: a record that is not zero at first; a span that begins at the first tally.
 TEST(TallySums, HoldsEveryTallyAtItsPlace) {
   const Tallies tallies;
   TallySums sums(tallies);
@@ -54,7 +54,7 @@ TEST(TallySums, HoldsEveryTallyAtItsPlace) {
   EXPECT_TRUE(std::ranges::equal(view[tallies.table], sums[tallies.table]));
 }
 
-// Mutants: fewer values, or more, copied silently.
+// Finds: fewer values, or more, copied silently.
 TEST(TallySums, RefusesArraysOfAnotherSize) {
   const Tallies tallies;
   TallySums sums(tallies);

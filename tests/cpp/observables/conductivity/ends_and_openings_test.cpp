@@ -23,7 +23,7 @@ std::vector<double> recorded(const EndsAndOpenings& observer, const BlockTallies
   return {sums[tally].begin(), sums[tally].end()};
 }
 
-// Mutants: an energy of u^2, or without the sign; a crossing that counts whole; exits left out; blocks from 0
+// Finds: an energy of u^2, or without the sign; a crossing that counts whole; exits left out; blocks from 0
 // on.
 TEST(EndsAndOpenings, Currents) {
   const BlockTallies tallies;
@@ -45,7 +45,7 @@ TEST(EndsAndOpenings, Currents) {
   EXPECT_EQ(std::vector(injection.end() - 6, injection.end()), (std::vector<double>{0, 0, 0, 1, 4, 8}));
 }
 
-// Mutants: the momentum after the collision; the middle scatterer in place of the last.
+// Finds: the momentum after the collision; the middle scatterer in place of the last.
 TEST(EndsAndOpenings, Temperatures) {
   const BlockTallies tallies;
   EndsAndOpenings observer(chain, window);
@@ -57,7 +57,7 @@ TEST(EndsAndOpenings, Temperatures) {
 }
 
 // Two flights, one through the first cell to the last scatterer, one that reaches the first one before the
-// window. Mutants: arrivals at the end of the flight only; without the window.
+// window. Finds: arrivals at the end of the flight only; without the window.
 TEST(EndsAndOpenings, ArrivalsAndScatteringControl) {
   const BlockTallies tallies;
   OpenChain rare = chain;

@@ -54,7 +54,7 @@ TEST(Hotelling, RejectsAsOftenAsItsLevelSays) {
     EXPECT_TRUE(has_size(rejected(level, 0, plain), level));
     EXPECT_TRUE(has_size(rejected(level, 0, reduced), level));
   }
-  // Mutant: the limit of many records, chi^2 with 3 degrees of freedom, gives 0.01 where F gives 0.035.
+  // Finds: the limit of many records, chi^2 with 3 degrees of freedom, gives 0.01 where F gives 0.035.
   EXPECT_FALSE(has_size(rejected(0.035, 0, plain), 0.01));
 }
 

@@ -76,7 +76,7 @@ Found found(double sigma, double assumed_sigma, bool late) {
       correlation * correlation};
 }
 
-// Mutants: the momentum after the collision, which depends on s and gives a nonzero mean; the wrong sign of
+// Finds: the momentum after the collision, which depends on s and gives a nonzero mean; the wrong sign of
 // sigma, which reduces the explained variance only.
 TEST(ScatteringControl, HasMeanZeroAndExplainsTheNoise) {
   for (const double sigma : {0.5, -0.3, 0.9}) {

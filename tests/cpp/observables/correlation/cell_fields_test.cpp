@@ -14,7 +14,7 @@ namespace {
 
 using namespace lorentz;
 
-// At several times, in the same order of cells. Mutant: cells around the scatterers.
+// At several times, in the same order of cells. Finds: cells around the scatterers.
 TEST(CellFields, AreThoseOfTheReference) {
   for (const double sigma : {-0.6, 0.0, 0.5, 0.9}) {
     ClosedParameters parameters;
@@ -84,7 +84,7 @@ Moments moments(double zeta, double theta, double temperature) {
 
 // In the stationary state g has the variance T (2 zeta + M), E_s - E_p/(2 zeta) the variance T^2/2 +
 // T^2/(4 zeta) and no covariance with the energy (docs/mode_coupling.md); cells are independent. The cut is
-// too small to be seen. Mutants: another fugacity, another theta.
+// too small to be seen. Finds: another fugacity, another theta.
 TEST(CellFields, OfTheStartHaveTheExactMoments) {
   const double zeta = 1.6, T = 2.5, M = 3;
   const auto z = [](const std::vector<double>& values, double exact) {

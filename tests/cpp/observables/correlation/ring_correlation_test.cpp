@@ -31,7 +31,7 @@ double direct(std::size_t cells, std::size_t snapshots, std::size_t lag, std::si
   return sum / count;
 }
 
-// Mutants: the last wave number of even rings left out; lags counted from the first snapshot; products of one
+// Finds: the last wave number of even rings left out; lags counted from the first snapshot; products of one
 // side.
 TEST(RingCorrelation, IsTheMeanOverCellsAndSnapshots) {
   const std::vector<std::size_t> lags{1, 2, 5};

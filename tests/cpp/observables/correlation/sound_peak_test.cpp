@@ -10,7 +10,7 @@ namespace {
 
 using namespace lorentz;
 
-// Mutants: the last cell of an even ring, which belongs to both sides, counted twice; both sides.
+// Finds: the last cell of an even ring, which belongs to both sides, counted twice; both sides.
 TEST(SideMoment, IsHalfTheSumOverBothSides) {
   const std::vector<double> odd{1, 2, 4, 8, 16}, even{1, 2, 4, 8};
   EXPECT_EQ(side_moment(odd, 0, 0, 9), 15.5);

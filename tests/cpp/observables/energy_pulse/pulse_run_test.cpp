@@ -31,7 +31,7 @@ double energy_of_middle() {
   return energy;
 }
 
-// Mutants: the pulse a cell farther; the scatterer left out; the energy per cell in place of per degree of
+// Finds: the pulse a cell farther; the scatterer left out; the energy per cell in place of per degree of
 // freedom.
 TEST(PulseRun, RaisesTheEnergyOfTheMiddleToThatOfThePulse) {
   const PulseRun run(small, key, nothing);
@@ -42,7 +42,7 @@ TEST(PulseRun, RaisesTheEnergyOfTheMiddleToThatOfThePulse) {
   EXPECT_NEAR(sum(difference), run.injected_energy(), 1e-9);
 }
 
-// Mutants: the energy without the pulse added; the sum of magnitudes.
+// Finds: the energy without the pulse added; the sum of magnitudes.
 TEST(PulseRun, ConservesTheEnergyOfThePulse) {
   PulseRun run(small, key, nothing);
   for (const double time : small.times) {
@@ -56,15 +56,14 @@ TEST(PulseRun, ConservesTheEnergyOfThePulse) {
   EXPECT_GT(run.events(), 10U);
 }
 
-// Mutant: separate trajectories with random numbers of their own.
+// Finds: separate trajectories with random numbers of their own.
 TEST(PulseRun, IsTheSameWithSeparateTrajectories) {
   for (const std::optional<double> gamma : {std::optional<double>{}, std::optional(2.)}) {
     PulseParameters parameters = small;
     parameters.ring.scattering.gamma = gamma;
     parameters.relaxation_time = 0.01;
     PulseRun together(parameters, key, nothing);
-    parameters.separate = true;
-    PulseRun separate(parameters, key, nothing);
+    PulseRun separate(parameters, key, nothing, false);
     together.run(0.02);
     separate.run(0.02);
     const std::vector<double> a = together.energy_difference(), b = separate.energy_difference();

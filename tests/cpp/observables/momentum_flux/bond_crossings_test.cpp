@@ -23,7 +23,7 @@ Values sums(const BondCrossings& observer, const BondTallies& tallies, Tally tal
 }
 
 // One flight to the right over two bonds in the bin [0, 2), one to the left over the first bond in [-4, -2),
-// one that no bin holds. Mutants: bonds counted from the scatterers on; halves exchanged; bins before bonds;
+// one that no bin holds. Finds: bonds counted from the scatterers on; halves exchanged; bins before bonds;
 // p^3 for p^4.
 TEST(BondCrossings, ByMomentumAndDirection) {
   const BondTallies tallies(2, bins);
@@ -45,7 +45,7 @@ TEST(BondCrossings, ByMomentumAndDirection) {
   EXPECT_EQ(sums(observer, tallies, tallies.sums[2]), (Values{39.0625, 0, 0, 1, 1, 625}));
 }
 
-// Mutants: flights as a whole, which count the bond 0 reached at 1 and the bond 1 reached at 10.
+// Finds: flights as a whole, which count the bond 0 reached at 1 and the bond 1 reached at 10.
 TEST(BondCrossings, WithinTheWindow) {
   const BondTallies tallies(2, bins);
   BondCrossings observer(chain, window, bins);
@@ -56,7 +56,7 @@ TEST(BondCrossings, WithinTheWindow) {
   EXPECT_EQ(sums(observer, tallies, tallies.sums[0]), (Values{0, 0, 0, 0, 1, 0}));
 }
 
-// Mutants: the rate of the other reservoir; the edges with their sign; the whole injection in every bin.
+// Finds: the rate of the other reservoir; the edges with their sign; the whole injection in every bin.
 TEST(BondCrossings, ExpectedInjections) {
   double sum = 0;
   const Bins wide(40, 16);
@@ -69,7 +69,7 @@ TEST(BondCrossings, ExpectedInjections) {
   EXPECT_NEAR(expected_injections(chain, window, bins, 2), 24 * std::erf(2 / std::sqrt(2 * 2.)), 1e-12);
 }
 
-// Mutant: what came in not counted, or with the expected number of all bins.
+// Finds: what came in not counted, or with the expected number of all bins.
 TEST(BondCrossings, InjectionsMinusTheirMean) {
   const BondTallies tallies(2, bins);
   BondCrossings observer(chain, window, bins);

@@ -35,7 +35,7 @@ struct CellProfileTallies : testing::Test {
 using Values = std::vector<double>;
 
 // In through the left opening, past the first scatterer, to the second one: two bonds, two arrivals, two
-// units of time in the first cell and one in the second. Then out again from the first scatterer. Mutants:
+// units of time in the first cell and one in the second. Then out again from the first scatterer. Finds:
 // behind a bond the scatterer on the other side; half cells on one side of a bond only; directions exchanged.
 TEST_F(CellProfileTallies, FlightsWithinTheWindow) {
   observer.on_flight(
@@ -54,7 +54,7 @@ TEST_F(CellProfileTallies, FlightsWithinTheWindow) {
   EXPECT_EQ(sums(tallies.density), (Values{2.5, 1}));
 }
 
-// Mutants: the first branch for these too, which counts what lies before the window; residence of the whole
+// Finds: the first branch for these too, which counts what lies before the window; residence of the whole
 // flight.
 TEST_F(CellProfileTallies, FlightsAtTheEndsOfTheWindow) {
   // At the first scatterer at 1.5, at the bond at 2.5, at the second scatterer at 3.5; then from it to the
@@ -73,7 +73,7 @@ TEST_F(CellProfileTallies, FlightsAtTheEndsOfTheWindow) {
   EXPECT_EQ(sums(tallies.density), (Values{0.5, 1 + 1}));
 }
 
-// Mutants: the momentum after the collision; the histogram of one end for both.
+// Finds: the momentum after the collision; the histogram of one end for both.
 TEST_F(CellProfileTallies, Scatterers) {
   observer.on_collision(hit(0, 4, 1, -3));
   observer.finish({-3, 0.5}, 10);
@@ -81,7 +81,7 @@ TEST_F(CellProfileTallies, Scatterers) {
   EXPECT_EQ(sums(tallies.end_momentum), (Values{6, 0, 2, 0, 0, 0, 8, 0}));
 }
 
-// Mutant: the right reservoir's as the left one's.
+// Finds: the right reservoir's as the left one's.
 TEST_F(CellProfileTallies, Injections) {
   observer.on_injection(End::right, 5, -2);
   EXPECT_EQ(sums(tallies.injection), (Values{0, 0, 0, 8, 16, 16}));

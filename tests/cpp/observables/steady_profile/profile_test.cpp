@@ -8,7 +8,7 @@ namespace profile_test {
 
 using namespace lorentz;
 
-// Mutants: the mean or the line added; the line through part of the cells.
+// Finds: the mean or the line added; the line through part of the cells.
 TEST(Profile, MinusItsMeanOrItsLine) {
   EXPECT_EQ(average({1, 2, 6}), 3);
   EXPECT_EQ(minus_mean({1, 2, 6}), (Values{-2, -1, 3}));
@@ -19,7 +19,7 @@ TEST(Profile, MinusItsMeanOrItsLine) {
   EXPECT_NEAR(bent[1], -1, 1e-14);
 }
 
-// Mutant: a line of slope 0 through one cell.
+// Finds: a line of slope 0 through one cell.
 TEST(Profile, NoLineThroughOneCell) {
   EXPECT_TRUE(std::isnan(line_through({1, 2, 3}, 1, 1).slope));
   const Line line = line_through({9, 2, 4, 9}, 1, 2);
@@ -29,7 +29,7 @@ TEST(Profile, NoLineThroughOneCell) {
 
 // The middle half of 8 cells is 2 ... 5, where the density is 10 + i, with the mean 13.5; the ends would hold
 // 10 and
-// 17. Mutants: a line through all cells; the slope per cell; the mean of all; the excess over the mean.
+// 17. Finds: a line through all cells; the slope per cell; the mean of all; the excess over the mean.
 TEST(DensityProfile, SlopeOfTheMiddleAndExcessOfTheEnds) {
   const DensityProfile profile(Values{20, 0, 12, 13, 14, 15, 99, 34});
   EXPECT_NEAR(profile.slope(), 8 / 13.5, 1e-13);
@@ -37,7 +37,7 @@ TEST(DensityProfile, SlopeOfTheMiddleAndExcessOfTheEnds) {
   EXPECT_NEAR(profile.excess()[1], 34 / 17. - 1, 1e-13);
 }
 
-// Particles in the first cell only. Mutant: 5/0 as an infinity.
+// Particles in the first cell only. Finds: 5/0 as an infinity.
 TEST(DensityProfile, IsNoneWithoutParticlesInTheMiddle) {
   const DensityProfile profile(Values{5, 0, 0, 0, 0, 0, 0, 0});
   EXPECT_TRUE(std::isnan(profile.slope()));

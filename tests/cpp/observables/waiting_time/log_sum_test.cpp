@@ -10,7 +10,7 @@ namespace log_sum_test {
 
 using namespace lorentz;
 
-// Mutants: the product is not reset to 1, or its logarithm is lost, when it leaves the range.
+// Finds: the product is not reset to 1, or its logarithm is lost, when it leaves the range.
 TEST(LogSum, IsTheSumOfLogarithms) {
   RandomStream random({1, 0}, Purpose::initial_position, 0);
   for (const double scale : {1e-300, 1e-3, 1., 50., 1e300}) {

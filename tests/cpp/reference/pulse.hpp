@@ -1,43 +1,44 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "reference/heap_simulator.hpp"
+
+namespace reference {
+
 /// Energy pulse by the reference simulator, with independent random numbers and initial states and no code
 /// shared with the engine or the program energy_pulse. Prints one line per replica: the mean over its pairs
 /// of the energy per cell with the pulse minus without, all cells at the first time, all cells at the second,
 /// ... Both trajectories start from the same state or, to measure the variance reduction by that, from
 /// independent ones.
-///
-///   reference_pulse cells particles_per_cell sigma gamma energy pulse_energy pairs replicas seed
-///                   shared|independent time...
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <random>
-#include <string_view>
-#include <vector>
-
-#include "reference/heap_simulator.hpp"
-
-namespace {
-
-using Simulator = reference::HeapSimulator<double>;
-
 struct Pulse {
   std::size_t cells, particles_per_cell;
   double sigma, gamma, energy, pulse_energy;
-  bool shared_start;
+  int pairs, replicas;
+  std::uint64_t seed;
+  std::string start;  // shared or independent
   std::vector<double> times;
+
+  void run() const;
 
   double root_mass() const { return std::sqrt((1 + sigma) / (1 - sigma)); }
 };
 
-struct Start {
+struct PulseStart {
   std::vector<double> x, p, P;
 };
 
 /// Initial state with Gaussian momenta of particles and scatterers; cells of length 1.
-Start draw_start(const Pulse& pulse, std::mt19937_64& generator) {
+inline PulseStart draw_start(const Pulse& pulse, std::mt19937_64& generator) {
   std::normal_distribution<> gaussian;
   std::uniform_real_distribution<> uniform;
   const double thermal = std::sqrt(2 * pulse.energy);
-  Start start;
+  PulseStart start;
   for (std::size_t i = 0; i < pulse.cells * pulse.particles_per_cell; ++i) {
     start.x.push_back(static_cast<double>(i / pulse.particles_per_cell) + uniform(generator));
     start.p.push_back(thermal * gaussian(generator));
@@ -47,7 +48,7 @@ Start draw_start(const Pulse& pulse, std::mt19937_64& generator) {
   return start;
 }
 
-Start with_pulse(const Pulse& pulse, Start start) {
+inline PulseStart with_pulse(const Pulse& pulse, PulseStart start) {
   const std::size_t central = (pulse.cells - 1) / 2;
   const std::size_t begin = central * pulse.particles_per_cell, end = begin + pulse.particles_per_cell;
   double energy = std::pow(start.P[central] / pulse.root_mass(), 2) / 2;
@@ -60,16 +61,16 @@ Start with_pulse(const Pulse& pulse, Start start) {
 }
 
 /// Adds the energy differences of one pair to the sums.
-void add_pair(const Pulse& pulse, std::mt19937_64& generator, std::vector<double>& sums) {
-  const Start start = draw_start(pulse, generator);
-  const Start pulsed = with_pulse(pulse, pulse.shared_start ? start : draw_start(pulse, generator));
-  Simulator plain(pulse.sigma, 1, start.x, start.p, start.P),
+inline void add_pair(const Pulse& pulse, std::mt19937_64& generator, std::vector<double>& sums) {
+  const PulseStart start = draw_start(pulse, generator);
+  const PulseStart pulsed = with_pulse(pulse, pulse.start == "shared" ? start : draw_start(pulse, generator));
+  HeapSimulator<double> plain(pulse.sigma, 1, start.x, start.p, start.P),
       perturbed(pulse.sigma, 1, pulsed.x, pulsed.p, pulsed.P);
   const double probability = pulse.gamma / static_cast<double>(pulse.cells);
   plain.scatter_with(probability, generator());
   perturbed.scatter_with(probability, generator());
   for (std::size_t k = 0; k < pulse.times.size(); ++k) {
-    Simulator::Event event{};
+    HeapSimulator<double>::Event event{};
     while (plain.step(pulse.times[k], event)) {
     }
     while (perturbed.step(pulse.times[k], event)) {
@@ -81,26 +82,14 @@ void add_pair(const Pulse& pulse, std::mt19937_64& generator, std::vector<double
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const auto number = [&](int i) { return std::atof(argv[i]); };
-  if (argc < 12) return 2;
-  Pulse pulse{static_cast<std::size_t>(number(1)),
-              static_cast<std::size_t>(number(2)),
-              number(3),
-              number(4),
-              number(5),
-              number(6),
-              std::string_view(argv[10]) == "shared",
-              {}};
-  for (int i = 11; i < argc; ++i) pulse.times.push_back(number(i));
-  const double pairs = number(7);
-  std::mt19937_64 generator(static_cast<std::uint64_t>(number(9)));
-  for (int replica = 0; replica < static_cast<int>(number(8)); ++replica) {
-    std::vector<double> sums(pulse.times.size() * pulse.cells, 0);
-    for (int pair = 0; pair < static_cast<int>(pairs); ++pair) add_pair(pulse, generator, sums);
+inline void Pulse::run() const {
+  std::mt19937_64 generator(seed);
+  for (int replica = 0; replica < replicas; ++replica) {
+    std::vector<double> sums(times.size() * cells, 0);
+    for (int pair = 0; pair < pairs; ++pair) add_pair(*this, generator, sums);
     for (const double sum : sums) std::printf("%.17g ", sum / pairs);
     std::printf("\n");
   }
 }
+
+}  // namespace reference

@@ -1,27 +1,34 @@
-/// Correlations of a closed chain in the stationary state by the reference simulator, with independent random
-/// numbers and initial states and no code shared with the engine or the program correlation. Prints one line
-/// per replica: for the momentum and for E_s - E_p/(2 zeta) of a cell, and for every distance r = 0, 1, ...
-/// on the ring, the mean over cells of a_i(0) a_{i+r}(lag). Cells extend from one scatterer to the next.
-///
-///   reference_correlation cells zeta sigma temperature slowest lag replicas seed
+#pragma once
+
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <random>
 #include <vector>
 
 #include "reference/heap_simulator.hpp"
 
-namespace {
+namespace reference {
 
-using Simulator = reference::HeapSimulator<double>;
+/// Correlations of a closed chain in the stationary state by the reference simulator, with independent random
+/// numbers and initial states and no code shared with the engine or the program correlation. Prints one line
+/// per replica: for the momentum and for E_s - E_p/(2 zeta) of a cell, and for every distance r = 0, 1, ...
+/// on the ring, the mean over cells of a_i(0) a_{i+r}(lag). Cells extend from one scatterer to the next.
+struct Correlation {
+  std::size_t cells;
+  double zeta, sigma, temperature, slowest, lag;
+  int replicas;
+  std::uint64_t seed;
+
+  void run() const;
+};
 
 struct Fields {
   std::vector<double> momentum, heat;
 };
 
-Fields fields(const Simulator& chain, double time, double zeta) {
-  Simulator::Totals totals = chain.totals(time, 0.5);
+inline Fields fields(const HeapSimulator<double>& chain, double time, double zeta) {
+  HeapSimulator<double>::Totals totals = chain.totals(time, 0.5);
   Fields found{totals.momentum, {}};
   for (std::size_t i = 0; i < totals.energy.size(); ++i) {
     const double P = chain.scatterers()[i], of_scatterer = P * P / (2 * chain.scatterer_mass());
@@ -30,7 +37,7 @@ Fields fields(const Simulator& chain, double time, double zeta) {
   return found;
 }
 
-void print(const std::vector<double>& before, const std::vector<double>& after) {
+inline void print(const std::vector<double>& before, const std::vector<double>& after) {
   const std::size_t cells = before.size();
   for (std::size_t r = 0; r < cells; ++r) {
     double sum = 0;
@@ -39,21 +46,15 @@ void print(const std::vector<double>& before, const std::vector<double>& after) 
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  if (argc != 9) return 2;
-  const auto number = [&](int i) { return std::atof(argv[i]); };
-  const auto cells = static_cast<std::size_t>(number(1));
-  const double zeta = number(2), sigma = number(3), temperature = number(4), slowest = number(5);
-  const double lag = number(6), fastest = 9 * std::sqrt(temperature);
-  std::mt19937_64 generator(static_cast<std::uint64_t>(number(8)));
+inline void Correlation::run() const {
+  std::mt19937_64 generator(seed);
   std::normal_distribution<> gaussian;
   std::uniform_real_distribution<> uniform;
+  const double fastest = 9 * std::sqrt(temperature);
   // Particles of the density 2 zeta/|p| per cell, kept with the probability exp(-p^2/2T).
   const double range = std::log(fastest / slowest);
   std::poisson_distribution<> of_envelope(2 * zeta * range * static_cast<double>(cells));
-  for (int replica = 0; replica < static_cast<int>(number(7)); ++replica) {
+  for (int replica = 0; replica < replicas; ++replica) {
     std::vector<double> x, p, P;
     for (int left = of_envelope(generator); left > 0; --left) {
       const double speed = slowest * std::exp(range * uniform(generator));
@@ -63,8 +64,8 @@ int main(int argc, char** argv) {
     }
     for (std::size_t i = 0; i < cells; ++i)
       P.push_back(std::sqrt(temperature * (1 + sigma) / (1 - sigma)) * gaussian(generator));
-    Simulator chain(sigma, 1, x, p, P);
-    Simulator::Event event{};
+    HeapSimulator<double> chain(sigma, 1, x, p, P);
+    HeapSimulator<double>::Event event{};
     const Fields before = fields(chain, 0, zeta);
     while (chain.step(lag, event)) {
     }
@@ -74,3 +75,5 @@ int main(int argc, char** argv) {
     std::printf("\n");
   }
 }
+
+}  // namespace reference

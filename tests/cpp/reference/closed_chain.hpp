@@ -1,0 +1,137 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "reference/heap_simulator.hpp"
+
+namespace reference {
+
+/// Closed chain by the reference simulator, with independent random numbers and initial states and no code
+/// shared with the engine or the programs. Particles start with uniform positions and Gaussian momenta,
+/// scatterers at rest; cells have length 1. Prints one line per replica: at every time after the relaxation
+/// the mean over the particles of x^2, the square of their mean x, their mean x, and the mean energy of a
+/// scatterer; then, over the observation after the relaxation, the number of scatterings, the number with p'
+/// p > 0, and a histogram, with bins of equal ratio, of the waiting times that begin with these scatterings.
+/// The chain runs until every such waiting time has ended or exceeds the last bin. No time exceeds the
+/// observation.
+struct ClosedChain {
+  std::size_t cells, particles_per_cell;
+  double sigma, gamma, temperature, relaxation, observation;
+  std::string rule;  // elastic, or random-direction: signs of momenta after a collision are drawn
+  double first_edge, bins_per_decade;
+  std::size_t bins;
+  std::vector<double> times;
+  int replicas;
+  std::uint64_t seed;
+
+  double last_edge() const { return first_edge * std::pow(10, static_cast<double>(bins) / bins_per_decade); }
+  void run() const;
+  void run_replica(std::uint64_t generator_seed) const;
+};
+
+/// Statistics from the collisions. A displacement is the time integral of the momentum.
+class ClosedChainWatch {
+ public:
+  ClosedChainWatch(const ClosedChain& setting, const std::vector<double>& momenta)
+      : setting_(setting), scatterers_(setting.cells, 0), counts_(setting.bins, 0) {
+    for (const double p : momenta) particles_.push_back({p});
+  }
+
+  void see(const HeapSimulator<double>::Event& event) {
+    Tagged& particle = particles_[event.particle];
+    particle.x = particle.x_at(event.time);
+    particle.p = event.p_after;
+    particle.since = event.time;
+    scatterers_[event.scatterer] = event.P_after;
+
+    count_wait(event.time - particle.wait_begin);
+    const bool observed =
+        event.time >= setting_.relaxation && event.time < setting_.relaxation + setting_.observation;
+    particle.wait_begin = observed ? event.time : std::numeric_limits<double>::quiet_NaN();
+    scatterings_ += observed ? 1 : 0;
+    persistent_ += observed && event.p_before * event.p_after > 0 ? 1 : 0;
+  }
+
+  /// Starts the measurement of displacements.
+  void begin(double time) {
+    for (Tagged& particle : particles_) particle.x -= particle.x_at(time);
+  }
+
+  void print_moments(double time, double scatterer_mass) const {
+    double square = 0, mean = 0, energy = 0;
+    for (const Tagged& particle : particles_) {
+      const double x = particle.x_at(time);
+      square += x * x;
+      mean += x;
+    }
+    for (const double P : scatterers_) energy += P * P / (2 * scatterer_mass);
+    const auto count = static_cast<double>(particles_.size());
+    mean /= count;
+    std::printf("%.17g %.17g %.17g %.17g ", square / count, mean * mean, mean,
+                energy / static_cast<double>(scatterers_.size()));
+  }
+
+  void print_counts() const {
+    std::printf("%ld %ld", scatterings_, persistent_);
+    for (const long count : counts_) std::printf(" %ld", count);
+    std::printf("\n");
+  }
+
+ private:
+  struct Tagged {
+    double p, x = 0, since = 0;
+    double wait_begin = std::numeric_limits<double>::quiet_NaN();  // NaN: not observed
+    double x_at(double time) const { return x + p * (time - since); }
+  };
+
+  void count_wait(double wait) {
+    const double bin = std::floor(setting_.bins_per_decade * std::log10(wait / setting_.first_edge));
+    if (bin >= 0 && bin < static_cast<double>(setting_.bins)) ++counts_[static_cast<std::size_t>(bin)];
+  }
+
+  const ClosedChain& setting_;
+  std::vector<Tagged> particles_;
+  std::vector<double> scatterers_;  // P
+  std::vector<long> counts_;
+  long scatterings_ = 0, persistent_ = 0;
+};
+
+inline void ClosedChain::run_replica(std::uint64_t generator_seed) const {
+  std::mt19937_64 generator(generator_seed);
+  std::normal_distribution<> gaussian(0, std::sqrt(temperature));
+  std::uniform_real_distribution<> uniform;
+  std::vector<double> positions, momenta;
+  for (std::size_t i = 0; i < cells * particles_per_cell; ++i) {
+    positions.push_back(static_cast<double>(i / particles_per_cell) + uniform(generator));
+    momenta.push_back(gaussian(generator));
+  }
+  HeapSimulator<double> chain(sigma, 1, positions, momenta, std::vector<double>(cells, 0));
+  chain.scatter_with(gamma / static_cast<double>(cells), generator());
+  if (rule == "random-direction") chain.draw_directions(generator());
+
+  ClosedChainWatch watch(*this, momenta);
+  const auto run_until = [&](double time) {
+    for (HeapSimulator<double>::Event event{}; chain.step(time, event);) watch.see(event);
+  };
+  run_until(relaxation);
+  watch.begin(relaxation);
+  for (const double time : times) {
+    run_until(relaxation + time);
+    watch.print_moments(relaxation + time, chain.scatterer_mass());
+  }
+  run_until(relaxation + observation + last_edge());
+  watch.print_counts();
+}
+
+inline void ClosedChain::run() const {
+  for (int replica = 0; replica < replicas; ++replica)
+    run_replica(seed * 1000003 + static_cast<std::uint64_t>(replica));
+}
+
+}  // namespace reference

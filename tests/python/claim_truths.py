@@ -1,0 +1,278 @@
+"""Worlds for every claim with the numbers that must be found there. The values of no two runs, elements or quantities that could be
+confused are alike, so that a number from another one is wrong."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from tests.python.test_claim_verdicts import COLD, HOT, World, gaussian, rare
+from workflow.lib.plan import Run
+
+# A value, or a value and its systematic error, which is 0 otherwise.
+Answer = Sequence[float | tuple[float, float]]
+EXACT = 1e-9  # relative error of denominators whose errors a claim neglects
+
+
+@dataclass(frozen=True)
+class Case:
+    """errors: relative errors of quantities that do not have the usual one."""
+
+    world: World
+    literal: Answer
+    intended: Answer = ()
+    alternative: Answer = ()
+    errors: Mapping[str, float] = field(default_factory=dict)
+    quality: str = "paper"
+
+
+CASES: dict[str, Case] = {}
+ERROR = 1e-3  # relative, of the other quantities
+
+
+def claim(name: str, world: World, *readings: Answer, quality: str = "paper", **errors: float) -> None:
+    CASES[name] = Case(world, *readings, errors={"*": ERROR} | errors, quality=quality)
+
+
+def named(values: Mapping[str, Any]) -> Callable[..., Any]:
+    """By the name of the run."""
+    return lambda run, *_: values[run.name]
+
+
+# Filling chains, at 200, 600, 1000, 1400 and 1800.
+levels = 10 * np.cumprod([1, 1.1, 1.2, 1.3, 1.4])
+claim(
+    "C01",
+    {"fig01": {"plateau": lambda run, t: {"unit-chain": levels, "paper": t**0.1, "short": t**0.2}[run.name]}},
+    [0.1, 0.2, 0.3, 0.4], (), [9**0.1 - 1, 9**0.2 - 1],
+)  # fmt: skip
+claim(
+    "C02",
+    {"fig01": {"plateau": lambda *_: np.array([10, 50, 60, 70, 16.0]), "log_slope": 20, "log_curvature": 3}},
+    [0.15, 0.25], [0.6 / math.log(9)],
+)  # fmt: skip
+exponents = {"unit-chain": -0.15, "paper": -0.2, "short": -0.3}
+claim(
+    "C03", {"fig01": {"front": lambda _, t: 1 / t, "front_exponent": named(exponents)}}, [-0.15], [-0.2, -0.3]
+)
+
+# Profiles of 30 cells.
+profile = {
+    "deterministic": [COLD + 0.1 * (HOT - COLD), *[100] * 28, HOT - 0.2 * (HOT - COLD)],
+    "rare": [COLD + 0.3 * (HOT - COLD), *[110] * 28, HOT - 0.35 * (HOT - COLD)],
+}
+claim("C05", {"fig02_upper": {"temperature_scatterer": named(profile)}}, [0.1, 0.2, 0.3, 0.35, 0.35])
+
+cells = np.arange(30.0)
+local = {"deterministic": 80 + cells, "rare": 120 + cells}
+mismatch = {"deterministic": 0.001 * (1 + cells), "rare": 0.002 * (1 + cells)}
+difference = {name: local[name] * mismatch[name] for name in local}
+found = [*mismatch["deterministic"], *mismatch["rare"]]
+claim(
+    "C06", {"fig02_upper": {"temperature_particle": named(local), "temperature_difference": named(difference)}},
+    found, found, temperature_particle=EXACT,
+)  # fmt: skip
+
+claim(
+    "C07",
+    {"fig02_upper": {"density_slope": named({"deterministic": -0.4, "rare": -0.1}),
+                     "density_excess": named({"deterministic": [0.1, 0.2], "rare": [0.4, 0.9]})}},
+    [0.75, 0.3, 0.7],
+)  # fmt: skip
+
+
+def deviation(size: float) -> Callable[..., np.ndarray]:
+    return lambda run, place: size * (1 + place) * (2 if rare(run) else 1)
+
+
+found = [
+    factor * size * (1 + k) / 200
+    for factor in (1, 2)
+    for size, count in ((1, 30), (5, 30), (7, 31))
+    for k in range(count)
+]
+claim(
+    "C08",
+    {"fig02_upper": {"rate_right": lambda _, cell: 200 + (cell - 14.5), "rate_right_deviation": deviation(1),
+                     "rate_left_deviation": deviation(5), "particle_current_deviation": deviation(7)}},
+    found, found, rate_right=EXACT,
+)  # fmt: skip
+
+# The excess at the smallest of these sizes is off the line by 0.1; errors are all alike.
+logarithms = np.log([20, 30, 50, 100, 200, 500, 1000])
+lever = (logarithms[0] - logarithms.mean()) / np.sum((logarithms - logarithms.mean()) ** 2)
+
+
+def excess(run: Run, end: np.ndarray) -> np.ndarray:
+    size = run.options["cells"]
+    return 1e6 + (1 + end) * math.log(size) + 0.1 * (size == 20) + 3 * (size == 10)
+
+
+both = {"density_excess": excess}
+claim(
+    "C34", {"ext05": both, "fig02_upper": both},
+    [(slope + 0.1 * lever, abs(0.1 * lever)) for slope in (1, 2)], density_excess=1e-8,
+)  # fmt: skip
+
+
+# Equilibrium at T = 100, with deviations that are twice as large at gamma = 1.
+def times(run: Run) -> int:
+    return 2 if rare(run) else 1
+
+
+def side(p: np.ndarray) -> np.ndarray:
+    return np.where(p > 0, -1, 1)
+
+
+claim(
+    "C04",
+    {"ext10": {
+        "square": lambda run, bond, half: 100 * (1 + 0.01 * times(run) * half * (1 + bond / 30)),
+        "kurtosis": lambda run, bond, half: 3 * (1 + 0.03 * times(run) * half * (1 + bond / 30)),
+        "temperature_scatterer": lambda run, cell: 100 * (1 + times(run) * np.select([cell == 0, cell == 29], [0.05, 0.07], 9)),
+        "flux": lambda run, bond, p: gaussian(100, 400)(run, bond, p) * (1 + 0.04 * times(run) * side(p))
+            * np.select([(bond == 0) & (p < 0), (bond == 30) & (p > 0)], [1, 1], 7),
+        "scatterer_density": lambda run, end, p: gaussian(100, 1)(run, end, p) * (1 + times(run) * np.where(end == 0, 0.02, 0.04) * side(p)),
+    }},
+    [value for factor in (2, 1) for value in (-0.01 * factor, -0.03 * factor, 0.05 * factor, 0.02 * factor,
+                                              0.06 * factor, 0.07 * factor, 0.02 * factor, 0.015 * factor)],
+)  # fmt: skip
+
+# Solutions of the kinetic equation have a discretisation error, here ERROR relative to the value, and no standard error.
+fourth = {"paper": 0.1, "exchange": 0.3, "equal": 0.5}
+
+
+def departures(run: str) -> list[tuple[float, float]]:
+    return [(d, ERROR * (3 + s * d)) for d, s in ((fourth[run], -1), (2 * fourth[run], 1))]
+
+
+halves = {"kurtosis": lambda run, x, half: 3 + fourth[run.name] * half * (1 + x)}
+kinetic = {
+    "fig03": {
+        **halves,
+        "jump": lambda _, x: 0.4 + 0.5 * x,
+        "flux_density": lambda _, x, p: 5 + 5 * (abs(p) < 10) * (1 - x),
+    }
+}
+claim("C09", kinetic, [(0.04, 0.04 * ERROR), (0.09, 0.09 * ERROR), *departures("paper")])
+claim(
+    "C33",
+    {"fig03": halves},
+    [*departures("paper"), *departures("exchange")],
+    departures("paper"),
+    departures("equal"),
+)
+
+# F_N - F of simulations: 1.25 of that in mean field, parabolas in p on either side of p = 0, where lines through the two innermost
+# bins, at p = 1 and 3, miss 3 times the coefficient of p^2.
+P = np.arange(-59, 60, 2)
+SEEN = abs(P) < 40
+HEIGHT = 20  # of F
+
+
+def parabola(cells: int, p: np.ndarray) -> np.ndarray:
+    return np.where(p < 0, 2 + 0.01 * p - 3e-4 * p**2, 3 - 0.02 * p + 5e-4 * p**2) / cells
+
+
+def finite(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
+    size = run.options["cells"]
+    if size == "continuum":
+        return HEIGHT - 1e-3 * p**2 + np.zeros_like(place)
+    inside = (place > 0) & (place < place.max())
+    other_half = np.where(place == 0, p > 0, p < 0)
+    part = np.where(inside | other_half, 9, (1.25 if run.replicated else 1) * parabola(size, p))
+    return HEIGHT - 1e-3 * p**2 + part
+
+
+def printed(sizes: Sequence[int]) -> list[tuple[float, float]]:
+    """Every bin, then p = 0 from below and from above; integrated over p, F is 220 + 180."""
+    bins = [(value, 0.0) for value in parabola(1, P)[SEEN]]
+    at_0 = [(2 + 9e-4, 9e-4), (3 - 15e-4, 15e-4)]
+    return [(1.25 / 400 / size * x, 1.25 / 400 / size * bound) for size in sizes for x, bound in bins + at_0]
+
+
+def of_largest(sizes: Sequence[int]) -> list[float]:
+    largest = HEIGHT - 1e-3
+    return [value for size in sizes for value in 1.25 * parabola(size, P)[SEEN] / largest]
+
+
+sizes = (2, 4, 8, 16)
+claim("C10", {"fig03_inset": {"flux": finite}}, printed(sizes), printed(sizes), of_largest(sizes))
+claim("C11", {"fig03_inset": {"flux": finite}}, printed([16]), printed([16]), of_largest([16]))
+
+
+def at_centre(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
+    """At N = 2: -0.4 and -0.6 in the innermost bins, nearly their mean beyond; other sizes and halves are far off."""
+    if run.options["cells"] == "continuum":
+        return HEIGHT + 0 * p
+    outgoing = np.where(place == 0, p < 0, p > 0) & (run.options["cells"] == 2)
+    part = np.select([p == -1, p == 1], [-0.4, -0.6], 0.5 * (1 + 1e-3 * p))
+    return HEIGHT + np.where(outgoing & run.replicated, part, 3)
+
+
+outer = P[(abs(P) > math.sqrt(0.5 * (COLD + HOT))) & SEEN]
+claim("C32", {"fig03_inset": {"flux": at_centre}}, [*(-1e-3 * outer), 0.2])
+
+
+# F_30 and the kinetic equation: deviations that differ from bin to bin and between the ends.
+def bumps(place: float, p: np.ndarray) -> np.ndarray:
+    return 0.5 * np.sin(p / 7) + 1.5 * (place == 1) + 4
+
+
+def flux(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
+    x = place / (30 if run.replicated else 1)
+    theory = 30 * np.exp(-((p - 5 * np.round(x, 9)) ** 2) / 400)
+    near = np.isclose(x, 1 / 30)
+    return theory + run.replicated * np.where(near | (x == 1), np.where(x == 1, bumps(1, p), bumps(0, p)), 50)
+
+
+q = np.arange(-59.4, 60, 1.2)
+q = q[abs(q) < 40]
+
+
+def largest_of(places: Sequence[float]) -> float:
+    grid = np.arange(-59.4, 60, 1.2)
+    return float(max(np.max(30 * np.exp(-((grid - 5 * x) ** 2) / 400)) for x in places))
+
+
+found = [*bumps(0, q), *bumps(1, q)]
+claim("C13", {"fig04a": {"flux": flux}}, np.array(found) / largest_of([1 / 30, 1]))
+
+
+def decaying(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
+    """Of the shape in mean field at N = 2, and in simulations a part that is orthogonal to it."""
+    size = run.options["cells"]
+    if size == "continuum":
+        return 10 + 0 * p
+    distance = (p - (5 if run.replicated or size == 2 else -5)) / 10
+    shape = np.exp(-(distance**2) / 2) * (1 + 0.3 * distance * run.replicated)
+    ends = (place == 0) | (place == place.max())
+    return 10 + np.where(ends, (size**-0.9 if run.replicated else 0.7 / size) * shape, 5)
+
+
+claim(
+    "C12", {"fig03_inset": {"flux": decaying}, "fig04b": {"flux": flux}}, [-0.9], (),
+    np.array(found) / largest_of(np.linspace(0, 1, 31)),
+)  # fmt: skip
+claim(
+    "C14",
+    {"fig04a": {"jump": lambda _, bond: 4 + bond}, "fig04b": {"jump": lambda run, bond: np.where(run.name == "deterministic", 1 + 0.5 * bond, 99)}},
+    [1.5 / 5, 16 / 34],
+)  # fmt: skip
+
+
+def curved(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
+    """The bins at 0.6 and 1.8: lines through them miss 3 x 0.6^2 of the coefficient of p^2."""
+    return np.where(p > 0, 10 + 0.05 * p**2, 8 + 0.1 * p) * (
+        run.name in ("equal", "mean-field-equal")
+    ) + 12 * (abs(p) > 50)
+
+
+largest = 10 + 0.05 * 59.4**2 + 12
+claim(
+    "C31",
+    {"fig04b": {"flux": curved, "jump": lambda run, place: np.where(run.replicated, 1 + 0.1 * place, 2.0)}},
+    [(1.1 / largest, 3 * 0.36 * 0.05 / largest), (4 / largest, 3 * 0.36 * 0.05 / largest)], flux=EXACT,
+)  # fmt: skip

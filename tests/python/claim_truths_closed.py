@@ -1,0 +1,200 @@
+"""Worlds as in claim_truths.py: closed chains, conductivity against size, and pulses."""
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from tests.python.claim_truths import EXACT, Answer, claim, named
+from tests.python.known_results import plan
+from tests.python.test_claim_verdicts import drop_per_cell, law, linear_response, pulse, rare
+from workflow.lib.plan import Run
+
+
+def of_runs(panel: str, value: Callable[[Run], float], chosen: Callable[[Run], bool]) -> list[float]:
+    return [value(run) for run in plan("paper")[panel].runs if chosen(run)]
+
+
+# Persistence: the law but for a shift by sigma, another one in the dense chain.
+def shift(run: Run) -> float:
+    return float((0.02 if run.series == "dense" else 0.01) * (2 + run.options["sigma"]))
+
+
+dense, paper = (
+    of_runs("fig05", shift, lambda run, name=name: run.series == name) for name in ("dense", "paper")
+)
+claim("C15", {"fig05": {"mu": lambda run: law(run) + shift(run)}}, [0.01, 0.02, 0.03], dense, paper)
+
+# Waiting times after relaxations of 1 (which does not count), 10, 100 and 1000; spread over cuts 0.1.
+aged = {1: 9, 10: -2.05, 100: -1.8, 1000: -2.1}
+waits = {"fig06": {"exponent": named({"all_sigma=0.5": -2, "all_sigma=0": -3}), "exponent_spread": 0.1}}
+claim("C16", {**waits, "ext07": {"exponent": lambda run: aged[run.options["relaxation-time"]]}}, [(-2, 0.3)])
+claim("C17", waits, [(-3, 0.1)])
+
+
+# Spreading: alpha by sigma, content, relaxation time, total momentum and rule.
+def alpha(run: Run) -> float:
+    o = run.options
+    zero, later = o.get("zero-total-momentum", False), o["relaxation-time"] == 1000
+    found = 1.8 + 0.1 * o["sigma"] - 0.4 * zero - 0.03 * later + 0.01 * (o["particles-per-cell"] == 80)
+    return float(found - 0.7 * run.series.startswith("random"))
+
+
+spreading = {panel: {"alpha": alpha} for panel in ("fig07", "fig07_inset", "ext01")}
+free = [f"all_sigma={sigma}" for sigma in (0.9, 0.75, 0.6, 0.45, 0.3, 0.15)]
+zero = of_runs(
+    "ext01", alpha, lambda run: run.options["sigma"] == 0.5 and bool(run.options.get("zero-total-momentum"))
+)
+claim("C18", spreading, [(1.85, 0.03)], (), zero)
+claim("C19", spreading, [(1.8, 0.03)], (), [1.81])
+sigmas = [0.01 * k for k in (-90, -75, -60, -45, -30, -15, 15, 30, 45, 60, 75, 90)]
+claim("C20", spreading, [1.8 + 0.1 * sigma for sigma in sigmas], [1.4 + 0.1 * sigma for sigma in sigmas])
+found = of_runs("ext01", alpha, lambda run: run.series.startswith("random"))
+claim("C21", spreading, found, found)
+drift = {"fig07_inset": {"momentum_drift": lambda run: 10 ** (-3 - alpha(run))}}
+claim("C22", drift, [-4.8 - 0.1 * sigma for sigma in sigmas] + [-4.4 - 0.1 * sigma for sigma in sigmas])
+
+
+# Ageing over decades from 1 on: slopes from 100 to 150, the largest in the second of them; the first chain of few particles saturates.
+def slopes(run: Run, decade: np.ndarray) -> np.ndarray:
+    if run.name == "few":
+        return np.where(decade == decade.max(), 3.0, np.where(np.isclose(decade, 1000), 60, 20))
+    found = np.select(
+        [np.isclose(decade, 1), np.isclose(decade, 10), decade == decade.max()], [100, 200, 150], 90
+    )
+    return found * (1.0 if run.name == "long" else 3)
+
+
+ageing = {"ext07": {"decade_slope": slopes}}
+claim("C29", ageing, [0.5], [3 / 60], [0.75], quality="deep")
+claim("C29, without the two long runs", ageing, [0.5], (), [0.75], quality="standard")
+
+
+# Conductivity. gamma = 1: N, but too small by a factor of e^-0.002 at 128, the first of the sizes within a factor of 16 of the largest:
+# of five equally spaced points the slope changes by a fifth of that over the spacing. gamma = N: sqrt(N) up to 256, N^0.2 beyond.
+# Between the temperatures of particles and of baths, exponents that differ by 0.03 and -0.05. N = 64 is not stationary.
+def kappa(run: Run) -> float:
+    size = run.options["cells"]
+    if size == 64 or (size < 128 and rare(run)):
+        return float(1000 * size)
+    if rare(run):
+        return float(size * math.exp(-0.002 * (size == 128)))
+    powers = {"thinning": 0.1, "dilute": 0.3, "dense": 0.4}
+    if run.series in powers:
+        return float(size ** powers[run.series] * (1 + (size < 256)))  # the two largest are 256 and 512
+    return float(256**0.5 * (size / 256) ** (0.5 if size < 256 else 0.2)) * (1 + (size < 16))
+
+
+both = {
+    "kappa": kappa,
+    "kappa_particle": lambda run: kappa(run) * run.options["cells"] ** 0.03,
+    "energy_current": lambda run: kappa(run) * run.options["cells"] ** -0.05 * drop_per_cell(run),
+    "stationary": lambda run: float(run.options["cells"] != 64),
+}
+rare_exponent = (1 + 4e-4 / math.log(2), 4e-4 / math.log(2))
+claim("C23", {"fig08": both}, [rare_exponent])
+response = {**linear_response(lambda size: size**0.3), "stationary": 1, "current_correlation": 0}
+# Of every ring the exponent over the last octave, and 0.02 less before; rings differ by gas and length.
+last = {"light-longest": 1.31, "dense-longest": 1.32, "dilute-long": 1.34}
+
+
+def octaves(run: Run, middle: np.ndarray) -> np.ndarray:
+    return last.get(run.name, 1.5) - 0.02 * (middle != middle.max()) - 0.1 * (middle < 0.4 * middle.max())
+
+
+heat = {"ext13": {"local_exponent": octaves}}
+claim(
+    "C24", {"fig08": both, "ext09": both, "ext11": response, **heat}, [0.5, 0.2],
+    [(0.31, 0.02), (0.32, 0.02), (0.34, 0.02), 0.3], [(0.2, 0.05), (0.1, 0.05), (0.3, 0.05), (0.4, 0.05)],
+)  # fmt: skip
+
+
+# Peaks at 5.2 + 3k cells, of heights 100 + 10k, lost at the first time and at the last. The odd part is 0.001 of the height per cell.
+def place(_run: Run, t: np.ndarray) -> np.ndarray:
+    k = np.arange(len(t))
+    return np.where((k == 0) | (k == len(t) - 1), np.nan, 5.2 + 3 * k)
+
+
+def odd(_run: Run, t: np.ndarray, x: np.ndarray) -> np.ndarray:
+    return 1e-3 * x * (100 + 10 * np.arange(len(t))[:, None])
+
+
+leaving = pulse("fig09a", peak=lambda _, t: 100 + 10 * np.arange(len(t)), peak_position=place, odd_part=odd,
+                centre_share=lambda _, t: 0.1 + t)  # fmt: skip
+claim("C25", leaving, [0.22, *(1e-3 * (5 + 3 * k) for k in range(1, 9))], peak=EXACT, peak_position=EXACT)
+
+
+# Ballistic but for the last time, at which the peak is e^d times farther: the exponent without that time is 1.
+def farther(d: float) -> Callable[..., np.ndarray]:
+    return lambda run, t: (
+        (300 if run.name != "gaussian" else 1)
+        * t ** (1 if run.name != "gaussian" else 2)
+        * np.where(t == t.max(), math.exp(d), 1)
+    )
+
+
+def ballistic(d: float, first: float, second: float, end: float) -> tuple[float, float]:
+    bounds = (d / math.log(end / first), d / math.log(end / second) - d / math.log(end / first))
+    return 1 + bounds[0], max(bounds)
+
+
+claim(
+    "C26", {**pulse("fig09b", peak_position=farther(0.02)), **pulse("ext14", peak_position=farther(0.05))},
+    [ballistic(0.02, 0.01, 0.0125, 0.025)], [ballistic(0.05, 0.02, 0.04, 0.16)],
+)  # fmt: skip
+
+
+# Damping. Fits from later times on differ by 0.01 each, from the second on; the other start differs by 0.5. In the last world the
+# fits differ by 1e-4 and the other start by 0.001, less than two errors.
+def later(exponent: float, step: float = 0.01) -> Callable[..., np.ndarray]:
+    return lambda run, _: exponent + step * np.arange(len(str(run.options["times"]).split(",")) - 1)
+
+
+def damped(panel: str, gaussian: float, rest: float, **others: Any) -> dict[str, dict[str, Any]]:
+    exponent = {"damping_exponent": lambda run: rest if run.name in ("rest", "weak") else gaussian}
+    return pulse(panel, damping_drift=0, damping_exponent_from=later(gaussian), **exponent, **others)
+
+
+local = {
+    "local_damping_exponent": lambda run, _: np.array([0.5, 0.6, 0.7, 0.8]) if run.name == "rest" else 9.0
+}
+rings = {"light": 0.9, "light-long": 0.8, "dense": 0.7, "dense-long": 0.55}
+sound = {
+    "damping_exponent": named(rings),
+    "damping_exponent_from": lambda run, _: later(rings[run.name])(run, 0),
+    "peak": 1,
+}
+sound_exponent = (0.8, 0.03)  # of the first of the longest records, of 8 times
+damping = {**damped("fig09a", 0.66, 1.16, **local), **damped("ext14", 0.6, 0.6), "ext03": sound}
+octave = [(0.1 * k, 0.02) for k in (5, 6, 7, 8)]
+claim("C27", damping, octave, [(0.6, 0.04)], [sound_exponent])
+claim("C28", damped("fig09b", 1, 1.5), [(1, 0.5)])
+alike = damped("fig09b", 1, 1.001)
+alike["fig09b"]["damping_exponent_from"] = later(1, 1e-4)
+claim("C28, both starts alike", alike, [(1, 3e-4)])
+
+# 2 - 1/xi of 0.66 and 0.9 with the exponents of kappa over the largest sizes, of which the one at gamma = N is exact.
+linked = {**damped("fig09a", 0.66, 1.16), **damped("fig09b", 0.9, 1.4), "ext03": sound, **heat}
+kappa_n = {
+    "kappa": lambda run: (
+        kappa(run) if rare(run) else run.options["cells"] ** (0.2 if run.options["cells"] > 100 else 3)
+    )
+}
+excess = [
+    (2 - 1 / xi - value, 0.5 / xi**2 + bound)
+    for xi, (value, bound) in ((0.66, (0.2, 0)), (0.9, rare_exponent))
+]
+xi, bound = sound_exponent
+limits: Answer = [(2 - 1 / xi - value, bound / xi**2 + 0.02) for value in (0.31, 0.32, 0.34)]
+claim("C30", {**linked, "fig08": both | kappa_n}, excess, limits)
+
+
+# Speeds t^-0.1 and t^-0.4; unknown at first, and twice as large at the third time.
+def speeds(run: Run, middle: np.ndarray) -> np.ndarray:
+    k = np.arange(len(middle))
+    power = {"rest": -0.1, "weak": -0.4}.get(run.name, -1)
+    return 300 * middle**power * np.select([k == 0, k == 2], [np.nan, 2], 1)
+
+
+claim("C35", {**pulse("fig09a", peak_speed=speeds), **pulse("ext14", peak_speed=speeds)}, [-0.1], (), [-0.4])

@@ -1,0 +1,150 @@
+"""Labels and caveats of claims, and claims that too few results are left for."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tests.python.claim_truths import CASES
+from tests.python.known_results import Fill, Known, quantity, truth, uneven
+from tests.python.test_claim_numbers import data
+from tests.python.test_claim_verdicts import damped, kappas
+from workflow.claims.data import MissingError
+from workflow.claims.judge import FUNCTIONS
+from workflow.lib.load import Quantity
+from workflow.lib.plan import Run
+
+
+def caveat(name: str) -> str:
+    return FUNCTIONS[name](data(CASES[name])).caveat
+
+
+def with_peaks(name: str, kept: slice) -> Fill:
+    """Peaks at the times of the slice only: position 10, speeds of 500, 499, ... with errors of a tenth."""
+
+    def fill(run: Run) -> dict[str, Quantity]:
+        values = np.full(len(uneven(run)[name].mean), math.nan)
+        values[kept] = 500 - np.arange(len(values[kept]))
+        return uneven(run) | {name: quantity(run, name, values, np.full(len(values), 0.1))}
+
+    return fill
+
+
+def test_misfits_of_the_front() -> None:
+    """Exactly 1/ln t, the same relative error everywhere: chi^2 of 1/t is the variance of t/ln t over its mean square."""
+
+    def fill(run: Run) -> dict[str, Quantity]:
+        time = uneven(run)["front"].axes["time"]
+        return uneven(run) | {"front": quantity(run, "front", 7 / np.log(time), 0.01 * 7 / np.log(time))}
+
+    time = np.array([200, 600, 1000, 1400, 1800])
+    scaled = np.log(time) / time
+    expected = 1e4 * (5 - scaled.sum() ** 2 / np.sum(scaled**2))
+    assert f"{expected:.0f} and 0 at λ = 1/N" in FUNCTIONS["C03"](Known({"fig01": fill})).caveat
+
+
+def test_numbers_in_caveats() -> None:
+    assert "It is 1.25" in caveat("C10")
+    assert "It is 1.25" in caveat("C11")
+    assert "between 1.420 and 1.460" in caveat("C18")  # all particles, n = 20 and 80
+    assert "The largest change is 4.9·10⁻⁵," in caveat("C22")
+    assert "d ln⟨Q²⟩/d ln t - 1 is 0.5000(15) (ζ = 1.6, M = 3)" in caveat("C24")
+
+
+def test_labels_state_what_differs() -> None:
+    labels = [number.label for number in FUNCTIONS["C18"](data(CASES["C18"])).alternative]
+    assert {label.rpartition(", n = ")[2] for label in labels} == {
+        "20, t_r = 10",
+        "20, t_r = 1000",
+        "80, t_r = 10",
+    }
+    halves = [number.label.partition("1/N, ")[2] for number in FUNCTIONS["C24"](data(CASES["C24"])).literal]
+    assert halves == ["N = 16 to 256", "N = 256 to 1024"]  # the middle size in both
+
+
+def test_a_decade_from_1_on_counts_though_rounding_puts_it_below() -> None:
+    def fill(run: Run) -> dict[str, Quantity]:
+        slope = uneven(run)["decade_slope"]
+        return {"decade_slope": replace(slope, axes={"decade": (1 - 1e-15) * slope.axes["decade"]})}
+
+    (found,), (exact,) = (FUNCTIONS["C29"](Known({"ext07": each})).literal for each in (fill, uneven))
+    assert found.value == exact.value
+
+
+def test_an_exponent_is_called_a_mean_slope_where_the_law_is_rejected() -> None:
+    """Of kappa ~ N with errors of a hundredth, and with one size three times as large."""
+
+    def label(odd: int) -> str:
+        given = {
+            "kappa": lambda run: run.options["cells"] * (3.0 if run.options["cells"] == odd else 1),
+            "stationary": 1,
+        }
+        (number,) = FUNCTIONS["C23"](Known({"fig08": truth(given, 0.01)})).literal
+        return number.label
+
+    assert "mean slope" not in label(0)
+    assert label(512).startswith(f"{label(0)}, a mean slope (χ² = ")
+
+
+@pytest.mark.parametrize("few", [1, 2])
+def test_an_exponent_takes_two_sizes(few: int) -> None:
+    """So many sizes of ext09 are stationary, besides fig08."""
+
+    def still(run: Run) -> float:
+        return float(run.series == "thinning" and run.options["cells"] in (16, 32)[:few])
+
+    case = data(CASES["C24"])
+    fills = case.fills | {"ext09": truth(dict(CASES["C24"].world["ext09"]) | {"stationary": still}, 0.01)}
+    assert len(FUNCTIONS["C24"](Known(fills)).alternative) == few
+
+
+def test_what_is_missing_is_stated() -> None:
+    one_size = dict(CASES["C24"].world["ext11"]) | {
+        "stationary": lambda run: float(run.options["cells"] == 16)
+    }
+    with pytest.raises(MissingError, match="ext11"):
+        FUNCTIONS["C24"](Known(data(CASES["C24"]).fills | {"ext11": truth(one_size, 0.01)}))
+    with pytest.raises(MissingError):
+        FUNCTIONS["C24"](Known({"fig08": truth(dict(kappas(1, 1)["fig08"]) | {"stationary": 0}, 0.1)}))
+    with pytest.raises(MissingError, match="too few times"):
+        FUNCTIONS["C26"](Known({"fig09b": with_peaks("peak_position", slice(2)), "ext14": uneven}))
+    with pytest.raises(MissingError, match="too few times"):
+        FUNCTIONS["C35"](Known({"fig09a": with_peaks("peak_speed", slice(1)), "ext14": uneven}))
+    without = {panel: fill for panel, fill in data(CASES["C30"]).fills.items() if panel != "ext03"}
+    assert not FUNCTIONS["C30"](Known(without)).intended
+    without = {panel: fill for panel, fill in data(CASES["C27"]).fills.items() if panel != "ext03"}
+    assert not FUNCTIONS["C27"](Known(without)).alternative
+
+
+@pytest.mark.parametrize(
+    ("drift", "begin"),
+    [
+        (0.02, "A power of t describes"),
+        (-0.05, "No power of t describes"),
+        (math.nan, "A power of t describes"),
+    ],
+)
+def test_whether_a_power_describes_the_height_is_stated(drift: float, begin: str) -> None:
+    def stated(**given: float) -> str:
+        rest = truth(damped("fig09b", 1)["fig09b"] | given, 0.001)
+
+        def fill(run: Run) -> dict[str, Quantity]:
+            change = quantity(run, "damping_drift", np.array(drift), np.array(0.01))
+            return {**rest(run), "damping_drift": change}
+
+        return FUNCTIONS["C28"](Known({"fig09b": fill})).caveat
+
+    assert stated().startswith(f"{begin} the height: its exponent ")
+    assert ("over too few octaves" in stated()) == math.isnan(drift)
+    assert "as the ring has closed" in stated(energy_difference=1)
+
+
+@pytest.mark.parametrize("known", [0, 1, 2, 5])
+def test_speeds_that_are_stated(known: int) -> None:
+    """The first and the last of those at which there is a moving peak."""
+    results = Known({"fig09a": with_peaks("peak_speed", slice(2, 2 + known))})
+    middle = results.one("fig09a", "gaussian")["peak_speed"].axes["middle"]
+    ends = [f"{500 - k}.00(10) at t = {middle[2 + k]:.3g}" for k in (0, known - 1)]
+    expected = f"Speed of the peaks: {', '.join(ends)}." if known else "No moving peak was found."
+    assert FUNCTIONS["C25"](results).caveat == expected

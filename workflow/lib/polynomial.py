@@ -1,0 +1,36 @@
+"""Grammar of option values that depend on the number of cells: a sum of numbers, each alone or followed by N or N^2, as 50+0.001N^2.
+
+cpp/program/options.cpp reads the same grammar.
+"""
+
+import math
+import re
+from collections.abc import Callable
+
+NUMBER = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
+TERM = re.compile(rf"([+-]?{NUMBER})(?:(N)(?:\^(2))?)?")
+
+
+def pattern(number: str = NUMBER) -> str:
+    """Regular expression of a sum of terms with such numbers."""
+    term = rf"{number}(N(\^2)?)?"
+    return rf"{term}(\+{term})*"
+
+
+def at_size(value: object, size: float) -> float:
+    """Value at N = size; nan for other text."""
+    terms = [TERM.fullmatch(term) for term in _terms(value)]
+    return sum(float(term[1]) * size ** int(term[3] or bool(term[2])) if term else math.nan for term in terms)
+
+
+def scaled(value: object, change: Callable[[float], float]) -> str:
+    """The value with every coefficient changed; also of a list of numbers separated by commas."""
+    items = [[TERM.fullmatch(term) for term in _terms(item)] for item in str(value).split(",")]
+    return ",".join(
+        "+".join(f"{change(float(term[1])):.6g}{term[0][len(term[1]) :]}" for term in terms if term)
+        for terms in items
+    )
+
+
+def _terms(value: object) -> list[str]:
+    return re.split(r"(?<![eE])\+", str(value))

@@ -1,0 +1,49 @@
+"""Runs the programs of build/bin."""
+
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+from workflow.lib.configuration import Options, arguments
+from workflow.lib.files import ROOT
+from workflow.lib.plan import Run
+
+PROGRAMS = ROOT / "build/bin"
+WRITTEN = (0, 4)  # exit statuses with a result; 4: stopped before the target error, and marked
+
+
+class ProgramError(ValueError):
+    """A program has refused its options, or has failed."""
+
+
+def command_line(run: Run, programs: Path | str = "build/bin", limit: float | None = None) -> list[str]:
+    """Words of the command of a run, without its output. limit: seconds after which no replica starts."""
+    conduct = ["--threads", "1", "--resume"] if run.replicated else []
+    conduct += [] if limit is None or not run.replicated else ["--time-limit", f"{limit:.0f}"]
+    return [f"{programs}/{run.program}", *arguments(run.options), *conduct]
+
+
+def execute(
+    program: str, options: Options, output: Path, *more: str, programs: Path = PROGRAMS, relay: bool = False
+) -> str:
+    """Writes the result of a program, and returns its messages; relay: prints them meanwhile. Raises ProgramError with them;
+    KeyboardInterrupt after the program has written its checkpoint."""
+    command: list[str | Path] = [programs / program, *arguments(options), *more, "--output", output]
+    lines: list[str] = []
+    # In a session of its own, the program gets an interrupt from here alone, once.
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True) as running:
+        assert running.stderr
+        try:
+            for line in running.stderr:
+                lines.append(line)
+                if relay and ": error: " not in line:
+                    print(line, end="", file=sys.stderr)
+        except KeyboardInterrupt:
+            running.send_signal(signal.SIGINT)
+            print(running.stderr.read(), end="", file=sys.stderr)
+            running.wait()
+            raise
+    if running.returncode not in WRITTEN:
+        raise ProgramError("".join(lines).strip())
+    return "".join(lines)

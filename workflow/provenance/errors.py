@@ -1,0 +1,28 @@
+"""Prints the errors that the runs of a quality or panel have reached, and names those that missed the requested one."""
+
+from workflow.lib.command import command
+from workflow.lib.files import ROOT
+from workflow.lib.load import NOT_REACHED, load_provenance
+from workflow.lib.plan import Quality, data_path
+
+
+def main() -> None:
+    options, _, panels = command(__doc__)
+    quality = Quality.of(options.quality)
+    missed = []
+    total = 0
+    for panel in panels:
+        runs = [run for run in panel.runs if run.target is not None]
+        reached = {run.name: load_provenance(ROOT / data_path(quality.name, panel.name, run)) for run in runs}
+        for run in runs:
+            stated = reached[run.name]
+            error = float(stated["achieved_error"]) / (run.scale or 1)
+            line = f"{panel.name}/{run.name}: error {error:.2g} of {stated['target_quantity']}, requested {run.target:g}"
+            missed += [line] if stated["converged"] == NOT_REACHED else []
+            total += 1
+    print(f"{total - len(missed)} of {total} runs have reached an error of {quality.error:g}")
+    print(*(f"  {line}" for line in missed), sep="\n", end="\n" * bool(missed))
+
+
+if __name__ == "__main__":
+    main()
