@@ -39,7 +39,7 @@ wildcard_constraints:
     identity=IDENTITY,
 
 
-if workflow.is_main_process:
+if workflow.is_main_process and not workflow.dryrun:
     for path in {path for name in PANELS or PLAN if not valid(RECORDS[name]).exists() for path in DATA[name]}:
         set_aside(path)
 

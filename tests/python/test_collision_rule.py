@@ -23,7 +23,7 @@ def score(quantity: Quantity, expected: float | np.ndarray) -> float:
 @pytest.mark.parametrize(("cells", "gamma"), [(1, "N"), (5, "N"), (5, 2), (12, 3)])
 def test_currents_of_independent_walkers(measure: Measure, cells: int, gamma: float | str) -> None:
     """Scatterers without mass keep the speed. A scatterer reflects with the probability r = q/2, and a row of N transmits
-    1/(1 + N r/(1 - r)). Slow particles, which are still inside, carry little energy. Mutant: three scatterers more."""
+    1/(1 + N r/(1 - r)). Slow particles, which are still inside, carry little energy. Finds: three scatterers more."""
     chain = {"cells": cells, "gamma": gamma, "sigma": -1, "relaxation_time": 50, "observation_time": 400}
     result = measure("conductivity", **chain, **UNEQUAL, **RANDOM, replicas=200)
     reflected = 0.5 if gamma == "N" else float(gamma) / cells / 2
@@ -39,7 +39,7 @@ def test_currents_of_independent_walkers(measure: Measure, cells: int, gamma: fl
 
 @pytest.mark.parametrize("gamma", ["N", 3])
 def test_equilibrium_with_random_directions(measure: Measure, gamma: float | str) -> None:
-    """Temperatures of scatterers and particles are those of the baths, and no current flows [eq. 8]. Mutant: by 2 %."""
+    """Temperatures of scatterers and particles are those of the baths, and no current flows [eq. 8]. Finds: by 2 %."""
     times = {"relaxation_time": 20, "observation_time": 100}
     result = measure(
         "steady_profile", cells=8, gamma=gamma, sigma=0.3, **times, **EQUAL, **RANDOM, replicas=64

@@ -50,6 +50,18 @@ def test_runs_of_the_table_have_estimates(quality: str) -> None:
     assert all(estimated_seconds(name, run) for name, run in runs)
 
 
+def test_every_sampled_run_of_the_table_has_an_error() -> None:
+    """An error that ERROR needs: of the default quality."""
+    listed = {panel for panel, _ in cost._table()}
+    runs = [
+        (name, run)
+        for name, panel in load_plan("standard_error=0.01").items()
+        if name in listed
+        for run in panel.runs
+    ]
+    assert [f"{name}/{run.name}" for name, run in runs if not estimated_seconds(name, run)] == []
+
+
 def test_a_target_error_needs_replicas_as_its_inverse_square() -> None:
     row = {"cells": 8.0, "cpu_seconds": 2.0, "error": 0.5}
     run = Run("a", "persistence", {"cells": 8, "observation-time": 10, "replicas": 16}, target=0.01)

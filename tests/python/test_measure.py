@@ -132,7 +132,7 @@ def test_doubts_are_warned_of() -> None:
 
 
 def test_an_interrupted_call_is_continued(folder: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    options = {"cells": 4, "relaxation_time": 1, "observation_time": 200, "replicas": 400, "threads": 1}
+    options = {"cells": 4, "relaxation_time": 1, "observation_time": 200, "replicas": 4000, "threads": 1}
     timer = threading.Timer(1.5, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
     with pytest.raises(KeyboardInterrupt):

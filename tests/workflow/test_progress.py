@@ -14,7 +14,9 @@ CONTROL = re.compile(r"\x1b\[[0-9;?]*[a-zA-Z]")
 PROFILE = "Using workflow specific profile profiles/default for setting default command line arguments."
 
 
-def on_a_terminal(clone: Clone, *arguments: str, until: str = "", times: int = 1, patience: float = 300) -> tuple[str, float]:
+def on_a_terminal(
+    clone: Clone, *arguments: str, until: str = "", times: int = 1, patience: float = 300
+) -> tuple[str, float]:
     """The output, and the seconds from the last Ctrl-C, which is pressed when `until` has appeared, to the end."""
     process, terminal = pty.fork()
     if process == 0:

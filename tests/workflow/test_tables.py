@@ -3,6 +3,7 @@
 import importlib
 import json
 import re
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from tests.workflow.conftest import Clone
 from workflow.lib import style
 from workflow.lib.columns import BY_ROW, UNITS_LINE, as_csv
 from workflow.lib.figure_metadata import read_panel
-from workflow.lib.load import load
+from workflow.lib.load import NOT_REACHED, load
 from workflow.lib.plan import data_of, load_plan
 from workflow.lib.units import UnitsError
 
@@ -69,6 +70,19 @@ def test_every_column_scales_as_its_units(clean: Clone, panel: str) -> None:
         mutant = "1" if text != "1" else "energy"
         seen = plain[name].abs().max() > 0
         assert scales(clean.folder, panel, name, mutant) != seen, name
+
+
+@pytest.mark.parametrize("panel", PLAN)
+def test_every_panel_is_drawn_from_runs_that_missed_their_targets(clean: Clone, panel: str) -> None:
+    """As after HOURS."""
+    draw = importlib.import_module(f"workflow.figures.{PLAN[panel].script}").draw
+    results = [load(clean.folder / path) for path in data_of(PLAN, panel, "smoke")]
+    missed = [replace(one, provenance=one.provenance | {"converged": NOT_REACHED}) for one in results]
+    style.apply()
+    _, table, caption = draw(missed)
+    plt.close("all")
+    assert len(table)
+    assert "nan" not in caption.split()
 
 
 @pytest.mark.parametrize("panel", PLAN)

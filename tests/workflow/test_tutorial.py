@@ -60,7 +60,7 @@ def test_an_observable_of_your_own(own: Clone) -> None:
 
 
 def test_a_collision_rule_of_your_own(own: Clone) -> None:
-    """Mutant: the rotation of (u, w) in place of (u, U)."""
+    """Finds: the rotation of (u, w) in place of (u, U)."""
     try:
         for block in BLOCK.finditer(RULE):
             follow(own, block)

@@ -23,6 +23,7 @@ from workflow.lib.files import ROOT
 from workflow.lib.plan import QUALITIES, Run, data_path, load_plan
 from workflow.lib.polynomial import at_size
 from workflow.lib.program import command_line
+from workflow.provenance.build_id import BuildError
 
 TABLE = ROOT / "workflow/config/seconds.csv"  # panel, series, cells, effort, cpu_seconds
 UNKNOWN = 900.0  # seconds assumed by the jobs of a cluster for a series that is not in the table
@@ -30,6 +31,14 @@ PILOT, PILOT_SECONDS = 2, 20  # replicas of a trial, and the longest time that i
 LEAST = 64  # replicas that a target error needs (cpp/program/stopping_rule.hpp)
 DRAWING = 4.0  # CPU seconds of rendering a panel
 PARTS = "build/parts"  # of runs on a cluster: PARTS/<quality>/<panel>/<run>.<identity>/
+
+
+def seconds_spent(quality: str, panel: str, run: Run) -> float | None:
+    """CPU seconds recorded for the planned result of a run; None without one, or without a build."""
+    try:
+        return recorded_seconds(data_path(quality, panel, run))
+    except BuildError:
+        return None
 
 
 def recorded_seconds(path: str) -> float | None:
@@ -83,7 +92,7 @@ def scaled_seconds(panel: str, run: Run) -> float | None:
     """CPU seconds scaled from a recorded execution at another quality; None without one, or with a target error."""
     for quality in QUALITIES if run.target is None else ():
         for other in (one for one in _plan(quality)[panel].runs if one.name == run.name):
-            if seconds := recorded_seconds(data_path(quality, panel, other)):
+            if seconds := seconds_spent(quality, panel, other):
                 replicas = float(run.options.get("replicas", 1)) / float(other.options.get("replicas", 1))
                 return seconds * replicas * effort(run.options) / effort(other.options)
     return None
@@ -161,7 +170,7 @@ def main() -> None:
     jobs: list[float] = []
     unknown = 0
     for panel in panels:
-        recorded = [recorded_seconds(data_path(options.quality, panel.name, run)) for run in panel.runs]
+        recorded = [seconds_spent(options.quality, panel.name, run) for run in panel.runs]
         seconds = [
             known
             or estimated_seconds(panel.name, run)

@@ -1,6 +1,7 @@
 """Writes workflow/config/seconds.csv from the results of the given qualities: cost and error of every series and size.
 
-Of several executions of one size, that of most replicas counts. Rows of other series and sizes stay.
+Of several qualities, that of most replicas counts; of several runs of one size, as for a list of sigma, the largest cost and error.
+Rows of other series and sizes stay.
 """
 
 import argparse
@@ -52,9 +53,19 @@ def main() -> None:
                     found = row(quality, name, run)
                 except FormatError:
                     continue
-                key = tuple(found[column] for column in COLUMNS[:3]) if found else ()
-                if found and int(run.options.get("replicas", 1)) >= replicas.get(key, 0):
-                    known[key], replicas[key] = found, int(run.options.get("replicas", 1))
+                if found is None:
+                    continue
+                key, count = (
+                    tuple(found[column] for column in COLUMNS[:3]),
+                    int(run.options.get("replicas", 1)),
+                )
+                if count > replicas.get(key, 0):
+                    known[key], replicas[key] = found, count
+                elif count == replicas[key]:
+                    for column in COLUMNS[4:]:
+                        known[key][column] = max(
+                            known[key][column], found[column], key=lambda text: float(str(text) or 0)
+                        )
     text = io.StringIO()
     writer = csv.DictWriter(text, COLUMNS, restval="", lineterminator="\n")
     writer.writeheader()

@@ -9,6 +9,7 @@ not used.
 from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
+import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
@@ -53,8 +54,9 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         row["usable"] = result.sound
         rows.append(row)
     table = pd.DataFrame(rows).sort_values("cells", ignore_index=True)
+    columns = ["between", "exponent_to_next", "exponent_to_next_error"]
+    table[columns] = np.nan  # where fewer than two sizes are usable
     for _, part in table[table.usable].groupby(["gamma", "drive"]):
-        columns = ("between", "exponent_to_next", "exponent_to_next_error")
         local = local_exponents(part.cells, part.kappa, part.kappa_error)
         for column, values in zip(columns, local, strict=True):
             table.loc[part.index[:-1], column] = values
@@ -73,15 +75,20 @@ def draw_guide(axes: Axes, part: pd.DataFrame, slope: float, name: str) -> None:
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     weak = [one for one in results if drive(one) == table.drive.min()]
     slopes = table.dropna(subset="between")
-    texts = slopes.apply(lambda one: with_error(one.exponent_to_next, one.exponent_to_next_error), axis=1)
+    pairs = zip(slopes.exponent_to_next, slopes.exponent_to_next_error, strict=True)
+    texts = pd.Series([with_error(*pair) for pair in pairs], slopes.index, dtype=str)
     rare, often = (texts[(slopes.gamma == gamma) & (slopes.drive == table.drive.min())] for gamma in (1, "N"))
     strong = texts[slopes.drive > table.drive.min()]
+
+    def one(found: pd.Series, index: int) -> str:
+        return str(found.iloc[index]) if len(found) else "an unknown value"
+
     return f"""
         Heat conductivity κ = −J_U N/(T_N − T_1) of open chains against the number of cells N, {parameters(weak, "cell-length", "sigma")},
         {baths(weak[0])}, {replicas(results)}. Triangles: stronger drive, T_R/T_L = {number(table.drive.max())} (ext. 9). (a) κ; dashed
         grey: the paper's powers of N, blue: mean field, the kinetic equation of N scatterers. (b) Local exponents between neighbouring
-        sizes. For γ = 1 the exponent tends to {rare.iloc[-1]}. For γ = N no single power holds, as the gas thins out: from {often.iloc[0]} at the
-        smallest sizes the exponent rises above 1/2 and falls to {often.iloc[-1]} at the largest; {strong.iloc[-1]} at stronger drive. {ERRORS}"""
+        sizes. For γ = 1 the exponent tends to {one(rare, -1)}. For γ = N no single power holds, as the gas thins out: from {one(often, 0)} at the
+        smallest sizes the exponent rises above 1/2 and falls to {one(often, -1)} at the largest; {one(strong, -1)} at stronger drive. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:

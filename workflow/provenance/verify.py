@@ -37,6 +37,9 @@ def main() -> None:
     quality, products = options.quality, Products(options.quality, plan)
     runs = [(products.result(panel.name, run), run) for panel in panels for run in panel.runs]
     runs = [(path, run) for path, run in runs if (ROOT / path).is_file()]
+    if bounded := [path for path, run in runs if run.hours is not None]:
+        print(f"{len(bounded)} results not checked: HOURS stopped their runs by the clock")
+        runs = [(path, run) for path, run in runs if path not in bounded]
     if not options.panel:
         runs = random.sample(runs, min(len(runs), max(1, round(options.sample * len(runs)))))
     if not runs:

@@ -263,7 +263,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& source) { return source.param.name; });
 
 // The random numbers of a collision in an open chain are named by the cell and the count of its collisions.
-// Mutants: by the cell alone, by the count alone, by the number of the particle, which is reused.
+// Finds: by the cell alone, by the count alone, by the number of the particle, which is reused.
 TEST(ChanceOfAnOpenChain, EveryCollisionOfACellHasNumbersOfItsOwn) {
   const StreamKey key(3, 2);
   const std::vector<Sequence> drawn = directions_at_cells(key, key);

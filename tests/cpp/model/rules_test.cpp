@@ -70,7 +70,7 @@ std::vector<double> scores(const std::vector<Velocities>& all) {
   return scores;
 }
 
-// Of every rule. Mutants: each of the three properties stated otherwise.
+// Of every rule. Finds: each of the three properties stated otherwise.
 TEST(Rules, HaveThePropertiesThatTheyState) {
   for (const RuleProperties& rule : rules::all) {
     for (const double sigma : sigmas) {
@@ -88,7 +88,7 @@ TEST(Rules, HaveThePropertiesThatTheyState) {
   }
 }
 
-// Mutants: the energy shared unequally; the direction drawn with unequal probabilities.
+// Finds: the energy shared unequally; the direction drawn with unequal probabilities.
 TEST(Rules, ScoresFindAnotherMeasure) {
   std::vector<Velocities> hotter = encounters(Elastic(0.5), 1).after, biased = hotter;
   for (Velocities& v : hotter) v.u *= 1.02;
@@ -107,7 +107,7 @@ TEST(Rules, AreMadeByName) {
   EXPECT_THROW(make_rule("elastic", 2), std::invalid_argument);
 }
 
-// The elastic collision in speed. Mutants: the direction kept; the scatterer's drawn too.
+// The elastic collision in speed. Finds: the direction kept; the scatterer's drawn too.
 TEST(RandomDirection, IsElasticButForTheSignOfTheParticle) {
   const Encounters drawn = encounters(RandomDirection(0.4), 1), elastic = encounters(Elastic(0.4), 1);
   std::vector<double> changed;

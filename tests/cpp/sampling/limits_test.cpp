@@ -41,7 +41,7 @@ TEST(Limits, OfTemperaturesWhoseFourthPowersOfMomentaAreStored) {
   EXPECT_NE(check(1e-141, 1), "");
 }
 
-// Mutants: one reservoir only; the rate or the window only; another power.
+// Finds: one reservoir only; the rate or the window only; another power.
 TEST(Limits, OfCurrents) {
   const auto check = [](Reservoir left, Reservoir right, double duration, int power) {
     return refusal([&] { require_finite_currents({.left = left, .right = right}, duration, power); });

@@ -73,7 +73,7 @@ double largest_score(const Values& a, const Values& b) {
   return largest;
 }
 
-// Mutants: the other rule; another gamma; one direction for all collisions of a cell.
+// Finds: the other rule; another gamma; one direction for all collisions of a cell.
 TEST(OpenRule, HasTheTemperaturesAndCurrentsOfTheReference) {
   for (const std::optional<double> gamma : {std::optional<double>{}, std::optional(2.)}) {
     const Values drawn = of_reference(true, gamma.value_or(cells)),
