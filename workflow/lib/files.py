@@ -2,10 +2,23 @@
 
 import hashlib
 import subprocess
+import sys
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def refuse_another_folder() -> None:
+    """Exits if the working directory is not the project of this file."""
+    if Path.cwd() != ROOT:
+        sys.exit(
+            f"the working directory is {Path.cwd()}, not the project {ROOT} of this program: change to it, or use make here"
+        )
+
+
+if Path(sys.argv[0]).resolve().is_relative_to(ROOT / "workflow"):  # a tool: python -m workflow.NAME
+    refuse_another_folder()
 
 
 def content_hash(content: bytes) -> str:
