@@ -20,6 +20,11 @@ from workflow.lib.record import is_whole, record_path
 from workflow.provenance.build_id import BuildError
 
 refuse_another_folder()  # by a link .venv
+for name in ("data", "figures"):
+    if Path(name).is_symlink() and not Path(name).exists():
+        sys.exit(
+            f"{name} is a link to {os.readlink(name)}, which is missing: create that folder, or remove the link"
+        )
 shell.prefix("source workflow/environment/variables.sh; ")  # a bare `snakemake` gives the same bytes as make
 QUALITY = config.get("quality", "standard")
 try:
