@@ -11,7 +11,8 @@ from pathlib import Path
 import h5py
 import pytest
 
-from tests.workflow.conftest import ROOT, Clone, append, replace
+from tests.workflow.conftest import ROOT, Clone, replace
+from tests.workflow.test_makefile import HOSTILE, names
 
 TOOLS = sorted(
     ".".join(path.relative_to(ROOT).with_suffix("").parts)
@@ -20,6 +21,32 @@ TOOLS = sorted(
 )
 TOOLS = [name for name in TOOLS if ".figures." not in name or name.endswith("fig03")]  # equal in this respect
 RUN = "fig03/paper"
+
+
+def test_variables_are_unset_by_prefix_and_those_of_the_network_are_kept(clean: Clone) -> None:
+    kept = dict.fromkeys(
+        names(
+            "UV_DEFAULT_INDEX UV_INDEX_URL UV_CACHE_DIR UV_NATIVE_TLS UV_HTTP_TIMEOUT PIP_INDEX_URL PIP_CERT PIP_TRUSTED_HOST SSL_CERT_FILE "
+            "https_proxy TMPDIR CMAKE_PREFIX_PATH SLURM_JOB_ID"
+        ),
+        "kept",
+    )
+    overridden = (
+        "LC_ALL",
+        "TZ",
+        "SOURCE_DATE_EPOCH",
+        "MPLBACKEND",
+        "MPLCONFIGDIR",
+        "PYTHONHASHSEED",
+        "OMP_NUM_THREADS",
+    )
+    script = "source workflow/environment/variables.sh; /usr/bin/env"
+    printed = clean.run("/bin/bash", "-c", script, **(HOSTILE | {"LD_PRELOAD": ""} | kept)).stdout
+    after = dict(line.split("=", 1) for line in printed.splitlines())
+    assert kept.items() <= after.items()
+    allowed = {*overridden, "QUALITY", "PANEL", "FRESH"}  # the last are options, which the Makefile forgets
+    assert {name for name in HOSTILE if name in after} == allowed
+    assert not {name for name in overridden if after[name] == HOSTILE[name]}
 
 
 def one_line(printed: str) -> str:
@@ -195,7 +222,6 @@ def test_a_link_to_a_missing_folder_is_named(kept: Clone) -> None:
 
 def test_an_early_termination_keeps_the_checkpoint(kept: Clone) -> None:
     """Snakemake removes an empty folder of outputs when it ends, before the program writes its checkpoint."""
-    append("workflow/config/quality/smoke.yaml", "")(kept)
     quality = "smoke_seed=3_replicas=100000"
     command = [".venv/bin/snakemake", "--config", f"quality={quality}", "panel=fig06", "--", "panel"]
     shutil.rmtree(kept.folder / "data/smoke/fig06")

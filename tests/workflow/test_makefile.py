@@ -81,32 +81,6 @@ def test_a_moved_folder_and_an_unusual_environment_change_nothing(clean: Clone, 
     assert {path for path in after if after[path] != products[path]} <= {moved.record("fig03")}  # the commit
 
 
-def test_variables_are_unset_by_prefix_and_those_of_the_network_are_kept(clean: Clone) -> None:
-    kept = dict.fromkeys(
-        names(
-            "UV_DEFAULT_INDEX UV_INDEX_URL UV_CACHE_DIR UV_NATIVE_TLS UV_HTTP_TIMEOUT PIP_INDEX_URL PIP_CERT PIP_TRUSTED_HOST SSL_CERT_FILE "
-            "https_proxy TMPDIR CMAKE_PREFIX_PATH SLURM_JOB_ID"
-        ),
-        "kept",
-    )
-    overridden = (
-        "LC_ALL",
-        "TZ",
-        "SOURCE_DATE_EPOCH",
-        "MPLBACKEND",
-        "MPLCONFIGDIR",
-        "PYTHONHASHSEED",
-        "OMP_NUM_THREADS",
-    )
-    script = "source workflow/environment/variables.sh; /usr/bin/env"
-    printed = clean.run("/bin/bash", "-c", script, **(HOSTILE | {"LD_PRELOAD": ""} | kept)).stdout
-    after = dict(line.split("=", 1) for line in printed.splitlines())
-    assert kept.items() <= after.items()
-    allowed = {*overridden, "QUALITY", "PANEL", "FRESH"}  # the last are options, which the Makefile forgets
-    assert {name for name in HOSTILE if name in after} == allowed
-    assert not {name for name in overridden if after[name] == HOSTILE[name]}
-
-
 def test_an_environment_has_no_path_of_its_folder(moved: Clone) -> None:
     """So that a copy of it, or a link to it, belongs to the folder that it is in."""
     found = subprocess.run(
