@@ -31,8 +31,9 @@ export BASH_ENV := workflow/environment/variables.sh
 
 EFFORT := $(QUALITY)$(SEED:%=_seed=%)$(REPLICAS:%=_replicas=%)$(ERROR:%=_error=%)$(HOURS:%=_hours=%)
 PYTHON := .venv/bin/python -m
+LOCKED := bash workflow/environment/one_at_a_time.sh
 OF := --quality '$(EFFORT)' $(foreach panel,$(PANEL),--panel='$(panel)')
-SNAKEMAKE := bash workflow/environment/one_at_a_time.sh .venv/bin/snakemake --nolock $(if $(FRESH),--forceall) $(if $(DRY),--dry-run) \
+SNAKEMAKE := $(LOCKED) $(PYTHON) snakemake --nolock $(if $(FRESH),--forceall) $(if $(DRY),--dry-run) \
   $(if $(PROFILE),--workflow-profile 'profiles/$(PROFILE)' $(JOBS:%=--jobs '%'),$(JOBS:%=--cores '%')) \
   $(if $(ACCOUNT)$(PARTITION),--default-resources $(ACCOUNT:%=slurm_account='%') $(PARTITION:%=slurm_partition='%')) \
   --config quality='$(EFFORT)' $(if $(PANEL),panel='$(PANEL)') $(BATCH:%=batch='%') --
@@ -63,13 +64,13 @@ report: build  ## The paper's claims against the results: figures/QUALITY/report
 gallery: build  ## docs/gallery and the answer in README.md, from the results at QUALITY
 	$(call MAKE_TARGET,gallery,The gallery is docs/gallery)
 setup:  ## System packages, and Python packages in .venv
-	bash workflow/environment/setup.sh
+	$(LOCKED) bash workflow/environment/setup.sh
 setup-dev:
-	bash workflow/environment/setup.sh dev
+	$(LOCKED) bash workflow/environment/setup.sh dev
 installed:
-	test -x .venv/bin/python || bash workflow/environment/setup.sh
+	test -x .venv/bin/python || $(LOCKED) bash workflow/environment/setup.sh
 build: setup  ## The programs, in build/bin
-	bash workflow/environment/build.sh all
+	$(LOCKED) bash workflow/environment/build.sh all
 audit: installed  ## Check every result and figure against sources, parameters, build and packages
 	$(PYTHON) workflow.provenance.audit $(OF)
 verify: setup  ## Compile afresh, rerun a SAMPLE=0.1 of the results, or PANEL=fig05, and compare bytes
@@ -83,7 +84,7 @@ cost: installed  ## Estimated CPU time of a quality, or of PANEL=fig05
 crate: build  ## Figures, data, code and history as an RO-Crate in build/crate; PANEL=fig05
 	$(call MAKE_TARGET,crate,The crate is in build/crate)
 prune: build  ## Remove results and figures that no plan names: of former options, builds or scripts
-	$(PYTHON) workflow.provenance.obsolete
+	$(LOCKED) $(PYTHON) workflow.provenance.obsolete
 test: setup-dev  ## Tests; make test-long: also those that take many minutes
 	bash workflow/environment/test.sh -m 'not long'
 test-long: setup-dev
@@ -107,7 +108,7 @@ docs: setup-dev  ## The documentation as a static site, build/docs/index.html
 	doxygen docs/Doxyfile
 	cp .venv/lib/python*/site-packages/mathjax/static/mathjax/es5/tex-svg.js build/docs/mathjax.js
 clean:  ## Remove programs, logs and caches; make distclean: also results, figures and .venv
-	rm -rf build .cache
+	$(LOCKED) rm -rf build .cache
 distclean: clean
 	rm -rf data/*/ figures/*/ .snakemake .venv
 .PHONY: help figures panel report gallery setup setup-dev installed build audit verify provenance status cost crate prune test test-long \

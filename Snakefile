@@ -12,12 +12,19 @@ from pathlib import Path
 from workflow.cluster.cost import PARTS, seconds_of_run
 from workflow.lib.configuration import ConfigurationError
 from workflow.lib.figure_metadata import panel_identity
+from workflow.lib.files import refuse_another_folder
 from workflow.lib.identity import IDENTITY
 from workflow.lib.plan import Quality, build_id, data_of, drawing_command, load_plan, panel_named, with_used
 from workflow.lib.program import command_line
 from workflow.lib.record import is_whole, record_path
 from workflow.provenance.build_id import BuildError
 
+refuse_another_folder()  # by a link .venv
+for name in ("data", "figures"):
+    if Path(name).is_symlink() and not Path(name).exists():
+        sys.exit(
+            f"{name} is a link to {os.readlink(name)}, which is missing: create that folder, or remove the link"
+        )
 shell.prefix("source workflow/environment/variables.sh; ")  # a bare `snakemake` gives the same bytes as make
 QUALITY = config.get("quality", "standard")
 try:

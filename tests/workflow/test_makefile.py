@@ -11,22 +11,43 @@ from tests.workflow.conftest import ROOT, Clone, clone_into, copy_made, share_bu
 from workflow.lib.load import load
 from workflow.lib.plan import data_path, load_plan
 
+
+def names(text: str) -> list[str]:
+    return text.split()
+
+
 HOSTILE = {
-    "LC_ALL": "de_DE.UTF-8",
-    "TZ": "Asia/Kathmandu",
-    "OMP_NUM_THREADS": "7",
-    "PYTHONPATH": "/nonexistent",
-    "PYTHONHASHSEED": "12345",
-    "PYTHONHOME": "/nonexistent",
-    "CXXFLAGS": "-Ofast",
-    "LDFLAGS": "-nonsense",
-    "MPLBACKEND": "TkAgg",
-    "MATPLOTLIBRC": "/nonexistent",
-    "SOURCE_DATE_EPOCH": "1",
-    "SNAKEMAKE_PROFILE": "/nonexistent",
-    "QUALITY": "deep",
-    "PANEL": "none",
-    "FRESH": "yes",
+    **dict.fromkeys(
+        names(
+            "PYTHONPATH PYTHONHOME PYTHONSTARTUP PYTHONPYCACHEPREFIX PYTHONPLATLIBDIR VIRTUAL_ENV CONDA_PREFIX UV_PROJECT UV_CONFIG_FILE "
+            "UV_PROJECT_ENVIRONMENT UV_PYTHON UV_WORKING_DIR UV_CONSTRAINT PIP_TARGET PIP_PREFIX PIP_CONFIG_FILE GIT_DIR GIT_WORK_TREE "
+            "GIT_INDEX_FILE GIT_CONFIG_GLOBAL SNAKEMAKE_PROFILE SNAKEMAKE_OUTPUT_CACHE MATPLOTLIBRC MPLCONFIGDIR FONTCONFIG_FILE "
+            "HDF5_PLUGIN_PATH LD_LIBRARY_PATH LD_PRELOAD CMAKE_TOOLCHAIN_FILE CCACHE_DIR GCC_EXEC_PREFIX CPATH C_INCLUDE_PATH LIBRARY_PATH "
+            "COMPILER_PATH PKG_CONFIG_PATH"
+        ),
+        "/nonexistent",
+    ),
+    **dict.fromkeys(
+        names(
+            "PYTHONINSPECT PYTHONOPTIMIZE PYTHONVERBOSE PYTHONDONTWRITEBYTECODE UV_NO_EDITABLE UV_NO_CACHE UV_NO_BINARY UV_EXACT PIP_USER "
+            "SOURCE_DATE_EPOCH NPY_DISABLE_CPU_FEATURES"
+        ),
+        "1",
+    ),
+    **{
+        "LC_ALL": "de_DE.UTF-8",
+        "TZ": "Asia/Kathmandu",
+        "PYTHONHASHSEED": "12345",
+        "OMP_NUM_THREADS": "7",
+        "OPENBLAS_CORETYPE": "Prescott",
+        "CXXFLAGS": "-Ofast",
+        "LDFLAGS": "-nonsense",
+        "CMAKE_GENERATOR": "none",
+        "MPLBACKEND": "TkAgg",
+        "QUALITY": "deep",
+        "PANEL": "none",
+        "FRESH": "yes",
+    },
 }
 OFFLINE = {"UV_OFFLINE": "1", "http_proxy": "http://localhost:9"}
 
@@ -60,6 +81,47 @@ def test_a_moved_folder_and_an_unusual_environment_change_nothing(clean: Clone, 
     assert {path for path in after if after[path] != products[path]} <= {moved.record("fig03")}  # the commit
 
 
+def test_an_environment_has_no_path_of_its_folder(moved: Clone) -> None:
+    """So that a copy of it, or a link to it, belongs to the folder that it is in."""
+    found = subprocess.run(
+        ["grep", "-rlI", "-e", "/first[^/]*/project", "--exclude=*.pyc", moved.folder / ".venv"],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert found.stdout == ""
+    where = (".venv/bin/python", "-P", "-c", "from workflow.lib.files import ROOT; print(ROOT)")
+    assert moved.run(*where).stdout.strip() == str(moved.folder)
+
+
+def test_a_source_restored_with_its_old_time_is_compiled_again(moved: Clone) -> None:
+    share_build(moved)
+    source, identity = moved.folder / "cpp/statistics/fit.hpp", moved.folder / "build/id/ageing.json"
+    moved.make("build")
+    built, former, time = identity.read_text(), source.read_bytes(), source.stat().st_mtime_ns
+    source.write_bytes(former + b"// edited\n")
+    moved.make("build")
+    edited = identity.read_text()
+    source.write_bytes(former)
+    os.utime(source, ns=(time, time))
+    assert "run make build" in moved.snakemake("--dry-run", "figures", status=1) or edited == built
+    moved.make("build")
+    assert identity.read_text() == built
+    assert "is not built from" not in moved.snakemake("--dry-run", "figures")
+
+
+def test_a_link_to_the_folder_changes_nothing(moved: Clone, tmp_path: Path) -> None:
+    moved.make("build")
+    (compiler,) = moved.folder.glob(
+        "build/CMakeFiles/*/CMakeCXXCompiler.cmake"
+    )  # written by a new configuration
+    files = [compiler, *(moved.folder / ".venv" / name for name in ("pyvenv.cfg", "bin/snakemake"))]
+    before = [file.stat().st_mtime_ns for file in files]
+    (tmp_path / "link").symlink_to(moved.folder)
+    linked = Clone(tmp_path / "link")
+    linked.make("build", PWD=str(linked.folder))
+    assert "panel" in linked.make("status", "QUALITY=smoke", PWD=str(linked.folder)).stdout
+    assert [file.stat().st_mtime_ns for file in files] == before
+
+
 def test_an_environment_without_interpreter_is_renewed(moved: Clone) -> None:
     """As after an upgrade of the system's Python."""
     python = moved.folder / ".venv/bin/python"
@@ -84,11 +146,12 @@ def test_a_user_without_name_and_home(moved: Clone) -> None:
             folder.chmod(folder.stat().st_mode | 0o011)
     command = ["setpriv", "--reuid", "12345", "--clear-groups", "--regid", "12345"]
     environment = {"PATH": f"{os.defpath}:{moved.folder}/uv", "HOME": "/nonexistent"}
-    done = subprocess.run(
-        [*command, "/usr/bin/make", "status", "QUALITY=smoke"],
-        cwd=moved.folder, env=environment, capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    assert done.returncode == 0, done.stdout + done.stderr
+    for target in (("status",), ("panel", "PANEL=fig03")):
+        done = subprocess.run(
+            [*command, "/usr/bin/make", *target, "QUALITY=smoke"],
+            cwd=moved.folder, env=environment, capture_output=True, text=True, check=False,
+        )  # fmt: skip
+        assert done.returncode == 0, done.stdout + done.stderr
 
 
 @pytest.mark.parametrize(
@@ -118,6 +181,8 @@ def test_two_at_once_are_refused(clean: Clone) -> None:
         assert first.stdout
         assert first.stdout.readline() == "held\n"
         clean.run(*command, "true", status=1)
+        for target in ("setup", "build", "clean"):  # before anything is changed
+            assert "Another make is running" in clean.make(target, status=2).stdout
         first.kill()
     clean.run(*command, "true")  # the lock has ended with its process
 

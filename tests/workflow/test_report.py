@@ -164,12 +164,12 @@ def test_the_gallery_shows_unmodified_products_only(kept: Clone) -> None:
     whole = edited.read_bytes()
     with h5py.File(edited, "r+") as file:
         file["results/mu/mean"][...] *= 1.001
-    refused(f"{edited.name} was modified after it was written; run make audit")
+    refused(f"{edited.name} was modified after it was written; remove it and run make figures QUALITY=smoke")
     edited.write_bytes(whole)
     picture = kept.folder / "figures/smoke/fig07.png"
     kept_picture = picture.read_bytes()
     picture.unlink()
-    refused("fig07.png is missing or damaged; run make figures QUALITY=smoke")
+    refused("fig07.png is missing or damaged; remove it and run make figures QUALITY=smoke")
     picture.write_bytes(kept_picture)
     replace("README.md", "<!-- end of the answer -->", "")(kept)
     printed = kept.module("report.gallery", "--quality", "smoke", "--identity", "0" * 12, status=1)

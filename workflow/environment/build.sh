@@ -3,8 +3,12 @@
 set -euo pipefail
 build=${BUILD:-build}
 mkdir -p "$build"
-# ninja and cmake decide by time stamps: sources with future times, from a machine with another clock, would always be compiled.
+# ninja and cmake decide by time stamps. Sources whose content differs from the last build are newer than it, also a former version that
+# was restored with its old time; none has a future time, of a machine with another clock, with which it would always be compiled.
+sums() { find cpp tests/cpp -type f -exec cksum {} + | sort; }
+if [ -f "$build/sums" ]; then sums | comm -13 "$build/sums" - | while read -r _ _ file; do touch "$file"; done; fi
 find cpp tests/cpp -newermt '1 minute' -exec touch {} +
+sums >"$build/sums"
 
 compiler=$(command -v "${CXX:-c++}") || { echo "the compiler CXX=${CXX:-c++} is not installed; install it or choose another" >&2; exit 1; }
 # CMake never looks for another compiler or other libraries than at first. So these start a new configuration, as does a failure.

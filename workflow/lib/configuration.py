@@ -41,6 +41,7 @@ OF_SERIES: Schema = {
 }
 NAME: Schema = {"type": "string", "pattern": "^[A-Za-z0-9_-]+$", "allowed": "letters, digits, _ and -"}
 NAMED: Schema = {"type": "object", "propertyNames": NAME, "minProperties": 1}
+NEW = " (after a change of the programs: run make describe)"
 SAFE = YAML(typ="safe", pure=True)
 
 
@@ -193,10 +194,10 @@ def _problems(error: ValidationError) -> Iterator[tuple[Keys, str]]:
     if error.validator == "additionalProperties" and isinstance(error.instance, dict):
         for name in error.instance.keys() - schema["properties"].keys():
             unknown = f"{schema['title']} has no such option" if "title" in schema else "unknown key"
-            remedy = nearest(str(name), schema["properties"])
+            remedy = nearest(str(name), schema["properties"]) + (NEW if "title" in schema else "")
             yield (*keys, name), schema.get("elsewhere", {}).get(name, f"{unknown}; {remedy}")
     elif error.validator == "enum":
-        yield keys, f"{value} is unknown; {nearest(str(error.instance), schema['enum'])}"
+        yield keys, f"{value} is unknown; {nearest(str(error.instance), schema['enum'])}{NEW}"
     elif "allowed" in schema:
         yield keys, f"{value} is invalid; allowed: {schema['allowed']}"
     else:

@@ -17,7 +17,7 @@ from workflow.lib import style
 from workflow.lib.closure import FilesRead
 from workflow.lib.columns import as_csv, inherited
 from workflow.lib.figure_metadata import Parents
-from workflow.lib.files import ROOT
+from workflow.lib.files import ROOT, refuse_another_folder
 from workflow.lib.load import FormatError, Result, load
 from workflow.lib.save import Text, save
 from workflow.lib.units import UnitsError
@@ -51,10 +51,9 @@ def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str
     parser.add_argument("--output", type=Path, required=True, help="figures/QUALITY/PANEL, without suffix")
     options = parser.parse_args()
     script = Path(sys.argv[0]).resolve()
-    if Path.cwd() != ROOT or not script.is_relative_to(ROOT):
-        sys.exit(
-            f"a script of {ROOT} runs in that folder, not in {Path.cwd()}: change to it, or run make setup if the project was moved"
-        )
+    refuse_another_folder()
+    if not script.is_relative_to(ROOT):
+        sys.exit(f"{script} is not in {ROOT}: move it into workflow/figures")
     try:
         results = [load(path) for path in options.data]
         style.apply()

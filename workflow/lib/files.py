@@ -2,11 +2,22 @@
 
 import hashlib
 import os
+import signal
 import subprocess
+import sys
 from collections.abc import Iterable, Mapping
 from pathlib import Path
+from types import TracebackType
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def refuse_another_folder() -> None:
+    """Exits if the working directory is not the project of this file."""
+    if Path.cwd() != ROOT:
+        sys.exit(
+            f"the working directory is {Path.cwd()}, not the project {ROOT} of this program: change to it, or use make here"
+        )
 
 
 def content_hash(content: bytes) -> str:
@@ -54,3 +65,17 @@ def project_files() -> list[str]:
         for path in paths
         if not path.startswith(products) and not path.endswith((".h5", ".cost.json", ".pyc"))
     ]
+
+
+def _report(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+    if isinstance(error, OSError):
+        print(in_one_line(error), file=sys.stderr)
+    else:
+        sys.__excepthook__(kind, error, trace)
+
+
+if Path(sys.argv[0]).resolve().is_relative_to(ROOT / "workflow"):  # a tool: python -m workflow.NAME
+    refuse_another_folder()
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # as of `make status | head`
+    sys.stdout = sys.stdout or open(os.devnull, "w")  # noqa: SIM115  # as of `make status >&-`
+    sys.excepthook = _report

@@ -209,7 +209,9 @@ def _opened(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
     except (OSError, KeyError, RuntimeError, ValueError) as error:
         if isinstance(error, OSError) and error.errno:  # unreadable, not damaged
             raise OSError(error.errno, os.strerror(error.errno), str(path)) from error
-        raise FormatError(f"{path} is damaged, or not a result file: {error}") from error
+        raise FormatError(
+            f"{path} is damaged, or not a result file: {error}; remove it and make it again"
+        ) from error
 
 
 def _attributes(group: h5py.Group) -> dict[str, Any]:

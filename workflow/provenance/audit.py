@@ -10,6 +10,7 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 from workflow.lib.command import command
+from workflow.lib.files import in_one_line
 from workflow.provenance.checks import Kind, Products
 from workflow.provenance.obsolete import faults
 from workflow.provenance.redraw import redraw
@@ -41,4 +42,8 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except OSError as error:
+        print(f"not checked: {in_one_line(error)}")
+        sys.exit(3)

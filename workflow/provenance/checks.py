@@ -117,12 +117,16 @@ class Products:
         except OSError as error:
             return Fault(path, f"cannot be read: {error.strerror}", Kind.UNCHECKED)
         except FormatError as error:
-            return Fault(path, str(error).removeprefix(f"{ROOT / path}").strip(": "))
-        if not whole:
             return Fault(
                 path,
-                "edited or damaged: its values differ from those written; remove it and run make figures",
+                str(error)
+                .removeprefix(f"{ROOT / path}")
+                .strip(": ")
+                .replace("make it again", f"run make figures QUALITY={self.quality}"),
             )
+        if not whole:
+            reason = "edited or damaged: its values differ from those written"
+            return Fault(path, f"{reason}; remove it and run make figures QUALITY={self.quality}")
         for name, value in run.options.items():
             if name in parameters and not _agree(value, parameters[name]):
                 return Fault(path, f"stale: it has --{name} {parameters[name]}, the configuration {value}")
@@ -139,7 +143,7 @@ class Products:
                 if not (ROOT / path).exists():
                     return Fault(path, "is missing")
                 if file_hash(ROOT / path) != digest:
-                    reason = f"edited or replaced: it differs from its hash in {Path(record).name}; run make figures"
+                    reason = f"edited or replaced: it differs from its hash in {Path(record).name}; run make figures QUALITY={self.quality}"
                     return Fault(path, reason)
             return self._fault_of_parents(panel, stated["parents"], [*files])
         except MetadataError as error:
@@ -151,9 +155,8 @@ class Products:
     def _fault_of_parents(self, panel: Panel, parents: Parents, files: list[str]) -> Fault | None:
         for path in files:
             if embedded(ROOT / path) not in (parents.as_json(), parents.identity):
-                return Fault(
-                    path, "edited or replaced: its parents differ from those in the record of the panel"
-                )
+                reason = f"edited or replaced: its parents differ from those in its record; remove it and run make figures QUALITY={self.quality}"
+                return Fault(path, reason)
         picture, present = files[0], self.results_of(panel.name)
         if other := [*({*parents.data} ^ {*present})]:
             return Fault(picture, f"stale: it plots other results than the configuration: {min(other)}")

@@ -141,7 +141,9 @@ def main() -> None:
     products = Products(options.quality, plan)
     names = options.panel or [*plan]
     for fault in (fault for name in names for fault in products.faults(name)):
-        sys.exit(f"{fault.path}: {fault.reason}; run make {'panel' if options.panel else 'figures'} first")
+        sys.exit(
+            f"{fault.path}: {fault.reason}{'' if 'run make' in fault.reason else f'; run make figures QUALITY={options.quality}'}"
+        )
     folder = ROOT / "build/crate" / options.quality
     write(pack(products, names), folder, ROOT / options.archive)
     print(f"The crate is {options.archive}, unpacked in {folder.relative_to(ROOT)}")

@@ -25,7 +25,7 @@ def redraw(products: Products, panel: str) -> Fault | None:
     done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False)
     if done.returncode:
         last = (done.stderr.strip().splitlines() or ["no message"])[-1]
-        return Fault(files[0], f"cannot be rendered: {last}")
+        return Fault(files[0], f"cannot be rendered: {last}", Kind.UNCHECKED)
     for path in files:
         other = again / Path(path).name
         if file_hash(ROOT / path) != file_hash(other):

@@ -61,8 +61,7 @@ def parent_lines(parents: Parents, few: int | None) -> Iterator[str]:
     for build in parents.builds.values():
         yield from build_lines(build)
     if by_state[OTHER]:
-        base, *_ = parents.quality.partition("_")
-        yield f"Parents have changed: make panel PANEL={parents.panel} QUALITY={base} makes the panel from those here"
+        yield f"Parents have changed: make panel PANEL={parents.panel} QUALITY={parents.quality} makes the panel from those here"
 
 
 def records() -> Iterator[tuple[str, str, dict[str, Any]]]:

@@ -60,8 +60,10 @@ class Products:
             self.used[path] = file_hash(here)
         except (OSError, FormatError) as error:
             raise ReportError(
-                f"{path} is missing or damaged; run make figures QUALITY={self.quality}"
+                f"{path} is missing or damaged; remove it and run make figures QUALITY={self.quality}"
             ) from error
         if not whole:
-            raise ReportError(f"{path} was modified after it was written; run make audit, then make figures")
+            raise ReportError(
+                f"{path} was modified after it was written; remove it and run make figures QUALITY={self.quality}"
+            )
         return here
