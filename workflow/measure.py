@@ -1,6 +1,5 @@
 """Results from Python: `measure("conductivity", cells=[16, 32], gamma="N", replicas=64)["kappa"]`."""
 
-import hashlib
 import itertools
 import json
 import warnings
@@ -9,6 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from workflow.lib.configuration import Options
 from workflow.lib.files import ROOT
+from workflow.lib.identity import seed_of
 from workflow.lib.load import Result, load
 from workflow.lib.nearest import nearest
 from workflow.lib.plan import Run, build_id
@@ -75,8 +75,7 @@ def _plain(options: Mapping[str, Any]) -> Options:
 def _result(program: str, options: Options, known: Mapping[str, Any]) -> Result:
     threads = {name: options.pop(name) for name in ("threads",) if name in options}
     if "seed" in known and "seed" not in options:
-        text = json.dumps([program, options], sort_keys=True)
-        options["seed"] = int.from_bytes(hashlib.sha256(text.encode()).digest()[:4], "big")
+        options["seed"] = seed_of(json.dumps([program, options], sort_keys=True))
     run = Run(program, program, options)
     path = FOLDER / f"{run.name}.{run.identity}.h5"
     if not path.exists():

@@ -14,6 +14,11 @@ def identity(*parts: Any) -> str:
     return hashlib.sha256(content.encode()).hexdigest()[:DIGITS]
 
 
+def seed_of(text: str) -> int:
+    """Seed from a hash of names, which gives every run its own reproducible random streams."""
+    return int.from_bytes(hashlib.sha256(text.encode()).digest()[:4], "big")
+
+
 def _canonical(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: _canonical(one) for key, one in value.items()}

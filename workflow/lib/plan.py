@@ -1,6 +1,5 @@
 """Plan of the configuration: the panels, their runs, and the names of their products."""
 
-import hashlib
 import itertools
 import re
 import shlex
@@ -16,7 +15,7 @@ from workflow.lib.configuration import (
     load_configuration,
     programs_of,
 )
-from workflow.lib.identity import identity
+from workflow.lib.identity import identity, seed_of
 from workflow.lib.nearest import nearest
 from workflow.provenance.build_id import built
 
@@ -126,9 +125,8 @@ class Quality:
                 {"target-error": self.error} if scale is None else {"target-absolute": self.error * scale}
             )
             options |= {"replicas": BATCH, **target}
-        return options | {
-            "seed": _seed(f"{panel}/{run}" if self.seed is None else f"{panel}/{run}/{self.seed}")
-        }
+        names = f"{panel}/{run}" if self.seed is None else f"{panel}/{run}/{self.seed}"
+        return options | {"seed": seed_of(names)}
 
 
 def load_plan(name: str, folder: Path = FOLDER) -> dict[str, Panel]:
@@ -201,8 +199,3 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Q
 def _in_name(value: object) -> str:
     """Value as part of a file name: 1perN for 1/N."""
     return str(value).replace("/", "per")
-
-
-def _seed(names: str) -> int:
-    """Seed from a hash of the names, which gives every run its own reproducible random streams."""
-    return int.from_bytes(hashlib.sha256(names.encode()).digest()[:4], "big")
