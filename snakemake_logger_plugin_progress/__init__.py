@@ -153,13 +153,14 @@ class LogHandler(LogHandlerBase):
         """Prints errors, except those that follow from a failed job or from Ctrl-C."""
         self._stopped = self._stopped or text.startswith(STOPPING)
         if self._stopped:
-            with suppress(ValueError):  # not in the main thread
-                signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second Ctrl-C would end in a traceback
+            ignore_interrupts()
         follows = self._stopped or self._failed or "CalledProcessError" in text  # JOB_ERROR comes next
         if text.startswith("Nothing to be done") or (level >= logging.ERROR and not follows):
             self._console.print(text)
 
     def close(self) -> None:
+        if self._stopped:
+            ignore_interrupts()  # Snakemake has its own handler meanwhile
         self._live.stop()
         sys.stderr.writelines(f"{text}\n" for text in self._early)
         done = f"{len(self._finished)} of {self._total} done"
@@ -219,6 +220,12 @@ def name_of(job: Record) -> str:
     """`panel`, `panel/run` or `panel/run/replicas`, or the rule of another product."""
     parts = [job.wildcards[key] for key in ("panel", "run", "part") if key in job.wildcards]
     return "/".join(parts) or job.rule_name
+
+
+def ignore_interrupts() -> None:
+    """A second Ctrl-C would end in a traceback."""
+    with suppress(ValueError):  # not in the main thread
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def elapsed(job: Record) -> float:

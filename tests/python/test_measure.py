@@ -133,10 +133,12 @@ def test_doubts_are_warned_of() -> None:
 
 def test_an_interrupted_call_is_continued(folder: Path, capfd: pytest.CaptureFixture[str]) -> None:
     options = {"cells": 4, "relaxation_time": 1, "observation_time": 200, "replicas": 4000, "threads": 1}
+    former = signal.signal(signal.SIGINT, signal.default_int_handler)  # workers of pytest ignore it
     timer = threading.Timer(1.5, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
     with pytest.raises(KeyboardInterrupt):
         measure("persistence", **options, sigma=0.3)
+    signal.signal(signal.SIGINT, former)
     assert [*folder.glob("*.checkpoint")]
     interrupted = re.search(r"interrupted after (\d+) replicas", capfd.readouterr().err)
     assert interrupted

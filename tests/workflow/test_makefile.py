@@ -277,7 +277,7 @@ def test_several_panels_and_a_dry_run(kept: Clone) -> None:
     made = {
         line
         for line in kept.make("panel", names, "QUALITY=smoke", "DRY=yes").stdout.splitlines()
-        if "/" in line
+        if line.startswith(("data/", "figures/"))
     }
     assert {line.partition(".")[0] for line in made} == {"figures/smoke/fig03", "figures/smoke/fig06"}
     assert not (kept.folder / "figures/smoke/fig03.csv").exists()
@@ -287,8 +287,12 @@ def test_several_panels_and_a_dry_run(kept: Clone) -> None:
     assert "2 panels with their results: 2 broken" in printed  # the result, and the figure without it
 
 
-def test_slurm_without_its_commands_is_refused(clean: Clone) -> None:
-    assert "sbatch is not in PATH" in clean.make("figures", "PROFILE=slurm", status=2, PATH=os.defpath).stdout
+def test_slurm_without_its_commands_is_refused(clean: Clone, tmp_path: Path) -> None:
+    for tool in Path("/usr/bin").iterdir():
+        if tool.name != "sbatch":
+            (tmp_path / tool.name).symlink_to(tool)
+    printed = clean.make("figures", "PROFILE=slurm", status=2, PATH=str(tmp_path)).stdout
+    assert "sbatch is not in PATH" in printed
 
 
 def test_help_names_every_target(clean: Clone) -> None:

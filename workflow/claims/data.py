@@ -25,6 +25,7 @@ class Data:
         self.plan = load_plan(quality)
         self.loaded: dict[str, Result] = {}  # by path
         self.used: dict[str, Result] = {}  # of these, by path, those that a claim took
+        self.damaged: list[str] = []  # paths of results that are there and refused
 
     def anew(self) -> "Data":
         """The same data, of which nothing has been used yet."""
@@ -65,6 +66,8 @@ class Data:
             try:
                 self.loaded[path] = load(self.root / path)
             except (FormatError, OSError) as error:
+                if (self.root / path).exists():
+                    self.damaged.append(path)
                 raise MissingError(f"{path} is missing, damaged or unreadable") from error
         return path, self.loaded[path]
 

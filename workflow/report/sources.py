@@ -30,6 +30,8 @@ class Products:
     def judged(self, data: Data) -> list[Judgement]:
         """All claims. Raises ReportError if a result that they depend on was modified."""
         judgements = judge_all(data)
+        for path in data.damaged:
+            self.file(path)
         for path in {path for judgement in judgements for path in judgement.data}:
             self.file(path)
         return judgements

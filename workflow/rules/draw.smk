@@ -19,7 +19,7 @@ rule draw:
             PLAN[wildcards.panel].script, f"figures/{QUALITY}/{wildcards.panel}", DATA[wildcards.panel]
         ),
     shell:
-        "{params.command} 2> {log:q}; [ -e {output:q} ] || {{"
+        "{params.command} 2> {log:q} || exit; [ -e {output:q} ] || {{"
         " echo 'no figure was written: end the script with run(draw, title); if it was edited meanwhile, run make again' >>{log:q}; exit 1; }}"
 
 

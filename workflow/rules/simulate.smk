@@ -1,8 +1,8 @@
 """One run of a program: data/<quality>/<panel>/<run>.<identity>.h5.
 
 Exit status 4: stopped before the target error; the result and the figure are marked. --resume continues from the checkpoint of an
-interrupted program. Snakemake removes an empty folder of outputs when it is terminated, and the checkpoint would be lost: PATH.tmp, which
-the program renames in the end, is there from the start.
+interrupted program. Snakemake removes an empty folder of outputs when it is terminated, and the checkpoint would be lost: PATH.tmp is
+there until the result is.
 """
 
 
@@ -16,4 +16,5 @@ rule simulate:
         command=lambda wildcards: shlex.join(command_line(run_of(wildcards), limit=limit_of_run(wildcards))),
         join=lambda wildcards, input: shlex.join(["--join", os.path.dirname(input[0])]) if input else "",
     shell:
-        ": >{output:q}.tmp; {params.command} {params.join} --progress log --output {output:q} 2> {log:q} || [ $? = 4 ]"
+        ": >{output:q}.tmp;"
+        " {{ {params.command} {params.join} --progress log --output {output:q} 2> {log:q} || [ $? = 4 ]; }} && rm {output:q}.tmp"
