@@ -203,7 +203,7 @@ def test_a_closed_output_is_no_error(clean: Clone, stream: str) -> None:
 
 
 def test_mistakes_in_a_panel_of_ones_own_name_the_step(kept: Clone) -> None:
-    replace("workflow/figures/fig03.py", "    run(draw", "    print(draw")(kept)
+    replace("workflow/figures/fig03.py", "    run(draw", "    dict(draw=draw) or run(draw")(kept)
     printed = kept.snakemake("figures", status=1)
     assert "no figure was written: end the script with run(draw, title)" in printed
     replace("workflow/config/paper.yaml", "program: conductivity", "program: own_program")(kept)

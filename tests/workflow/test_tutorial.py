@@ -56,7 +56,8 @@ def test_an_observable_of_your_own(own: Clone) -> None:
     assert list(table.sigma) == [-0.9, -0.5, 0, 0.5, 0.9]
     assert (table.rate > 0).all()
     assert "| `collision_rate` | `rate` | 1/time |" in (own.folder / "docs/format.md").read_text()
-    assert own.stale() == set()  # the other programs keep their build ids
+    # The other programs keep their build ids; figures depend on the schema, which has the units of options.
+    assert [job for job in own.stale() if "/" in job] == []
 
 
 def test_a_collision_rule_of_your_own(own: Clone) -> None:
