@@ -136,9 +136,11 @@ def test_an_interrupted_call_is_continued(folder: Path, capfd: pytest.CaptureFix
     former = signal.signal(signal.SIGINT, signal.default_int_handler)  # workers of pytest ignore it
     timer = threading.Timer(1.5, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
-    with pytest.raises(KeyboardInterrupt):
-        measure("persistence", **options, sigma=0.3)
-    signal.signal(signal.SIGINT, former)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            measure("persistence", **options, sigma=0.3)
+    finally:
+        signal.signal(signal.SIGINT, former)
     assert [*folder.glob("*.checkpoint")]
     interrupted = re.search(r"interrupted after (\d+) replicas", capfd.readouterr().err)
     assert interrupted

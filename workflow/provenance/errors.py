@@ -13,10 +13,8 @@ def main() -> None:
     missed = []
     total = 0
     for panel in panels:
-        runs = [run for run in panel.runs if run.target is not None]
-        reached = {run.name: load_provenance(ROOT / data_path(quality.name, panel.name, run)) for run in runs}
-        for run in runs:
-            stated = reached[run.name]
+        for run in (run for run in panel.runs if run.target is not None):
+            stated = load_provenance(ROOT / data_path(quality.name, panel.name, run))
             error = float(stated["achieved_error"]) / (run.scale or 1)
             line = f"{panel.name}/{run.name}: error {error:.2g} of {stated['target_quantity']}, requested {run.target:g}"
             if error <= (run.target or 0):  # also where the estimate itself is uncertain [eq. 52]
