@@ -34,7 +34,7 @@ SERIES = ("thinning", "dilute", "dense")  # of ext09, by spacing
 
 def sizes(data: Data, gamma: str | int) -> list[Result]:
     """Stationary runs of fig. 8, by N."""
-    return _stationary(data.of("fig08", "conductivity", gamma=gamma))
+    return _stationary(data.of("fig08", "conductivity", gamma=gamma, rule="elastic"))
 
 
 def _kappa(run: Result) -> Number:

@@ -1,7 +1,9 @@
 """Ext. 3: sound and heat peaks of rings in equilibrium, against mode coupling without a fitted parameter.
 
 C_g, the covariance of the momenta of two cells, has the sound peaks [mode_coupling.md, eq. M19]; that of E_s - theta E_p, the
-energies of scatterer and particles with theta = 1/(2 zeta), has the heat peak [eq. M29].
+energies of scatterer and particles with theta = 1/(2 zeta), has the heat peak [eq. M29]. A stable law of free order, width and
+area is fitted to the heat peak inside the sound peaks. Values of neighbouring cells are correlated, so its errors follow from
+the spread over runs that differ in the seed alone.
 """
 
 from collections.abc import Callable, Sequence
@@ -11,10 +13,11 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from scipy.optimize import least_squares
 
-from workflow.figures.ext13 import chain
+from workflow.figures.ext13 import LOOKS, chain
 from workflow.lib import style
-from workflow.lib.caption import listed, number, parameters, replicas
+from workflow.lib.caption import ERRORS, listed, number, parameters, replicas
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
@@ -23,45 +26,64 @@ from workflow.lib.mode_coupling import Chain, f_kpz, levy
 FIRST = 16  # time from which a peak is wider than cells, in λ/√T
 HALF_WIDTH = 0.880466  # of f_KPZ
 REACH = 3  # of the scaled profiles
-HEAT_REACH = 6
+HEAT_REACH = 4
 BIN = 0.2  # of the scaled distances, over which profiles are averaged
 
 
 class Record(NamedTuple):
-    """Profiles at one time, from the run in which they have the smallest error."""
+    """Profiles at one time, from the runs in which they have the smallest error: equal ones but for the seed."""
 
-    result: Result
+    results: Sequence[Result]
     position: int  # of the time
     time: float
     gas: Chain  # with infinitely many slow particles
     mobile: Chain  # with those that move within the time
 
     def value(self, name: str) -> tuple[float, float]:
-        quantity = self.result[name]
-        return float(quantity.mean[self.position]), float(quantity.error[self.position])
+        each = [result[name] for result in self.results]
+        mean, error = mean_over_runs(
+            np.array([one.mean[self.position] for one in each]),
+            np.array([one.error[self.position] for one in each]),
+        )
+        return float(mean), float(error)
 
     def profile(self, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Distances from the centre, in lengths; mean of both sides, and its error."""
-        quantity = self.result[name]
-        mean, error = quantity.mean[self.position], quantity.error[self.position]
-        middle = len(mean) // 2
-        sides = 0.5 * (mean[middle:] + mean[middle::-1][: len(mean) - middle])
-        return np.arange(len(sides)) * self.gas.cell_length, sides, error[middle:]
+        each = self.profiles(name)
+        errors = np.stack([result[name].error[self.position] for result in self.results])
+        mean, error = mean_over_runs(each, errors[:, errors.shape[1] // 2 :])
+        return np.arange(len(mean)) * self.gas.cell_length, mean, error
+
+    def profiles(self, name: str) -> np.ndarray:
+        """Mean of both sides, by run and distance in cells."""
+        means = np.stack([result[name].mean[self.position] for result in self.results])
+        middle = means.shape[1] // 2
+        return 0.5 * (means[:, middle:] + means[:, middle::-1][:, : means.shape[1] - middle])
+
+    @property
+    def mean_error(self) -> float:
+        return float(np.mean(self.profile("momentum_correlation")[2]))
+
+
+def mean_over_runs(values: np.ndarray, errors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Of the first dimension; runs have equal numbers of replicas."""
+    return values.mean(axis=0), np.sqrt(np.sum(errors**2, axis=0)) / len(values)
 
 
 def records(results: Sequence[Result]) -> list[Record]:
     """By gas and time."""
-    found: dict[tuple[float, float, float], Record] = {}
+    rings: dict[tuple[float, float, int], list[Result]] = {}
     for result in results:
-        for index, time in enumerate(result["peak"].axes["time"]):
-            gas, mobile = chain(result), chain(result, time)
-            one = Record(result, index, time, gas, mobile)
-            key = (gas.zeta, gas.mass, time)
-            error = float(np.mean(result["momentum_correlation"].error[index]))
-            if time * np.sqrt(gas.temperature) / gas.cell_length >= FIRST and (
-                key not in found or error < np.mean(found[key].profile("momentum_correlation")[2])
-            ):
-                found[key] = one
+        gas = chain(result)
+        rings.setdefault((gas.zeta, gas.mass, int(result.parameters["cells"])), []).append(result)
+    found: dict[tuple[float, float, float], Record] = {}
+    for (zeta, mass, _), runs in rings.items():
+        for index, time in enumerate(runs[0]["peak"].axes["time"]):
+            one = Record(runs, index, float(time), chain(runs[0]), chain(runs[0], time))
+            if time * np.sqrt(one.gas.temperature) / one.gas.cell_length < FIRST:
+                continue
+            key = (zeta, mass, float(time))
+            found[key] = min(found.get(key, one), one, key=lambda record: record.mean_error)
     return [found[key] for key in sorted(found)]
 
 
@@ -85,10 +107,15 @@ def scaled_sound(record: Record) -> pd.DataFrame:
 def scaled_heat(record: Record) -> pd.DataFrame:
     """Peak of unit area in units of (D_h t)^(3/5), with the logarithm of the mobile particles [eq. M29]."""
     x, y, error = record.profile("heat_correlation")
-    unit = (record.mobile.heat_spreading * record.time) ** (3 / 5)
+    unit = heat_width(record)
     per_area = unit / (heat_area(record) * record.gas.cell_length)
     near = x < HEAT_REACH * unit
     return binned(x[near] / unit, per_area * y[near], per_area * error[near])
+
+
+def heat_width(record: Record) -> float:
+    """(D_h t)^(3/5) [eq. M29]."""
+    return float((record.mobile.heat_spreading * record.time) ** (3 / 5))
 
 
 def heat_area(record: Record) -> float:
@@ -96,26 +123,98 @@ def heat_area(record: Record) -> float:
     return record.gas.temperature**4 / (4 * record.gas.cell_length * record.mobile.heat_susceptibility)
 
 
-def draw_peaks(
-    axes: Axes, shown: Sequence[Record], scaled: Callable[[Record], pd.DataFrame]
-) -> list[pd.DataFrame]:
+def stable_law(record: Record, profile: np.ndarray, order: float | None = None) -> np.ndarray:
+    """Width and area, over the predicted ones, and order, free or given, of the stable law that fits a heat peak inside
+    the sound peaks best."""
+    inside = profile[: int(0.5 * record.gas.sound_speed * record.time / record.gas.cell_length)]
+    x = np.arange(len(inside)) * record.gas.cell_length / heat_width(record)
+    y = inside * heat_width(record) / (heat_area(record) * record.gas.cell_length)
+    weight = np.where(x == 0, np.sqrt(0.5), 1)  # elsewhere there are two sides
+
+    def residuals(law: np.ndarray) -> np.ndarray:
+        width, area, exponent = law
+        return weight * (area / width * levy(x / width, exponent) - y)
+
+    if order is not None:
+        found = least_squares(lambda law: residuals(np.append(law, order)), [1, 1], bounds=(0.1, 10))
+        return np.append(found.x, order)
+    return least_squares(residuals, [1, 1, 5 / 3], bounds=([0.1, 0.1, 1], [10, 10, 3])).x
+
+
+def diffusive(record: Record, y: np.ndarray) -> np.ndarray:
+    """Gaussian of free width and area that fits the heat peak best, at scaled distances y."""
+    profile = record.profiles("heat_correlation").mean(axis=0)
+    width, area, order = stable_law(record, profile, order=2)
+    return area / width * levy(y / width, order)
+
+
+def fitted(record: Record) -> dict[str, float]:
+    """The stable law of the mean over all runs; errors by the jackknife over runs, as values of neighbouring cells are
+    correlated. Empty for one run."""
+    each = record.profiles("heat_correlation")
+    if len(each) < 2:
+        return {}
+    law = stable_law(record, each.mean(axis=0))
+    without_one = [stable_law(record, np.delete(each, k, axis=0).mean(axis=0)) for k in range(len(each))]
+    errors = np.sqrt(len(each) - 1) * np.std(without_one, axis=0)
+    names = ("stable_width_ratio", "stable_area_ratio", "stable_order")
+    return {
+        key: float(value)
+        for name, *pair in zip(names, law, errors, strict=True)
+        for key, value in zip((name, f"{name}_error"), pair, strict=True)
+    }
+
+
+def draw_sound(axes: Axes, shown: Sequence[Record]) -> list[pd.DataFrame]:
+    y = np.linspace(-REACH, REACH, 400)
+    axes.plot(y, f_kpz(y), color=style.BLACK, label=r"$f_{\mathrm{KPZ}}$")
     parts = []
     for record, color, dashes in zip(shown, style.SEQUENCE[1:], style.DASHES[1:], strict=False):
-        part = scaled(record)
+        part = scaled_sound(record)
         axes.plot(part.x, part.y, color=color, linestyle=dashes, label=f"$t = {record.time:g}$")
         style.band(axes, part.x, part.y, part.y_error, color)
-        parts.append(part.assign(zeta=record.gas.zeta, mass=record.gas.mass, time=record.time))
+        parts.append(labelled(part, record))
+    axes.set(
+        xlabel=r"$(r - ct)\,/\,(\lambda_s t)^{2/3}$",
+        ylabel=r"$2(\lambda_s t)^{2/3}\,C_g\,/\,\rho T$",
+        ylim=(None, 0.72),
+    )
+    axes.legend(loc="upper left", handlelength=1.8)
     return parts
 
 
-# Measured over predicted: name of the quantity, prediction, marker, colour, name in the legend.
-RATIOS: list[tuple[str, Callable[[Record], float], str, str, str]] = [
-    ("peak", lambda one: float(one.gas.sound_peak(one.gas.sound_speed * one.time, one.time)) * one.gas.cell_length**2,
-     "o", style.BLUE, "height"),
-    ("peak_width", lambda one: 2 * HALF_WIDTH * (one.gas.self_coupling * one.time) ** (2 / 3) / one.gas.cell_length,
-     "s", style.VERMILLION, "width"),
-    ("peak_area", lambda one: one.gas.peak_area * one.gas.cell_length, "^", style.ORANGE, "area"),
-    ("centroid", lambda one: one.mobile.sound_speed_in_cells * one.time, "D", style.GREEN, "speed"),
+def draw_heat(axes: Axes, shown: Sequence[Record]) -> list[pd.DataFrame]:
+    """On a logarithmic axis, on which laws of different order differ in the tails."""
+    y = np.linspace(0, HEAT_REACH, 400)
+    axes.plot(y, levy(y), color=style.BLACK, label="order 5/3, theory")
+    axes.plot(y, diffusive(shown[-1], y), color="0.4", linestyle=style.DASHES[3], label="order 2, fitted")
+    parts = []
+    for record, (marker, color) in zip(shown, LOOKS, strict=False):
+        part = scaled_heat(record)
+        axes.errorbar(
+            part.x, part.y, part.y_error, **style.points(marker, color), label=f"$t = {record.time:g}$"
+        )
+        parts.append(labelled(part, record))
+    axes.set(
+        xlabel=r"$r\,/\,(D_h t)^{3/5}$",
+        ylabel=r"$C_h\,(D_h t)^{3/5}\,/\,$predicted area",
+        yscale="log",
+        ylim=(2e-3, 1),
+    )
+    axes.legend(loc="upper right", handlelength=1.8)
+    return parts
+
+
+def labelled(part: pd.DataFrame, record: Record) -> pd.DataFrame:
+    return part.assign(zeta=record.gas.zeta, mass=record.gas.mass, time=record.time)
+
+
+# Of the sound peak, measured over predicted: name of the quantity and prediction.
+RATIOS: list[tuple[str, Callable[[Record], float]]] = [
+    ("peak", lambda one: float(one.gas.sound_peak(one.gas.sound_speed * one.time, one.time)) * one.gas.cell_length**2),
+    ("peak_width", lambda one: 2 * HALF_WIDTH * (one.gas.self_coupling * one.time) ** (2 / 3) / one.gas.cell_length),
+    ("peak_area", lambda one: one.gas.peak_area * one.gas.cell_length),
+    ("centroid", lambda one: one.mobile.sound_speed_in_cells * one.time),
 ]  # fmt: skip
 
 
@@ -124,70 +223,59 @@ def tabulate(found: Sequence[Record]) -> pd.DataFrame:
     rows = []
     for record in found:
         row = {"zeta": record.gas.zeta, "mass": record.gas.mass, "time": record.time}
-        expected = {name: predicted(record) for name, predicted, *_ in RATIOS}
+        expected = {name: predicted(record) for name, predicted in RATIOS}
         for name, predicted in (expected | {"heat_area": heat_area(record)}).items():
             value, error = record.value(name)
             row |= {f"{name}_ratio": value / predicted, f"{name}_ratio_error": error / predicted}
-        rows.append(row)
+        rows.append(row | fitted(record))
     return pd.DataFrame(rows)
 
 
-def draw_ratios(axes: Axes, table: pd.DataFrame) -> None:
-    for k, (_, part) in enumerate(table.groupby(["zeta", "mass"])):
-        for name, _, marker, color, label in RATIOS:
-            look = style.points(marker, color, "white" if k else None, label=None if k else label)
-            shift = 1.06 ** (k - 0.5)
-            axes.errorbar(part.time * shift, part[f"{name}_ratio"], part[f"{name}_ratio_error"], **look)
+def draw_heights(axes: Axes, table: pd.DataFrame) -> None:
+    """Of the sound peaks of all gases, over the theory."""
+    for (marker, color), ((zeta, mass), part) in zip(LOOKS, table.groupby(["zeta", "mass"]), strict=False):
+        look = style.points(marker, color, label=f"$\\zeta = {zeta:g}$, $M = {number(mass)}$")
+        axes.errorbar(part.time, part.peak_ratio, part.peak_ratio_error, **look)
     axes.axhline(1, **style.GUIDE)
-    axes.set(xscale="log", xlabel="time $t$", ylabel="measured / predicted", ylim=(0.8, 1.25))
-    style.label_within_decades(axes.xaxis)
-    axes.legend(loc="upper left", ncols=2, columnspacing=1)
+    axes.set(xscale="log", xlabel="time $t$", ylabel="height of the sound peak / theory", ylim=(0.8, 1.1))
+    axes.legend(loc="upper left")
 
 
-def last(table: pd.DataFrame, name: str, gas: Chain) -> str:
-    """Ratio at the last time of a gas."""
-    row = table[(table.zeta == gas.zeta) & (table.mass == gas.mass)].iloc[-1]
-    return with_error(row[f"{name}_ratio"], row[f"{name}_ratio_error"])
+def of(table: pd.DataFrame, gas: Chain) -> pd.DataFrame:
+    return table[(table.zeta == gas.zeta) & (table.mass == gas.mass)]
+
+
+def at_end(table: pd.DataFrame, name: str) -> str:
+    """Ratio at the last time of every gas, in the order of zeta."""
+    last = table.groupby(["zeta", "mass"]).tail(1)
+    return listed(map(with_error, last[f"{name}_ratio"], last[f"{name}_ratio_error"]))
 
 
 def draw(results: Sequence[Result]) -> Drawn:
     found = records(results)
     table = tabulate(found)
-    gas = found[0].gas  # the one whose peak settles first
-    of_gas = [one for one in found if (one.gas.zeta, one.gas.mass) == (gas.zeta, gas.mass)]
-    shown = of_gas[::-2][:4][::-1]
-    figure, (sound, heat, ratios) = plt.subplots(1, 3, figsize=(2.1 * style.COLUMN, style.HEIGHT))
-    y = np.linspace(-REACH, REACH, 400)
-    sound.plot(y, f_kpz(y), color=style.BLACK, label=r"$f_{\mathrm{KPZ}}$")
-    parts = draw_peaks(sound, shown, scaled_sound)
-    sound.set(
-        xlabel=r"$(r - ct)\,/\,(\lambda_s t)^{2/3}$",
-        ylabel=r"$2(\lambda_s t)^{2/3}\,C_g\,/\,\rho T$",
-        ylim=(None, 0.72),
+    first = chain(results[0])
+    sound = [one for one in found if (one.gas.zeta, one.gas.mass) == (first.zeta, first.mass)]
+    heat = [one for one in found if len(one.results) > 1][-3:]
+    figure, panels = plt.subplots(1, 3, figsize=(2.1 * style.COLUMN, style.HEIGHT))
+    parts = draw_sound(panels[0], sound[::-2][:4][::-1]) + draw_heat(panels[1], heat)
+    draw_heights(panels[2], table)
+    style.letter(*panels)
+    law = of(table, heat[-1].gas).dropna(subset="stable_order").iloc[-3:]
+    orders, widths, areas = (
+        listed(map(with_error, law[name], law[f"{name}_error"]))
+        for name in ("stable_order", "stable_width_ratio", "stable_area_ratio")
     )
-    sound.legend(loc="upper left", handlelength=1.8)
-    y = np.linspace(0, HEAT_REACH, 400)
-    heat.plot(y, levy(y), color=style.BLACK, label="Lévy, 5/3")
-    parts += draw_peaks(heat, shown, scaled_heat)
-    heat.set(
-        xlabel=r"$r\,/\,(D_h t)^{3/5}$", ylabel=r"$C_h\,(D_h t)^{3/5}\,/\,$predicted area", ylim=(None, 0.4)
-    )
-    heat.legend(loc="upper right", handlelength=1.8)
-    draw_ratios(ratios, table)
-    style.letter(sound, heat, ratios)
-    other = found[-1].gas
     caption = f"""
-        Peaks in rings in equilibrium, {parameters(results, "cell-length")},
-        T = {listed(sorted({number(one.parameters["temperature"]) for one in results}))}, {replicas(results)}; lines: mode coupling without a
-        fitted parameter (docs: mode coupling). (a) Sound: covariance C_g of the momenta of two cells at ζ = {number(gas.zeta)}, M = {number(gas.mass)}.
-        (b) Heat: covariance C_h of E_s − E_p/2ζ, energies of scatterer and particles, where particles slower than
-        λ/t count as frozen. (c) Height, width at half height, area, and speed (centre of mass over t) of the sound peak over theory; filled
-        as in (a), open: ζ = {number(other.zeta)}, M = {number(other.mass)}. At the end: height {last(table, "peak", gas)} and
-        {last(table, "peak", other)}, area {last(table, "peak_area", gas)} and {last(table, "peak_area", other)}, heat
-        {last(table, "heat_area", gas)} and {last(table, "heat_area", other)} of the area. Errors: standard errors over replicas."""
+        Peaks in rings in equilibrium, {parameters(results, "cell-length", "temperature")}, {replicas(results)}; black: mode coupling, nothing
+        fitted (docs: mode coupling). (a) Covariance C_g of the momenta of two cells, ζ = {number(first.zeta)}, M = {number(first.mass)}. (b) Covariance C_h of
+        E_s − E_p/2ζ, energies of scatterer and particles, ζ = {number(heat[-1].gas.zeta)}, M = {number(heat[-1].gas.mass)}. Stable laws fitted inside the
+        sound peaks have the order {orders} (theory 5/3, diffusion 2), {widths} of the width and {areas} of the area predicted; errors from
+        {len(heat[-1].results)} runs. (c) Height of the sound peaks; at the last times their areas are {at_end(table, "peak_area")} of the theory. {ERRORS}"""
     return figure, pd.concat([*parts, table]), caption
 
 
 if __name__ == "__main__":
-    ratios = {f"{name}_ratio": "1" for name in (*(one[0] for one in RATIOS), "heat_area")}
+    names = (*(one[0] for one in RATIOS), "heat_area", "stable_width", "stable_area")
+    ratios = {f"{name}_ratio": "1" for name in names} | {"stable_order": "1"}
     run(draw, "Sound and heat peaks in equilibrium", zeta="1", mass="1", x="1", y="1", **ratios)

@@ -2,28 +2,38 @@
 
 J_i = sum_k L_ik X_k / N with X_u = 1/T_R - 1/T_L and X_n = (mu/T)_L - (mu/T)_R, where mu/T = ln(nu/sqrt(T)) + const for
 half-Gaussian baths [eq. 29]. The heat conductivity without a current of particles is κ_0 = (L_uu - L_un L_nu/L_nn)/T^2.
-Mode coupling predicts κ_0 = a + (3A/λ)(τλN/c)^(1/3), where sound leaves after the time τλN/c [mode_coupling.md, eq. M33].
+Sound leaves the chain after the time t = τN/c, c in cells, so that κ_0 is that of a ring of the same gas up to this time:
+κ_0 = (√T/λ) ½ d(<Q²>/N)/dt, <Q²> measured in the units of T and λ [mode_coupling.md, eq. M33].
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 
 from workflow.figures.ext09 import LOOKS, by_spacing, gas, spacings
+from workflow.figures.ext13 import chain
 from workflow.lib import style
 from workflow.lib.caption import BATHS, listed, parameters, replicas
 from workflow.lib.figure import Drawn, require_elastic, run
-from workflow.lib.fit import Line, fit_line, with_error
+from workflow.lib.fit import mean_of, with_error
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
-from workflow.lib.mode_coupling import Chain
 
 DRAWN = 4000  # samples of the currents, for errors good to 1 %
 TOP = 1.15  # of what is drawn from 0 on, over its largest value
+DENSE = "dense"  # the gas of a fixed spacing
 COEFFICIENTS = ("L_uu", "L_un", "L_nu", "L_nn")
+
+
+class Mean(NamedTuple):
+    value: float
+    error: float
+    chi_square: float
+    freedom: int
 
 
 @dataclass(frozen=True)
@@ -93,32 +103,99 @@ def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     """One row per gas and size."""
     runs: dict[tuple[str, int], dict[bool, Response]] = {}
-    transit = {}
     for result in results:
         response = Response.of(result)
-        key = gas(result), response.cells
-        transit[key] = sound_transit(result)
-        runs.setdefault(key, {})[bool(response.forces[0])] = response
+        runs.setdefault((gas(result), response.cells), {})[bool(response.forces[0])] = response
     rows = [
-        {"gas": key[0], "cells": key[1], "sound_transit": transit[key]} | onsager(pair[True], pair[False])
-        for key, pair in runs.items()
+        {"gas": name, "cells": cells} | onsager(pair[True], pair[False])
+        for (name, cells), pair in runs.items()
     ]
     return pd.DataFrame(rows).sort_values("cells", ignore_index=True)
 
 
-def sound_transit(result: Result) -> float:
-    """(3A/λ)(λN/c)^(1/3): the growing part of κ_0 for τ = 1, in the gas that the baths would keep in equilibrium."""
+@dataclass(frozen=True)
+class Ring:
+    """½ d(<Q²>/N)/dt of a gas in equilibrium, in the units of T and λ, as a power law between the given times."""
+
+    sound_speed: float  # in cells
+    time: np.ndarray
+    growth: np.ndarray
+    relative_error: np.ndarray
+
+    @classmethod
+    def of(cls, results: Sequence[Result]) -> "Ring":
+        """From rings of one gas, of which the one with the smallest error gives every time."""
+        rows: list[tuple[float, ...]] = []
+        for result in results:
+            heat, exponent = result["heat_variance"], result["local_exponent"]
+            at = {name: np.log(values) for name, values in (("time", heat.axes["time"]), ("heat", heat.mean))}
+            middle = exponent.axes["middle"]
+            value = np.exp(np.interp(np.log(middle), at["time"], at["heat"]))
+            relative = np.hypot((heat.error / heat.mean)[1:], exponent.error / exponent.mean)
+            rows += zip(middle, 0.5 * value * exponent.mean / middle, relative, strict=True)
+        columns = ["time", "growth", "relative_error"]
+        table = pd.DataFrame(rows, columns=columns).sort_values("relative_error").drop_duplicates("time")
+        return cls(chain(results[0]).sound_speed_in_cells, *table.sort_values("time")[columns].to_numpy().T)
+
+    def conductivity(self, time: float) -> tuple[float, float]:
+        """κ_0 λ/√T if sound leaves after this time, and its error."""
+        growth, error = (
+            np.interp(np.log(time), np.log(self.time), values)
+            for values in (np.log(self.growth), self.relative_error)
+        )
+        return float(np.exp(growth)), float(np.exp(growth) * error)
+
+    def departure(self, conductivity: float, error: float) -> tuple[float, float]:
+        """Time after which sound leaves, from κ_0 λ/√T, and its error."""
+        increasing = np.maximum.accumulate(np.log(self.growth))
+        time = float(np.exp(np.interp(np.log(conductivity), increasing, np.log(self.time))))
+        exponent = np.gradient(np.log(self.growth), np.log(self.time)).mean()
+        _, own = self.conductivity(time)
+        return time, float(time / exponent * np.hypot(error, own) / conductivity)
+
+
+def rings(results: Sequence[Result]) -> dict[float, Ring]:
+    """By ζ, for the mass of the open chains."""
+    found: dict[float, list[Result]] = {}
+    for result in results:
+        found.setdefault(chain(result).zeta, []).append(result)
+    return {zeta: Ring.of(of_gas) for zeta, of_gas in found.items()}
+
+
+def fugacity(result: Result) -> float:
+    """ζ of the gas that the baths of an open chain would keep in equilibrium, from their flux at p = 0 [eq. 5]."""
     rate, temperature = (float(np.sqrt(np.prod(result.ends(name)))) for name in ("nu", "temperature"))
-    spacing, _ = style.spacing(result)
-    sigma = result.parameters["sigma"]
-    fugacity = rate * np.sqrt(2 / (np.pi * temperature))  # the flux of a bath at p = 0 [eq. 5]
-    chain = Chain(fugacity * spacing, (1 + sigma) / (1 - sigma), temperature, spacing)
-    return float(chain.conductivity(result.parameters["cells"], opening=1))
+    return rate * np.sqrt(2 / (np.pi * temperature)) * style.spacing(result)[0]
 
 
-def fitted(part: pd.DataFrame) -> Line:
-    """a and τ^(1/3), intercept and slope, from the sizes of one gas."""
-    return fit_line(part.sound_transit, part.kappa_0, part.kappa_0_error)
+def nearest_of(value: float, given: Iterable[float]) -> float:
+    """ζ of ext13's rings is rounded to 1.6."""
+    return min(given, key=lambda one: abs(one / value - 1))
+
+
+def with_theory(
+    table: pd.DataFrame, open_chains: Sequence[Result], found: dict[float, Ring]
+) -> tuple[pd.DataFrame, Mean]:
+    """τ of every size at the fixed spacing, κ_0 of every size predicted with their mean, and that mean."""
+    ring, unit = {}, {}
+    for result in open_chains:
+        key = gas(result), int(result.parameters["cells"])
+        ring[key] = found[nearest_of(fugacity(result), found)]
+        unit[key] = np.sqrt(np.sqrt(np.prod(result.ends("temperature")))) / style.spacing(result)[0]
+    keys = [*zip(table.gas, table.cells, strict=True)]
+    for k, (name, cells) in enumerate(keys):
+        if name != DENSE:
+            continue
+        one, scale = ring[name, cells], unit[name, cells]
+        time = one.departure(table.kappa_0[k] / scale, table.kappa_0_error[k] / scale)
+        table.loc[k, ["tau", "tau_error"]] = np.array(time) * one.sound_speed / cells
+    fixed = table.dropna(subset="tau")
+    tau = Mean(*mean_of(fixed.tau, fixed.tau_error), len(fixed) - 1)
+    for k, (name, cells) in enumerate(keys):
+        one = ring[name, cells]
+        value = one.conductivity(tau.value * cells / one.sound_speed)
+        table.loc[k, ["predicted", "predicted_error"]] = np.array(value) * unit[name, cells]
+    return table, tau
 
 
 def exponents(sizes: pd.Series, values: pd.Series, errors: pd.Series) -> str:
@@ -133,11 +210,21 @@ def crossed(table: pd.DataFrame) -> str:
 
 
 def draw(results: Sequence[Result]) -> Drawn:
-    require_elastic(results, "the conductivity of mode coupling")
-    table, spacing = tabulate(results), spacings(results)
-    dense, thinning = (table[table.gas == name] for name in ("dense", "thinning"))
-    law = fitted(dense)
-    table["predicted"] = law.at(table.sound_transit)
+    require_elastic(
+        [one for one in results if "nu-left" in one.parameters], "the conductivity of mode coupling"
+    )
+    open_chains = [one for one in results if one.provenance["program"] == "conductivity"]
+    closed = [
+        one
+        for one in results
+        if one.provenance["program"] == "heat_current" and one.parameters["rule"] == "elastic"
+    ]
+    mass = open_chains[0].parameters["sigma"]
+    table, spacing = tabulate(open_chains), spacings(open_chains)
+    table, tau = with_theory(
+        table, open_chains, rings([one for one in closed if one.parameters["sigma"] == mass])
+    )
+    thinning = table[table.gas == "thinning"]
     figure, (left, right, local) = plt.subplots(1, 3, figsize=(2.1 * style.COLUMN, style.HEIGHT))
     for name, part in table.groupby("gas", sort=False):
         look = style.points(*LOOKS[name])
@@ -146,9 +233,11 @@ def draw(results: Sequence[Result]) -> Drawn:
         left.errorbar(part.cells, per_cell, part.L_nn_error / part.cells, label=label, **look)
         right.errorbar(part.cells, part.kappa_0, part.kappa_0_error, **look)
         local.errorbar(*local_exponents(part.cells, part.kappa_0, part.kappa_0_error), **look)
-        middle, slope, _ = local_exponents(part.cells, part.predicted, 0 * part.predicted)
+        middle, slope, error = local_exponents(part.cells, part.predicted, part.predicted_error)
         right.plot(part.cells, part.predicted, color=look["color"])
+        style.band(right, part.cells, part.predicted, part.predicted_error, look["color"])
         local.plot(middle, slope, color=look["color"])
+        style.band(local, middle, slope, error, look["color"])
         for axes, column in ((left, per_cell), (right, part.kappa_0)):
             style.cross_out(axes, part.cells, column, ~part.usable)
     for axes in (left, right, local):
@@ -164,21 +253,27 @@ def draw(results: Sequence[Result]) -> Drawn:
         name: exponents(part.cells, part.kappa_0, part.kappa_0_error)
         for name, part in table.groupby("gas", sort=False)
     }
-    slopes = local_exponents(thinning.cells, law.at(thinning.sound_transit), np.zeros(len(thinning)))[1]
+    ratio = thinning.kappa_0 / thinning.predicted
+    error = ratio * np.hypot(
+        thinning.kappa_0_error / thinning.kappa_0, thinning.predicted_error / thinning.predicted
+    )
     caption = (
-        f"Linear response at γ = N, {parameters(results, 'sigma')}, from differences of temperature and of pressure "
-        f"({parameters(results, *BATHS)}), {replicas(results)}. (a) L_nn/N, coefficient of the particle current; "
-        "constant, as momentum is conserved. (b) Heat conductivity without particle current. (c) Its local exponents: "
-        f"{measured['thinning']} at λ = 1/N, {measured['dense']} at λ = {spacing['dense']}. Lines: mode coupling, a + "
-        f"b(τN)^(1/3), τ = {with_error(law.slope**3, 3 * law.slope**2 * law.error)} and a fitted at "
-        f"λ = {spacing['dense']} (χ² = {law.chi_square:.0f} for {law.freedom}). At λ = 1/N it predicts "
-        f"exponents that fall from {slopes[0]:.2f} to {slopes[-1]:.2f}.{crossed(table)}"
+        f"Linear response at γ = N, {parameters(open_chains, 'sigma')}, from differences of temperature and of pressure "
+        f"({parameters(open_chains, *BATHS)}), {replicas(open_chains)}. (a) L_nn/N, coefficient of the particle current; "
+        "constant, as momentum is conserved. (b) Heat conductivity without particle current. Lines: a ring of the same gas in "
+        "equilibrium up to the time τN/c, in which sound leaves the chain; nothing else is fitted. At λ = "
+        f"{spacing[DENSE]} τ = {with_error(tau.value, tau.error)} for all N (χ² = {tau.chi_square:.1f} for {tau.freedom}); with it, "
+        f"measured over predicted at λ = 1/N: {listed(map(with_error, ratio, error))}. (c) Local exponents: "
+        f"{measured['thinning']} at λ = 1/N, {measured[DENSE]} at λ = {spacing[DENSE]}.{crossed(table)}"
     )
     return figure, by_spacing(table, spacing), caption
 
 
 if __name__ == "__main__":
     units = {"L_uu": "energy^2/time", "L_un": "energy/time", "L_nu": "energy/time", "L_nn": "1/time"}
-    conductivities = ("kappa", "kappa_0", "sound_transit", "predicted")
-    units |= dict.fromkeys(conductivities, "energy/(time temperature)") | {"asymmetry": "energy/time"}
+    conductivities = ("kappa", "kappa_0", "predicted")
+    units |= dict.fromkeys(conductivities, "energy/(time temperature)") | {
+        "asymmetry": "energy/time",
+        "tau": "1",
+    }
     run(draw, "Linear response of energy and particle currents", **units)

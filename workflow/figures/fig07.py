@@ -1,5 +1,5 @@
-"""Fig. 7: spreading of a tagged particle at sigma = 1/2, with the paper's random total momentum and with none, and the part
-that is the drift of all particles."""
+"""Fig. 7: spreading of a tagged particle at sigma = 1/2, with the paper's random total momentum and with none, the part that is
+the drift of all particles, and how it falls with the number of cells."""
 
 from collections.abc import Sequence
 
@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import CHAIN, ERRORS, GAS, number, parameters, replicas
+from workflow.lib.caption import CHAIN, ERRORS, GAS, listed, number, parameters, replicas
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
@@ -16,22 +16,24 @@ ROUNDING = 1e-9  # relative, of times on a logarithmic grid
 GUIDED = 100  # the guides span so much of the times
 APART = 3  # factor between a guide and the last point
 
-# By whether the total momentum is zero.
-LOOKS = {
-    False: style.points("o", style.BLUE, label="random total momentum"),
-    True: style.points("s", style.VERMILLION, "white", label="zero total momentum"),
-}
+ZERO = style.points("s", style.VERMILLION, "white")
+RANDOM = [("o", style.BLUE), ("^", style.SKY), ("D", style.GREEN)]  # by size
 
 
 def zero(result: Result) -> bool:
     return bool(result.parameters["zero-total-momentum"])
 
 
+def cells(result: Result) -> int:
+    return int(result.parameters["cells"])
+
+
 def tabulate(result: Result) -> pd.DataFrame:
     """One row per time. The error of the fraction neglects that both parts vary together: it is an upper bound."""
     variance, drift, slope = result["variance"], result["centre_of_mass"], result["local_slope"]
     columns = result.columns("variance", "centre_of_mass")
-    table = pd.DataFrame({"time": variance.axes["time"], "zero_total_momentum": zero(result), **columns})
+    run = {"cells": cells(result), "zero_total_momentum": zero(result)}
+    table = pd.DataFrame({"time": variance.axes["time"], **run, **columns})
     table["fraction"] = drift.mean / variance.mean
     relative = np.hypot(drift.error / drift.mean, variance.error / variance.mean)
     table["fraction_error"] = table["fraction"] * relative
@@ -43,30 +45,37 @@ def tabulate(result: Result) -> pd.DataFrame:
 
 def caption(random: pd.DataFrame, results: Sequence[Result], window: tuple[float, float]) -> str:
     last = random.iloc[-1]
-    alpha = {zero(result): style.with_error(result["alpha"]) for result in results}
-    without = f"With zero total momentum α is {alpha[True]}." if True in alpha else ""
+    alpha = [(cells(one), style.with_error(one["alpha"])) for one in results if not zero(one)]
+    larger = listed(f"{text} at N = {size}" for size, text in alpha[1:]) if alpha[1:] else ""
+    without = [style.with_error(one["alpha"]) for one in results if zero(one)]
+    options = [name for name in (*CHAIN, *GAS, "relaxation-time") if name != "cells"]
     return f"""
-        Spreading of a tagged particle in a closed chain, {parameters(results, *CHAIN, *GAS, "relaxation-time")}, {replicas(results)}.
-        (a) Mean square displacement with random total momentum, as in the paper, and with zero total momentum; line: centre of
-        mass of the former; dashed: t and t². (b) Local exponents. In the shaded window, t = {number(window[0])} to {number(window[1])}, the former has α =
-        {alpha[False]}, slightly below two as in the paper. It is drift of the centre of mass, not superdiffusion:
-        {with_error(100 * last.fraction, 100 * last.fraction_error)} % at the end. {without} {ERRORS}"""
+        Spreading of a tagged particle in closed chains of N cells, {parameters(results, *options)}, {replicas(results)}.
+        (a) Mean square displacement with random total momentum, as in the paper, and with zero total momentum; lines: centre of
+        mass of the former; dashed: t and t². (b) Local exponents. In the shaded window, t = {number(window[0])} to {number(window[1])}, α is
+        {alpha[0][1]} in the paper's {alpha[0][0]} cells, slightly below two. This is drift of the centre of mass, {with_error(100 * last.fraction, 100 * last.fraction_error)} %
+        of ⟨x²⟩ at the end, whose velocity falls as 1/√N: {f"α is {larger}" if larger else ""}{f", and {without[0]} with zero total momentum" if without else ""}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
-    results = sorted(results, key=zero)
+    results = sorted(results, key=lambda one: (zero(one), cells(one)))
     tables = [tabulate(result) for result in results]
     random = tables[0]
     time = random.time
     last = float(time.iloc[-1])
     window = (last / 10 ** results[0].parameters["fit-decades"], last)
-    figure, (above, below) = style.stacked(2, 1, height=1.6)
+    figure, (above, below) = style.stacked(2, 1, height=1.8)
+    shapes = iter(RANDOM)
     for result, table in zip(results, tables, strict=True):
-        look = LOOKS[zero(result)]
-        above.errorbar(time, table.variance, table.variance_error, **look)
-        middle = np.sqrt(time * time.shift(-1))
+        look = ZERO if zero(result) else style.points(*next(shapes))
+        name = f"$N = {cells(result)}$" + (", zero total momentum" if zero(result) else "")
+        every = slice(None) if cells(result) == cells(results[0]) else slice(None, None, 2)
+        shown = table.iloc[every]
+        above.errorbar(shown.time, shown.variance, shown.variance_error, label=name, **look)
+        middle = np.sqrt(table.time * table.time.shift(-1))
         below.errorbar(middle, table.slope_to_next, table.slope_to_next_error, **look)
-    above.plot(time, random.centre_of_mass, color=style.BLACK, label="centre of mass")
+        if not zero(result):
+            above.plot(time, table.centre_of_mass, color=look["color"], zorder=0)
     late = time[time > last / GUIDED]
     for table, power, factor in ((random, 2, APART), (tables[-1], 1, 1 / APART)):
         guide = factor * table.variance.iloc[-1] * (late / last) ** power

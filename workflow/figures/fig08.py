@@ -1,8 +1,9 @@
 """Fig. 8: heat conductivity against the number of cells, and local exponents d ln kappa / d ln N between neighbouring sizes,
 which are constant where a power law holds.
 
-Beside the paper's drive a stronger one at the same spacing, whose errors are smaller (ext. 9). The mean field is the kinetic
-equation of N scatterers. Points whose window is not stationary, or whose run stopped before its target, are crossed out and
+Beside the paper's drive a stronger one at the same spacing, whose errors are smaller (ext. 9). The control has random
+directions after collisions, which do not conserve momentum, at the paper's spacing 1/N and at a fixed one. The mean field is the
+kinetic equation of N scatterers. Points whose window is not stationary, or whose run stopped before its target, are crossed out and
 not used.
 """
 
@@ -15,15 +16,19 @@ from matplotlib.axes import Axes
 
 from workflow.figures.ext09 import gas
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, baths, number, parameters, replicas
+from workflow.lib.caption import ERRORS, baths, listed, number, parameters, replicas
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
 BELOW = 0.7  # factor by which guides lie below the lowest point
+SERIES = ["rule", "gamma", "spacing", "drive"]  # columns that tell curves apart
 GUIDES = {"N": (1 / 3, r"$N^{1/3}$", "1/3"), 1: (1, "$N$", "1")}  # the paper's exponents by gamma
 STRONG = style.points("^", style.ORANGE, "white")
+RANDOM = [
+    style.points("D", style.GREEN, face) for face in ("white", None)
+]  # at the spacing 1/N and at a fixed one
 
 
 def drive(result: Result) -> float:
@@ -48,15 +53,15 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     """One row per run, sorted by N, with the local exponent from every sound size to the next; neighbours share a size."""
     rows = []
     for result in results:
-        row = {"gamma": result.parameters["gamma"], "cells": result.parameters["cells"]}
-        row["drive"] = drive(result)
+        row = {name: result.parameters[name] for name in ("rule", "gamma", "cells")}
+        row |= {"spacing": style.spacing(result)[1], "drive": drive(result)}
         row |= result.columns("kappa", "kappa_particle", "kappa_plain", "kappa_printed", "energy_current")
         row["usable"] = result.sound
         rows.append(row)
     table = pd.DataFrame(rows).sort_values("cells", ignore_index=True)
     columns = ["between", "exponent_to_next", "exponent_to_next_error"]
     table[columns] = np.nan  # where fewer than two sizes are usable
-    for _, part in table[table.usable].groupby(["gamma", "drive"]):
+    for _, part in table[table.usable].groupby(SERIES):
         local = local_exponents(part.cells, part.kappa, part.kappa_error)
         for column, values in zip(columns, local, strict=True):
             table.loc[part.index[:-1], column] = values
@@ -73,22 +78,32 @@ def draw_guide(axes: Axes, part: pd.DataFrame, slope: float, name: str) -> None:
 
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
-    weak = [one for one in results if drive(one) == table.drive.min()]
+    elastic = [one for one in results if one.parameters["rule"] == "elastic"]
+    weak = [one for one in elastic if drive(one) == table.drive.min()]
     slopes = table.dropna(subset="between")
     pairs = zip(slopes.exponent_to_next, slopes.exponent_to_next_error, strict=True)
     texts = pd.Series([with_error(*pair) for pair in pairs], slopes.index, dtype=str)
-    rare, often = (texts[(slopes.gamma == gamma) & (slopes.drive == table.drive.min())] for gamma in (1, "N"))
-    strong = texts[slopes.drive > table.drive.min()]
+    own = slopes.rule == "elastic"
+    rare, often = (
+        texts[own & (slopes.gamma == gamma) & (slopes.drive == table.drive.min())] for gamma in (1, "N")
+    )
+    strong = texts[own & (slopes.drive > table.drive.min())]
+    random = [
+        f"{with_error(*last[['kappa', 'kappa_error']])} at N = {last.cells} (λ = {spacing})"
+        for spacing, part in table[table.rule != "elastic"].groupby("spacing", sort=False)
+        for last in [part.iloc[-1]]
+    ]
 
     def one(found: pd.Series, index: int) -> str:
         return str(found.iloc[index]) if len(found) else "an unknown value"
 
     return f"""
         Heat conductivity κ = −J_U N/(T_N − T_1) of open chains against the number of cells N, {parameters(weak, "cell-length", "sigma")},
-        {baths(weak[0])}, {replicas(results)}. Triangles: stronger drive, T_R/T_L = {number(table.drive.max())} (ext. 9). (a) κ; dashed
+        {baths(weak[0])}, {replicas(results)}. Triangles, diamonds: T_R/T_L = {number(table.drive.max())} (ext. 9). (a) κ; dashed
         grey: the paper's powers of N, blue: mean field, the kinetic equation of N scatterers. (b) Local exponents between neighbouring
-        sizes. For γ = 1 the exponent tends to {one(rare, -1)}. For γ = N no single power holds, as the gas thins out: from {one(often, 0)} at the
-        smallest sizes the exponent rises above 1/2 and falls to {one(often, -1)} at the largest; {one(strong, -1)} at stronger drive. {ERRORS}"""
+        sizes. For γ = 1 the exponent tends to {one(rare, -1)}. For γ = N no single power holds: from {one(often, 0)} at the
+        smallest sizes the exponent rises above 1/2 and falls to {one(often, -1)} at the largest; {one(strong, -1)} at stronger drive.
+        With random directions, which do not conserve momentum, κ tends to a constant: {listed(random)}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
@@ -97,27 +112,33 @@ def draw(results: Sequence[Result]) -> Drawn:
     table, theory = tabulate(runs), mean_field(results)
     size = (2 * style.COLUMN, 1.1 * style.HEIGHT)
     figure, (left, right) = plt.subplots(1, 2, figsize=size, sharex=True)
-    weak = table[table.drive == table.drive.min()]
-    for gamma, shape in style.BY_GAMMA.items():
-        part, look = weak[weak.gamma == gamma], style.points(*shape)
-        left.errorbar(part.cells, part.kappa, part.kappa_error, label=rf"$\gamma = {gamma}$", **look)
+
+    def draw_points(part: pd.DataFrame, look: style.Look, label: str) -> None:
+        left.errorbar(part.cells, part.kappa, part.kappa_error, label=label, **look)
         right.errorbar(part.between, part.exponent_to_next, part.exponent_to_next_error, **look)
+
+    elastic = table[table.rule == "elastic"]
+    weak, strong = elastic[elastic.drive == table.drive.min()], elastic[elastic.drive > table.drive.min()]
+    for gamma, shape in style.BY_GAMMA.items():
+        part = weak[weak.gamma == gamma]
+        draw_points(part, style.points(*shape), rf"$\gamma = {gamma}$")
         slope, power, name = GUIDES[gamma]
         draw_guide(left, part, slope, power)
         style.guide_at(right, slope, name)
-    strong = table[table.drive > table.drive.min()]
-    label = rf"$\gamma = N$, $T_R/T_L = {table.drive.max():g}$"
-    left.errorbar(strong.cells, strong.kappa, strong.kappa_error, label=label, **STRONG)
-    right.errorbar(strong.between, strong.exponent_to_next, strong.exponent_to_next_error, **STRONG)
+    draw_points(strong, STRONG, rf"$\gamma = N$, $T_R/T_L = {table.drive.max():g}$")
     look = {"color": style.BY_GAMMA["N"][1], "linestyle": "dashed", "label": r"$\gamma = N$, mean field"}
     left.plot(theory.cells, theory.mean_field_kappa, **look)
+    control = table[table.rule != "elastic"].groupby("spacing", sort=False)
+    for (spacing, part), look in zip(control, RANDOM, strict=False):
+        draw_points(part, look, rf"$\gamma = N$, random directions, $\lambda = {spacing}$")
+    style.guide_at(right, 0, "0")
     style.cross_out(left, table.cells, table.kappa, ~table.usable)
     left.set(xscale="log", yscale="log", xlabel="number of cells $N$")
     left.set_ylabel(rf"conductivity $\kappa$ ({style.UNITS})")
     right.set(xlabel="number of cells $N$", ylabel=r"$d\ln\kappa/d\ln N$")
     low, high = left.get_xlim()
     left.set_xlim(low, 1.6 * high)  # room for the names of the guides
-    left.legend(loc="upper left")
+    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=3)
     style.letter(left, right)
     columns = ["gamma", "cells", "drive"]
     whole = table.drop(columns="between").merge(theory, how="left", on=columns)

@@ -37,10 +37,10 @@ ERRORS = "Error bars: standard errors over replicas."
 
 
 def number(value: float) -> str:
-    """The value with four digits, or as a fraction with denominator 2 or 3, and with a typographic minus sign."""
+    """The value with four digits, or as a fraction with denominator 2, 3 or 9, and with a typographic minus sign."""
     fraction = Fraction(value).limit_denominator(10)
     exact = fraction.denominator > 1 and abs(fraction - Fraction(value)) < 1e-12
-    if exact and fraction.denominator in (2, 3):
+    if exact and fraction.denominator in (2, 3, 9):
         text = str(fraction)
     else:
         text = f"{value:.0f}" if abs(value) >= 1e4 else f"{value:.4g}"
