@@ -150,7 +150,11 @@ def test_three_fields_with_many_slow_particles(chain: Chain) -> None:
         # J_q = 2 z δT w, with w² = (T/2ρ) φ+² in a wave to the right.
         current = 2 * chain.fugacity * heating * chain.temperature / (2 * chain.inertia)
         amplitude = (2 * current / chain.temperature) ** 2 * finite.self_coupling ** (-2 / 3)
-        assert finite.decoupled_heat_amplitude == pytest.approx(mode_coupling.SQUARE_INTEGRAL * amplitude)
+        square = mode_coupling.SQUARE_INTEGRAL * finite.self_coupling ** (-2 / 3)
+        gaussian = finite.gaussian_heat_correlation(square)
+        assert gaussian == pytest.approx(mode_coupling.SQUARE_INTEGRAL * amplitude)
+        # As M27 is to M25.
+        assert finite.heat_amplitude / gaussian == pytest.approx(8 / 9 * 0.510523 / 0.389813)
     _, steepening, _ = found(300.0)
     to_first_order = replace(chain, slow_logarithm=300.0).steepening
     assert steepening / chain.steepening - 1 == pytest.approx(to_first_order / chain.steepening - 1, rel=0.1)
@@ -180,10 +184,26 @@ def test_heat_current() -> None:
 
 @pytest.mark.parametrize("chain", CHAINS)
 def test_drude_weight(chain: Chain) -> None:
-    """<J_n Π>²/<Π²> per length, where <J_n Π> = dJ_n/dw T and <Π²> = dg/dw T."""
+    """<J_n Π>²/<Π²> per length, where <J_n Π> = dJ_n/dw T and <Π²> = dg/dw T [eq. M30]."""
     fields, currents = fields_and_currents()
     weight = (currents[0].diff(w) ** 2 / fields[1].diff(w) * T).subs({**values(chain), w: 0})
-    assert chain.drude_weight == pytest.approx(float(weight))
+    assert 4 * chain.fugacity**2 * chain.temperature / chain.inertia == pytest.approx(float(weight))
+
+
+def test_slow_particles_lower_the_sound_peak_by_a_constant_factor() -> None:
+    """The convolution of f_KPZ with the Lorentzian of M32: by 6 % at ζ = 0.2 and M = 1/9, by 1.5 % at 0.8 and 1/3."""
+
+    def lowered(zeta: float, mass: float, time: float) -> float:
+        chain = replace(Chain(zeta, mass), slow_logarithm=logarithm_at(time))
+        scaled = chain.sound_damping * time / (Chain(zeta, mass).self_coupling * time) ** (2 / 3)
+        peak, _ = quad(
+            lambda y: float(f_kpz(y)) * scaled / pi / (y**2 + scaled**2), -9, 9, points=[0], limit=500
+        )
+        return 1 - peak / float(f_kpz(0))
+
+    for time in (64, 256, 1024):
+        assert 0.055 < lowered(0.2, 1 / 9, time) < 0.065
+        assert 0.014 < lowered(0.8, 1 / 3, time) < 0.016
 
 
 def test_slow_logarithm() -> None:
@@ -264,26 +284,12 @@ def test_sums_of_peaks(chain: Chain) -> None:
     assert chain.sound_peak(x, time).sum() * (x[1] - x[0]) == pytest.approx(
         chain.inertia * chain.temperature / 2
     )
-    narrow = replace(chain, slow_logarithm=8.0)
-    x = (narrow.heat_spreading * time) ** (3 / 5) * np.linspace(-150, 150, 1501)
-    assert narrow.heat_peak(x, time).sum() * (x[1] - x[0]) == pytest.approx(1, abs=1e-3)
 
 
 def test_variance_of_heat_is_the_double_integral_of_its_correlation() -> None:
-    chain, time, diffusion = Chain(1.6, 3), 50.0, 0.7
+    chain, time = Chain(1.6, 3), 50.0
     correlation, _ = quad(lambda s: 2 * (time - s) * chain.heat_amplitude * s ** (-2 / 3), 0, time)
-    assert chain.heat_variance(time, diffusion) == pytest.approx(correlation + 2 * diffusion * time, rel=1e-6)
-    step = 1e-4
-    slope = np.diff(np.log(chain.heat_variance(time * np.exp([-step, step]), diffusion))) / (2 * step)
-    assert chain.local_exponent(time, diffusion) == pytest.approx(float(slope[0]), rel=1e-6)
-
-
-def test_conductivity_is_the_integral_of_the_correlation() -> None:
-    chain = replace(Chain(1.6, 3), cell_length=0.5)
-    cells, opening = 200, 0.8
-    transit = opening * cells * chain.cell_length / chain.sound_speed
-    per_length, _ = quad(lambda s: chain.heat_amplitude * s ** (-2 / 3), 0, transit)
-    assert chain.conductivity(cells, opening) == pytest.approx(per_length / chain.cell_length, rel=1e-6)
+    assert chain.heat_variance(time) == pytest.approx(correlation, rel=1e-6)
 
 
 def test_units() -> None:

@@ -1,6 +1,7 @@
 """Ext. 13: growth of the mean square of the heat that passes in equilibrium, against mode coupling, and without momentum.
 
-Q is the integral of J_q = sum v (v²/2 − T) over all particles of a ring of N cells [mode_coupling.md, eqs. M21-M28].
+Q is the integral of J_q = sum v (v²/2 − T) over all particles of a ring of N cells [mode_coupling.md, eqs. M21-M28]. The fitted
+amplitude of its correlation is compared with that which the measured sound peaks (ext. 3) would have if they were Gaussian.
 """
 
 from collections.abc import Sequence
@@ -10,14 +11,15 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import listed, number, parameters, replicas
+from workflow.lib.caption import number, parameters, replicas
 from workflow.lib.figure import Drawn, run
-from workflow.lib.fit import with_error
+from workflow.lib.fit import mean_of, with_error
 from workflow.lib.load import Result
 from workflow.lib.mode_coupling import Chain, logarithm_at
 
-LOOKS = [("o", style.BLUE), ("s", style.VERMILLION), ("^", style.ORANGE)]
+LOOKS = [("o", style.BLUE), ("s", style.VERMILLION), ("^", style.ORANGE), ("v", style.SKY)]
 RANDOM = style.points("D", style.GREEN, "white")
+REACH = 4  # of the sound peak, over its width
 GAS = ["rule", "zeta", "mass"]  # columns that tell gases apart
 
 
@@ -78,21 +80,72 @@ def last_octave(part: pd.DataFrame) -> str:
     return f"{with_error(last.local_exponent, last.local_exponent_error)} ({label(last)})"
 
 
-def amplitude(results: Sequence[Result]) -> str:
-    """Fitted amplitude of the run over the longest time, relative to the predicted one in the middle of the fit."""
-    sound = [one for one in results if one.parameters["rule"] == "elastic"]
-    longest = max(sound, key=lambda one: one["heat_variance"].axes["time"][-1])
-    first, last = longest.parameters["fit-from"], longest["heat_variance"].axes["time"][-1]
-    gas = chain(longest, np.sqrt(first * last))
-    fitted = longest["amplitude"]
-    ratio = with_error(float(fitted.mean) / gas.heat_amplitude, float(fitted.error) / gas.heat_amplitude)
-    return f"A fit with a normal part over t = {number(first)} to {number(last)} gives {ratio} of the predicted amplitude."
+def longest_rings(results: Sequence[Result]) -> list[Result]:
+    """The run over the longest time of every gas with sound, in the order of GAS."""
+    found: dict[tuple[float, float], Result] = {}
+    for result in results:
+        gas = chain(result)
+        found[gas.zeta, gas.mass] = max(found.get((gas.zeta, gas.mass), result), result, key=last_time)
+    return [found[gas] for gas in sorted(found)]
+
+
+def last_time(result: Result) -> float:
+    return float(result["heat_variance"].axes["time"][-1])
+
+
+def amplitudes(rings: Sequence[Result], peaks: Sequence[Result]) -> pd.DataFrame:
+    """By gas: the fitted amplitude of <J_q(t) J_q(0)> over the predicted one [eqs. M25 and M22], and over that of Gaussian
+    fluctuations with the measured sound peak, from the times of the fit at which the peak was measured."""
+    rows = []
+    for ring in rings:
+        first, last = ring.parameters["fit-from"], last_time(ring)
+        gas = chain(ring, np.sqrt(first * last))
+        fitted = np.array([float(ring["amplitude"].mean), float(ring["amplitude"].error)])
+        row = {"zeta": gas.zeta, "mass": gas.mass, "fit_from": first, "fit_to": last}
+        row |= dict(
+            zip(("amplitude_ratio", "amplitude_ratio_error"), fitted / gas.heat_amplitude, strict=True)
+        )
+        squares = [
+            square_of_peak(peak, index, gas)
+            for peak in peaks
+            if (chain(peak).zeta, chain(peak).mass) == (gas.zeta, gas.mass)
+            for index, time in enumerate(peak["peak"].axes["time"])
+            if first <= time <= last
+        ]
+        if squares:
+            square, error, _ = mean_of(*np.transpose(squares))
+            ratio = fitted[0] / float(gas.gaussian_heat_correlation(square))
+            row["gaussian_ratio"] = ratio
+            row["gaussian_ratio_error"] = ratio * np.hypot(fitted[1] / fitted[0], error / square)
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def square_of_peak(result: Result, index: int, gas: Chain) -> tuple[float, float]:
+    """t^(2/3) times the integral of the square of the sound peak of unit area, and its error. Cells near each other have
+    correlated errors, so the relative error is that of the peak's height."""
+    time = float(result["peak"].axes["time"][index])
+    correlation, peak = result["momentum_correlation"], result["peak"]
+    middle = correlation.mean.shape[1] // 2
+    unit = (gas.self_coupling * time) ** (2 / 3)
+    offset = (np.arange(middle) * gas.cell_length - gas.sound_speed * time) / unit
+    near = (offset > -REACH) & (offset < REACH)
+    right, left = correlation.mean[index, middle : 2 * middle], correlation.mean[index, middle:0:-1]
+    noise = correlation.error[index, middle : 2 * middle] ** 2
+    # The mean of a square exceeds the square of the mean by the variance; both sides are equal, as pairs of cells are.
+    squares = (0.5 * (right + left)) ** 2 - noise
+    per_area = (gas.peak_area * gas.cell_length) ** 2
+    square = time ** (2 / 3) * float(np.sum(squares[near])) / per_area / gas.cell_length
+    return square, abs(square) * float(peak.error[index] / peak.mean[index])
 
 
 def draw(results: Sequence[Result]) -> Drawn:
-    table = tabulate(results)
+    heat = [one for one in results if one.provenance["program"] == "heat_current"]
+    table = tabulate(heat)
+    rings = longest_rings([one for one in heat if one.parameters["rule"] == "elastic"])
+    compared = amplitudes(rings, [one for one in results if one.provenance["program"] == "correlation"])
     figure, (left, right) = plt.subplots(1, 2, figsize=(2 * style.COLUMN, style.HEIGHT))
-    looks, said, reached = iter(LOOKS), [], []
+    looks, said = iter(LOOKS), []
     for _, part in table.groupby(GAS, sort=False):
         gas = part.iloc[0]
         look = RANDOM if gas.rule == "random-direction" else style.points(*next(looks))
@@ -101,11 +154,6 @@ def draw(results: Sequence[Result]) -> Drawn:
         left.plot(part.time, part.predicted / part.time, color=look["color"])
         right.errorbar(part.middle, part.local_exponent, part.local_exponent_error, **look)
         said.append(last_octave(part))
-        last = part.iloc[-1]
-        if np.isfinite(last.predicted):
-            reached.append(
-                with_error(last.heat_variance / last.predicted, last.heat_variance_error / last.predicted)
-            )
     left.set(
         xscale="log", yscale="log", xlabel="time $t$", ylabel=rf"$\langle Q^2 \rangle/Nt$ ({style.UNITS})"
     )
@@ -115,14 +163,37 @@ def draw(results: Sequence[Result]) -> Drawn:
     style.guide_at(right, 4 / 3, "4/3")
     style.guide_at(right, 1, "1")
     style.letter(left, right)
+    best = compared.loc[compared.amplitude_ratio_error.idxmin()]
+    gaussian = compared.dropna(subset="gaussian_ratio") if "gaussian_ratio" in compared else compared[:0]
+    fluctuations = (
+        f" Over that of Gaussian fluctuations with the measured sound peaks: {ratios(gaussian, 'gaussian_ratio')}."
+        if len(gaussian)
+        else ""
+    )
     caption = f"""
-        Heat Q that passes in a time t in rings in equilibrium, {parameters(results, "cell-length")},
-        T = {listed(sorted({number(one.parameters["temperature"]) for one in results}))}, {replicas(results)}; ζ: flux of slow particles.
-        (a) Mean square per cell and time. Lines: fluctuating hydrodynamics, nothing fitted, without normal diffusion; the
-        last points are {", ".join(reached)} of them. Random directions do not conserve momentum. (b) Exponents over octaves;
-        dashed: 4/3 of the theory, and diffusion. In the last octave: {", ".join(said)}. {amplitude(results)}"""
-    return figure, table, caption
+        Heat Q that passes in a time t in rings in equilibrium, {parameters(heat, "cell-length", "temperature")}, {replicas(heat)}; ζ: flux of
+        slow particles. (a) Mean square per cell and time. Lines: fluctuating hydrodynamics, nothing fitted, without normal
+        diffusion. Random directions do not conserve momentum. (b) Exponents over octaves;
+        dashed: 4/3 of the theory, and diffusion. In the last octave: {", ".join(said)}. Amplitudes fitted with a normal part, from t =
+        {number(best.fit_from)} on, over the predicted ones: {ratios(compared, "amplitude_ratio")}.{fluctuations}"""
+    return figure, pd.concat([table, compared]), caption
+
+
+def ratios(table: pd.DataFrame, name: str) -> str:
+    values = map(with_error, table[name], table[f"{name}_error"])
+    return ", ".join(
+        f"{value} ({number(zeta)}, {number(mass)})"
+        for value, zeta, mass in zip(values, table.zeta, table.mass, strict=True)
+    )
 
 
 if __name__ == "__main__":
-    run(draw, "Heat current in equilibrium", zeta="1", mass="1", predicted="energy^2 length^2")
+    own = {
+        "zeta": "1",
+        "mass": "1",
+        "amplitude_ratio": "1",
+        "gaussian_ratio": "1",
+        "fit_from": "time",
+        "fit_to": "time",
+    }
+    run(draw, "Heat current in equilibrium", predicted="energy^2 length^2", **own)

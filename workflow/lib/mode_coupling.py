@@ -89,20 +89,25 @@ class Chain:
         """A [eqs. M25, M26] of <J_q(t) J_q(0)> per length = T² A t^(-2/3)."""
         return 8 / 9 * SECOND_MOMENT * self._amplitude_scale
 
-    @property
-    def decoupled_heat_amplitude(self) -> float:
-        """A if φ+ were Gaussian [eq. M27], as mode coupling assumes: 14 % less."""
-        return SQUARE_INTEGRAL * self._amplitude_scale
+    def gaussian_heat_correlation(self, square: ArrayLike) -> np.ndarray:
+        """<J_q(t) J_q(0)> per length and T² if φ+ were Gaussian [eq. M27], as mode coupling assumes, from the integral of the
+        square of a sound peak of unit area at t."""
+        return self._heat_scale * np.asarray(square, dtype=float)
 
     @property
     def _amplitude_scale(self) -> float:
-        hot = self.fugacity / (self.fugacity + self._release)
-        return float((hot * self.sound_speed) ** 2 * self.self_coupling ** (-2 / 3))
+        return self._heat_scale * self.self_coupling ** (-2 / 3)
 
     @property
-    def drude_weight(self) -> float:
-        """Long-time limit of <J_n(t) J_n(0)> per length [eq. M30]."""
-        return 4 * self.fugacity**2 * self.temperature / self.inertia
+    def _heat_scale(self) -> float:
+        hot = self.fugacity / (self.fugacity + self._release)
+        return float((hot * self.sound_speed) ** 2)
+
+    @property
+    def sound_damping(self) -> float:
+        """Rate of damping over |k| [eq. M32] of sound by the exchange of slow particles."""
+        exchange = 16 * self.zeta * (2 * self.zeta + 1) * self.slow_logarithm**2
+        return pi * self.sound_speed / exchange
 
     @property
     def peak_area(self) -> float:
@@ -115,20 +120,9 @@ class Chain:
         offset = (np.asarray(x, dtype=float) - self.sound_speed * time) / width
         return self.peak_area * f_kpz(offset) / width
 
-    def heat_variance(self, time: ArrayLike, diffusion: float = 0.0) -> np.ndarray:
-        """<Q(t)²> per length [eq. M28]."""
-        t = np.asarray(time, dtype=float)
-        return 4.5 * self.temperature**2 * self.heat_amplitude * t ** (4 / 3) + 2 * diffusion * t
-
-    def local_exponent(self, time: ArrayLike, diffusion: float = 0.0) -> np.ndarray:
-        """d ln <Q²> / d ln t."""
-        normal = 2 * diffusion * np.asarray(time, dtype=float) / self.heat_variance(time, diffusion)
-        return 4 / 3 - normal / 3
-
-    def conductivity(self, cells: ArrayLike, opening: float, background: float = 0.0) -> np.ndarray:
-        """κ_0 of an open chain, per cell [eq. M33]: sound is lost after the time opening × length/c."""
-        transit = opening * self.cell_length * np.asarray(cells, dtype=float) / self.sound_speed
-        return background + 3 * self.heat_amplitude / self.cell_length * np.cbrt(transit)
+    def heat_variance(self, time: ArrayLike) -> np.ndarray:
+        """<Q(t)²> per length [eq. M28] without a normal part."""
+        return 4.5 * self.temperature**2 * self.heat_amplitude * np.asarray(time, dtype=float) ** (4 / 3)
 
     @property
     def heat_susceptibility(self) -> float:
@@ -141,11 +135,6 @@ class Chain:
         """D_h of exp(-D_h |k|^(5/3) t) [eq. M29], the Fourier transform of the heat peak."""
         per_susceptibility = self.temperature**2 * self.heat_amplitude / self.heat_susceptibility
         return float(per_susceptibility * gamma(1 / 3) * cos(pi / 6) * self.sound_speed ** (-1 / 3))
-
-    def heat_peak(self, x: ArrayLike, time: float) -> np.ndarray:
-        """Density of the heat peak, of area 1."""
-        width = (self.heat_spreading * time) ** (3 / 5)
-        return levy(np.asarray(x, dtype=float) / width) / width
 
 
 def slow_logarithm(cut: float, temperature: float = 1.0) -> float:
