@@ -79,11 +79,7 @@ def heat(exponent: float, error: float, monkeypatch: pytest.MonkeyPatch) -> str:
     def local_exponent(run: Run, middle: np.ndarray) -> np.ndarray:
         random = run.options["rule"] == "random-direction"
         decisive = 1.0 if random else exponent
-        return np.where(
-            (middle == middle[-1]) & (random | (2 * middle[-1] / 1.5 == longest)),
-            decisive,
-            0.7,
-        )
+        return np.where((middle == middle[-1]) & (random | (2 * middle[-1] / 1.5 == longest)), decisive, 0.7)
 
     world = {"ext13": truth({"heat_variance": 1, "local_exponent": local_exponent}, error)}
     return str(answers(judgements("reproduced"), Known(world))[2]["answer"])

@@ -59,12 +59,7 @@ def test_waiting_time_exponent(measure: Measure) -> None:
 
 def test_displacement_begins_ballistically(measure: Measure) -> None:
     result = measure(
-        "displacement",
-        sigma=0.5,
-        replicas=400,
-        relaxation_time=0,
-        observation_time=1e-4,
-        decades=1,
+        "displacement", sigma=0.5, replicas=400, relaxation_time=0, observation_time=1e-4, decades=1
     )
     variance = result["variance"]
     time = variance.axes["time"]

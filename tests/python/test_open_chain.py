@@ -47,10 +47,7 @@ def agree(z: np.ndarray) -> bool:
 
 
 @pytest.mark.parametrize(
-    ("cells", "gamma"),
-    [
-        *((1, "N"), (2, "N"), (8, "N"), (32, "N"), (2, 1), (16, 1), (8, 4), (16, 4)),
-    ],
+    ("cells", "gamma"), [*((1, "N"), (2, "N"), (8, "N"), (32, "N"), (2, 1), (16, 1), (8, 4), (16, 4))]
 )
 def test_against_the_reference_simulator(measure: Measure, cells: int, gamma: str | float) -> None:
     expected = reference(cells, cells if gamma == "N" else gamma, 5, 15)

@@ -145,10 +145,7 @@ def test_other_errors_are_shown(handler: LogHandler, capsys: Captured) -> None:
     ("command", "advice"),
     [
         ("snakemake figures", "The same command resumes."),
-        (
-            "snakemake --forceall figures",
-            "The same command starts again; without FRESH=yes it resumes.",
-        ),
+        ("snakemake --forceall figures", "The same command starts again; without FRESH=yes it resumes."),
     ],
 )
 def test_ctrl_c(capsys: Captured, command: str, advice: str) -> None:

@@ -110,11 +110,7 @@ CASES = {
     "boltzmann": ("boltzmann", {}),
     "boltzmann, cells": ("boltzmann", {"cells": 4, "gamma": "N"}),
 }
-COUNTS = {
-    "mu/mean",
-    "total_number/mean",
-    "momentum_points/mean",
-}  # ratios of counts, without rounding
+COUNTS = {"mu/mean", "total_number/mean", "momentum_points/mean"}  # ratios of counts, without rounding
 
 
 @cache

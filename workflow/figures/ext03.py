@@ -27,6 +27,7 @@ FIRST = 16  # time from which a peak is wider than cells, in λ/√T
 HALF_WIDTH = 0.880466  # of f_KPZ
 REACH = 3  # of the scaled profiles
 HEAT_REACH = 4
+HEAT_ORDER, GAUSSIAN = 5 / 3, 2  # of stable laws [eq. M29], and of diffusion
 BIN = 0.2  # of the scaled distances, over which profiles are averaged
 
 
@@ -138,13 +139,13 @@ def stable_law(record: Record, profile: np.ndarray, order: float | None = None) 
     if order is not None:
         found = least_squares(lambda law: residuals(np.append(law, order)), [1, 1], bounds=(0.1, 10))
         return np.append(found.x, order)
-    return least_squares(residuals, [1, 1, 5 / 3], bounds=([0.1, 0.1, 1], [10, 10, 3])).x
+    return least_squares(residuals, [1, 1, HEAT_ORDER], bounds=([0.1, 0.1, 1], [10, 10, 3])).x
 
 
 def diffusive(record: Record, y: np.ndarray) -> np.ndarray:
     """Gaussian of free width and area that fits the heat peak best, at scaled distances y."""
     profile = record.profiles("heat_correlation").mean(axis=0)
-    width, area, order = stable_law(record, profile, order=2)
+    width, area, order = stable_law(record, profile, order=GAUSSIAN)
     return area / width * levy(y / width, order)
 
 
@@ -270,7 +271,7 @@ def draw(results: Sequence[Result]) -> Drawn:
         Peaks in rings in equilibrium, {parameters(results, "cell-length", "temperature")}, {replicas(results)}; black: mode coupling, nothing
         fitted (docs: mode coupling). (a) Covariance C_g of the momenta of two cells, ζ = {number(first.zeta)}, M = {number(first.mass)}. (b) Covariance C_h of
         E_s − E_p/2ζ, energies of scatterer and particles, ζ = {number(heat[-1].gas.zeta)}, M = {number(heat[-1].gas.mass)}. Stable laws fitted inside the
-        sound peaks have the order {orders} (theory 5/3, diffusion 2), {widths} of the width and {areas} of the area predicted; errors from
+        sound peaks have the order {orders} (theory {number(HEAT_ORDER)}, diffusion {number(GAUSSIAN)}), {widths} of the width and {areas} of the area predicted; errors from
         {len(heat[-1].results)} runs. (c) Height of the sound peaks; at the last times their areas are {at_end(table, "peak_area")} of the theory. {ERRORS}"""
     return figure, pd.concat([*parts, table]), caption
 

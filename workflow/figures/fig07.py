@@ -54,7 +54,7 @@ def caption(random: pd.DataFrame, results: Sequence[Result], window: tuple[float
         (a) Mean square displacement with random total momentum, as in the paper, and with zero total momentum; lines: centre of
         mass of the former; dashed: t and t². (b) Local exponents. In the shaded window, t = {number(window[0])} to {number(window[1])}, α is
         {alpha[0][1]} in the paper's {alpha[0][0]} cells, slightly below two. This is drift of the centre of mass, {with_error(100 * last.fraction, 100 * last.fraction_error)} %
-        of ⟨x²⟩ at the end, whose velocity falls as 1/√N: {f"α is {larger}" if larger else ""}{f", and {without[0]} with zero total momentum" if without else ""}. {ERRORS}"""
+        of ⟨x²⟩ at the end, whose velocity falls as the root of N grows: {f"α is {larger}" if larger else ""}{f", and {without[0]} with zero total momentum" if without else ""}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
