@@ -27,6 +27,7 @@ FIRST = 16  # time from which a peak is wider than cells, in λ/√T
 HALF_WIDTH = 0.880466  # of f_KPZ
 REACH = 3  # of the scaled profiles
 HEAT_REACH = 4
+FITTED = 8  # widths of the heat peak, within which it is fitted
 HEAT_ORDER, GAUSSIAN = 5 / 3, 2  # of stable laws [eq. M29], and of diffusion
 BIN = 0.2  # of the scaled distances, over which profiles are averaged
 
@@ -127,7 +128,8 @@ def heat_area(record: Record) -> float:
 def stable_law(record: Record, profile: np.ndarray, order: float | None = None) -> np.ndarray:
     """Width and area, over the predicted ones, and order, free or given, of the stable law that fits a heat peak inside
     the sound peaks best."""
-    inside = profile[: int(0.5 * record.gas.sound_speed * record.time / record.gas.cell_length)]
+    within = min(0.5 * record.gas.sound_speed * record.time, FITTED * heat_width(record))
+    inside = profile[: int(within / record.gas.cell_length)]
     x = np.arange(len(inside)) * record.gas.cell_length / heat_width(record)
     y = inside * heat_width(record) / (heat_area(record) * record.gas.cell_length)
     weight = np.where(x == 0, np.sqrt(0.5), 1)  # elsewhere there are two sides
