@@ -83,8 +83,8 @@ cost: installed  ## Estimated CPU time of a quality, or of PANEL=fig05
 	$(PYTHON) workflow.cluster.cost $(OF) $(BATCH:%=--batch=%)
 crate: build  ## Figures, data, code and history as an RO-Crate in build/crate; PANEL=fig05
 	$(call MAKE_TARGET,crate,The crate is in build/crate)
-prune: build  ## Remove results and figures that no plan names: of former options, builds or scripts
-	$(LOCKED) $(PYTHON) workflow.provenance.obsolete
+prune: build  ## Remove a quality's results and figures that no plan names, of former options or builds; DRY=yes: list
+	$(LOCKED) $(PYTHON) workflow.provenance.obsolete $(OF) $(if $(DRY),--dry)
 test: setup-dev  ## Tests; make test-long: also those that take many minutes
 	bash workflow/environment/test.sh -m 'not long'
 test-long: setup-dev

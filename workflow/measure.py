@@ -3,8 +3,10 @@
 import itertools
 import json
 import warnings
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, cast
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from typing import TYPE_CHECKING, Any
+
+import pandas as pd
 
 from workflow.lib.configuration import Options
 from workflow.lib.files import ROOT
@@ -41,14 +43,9 @@ def measure(program: str, **options: object) -> "xarray.DataTree":
     known = json.loads(SCHEMA.read_text("utf-8"))["programs"]
     if program not in known:
         raise MeasureError(f"{program} is not a program; {nearest(program, known)}")
-    given = {name.replace("_", "-"): value for name, value in sorted(options.items())}
-    allowed = [*known[program], *CONDUCT]
-    for name in given.keys() - {*allowed}:
-        raise MeasureError(f"{program} has no option {name}; {nearest(name, allowed)}")
+    given = _checked(program, options, known[program])
     build_id.cache_clear()  # the program may have been compiled again in this session
-    listed: dict[str, list[Any]] = {
-        name: [*cast("Sequence[Any]", value)] for name, value in given.items() if _is_list(value)
-    }
+    listed = {name: value for name, value in given.items() if isinstance(value, list)}
     points = [
         _plain(dict(zip(listed, values, strict=True))) for values in itertools.product(*listed.values())
     ]
@@ -58,11 +55,30 @@ def measure(program: str, **options: object) -> "xarray.DataTree":
             where = "".join(f" at {name} = {value}" for name, value in point.items())
             warnings.warn(f"{program}{where}: {', '.join(result.doubts)}", stacklevel=2)
     trees = [result.to_xarray() for result in results]
-    return _combined(trees, points, listed) if listed else trees[0]
+    return _combined(trees, listed) if listed else trees[0]
 
 
-def _is_list(value: object) -> bool:
-    return not isinstance(value, str) and (isinstance(value, Sequence) or getattr(value, "ndim", 0) == 1)
+def _checked(program: str, options: Mapping[str, object], known: Mapping[str, Any]) -> dict[str, Any]:
+    """Options by the names of the command line, with lists for several values. Raises MeasureError."""
+    given: dict[str, Any] = {}
+    allowed = [*known, *CONDUCT]
+    for key, value in options.items():
+        name = key.replace("_", "-")
+        if name not in allowed:
+            raise MeasureError(f"{program} has no option {name}; {nearest(name, allowed)}")
+        if name in given:
+            raise MeasureError(f"{name} is given twice, with a dash and an underscore; give it once")
+        given[name] = value
+        if isinstance(value, bool) and known.get(name, {}).get("type") != "boolean":
+            raise MeasureError(f"{name}={value}: {name} is no flag; give a value")
+        if isinstance(value, str) or not isinstance(value, Iterable) or getattr(value, "ndim", 1) == 0:
+            continue
+        if isinstance(value, Set | Iterator) or getattr(value, "ndim", 1) > 1:
+            raise MeasureError(f"{name} is a {type(value).__name__} without one order; give a list")
+        given[name] = [*value]
+        if len({*given[name]}) < max(1, len(given[name])):
+            raise MeasureError(f"{name} has no value, or one twice; give a list of different values")
+    return given
 
 
 def _plain(options: Mapping[str, Any]) -> Options:
@@ -75,12 +91,13 @@ def _plain(options: Mapping[str, Any]) -> Options:
 def _result(program: str, options: Options, known: Mapping[str, Any]) -> Result:
     threads = {name: options.pop(name) for name in ("threads",) if name in options}
     if "seed" in known and "seed" not in options:
-        options["seed"] = seed_of(json.dumps([program, options], sort_keys=True))
+        physics = {name: value for name, value in options.items() if name not in CONDUCT}
+        options["seed"] = seed_of(json.dumps([program, physics], sort_keys=True))
     run = Run(program, program, options)
     path = FOLDER / f"{run.name}.{run.identity}.h5"
     if not path.exists():
         path.parent.mkdir(parents=True, exist_ok=True)
-        resume = ["--resume", "--progress", "log"] if "seed" in known else []
+        resume = ["--resume", "--progress", "log"] if "replicas" in known else []
         try:
             execute(program, options | threads, path, *resume, relay=True)
         except ProgramError as error:
@@ -88,18 +105,19 @@ def _result(program: str, options: Options, known: Mapping[str, Any]) -> Result:
     return load(path)
 
 
-def _combined(
-    trees: "Sequence[xarray.DataTree]", points: Sequence[dict[str, Any]], listed: Mapping[str, list[Any]]
-) -> "xarray.DataTree":
-    """Quantities of all points, with a dimension per list. Axes of different lengths are filled up with NaN."""
+def _combined(trees: "Sequence[xarray.DataTree]", listed: Mapping[str, list[Any]]) -> "xarray.DataTree":
+    """Quantities of all points, with a dimension per list, in its order. Axes of different lengths are filled up with NaN."""
     import xarray  # noqa: PLC0415
 
     def gridded(parts: "Sequence[xarray.Dataset]") -> "xarray.Dataset":
-        placed = [
-            part.expand_dims({name: [value] for name, value in point.items()})
-            for part, point in zip(parts, points, strict=True)
-        ]
-        return xarray.combine_by_coords(placed, join="outer", combine_attrs="drop_conflicts")  # type: ignore[return-value]
+        for name, values in reversed([*listed.items()]):
+            dimension = pd.Index(values, name=name)
+            groups = [parts[k : k + len(values)] for k in range(0, len(parts), len(values))]
+            parts = [
+                xarray.concat(group, dimension, join="outer", combine_attrs="drop_conflicts")
+                for group in groups
+            ]
+        return parts[0]
 
     names = [name for name in trees[0].children if all(name in tree.children for tree in trees)]
     doubts = [xarray.Dataset({one: tree.attrs[one] for one in ("converged", "doubts")}) for tree in trees]

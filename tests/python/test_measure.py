@@ -1,7 +1,11 @@
 import os
 import re
 import signal
+import subprocess
+import sys
 import threading
+import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +13,7 @@ import pytest
 
 from workflow import measure as module
 from workflow.lib import plan
+from workflow.lib.files import ROOT
 from workflow.lib.load import load
 from workflow.measure import MeasureError, measure
 
@@ -73,6 +78,12 @@ def test_a_target_quantity_that_is_not_determined() -> None:
         ("conductivity", {"cell": 4}, "conductivity has no option cell; did you mean cells?"),
         ("conductivity", {"output": "x.h5"}, "conductivity has no option output; "),
         ("conductivity", {"sigma": 2}, "conductivity: error: --sigma"),
+        ("conductivity", {"cells": True}, "cells=True: cells is no flag; give a value"),
+        ("conductivity", {"cells": []}, "cells has no value, or one twice"),
+        ("conductivity", {"cells": [8, 8]}, "cells has no value, or one twice"),
+        ("conductivity", {"cells": {4, 8}}, "cells is a set without one order; give a list"),
+        ("conductivity", {"cells": np.ones((2, 2))}, "cells is a ndarray without one order; give a list"),
+        ("conductivity", {"nu-left": 1, "nu_left": 2}, "nu-left is given twice"),
     ],
 )
 def test_errors_are_one_line(program: str, options: dict[str, object], message: str, folder: Path) -> None:
@@ -95,6 +106,63 @@ def test_lists_give_a_dimension_each() -> None:
     assert tree["converged"].values.tolist() == [["no target"] * 2] * 2
     assert "cells" not in tree.attrs
     assert tree.attrs["gamma"] == "N"
+
+
+def test_lists_keep_their_order_and_mix_types() -> None:
+    tree = measure("conductivity", **SMALL | {"cells": [8, 4], "gamma": ["N", 1]})
+    kappa = tree["kappa"]["mean"]
+    assert kappa.coords["cells"].values.tolist() == [8, 4]
+    assert kappa.coords["gamma"].values.tolist() == ["N", 1]
+    alone = measure("conductivity", **SMALL | {"cells": 8, "gamma": 1})
+    assert float(kappa[0, 1]) == float(alone["kappa"]["mean"])
+    # Positions differ between chains.
+    assert measure("boltzmann", cells=[2, 4])["energy_current"]["mean"].shape == (2,)
+
+
+def test_a_program_without_replicas() -> None:
+    assert measure("trajectories", cells=4, chain="closed", observation_time=1).children
+
+
+def running(folder: Path) -> list[int]:
+    """Process numbers of the programs that write into a folder."""
+    command = ["pgrep", "-f", f"bin/persistence .*{folder}"]
+    return [*map(int, subprocess.run(command, check=False, capture_output=True, text=True).stdout.split())]
+
+
+def wait_until(condition: Callable[[], object]) -> None:
+    for _ in range(400):
+        if condition():
+            return
+        time.sleep(0.05)
+    raise AssertionError("not within 20 s")
+
+
+LONG = {"cells": 4, "relaxation_time": 1, "observation_time": 200, "replicas": 20000, "threads": 1}
+
+
+def test_a_killed_program_is_named(folder: Path) -> None:
+    def kill() -> None:
+        wait_until(lambda: running(folder))
+        os.kill(running(folder)[0], signal.SIGKILL)
+
+    threading.Thread(target=kill).start()
+    with pytest.raises(MeasureError, match="persistence was killed by SIGKILL; run it again"):
+        measure("persistence", **LONG)
+
+
+def test_the_program_ends_with_the_session(folder: Path) -> None:
+    """It writes a checkpoint; otherwise it would go on alone, beside that of the next call."""
+    code = (
+        f"from pathlib import Path; from workflow import measure as m; m.FOLDER = Path({str(folder)!r}); "
+        f"m.measure('persistence', **{LONG})"
+    )
+    session = subprocess.Popen([sys.executable, "-c", code], cwd=ROOT, stderr=subprocess.DEVNULL)
+    wait_until(lambda: running(folder))
+    time.sleep(0.5)
+    session.terminate()
+    session.wait()
+    wait_until(lambda: not running(folder))
+    assert [*folder.glob("*.checkpoint")]
 
 
 def test_points_have_independent_errors() -> None:
@@ -124,6 +192,12 @@ def test_doubts_are_warned_of() -> None:
     options = {"start": "empty", "relaxation_time": 0, "observation_time": 5, "cells": 64, "replicas": 32}
     with pytest.warns(UserWarning, match="conductivity: not stationary"):
         assert measure("conductivity", **options).attrs["doubts"] == "not stationary"
+    with pytest.warns(UserWarning, match="stationarity not tested"):
+        measure("conductivity", **options | {"replicas": 1})
+    with pytest.warns(UserWarning, match="steady_profile: stationarity not tested"):
+        measure("steady_profile", **options)
+    with pytest.warns(UserWarning, match="persistence: stopped early"):
+        measure("persistence", replicas=100, time_limit=1e-9, observation_time=1)
     with pytest.warns(UserWarning, match="at cells = 4: target error not reached"):
         tree = measure(
             "persistence", cells=[4], replicas=4, target_error=1e-9, time_limit=1e-9, observation_time=1

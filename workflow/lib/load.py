@@ -142,10 +142,25 @@ class Result:
 
     @property
     def doubts(self) -> list[str]:
-        """What a user of the numbers has to know: a missed target error, a run that was not stationary."""
-        found = ["target error not reached"] if self.converged == NOT_REACHED else []
-        stationary = self.quantities.get("stationary")
-        return found + (["not stationary"] if stationary is not None and (stationary.mean != 1).any() else [])
+        """What a user of the numbers has to know: a missed target error, an early end, a window that is not stationary or was not
+        tested."""
+        found = []
+        if self.converged == NOT_REACHED:
+            targeted = np.isfinite(self.provenance["target_error"])
+            found.append(
+                "target error not reached" if targeted else "stopped early, or target quantity undetermined"
+            )
+        of_a_stationary_state = {"nu-left", "relaxation-time"} <= self.parameters.keys()
+        if of_a_stationary_state and np.isnan(self._drift_p_value):
+            found.append("stationarity not tested")
+        elif of_a_stationary_state and self["stationary"].mean != 1:
+            found.append("not stationary")
+        return found
+
+    @property
+    def _drift_p_value(self) -> float:
+        tested = self.quantities.get("drift_p_value")
+        return np.nan if tested is None else float(tested.mean)
 
     @property
     def sound(self) -> bool:
@@ -209,9 +224,11 @@ def _opened(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
     except (OSError, KeyError, RuntimeError, ValueError) as error:
         if isinstance(error, OSError) and error.errno:  # unreadable, not damaged
             raise OSError(error.errno, os.strerror(error.errno), str(path)) from error
-        raise FormatError(
-            f"{path} is damaged, or not a result file: {error}; remove it and make it again"
-        ) from error
+        if not re.search(rf"\.{IDENTITY}\.h5$", str(path)):  # not named by the project
+            raise FormatError(
+                f"{path} is damaged, or not a result file: {error}; name a result file"
+            ) from error
+        raise FormatError(f"{path} is damaged: {error}; remove it and make it again") from error
 
 
 def _attributes(group: h5py.Group) -> dict[str, Any]:

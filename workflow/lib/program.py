@@ -1,5 +1,6 @@
 """Runs the programs of build/bin."""
 
+import shutil
 import signal
 import subprocess
 import sys
@@ -30,6 +31,8 @@ def execute(
     """Writes the result of a program, and returns its messages; relay: prints them meanwhile. Raises ProgramError with them;
     KeyboardInterrupt after the program has written its checkpoint."""
     command: list[str | Path] = [programs / program, *arguments(options), *more, "--output", output]
+    if shutil.which("setpriv"):  # of Linux: if this process dies, the program writes its checkpoint and ends
+        command = ["setpriv", "--pdeathsig", "TERM", *command]
     lines: list[str] = []
     # In a session of its own, the program gets an interrupt from here alone, once.
     with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True) as running:
@@ -44,6 +47,11 @@ def execute(
             print(running.stderr.read(), end="", file=sys.stderr)
             running.wait()
             raise
+    if running.returncode < 0:
+        name = signal.Signals(-running.returncode).name
+        raise ProgramError(
+            f"{program} was killed by {name}; run it again: it continues at its last checkpoint"
+        )
     if running.returncode not in WRITTEN:
         raise ProgramError("".join(lines).strip())
     return "".join(lines)

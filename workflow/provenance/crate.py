@@ -66,9 +66,11 @@ def pack(products: Products, panels: list[str]) -> ROCrate:
     data = {path for name in panels for path in products.results_of(name)}
     drawn = {name: products.files_of(plan[name]) for name in panels}
     figures = {path for paths in drawn.values() for path in paths}
+    parents = {name: read_panel(ROOT / products.record(plan[name]))["parents"].inputs() for name in panels}
+    read = {path for paths in parents.values() for path in paths}  # also files that git ignores
     files = {
         path: add_file(crate, path, path in scripts.values())
-        for path in sorted({*project_files(), *data, *figures})
+        for path in sorted({*project_files(), *data, *figures, *read})
     }
     files["README.md"]["about"] = crate.root_dataset
 
@@ -93,8 +95,7 @@ def pack(products: Products, panels: list[str]) -> ROCrate:
             output = products.result(panel.name, run)
             actions.append(action(f"job/{panel.name}/{run.name}", tool, command, settings, [output]))
     for name, script in scripts.items():
-        parents = read_panel(ROOT / products.record(plan[name]))["parents"].inputs()
-        actions.append(action(f"job/{name}", files[script], f"Renders {name}", parents, drawn[name]))
+        actions.append(action(f"job/{name}", files[script], f"Renders {name}", parents[name], drawn[name]))
     crate.root_dataset["mentions"] = actions
     return crate
 

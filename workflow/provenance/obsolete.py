@@ -1,24 +1,32 @@
-"""Removes results and figures that no plan names (`make prune`): those of other options, builds, sources or packages.
+"""Removes the results and figures of a quality that no plan names (`make prune`): those of other options, builds or sources.
 
-The plans are those of all qualities, and those with SEED, REPLICAS, ERROR or HOURS that have a folder in figures.
+The plans are those of all qualities, and those with SEED, REPLICAS, ERROR or HOURS that have a folder in figures. Only files whose
+names the project gives are removed: results with an identity, or with the name of a run alone, as former versions had, and figures
+that a record names.
 """
 
 import re
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
+from workflow.cluster.cost import recorded_seconds
+from workflow.lib.command import command
 from workflow.lib.configuration import ConfigurationError
+from workflow.lib.figure_metadata import MetadataError, read_panel
 from workflow.lib.files import ROOT
 from workflow.lib.identity import IDENTITY
-from workflow.lib.plan import QUALITIES, Panel, data_path, load_plan
+from workflow.lib.plan import QUALITIES, Panel, Quality, data_path, load_plan
 from workflow.provenance.build_id import BuildError
 from workflow.provenance.checks import Fault, Kind, Products
 
-OF_A_RESULT = re.compile(r"(.+)\.(?:h5|cost\.json|h5\.checkpoint|h5\.damaged)(?:\.[0-9a-f]{8}\.tmp)?")
-OF_A_PANEL = re.compile(rf"([\w-]+)\.(?:pdf|png|svg|csv|html|{IDENTITY}\.json)")
+OF_A_RESULT = re.compile(
+    rf"((.+?)(\.{IDENTITY})?)\.(?:h5|cost\.json|h5\.checkpoint|h5\.damaged)(?:\.[0-9a-f]{{8}}\.tmp)?"
+)
+OF_A_PANEL = re.compile(rf"(.+)\.{IDENTITY}\.json")
+REPORT = "report"  # has a record, and is no panel
 
 
 @cache
@@ -31,57 +39,62 @@ def plans() -> dict[str, dict[str, Panel]]:
     return found
 
 
-def obsolete(qualities: Iterable[str] = ()) -> list[Path]:
-    """Sorted paths of obsolete files, of these qualities or of all. Raises ConfigurationError, BuildError."""
-    folders = {name.partition("_")[0] for name in qualities} or {*QUALITIES}
+def obsolete(quality: str, panels: Sequence[str] = ()) -> list[Path]:
+    """Sorted paths of obsolete files of a quality, of these panels or of all. Raises ConfigurationError, BuildError."""
     known = {
-        data_path(quality, panel.name, run).removesuffix(".h5")
-        for quality, plan in plans().items()
+        data_path(name, panel.name, run).removesuffix(".h5")
+        for name, plan in plans().items()
         for panel in plan.values()
         for run in panel.runs
     }
-    found = []
-    for file in (file for folder in folders for file in (ROOT / "data" / folder).glob("*/*")):
+    runs = {stem.rpartition(".")[0] for stem in known}
+    found = set()
+    for file in (ROOT / "data" / quality.partition("_")[0]).glob("*/*"):
         parts = OF_A_RESULT.fullmatch(str(file.relative_to(ROOT)))
-        if parts and parts[1] not in known:
-            found.append(file)
-    for quality, plan in plans().items():
-        if qualities and quality not in qualities:
+        if not parts or parts[1] in known or (panels and file.parent.name not in panels):
             continue
-        for file in (ROOT / "figures" / quality).glob("*.*"):
-            parts = OF_A_PANEL.fullmatch(file.name)
-            if not parts or parts[1] not in {*plan, "report"}:
-                found.append(file)
+        if parts[3] or parts[2] in runs:
+            found.add(file)
+    for record in (ROOT / "figures" / quality).glob("*.json"):
+        parts = OF_A_PANEL.fullmatch(record.name)
+        if not parts or parts[1] in {*load_plan(quality), REPORT} or (panels and parts[1] not in panels):
+            continue
+        with suppress(MetadataError, OSError):
+            files = [record.with_name(name) for name in read_panel(record)["files"]]
+            found |= {record, *(file for file in files if file.parent == record.parent and file.is_file())}
     return sorted(found)
 
 
 def faults(products: Products, panels: Sequence[str]) -> list[Fault]:
     """Obsolete results and figures of a quality, or of some panels of it; none where they are unknown without a build."""
     try:
-        files = obsolete([products.quality])
+        files = [str(file.relative_to(ROOT)) for file in obsolete(products.quality, panels)]
     except BuildError:
         return []
-    files = [file for file in files if file.suffix in (".h5", ".pdf")]
-    reason = "no plan names it; make prune removes it"
-    return [
-        Fault(str(file.relative_to(ROOT)), reason, Kind.OBSOLETE)
-        for file in files
-        if not panels or {file.parent.name, file.stem} & {*panels}
-    ]
+    reason = f"no plan names it; make prune {Quality.of(products.quality).arguments} removes it"
+    return [Fault(file, reason, Kind.OBSOLETE) for file in files if file.endswith((".h5", ".pdf"))]
 
 
 def main() -> None:
+    options, _, _ = command(__doc__, dry={"action": "store_true", "help": "only list the files"})
     try:
-        files = obsolete()
+        files = obsolete(options.quality, options.panel or [])
     except (ConfigurationError, BuildError) as error:
         sys.exit(str(error))
+    results = [file for file in files if file.suffix == ".h5"]
+    seconds = sum(recorded_seconds(str(file.relative_to(ROOT))) or 0 for file in results)
     size = sum(file.stat().st_size for file in files)
     for file in files:
-        file.unlink()
-        with suppress(OSError):  # not empty
-            file.parent.rmdir()
-    results = sum(file.suffix == ".h5" for file in files)
-    print(f"Removed {results} results and {len(files) - results} other files, {size / 1e6:.1f} MB")
+        print(file.relative_to(ROOT))
+        if not options.dry:
+            file.unlink()
+            with suppress(OSError):  # not empty
+                file.parent.rmdir()
+    done = "To remove" if options.dry else "Removed"
+    others = len(files) - len(results)
+    print(
+        f"{done}: {len(results)} results ({seconds:.0f} CPU s) and {others} other files, {size / 1e6:.1f} MB"
+    )
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ from workflow.cluster.cost import recorded_seconds
 from workflow.lib.command import command
 from workflow.lib.files import ROOT
 from workflow.lib.load import FormatError, load_provenance
-from workflow.lib.plan import Panel
+from workflow.lib.plan import Panel, Quality
 from workflow.provenance.checks import Products
 from workflow.provenance.obsolete import faults
 
@@ -48,7 +48,13 @@ def main() -> None:
         table.add_row(panel.name, escape(state), worst_error(products, panel), cost)
     Console(width=None if sys.stdout.isatty() else WIDE).print(table)
     if obsolete := faults(products, options.panel or []):
-        print(f"Obsolete: {len(obsolete)} results or figures that no plan names; make prune removes them")
+        of = " ".join(
+            [Quality.of(options.quality).arguments, *(f"PANEL={name}" for name in options.panel or [])]
+        )
+        print(
+            f"Obsolete: {len(obsolete)} results or figures of other options, builds or sources, to which going back costs no "
+            f"simulation; make prune {of} removes them"
+        )
 
 
 if __name__ == "__main__":
