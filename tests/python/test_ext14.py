@@ -16,7 +16,10 @@ def test_laws_are_horizontal_and_the_runs_are_those_of_one_start() -> None:
         time = axes(run)["time"]
         start = 0 if run.options["gamma"] == "N" else "particles"
         off = time ** (0.005 * (run.options["scatterer-temperature"] != start))
-        laws = {"peak": 7 * time ** (-2 / 3) * off, "peak_position": 2 * run.options["pulse-energy"] ** 0.5 * time * off}
+        laws = {
+            "peak": 7 * time ** (-2 / 3) * off,
+            "peak_position": 2 * run.options["pulse-energy"] ** 0.5 * time * off,
+        }
         for law in laws.values():
             law[0] = np.nan
         return uneven(run) | {name: quantity(run, name, law, 0.01 * law) for name, law in laws.items()}

@@ -35,7 +35,7 @@ def caption(results: Sequence[Result], tables: Sequence[pd.DataFrame]) -> str:
     )
     return f"""
         Open chain, {parameters(results, "cells", "cell-length", "sigma")}, {baths(results[0])}, {parameters(results, *WINDOW)},
-        {replicas(results)}. (a) Mean number ρ(x) of particles in a cell at γ = N (circles) and γ = 1 (squares); lines through the shaded bulk.
+        {replicas(results)}. (a) Mean number ρ(x) of particles per cell at γ = N (circles) and γ = 1 (squares); lines: through the shading.
         ρ grows with the window, as slow particles accumulate. (b) ρ over the line. As in the paper the profile at γ = 1 is
         the flatter, and particles accumulate at the ends: excess of the first and the last cell {excess}. {ERRORS}"""
 
