@@ -107,10 +107,10 @@ def agreement(starts: pd.DataFrame, quantity: str) -> str:
 def caption(starts: pd.DataFrame, results: Sequence[Result]) -> str:
     kappa, current = (agreement(starts, name) for name in COMPARED)
     return f"""
-        Heat conductivity κ and particle current J_n of the open chains of ext. 9 for other drives and starts, {parameters(results, "gamma", "sigma")},
+        Heat conductivity κ and particle current J_n of the chains of ext. 9 for other drives and starts, {parameters(results, "gamma", "sigma")},
         {replicas(results)}. (a) Exponents of κ between two sizes against the ratio of the baths' temperatures, at equal
         pressures; at these sizes they depend on it. (b), (c) κ and J_n from several
-        starts, relative to the mean over them: in equilibrium with the mean of the baths (warm), with the colder or the hotter one, and empty. They
+        starts, over their mean: in equilibrium with the mean of the baths (warm), with the colder or the hotter one, and empty. They
         differ by up to {kappa} in κ and {current} in J_n. {ERRORS}"""
 
 
