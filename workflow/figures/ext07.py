@@ -122,7 +122,7 @@ def caption(ageing: Sequence[Result], spreading: pd.DataFrame, results: Sequence
         for row in spreading.iloc[[0, -1]].itertuples()
     )
     return f"""
-        Ageing of a closed chain that starts with scatterers at rest, {parameters(ageing[:1], *CHAIN, *GAS)}, {replicas(results)}. (a) Mean kinetic
+        Ageing of a closed chain from scatterers at rest, {parameters(ageing[:1], *CHAIN, *GAS)}, {replicas(results)}. (a) Mean kinetic
         energy of a scatterer and of a particle. (b) Slope of the scatterers' energy against ln t by decade: at most {largest} and {last} in the
         last, where the paper has logarithmic growth, then saturation{"".join(few)}. Lines: quasi-stationary estimate, nothing fitted (docs: model).
         (c) Exponent α of the spreading at zero total momentum, {first} and {end}; dashed: diffusion. α < 1 reflects ageing. {ERRORS}"""
