@@ -72,11 +72,11 @@ def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) 
             look = style.points(*LOOKS[name], face, linestyle=":", label=label)
             axes.errorbar(one.drive, one.exponent, one.exponent_error, **look)
     drives = sorted(found.drive.unique())
-    axes.set(xscale="log", xlim=(drives[0] / 1.4, drives[-1] * 1.4), ylim=(0, 1.4 * found.exponent.max()))
+    axes.set(xscale="log", xlim=(drives[0] / 1.4, drives[-1] * 1.4))
     axes.set_xticks(drives, [f"{ratio:g}" for ratio in drives])
     axes.set_xticks([], minor=True)
+    axes.set_ylim(bottom=min(0, axes.get_ylim()[0]))
     axes.set(xlabel="drive $T_R/T_L$", ylabel=r"$d\ln\kappa/d\ln N$")
-    axes.legend(loc="upper right", handletextpad=0.2)
     style.guide_at(axes, 1 / 3, "1/3")
 
 
@@ -126,6 +126,7 @@ def draw(results: Sequence[Result]) -> Drawn:
     for quantity, symbol in COMPARED.items():
         draw_starts(panels[quantity], starts[starts.quantity == quantity], symbol, spacing)
     panels["kappa"].tick_params(labelbottom=False)
+    figure.legend(*panels["exponents"].get_legend_handles_labels(), loc="outside upper left")
     handles = panels["kappa"].get_legend_handles_labels()
     figure.legend(*handles, title="start in (b), (c)", loc="outside upper right", ncols=len(STARTS))
     style.letter(*panels.values())
