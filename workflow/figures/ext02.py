@@ -1,5 +1,9 @@
 """Ext. 2: local exponent of the heat conductivity, d ln kappa / d ln N, at the paper's spacing and at fixed spacings, with three
-definitions of the temperature difference."""
+definitions of the temperature difference.
+
+Lines are what linear response expects at these sizes, from rings in equilibrium (ext. 11): for the temperatures of the baths, and of
+κ_0, to which κ at equal pressures is proportional, as the ratio of convected to conducted heat does not depend on N.
+"""
 
 from collections.abc import Sequence
 
@@ -8,9 +12,11 @@ import numpy as np
 import pandas as pd
 
 from workflow.figures.ext09 import LOOKS, by_spacing, spacings, tabulate
+from workflow.figures.ext11 import response
+from workflow.figures.fig08 import drive
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, parameters, replicas
-from workflow.lib.figure import Drawn, run
+from workflow.lib.figure import Drawn, require_elastic, run
 from workflow.lib.fit import with_error
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
@@ -29,6 +35,17 @@ def local(part: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(found)
 
 
+def expected(weak: Sequence[Result], results: Sequence[Result]) -> pd.DataFrame:
+    """Of κ_0 of the gases of ext. 11, between neighbouring sizes."""
+    table, _ = response(weak, results)
+    parts = []
+    for name, part in table.groupby("gas", sort=False):
+        size, slope, error = local_exponents(part.cells, part.predicted, part.predicted_error)
+        columns = {"gas": name, "size": size, "expected": slope, "expected_error": error}
+        parts.append(pd.DataFrame(columns))
+    return pd.concat(parts)
+
+
 def caption(exponents: pd.DataFrame, results: Sequence[Result]) -> str:
     ends = {
         spacing: " to ".join(with_error(*part[["exponent", "exponent_error"]].iloc[k]) for k in (0, -1))
@@ -37,15 +54,22 @@ def caption(exponents: pd.DataFrame, results: Sequence[Result]) -> str:
     ranges = ", ".join(f"{text} at λ = {spacing}" for spacing, text in ends.items())
     return f"""
         Local exponents of κ = −J_U N/ΔT between neighbouring sizes, runs of ext. 9; {parameters(results, "gamma", "sigma")},
-        {replicas(results)}. ΔT is that of (a) the first and the last scatterer, as in the paper, (b) the particles that arrive there, (c) the baths. Dashed: 1/3.
-        At the paper's spacing λ = 1/N the gas thins out as the chain grows; fixed λ has a thermodynamic limit. From the
-        smallest to the largest sizes the exponents of (a) go from {ranges}. Neighbouring points share a size; spacings are shifted sideways. {ERRORS}"""
+        {replicas(results)}. ΔT is that of (a) the first and the last scatterer, as in the paper, (b) the particles that arrive there, (c) the baths;
+        lines: linear response, from rings in equilibrium (ext. 11). Dashed: 1/3.
+        At the paper's λ = 1/N the gas thins out; fixed λ has a thermodynamic limit. From the
+        smallest sizes to the largest those of (a) go from {ranges}. Spacings are shifted sideways. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
-    table, spacing = tabulate(results), spacings(results)
+    require_elastic([one for one in results if "nu-left" in one.parameters], "linear response")
+    chains = [one for one in results if one.provenance["program"] == "conductivity"]
+    strongest = max(map(drive, chains))
+    strong = [one for one in chains if drive(one) == strongest]
+    weak = [one for one in chains if drive(one) < strongest]
+    table, spacing = tabulate(strong), spacings(strong)
     gases = table.groupby("gas", sort=False)
     exponents = pd.concat([local(part).assign(gas=name) for name, part in gases])
+    theory = expected(weak, results)
     figure, row = plt.subplots(1, len(DEFINITIONS), sharey=True, figsize=(2 * style.COLUMN, style.HEIGHT))
     for axes, (suffix, title) in zip(row, DEFINITIONS.items(), strict=True):
         for place, (name, part) in enumerate(exponents.groupby("gas", sort=False)):
@@ -55,13 +79,16 @@ def draw(results: Sequence[Result]) -> Drawn:
         style.guide_at(axes, 1 / 3, "1/3" * (axes is row[-1]))
         axes.set_title(title)
         style.against_size(axes)
+    for name, part in theory.groupby("gas", sort=False):
+        look = style.points("_", LOOKS[name][1], markersize=8, linestyle="-", capsize=0, zorder=1)
+        row[-1].errorbar(part["size"], part.expected, part.expected_error, **look)
     row[0].set(ylabel=r"$d\ln\kappa/d\ln N$", ylim=(0, None))
     figure.legend(*row[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(spacing))
     style.letter(*row)
-    whole = by_spacing(exponents, spacing)
-    return figure, whole, caption(whole, results)
+    whole = by_spacing(pd.concat([exponents, theory]), spacing)
+    return figure, whole, caption(whole.dropna(subset="exponent"), strong)
 
 
 if __name__ == "__main__":
     exponents = {f"exponent{name}": "1" for name in DEFINITIONS}
-    run(draw, "Local exponent of the heat conductivity", size="1", **exponents)
+    run(draw, "Local exponent of the heat conductivity", size="1", expected="1", **exponents)

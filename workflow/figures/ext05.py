@@ -89,9 +89,9 @@ def caption(table: pd.DataFrame, profiles: Sequence[Result], sizes: Sequence[Res
     return f"""
         Open chain, {parameters(profiles, "sigma", "cell-length")}, {baths(profiles[0])}, {parameters(profiles, *WINDOW)},
         {replicas([*profiles, *sizes])}; (a)–(c) {parameters(profiles, "cells")}. (a) Arrivals at a scatterer per unit time; (b) over straight
-        lines, minus one; (c) both currents over their mean, without the openings. The paper has linear rates; they
-        deviate by up to {listed(largest)}. (d) Excess density of the end cells at γ = 1; lines: a + b ln N from N = {FITTED} on,
-        b = {slopes}, growth as in the paper. {ERRORS}"""
+        lines, minus one; (c) both currents over their mean, inside; that of particles falls, as they accumulate.
+        The paper has linear rates; deviations: up to {listed(largest)}. (d) Excess density of the end cells at γ = 1; lines: a + b ln N from N = {FITTED} on,
+        b = {slopes}, as in the paper. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:

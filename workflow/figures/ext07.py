@@ -1,4 +1,5 @@
-"""Ext. 7: ageing. Energies against the logarithm of time, and what changes with the relaxation time.
+"""Ext. 7: ageing. Energies against the logarithm of time, with the quasi-stationary estimate, and what changes with the relaxation
+time.
 
 With few particles the energy saturates. Of the quantities that depend on the relaxation time the exponent of the spreading
 is plotted; the table has all.
@@ -12,10 +13,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import CHAIN, ERRORS, GAS, parameters, replicas
+from workflow.lib.caption import CHAIN, ERRORS, GAS, number, parameters, replicas
 from workflow.lib.figure import Drawn, run
-from workflow.lib.fit import Line, fit_line, with_error
+from workflow.lib.fit import with_error
 from workflow.lib.load import Result
+from workflow.lib.mode_coupling import logarithm_at
 
 AGED = {"persistence": "mu", "waiting_time": "exponent", "displacement": "alpha"}  # quantities by program
 ENERGIES: dict[str, style.Look] = {
@@ -23,6 +25,10 @@ ENERGIES: dict[str, style.Look] = {
     "particle_energy": style.points("s", style.VERMILLION, "white", label="particle"),
 }
 SLOPES = [style.points("o", style.BLUE), style.points("D", style.GREEN, "white")]
+
+# Of the quasi-stationary estimate.
+FLIGHTS = 10  # λ/√T at the start, from which on all but slow particles have scattered often
+ITERATIONS = 20  # each approaches the fixed point by a factor of 8 or more
 
 
 def contents(results: Sequence[Result]) -> list[Result]:
@@ -34,6 +40,22 @@ def contents(results: Sequence[Result]) -> list[Result]:
     return [longest[particles] for particles in sorted(longest, reverse=True)]
 
 
+def estimate(result: Result, time: np.ndarray) -> dict[str, np.ndarray]:
+    """Quasi-stationary energies, T/2 of a scatterer and T/2Λ of a particle, with the temperature T(t) of eq. 14, also in Λ [eq. 13];
+    NaN at early times."""
+    particles, start, length = (
+        float(result.parameters[name]) for name in ("particles-per-cell", "temperature", "cell-length")
+    )
+    found = []
+    for one in time:
+        temperature = start if one > FLIGHTS * length / np.sqrt(start) else np.nan
+        for _ in range(ITERATIONS):
+            slow = logarithm_at(one, temperature, length)
+            temperature = start * particles * slow / (particles + slow)
+        found.append((temperature / 2, temperature / (2 * slow)))
+    return dict(zip(ENERGIES, np.array(found).T, strict=True))
+
+
 def plot_energies(axes: Axes, result: Result) -> list[pd.DataFrame]:
     """Mean energies, of a scatterer over windows of time, of a particle at their ends."""
     tables = []
@@ -41,7 +63,9 @@ def plot_energies(axes: Axes, result: Result) -> list[pd.DataFrame]:
         energy = result[name]
         (time,) = energy.axes.values()
         axes.errorbar(time, energy.mean, energy.error, **look)
-        columns = {"quantity": name, "time": time, "value": energy.mean}
+        expected = estimate(result, time)[name]
+        axes.plot(time, expected, color=style.BLACK, zorder=3)
+        columns = {"quantity": name, "time": time, "value": energy.mean, "estimate": expected}
         tables.append(pd.DataFrame({**columns, "error": energy.error, "units": energy.units}))
     axes.set(xscale="log", ylabel=f"mean energy ({style.UNITS})", ylim=(0, None))
     axes.legend(loc="upper left")
@@ -56,9 +80,11 @@ def plot_slopes(axes: Axes, results: Sequence[Result]) -> list[pd.DataFrame]:
         time = slope.axes["decade"]
         label = f"$n = {particles}$"
         axes.errorbar(np.sqrt(10) * time, slope.mean, slope.error, label=label, **look)
-        table = pd.DataFrame(
-            {"quantity": "decade_slope", "time": time, "value": slope.mean, "error": slope.error}
-        )
+        ends = [estimate(result, factor * time)["scatterer_energy_mean"] for factor in (1, 10)]
+        expected = (ends[1] - ends[0]) / np.log(10)
+        axes.plot(np.sqrt(10) * time, expected, color=style.BLACK, zorder=3)
+        columns = {"quantity": "decade_slope", "time": time, "value": slope.mean, "error": slope.error}
+        table = pd.DataFrame({**columns, "estimate": expected})
         tables.append(table.assign(units=slope.units, particles_per_cell=particles))
     axes.axhline(0, **style.GUIDE)
     axes.set(xscale="log", xlabel="time from the start", ylabel=r"$dE/d\ln t$ of a scatterer")
@@ -66,8 +92,8 @@ def plot_slopes(axes: Axes, results: Sequence[Result]) -> list[pd.DataFrame]:
     return tables
 
 
-def aged(results: Sequence[Result], program: str) -> tuple[pd.DataFrame, Line]:
-    """A quantity by relaxation time, and its trend with the logarithm of it."""
+def aged(results: Sequence[Result], program: str) -> pd.DataFrame:
+    """A quantity by relaxation time."""
     name = AGED[program]
     runs = [result for result in results if result.provenance["program"] == program]
     runs.sort(key=lambda result: result.parameters["relaxation-time"])
@@ -75,29 +101,31 @@ def aged(results: Sequence[Result], program: str) -> tuple[pd.DataFrame, Line]:
     table = pd.DataFrame({"quantity": name, "time": time})
     table["value"] = [float(result[name].mean) for result in runs]
     table["error"] = [float(result[name].error) for result in runs]
-    trend = fit_line(np.log(time), table["value"], table.error)
-    return table.assign(units=runs[0][name].units, fitted=trend.at(np.log(time))), trend
+    return table.assign(units=runs[0][name].units)
 
 
 def plot_spreading(axes: Axes, table: pd.DataFrame) -> None:
     axes.errorbar(table.time, table["value"], table.error, **style.points("o", style.BLUE))
-    axes.plot(table.time, table.fitted, color=style.BLACK, linestyle="dotted")
     axes.axhline(1, **style.GUIDE)
     axes.set(xscale="log", xlabel="relaxation time", ylabel=r"exponent $\alpha$, zero total momentum")
 
 
-def caption(ageing: Sequence[Result], trend: Line, results: Sequence[Result]) -> str:
+def caption(ageing: Sequence[Result], spreading: pd.DataFrame, results: Sequence[Result]) -> str:
     slope = ageing[0]["decade_slope"]
     largest, last = (style.with_error(slope, k) for k in (int(np.argmax(slope.mean)), -1))
     few = [
         f"; with n = {one.parameters['particles-per-cell']} the last is {style.with_error(one['decade_slope'], -1)}"
         for one in ageing[1:]
     ]
+    first, end = (
+        f"{with_error(row.value, row.error)} after {number(row.time)}"
+        for row in spreading.iloc[[0, -1]].itertuples()
+    )
     return f"""
-        Ageing of a closed chain that starts with scatterers at rest, {parameters(ageing[:1], *CHAIN, *GAS)}, {replicas(results)}. (a) Mean kinetic
-        energy of a scatterer and of a particle. (b) Slope of the scatterers' energy against ln t, decade by decade: at most {largest} and {last} in the
-        last, where the paper has logarithmic growth, then saturation{"".join(few)}. (c) Exponent α of the spreading at zero total momentum against
-        the relaxation time; dotted: a + b ln t, b = {with_error(trend.slope, trend.error)}; dashed: diffusion. α < 1 reflects ageing. {ERRORS}"""
+        Ageing of a closed chain from scatterers at rest, {parameters(ageing[:1], *CHAIN, *GAS)}, {replicas(results)}. (a) Mean kinetic
+        energy of a scatterer and of a particle. (b) Slope of the scatterers' energy against ln t by decade: at most {largest} and {last} in the
+        last, where the paper has logarithmic growth, then saturation{"".join(few)}. Lines: quasi-stationary estimate, nothing fitted (docs: model).
+        (c) Exponent α of the spreading at zero total momentum, {first} and {end}; dashed: diffusion. α < 1 reflects ageing. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
@@ -108,14 +136,19 @@ def draw(results: Sequence[Result]) -> Drawn:
         height_ratios=[1.5, 1],
     )
     panels["energies"].sharex(panels["slopes"])
-    trends = {program: aged(results, program) for program in AGED}
-    table, trend = trends["displacement"]
+    by_program = {program: aged(results, program) for program in AGED}
     tables = [*plot_energies(panels["energies"], ageing[0]), *plot_slopes(panels["slopes"], ageing)]
-    plot_spreading(panels["spreading"], table)
+    plot_spreading(panels["spreading"], by_program["displacement"])
     style.letter(*(panels[name] for name in ("energies", "slopes", "spreading")))
-    tables += [table for table, _ in trends.values()]
-    return figure, pd.concat(tables), caption(ageing, trend, results)
+    tables += by_program.values()
+    return figure, pd.concat(tables), caption(ageing, by_program["displacement"], results)
 
 
 if __name__ == "__main__":
-    run(draw, "Ageing of the closed chain", value="column units", error="column units", fitted="1")
+    run(
+        draw,
+        "Ageing of the closed chain",
+        value="column units",
+        error="column units",
+        estimate="column units",
+    )

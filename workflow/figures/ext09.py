@@ -12,11 +12,11 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
+from matplotlib.typing import LineStyleType
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, parameters, replicas
 from workflow.lib.figure import Drawn, run
-from workflow.lib.fit import with_error
 from workflow.lib.growth import POWER, Growth, fits, widest
 from workflow.lib.load import Result
 
@@ -25,14 +25,17 @@ LOOKS = {
     "dilute": ("s", style.VERMILLION),
     "dense": ("^", style.BLUE),
 }  # by gas
+THINNING = "thinning"  # the gas that has no thermodynamic limit
 LEVEL = 0.01  # p-value below which a law is rejected
 CUBE_ROOT = "N^(1/3)"
+# In captions and in the legend of the slopes, which have no power law.
 LAWS = {
-    "constant": "$a + bN^{-1/3}$",
-    "logarithm": r"$a + b\,\ln N$",
-    POWER: "$aN^b$",
-}  # beside the cube root
-LINES = dict(zip(LAWS, style.DASHES[4:1:-1], strict=True))
+    CUBE_ROOT: ("cube root", "$a + bN^{1/3}$"),
+    "logarithm": ("logarithm", r"$a + b\,\ln N$"),
+    "constant": ("saturation", "saturation, $a + bN^{-1/3}$"),
+    POWER: ("power law", ""),
+}
+LINES: dict[str, LineStyleType] = {CUBE_ROOT: "solid", "logarithm": "dashed", "constant": "dotted"}
 ABOVE = 14  # points that the axis of N takes above (b)
 
 
@@ -84,12 +87,26 @@ def cube_root(part: pd.DataFrame) -> Growth | None:
     return widest(part.cells, part.kappa, part.kappa_error, CUBE_ROOT, LEVEL)
 
 
-def rival(part: pd.DataFrame, first: float) -> str:
-    """What the sizes from the first on say of a power law."""
-    (power,) = (one for one in fits(part.cells, part.kappa, part.kappa_error, first) if one.law == POWER)
-    if power.p_value < LEVEL:
-        return "is"
-    return f"with exponent {with_error(power.exponent, power.exponent_error)} is not either"
+def rejected(part: pd.DataFrame, first: float) -> str:
+    """The laws that the sizes from the first on reject."""
+    found = [
+        LAWS[one.law][0]
+        for one in fits(part.cells, part.kappa, part.kappa_error, first)
+        if one.p_value < LEVEL
+    ]
+    return listed(found) if found else "no other law"
+
+
+def slopes(part: pd.DataFrame) -> pd.DataFrame:
+    """dκ/d(N^(1/3)) between neighbouring sizes, at their geometric mean, with the slopes of the laws fitted to all sizes."""
+    size, value, error = (part[name].to_numpy(dtype=float) for name in ("cells", "kappa", "kappa_error"))
+    step = np.diff(np.cbrt(size))
+    found = {"between": np.sqrt(size[1:] * size[:-1]), "slope": np.diff(value) / step}
+    found["slope_error"] = np.hypot(error[1:], error[:-1]) / step
+    for one in fits(size, value, error, size[0]):
+        if one.law in LINES:
+            found[f"slope_{one.law}"] = np.diff(one.predicted) / step
+    return pd.DataFrame(found, part.index[:-1])
 
 
 def draw_powers(axes: Axes, table: pd.DataFrame, spacing: Mapping[str, str]) -> None:
@@ -107,22 +124,22 @@ def draw_powers(axes: Axes, table: pd.DataFrame, spacing: Mapping[str, str]) -> 
     axes.legend(loc="upper left")
 
 
-def draw_departures(axes: Axes, table: pd.DataFrame) -> None:
-    """kappa over a + b N^(1/3), minus 1, over the sizes for which that is not rejected; the other laws, fitted to the same sizes."""
+def draw_slopes(axes: Axes, table: pd.DataFrame) -> None:
+    """Of kappa against N^(1/3), which are constant where it is a + b N^(1/3), with those of the fitted laws at the fixed spacings."""
     for name, part in table.groupby("gas", sort=False):
-        if (held := cube_root(part)) is None:
-            continue
-        used, expected = part[part.cells >= held.first], np.array(held.predicted)
-        size = np.cbrt(used.cells)
-        departure, error = 100 * (used.kappa / expected - 1), 100 * used.kappa_error / expected
-        axes.errorbar(size, departure, error, **style.points(*LOOKS[name]))
-        for one in fits(part.cells, part.kappa, part.kappa_error, held.first):
-            if one.law in LAWS:
-                rival = 100 * (np.array(one.predicted) / expected - 1)
-                axes.plot(size, rival, color=LOOKS[name][1], linestyle=LINES[one.law], linewidth=0.8)
-    axes.axhline(0, **style.GUIDE)
-    axes.set(xlabel="$N^{1/3}$", ylabel="deviation / %")
-    handles = [Line2D([], [], color="grey", linestyle=LINES[law], label=name) for law, name in LAWS.items()]
+        found = slopes(part)
+        axes.errorbar(found.between, found.slope, found.slope_error, **style.points(*LOOKS[name]))
+        for law, dashes in LINES.items():
+            if name != THINNING and f"slope_{law}" in found:
+                look: style.Look = {"color": LOOKS[name][1], "linestyle": dashes, "linewidth": 0.8}
+                axes.plot(found.between, found[f"slope_{law}"], zorder=1, **look)
+    style.against_size(axes)
+    axes.set(yscale="log", ylabel=r"$d\kappa/d(N^{1/3})$")
+    axes.set_ylim(bottom=0.3 * axes.get_ylim()[0])  # room for the legend
+    style.label_within_decades(axes.yaxis)
+    handles = [
+        Line2D([], [], color="grey", linestyle=dashes, label=LAWS[law][1]) for law, dashes in LINES.items()
+    ]
     axes.legend(handles=handles, loc="lower left")
 
 
@@ -136,44 +153,45 @@ def draw_cube_roots(axes: Axes, table: pd.DataFrame) -> None:
     above = axes.secondary_xaxis("top", functions=(lambda x: np.power(x, 3), np.cbrt))
     above.set_xticks([size for size in (16, 64, 256, 1024, 8192) if size <= table.cells.max()])
     axes.tick_params(axis="x", which="both", top=False)
-    axes.set(ylabel=r"conductivity $\kappa$", ylim=(0, None))
+    axes.set(xlabel="$N^{1/3}$", ylabel=r"conductivity $\kappa$", ylim=(0, None))
     above.set_xlabel("$N$", labelpad=1)
 
 
 def caption(table: pd.DataFrame, results: Sequence[Result], spacing: Mapping[str, str]) -> str:
     found = [
-        f"from N = {law.first:.0f} on at λ = {spacing[name]}, where a power law {rival(part, law.first)}"
+        f"from N = {law.first:.0f} on at λ = {spacing[name]} ({rejected(part, law.first)} rejected)"
         for name, part in table.groupby("gas", sort=False)
         if (law := cube_root(part))
     ]
-    held = f"It is not rejected {listed(found)}" if found else "It is rejected everywhere"
+    held = listed(found) if found else "nowhere"
     return f"""
-        Heat conductivity κ = −J_U N/(T_N − T_1) of open chains at the paper's spacing λ = 1/N, where the gas thins out, and at
+        Heat conductivity κ = −J_U N/(T_N − T_1) of open chains at the paper's λ = 1/N, where the gas thins out, and at
         fixed λ; {parameters(results, "gamma", "sigma")}, {baths(results[0])}, {replicas(results)}.
-        (b) Lines: a + b N^(1/3) where it is not rejected at the
-        {100 * LEVEL:.0f} % level. (c) Deviation from it; lines: other laws fitted to these sizes. {held}. {ERRORS}"""
+        (b) Lines: a + bN^(1/3) where it is not rejected at the {100 * LEVEL:.0f} % level: {held}. (c) Slope of (b) between neighbouring
+        sizes, constant if κ = a + bN^(1/3); lines: laws fitted to all sizes. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
     table, spacing = tabulate(results), spacings(results)
     figure, panels = plt.subplot_mosaic(
-        [["powers", "roots"], ["powers", "departures"]],
-        figsize=(1.9 * style.COLUMN, 1.4 * style.HEIGHT),
-        height_ratios=[1.2, 1],
+        [["powers", "roots"], ["powers", "slopes"]],
+        figsize=(1.9 * style.COLUMN, 1.5 * style.HEIGHT),
+        height_ratios=[1, 1.3],
     )
-    panels["departures"].sharex(panels["roots"])
-    panels["roots"].tick_params(labelbottom=False)
     draw_powers(panels["powers"], table, spacing)
     draw_cube_roots(panels["roots"], table)
-    draw_departures(panels["departures"], table)
+    draw_slopes(panels["slopes"], table)
     style.letter(panels["powers"], panels["roots"], lift=ABOVE)
-    style.letter(panels["departures"], start="c")
+    style.letter(panels["slopes"], start="c")
+    local = pd.concat([slopes(part) for _, part in table.groupby("gas")])
     fitted = [laws(part).assign(gas=name) for name, part in table.groupby("gas", sort=False)]
     rows = pd.concat(fitted).drop(columns="predicted").rename(columns={"first": "fitted_from"})
-    return figure, by_spacing(pd.concat([table, rows]), spacing), caption(table, results, spacing)
+    return figure, by_spacing(pd.concat([table.join(local), rows]), spacing), caption(table, results, spacing)
 
 
 if __name__ == "__main__":
     names = ("fitted_from", "chi_square", "freedom", "parameters", "exponent", "p_value", "criterion")
-    units = dict.fromkeys(names, "1") | {"kappa_baths": "energy/(time temperature)"}
+    conductivities = ("kappa_baths", "slope", *(f"slope_{law}" for law in LINES))
+    units = dict.fromkeys((*names, "between"), "1")
+    units |= dict.fromkeys(conductivities, "energy/(time temperature)")
     run(draw, "Heat conductivity at fixed spacing and at the spacing 1/N", **units)

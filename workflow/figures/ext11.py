@@ -115,9 +115,9 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 @dataclass(frozen=True)
 class Ring:
-    """½ d(<Q²>/N)/dt of a gas in equilibrium, in the units of T and λ, as a power law between the given times."""
+    """½ d(<Q²>/N)/dt of a gas in equilibrium, with T and λ as units, as a power law between the given times."""
 
-    sound_speed: float  # in cells
+    sound_speed: float
     time: np.ndarray
     growth: np.ndarray
     relative_error: np.ndarray
@@ -126,16 +126,20 @@ class Ring:
     def of(cls, results: Sequence[Result]) -> "Ring":
         """From rings of one gas, of which the one with the smallest error gives every time."""
         rows: list[tuple[float, ...]] = []
+        rate = np.sqrt(results[0].parameters["temperature"]) / results[0].parameters["cell-length"]
+        unit = results[0].parameters["temperature"] * results[0].parameters["cell-length"]
         for result in results:
             heat, exponent = result["heat_variance"], result["local_exponent"]
-            at = {name: np.log(values) for name, values in (("time", heat.axes["time"]), ("heat", heat.mean))}
-            middle = exponent.axes["middle"]
+            given = (("time", rate * heat.axes["time"]), ("heat", heat.mean / unit**2))
+            at = {name: np.log(values) for name, values in given}
+            middle = rate * exponent.axes["middle"]
             value = np.exp(np.interp(np.log(middle), at["time"], at["heat"]))
             relative = np.hypot((heat.error / heat.mean)[1:], exponent.error / exponent.mean)
             rows += zip(middle, 0.5 * value * exponent.mean / middle, relative, strict=True)
         columns = ["time", "growth", "relative_error"]
         table = pd.DataFrame(rows, columns=columns).sort_values("relative_error").drop_duplicates("time")
-        return cls(chain(results[0]).sound_speed_in_cells, *table.sort_values("time")[columns].to_numpy().T)
+        speed = chain(results[0]).sound_speed_in_cells / rate
+        return cls(speed, *table.sort_values("time")[columns].to_numpy().T)
 
     def conductivity(self, time: float) -> tuple[float, float]:
         """κ_0 λ/√T if sound leaves after this time, and its error."""
@@ -198,6 +202,19 @@ def with_theory(
     return table, tau
 
 
+def response(open_chains: Sequence[Result], results: Sequence[Result]) -> tuple[pd.DataFrame, Mean]:
+    """Table of the open chains, with theory from those rings among the results that have their mass, and τ."""
+    mass = open_chains[0].parameters["sigma"]
+    closed = [
+        one
+        for one in results
+        if one.provenance["program"] == "heat_current"
+        and one.parameters["rule"] == "elastic"
+        and one.parameters["sigma"] == mass
+    ]
+    return with_theory(tabulate(open_chains), open_chains, rings(closed))
+
+
 def exponents(sizes: pd.Series, values: pd.Series, errors: pd.Series) -> str:
     _, slope, error = local_exponents(sizes, values, errors)
     return listed([with_error(*one) for one in zip(slope, error, strict=True)])
@@ -214,16 +231,8 @@ def draw(results: Sequence[Result]) -> Drawn:
         [one for one in results if "nu-left" in one.parameters], "the conductivity of mode coupling"
     )
     open_chains = [one for one in results if one.provenance["program"] == "conductivity"]
-    closed = [
-        one
-        for one in results
-        if one.provenance["program"] == "heat_current" and one.parameters["rule"] == "elastic"
-    ]
-    mass = open_chains[0].parameters["sigma"]
-    table, spacing = tabulate(open_chains), spacings(open_chains)
-    table, tau = with_theory(
-        table, open_chains, rings([one for one in closed if one.parameters["sigma"] == mass])
-    )
+    spacing = spacings(open_chains)
+    table, tau = response(open_chains, results)
     thinning = table[table.gas == "thinning"]
     figure, (left, right, local) = plt.subplots(1, 3, figsize=(2.1 * style.COLUMN, style.HEIGHT))
     for name, part in table.groupby("gas", sort=False):

@@ -1,24 +1,24 @@
 """Ext. 12: how the local exponents of ext. 9 depend on the drive, and kappa and the particle current on the start."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from workflow.figures.ext09 import by_spacing, spacings, tabulate
+from workflow.figures.ext09 import LOOKS, by_spacing, spacings, tabulate
 from workflow.figures.fig08 import drive
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, listed, number, parameters, replicas
+from workflow.lib.caption import ERRORS, goodness, parameters, replicas
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import mean_of
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
-APART = 0.15  # of a place, by which starts are plotted beside each other
+APART = 0.15  # of a slot, by which starts are plotted beside each other
 WARM = "warm"
-LOOKS = [("o", style.BLACK), ("s", style.SKY), ("^", style.VERMILLION)]  # by pair of sizes
+FACES = (None, "white")  # of the smallest and of the largest pair of sizes
 STARTS = {
     WARM: ("s", style.BLACK),
     "cold": ("v", style.BLUE),
@@ -49,87 +49,90 @@ def exponents(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def deviations(table: pd.DataFrame, quantity: str) -> pd.DataFrame:
-    """A quantity from every start relative to the mean over the starts, minus 1, at the drive that has several."""
+    """A quantity from every start relative to the mean over the starts, minus 1, at the drive that has several, and chi^2 of them."""
     driven = table[table.drive.isin(table[table.start != WARM].drive)]
     parts = []
     for (name, cells), part in driven.groupby(["gas", "cells"], sort=False):
         if len(part) > 1:
             value, error = part[quantity], part[f"{quantity}_error"]
-            mean, *_ = mean_of(value, error)
+            mean, _, chi_square = mean_of(value, error)
             found = {"deviation": value / mean - 1, "deviation_error": error / abs(mean)}
+            found |= {"chi_square": chi_square, "freedom": len(part) - 1}
             parts.append(part[["start"]].assign(gas=name, cells=cells, quantity=quantity, **found))
     return pd.concat(parts, ignore_index=True)
 
 
-def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: str) -> None:
-    """Of one spacing, against the drive, between each two neighbouring sizes."""
-    for (sizes, one), shape in zip(found.groupby(["smaller", "larger"]), LOOKS, strict=False):
-        look = style.points(*shape, linestyle=":", label="$N = {:g}$ to {:g}".format(*sizes))
-        axes.errorbar(one.drive, one.exponent, one.exponent_error, **look)
+def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) -> None:
+    """Against the drive, between the two smallest and the two largest sizes."""
+    for name, gas in found.groupby("gas", sort=False):
+        pairs = [pair for pair, _ in gas.groupby(["smaller", "larger"])]
+        for (smaller, larger), face in zip(dict.fromkeys((pairs[0], pairs[-1])), FACES, strict=False):
+            one = gas[(gas.smaller == smaller) & (gas.larger == larger)]
+            label = rf"$\lambda = {spacing[name]}$, $N = {smaller:g}$ to {larger:g}"
+            look = style.points(*LOOKS[name], face, linestyle=":", label=label)
+            axes.errorbar(one.drive, one.exponent, one.exponent_error, **look)
     drives = sorted(found.drive.unique())
-    axes.set(
-        title=rf"$\lambda = {spacing}$", xscale="log", xlim=(drives[0] / 1.4, drives[-1] * 1.4), ylim=(0, 0.7)
-    )
+    axes.set(xscale="log", xlim=(drives[0] / 1.4, drives[-1] * 1.4))
     axes.set_xticks(drives, [f"{ratio:g}" for ratio in drives])
     axes.set_xticks([], minor=True)
-    axes.set_xlabel("$T_R/T_L$")
-    style.guide_at(axes, 1 / 3, "")
+    axes.set_ylim(bottom=min(0, axes.get_ylim()[0]))
+    axes.set(xlabel="drive $T_R/T_L$", ylabel=r"$d\ln\kappa/d\ln N$")
+    style.guide_at(axes, 1 / 3, "1/3")
 
 
-def draw_starts(axes: Axes, found: pd.DataFrame, symbol: str) -> None:
-    """Of one spacing, one place per size."""
-    sizes = sorted(found.cells.unique())
+def draw_starts(axes: Axes, found: pd.DataFrame, symbol: str, spacing: Mapping[str, str]) -> None:
+    """One slot per spacing and size."""
+    present = set(zip(found.gas, found.cells, strict=True))
+    slots = sorted(present, key=lambda slot: ([*spacing].index(slot[0]), slot[1]))
     for rank, (start, shape) in enumerate(STARTS.items()):
         one = found[found.start == start]
-        place = np.searchsorted(sizes, one.cells) + APART * (rank - 1.5)
+        slot = np.array([slots.index(key) for key in zip(one.gas, one.cells, strict=True)])
         look = style.points(*shape, label=start)
-        axes.errorbar(place, 100 * one.deviation, 100 * one.deviation_error, **look)
+        axes.errorbar(slot + APART * (rank - 1.5), 100 * one.deviation, 100 * one.deviation_error, **look)
     axes.axhline(0, **style.GUIDE)
-    axes.set_xticks(range(len(sizes)), [f"{size}" for size in sizes])
+    names = [f"$\\lambda = {spacing[name]}$\n$N = {cells}$" for name, cells in slots]
+    axes.set_xticks(range(len(slots)), names)
     axes.tick_params(axis="x", which="both", length=0)
-    axes.set(xlim=(-0.5, len(sizes) - 0.5), ylabel=rf"$\delta {symbol}$ (%)")
+    axes.set(xlim=(-0.5, len(slots) - 0.5), ylabel=rf"$\delta {symbol}$ / %")
 
 
-def caption(slopes: pd.DataFrame, starts: pd.DataFrame, results: Sequence[Result]) -> str:
-    drives = listed(number(ratio) for ratio in sorted(slopes.drive.unique()))
-    largest = {name: 100 * part.deviation.abs().max() for name, part in starts.groupby("quantity")}
-    kappa, current = (f"{largest[name]:.1f}" for name in COMPARED)
+def agreement(starts: pd.DataFrame, quantity: str) -> str:
+    """Largest deviation of a start from the mean, and whether all agree with it."""
+    found = starts[starts.quantity == quantity]
+    slots = found.drop_duplicates(["gas", "cells"])
+    largest = 100 * found.deviation.abs().max()
+    return f"{largest:.1f} % ({goodness(slots.chi_square.sum(), int(slots.freedom.sum()))})"
+
+
+def caption(starts: pd.DataFrame, results: Sequence[Result]) -> str:
+    kappa, current = (agreement(starts, name) for name in COMPARED)
     return f"""
-        Heat conductivity κ and particle current J_n of the open chains of ext. 9 for other drives and starts, {parameters(results, "gamma", "sigma")},
-        {replicas(results)}. Top: local exponents of κ between neighbouring sizes against the ratio of the baths' temperatures, {drives} at
-        equal pressures; dashed: 1/3. At these sizes they depend on the drive. Middle and bottom: κ and J_n from several
-        starts, relative to the mean over them: in equilibrium with the mean of the baths (warm), with the colder or the hotter one, and empty. They
-        differ by up to {kappa} % in κ and {current} % in J_n. {ERRORS}"""
+        Heat conductivity κ and particle current J_n of the chains of ext. 9 for other drives and starts, {parameters(results, "gamma", "sigma")},
+        {replicas(results)}. (a) Exponents of κ between two sizes against the ratio of the baths' temperatures, at equal
+        pressures; at these sizes they depend on it. (b), (c) κ and J_n from several
+        starts, over their mean: in equilibrium with the mean of the baths (warm), with the colder or the hotter one, and empty. They
+        differ by up to {kappa} in κ and {current} in J_n. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
     table, spacing = read(results), spacings(results)
     slopes = exponents(table)
     starts = pd.concat([deviations(table, name) for name in COMPARED])
-    figure, rows = plt.subplots(
-        3,
-        len(spacing),
-        sharey="row",
-        figsize=(0.7 * len(spacing) * style.COLUMN, 2.1 * style.HEIGHT),
-        height_ratios=[1.4, 1, 1],
+    figure, panels = plt.subplot_mosaic(
+        [["exponents", "kappa"], ["exponents", "particle_current"]],
+        figsize=(2 * style.COLUMN, 1.2 * style.HEIGHT),
     )
-    for column, gas in zip(rows.T, spacing, strict=True):
-        draw_exponents(column[0], slopes[slopes.gas == gas], spacing[gas])
-        for axes, (quantity, symbol) in zip(column[1:], COMPARED.items(), strict=True):
-            draw_starts(axes, starts[(starts.gas == gas) & (starts.quantity == quantity)], symbol)
-        column[-1].set_xlabel("number of cells $N$")
-    for axes in rows[:, 1:].flat:
-        axes.set_ylabel("")
-    rows[0, 0].set_ylabel(r"$d\ln\kappa/d\ln N$")
-    rows[0, 0].legend(loc="lower left", handletextpad=0.2)
-    figure.legend(
-        *rows[1, 0].get_legend_handles_labels(), title="start", loc="outside lower center", ncols=len(STARTS)
-    )
-    style.letter(*rows.flat)
-    figure.align_ylabels()
-    return figure, by_spacing(pd.concat([slopes, starts]), spacing), caption(slopes, starts, results)
+    draw_exponents(panels["exponents"], slopes, spacing)
+    for quantity, symbol in COMPARED.items():
+        draw_starts(panels[quantity], starts[starts.quantity == quantity], symbol, spacing)
+    panels["kappa"].tick_params(labelbottom=False)
+    figure.legend(*panels["exponents"].get_legend_handles_labels(), loc="outside upper left")
+    handles = panels["kappa"].get_legend_handles_labels()
+    figure.legend(*handles, title="start in (b), (c)", loc="outside upper right", ncols=len(STARTS))
+    style.letter(*panels.values())
+    return figure, by_spacing(pd.concat([slopes, starts]), spacing), caption(starts, results)
 
 
 if __name__ == "__main__":
-    pure = ("size", "smaller", "larger", "exponent", "drive", "deviation")
+    pure = ("size", "smaller", "larger", "exponent", "drive", "deviation", "chi_square", "freedom")
     run(draw, "Heat conductivity for several drives and starts", **dict.fromkeys(pure, "1"))

@@ -10,26 +10,34 @@ from matplotlib.axes import Axes
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, number, parameters, replicas
 from workflow.lib.figure import Drawn, run
+from workflow.lib.fit import mean_of
 from workflow.lib.load import Result
 
 SOUND = 2 / 3
 
 # By γ: quantity, its power of time that is divided out, and label of the axis.
 PLOTTED = {
-    "N": ("peak", -SOUND, r"peak $\times\, t^{2/3}$, relative"),
-    1: ("peak_position", 1, r"position $x_p/t$, relative"),
+    "N": ("peak", -SOUND, r"peak $\times\, t^{2/3}$ over its mean"),
+    1: ("peak_position", 1, r"$x_p/t$ over that in free flight"),
 }
 LOOKS = [style.points("o", style.VERMILLION, "white"), style.points("s", style.BLUE)]
 
 
+def free_flight(result: Result) -> float:
+    """x_p/t in cells without scattering: v² exp(-v²/4ε̃), the energy at x = vt, is largest at v² = 4ε̃."""
+    pulse, length = (float(result.parameters[name]) for name in ("pulse-energy", "cell-length"))
+    return 2 * np.sqrt(pulse) / length
+
+
 def scaled(result: Result) -> pd.DataFrame:
-    """The height or the position of the peak over its law, relative to the first time that has a peak."""
+    """The height of the peak over its law, relative to the weighted mean, or the position over that in free flight."""
     name, power, _ = PLOTTED[result.parameters["gamma"]]
     found = result[name]
     known = np.isfinite(found.mean)
     time = found.axes["time"][known]
     value, error = (array[known] / time**power for array in (found.mean, found.error))
-    columns = {"time": time, "relative": value / value[:1], "relative_error": error / value[:1]}
+    scale = mean_of(value, error)[0] if name == "peak" else free_flight(result)
+    columns = {"time": time, "relative": value / scale, "relative_error": error / scale}
     return pd.DataFrame(columns).assign(
         gamma=str(result.parameters["gamma"]), cells=int(result.parameters["cells"]),
         pulse_energy=float(result.parameters["pulse-energy"]), quantity=name,
@@ -71,10 +79,10 @@ def draw(results: Sequence[Result]) -> Drawn:
     strong, weak = (style.with_error(one["damping_exponent"]) for one in heights)
     caption = f"""
         Moving peak of the energy difference after a pulse; {parameters(heights, "particles-per-cell", "sigma", "energy")} per degree of
-        freedom, in the cell of the pulse ε̃, {replicas(heights + positions)}. (a) Height times t^(2/3) over its first value, from scatterers at rest that have
+        freedom, in the cell of the pulse ε̃, {replicas(heights + positions)}. (a) Height times t^(2/3) over its mean, from scatterers at rest that have
         relaxed: the paper's pulse, a shock with the mean damping exponent {strong}, and one with a tenth of its excess energy, {weak}.
-        (b) Position over time, over its first value, from Gaussian momenta; ballistic: horizontal. In the short ring the cell of the
-        pulse is wide beside the distance, and particles scatter on the way. {ERRORS}"""
+        (b) Position over time, over that of particles that never scatter, from Gaussian momenta; dashed: ballistic. A fraction of 1/N of
+        the arrivals scatters, so that the peak falls behind, less in the long ring. {ERRORS}"""
     return figure, table, caption
 
 

@@ -26,15 +26,18 @@ def tabulate(result: Result) -> pd.DataFrame:
 
 def caption(results: Sequence[Result], tables: Sequence[pd.DataFrame]) -> str:
     excess = listed(
-        f"{with_error(100 * (row.relative - 1), 100 * row.relative_error)} % at γ = {row.gamma}"
+        " and ".join(
+            with_error(100 * (row.relative - 1), 100 * row.relative_error)
+            for row in table.iloc[[0, -1]].itertuples()
+        )
+        + f" % at γ = {table.gamma.iloc[0]}"
         for table in tables
-        for row in table.iloc[:1].itertuples()
     )
     return f"""
         Open chain, {parameters(results, "cells", "cell-length", "sigma")}, {baths(results[0])}, {parameters(results, *WINDOW)},
-        {replicas(results)}. (a) Mean number ρ(x) of particles in a cell at γ = N (circles) and γ = 1 (squares); lines through the shaded bulk.
-        ρ depends on the window, as slow particles accumulate logarithmically. (b) ρ over the line. As in the paper the profile at γ = 1 is
-        the flatter, and particles accumulate at the ends, in the first cell by {excess}. {ERRORS}"""
+        {replicas(results)}. (a) Mean number ρ(x) of particles per cell at γ = N (circles) and γ = 1 (squares); lines: through the shading.
+        ρ grows with the window, as slow particles accumulate. (b) ρ over the line. As in the paper the profile at γ = 1 is
+        the flatter, and particles accumulate at the ends: excess of the first and the last cell {excess}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:

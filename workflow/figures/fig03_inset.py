@@ -70,6 +70,16 @@ def amplitudes(table: pd.DataFrame, kind: str = SIMULATION) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
+def at_centre(table: pd.DataFrame) -> pd.Series:
+    """Per N, the deviation of the mean field at p = 0, where it is largest, on the lines through the two innermost bins of both
+    halves."""
+    found = {}
+    for cells, part in table[table.kind == MEAN_FIELD].groupby("cells"):
+        inner = [part[np.sign(part.momentum) == side].sort_values("momentum", key=abs) for side in (-1, 1)]
+        found[cells] = max(abs(1.5 * half.deviation.iloc[0] - 0.5 * half.deviation.iloc[1]) for half in inner)
+    return pd.Series(found, name="centre").rename_axis("cells")
+
+
 def draw_end(axes: Axes, table: pd.DataFrame, sign: int, place: str) -> None:
     """The half that leaves at one end: points from simulations, lines from the mean field."""
     half = table[np.sign(table.momentum) == sign]
@@ -90,6 +100,8 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
     look = style.points("o", style.BLUE, label=SIMULATION)
     axes.errorbar(points.cells, points.amplitude, points.error, **look)
     axes.plot(line.cells, line.amplitude, color=style.BLACK, label=MEAN_FIELD)
+    centre = at_centre(table)
+    axes.plot(centre.index, centre, color=style.BLACK, linestyle="dotted", label=f"{MEAN_FIELD}, $p = 0$")
     axes.set(xscale="log", yscale="log", ylim=(LOWEST, HIGHEST), xlim=(1.8, 1.1 * line.cells.max()))
     readings: list[tuple[float, str, style.Look]] = [
         (1, r"of $\max F$", {}),
@@ -109,18 +121,19 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     runs = [result for result in results if result.provenance["program"] == "momentum_flux"]
     first, last = (
-        f"{with_error(one.amplitude, one.error)} at N = {one.cells:.0f}"
-        for one in amplitudes(table).iloc[[0, -1]].itertuples()
+        with_error(one.amplitude, one.error) for one in amplitudes(table).iloc[[0, -1]].itertuples()
     )
-    mean_field = (
-        table[table.kind == MEAN_FIELD].groupby("cells").absolute_as_printed.agg(lambda x: x.abs().max())
-    )
+    printed = (table.absolute_as_printed / table.deviation).median()
+    bins = table[table.kind == MEAN_FIELD].groupby("cells").absolute_as_printed.agg(lambda x: x.abs().max())
+    bounds = [
+        f"{number(one.iloc[0])} and {number(one.iloc[-1])}" for one in (bins, printed * at_centre(table))
+    ]
     return f"""
         Chains of N cells against the kinetic equation, particles that leave; {parameters(runs, "cell-length", "sigma", "gamma")},
-        {baths(runs[0])}, {parameters(runs, *WINDOW)}, {replicas(runs)}. (a), (b) F_N − F at both ends; lines: mean field, the
-        kinetic equation of N scatterers. (c) Amplitude of the deviation, {first} and {last}; dashed: the paper's
-        limits, {LIMITS[0][1]} for all N and {LIMITS[1][1]} for the longest, relative to max F or if F integrates to one (right axis).
-        In the latter normalisation the largest bins of the mean field are {number(mean_field.iloc[0])} and {number(mean_field.iloc[-1])}. {ERRORS}"""
+        {baths(runs[0])}, {parameters(runs, *WINDOW)}, {replicas(runs)}. (a), (b) F_N − F at both ends; lines: mean field. (c) Amplitude of
+        bins, {first} and {last} at N = {table.cells.min()} and {table.cells.max()}; dashed: the paper's
+        limits, {LIMITS[0][1]} for all N and {LIMITS[1][1]} for the longest, relative to max F or if F integrates to one (right axis),
+        where the mean field has {bounds[0]} in its largest bins and {bounds[1]} extrapolated to p = 0 (dotted). {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
@@ -135,11 +148,11 @@ def draw(results: Sequence[Result]) -> Drawn:
     draw_decay(panels["decay"], table)
     style.letter(*panels.values())
     whole = amplitudes(table).rename(columns={"error": "amplitude_error"})
-    return figure, table.merge(whole, on="cells"), caption(table, results)
+    return figure, table.merge(whole, on="cells").join(at_centre(table), on="cells"), caption(table, results)
 
 
 if __name__ == "__main__":
-    pure = dict.fromkeys(("deviation", "error", "amplitude", "amplitude_error"), "1")
+    pure = dict.fromkeys(("deviation", "error", "amplitude", "amplitude_error", "centre"), "1")
     run(
         draw, "Deviation of finite chains from the kinetic equation", absolute_as_printed="1/momentum", **pure
     )

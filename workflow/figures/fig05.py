@@ -54,12 +54,16 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         far = series.loc[series.deviation.abs().idxmax()]
         text = f"{with_error(far.deviation, far.mu_error)} at n = {particles} and σ = {number(far.sigma)}"
         largest.append(text)
+    energies = [
+        f"{energy:.0f} at n = {particles}"
+        for particles, energy in table.groupby("particles_per_cell").particle_energy.median().items()
+    ]
     return f"""
-        Probability μ that a particle keeps its direction when it scatters, against the mass ratio, in closed chains,
-        {parameters(results, "cells", "cell-length", "gamma", "temperature", "relaxation-time")}, n particles per cell, {replicas(results)}. (a) μ and
-        the law arccos(σ)/π of Gaussian momenta at one temperature. (b) μ minus the law; dashes: the law at the
-        measured energies of particles and scatterers, which explains a part. Largest deviations: {listed(largest)}; the law is that of a dense chain,
-        and close to the paper's n = {table.particles_per_cell.min()}. {ERRORS}"""
+        Probability μ that a particle keeps its direction in a scattering, closed chains,
+        {parameters(results, "cells", "cell-length", "gamma", "temperature", "relaxation-time")}, n particles per cell, {replicas(results)}. (a) μ
+        and the law arccos(σ)/π of Gaussian momenta at one temperature. (b) μ minus the law; dashes: the law at the measured energies before
+        collisions (particles: {listed(energies)}), which explains a part. Largest deviations: {listed(largest)}; the law is that of a
+        dense chain. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
@@ -75,10 +79,9 @@ def draw(results: Sequence[Result]) -> Drawn:
         below.errorbar(series.sigma, 1e3 * series.deviation, 1e3 * series.mu_error, **mark)
         expected = 1e3 * (series.law_at_local_energies - series.law)
         dash: style.Look = {"linestyle": "none", "marker": "_", "markersize": 7, "markeredgewidth": 1.2}
-        label = f"law at measured energies, $n = {particles}$"
-        below.plot(series.sigma, expected, color=mark["color"], zorder=1, label=label, **dash)
+        below.plot(series.sigma, expected, color=mark["color"], zorder=1, **dash)
         style.cross_out(above, series.sigma, series.mu, series.converged == NOT_REACHED)
-    below.legend(loc="lower left")
+    above.plot([], [], color="grey", label="law at measured energies", **dash)
     above.set(ylabel=r"persistence $\mu$", xlim=(-1.04, 1.04), ylim=(-0.03, 1.03))
     above.legend(loc="upper right", title=f"$N = {results[0].parameters['cells']}$")
     below.set(xlabel=r"mass ratio $\sigma = (M-m)/(M+m)$", ylabel=r"$10^3\,(\mu - \mathrm{law})$")

@@ -75,12 +75,10 @@ def caption(results: Sequence[Result]) -> str:
     )
     chain = [name for name in CHAIN if name != "sigma"]
     return f"""
-        Density Ψ(τ) of the time between two scatterings of a particle in a closed chain,
-        {parameters(results, *chain, *GAS, *WINDOW)}, {replicas(results)}. (a) Ψ; blue line:
-        exact for σ = 0, n → ∞ and Gaussian momenta; at finite n only the amplitude is larger. (b), (c) Ψ times the paper's powers of τ. Black: power laws,
-        fitted in the shaded tail, with exponents {exponents}; the
-        paper has −{POWERS[0.0]} and −{POWERS[0.5]}. Open symbols: errors above {number(100 * UNSURE)} %; triangles: bins above the frame; empty bins
-        omitted. {ERRORS}"""
+        Density Ψ(τ) of waiting times in a closed chain,
+        {parameters(results, *chain, *GAS, *WINDOW)}, {replicas(results)}. τ = λ/|p| is recorded at its start and may exceed the run. (a) Ψ;
+        blue line: exact for σ = 0, n → ∞; a finite n raises the amplitude only. (b), (c) Ψ times the paper's powers of τ. Black: power laws fitted in the
+        shaded tail, exponents {exponents}; paper: −{POWERS[0.0]} and −{POWERS[0.5]}. Open symbols: errors above {number(100 * UNSURE)} %; triangles: bins above the frame. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:

@@ -16,6 +16,8 @@ from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import NOT_REACHED, Result
 
+TICKS = (-1, -0.5, 0, 0.5, 1)
+
 # By zero total momentum and column: label, marker, colour, face.
 CURVES = {
     (False, "alpha"): ("random total momentum, as in the paper", "o", style.BLUE, style.BLUE),
@@ -74,7 +76,8 @@ def draw(results: Sequence[Result]) -> Drawn:
     for axes, value in ((above, 1), (above, 2), (below, 1)):
         axes.axhline(value, **style.GUIDE)
     above.set(ylabel=r"exponent $\alpha$", xlim=(-1, 1), ylim=(0.8, 2.2))
-    below.set(xlabel=r"mass ratio $\sigma$", ylabel=r"exponent $\alpha$")
+    below.set(xlabel=r"mass ratio $\sigma$", ylabel=r"$\alpha$ without drift")
+    below.set_xticks(TICKS, [number(sigma) for sigma in TICKS])
     figure.legend(*above.get_legend_handles_labels(), loc="outside upper left")
     return figure, table, caption(table, results)
 

@@ -120,7 +120,8 @@ def caption(results: Sequence[Result]) -> str:
         if closed
         else ""
     )
-    spike = "Spike: central scatterer. " if results[0].parameters["gamma"] == 1 else ""
+    near = "Spike: central scatterer; dips beside it: particles that would still be there without the pulse. "
+    spike = near if results[0].parameters["gamma"] == 1 else ""
     return f"""
         Energy ΔE(x, t) per cell of a ring with a central pulse minus without; {pulse(results)}. (a), (b) ΔE.
         {spike}(c) Position of the moving peak; dashed: constant initial speed. (d) Speed between neighbouring times.{faint} As in the paper two peaks move apart; from rest

@@ -14,7 +14,7 @@ SYMBOLS = {
     "cell-length": "λ = {}",
     "sigma": "σ = {}",
     "gamma": "γ = {}",
-    "temperature": "T = {}",
+    "temperature": "initial T = {}",
     "nu-left": "ν_L = {}",
     "nu-right": "ν_R = {}",
     "temperature-left": "T_L = {}",
@@ -37,10 +37,10 @@ ERRORS = "Error bars: standard errors over replicas."
 
 
 def number(value: float) -> str:
-    """The value with four digits, or as a fraction with denominator 2, 3 or 9, and with a typographic minus sign."""
+    """The value with four digits, or as a fraction of up to three digits over 2, 3 or 9, and with a typographic minus sign."""
     fraction = Fraction(value).limit_denominator(10)
     exact = fraction.denominator > 1 and abs(fraction - Fraction(value)) < 1e-12
-    if exact and fraction.denominator in (2, 3, 9):
+    if exact and fraction.denominator in (2, 3, 9) and abs(fraction.numerator) < 1000:
         text = str(fraction)
     else:
         text = f"{value:.0f}" if abs(value) >= 1e4 else f"{value:.4g}"
