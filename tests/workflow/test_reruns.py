@@ -124,11 +124,8 @@ def test_what_is_stale_is_made_again_and_nothing_else(kept: Clone) -> None:
     inodes = {path: (kept.folder / path).stat().st_ino for path in before if (kept.folder / path).exists()}
     profile, *lines = kept.snakemake("figures").splitlines()
     assert profile.startswith("Using workflow specific profile profiles/default")
-    assert {line.partition(" from ")[0] for line in lines} == {
-        "fig03: rendered",
-        "fig05: rendered",
-        "ext01: rendered",
-    }
+    rendered = {line.partition(" from ")[0] for line in lines if not line.endswith("; extensions follow")}
+    assert rendered == {f"{panel}: rendered" for panel in ("fig03", "fig05", "ext01")}
     assert kept.stale() == set()
     after = kept.products()
     remade = {path for path in after if inodes.get(path) != (kept.folder / path).stat().st_ino}
