@@ -1,13 +1,11 @@
 """Bad input: exit status 2, no file, and one line with the problem, its reason and the remedy."""
 
-import os
-import resource
 import subprocess
 from pathlib import Path
 
 import pytest
 
-from tests.python.conftest import Program, command_line
+from tests.python.conftest import Program
 
 # One crossing carries an energy of 1e250 in a window of 1e-60.
 VIOLENT = {"temperature-left": 1e250, "temperature-right": 2e250, "nu-left": 1, "nu-right": 1, "cell-length": 1e65,
@@ -15,15 +13,12 @@ VIOLENT = {"temperature-left": 1e250, "temperature-right": 2e250, "nu-left": 1, 
 
 BAD: dict[str, list[tuple[dict[str, object], str]]] = {
     "persistence": [
-        *(({"sigma": value}, "[-1, 1]") for value in ("2", "-1.0000001", "nan", "half", "", "0.5 ", "0x1p-1")),
+        *(({"sigma": value}, "[-1, 1]") for value in ("2", "-1.0000001")),
         ({"cells": "0"}, "[1, "),
-        ({"cells": "-3"}, "[1, "),
-        ({"cells": "1.5"}, "whole number"),
-        ({"cells": "99999999999999999999"}, "whole number"),
         ({"cells": 4, "gamma": 4.1}, "--gamma exceeds --cells"),
         ({"cells": 100_000_000, "particles-per-cell": 100_000_000}, "smaller chain"),
         ({"particles-per-cell": "0"}, "[1, "),
-        *(({"temperature": value}, "greater than 0") for value in ("-1", "0", "inf", "1e400")),
+        *(({"temperature": value}, "greater than 0") for value in ("-1", "0")),
         ({"temperature": 1e301}, "--temperature"),
         ({"scatterer-temperature": "-0.1"}, "at least 0"),
         ({"cell-length": "0"}, "greater than 0"),
@@ -32,11 +27,9 @@ BAD: dict[str, list[tuple[dict[str, object], str]]] = {
         ({"observation-time": 1e300}, "--observation-time"),
         ({"replicas": "0"}, "[1, "),
         ({"threads": "0"}, "[1, "),
-        ({"seed": "-1"}, "whole number"),
         ({"target-error": "-0.1"}, "at least 0"),
         ({"target-error": 0.1, "target-absolute": 0.1}, "--target-absolute"),
         ({"progress": "loud"}, "auto, bar, log, none"),
-        ({"sigmma": "0.5"}, "--sigmma is not an option; the nearest one is --sigma."),
         ({"output": None}, "FILE.h5"),
     ],
     "displacement": [
@@ -147,36 +140,7 @@ def test_refused(program: Program, tmp_path: Path, name: str, options: dict, wor
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("target", ["no/such/folder/out.h5", "/proc/out.h5", "/dev/full", "folder"])
-def test_output_that_cannot_be_written(persistence: Program, tmp_path: Path, target: str) -> None:
-    (tmp_path / "folder").mkdir()
-    check_refusal(persistence(output=target), "persistence", target, "Name a file")
-    assert [path.name for path in tmp_path.iterdir()] == ["folder"]
-
-
 def test_cost_file_that_cannot_be_written(persistence: Program, tmp_path: Path) -> None:
     (tmp_path / "out.cost.json").mkdir()
     check_refusal(persistence(), "persistence", "out.cost.json", "Name a file")
     assert [path.name for path in tmp_path.iterdir()] == ["out.cost.json"]
-
-
-def limit_file_size() -> None:
-    """Simulates a full disk without special rights: the size of a file is limited to 1000 bytes."""
-    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
-
-
-def test_no_space_is_noticed_before_the_run(tmp_path: Path) -> None:
-    # The run would take days, so the check must precede it.
-    options = {"output": "out.h5", "progress": "none", "observation-time": 1e9}
-    result = subprocess.run(
-        command_line("persistence", options),
-        cwd=tmp_path,
-        env={"PATH": os.defpath},
-        capture_output=True,
-        text=True,
-        timeout=20,
-        check=False,
-        preexec_fn=limit_file_size,
-    )
-    check_refusal(result, "persistence", "out.h5", "Free space")
-    assert list(tmp_path.iterdir()) == []

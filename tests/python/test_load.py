@@ -49,32 +49,33 @@ def seal(file: h5py.File) -> None:
     file["provenance"].attrs["results_digest"] = results_digest(file["results"])
 
 
+MEASURED = {"mean": MEAN, "standard_error": MEAN / 10, "count": np.full((3, 3), 7, dtype="u8")}
+
+
 @pytest.fixture
-def measured() -> dict[str, np.ndarray]:
-    return {"mean": MEAN, "standard_error": MEAN / 10, "count": np.full((3, 3), 7, dtype="u8")}
+def path(tmp_path: Path) -> Path:
+    write(tmp_path / "a.h5", {"time": TIME, "cell": CELL}, MEASURED)
+    return tmp_path / "a.h5"
 
 
 def energy(path: Path) -> Quantity:
     return load(path)["energy"]
 
 
-def test_dimensions_follow_their_scales(tmp_path: Path, measured: dict) -> None:
-    axes = {"time": TIME, "cell": CELL}
-    write(tmp_path / "a.h5", axes, measured)
-    write(tmp_path / "b.h5", dict(reversed(axes.items())), measured)
-    one, other = (energy(tmp_path / name).to_xarray() for name in ("a.h5", "b.h5"))
+def test_dimensions_follow_their_scales(path: Path, tmp_path: Path) -> None:
+    write(tmp_path / "b.h5", {"cell": CELL, "time": TIME}, MEASURED)
+    one, other = (energy(each).to_xarray() for each in (path, tmp_path / "b.h5"))
     assert one["mean"].dims == ("time", "cell")
     assert other["mean"].dims == ("cell", "time")
     assert one["mean"].sel(time=4, cell=0.5) == MEAN[2, 0]
     assert other["mean"].sel(time=4, cell=0.5) == MEAN[0, 2]
 
 
-def test_xarray_and_frame(tmp_path: Path, measured: dict) -> None:
-    write(tmp_path / "a.h5", {"time": TIME, "cell": CELL}, measured)
-    dataset, frame = energy(tmp_path / "a.h5").to_xarray(), energy(tmp_path / "a.h5").to_frame()
+def test_xarray_and_frame(path: Path) -> None:
+    dataset, frame = energy(path).to_xarray(), energy(path).to_frame()
     units = {"time": "time", "cell": "1", "mean": "energy", "standard_error": "energy", "count": "1"}
     assert [*frame] == [*units]
-    for name, array in {**measured, "time": TIME, "cell": CELL}.items():
+    for name, array in {**MEASURED, "time": TIME, "cell": CELL}.items():
         np.testing.assert_array_equal(dataset[name], array)
         assert dataset[name].attrs == {"units": units[name], "description": f"what {name} is"}
     row = frame[(frame.time == 4) & (frame.cell == 0.5)]
@@ -91,41 +92,28 @@ def test_a_computed_number(tmp_path: Path) -> None:
     assert energy(tmp_path / "a.h5").to_xarray()["mean"].dims == ()
 
 
-def test_dimensions_without_a_scale_of_their_own_are_refused(tmp_path: Path, measured: dict) -> None:
-    for number, spoil in enumerate(
-        (
-            lambda group: group["mean"].dims[1].detach_scale(group["cell"]),
-            lambda group: group["mean"].dims[1].attach_scale(group["time"]),
-            lambda group: group.__delitem__("cell"),
-        )
-    ):
-        path = tmp_path / f"{number}.h5"
-        write(path, {"time": TIME, "cell": CELL}, measured)
-        with h5py.File(path, "r+") as file:
-            spoil(file["results/energy"])
-            seal(file)
-        with pytest.raises(FormatError, match="each dimension needs one dimension scale"):
-            load(path)
-
-
-def test_what_belongs_to_no_dimension_is_refused(tmp_path: Path, measured: dict) -> None:
-    write(tmp_path / "a.h5", {"time": TIME, "cell": CELL}, measured)
-    with h5py.File(tmp_path / "a.h5", "r+") as file:
-        file["results/energy/more"] = TIME
+@pytest.mark.parametrize(
+    ("spoil", "words"),
+    [
+        (lambda group: group["mean"].dims[1].detach_scale(group["cell"]), "needs one dimension scale"),
+        (lambda group: group["mean"].dims[1].attach_scale(group["time"]), "needs one dimension scale"),
+        (lambda group: group.__delitem__("cell"), "needs one dimension scale"),
+        (lambda group: group.__setitem__("more", TIME), "more are neither values nor axes"),
+    ],
+)
+def test_wrong_dimensions_are_refused(path: Path, spoil: Callable[[h5py.Group], object], words: str) -> None:
+    with h5py.File(path, "r+") as file:
+        spoil(file["results/energy"])
         seal(file)
-    with pytest.raises(FormatError, match="more are neither values nor axes"):
-        load(tmp_path / "a.h5")
+    with pytest.raises(FormatError, match=words):
+        load(path)
 
 
-def test_text_names_a_file_too(tmp_path: Path, measured: dict) -> None:
-    write(tmp_path / "a.h5", {"time": TIME, "cell": CELL}, measured)
-    assert load(str(tmp_path / "a.h5")).path == tmp_path / "a.h5"
-
-
-def test_an_unknown_quantity_is_named_with_those_that_there_are(tmp_path: Path, measured: dict) -> None:
-    write(tmp_path / "a.h5", {"time": TIME, "cell": CELL}, measured)
+def test_an_unknown_quantity_is_named_with_those_that_there_are(path: Path) -> None:
+    """In a file that text names."""
+    assert load(str(path)).path == path
     with pytest.raises(FormatError, match=r"a\.h5 has no quantity enrgy; did you mean energy\?$"):
-        load(tmp_path / "a.h5")["enrgy"]
+        load(str(path))["enrgy"]
 
 
 def attribute(name: str, value: object) -> Callable[[Path], object]:
@@ -147,11 +135,7 @@ def attribute(name: str, value: object) -> Callable[[Path], object]:
         (attribute("format_version", 2), ": format version 2, not 3; remake it with make figures"),
     ],
 )
-def test_what_is_no_result(
-    tmp_path: Path, measured: dict, change: Callable[[Path], object], words: str
-) -> None:
-    path = tmp_path / "a.h5"
-    write(path, {"time": TIME, "cell": CELL}, measured)
+def test_what_is_no_result(path: Path, change: Callable[[Path], object], words: str) -> None:
     change(path)
     for read in (load, load_provenance, load_statements):
         with pytest.raises(FormatError) as error:
@@ -160,7 +144,7 @@ def test_what_is_no_result(
         assert "\n" not in str(error.value)
 
 
-def test_unreadable_is_not_damaged(tmp_path: Path, measured: dict, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_unreadable_is_not_damaged(monkeypatch: pytest.MonkeyPatch) -> None:
     """As root may read everything, h5py is made to fail as it does where permission is denied."""
 
     def denied(*_: object, **__: object) -> None:
@@ -173,19 +157,9 @@ def test_unreadable_is_not_damaged(tmp_path: Path, measured: dict, monkeypatch: 
         load("a.h5")
 
 
-def test_the_digest_of_results_by_hand_and_of_any_change(tmp_path: Path, measured: dict) -> None:
-    path = tmp_path / "a.h5"
-    write(path, {"time": TIME, "cell": CELL}, measured)
-    parts = {
-        "cell": CELL,
-        "count": measured["count"],
-        "mean": MEAN,
-        "standard_error": MEAN / 10,
-        "time": TIME,
-    }
-    content = b"".join(
-        f"/results/energy/{name}".encode() + values.tobytes() for name, values in parts.items()
-    )
+def test_the_digest_of_results_by_hand_and_of_any_change(path: Path) -> None:
+    parts = sorted({**MEASURED, "cell": CELL, "time": TIME}.items())
+    content = b"".join(f"/results/energy/{name}".encode() + values.tobytes() for name, values in parts)
     with h5py.File(path, "r+") as file:
         assert results_digest(file["results"]) == f"{zlib.crc32(content):08x}"
         file["results/energy/mean"][1, 2] += 1e-9

@@ -54,18 +54,6 @@ def test_a_result_beyond_the_space_leaves_the_former_one(tmp_path: Path) -> None
     assert [path.name for path in tmp_path.iterdir()] == ["out.h5"]
 
 
-def test_a_checkpoint_beyond_the_space_costs_no_result(program: Program, tmp_path: Path) -> None:
-    options = {"decades": 11, "replicas": 2000, "checkpoint-interval": 0.05, "observation-time": 1, "threads": 1,
-               "relaxation-time": 0, "progress": "none"}  # fmt: skip
-    result = limited(tmp_path, {resource.RLIMIT_FSIZE: 300_000}, options, "displacement")
-    assert result.returncode == 0
-    assert result.stderr.startswith("displacement: the run goes on without a checkpoint: ")
-    assert result.stderr.count("\n") == 1
-    assert program("displacement", **{key.replace("-", "_"): value for key, value in options.items()},
-                   output="whole.h5").returncode == 0  # fmt: skip
-    assert (tmp_path / "out.h5").read_bytes() == (tmp_path / "whole.h5").read_bytes()
-
-
 # The stack of a thread takes address space.
 def test_threads_that_the_system_does_not_start(tmp_path: Path) -> None:
     limits = {resource.RLIMIT_STACK: 1000 << 20, resource.RLIMIT_AS: 3700 << 20}
@@ -82,8 +70,7 @@ BIG = {
 }
 
 
-@pytest.mark.parametrize("name", BIG)
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize(("name", "number"), [("persistence", signal.SIGINT), ("boltzmann", signal.SIGTERM)])
 def test_a_signal_during_a_long_setup(tmp_path: Path, name: str, number: signal.Signals) -> None:
     command = command_line(name, {**BIG[name], "output": "out.h5"})
     process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE)

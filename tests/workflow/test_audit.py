@@ -1,6 +1,7 @@
 """make audit, verify and provenance: what they find, what they cannot check, and copies elsewhere."""
 
 import json
+import re
 import shutil
 import zipfile
 from collections.abc import Callable
@@ -26,16 +27,21 @@ def edit_value(clone: Clone) -> None:
 
 
 def edit_option(clone: Clone) -> None:
-    with h5py.File(clone.folder / clone.result(RUN), "r+") as file:
+    with h5py.File(clone.folder / clone.result("fig03/equal"), "r+") as file:
         file["parameters"].attrs["sigma"] = 0.25
 
 
-def edit_record(clone: Clone) -> None:
-    """Edits the figure and its record, so that they agree."""
-    append(f"{FIGURE}.csv", "1,2,3\n")(clone)
-    path = clone.folder / clone.record("fig03")
+def exchange(clone: Clone) -> None:
+    source, target = clone.result("fig03/equal"), clone.result("fig03/exchange")
+    shutil.copyfile(clone.folder / source, clone.folder / target)
+
+
+def edit_table_and_record(clone: Clone) -> None:
+    """So that they agree."""
+    append("figures/smoke/fig02_lower.csv", "1,2,3\n")(clone)
+    path = clone.folder / clone.record("fig02_lower")
     record = json.loads(path.read_text())
-    record["files"]["fig03.csv"] = file_hash(clone.folder / f"{FIGURE}.csv")
+    record["files"]["fig02_lower.csv"] = file_hash(clone.folder / "figures/smoke/fig02_lower.csv")
     path.write_text(json.dumps(record))
 
 
@@ -47,61 +53,67 @@ def halve(name: Callable[[Clone], str]) -> Edit:
     return edit
 
 
-def of_run(clone: Clone) -> str:
-    return clone.result(RUN)
-
-
-def of_record(clone: Clone) -> str:
-    return clone.record("fig03")
-
-
-def exchange(clone: Clone) -> None:
-    shutil.copyfile(clone.folder / clone.result("fig03/equal"), clone.folder / clone.result(RUN))
-
-
-# {result} and {record}: the paths before the edit.
-BROKEN: dict[str, tuple[Edit, str]] = {
-    "value edited": (edit_value, "{result}: edited or damaged: its values differ from those written"),
-    "option edited": (edit_option, "{result}: stale: it has --sigma 0.25, the configuration 0.5"),
-    "result copied in part": (halve(of_run), "{result}: "),
-    "result exchanged": (exchange, "{result}: stale: it has --temperature-left"),
-    "result missing": (delete_result(RUN), "{result}: is missing"),
-    "table edited": (
-        append(f"{FIGURE}.csv", "1,2,3\n"),
-        f"{FIGURE}.csv: edited or replaced: it differs from its hash in fig03.",
+# Edits with the fault that audit prints of each; {panel} and {panel/run}: paths of record and result before. Every edit is of another
+# product, as one fault of a product is printed.
+PRODUCTS: list[tuple[Edit, str]] = [
+    (exchange, "{fig03/exchange}: stale: it has --"),
+    (edit_option, "{fig03/equal}: stale: it has --sigma 0.25, the configuration 0.5"),
+    (edit_value, "{fig03/paper}: edited or damaged: its values differ from those written"),
+    (halve(lambda clone: clone.result("fig06/all_sigma=0")), "{fig06/all_sigma=0}: is damaged"),
+    (delete_result("fig06/all_sigma=0.5"), "{fig06/all_sigma=0.5}: is missing"),
+    (
+        append("figures/smoke/fig05.csv", "1,2,3\n"),
+        "figures/smoke/fig05.csv: edited or replaced: it differs from its hash in fig05.",
     ),
-    "table and record edited": (
-        edit_record,
-        f"{FIGURE}.csv: rendering it again gives other bytes: compare build/audit/smoke/fig03.csv",
+    (
+        edit_table_and_record,
+        "figures/smoke/fig02_lower.csv: rendering it again gives other bytes: compare build/audit/smoke/fig02_lower.csv",
     ),
-    "picture exchanged": (
-        copy("figures/smoke/fig05.png", f"{FIGURE}.png"),
-        f"{FIGURE}.png: edited or replaced",
+    (
+        copy("figures/smoke/fig05.png", "figures/smoke/fig04b.png"),
+        "figures/smoke/fig04b.png: edited or replaced",
     ),
-    "record copied in part": (halve(of_record), "{record}: "),
-    "figure missing": (delete(f"{FIGURE}.svg"), f"{FIGURE}.svg: is missing"),
-    "script": (
-        append("workflow/figures/fig03.py", "# more\n"),
-        f"{FIGURE}.pdf: stale: workflow/figures/fig03.py has changed",
+    (halve(lambda clone: clone.record("fig02_upper")), "{fig02_upper}: "),
+    (delete("figures/smoke/fig01.svg"), "figures/smoke/fig01.svg: is missing"),
+]
+SOURCES: list[tuple[Edit, str]] = [
+    (
+        append("workflow/figures/fig05.py", "# more\n"),
+        "figures/smoke/fig05.pdf: stale: workflow/figures/fig05.py has changed",
     ),
-    "packages": (append("uv.lock", "# more\n"), f"{FIGURE}.pdf: stale: uv.lock has changed"),
-    "C++ source": (
-        append("cpp/boltzmann/solver.cpp", "// more\n"),
-        "{result}: stale: the sources of boltzmann have changed",
+    (
+        append("cpp/statistics/peak.hpp", "// more\n"),
+        "{fig09a/gaussian}: stale: the sources of energy_pulse have changed",
     ),
-    "parameter": (
+    (
         replace("workflow/config/paper.yaml", "momentum-bins: 240", "momentum-bins: 238"),
-        "{result}: stale: it has --momentum-bins 240, the configuration 238",
+        "{fig03/paper}: stale: it has --momentum-bins 240, the configuration 238",
     ),
-}
+]
+LOCK = [(append("uv.lock", "# more\n"), f"{FIGURE}.pdf: stale: uv.lock has changed")]
+EDITED = ("fig01", "fig02_lower", "fig02_upper", "fig03", "fig04b", "fig05", "fig06", "fig09a")
 
 
-@pytest.mark.parametrize("name", BROKEN)
-def test_what_is_broken_is_named(kept: Clone, name: str) -> None:
-    edit, message = BROKEN[name]
-    message = message.format(result=kept.result(RUN), record=kept.record("fig03"))
-    edit(kept)
-    assert f"broken: {message}" in audit(kept, "--panel", "fig03", status=1)
+@pytest.mark.parametrize(
+    ("edits", "in_status"),
+    [
+        (PRODUCTS, ("fig05.csv: edited or replaced", "fig04b.png: edited or replaced", ": is damaged")),
+        (SOURCES, ("fig05.py has changed",)),
+        (LOCK, ()),
+    ],
+)
+def test_what_is_broken_is_named(
+    kept: Clone, edits: list[tuple[Edit, str]], in_status: tuple[str, ...]
+) -> None:
+    paths = {panel: kept.record(panel) for panel in EDITED}
+    paths |= {run: kept.result(run) for _, text in edits for run in re.findall(r"{(\w+/[^}]+)}", text)}
+    for edit, _ in edits:
+        edit(kept)
+    printed = audit(kept, *(f"--panel={panel}" for panel in EDITED), status=1)
+    expected = [re.sub(r"{([^}]+)}", lambda found: paths[found[1]], text) for _, text in edits]
+    assert [text for text in expected if f"broken: {text}" not in printed] == []
+    table = " ".join(kept.module("provenance.status", "--quality", "smoke").split())
+    assert [text for text in in_status if text not in table] == []
 
 
 @pytest.mark.long  # the next test has four panels

@@ -114,47 +114,36 @@ def remedy(printed: str) -> str:
     return re.findall(r"run (make [^;:,)\n]*)", printed)[0].strip()
 
 
-def edit_value(clone: Clone, path: str) -> None:
-    with h5py.File(clone.folder / path, "r+") as file:
-        (quantity, *_) = file["results"].values()
-        quantity["mean"][...] *= 1.001
-
-
-def truncate(clone: Clone, path: str) -> None:
-    content = (clone.folder / path).read_bytes()
-    (clone.folder / path).write_bytes(content[:-100])
-
-
-def save_from_a_spreadsheet(clone: Clone, path: str) -> None:
-    content = (clone.folder / path).read_text()
-    (clone.folder / path).write_text(content.replace(",", ";").replace("\n", "\r\n"), newline="")
-
-
-@pytest.mark.parametrize("damage", [edit_value, truncate, save_from_a_spreadsheet])
-def test_the_remedy_of_a_damaged_product_helps(kept: Clone, damage) -> None:
+def test_the_remedies_of_damaged_products_help(kept: Clone) -> None:
+    """A value edited, a result truncated, and a table saved from a spreadsheet."""
     before = kept.products()
-    path = "figures/smoke/fig03.csv" if damage is save_from_a_spreadsheet else kept.result(RUN)
-    damage(kept, path)
-    audit = ("provenance.audit", "--quality", "smoke", "--panel", "fig03")
-    line = next(line for line in kept.module(*audit, status=1).splitlines() if path in line)
-    if "remove it" in line:
-        (kept.folder / path).unlink()
-    assert remedy(line) == "make figures QUALITY=smoke"
+    edited, truncated, table = kept.result(RUN), kept.result("fig06/all_sigma=0"), "figures/smoke/fig05.csv"
+    with h5py.File(kept.folder / edited, "r+") as file:
+        next(iter(file["results"].values()))["mean"][...] *= 1.001
+    (kept.folder / truncated).write_bytes(before[truncated][:-100])
+    (kept.folder / table).write_bytes(before[table].replace(b",", b";").replace(b"\n", b"\r\n"))
+    audit = ("provenance.audit", "--quality", "smoke", "--panel=fig03", "--panel=fig05", "--panel=fig06")
+    printed = kept.module(*audit, status=1).splitlines()
+    for path in (edited, truncated, table):
+        line = next(line for line in printed if line.startswith(f"broken: {path}"))
+        if "remove it" in line:
+            (kept.folder / path).unlink()
+        assert remedy(line) == "make figures QUALITY=smoke"
     kept.snakemake("figures")
     after = kept.products()
-    assert {name for name in after if after[name] != before.get(name)} <= {kept.record("fig03")}  # the commit
+    records = {kept.record(panel) for panel in ("fig03", "fig05", "fig06")}  # the commit
+    assert {name for name in after if after[name] != before.get(name)} <= records
     kept.module(*audit)
 
 
-@pytest.mark.parametrize("name", ["bin/ageing", "id/ageing.json"])
-def test_the_remedy_of_a_missing_program_helps(kept: Clone, name: str) -> None:
+def test_the_remedy_of_missing_programs_helps(kept: Clone) -> None:
     kept.make("build")
-    (kept.folder / "build" / name).unlink()
-    printed = kept.snakemake("--dry-run", "figures", status=None)
-    if name.startswith("id"):
-        assert remedy(printed) == "make build"
+    missing = [kept.folder / "build" / name for name in ("bin/ageing", "id/ageing.json")]
+    for path in missing:
+        path.unlink()
+    assert remedy(kept.snakemake("--dry-run", "figures", status=None)) == "make build"
     kept.make("build")
-    assert (kept.folder / "build" / name).is_file()
+    assert all(path.is_file() for path in missing)
     assert kept.stale() == set()
 
 
@@ -162,16 +151,8 @@ def test_what_another_user_cannot_read_or_write_is_not_checked(clean: Clone, tmp
     if os.getuid():
         pytest.skip("needs root, to become another user")
     command = ["setpriv", "--reuid", "12345", "--clear-groups", "--regid", "12345", "env", "-i"]
-    audit = [
-        ".venv/bin/python",
-        "-P",
-        "-m",
-        "workflow.provenance.audit",
-        "--quality",
-        "smoke",
-        "--panel",
-        "fig03",
-    ]
+    audit = [".venv/bin/python", "-P", "-m", "workflow.provenance.audit"]
+    audit += ["--quality=smoke", "--panel=fig03"]
     for folder in clean.folder.parents:
         if folder.stat().st_uid == 0 and folder != Path("/"):
             folder.chmod(folder.stat().st_mode | 0o011)

@@ -8,10 +8,9 @@ import time
 
 import pytest
 
-from tests.workflow.conftest import Clone, append
+from tests.workflow.conftest import Clone, replace
 
 CONTROL = re.compile(r"\x1b\[[0-9;?]*[a-zA-Z]")
-PROFILE = "Using workflow specific profile profiles/default for setting default command line arguments."
 
 
 def on_a_terminal(
@@ -40,25 +39,26 @@ def on_a_terminal(
     return CONTROL.sub("", shown), time.monotonic() - pressed
 
 
-def test_a_pipe_has_a_line_per_panel(kept: Clone) -> None:
-    append("workflow/figures/fig03.py", "# more\n")(kept)
-    assert kept.snakemake("figures").splitlines() == [PROFILE, "fig03: rendered from 3 runs, 1 of 1 done"]
-
-
 def test_a_terminal_has_a_line_per_run(kept: Clone) -> None:
     shown, _ = on_a_terminal(kept, "quality=smoke", "panel=fig06", "--forceall", "--", "panel")
     assert re.search(r"fig06/all_sigma=0\.5: \w+ = \S+, \d of 3 done, about 0:\d\d:\d\d left", shown)
     assert "fig06: rendered from 2 runs, 3 of 3 done" in shown
 
 
-def test_a_failure_shows_the_end_of_its_log_alone(kept: Clone) -> None:
-    append("workflow/figures/fig03.py", 'raise RuntimeError("broken here")\n')(kept)
+def test_a_failure_shows_the_end_of_its_log_alone_and_keeps_the_pictures(kept: Clone) -> None:
+    """The record is missing, so that they are rendered by the next command."""
+    before = kept.products()
+    replace(
+        "workflow/figures/fig06.py", "    run(draw", '    raise RuntimeError("broken here")\n    run(draw'
+    )(kept)
     _, first, *log, last = kept.snakemake("figures", status=1).splitlines()
     assert re.fullmatch(
-        r"fig03 failed after 0:\d\d:\d\d\. build/logs/smoke/fig03\.[0-9a-f]{12}\.log ends with:", first
+        r"fig06 failed after 0:\d\d:\d\d\. build/logs/smoke/fig06\.[0-9a-f]{12}\.log ends with:", first
     )
     assert log[-1] == "  RuntimeError: broken here"
-    assert last == "Failed: fig03; 0 of 1 done. Fix the cause; the same command resumes."
+    assert last == "Failed: fig06; 0 of 1 done. Fix the cause; the same command resumes."
+    assert kept.products() == before
+    assert kept.stale() == {"fig06"}
 
 
 @pytest.mark.parametrize("times", [1, 3])

@@ -80,20 +80,14 @@ PhasePoint start_of(std::uint32_t cells, std::uint32_t particles_per_cell, const
   return closed_chain_start(chain, {1, 1}, false, key);
 }
 
-Draws positions(const StreamKey& key, const StreamKey&) {
-  Sequence drawn;
-  for (const Particle& particle : start_of(1, 1000, key).particles) drawn.push_back(particle.position);
+/// Positions, and momenta of particles and scatterers.
+Draws closed_start(const StreamKey& key, const StreamKey&) {
+  Sequence drawn = start_of(1000, 1, key).scatterers;
+  for (const Particle& particle : start_of(1, 1000, key).particles) {
+    drawn.push_back(particle.position);
+    drawn.push_back(particle.velocity);
+  }
   return {{drawn}, 0};
-}
-
-Draws particle_momenta(const StreamKey& key, const StreamKey&) {
-  Sequence drawn;
-  for (const Particle& particle : start_of(1, 1000, key).particles) drawn.push_back(particle.velocity);
-  return {{drawn}, 0};
-}
-
-Draws scatterer_momenta(const StreamKey& key, const StreamKey&) {
-  return {{start_of(1000, 1, key).scatterers}, 0};
 }
 
 OpenChain open_chain(std::uint32_t cells, double scattering_probability) {
@@ -252,15 +246,15 @@ TEST_P(Chance, ReplicasAndSeedsShareNoDraw) {
   EXPECT_TRUE(shared(one, other_seed, [](const StreamKey& key) { return StreamKey(0, key.replica); }));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Sources, Chance,
-    testing::Values(Source{"Positions", positions}, Source{"ParticleMomenta", particle_momenta},
-                    Source{"ScattererMomenta", scatterer_momenta}, Source{"WarmStart", warm_start},
-                    Source{"InjectionLeft", injections<End::left>},
-                    Source{"InjectionRight", injections<End::right>},
-                    Source{"PassesOfAnOpenChain", open_passes}, Source{"PassesOfAClosedChain", closed_passes},
-                    Source{"Directions", directions}, Source{"DirectionsOfAnOpenChain", open_directions}),
-    [](const auto& source) { return source.param.name; });
+INSTANTIATE_TEST_SUITE_P(Sources, Chance,
+                         testing::Values(Source{"ClosedStart", closed_start}, Source{"WarmStart", warm_start},
+                                         Source{"InjectionLeft", injections<End::left>},
+                                         Source{"InjectionRight", injections<End::right>},
+                                         Source{"PassesOfAnOpenChain", open_passes},
+                                         Source{"PassesOfAClosedChain", closed_passes},
+                                         Source{"Directions", directions},
+                                         Source{"DirectionsOfAnOpenChain", open_directions}),
+                         [](const auto& source) { return source.param.name; });
 
 // The random numbers of a collision in an open chain are named by the cell and the count of its collisions.
 // Finds: by the cell alone, by the count alone, by the number of the particle, which is reused.

@@ -96,19 +96,18 @@ void compare_for_every_rate(const Schedule& schedule, double rate) {
     EXPECT_EQ(compare_with_ordered_set(schedule, absurd), events) << "rate " << absurd;
 }
 
-TEST(EventQueue, KeepsTheOrderOfOneParticle) {
-  compare_for_every_rate({1, 2000, heavy_tailed(1), 3, 100000}, 1);
-  compare_for_every_rate({1, 1e6, heavy_tailed(4), 1e3, 100000}, 1);
-}
-
-TEST(EventQueue, KeepsTheOrderOfFewParticles) {
-  compare_for_every_rate({5, 2000, heavy_tailed(0.5), 1, 100000}, 5);
-  compare_for_every_rate({5, 2000, heavy_tailed(2), 0.01, 100000}, 5);
-}
-
-TEST(EventQueue, KeepsTheOrderOfAChain) {
-  compare_for_every_rate({220, 100, heavy_tailed(1), 0.1, 40000}, 220);
-  compare_for_every_rate({220, 1000, heavy_tailed(3), 10, 40000}, 220);
+// One particle, few, and a chain; at equal times by the number.
+TEST(EventQueue, KeepsTheOrderOfArrivals) {
+  for (const auto& [schedule, rate] :
+       std::vector<std::pair<Schedule, double>>{{{1, 2000, heavy_tailed(1), 3, 100000}, 1},
+                                                {{1, 1e6, heavy_tailed(4), 1e3, 100000}, 1},
+                                                {{5, 2000, heavy_tailed(0.5), 1, 100000}, 5},
+                                                {{5, 2000, heavy_tailed(2), 0.01, 100000}, 5},
+                                                {{220, 100, heavy_tailed(1), 0.1, 40000}, 220},
+                                                {{220, 1000, heavy_tailed(3), 10, 40000}, 220},
+                                                {{5, 500, quantised, 0.5, 100000}, 5},
+                                                {{220, 50, quantised, 0.3, 100000}, 220}})
+    compare_for_every_rate(schedule, rate);
 }
 
 // The second is short, because in a queue that expects far too few events the lists grow as long as the
@@ -117,11 +116,6 @@ TEST(EventQueue, KeepsTheOrderOfALargePopulation) {
   for (const double rate : {2e4, 2e10})
     EXPECT_GT(compare_with_ordered_set({20000, 40, heavy_tailed(1), 0.01, 150000}, rate), 150000U);
   compare_for_every_rate({20000, 1, heavy_tailed(1), 0.01, 150000}, 20000);
-}
-
-TEST(EventQueue, BreaksTiesByTheNumber) {
-  compare_for_every_rate({5, 500, quantised, 0.5, 100000}, 5);
-  compare_for_every_rate({220, 50, quantised, 0.3, 100000}, 220);
 }
 
 // Rates that change by orders of magnitude on the way: the width has to follow both ways.

@@ -53,16 +53,18 @@ TEST_P(Pair, IsTwoSimulationsBitForBit) {
   const ClosedChain chain = GetParam();
   const PhasePoint start = closed_chain_start(chain, {500, 500}, false, {1, 0});
   constexpr double end = 1;
-  ClosedDynamics plain(chain, start, end, {5, 7}), perturbed(chain, kicked(start), end, {5, 7});
-  PairDynamics pair(chain, start, kicked(start), end, {5, 7});
-  NoObserver nobody;
-  for (const double time : {0.01, 0.1, 0.3, 1.0}) {
-    simulate(plain, time, nobody, support::nothing);
-    simulate(perturbed, time, nobody, support::nothing);
-    pair.run(time, support::nothing);
-    expect_pair(pair, time, plain.phase_point(time), perturbed.phase_point(time));
+  for (const bool share : {true, false}) {
+    ClosedDynamics plain(chain, start, end, {5, 7}), perturbed(chain, kicked(start), end, {5, 7});
+    PairDynamics pair(chain, start, kicked(start), end, {5, 7}, share);
+    NoObserver nobody;
+    for (const double time : {0.01, 0.1, 0.3, 1.0}) {
+      simulate(plain, time, nobody, support::nothing);
+      simulate(perturbed, time, nobody, support::nothing);
+      pair.run(time, support::nothing);
+      expect_pair(pair, time, plain.phase_point(time), perturbed.phase_point(time));
+    }
+    EXPECT_EQ(pair.events(), plain.events() + perturbed.events());
   }
-  EXPECT_EQ(pair.events(), plain.events() + perturbed.events());
 }
 
 TEST_P(Pair, SharesWhatIsTheSame) {
@@ -79,18 +81,6 @@ TEST_P(Pair, SharesWhatIsTheSame) {
   EXPECT_EQ(diverged(start, true), 0U);
   EXPECT_LT(diverged(kicked(start), true), chain.particles());
   EXPECT_EQ(diverged(kicked(start), false), chain.particles());
-}
-
-TEST_P(Pair, InFullIsTwoSimulationsOfEverything) {
-  const ClosedChain chain = GetParam();
-  const PhasePoint start = closed_chain_start(chain, {500, 500}, false, {1, 0});
-  ClosedDynamics plain(chain, start, 0.2, {5, 7}), perturbed(chain, kicked(start), 0.2, {5, 7});
-  PairDynamics pair(chain, start, kicked(start), 0.2, {5, 7}, false);
-  NoObserver nobody;
-  simulate(plain, 0.2, nobody, support::nothing);
-  simulate(perturbed, 0.2, nobody, support::nothing);
-  pair.run(0.2, support::nothing);
-  expect_pair(pair, 0.2, plain.phase_point(0.2), perturbed.phase_point(0.2));
 }
 
 INSTANTIATE_TEST_SUITE_P(Chains, Pair,

@@ -29,8 +29,8 @@ void write(const std::string& path, const std::string& content) {
   write_atomically(path, std::as_bytes(std::span(content)));
 }
 
-/// Both writing and the check before fail; the message names the file and ends with a sentence on what to do.
-void expect_refused(const std::string& path, std::size_t size = 100) {
+/// Both writing and the check before fail; the message names the file and the remedy.
+void expect_refused(const std::string& path, const std::string& remedy, std::size_t size = 100) {
   for (const bool ask_only : {true, false}) {
     try {
       ask_only ? require_writable(path) : write(path, std::string(size, 'x'));
@@ -38,7 +38,7 @@ void expect_refused(const std::string& path, std::size_t size = 100) {
     } catch (const UsageError& error) {
       const std::string message = error.what();
       EXPECT_NE(message.find("'" + path + "' cannot be written: "), std::string::npos) << message;
-      EXPECT_TRUE(message.ends_with('.')) << message;
+      EXPECT_NE(message.find(". " + remedy), std::string::npos) << message;
     }
   }
 }
@@ -83,7 +83,10 @@ TEST(AtomicFile, IsWrittenByProcessesAtOneTime) {
     children.push_back(::fork());
     if (children.back() != 0) continue;
     try {
-      for (int round = 0; round < 20; ++round) write(folder / "file", std::string(100'000, 'x'));
+      for (int round = 0; round < 20; ++round) {
+        require_writable(folder / "file");
+        write(folder / "file", std::string(100'000, 'x'));
+      }
     } catch (...) {
       std::_Exit(1);
     }
@@ -122,20 +125,15 @@ TEST(AtomicFile, AskingLeavesNothingBehindAndTouchesNothing) {
   EXPECT_EQ(content_of(folder / "file"), "content");
 }
 
-TEST(AtomicFile, RefusesAFolderThatDoesNotExist) {
+TEST(AtomicFile, RefusesMissingFoldersAndWhatIsNotARegularFile) {
   const TemporaryFolder folder;
   write(folder / "file", std::string("content"));
-  expect_refused(folder / "absent/file");
-  expect_refused(folder / "file/below");
-  EXPECT_EQ(folder.names(), Names{"file"});
-}
-
-TEST(AtomicFile, RefusesWhatIsNotARegularFile) {
-  const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "folder");
-  expect_refused(folder / "folder");
-  EXPECT_EQ(folder.names(), Names{"folder"});
-  expect_refused("/dev/full");
+  for (const std::string& path : {folder / "absent/file", folder / "file/below", std::string("/proc/file")})
+    expect_refused(path, "Name a file in an existing folder");
+  for (const std::string& path : {folder / "folder", std::string("/dev/full")})
+    expect_refused(path, "Name a file that may be replaced");
+  EXPECT_EQ(folder.names(), (Names{"file", "folder"}));
 }
 
 /// Limits the size of files, so that writing fails halfway as on a full disk.
@@ -163,8 +161,8 @@ TEST(AtomicFile, KeepsTheOldFileWhenTheDiskIsFull) {
   write(folder / "file", std::string("content"));
   {
     const FileSizeLimit limit(1 << 16);
-    expect_refused(folder / "file", 1 << 17);
-    expect_refused(folder / "other", 1 << 17);
+    expect_refused(folder / "file", "Free space", 1 << 17);
+    expect_refused(folder / "other", "Free space", 1 << 17);
     EXPECT_NO_THROW(write(folder / "small", std::string("fits")));
   }
   EXPECT_EQ(folder.names(), (Names{"file", "small"}));

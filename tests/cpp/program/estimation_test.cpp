@@ -19,34 +19,29 @@ using namespace support;
 using Names = std::set<std::string>;
 
 /// A study whose estimate begins with an action.
-int run_estimating(const std::string& output, const std::function<void()>& action,
-                   const Arguments& more = {}) {
-  std::vector<std::string> arguments{"example", "--output", output, "--progress", "log"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  std::vector<char*> pointers;
-  for (std::string& argument : arguments) pointers.push_back(argument.data());
-  StudyProgram program("example", "An example");
-  return program.run(static_cast<int>(pointers.size()), pointers.data(), [&] {
-    Study study = study_of(measure);
-    study.groups.front().statistics({{"more", "1", "Another"}}, [&](const Records&) {
-      action();
-      return Estimate{{1}, {0}};
-    });
-    study.remarks = [](const Results& results) {
-      return std::vector<std::string>{"more is " + std::to_string(quantity_named(results, "more").mean[0])};
-    };
-    return study;
+Study study_estimating(const std::function<void()>& action) {
+  Study study = study_of(measure);
+  study.groups.front().statistics({{"more", "1", "Another"}}, [=](const Records&) {
+    action();
+    return Estimate{{1}, {0}};
   });
+  study.remarks = [](const Results& results) {
+    return std::vector<std::string>{"more is " + std::to_string(quantity_named(results, "more").mean[0])};
+  };
+  return study;
 }
 
 TEST(EstimationDeathTest, ASignalEndsTheRunWithACheckpoint) {
   for (const int number : {SIGINT, SIGTERM}) {
     const TemporaryFolder folder;
     const auto interrupted = [&] {
-      ::raise(number);
-      std::this_thread::sleep_for(std::chrono::minutes(5));
+      return study_estimating([&] {
+        ::raise(number);
+        std::this_thread::sleep_for(std::chrono::minutes(5));
+      });
     };
-    EXPECT_EXIT(run_estimating(folder / "a.h5", interrupted), testing::ExitedWithCode(128 + number),
+    EXPECT_EXIT(run_program({"--output", folder / "a.h5", "--progress", "log"}, interrupted),
+                testing::ExitedWithCode(128 + number),
                 "interrupted after 16 replicas; --resume continues from");
     EXPECT_EQ(Hdf5Reader(folder / "a.h5.checkpoint").counts("/replicas/index").size(), 16U);
     EXPECT_EQ(folder.names(), Names{"a.h5.checkpoint"});
@@ -63,18 +58,19 @@ TEST(Estimation, WritesCheckpoints) {
       seen = folder.names().contains("a.h5.checkpoint");
     }
   };
-  testing::internal::CaptureStderr();
-  EXPECT_EQ(run_estimating(folder / "a.h5", wait, {"--checkpoint-interval", "0.01"}), 0);
-  EXPECT_TRUE(testing::internal::GetCapturedStderr().ends_with("example: more is 1.000000\n"));
+  EXPECT_EQ(run({"--output", folder / "a.h5", "--progress", "log", "--checkpoint-interval", "0.01"},
+                [&] { return study_estimating(wait); }),
+            0);
+  EXPECT_TRUE(complaints.ends_with("example: more is 1.000000\n")) << complaints;
   EXPECT_TRUE(seen);
   EXPECT_EQ(folder.names(), (Names{"a.h5", "a.cost.json"}));
 }
 
 TEST(Estimation, ReportsItsFailure) {
   const TemporaryFolder folder;
-  testing::internal::CaptureStderr();
-  EXPECT_EQ(run_estimating(folder / "a.h5", [] { throw NumericalError("no estimate"); }), 3);
-  EXPECT_NE(testing::internal::GetCapturedStderr().find("numerical failure: no estimate"), std::string::npos);
+  const auto failing = [] { return study_estimating([] { throw NumericalError("no estimate"); }); };
+  EXPECT_EQ(run({"--output", folder / "a.h5"}, failing), 3);
+  EXPECT_NE(complaints.find("numerical failure: no estimate"), std::string::npos) << complaints;
   EXPECT_EQ(folder.names(), Names{"a.h5.checkpoint"});
 }
 

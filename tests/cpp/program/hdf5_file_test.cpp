@@ -5,12 +5,10 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "program/atomic_file.hpp"
@@ -97,13 +95,6 @@ TEST(Hdf5File, GivesDatasetsTheirShape) {
   EXPECT_EQ(shape("/results/number"), std::vector<hsize_t>{});
   EXPECT_EQ(shape("/results/profile/mean"), (std::vector<hsize_t>{2, 3}));
   EXPECT_EQ(shape("/results/nothing"), std::vector<hsize_t>{0});
-}
-
-// HDF5 time stamps have a resolution of one second.
-TEST(Hdf5File, HasTheSameBytesAtAnotherTime) {
-  const std::vector<std::byte> first = image();
-  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
-  EXPECT_EQ(image(), first);
 }
 
 TEST(Hdf5File, RefusesASizeThatIsNotThatOfTheShape) {

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -22,23 +21,15 @@ using Names = std::set<std::string>;
 
 TEST(Program, ErrorsLeaveNothingBehind) {
   const TemporaryFolder folder;
-  const auto never = [](const Replica&) -> double { throw std::logic_error("measured"); };
   const auto failing = [](const Replica&) -> double { throw NumericalError("overflow"); };
-  const auto expect_one_line = [](const std::string& part) {
-    EXPECT_EQ(complaints.find('\n'), complaints.size() - 1) << complaints;
-    EXPECT_TRUE(complaints.starts_with("example: ")) << complaints;
-    EXPECT_NE(complaints.find(part), std::string::npos) << complaints;
-  };
-  EXPECT_EQ(run({}, never), 2);
-  expect_one_line("--output");
-  EXPECT_EQ(run({"--output", folder / "a.h5", "--replicas", "0"}, never), 2);
-  expect_one_line("--replicas");
-  EXPECT_EQ(run({"--output", folder / "absent/a.h5"}, never), 2);
-  expect_one_line("absent/a.h5");
+  expect_refused_run({}, {"--output"});
+  expect_refused_run({"--output", folder / "a.h5", "--replicas", "0"}, {"--replicas"});
+  expect_refused_run({"--output", folder / "absent/a.h5"}, {"absent/a.h5"});
   EXPECT_EQ(run({"--output", folder / "a.h5"}, failing), 3);
-  expect_one_line("numerical failure: overflow");
+  EXPECT_EQ(complaints, "example: numerical failure: overflow\n");
   EXPECT_EQ(run({"--output", folder / "a.h5"}, never), 5);
-  expect_one_line("internal error: measured");
+  EXPECT_TRUE(complaints.starts_with("example: internal error: measured")) << complaints;
+  EXPECT_EQ(complaints.find('\n'), complaints.size() - 1) << complaints;
   EXPECT_EQ(folder.names(), Names{});
 }
 
@@ -56,7 +47,7 @@ TEST(ProgramDeathTest, SignalsEndTheRunWithACheckpoint) {
     };
     const auto run = [&] {
       ::signal(SIGHUP, SIG_DFL);  // which nohup has these tests ignore
-      run_program({"--output", folder / "a.h5", "--threads", "1"}, killed);
+      run_program({"--output", folder / "a.h5", "--threads", "1"}, [&] { return study_of(killed); });
     };
     EXPECT_EXIT(run(), testing::ExitedWithCode(128 + number), "");
     EXPECT_EQ(folder.names(), Names{"a.h5.checkpoint"});

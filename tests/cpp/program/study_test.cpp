@@ -8,7 +8,6 @@
 #include <new>
 #include <set>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -85,9 +84,7 @@ TEST(Study, KeepsTheReplicasOfResultsThatCannotBeWritten) {
   EXPECT_NE(complaints.find("--resume continues from"), std::string::npos) << complaints;
   EXPECT_EQ(folder.names(), (Names{"a.h5", "a.h5.checkpoint"}));
   std::filesystem::remove(folder / "a.h5");
-  EXPECT_EQ(run({"--output", folder / "a.h5", "--resume"},
-                [](const Replica&) -> double { throw std::logic_error("measured again"); }),
-            0);
+  EXPECT_EQ(run({"--output", folder / "a.h5", "--resume"}, never), 0);
   EXPECT_EQ(run({"--output", folder / "b.h5"}), 0);
   EXPECT_EQ(content_of(folder / "a.h5"), content_of(folder / "b.h5"));
 }
@@ -112,50 +109,38 @@ TEST(Study, LosesNoReplicaInSilence) {
 
 TEST(Study, ResumesToEqualBytes) {
   const TemporaryFolder folder;
-  const Arguments common = {"--threads", "1", "--output"};
-  const auto with = [&](const std::string& name, const Arguments& more) {
-    Arguments arguments = common;
-    arguments.push_back(folder / name);
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
+  const auto arguments = [&](const std::string& name, const Arguments& more = {}) {
+    return with({"--threads", "1", "--output", folder / name}, more);
   };
-  EXPECT_EQ(run(with("whole.h5", {})), 0);
-  EXPECT_EQ(run(with("parts.h5", {}), failing_at(5)), 3);
+  EXPECT_EQ(run(arguments("whole.h5")), 0);
+  EXPECT_EQ(run(arguments("parts.h5"), failing_at(5)), 3);
   EXPECT_EQ(folder.names(), (Names{"whole.h5", "whole.cost.json", "parts.h5.checkpoint"}));
-  EXPECT_EQ(run(with("parts.h5", {"--resume"}), failing_at(9)), 3);
+  EXPECT_EQ(run(arguments("parts.h5", {"--resume"}), failing_at(9)), 3);
 
   std::set<std::uint64_t> measured;
-  EXPECT_EQ(run(with("parts.h5", {"--resume"}),
-                [&](const Replica& replica) {
-                  measured.insert(replica.key.replica);
-                  return measure(replica);
-                }),
-            0);
+  const auto remember = [&](const Replica& replica) {
+    measured.insert(replica.key.replica);
+    return measure(replica);
+  };
+  EXPECT_EQ(run(arguments("parts.h5", {"--resume"}), remember), 0);
   EXPECT_EQ(measured, (std::set<std::uint64_t>{9, 10, 11, 12, 13, 14, 15}));
   EXPECT_EQ(content_of(folder / "parts.h5"), content_of(folder / "whole.h5"));
   EXPECT_FALSE(folder.names().contains("parts.h5.checkpoint"));
-  EXPECT_EQ(run(with("fresh.h5", {"--resume"})), 0);  // there is no checkpoint
+  EXPECT_EQ(run(arguments("fresh.h5", {"--resume"})), 0);  // there is no checkpoint
   EXPECT_EQ(content_of(folder / "fresh.h5"), content_of(folder / "whole.h5"));
 }
 
 TEST(Study, DiscardsACheckpointOnlyWithOverwrite) {
   const TemporaryFolder folder;
-  const auto never = [](const Replica&) -> double { throw std::logic_error("measured"); };
-  EXPECT_EQ(run({"--output", folder / "a.h5", "--threads", "1"}, failing_at(5)), 3);
+  const Arguments a{"--output", folder / "a.h5"};
+  EXPECT_EQ(run(with(a, {"--threads", "1"}), failing_at(5)), 3);
   const std::string before = content_of(folder / "a.h5.checkpoint");
-  const auto expect_refusal = [&](const Arguments& more, const std::string& reason) {
-    Arguments arguments = {"--output", folder / "a.h5"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    EXPECT_EQ(run(arguments, never), 2);
-    EXPECT_NE(complaints.find(reason), std::string::npos) << complaints;
-    EXPECT_NE(complaints.find("--overwrite"), std::string::npos) << complaints;
-    EXPECT_EQ(complaints.find('\n'), complaints.size() - 1) << complaints;
-    EXPECT_EQ(content_of(folder / "a.h5.checkpoint"), before);
-  };
-  expect_refusal({}, "has 5 replicas of this run. Continue with --resume");
-  expect_refusal({"--seed", "2"}, "is of other options or another build");
-  expect_refusal({"--seed", "2", "--resume"}, "is of other options or another build");
-  EXPECT_EQ(run({"--output", folder / "a.h5", "--resume", "--overwrite", "--seed", "2"}), 0);
+  const std::string foreign = "is of other options or another build";
+  expect_refused_run(a, {"has 5 replicas of this run. Continue with --resume", "--overwrite"});
+  expect_refused_run(with(a, {"--seed", "2"}), {foreign, "--overwrite"});
+  expect_refused_run(with(a, {"--seed", "2", "--resume"}), {foreign, "--overwrite"});
+  EXPECT_EQ(content_of(folder / "a.h5.checkpoint"), before);
+  EXPECT_EQ(run(with(a, {"--resume", "--overwrite", "--seed", "2"})), 0);
   EXPECT_EQ(run({"--output", folder / "b.h5", "--seed", "2"}), 0);
   EXPECT_EQ(content_of(folder / "a.h5"), content_of(folder / "b.h5"));
   EXPECT_EQ(folder.names(), (Names{"a.h5", "a.cost.json", "b.h5", "b.cost.json"}));
@@ -166,40 +151,28 @@ TEST(Study, DiscardsACheckpointOnlyWithOverwrite) {
 
 TEST(Study, ReplacesNoResultOfOtherOptions) {
   const TemporaryFolder folder;
-  const auto never = [](const Replica&) -> double { throw std::logic_error("measured"); };
-  const auto expect_refusal = [&](const Arguments& more, const std::string& reason) {
-    Arguments arguments = {"--output", folder / "a.h5"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const std::string before = content_of(folder / "a.h5");
-    EXPECT_EQ(run(arguments, never), 2);
-    EXPECT_NE(complaints.find(reason), std::string::npos) << complaints;
-    EXPECT_NE(complaints.find("--overwrite"), std::string::npos) << complaints;
-    EXPECT_EQ(complaints.find('\n'), complaints.size() - 1) << complaints;
-    EXPECT_EQ(content_of(folder / "a.h5"), before);
-  };
-  EXPECT_EQ(run({"--output", folder / "a.h5"}), 0);
-  EXPECT_EQ(run({"--output", folder / "a.h5", "--threads", "2"}), 0);  // the result is the same
-  expect_refusal({"--seed", "2"}, "another --seed");
-  EXPECT_EQ(run({"--output", folder / "a.h5", "--seed", "2", "--overwrite"}), 0);
-  expect_refusal({}, "another --seed");
+  const Arguments a{"--output", folder / "a.h5"};
+  EXPECT_EQ(run(a), 0);
+  EXPECT_EQ(run(with(a, {"--threads", "2"})), 0);  // the result is the same
+  const std::string before = content_of(folder / "a.h5");
+  expect_refused_run(with(a, {"--seed", "2"}), {"another --seed", "--overwrite"});
+  EXPECT_EQ(content_of(folder / "a.h5"), before);
+  EXPECT_EQ(run(with(a, {"--seed", "2", "--overwrite"})), 0);
+  expect_refused_run(a, {"another --seed", "--overwrite"});
   write_file(folder / "a.h5", "notes");
-  EXPECT_EQ(run({"--output", folder / "a.h5"}, never), 2);
-  EXPECT_NE(complaints.find("not a complete HDF5 file"), std::string::npos) << complaints;
+  expect_refused_run(a, {"not a complete HDF5 file"});
 }
 
 // 0.3 / sqrt(R) / 1.5 is far enough below 0.02 near R = 128; up to there a look follows every 8 replicas.
 TEST(Study, StopsAtTheTargetErrorOnABatchBoundary) {
   const TemporaryFolder folder;
-  const Arguments batches = {"--overwrite", "--replicas", "8", "--output", folder / "a.h5"};
-  const auto with = [&](const Arguments& more) {
-    Arguments arguments = batches;
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run(arguments);
+  const auto run_with = [&](const Arguments& more) {
+    return run(with({"--overwrite", "--replicas", "8", "--output", folder / "a.h5"}, more));
   };
   const auto reached = [](std::uint64_t count, double mean, double error) {
     return StoppingRule::reached(count, error / mean / 0.02);
   };
-  EXPECT_EQ(with({"--target-error", "0.02"}), 0);
+  EXPECT_EQ(run_with({"--target-error", "0.02"}), 0);
   const std::uint64_t count = replicas_in(folder / "a.h5");
   EXPECT_EQ(count % 8, 0U);
   const Hdf5Reader file(folder / "a.h5");
@@ -211,11 +184,11 @@ TEST(Study, StopsAtTheTargetErrorOnABatchBoundary) {
   const Quantity before = study_of(measure).groups[0].estimate(fewer)[0];
   EXPECT_FALSE(reached(count - 8, before.mean[0], before.standard_error[0]));
 
-  EXPECT_EQ(with({"--target-error", "10"}), 0);  // never with fewer than 64
+  EXPECT_EQ(run_with({"--target-error", "10"}), 0);  // never with fewer than 64
   EXPECT_EQ(replicas_in(folder / "a.h5"), 64U);
-  EXPECT_EQ(with({"--target-error", "1e-6", "--time-limit", "1e-9"}), 4);
+  EXPECT_EQ(run_with({"--target-error", "1e-6", "--time-limit", "1e-9"}), 4);
   EXPECT_EQ(replicas_in(folder / "a.h5"), 2U);
-  EXPECT_EQ(with({"--target-error", "0.1", "--target-absolute", "0.1"}), 2);
+  EXPECT_EQ(run_with({"--target-error", "0.1", "--target-absolute", "0.1"}), 2);
 }
 
 TEST(Study, SaysWhereTheRunEnds) {
@@ -250,17 +223,15 @@ TEST(Study, SaysHowUncertainErrorsFromFewReplicasAre) {
 // Looks take place only where an uninterrupted run has them: after 64, 72, 80, ... replicas.
 TEST(Study, ResumesToTheSameBatchBoundary) {
   const TemporaryFolder folder;
-  const auto with = [&](const std::string& name, const MeasureValue& measurement, const Arguments& more) {
-    Arguments arguments = {"--threads",      "1",    "--replicas", "8",
-                           "--target-error", "0.02", "--output",   folder / name};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run(arguments, measurement);
+  const auto run_to = [&](const std::string& name, const MeasureValue& measurement, const Arguments& more) {
+    const Arguments target{"--threads", "1", "--replicas", "8", "--target-error", "0.02"};
+    return run(with(with(target, {"--output", folder / name}), more), measurement);
   };
-  EXPECT_EQ(with("whole.h5", measure, {}), 0);
+  EXPECT_EQ(run_to("whole.h5", measure, {}), 0);
   const std::uint64_t count = replicas_in(folder / "whole.h5");
   ASSERT_GT(count, 72U);
-  EXPECT_EQ(with("parts.h5", failing_at(count - 1), {}), 3);
-  EXPECT_EQ(with("parts.h5", measure, {"--resume"}), 0);
+  EXPECT_EQ(run_to("parts.h5", failing_at(count - 1), {}), 3);
+  EXPECT_EQ(run_to("parts.h5", measure, {"--resume"}), 0);
   EXPECT_EQ(content_of(folder / "parts.h5"), content_of(folder / "whole.h5"));
 }
 
@@ -284,20 +255,13 @@ TEST(Study, UsesTheLowestIndicesAtTheTimeLimitOfAResumedRun) {
 // Before anything is measured.
 TEST(Study, WithoutItsTargetIsRefused) {
   const TemporaryFolder folder;
-  std::vector<std::string> arguments{"example", "--output", folder / "a.h5", "--progress", "none"};
-  std::vector<char*> pointers;
-  for (std::string& argument : arguments) pointers.push_back(argument.data());
-  StudyProgram program("example", "An example");
-  bool measured = false;
-  testing::internal::CaptureStderr();
-  const int status = program.run(static_cast<int>(pointers.size()), pointers.data(), [&] {
-    Study study = study_of([&](const Replica&) { return measured = true, 1.0; });
+  const auto without_target = [] {
+    Study study = study_of(never);
     study.target = "vale";
     return study;
-  });
-  EXPECT_EQ(status, 5);
-  EXPECT_NE(testing::internal::GetCapturedStderr().find("vale"), std::string::npos);
-  EXPECT_FALSE(measured);
+  };
+  EXPECT_EQ(run({"--output", folder / "a.h5"}, without_target), 5);
+  EXPECT_NE(complaints.find("vale"), std::string::npos) << complaints;
 }
 
 }  // namespace study_test

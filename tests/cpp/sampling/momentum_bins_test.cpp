@@ -20,13 +20,6 @@ TEST(MomentumBins, LieAboutZero) {
   EXPECT_EQ(parameters.bins().edge(2), 0);
 }
 
-// Finds: validate() empty, so that 7 bins would silently become 6.
-TEST(MomentumBins, AreEven) {
-  EXPECT_NO_THROW(validate(MomentumBinParameters{.count = 6}));
-  EXPECT_TRUE(support::refused_as("--momentum-bins is odd: no edge would lie at 0",
-                                  [] { validate(MomentumBinParameters{.count = 7}); }));
-}
-
 // Finds: the last edge in place of the width; no lower or no upper limit.
 TEST(MomentumBins, HaveEdgesThatAreNumbers) {
   const auto check = [](double width) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -44,16 +45,15 @@ inline Study study_of(const MeasureValue& measurement) {
           .target = "value"};
 }
 
-/// Runs a program of one study; returns its exit status.
-inline int run_program(Arguments arguments, const MeasureValue& measurement) {
+/// Runs a program of a study; returns its exit status.
+inline int run_program(Arguments arguments, const std::function<Study()>& make) {
   arguments.insert(arguments.begin(), "example");
   if (std::ranges::find(arguments, "--progress") == arguments.end())
     arguments.insert(arguments.end(), {"--progress", "none"});
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   StudyProgram program("example", "An example");
-  const int status =
-      program.run(static_cast<int>(pointers.size()), pointers.data(), [&] { return study_of(measurement); });
+  const int status = program.run(static_cast<int>(pointers.size()), pointers.data(), make);
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) ::signal(number, SIG_DFL);  // as before
   return status;
 }
@@ -62,11 +62,31 @@ inline int run_program(Arguments arguments, const MeasureValue& measurement) {
 inline std::string
     complaints;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): read after the call
 
-inline int run(const Arguments& arguments, const MeasureValue& measurement = measure) {
+inline int run(const Arguments& arguments, const std::function<Study()>& make) {
   testing::internal::CaptureStderr();
-  const int status = run_program(arguments, measurement);
+  const int status = run_program(arguments, make);
   complaints = testing::internal::GetCapturedStderr();
   return status;
+}
+
+inline int run(const Arguments& arguments, const MeasureValue& measurement = measure) {
+  return run(arguments, [&] { return study_of(measurement); });
+}
+
+inline Arguments with(Arguments arguments, const Arguments& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+/// Measurement of which nothing may be made.
+inline double never(const Replica&) { throw std::logic_error("measured"); }
+
+/// The run is refused in one line with all parts, and measures nothing.
+inline void expect_refused_run(const Arguments& arguments, const std::vector<std::string>& parts) {
+  EXPECT_EQ(run(arguments, never), 2);
+  EXPECT_TRUE(complaints.starts_with("example: ")) << complaints;
+  EXPECT_EQ(complaints.find('\n'), complaints.size() - 1) << complaints;
+  for (const std::string& part : parts) EXPECT_NE(complaints.find(part), std::string::npos) << complaints;
 }
 
 /// Measurement that fails at one replica. The exit status is 3, and the finished replicas are kept.
