@@ -326,7 +326,7 @@ CASES: list[tuple[str, World, Outcome]] = [
     ("C28", damped("fig09b", 0.9, 1), S), ("C28", damped("fig09b", 1, 0.9), C),
     ("C29", ageing(0), R), ("C29", ageing(0, few=0.5), C), ("C29", ageing(0.1), S), ("C29", ageing(0, 0.5), S),
     ("C30", linked(1 / 3), R), ("C30", linked(1), S), ("C30", linked(1 / 3, order=2), C),
-    ("C30", linked(1 / 3, order=1.4), C), ("C30", linked(1 / 3, order=1.75), R), ("C30", linked(1, order=1.75), S),
+    ("C30", linked(1 / 3, order=1.2), C), ("C30", linked(1 / 3, order=1.75), R), ("C30", linked(1, order=1.75), S),
     ("C31", jumping(0), R), ("C31", jumping(-1), C),
     ("C32", finite(1e-2), R), ("C32", finite(1e-2, middle=20), C),
     ("C33", halves(3.07), R), ("C33", halves(3.0, 3.0), C), ("C33", halves(3.07, 3.0), R), ("C33", halves(2.93, 2.93), R),

@@ -162,7 +162,7 @@ def _last_time(ring: Result) -> float:
 
 def _diffusion(data: Data) -> str:
     """What the chains and rings do that do not conserve momentum, in words."""
-    told = " With random directions, which do not conserve momentum, " + saturation(data)
+    told = f" With random directions, which do not conserve momentum, {saturation(data)}."
     for ring in data.of("ext13", rule="random-direction"):
         quantity = ring["local_exponent"]
         before, last = (with_error(quantity.mean[k] - 1, quantity.error[k]) for k in (-2, -1))
@@ -184,7 +184,7 @@ def saturation(data: Data) -> str:
         ]
         slope = f", an exponent of {exponent(pair, '')[1].text}" if len(pair) > 1 else ""
         told.append(f"{' and '.join(values)} (λ = {length}{slope})")
-    return f"κ is {'; '.join(told)}." if told else "κ is stationary at no size."
+    return f"κ is {'; '.join(told)}" if told else "κ is stationary at no size"
 
 
 def stationary_at_fixed_spacing(data: Data) -> list[Result]:
