@@ -82,8 +82,9 @@ def kappa(run: Run) -> float:
     if rare(run):
         return float(size * math.exp(-0.002 * (size == 128)))
     powers = {"thinning": 0.1, "dilute": 0.3, "dense": 0.4}
-    if run.series in powers:
-        return float(size ** powers[run.series] * (1 + (size < 256)))  # the two largest are 256 and 512
+    gas = run.series.partition("-")[0]
+    if gas in powers:  # the two largest are 256 and 512, or 1024 and 2048
+        return float(size ** powers[gas] * (1 + (size < 256)))
     return float(256**0.5 * (size / 256) ** (0.5 if size < 256 else 0.2)) * (1 + (size < 16))
 
 
@@ -97,7 +98,7 @@ rare_exponent = (1 + 4e-4 / math.log(2), 4e-4 / math.log(2))
 claim("C23", {"fig08": both}, [rare_exponent])
 response = {**linear_response(lambda size: size**0.3), "stationary": 1, "current_correlation": 0}
 # Of every ring the exponent over the last octave, and 0.02 less before; rings differ by gas and length.
-last = {"light-longest": 1.31, "dense-longest": 1.32, "dilute-long": 1.34}
+last = {"light-longest": 1.31, "dense-longest": 1.32, "dilute-longest": 1.34}
 
 
 def octaves(run: Run, middle: np.ndarray) -> np.ndarray:

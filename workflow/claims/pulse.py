@@ -22,6 +22,7 @@ from workflow.lib.load import Quantity, Result
 PAPERS_START = "paper's start"
 HEAT = "heat"  # runs of ext. 3 for the heat peak
 WIDE = 6  # cells: heat peaks as wide as this are fitted
+AT_BOUND = 0.01  # orders as near as this to what fits allow are not determined by the profile
 WIDE_FROM = 0.032  # time from which the peak of a weak pulse of one cell spans several
 PEAK_BIAS = 0.02  # of an octave's damping exponent, at most (cpp/statistics/moving_peak.hpp)
 
@@ -187,7 +188,8 @@ def heat_peak(data: Data) -> tuple[Number, str]:
             continue
         law, without_one = ext03.stable_laws(record)
         orders = np.append(law[-1], without_one[:, -1])
-        if ext03.ORDERS[0] < orders.min() and orders.max() < ext03.ORDERS[1]:  # the profile determines it
+        low, high = ext03.ORDERS
+        if low + AT_BOUND < orders.min() and orders.max() < high - AT_BOUND:
             times.append(time)
             widths.append(width)
             found.append(orders)
