@@ -62,7 +62,7 @@ def test_numbers_in_caveats() -> None:
         in caveat("C24")
     )
     assert (
-        "exponent is 0.2000(20) at T_R/T_L = 1.5, N = 1024 to 2048 and 0.2000(20) at T_R/T_L = 4"
+        "exponent is 0.2000(20) at T_R/T_L = 1.5, N = 1024 to 2048 and 0.1000(20) at T_R/T_L = 4"
         in caveat("C24")
     )
     assert "at t = 256, 512 and 1024. The peak is then 7 to 16 cells wide" in caveat("C30")

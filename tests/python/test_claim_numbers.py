@@ -88,6 +88,7 @@ def test_noisy_results_scatter_about_them_as_the_errors_predict(name: str) -> No
     z = (found[..., 0] - known[measured]) / found[..., 1]
     labels = [draws[0][k].label for k in measured]
     freedom = np.array([min(draws[0][k].freedom, 1e6) for k in measured])
+    freedom[["heat peak" in one for one in labels]] = 31  # of κ_0, whose error is the larger part
     widest = np.array([next((w for text, w in BOUNDS.items() if text in one), 1) for one in labels])
     wrong = outside(z, freedom, widest)
     assert not wrong.any(), [labels[k] for k in np.flatnonzero(wrong)]
