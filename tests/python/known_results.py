@@ -30,7 +30,7 @@ QUANTITIES: dict[str, dict[str, tuple[str, ...]]] = {
     "boltzmann": {"flux": ("x", "momentum"), "flux_density": ("x", "momentum"), "jump": ("x",), "kurtosis": ("x", "half")},
     "conductivity": {"kappa": (), "kappa_particle": (), "stationary": (), "energy_current": (), "particle_current": (), "current_correlation": ()},
     "correlation": {
-        "damping_exponent": (), "damping_exponent_from": ("from",), "peak": ("time",),
+        "damping_exponent": (), "damping_exponent_from": ("from",), "peak": ("time",), "heat_correlation": ("time", "cell"),
     },
     "heat_current": {"local_exponent": ("middle",)},
     "energy_pulse": {

@@ -104,12 +104,20 @@ def test_one_contradiction_outweighs_what_is_open_and_what_agrees() -> None:
     assert Reading(BAND, (inside, Number("unknown", 0, math.nan, 3)), LEVEL).worst.label == "unknown"
 
 
-def test_of_the_undecided_the_one_that_reaches_out_by_more_of_its_width_decides() -> None:
-    band, known = Band(0, 1000), 1e9
-    half = critical(LEVEL / 2, known)  # of the interval of an error of 1
-    further, less = Number("", 1000, 1, known), Number("", 0.5 * half, 1, known)
-    for numbers in ((further, less), (less, further)):
-        assert Reading(band, numbers, LEVEL).worst is further
+def test_the_number_shown_is_nearest_to_the_edge_in_the_unit_of_the_band() -> None:
+    """Finds: distances in widths of the intervals, by which a value of 0.5(0.01) is nearer to 0 than one of 0.1(0.001)."""
+    near, far = Number("", 0.1, 0.001), Number("", 0.5, 0.01)
+    across, further = Number("", 0.01, 0.02), Number("", 0.01, 0.03)
+    outside, farthest = Number("", -0.5, 1e-9), Number("", -0.8, 0.01)
+    for shown, other in (
+        (near, far),
+        (across, near),
+        (further, across),
+        (outside, further),
+        (farthest, outside),
+    ):
+        for numbers in ((shown, other), (other, shown)):
+            assert Reading(Band(0, math.inf), numbers, LEVEL).worst is shown
 
 
 def test_a_reading_without_numbers_cannot_be_tested() -> None:

@@ -47,8 +47,8 @@ def front_falls(data: Data) -> Evidence:
     found = [number(one, "front_exponent", label=f"at λ = {name}") for name, one in others.items()]
     told = [f"{_misfits(one)} at λ = {name}" for name, one in {"1/N": result, **others}.items()]
     return Evidence(
-        [number(result, "front_exponent", label="d ln p₀ / d ln t")],
-        found,
+        [number(result, "front_exponent", label="d ln p₀ / d ln t at λ = 1/N")],
+        alternative=found,
         caveat=f"χ² of the five fronts for p₀ ~ 1/t and ~ 1/ln t: {', '.join(told)}, with 4 degrees of freedom.",
     )
 

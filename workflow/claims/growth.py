@@ -1,6 +1,7 @@
 """Claims on the conductivity against the size (fig. 8, section 6), and on heat in equilibrium."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import TypeVar
 
 import numpy as np
@@ -29,6 +30,7 @@ BULK = 16  # smaller chains are mostly ends
 LARGE = 16  # the largest sizes are those within this factor of the largest
 FIXED_SPACING = 0.1  # of ext11
 EXPONENT = "d ln κ/d ln N"  # in the names of numbers
+THINNING = "spacing 1/N"  # at which the gas thins out as N grows
 SERIES = ("thinning", "dilute", "dense")  # of ext09, by spacing
 
 
@@ -71,6 +73,15 @@ def between_baths(data: Data, series: str) -> list[Result]:
     return _stationary([one for one in data.of("ext09") if one.run.startswith(series)])
 
 
+def thinning_exponents(data: Data) -> list[Number]:
+    """Of kappa between the two largest sizes at the paper's spacing, for both drives; the labels are drive and sizes."""
+    found = [one for one in last_exponents(data) if f", {THINNING}" in one.label]
+    return [
+        replace(one, label=one.label.removeprefix(f"{EXPONENT}, ").replace(f", {THINNING}", ""))
+        for one in found
+    ]
+
+
 def last_exponents(data: Data) -> list[Number]:
     """Exponents of kappa between baths, in fig. 8 and in every series of ext09 that has been made."""
     try:
@@ -95,7 +106,7 @@ def _stationary(runs: Sequence[Result]) -> list[Result]:
 
 def linear(data: Data) -> Evidence:
     found, law = exponent(largest_sizes(sizes(data, 1)), f"{EXPONENT}, γ = 1")
-    return Evidence([found], caveat=_fit(law))
+    return Evidence([found], caveat=f"Over these sizes {_fit(law)}")
 
 
 def halves(by_size: Sequence[T]) -> list[Sequence[T]]:
@@ -109,44 +120,89 @@ def cube_root(data: Data) -> Evidence:
     of the heat that passes in equilibrium, and of the conductivity without a particle current. Alternative: between baths."""
     runs = [one for one in sizes(data, "N") if one.parameters["cells"] >= BULK]
     _, law = exponent(runs, f"fig. 8, γ = N, {BULK} cells or more")
-    heat, control = equilibrium(data)
+    last = [f"{with_error(one.value, one.error)} at {one.label}" for one in thinning_exponents(data)]
     return Evidence(
-        [exponent(part, f"{EXPONENT}, γ = N, spacing 1/N")[0] for part in halves(runs)],
-        [*heat, without_particle_current(data)],
+        [exponent(part, f"{EXPONENT}, γ = N, {THINNING}")[0] for part in halves(runs)],
+        [*equilibrium(data), without_particle_current(data)],
         last_exponents(data),
-        caveat=f"At the paper's spacing 1/N the density falls as N grows: over all sizes {_fit(law)}{control} The intended band "
-        "tells 1/3 from diffusion and from 1/2, not from 2/5.",
+        caveat=f"At the paper's spacing 1/N the density falls as N grows. Over all sizes {_fit(law)} Between the two largest "
+        f"the exponent is {' and '.join(last)}.{_diffusion(data)} The intended band tells 1/3 from diffusion and from 1/2, not from 2/5.",
     )
 
 
-def equilibrium(data: Data) -> tuple[list[Number], str]:
-    """b of κ ∼ N^b, as <Q²> ∼ t^(1+b), in every gas that conserves momentum, over the last octave of its longest ring; by how much the
-    octave before differs bounds the systematic error. Gases that do not conserve momentum, in words."""
-    longest: dict[tuple[bool, str], Result] = {}
-    for result in sorted(data.of("ext13"), key=lambda one: float(one["local_exponent"].axes["middle"][-1])):
-        gas = ext13.chain(result)
-        name = f"ζ = {gas.zeta:g}, M = {gas.mass:.2g}"
-        longest[result.parameters["rule"] == "random-direction", name] = result
-    found, control = [], ""
-    for (random, name), result in longest.items():
-        label = f"d ln⟨Q²⟩/d ln t - 1, {name}, t = {result['local_exponent'].axes['middle'][-1]:.0f}"
-        before, last = (number(result, "local_exponent", k, label).over(1, 1) for k in (-2, -1))
-        if random:
-            control += f" With random directions, which do not conserve momentum, d ln⟨Q²⟩/d ln t - 1 is {with_error(last.value, last.error)} ({name})."
-        else:
-            found.append(with_systematic(last, [before.value]))
-    return found, control
+def equilibrium(data: Data) -> list[Number]:
+    """b of κ ∼ N^b, as <Q²> ∼ t^(1+b), of every gas over the last octave of its longest ring."""
+    return [last_octave(ring) for ring in longest_rings(data)]
 
 
-def without_particle_current(data: Data) -> Number:
-    """Exponent of kappa_0, the conductivity at J_n = 0, at fixed spacing (ext. 11), over sizes whose runs are stationary. Those
-    of the smaller and of the larger half bound the systematic error."""
-    asked = data.of("ext11", cell_length=FIXED_SPACING)
+def longest_rings(data: Data) -> list[Result]:
+    """Of every gas in ext. 13 that conserves momentum."""
+    longest: dict[str, Result] = {}
+    for ring in sorted(data.of("ext13", rule="elastic"), key=_last_time):
+        longest[gas_name(ring)] = ring
+    return [*longest.values()]
+
+
+def last_octave(ring: Result) -> Number:
+    """d ln⟨Q²⟩/d ln t - 1; by how much the octave before differs bounds the systematic error."""
+    label = f"d ln⟨Q²⟩/d ln t - 1, {gas_name(ring)}, t = {_last_time(ring):.0f}"
+    before, last = (number(ring, "local_exponent", k, label).over(1, 1) for k in (-2, -1))
+    return with_systematic(last, [before.value])
+
+
+def gas_name(ring: Result) -> str:
+    gas = ext13.chain(ring)
+    return f"ζ = {gas.zeta:g}, M = {gas.mass:.2g}"
+
+
+def _last_time(ring: Result) -> float:
+    """Middle of the last octave."""
+    return float(ring["local_exponent"].axes["middle"][-1])
+
+
+def _diffusion(data: Data) -> str:
+    """What the chains and rings do that do not conserve momentum, in words."""
+    told = f" With random directions, which do not conserve momentum, {saturation(data)}."
+    for ring in data.of("ext13", rule="random-direction"):
+        quantity = ring["local_exponent"]
+        before, last = (with_error(quantity.mean[k] - 1, quantity.error[k]) for k in (-2, -1))
+        told += f" In a ring d ln⟨Q²⟩/d ln t - 1 is then {before} and {last} in the last two octaves, to t = {_last_time(ring):.0f} ({gas_name(ring)})."
+    return told
+
+
+def saturation(data: Data) -> str:
+    """κ of the two longest chains with random directions of every spacing, and its exponent between them, in words."""
+    runs: dict[str, list[Result]] = {}
+    for run in _stationary(data.of("fig08", "conductivity", rule="random-direction")):
+        runs.setdefault(spacing(run)[1], []).append(run)
+    told = []
+    for length, of_spacing in runs.items():
+        pair = of_spacing[-2:]
+        values = [
+            f"{with_error(one.value, one.error)} at N = {run.parameters['cells']}"
+            for run, one in zip(pair, map(_kappa, pair), strict=True)
+        ]
+        slope = f", an exponent of {exponent(pair, '')[1].text}" if len(pair) > 1 else ""
+        told.append(f"{' and '.join(values)} (λ = {length}{slope})")
+    return f"κ is {'; '.join(told)}" if told else "κ is stationary at no size"
+
+
+def stationary_at_fixed_spacing(data: Data) -> list[Result]:
+    """Runs of ext. 11 at fixed spacing, of sizes whose runs are all stationary. Raises MissingError."""
+    asked = data.of("ext11", "conductivity", cell_length=FIXED_SPACING)
     moving = {one.parameters["cells"] for one in asked if one["stationary"].mean != 1}
     runs = [one for one in asked if one.parameters["cells"] not in moving]
     if len({one.parameters["cells"] for one in runs}) < 2:
         raise MissingError("Fewer than two sizes of ext11 are stationary at this quality")
+    return runs
+
+
+def without_particle_current(data: Data, last: int | None = None) -> Number:
+    """Exponent of kappa_0, the conductivity at J_n = 0, at fixed spacing (ext. 11), over all sizes or so many of the largest. Those
+    of the smaller and of the larger half bound the systematic error."""
+    runs = stationary_at_fixed_spacing(data)
     table = tabulate(runs)
+    table = table.iloc[-last:] if last else table
     values = [*zip(table.cells, table.kappa_0, table.kappa_0_error, strict=True)]
     law, *parts = (fit_power(*np.array(part, float).T) for part in (values, *halves(values)))
     label = f"d ln κ_0/d ln N at J_n = 0 and spacing {FIXED_SPACING}, N = {table.cells.min()} to {table.cells.max()}"
@@ -155,7 +211,7 @@ def without_particle_current(data: Data) -> Number:
 
 
 def _fit(law: PowerLaw) -> str:
-    return f"χ² of the power law {law.chi_square:.1f} with {law.freedom} degrees of freedom."
+    return f"the power law has χ² = {law.chi_square:.1f} for {law.freedom}."
 
 
 CLAIMS: dict[str, Claim] = {"C23": linear, "C24": cube_root}

@@ -113,15 +113,16 @@ class Reading:
 
     @property
     def worst(self) -> Number:
-        """The number that decides: the one whose interval reaches farthest out of the band, or nearest to its edge."""
+        """The number that is shown: the one farthest outside the band, else the one whose interval reaches farthest across an edge
+        or is closest to it. Distances are in the unit of the band, which the numbers of a reading have in common."""
 
-        def reach(number: Number) -> float:
+        def reach(number: Number) -> tuple[bool, float]:
             low, high = number.interval(self.share)
-            width = max(high - low, 1e-300)
-            far = max(self.band.low - low, high - self.band.high) / width
-            return math.inf if math.isnan(far) else far
+            beyond = max(self.band.low - high, low - self.band.high)
+            far = max(self.band.low - low, high - self.band.high)
+            return (True, beyond) if beyond > 0 else (False, math.inf if math.isnan(far) else far)
 
-        return max(self.numbers, key=lambda one: (one.p_value(self.band) < self.share, reach(one)))
+        return max(self.numbers, key=reach)
 
     @property
     def detectable(self) -> float:

@@ -7,12 +7,14 @@ the spread over runs that differ in the seed alone.
 """
 
 from collections.abc import Callable, Sequence
+from functools import cache
 from typing import NamedTuple
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from scipy.interpolate import RectBivariateSpline
 from scipy.optimize import least_squares
 
 from workflow.figures.ext13 import LOOKS, chain
@@ -29,6 +31,8 @@ REACH = 3  # of the scaled profiles
 HEAT_REACH = 4
 FITTED = 8  # widths of the heat peak, within which it is fitted
 HEAT_ORDER, GAUSSIAN = 5 / 3, 2  # of stable laws [eq. M29], and of diffusion
+RATIOS_ALLOWED = (0.1, 10)  # of width and area of a fitted stable law, over the predicted ones
+ORDERS = (1, 3)  # allowed
 BIN = 0.2  # of the scaled distances, over which profiles are averaged
 
 
@@ -125,6 +129,13 @@ def heat_area(record: Record) -> float:
     return record.gas.temperature**4 / (4 * record.gas.cell_length * record.mobile.heat_susceptibility)
 
 
+@cache
+def stable_densities() -> RectBivariateSpline:
+    """Interpolates levy(x, order), which fits need thousands of times."""
+    x, order = np.arange(0, 40, 0.1), np.arange(0.9, 3.15, 0.1)
+    return RectBivariateSpline(x, order, np.stack([levy(x, one) for one in order], axis=1))
+
+
 def stable_law(record: Record, profile: np.ndarray, order: float | None = None) -> np.ndarray:
     """Width and area, over the predicted ones, and order, free or given, of the stable law that fits a heat peak inside
     the sound peaks best."""
@@ -136,12 +147,16 @@ def stable_law(record: Record, profile: np.ndarray, order: float | None = None) 
 
     def residuals(law: np.ndarray) -> np.ndarray:
         width, area, exponent = law
-        return weight * (area / width * levy(x / width, exponent) - y)
+        return weight * (area / width * stable_densities().ev(x / width, exponent) - y)
 
+    exact = {"ftol": 1e-12, "xtol": 1e-12, "gtol": 1e-12}
     if order is not None:
-        found = least_squares(lambda law: residuals(np.append(law, order)), [1, 1], bounds=(0.1, 10))
+        found = least_squares(
+            lambda law: residuals(np.append(law, order)), [1, 1], bounds=RATIOS_ALLOWED, **exact
+        )
         return np.append(found.x, order)
-    return least_squares(residuals, [1, 1, HEAT_ORDER], bounds=([0.1, 0.1, 1], [10, 10, 3])).x
+    bounds = [*zip(RATIOS_ALLOWED, RATIOS_ALLOWED, ORDERS, strict=True)]
+    return least_squares(residuals, [1, 1, HEAT_ORDER], bounds=bounds, **exact).x
 
 
 def diffusive(record: Record, y: np.ndarray) -> np.ndarray:
@@ -151,15 +166,24 @@ def diffusive(record: Record, y: np.ndarray) -> np.ndarray:
     return area / width * levy(y / width, order)
 
 
-def fitted(record: Record) -> dict[str, float]:
-    """The stable law of the mean over all runs; errors by the jackknife over runs, as values of neighbouring cells are
-    correlated. Empty for one run."""
+def stable_laws(record: Record) -> tuple[np.ndarray, np.ndarray]:
+    """Of the mean over all runs, and of the means without one of them [run, width, area and order]."""
     each = record.profiles("heat_correlation")
-    if len(each) < 2:
-        return {}
-    law = stable_law(record, each.mean(axis=0))
     without_one = [stable_law(record, np.delete(each, k, axis=0).mean(axis=0)) for k in range(len(each))]
-    errors = np.sqrt(len(each) - 1) * np.std(without_one, axis=0)
+    return stable_law(record, each.mean(axis=0)), np.array(without_one)
+
+
+def jackknife_error(without_one: np.ndarray) -> np.ndarray:
+    """Of values without one of the runs. Their spread is the error although values of neighbouring cells are correlated."""
+    return np.sqrt(len(without_one) - 1) * np.std(without_one, axis=0)
+
+
+def fitted(record: Record) -> dict[str, float]:
+    """The stable law with its errors. Empty for one run."""
+    if len(record.results) < 2:
+        return {}
+    law, without_one = stable_laws(record)
+    errors = jackknife_error(without_one)
     names = ("stable_width_ratio", "stable_area_ratio", "stable_order")
     return {
         key: float(value)

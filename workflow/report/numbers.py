@@ -1,9 +1,10 @@
 """Numbers, gases and sizes quoted in questions.yaml and misprints.yaml by the name of their function; none decides a claim."""
 
 from collections.abc import Sequence
-from typing import Any
+from dataclasses import replace
 
-from workflow.claims.data import Data, MissingError, number
+from workflow.claims.data import Data, MissingError, by_size, number
+from workflow.claims.fluxes import decay
 from workflow.claims.growth import (
     BULK,
     between_baths,
@@ -11,12 +12,19 @@ from workflow.claims.growth import (
     halves,
     largest_sizes,
     last_exponent,
+    last_octave,
+    longest_rings,
+    saturation,
     sizes,
+    stationary_at_fixed_spacing,
+    thinning_exponents,
     without_particle_current,
 )
 from workflow.claims.verdict import Number
-from workflow.figures import ext13
+from workflow.figures import ext11, ext13
 from workflow.lib import caption
+from workflow.lib.fit import with_error
+from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 from workflow.report.words import value
 
@@ -47,8 +55,17 @@ def large_chains(data: Data) -> str:
 
 
 def _sizes_of_half(data: Data, half: int) -> str:
-    cells = [one.parameters["cells"] for one in _half(data, half)]
-    return f"N = {cells[0]} to {cells[-1]}"
+    return _from_to(_half(data, half))
+
+
+def _from_to(runs: Sequence[Result]) -> str:
+    cells = [one.parameters["cells"] for one in runs]
+    return f"N = {min(cells)} to {max(cells)}"
+
+
+def kappa_of_longest_chains(data: Data) -> str:
+    """Exponents between the two largest sizes at the paper's spacing."""
+    return caption.listed(f"{value(one)} ({one.label})" for one in thinning_exponents(data))
 
 
 def kappa_at_fixed_density(data: Data) -> str:
@@ -60,50 +77,57 @@ def kappa_at_fixed_density(data: Data) -> str:
     return caption.listed(found)
 
 
+def kappa_of_random_directions(data: Data) -> str:
+    return saturation(data)
+
+
 def heat_exponent(data: Data) -> Number:
     """Exponent of <Q²> over the last octave of the ring that was observed for the longest time."""
-    return number(_longest(data), "local_exponent", -1, f"d ln⟨Q²⟩/d ln t at {longest_ring(data)}")
+    rings = data.of("ext13", rule="elastic")
+    return _exponent(max(rings, key=lambda one: float(one["heat_variance"].axes["time"][-1])))
 
 
-def longest_ring(data: Data) -> str:
-    return _gas_and_time(_longest(data))
+def heat_exponents(data: Data) -> str:
+    """Of every gas, over the last octave of its longest ring."""
+    return caption.listed(f"{value(_exponent(ring))} ({_gas_and_time(ring)})" for ring in longest_rings(data))
 
 
-def heat_exponent_without_momentum(data: Data) -> Number:
-    return number(_control(data), "local_exponent", -1)
+def heat_exponent_without_momentum(data: Data) -> str:
+    (ring,) = data.of("ext13", rule="random-direction")
+    return f"{value(number(ring, 'local_exponent', -1))} ({_gas_and_time(ring)})"
 
 
-def heat_exponent_with_momentum(data: Data) -> Number:
-    """Exponent in the gas of the runs with random directions."""
-    return number(_comparable(data), "local_exponent", -1)
+def _exponent(ring: Result) -> Number:
+    found = last_octave(ring).over(1, -1)
+    return replace(found, label=f"d ln⟨Q²⟩/d ln t, {_gas_and_time(ring)}")
 
 
-def ring_with_momentum(data: Data) -> str:
-    return _gas_and_time(_comparable(data))
-
-
-def _comparable(data: Data) -> Result:
-    gas = _control(data).parameters
-    return _longest(data, sigma=gas["sigma"], fugacity=gas["fugacity"])
-
-
-def _control(data: Data) -> Result:
-    (result,) = data.of("ext13", rule="random-direction")
-    return result
+def _gas_and_time(ring: Result) -> str:
+    gas, middle = ext13.chain(ring), ring["local_exponent"].axes["middle"][-1]
+    return f"ζ = {caption.number(gas.zeta)}, M = {caption.number(gas.mass)}, t = {middle:.0f}"
 
 
 def kappa_0_exponent(data: Data) -> Number:
     return without_particle_current(data)
 
 
-def _longest(data: Data, **gas: Any) -> Result:
-    rings = data.of("ext13", rule="elastic", **gas)
-    return max(rings, key=lambda one: float(one["heat_variance"].axes["time"][-1]))
+def sizes_of_kappa_0(data: Data) -> str:
+    return _from_to(stationary_at_fixed_spacing(data))
 
 
-def _gas_and_time(ring: Result) -> str:
-    gas, middle = ext13.chain(ring), ring["local_exponent"].axes["middle"][-1]
-    return f"ζ = {caption.number(gas.zeta)}, M = {caption.number(gas.mass)}, t = {middle:.0f}"
+def kappa_0_in_the_last_octave(data: Data) -> Number:
+    return without_particle_current(data, last=2)
+
+
+def kappa_0_expected(data: Data) -> str:
+    """Exponent in the last octave that the heat predicts which passes a ring before sound leaves the chain (ext. 11)."""
+    chains = stationary_at_fixed_spacing(data)
+    rings = data.of("ext13", rule="elastic", sigma=chains[0].parameters["sigma"])
+    table, _ = ext11.with_theory(ext11.tabulate(chains), chains, ext11.rings(rings))
+    last = table.iloc[-2:]
+    return with_error(
+        *(float(one[-1]) for one in local_exponents(last.cells, last.predicted, last.predicted_error)[1:])
+    )
 
 
 def momentum_change(data: Data) -> Number:
@@ -155,3 +179,12 @@ def peak_collapse(data: Data) -> Number:
 def particle_current(data: Data) -> Number:
     result = sizes(data, "N")[-1]
     return number(result, "particle_current", label=f"J_n at N = {result.parameters['cells']}, γ = N")
+
+
+def kinetic_exponent_of_longer_chains(data: Data) -> Number:
+    """Without the smallest N."""
+    return decay(data, skipped=1)[0]
+
+
+def sizes_of_longer_chains(data: Data) -> str:
+    return _from_to(by_size(data.of("fig03_inset", "momentum_flux"))[1:])

@@ -1,0 +1,46 @@
+"""The order of the heat peak in equilibrium: interpolated stable densities, the times that count, and what is missing."""
+
+import numpy as np
+import pytest
+
+from tests.python.claim_truths_closed import of_peaks
+from tests.python.known_results import Known, truth
+from tests.python.test_claim_verdicts import heat_peak as stable_peak
+from workflow.claims.data import MissingError
+from workflow.claims.pulse import heat_peak
+from workflow.figures.ext03 import stable_densities
+from workflow.lib.mode_coupling import levy
+from workflow.lib.plan import Run
+
+
+@pytest.mark.parametrize("order", [1, 1.234, 5 / 3, 2, 2.51, 3])
+def test_interpolated_densities(order: float) -> None:
+    x = np.linspace(0, 39, 333)
+    np.testing.assert_allclose(stable_densities().ev(x, order), levy(x, order), rtol=0, atol=3e-5)
+
+
+def test_the_first_time_bounds_the_systematic_error() -> None:
+    """Order 1.7, but 1.6 at t = 256: the mean lies between, and the bound reaches from there to 1.7."""
+
+    def profile(run: Run, t: np.ndarray, cell: np.ndarray) -> np.ndarray:
+        first, later = (stable_peak(order)(run, t, cell) for order in (1.6, 1.7))
+        return np.where(t < 300, first, later)
+
+    order, told = heat_peak(Known({"ext03": truth(of_peaks | {"heat_correlation": profile}, 1e-4)}))
+    assert 1.6 < order.value < 1.7
+    assert order.value + order.systematic == pytest.approx(1.7, abs=1e-6)
+    assert "at t = 256, 512 and 1024. The peak is then 7 to 16 cells wide" in told
+
+
+def test_times_whose_profile_determines_no_order_do_not_count() -> None:
+    """At t = 1024 the profile has no peak, and its order is at a bound."""
+
+    def profile(run: Run, t: np.ndarray, cell: np.ndarray) -> np.ndarray:
+        return np.where(t > 1000, np.cos(cell / 20), stable_peak(1.7)(run, t, cell))
+
+    order, told = heat_peak(Known({"ext03": truth(of_peaks | {"heat_correlation": profile}, 1e-4)}))
+    assert order.value == pytest.approx(1.7, abs=1e-6)
+    assert "at t = 256 and 512." in told
+    flat = truth(of_peaks | {"heat_correlation": lambda *_: 1.0}, 1e-4)
+    with pytest.raises(MissingError, match="determine no order"):
+        heat_peak(Known({"ext03": flat}))
