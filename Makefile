@@ -10,9 +10,10 @@ nearest = $(shell python3 -c 'import difflib, sys; print(*difflib.get_close_matc
 upper = $(shell printf %s '$1' | tr a-z A-Z)
 $(foreach name,$(filter-out $(KNOWN),$(foreach one,$(.VARIABLES),$(if $(filter command,$(origin $(one))),$(one)))),\
   $(error $(name) is not an option; did you mean $(call nearest,$(call upper,$(name)) $(KNOWN))?))
-$(foreach name,FRESH FULL DRY,$(if $(filter-out yes no,$($(name))),$(error $(name)=$($(name)) is invalid; give $(name)=yes, or leave it out)))
+$(foreach name,FRESH FULL DRY,$(if $(filter-out yes no,$(subst $() ,_,$($(name)))),$(error $(name)=$($(name)) is invalid; give $(name)=yes, or leave it out)))
 $(foreach name,FRESH FULL DRY,$(eval override $(name) := $(filter yes,$($(name)))))
-$(if $(JOBS),$(if $(shell printf %s '$(JOBS)' | grep -xE '[1-9][0-9]*'),,$(error JOBS=$(JOBS) is invalid; give the number of jobs, at least 1)))
+digits = $(subst 9,,$(subst 8,,$(subst 7,,$(subst 6,,$(subst 5,,$(subst 4,,$(subst 3,,$(subst 2,,$(subst 1,,$(subst 0,,$1))))))))))
+$(foreach name,JOBS BATCH,$(if $($(name)),$(if $(call digits,$($(name)))$(filter 0%,$($(name))),$(error $(name)=$($(name)) is invalid; give a whole number of at least 1))))
 $(if $(filter figures report gallery,$(MAKECMDGOALS)),$(if $(PANEL),$(error PANEL has no effect on this target; try make panel PANEL=$(PANEL))))
 PROFILES := $(notdir $(wildcard profiles/*))
 $(if $(PROFILE),$(if $(filter $(PROFILE),$(PROFILES)),,$(error $(PROFILE) is not a profile; did you mean $(call nearest,$(PROFILE) $(PROFILES))?)))
@@ -28,6 +29,7 @@ SHELL := /bin/bash
 .SILENT:
 
 export BASH_ENV := workflow/environment/variables.sh
+unexport POSIXLY_CORRECT SHELLOPTS # with which bash does not read BASH_ENV
 
 EFFORT := $(QUALITY)$(SEED:%=_seed=%)$(REPLICAS:%=_replicas=%)$(ERROR:%=_error=%)$(HOURS:%=_hours=%)
 PYTHON := .venv/bin/python -m
@@ -68,7 +70,7 @@ setup:  ## System packages, and Python packages in .venv
 setup-dev:
 	$(LOCKED) bash workflow/environment/setup.sh dev
 installed:
-	test -x .venv/bin/python || $(LOCKED) bash workflow/environment/setup.sh
+	test -e .venv/complete || $(LOCKED) bash workflow/environment/setup.sh
 build: setup  ## The programs, in build/bin
 	$(LOCKED) bash workflow/environment/build.sh all
 audit: installed  ## Check every result and figure against sources, parameters, build and packages

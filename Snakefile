@@ -4,8 +4,10 @@ and their record <panel>.<identity>.json
 What determines a product is in its name. A missing name is made; neither time stamps nor Snakemake's own records decide.
 """
 
+import json
 import os
 import shlex
+import signal
 import sys
 from pathlib import Path
 
@@ -47,8 +49,14 @@ wildcard_constraints:
 
 
 if workflow.is_main_process and not workflow.dryrun:
-    for path in {path for name in PANELS or PLAN if not valid(RECORDS[name]).exists() for path in DATA[name]}:
+    redrawn = [name for name in PANELS or PLAN if not without_foreign_parents(valid(RECORDS[name])).exists()]
+    for path in {path for name in redrawn for path in DATA[name]}:
         set_aside(path)
+
+
+onstart:
+    # Snakemake's own handler waits for a lock that the interrupted code may hold.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
 
 
 rule figures:

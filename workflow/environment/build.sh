@@ -12,7 +12,8 @@ sums >"$build/sums"
 
 compiler=$(command -v "${CXX:-c++}") || { echo "the compiler CXX=${CXX:-c++} is not installed; install it or choose another" >&2; exit 1; }
 # CMake never looks for another compiler or other libraries than at first. So these start a new configuration, as does a failure.
-inputs="$compiler $("$compiler" --version | head -n 1) ${CONDA_PREFIX-} ${CMAKE_PREFIX_PATH-}"
+version=$("$compiler" --version) || { echo "CXX=${CXX:-c++} is not a compiler: --version fails; choose another" >&2; exit 1; }
+inputs="$compiler ${version%%$'\n'*} ${CONDA_PREFIX-} ${CMAKE_PREFIX_PATH-}"
 configure() { cmake -S cpp -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" >"$build/cmake.log" 2>&1; }
 forget() { rm -rf "$build/CMakeCache.txt" "$build/CMakeFiles"; }
 [ "$(cat "$build/configured" 2>/dev/null)" = "$inputs" ] || forget

@@ -14,8 +14,13 @@ fi
 
 if [ "${1-}" = dev ]; then groups=--dev; else groups=--no-dev; fi
 if [ -L .venv ]; then # another folder's
-  "$uv" sync --quiet --frozen --inexact --check $groups && compgen -G '.venv/lib/python3*/site-packages/project.pth' >/dev/null && exit
+  "$uv" sync --quiet --frozen --inexact --check $groups 2>/dev/null && compgen -G '.venv/lib/python3*/site-packages/project.pth' >/dev/null && exit
   echo ".venv is a link to $(readlink .venv), which lacks packages of uv.lock and is not changed from here: run make setup${1:+-dev} there, or rm .venv" >&2
+  exit 1
+fi
+config=${XDG_CONFIG_HOME:-$HOME/.config}/uv/uv.toml
+if [ -z "${UV_NO_CONFIG-}" ] && grep -qsE '^ *(target|prefix) *=' "$config" /etc/uv/uv.toml; then
+  echo "$config sets a target or prefix, into which uv would install the packages instead of .venv: run UV_NO_CONFIG=1 make setup${1:+-dev}" >&2
   exit 1
 fi
 # A relocatable environment may be copied and moved. Without its interpreter it is created again.
@@ -28,3 +33,4 @@ done
 # From the index in use, which may be a mirror, with the locked hashes. Additional packages of the user stay.
 "$uv" export --quiet --frozen --no-emit-project $groups >.venv/locked.txt
 "$uv" pip install --quiet --require-hashes --requirement .venv/locked.txt
+touch .venv/complete

@@ -2,11 +2,11 @@
 # By prefix, what can change where or what is unset; by name, what only reaches the network, space and libraries is kept.
 for name in $(compgen -e); do
   case $name in
-    UV_*INDEX* | UV_*CACHE_DIR | UV_*HOST | UV_*TLS | UV_*CERTS | UV_*MIRROR | UV_HTTP_* | UV_CONCURRENT_* | UV_OFFLINE | UV_LINK_MODE) ;;
-    PIP_*INDEX* | PIP_*HOST | PIP_*LINKS | PIP_*TIMEOUT | PIP_CACHE_DIR | PIP_CERT | PIP_PROXY | CMAKE_PREFIX_PATH | CONDA_PREFIX) ;;
+    UV_*INDEX* | UV_*CACHE_DIR | UV_*HOST | UV_*TLS | UV_*CERTS | UV_*MIRROR | UV_HTTP_* | UV_CONCURRENT_* | UV_OFFLINE | UV_LINK_MODE | UV_NO_CONFIG) ;;
+    PIP_*INDEX* | PIP_*HOST | PIP_*LINKS | PIP_*TIMEOUT | PIP_CACHE_DIR | PIP_CERT | PIP_PROXY | CMAKE_PREFIX_PATH | CONDA_PREFIX | SSL_CERT_DIR | XDG_* | SLURM_*) ;;
     BASH_ENV | GIT_* | UV_* | PIP_* | VIRTUAL_ENV* | CONDA_* | PYTHON* | PYTEST_* | SNAKEMAKE_* | MPL* | MATPLOTLIB* | FONTCONFIG_* | \
       H5* | HDF5_* | GSL_* | NPY_* | NUMPY_* | OPENBLAS_* | GOTO_* | MKL_* | BLIS_* | OMP_* | GOMP_* | KMP_* | LD_* | DYLD_* | GLIBC_* | \
-      CMAKE_* | CTEST_* | GTEST_* | CCACHE_* | GCC_* | PKG_CONFIG_* | *FLAGS | CPATH | *_INCLUDE_PATH | LIBRARY_PATH | COMPILER_PATH | LANG*) unset "$name" ;;
+      CMAKE_* | *_ROOT | *_DIR | CTEST_* | GTEST_* | CCACHE_* | CCC_* | GCC_* | PKG_CONFIG_* | *FLAGS | CPATH | *_INCLUDE_PATH | LIBRARY_PATH | COMPILER_PATH | LANG*) unset "$name" ;;
   esac
 done
 export LC_ALL=C.UTF-8 TZ=UTC SOURCE_DATE_EPOCH=1230768000

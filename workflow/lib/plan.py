@@ -24,8 +24,8 @@ STOPPING = ("target-error", "target-absolute")  # options that add replicas to a
 BATCH = 16  # replicas between two checks of a target error
 NUMBER = r"[0-9]+\.?[0-9]*|[0-9]*\.?[0-9]+|[0-9]+\.?[0-9]*[eE]-?[0-9]+"
 EFFORTS: dict[str, tuple[str, Any, str]] = {  # pattern, type and description of the allowed values
-    "seed": ("0|[1-9][0-9]*", int, "a whole number, at least 0"),
-    "replicas": ("[1-9][0-9]*", int, "a whole number, at least 1"),
+    "seed": ("0|[1-9][0-9]{0,17}", int, "a whole number from 0 to 10^18 - 1"),
+    "replicas": ("[1-9][0-9]{0,17}", int, "a whole number, at least 1"),
     "error": (NUMBER, float, "a number greater than 0"),
     "hours": (NUMBER, float, "a number greater than 0"),
 }

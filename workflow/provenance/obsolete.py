@@ -23,7 +23,7 @@ from workflow.provenance.build_id import BuildError
 from workflow.provenance.checks import Fault, Kind, Products
 
 OF_A_RESULT = re.compile(
-    rf"((.+?)(\.{IDENTITY})?)\.(?:h5|cost\.json|h5\.checkpoint|h5\.damaged)(?:\.[0-9a-f]{{8}}\.tmp)?"
+    rf"((.+?)(\.{IDENTITY})?)\.(?:h5|cost\.json|h5\.checkpoint|h5\.damaged)(?:(?:\.[0-9a-f]{{8}})?\.tmp)?"
 )
 OF_A_PANEL = re.compile(rf"(.+)\.{IDENTITY}\.json")
 REPORT = "report"  # has a record, and is no panel

@@ -1,6 +1,6 @@
 """Reruns a sample of the results, or a panel with its figure, with freshly compiled programs and compares bytes.
 
-Exit status: 0 if all bytes are equal, 1 if not, 2 for bad input, 3 without results.
+Exit status: 0 if all bytes are equal, 1 if not, 2 for bad input, 3 without results or if a result could not be checked.
 """
 
 import os
@@ -12,7 +12,7 @@ import tempfile
 from pathlib import Path
 
 from workflow.lib.command import command
-from workflow.lib.files import ROOT, file_hash
+from workflow.lib.files import ROOT, file_hash, in_one_line
 from workflow.lib.program import ProgramError, execute
 from workflow.provenance.checks import Products
 from workflow.provenance.redraw import redraw
@@ -46,22 +46,24 @@ def main() -> None:
         print(f"No results at quality {quality}: run make figures QUALITY={quality}", file=sys.stderr)
         sys.exit(3)
     programs = options.programs or compile_afresh()
-    differing = []
+    differing, unchecked = [], 0
     with tempfile.TemporaryDirectory() as folder:
         for number, (path, run) in enumerate(runs, 1):
             again = Path(folder) / f"{number}.h5"
             try:
                 execute(run.program, run.options, again, programs=ROOT / programs)
                 same = file_hash(again) == file_hash(ROOT / path)
-            except ProgramError:
-                same = False
-            print(f"{number} of {len(runs)}: {path}: {'equal bytes' if same else 'other bytes'}", flush=True)
-            differing += [] if same else [path]
+                state = "equal bytes" if same else "other bytes"
+                differing += [] if same else [path]
+            except (ProgramError, OSError) as error:
+                state = f"not checked: {in_one_line(error) if isinstance(error, OSError) else error}"
+                unchecked += 1
+            print(f"{number} of {len(runs)}: {path}: {state}", flush=True)
     for fault in filter(None, (redraw(products, name) for name in options.panel or [])):
         print(fault)
         differing.append(fault.path)
-    print(f"{len(runs)} results rerun: {len(differing)} differ")
-    sys.exit(1 if differing else 0)
+    print(f"{len(runs)} results: {len(differing)} results or figures differ, {unchecked} not checked")
+    sys.exit(1 if differing else 3 if unchecked else 0)
 
 
 if __name__ == "__main__":

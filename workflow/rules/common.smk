@@ -22,12 +22,23 @@ def valid(record):
     return record
 
 
+def without_foreign_parents(record):
+    """The path of a record, which is removed if a result that it names has changed since, so that both are made again."""
+    if record.exists():
+        parents = json.loads(record.read_text("utf-8"))["parents"]["data"]
+        if any(
+            Path(path).exists() and file_hash(Path(path)) != one["sha256"] for path, one in parents.items()
+        ):
+            record.unlink()
+    return record
+
+
 def set_aside(path):
     """Renames a damaged or edited result that is about to be read, so that it is made again."""
-    from workflow.lib.load import FormatError, load_statements  # 0.3 s, where a panel is rendered
+    from workflow.lib.load import FormatError, load  # 0.3 s, where a panel is rendered
 
     try:
-        whole = not Path(path).exists() or load_statements(path)[-1]
+        whole = not Path(path).exists() or bool(load(path))
     except FormatError:
         whole = False
     except OSError:  # unreadable is not damaged
