@@ -157,7 +157,7 @@ def clean(tmp_path_factory: pytest.TempPathFactory) -> Clone:
         copy_made(shared if shared.exists() else ROOT, folder)
         if not shared.exists():
             clone.snakemake("figures")
-            clone.module("provenance.obsolete")
+            clone.module("provenance.obsolete", "--quality", "smoke")
             copy_made(folder, shared)
     return clone
 

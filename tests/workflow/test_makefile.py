@@ -23,14 +23,14 @@ HOSTILE = {
             "UV_PROJECT_ENVIRONMENT UV_PYTHON UV_WORKING_DIR UV_CONSTRAINT PIP_TARGET PIP_PREFIX PIP_CONFIG_FILE GIT_DIR GIT_WORK_TREE "
             "GIT_INDEX_FILE GIT_CONFIG_GLOBAL SNAKEMAKE_PROFILE SNAKEMAKE_OUTPUT_CACHE MATPLOTLIBRC MPLCONFIGDIR FONTCONFIG_FILE "
             "HDF5_PLUGIN_PATH LD_LIBRARY_PATH LD_PRELOAD CMAKE_TOOLCHAIN_FILE CCACHE_DIR GCC_EXEC_PREFIX CPATH C_INCLUDE_PATH LIBRARY_PATH "
-            "COMPILER_PATH PKG_CONFIG_PATH"
+            "COMPILER_PATH PKG_CONFIG_PATH fmt_ROOT fmt_DIR Eigen3_ROOT"
         ),
         "/nonexistent",
     ),
     **dict.fromkeys(
         names(
             "PYTHONINSPECT PYTHONOPTIMIZE PYTHONVERBOSE PYTHONDONTWRITEBYTECODE UV_NO_EDITABLE UV_NO_CACHE UV_NO_BINARY UV_EXACT PIP_USER "
-            "SOURCE_DATE_EPOCH NPY_DISABLE_CPU_FEATURES"
+            "SOURCE_DATE_EPOCH NPY_DISABLE_CPU_FEATURES POSIXLY_CORRECT"
         ),
         "1",
     ),
@@ -41,6 +41,7 @@ HOSTILE = {
         "OMP_NUM_THREADS": "7",
         "OPENBLAS_CORETYPE": "Prescott",
         "CXXFLAGS": "-Ofast",
+        "CCC_OVERRIDE_OPTIONS": "+-ffast-math",
         "LDFLAGS": "-nonsense",
         "CMAKE_GENERATOR": "none",
         "MPLBACKEND": "TkAgg",
@@ -231,9 +232,12 @@ def test_an_error_is_reached_or_the_time_is_bounded(kept: Clone) -> None:
         (("audit", "PANEL=3"), "3 is not a panel; choose one of model, "),
         (("figures", "PANEL=fig03"), "PANEL has no effect on this target; try make panel PANEL=fig03"),
         (("figures", "FRESH=0"), "FRESH=0 is invalid; give FRESH=yes, or leave it out"),
-        (("figures", "JOBS=0"), "JOBS=0 is invalid; give the number of jobs, at least 1"),
+        (("figures", "FRESH=yes no"), "FRESH=yes no is invalid; give FRESH=yes, or leave it out"),
+        (("cost", "BATCH=0"), "BATCH=0 is invalid; give a whole number of at least 1"),
+        (("figures", "JOBS=1'"), "JOBS=1' is invalid; give a whole number of at least 1"),
+        (("figures", "JOBS=0"), "JOBS=0 is invalid; give a whole number of at least 1"),
         (("figures", "PROFILE=slrm"), "slrm is not a profile; did you mean slurm?"),
-        (("status", "SEED=-1"), "SEED=-1 is invalid; allowed: a whole number, at least 0"),
+        (("status", "SEED=-1"), "SEED=-1 is invalid; allowed: a whole number from 0 to 10^18 - 1"),
         (("status", "QUALITY=best"), "best is not a quality; choose one of smoke, standard, paper, deep"),
         (("status", "ERROR=no"), "ERROR=no is invalid; allowed: a number greater than 0"),
     ],

@@ -151,7 +151,12 @@ def test_going_back_costs_nothing_and_prune_removes_the_rest(kept: Clone) -> Non
     printed = kept.module("provenance.audit", "--quality", "smoke", "--panel", "fig06", status=1)
     assert printed.count("obsolete: data/smoke/fig06/all_sigma=0") == 2
     kept.snakemake("figures")
-    assert "Removed 2 results and 2 other files" in kept.module("provenance.obsolete")
+    prune = ("provenance.obsolete", "--quality", "smoke")
+    assert "To remove: 2 results" in kept.module(*prune, "--dry")
+    assert "Removed: 0 results" in kept.module(*prune, "--panel", "fig05")
+    printed = kept.module(*prune, "--panel", "fig06")
+    assert printed.count("data/smoke/fig06/all_sigma=0") == 4
+    assert "and 2 other files" in printed
     after = kept.products()
     assert {path for path in former if former[path] != after.get(path)} <= {kept.record("fig06")}
 
