@@ -128,16 +128,28 @@ def test_four_panels_hold(kept: Clone) -> None:
     assert printed.endswith("4 panels with their results: 0 broken, 0 not checked, all else holds\n")
 
 
-def test_what_is_not_in_the_plan_is_named(kept: Clone) -> None:
+def test_what_is_not_in_the_plan_is_named_and_what_the_user_named_is_not_removed(kept: Clone) -> None:
     kept.keep_only("fig03")
-    copy(kept.result(RUN), "data/smoke/fig03/mine.h5")(kept)
+    former = "data/smoke/fig03/removed_sigma=0.1.0123456789ab.h5"
+    own = [
+        "data/smoke/fig03/mine.h5",
+        "data/smoke/fig03/notes.txt",
+        "figures/smoke/fig03.copy.png",
+        "figures/smoke/My talk.pdf",
+        "figures/smoke/.ipynb_checkpoints/a.png",
+    ]
+    for path in (former, *own):
+        (kept.folder / path).parent.mkdir(exist_ok=True)
+        copy(kept.result(RUN), path)(kept)
     for arguments in ((), ("--panel", "fig03")):
         printed = audit(kept, *arguments)
-        assert "obsolete: data/smoke/fig03/mine.h5: no plan names it; make prune removes it" in printed
+        assert f"obsolete: {former}: no plan names it; make prune QUALITY=smoke removes it" in printed
         assert "0 broken, 0 not checked, 1 obsolete" in printed
-    assert "Obsolete: 1 results or figures" in kept.module("provenance.status", "--quality", "smoke")
-    assert "Removed 1 results and 0 other files" in kept.module("provenance.obsolete")
+    printed = kept.module("provenance.status", "--quality", "smoke", "--panel", "fig03")
+    (remedy,) = re.findall("make (prune .*) removes them", printed)
+    assert former in kept.make(*remedy.split()).stdout
     assert "obsolete" not in audit(kept)
+    assert all((kept.folder / path).exists() for path in own)
 
 
 def test_a_panel_needs_the_results_that_it_plots_and_no_other_figure(kept: Clone) -> None:
