@@ -70,6 +70,7 @@ def project_files() -> list[str]:
 def _report(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
     if isinstance(error, OSError):
         print(in_one_line(error), file=sys.stderr)
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what a full disk did not take is not tried again
     else:
         sys.__excepthook__(kind, error, trace)
 

@@ -69,7 +69,7 @@ class Products:
             planned = data_path(self.quality, panel, run)
         except BuildError:  # an unpacked crate has no build
             planned = f"data/{self.quality.partition('_')[0]}/{panel}/{run.name}.h5"
-        if (ROOT / planned).exists():
+        if _there(planned):
             return planned
         others = re.compile(rf"{re.escape(run.name)}\.{IDENTITY}\.h5")
         found = [path for path in (ROOT / planned).parent.glob("*.h5") if others.fullmatch(path.name)]
@@ -95,7 +95,7 @@ class Products:
     def is_made(self, panel: str) -> bool:
         """Whether any product of the panel exists. A panel without products is not a fault: a crate may have only some panels."""
         data = [self.result(panel, run) for run in self.plan[panel].runs]
-        return any((ROOT / path).exists() for path in data) or bool(records_of(ROOT / self.stem(panel)))
+        return any(map(_there, data)) or bool(records_of(ROOT / self.stem(panel)))
 
     def faults(self, panel: str) -> Iterator[Fault]:
         """Faults of the results that the panel plots, then of its figure."""
@@ -110,7 +110,7 @@ class Products:
         return self._fault(self.result(panel, run), run)
 
     def _fault(self, path: str, run: Run) -> Fault | None:
-        if not (ROOT / path).exists():
+        if not _there(path):
             return Fault(path, "is missing")
         try:
             stated, parameters, whole = load_statements(ROOT / path)
@@ -134,13 +134,13 @@ class Products:
 
     def fault_of_figure(self, panel: Panel) -> Fault | None:
         record = self.record(panel)
-        if not (ROOT / record).exists():
+        if not _there(record):
             return Fault(record, "is missing")
         try:
             stated = read_panel(ROOT / record)
             files = {str(Path(record).with_name(name)): digest for name, digest in stated["files"].items()}
             for path, digest in files.items():
-                if not (ROOT / path).exists():
+                if not _there(path):
                     return Fault(path, "is missing")
                 if file_hash(ROOT / path) != digest:
                     reason = f"edited or replaced: it differs from its hash in {Path(record).name}; run make figures QUALITY={self.quality}"
@@ -161,13 +161,21 @@ class Products:
         if other := [*({*parents.data} ^ {*present})]:
             return Fault(picture, f"stale: it plots other results than the configuration: {min(other)}")
         for path, one in parents.data.items():
-            if not (ROOT / path).exists():
+            if not _there(path):
                 return Fault(picture, f"its result {path} is missing")
             if _hash(ROOT / path) != one["sha256"]:
                 return Fault(picture, f"stale: {path} has changed")
         sources = hashes_of(f"workflow/figures/{panel.script}.py")
         changed = dict(sources.items() ^ parents.sources.items())
         return Fault(picture, f"stale: {min(changed)} has changed") if changed else None
+
+
+def _there(path: str) -> bool:
+    """Whether a file exists; true if its folder cannot be read, so that reading the file states why."""
+    try:
+        return (ROOT / path).exists()
+    except OSError:
+        return True
 
 
 @cache
