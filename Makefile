@@ -93,6 +93,7 @@ check: setup-dev build docs  ## Format, lint, types, documentation
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 .venv/bin/clang-format --dry-run --Werror
 	.venv/bin/ruff check --quiet . && .venv/bin/ruff format --quiet --check . && .venv/bin/mypy --no-error-summary
 	.venv/bin/snakefmt --no-format-shell --line-length 110 --check --compact-diff Snakefile workflow/rules
+	.venv/bin/actionlint
 format: setup-dev  ## Format every source in place
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 .venv/bin/clang-format -i
 	.venv/bin/ruff check --quiet --fix . && .venv/bin/ruff format --quiet .
