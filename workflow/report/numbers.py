@@ -18,6 +18,7 @@ from workflow.claims.verdict import Number
 from workflow.figures import ext13
 from workflow.lib import caption
 from workflow.lib.load import Result
+from workflow.lib.style import spacing
 from workflow.report.words import value
 
 
@@ -38,23 +39,15 @@ def _half(data: Data, half: int) -> Sequence[Result]:
     return halves([one for one in sizes(data, "N") if one.parameters["cells"] >= BULK])[half]
 
 
-def small_chains(data: Data) -> str:
-    return _sizes_of_half(data, 0)
-
-
-def large_chains(data: Data) -> str:
-    return _sizes_of_half(data, -1)
-
-
-def _sizes_of_half(data: Data, half: int) -> str:
-    cells = [one.parameters["cells"] for one in _half(data, half)]
-    return f"N = {cells[0]} to {cells[-1]}"
+def middle_size(data: Data) -> str:
+    """Where the smaller sizes of fig. 8 end and the larger ones begin."""
+    return f"N = {_half(data, -1)[0].parameters['cells']}"
 
 
 def kappa_at_fixed_density(data: Data) -> str:
     """Exponents of κ between baths, from the two largest sizes of every fixed spacing."""
     series = [between_baths(data, name) for name in ("dilute", "dense")]
-    found = [value(last_exponent(runs)) for runs in series if len(runs) > 1]
+    found = [f"{value(last_exponent(runs))} (λ = {spacing(runs[-1])[1]})" for runs in series if len(runs) > 1]
     if not found:
         raise MissingError("Fewer than two sizes of ext09 are stationary at this quality")
     return caption.listed(found)
@@ -62,11 +55,12 @@ def kappa_at_fixed_density(data: Data) -> str:
 
 def heat_exponent(data: Data) -> Number:
     """Exponent of <Q²> over the last octave of the ring that was observed for the longest time."""
-    return number(_longest(data), "local_exponent", -1, f"d ln⟨Q²⟩/d ln t at {longest_ring(data)}")
-
-
-def longest_ring(data: Data) -> str:
-    return _gas_and_time(_longest(data))
+    ring = _longest(data)
+    gas, middle = ext13.chain(ring), ring["local_exponent"].axes["middle"][-1]
+    label = (
+        f"d ln⟨Q²⟩/d ln t at ζ = {caption.number(gas.zeta)}, M = {caption.number(gas.mass)}, t = {middle:.0f}"
+    )
+    return number(ring, "local_exponent", -1, label)
 
 
 def heat_exponent_without_momentum(data: Data) -> Number:
@@ -75,16 +69,8 @@ def heat_exponent_without_momentum(data: Data) -> Number:
 
 def heat_exponent_with_momentum(data: Data) -> Number:
     """Exponent in the gas of the runs with random directions."""
-    return number(_comparable(data), "local_exponent", -1)
-
-
-def ring_with_momentum(data: Data) -> str:
-    return _gas_and_time(_comparable(data))
-
-
-def _comparable(data: Data) -> Result:
     gas = _control(data).parameters
-    return _longest(data, sigma=gas["sigma"], fugacity=gas["fugacity"])
+    return number(_longest(data, sigma=gas["sigma"], fugacity=gas["fugacity"]), "local_exponent", -1)
 
 
 def _control(data: Data) -> Result:
@@ -99,11 +85,6 @@ def kappa_0_exponent(data: Data) -> Number:
 def _longest(data: Data, **gas: Any) -> Result:
     rings = data.of("ext13", rule="elastic", **gas)
     return max(rings, key=lambda one: float(one["heat_variance"].axes["time"][-1]))
-
-
-def _gas_and_time(ring: Result) -> str:
-    gas, middle = ext13.chain(ring), ring["local_exponent"].axes["middle"][-1]
-    return f"ζ = {caption.number(gas.zeta)}, M = {caption.number(gas.mass)}, t = {middle:.0f}"
 
 
 def momentum_change(data: Data) -> Number:
