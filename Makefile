@@ -106,7 +106,7 @@ tradeoff: setup-dev build  ## Accuracy against time, and rounding: figures/trade
 	$(SNAKEMAKE) tradeoff
 docs: setup-dev  ## The documentation as a static site, build/docs/index.html
 	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --strict 2> >(grep -v '^INFO' >&2)
-	doxygen docs/Doxyfile
+	doxygen docs/site/Doxyfile
 	cp .venv/lib/python*/site-packages/mathjax/static/mathjax/es5/tex-svg.js build/docs/mathjax.js
 clean:  ## Remove programs, logs and caches; make distclean: also results, figures and .venv
 	$(LOCKED) rm -rf build .cache

@@ -100,7 +100,7 @@ def read(folder: Path, name: str) -> Document:
 
 
 def load_configuration(quality: str, folder: Path = FOLDER) -> tuple[Document, Document]:
-    """Validated paper.yaml and quality/<quality>.yaml. Raises ConfigurationError."""
+    """Validated `paper.yaml` and `quality/<quality>.yaml`. Raises ConfigurationError."""
     programs: dict[str, Schema] = json.loads(SCHEMA.read_text())["programs"]
     paper, efforts = read(folder, "paper.yaml"), read(folder, f"quality/{quality}.yaml")
     paper.check(_panels(programs))
