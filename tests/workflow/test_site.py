@@ -60,6 +60,6 @@ def test_every_page(site: Path, tab: Page) -> None:
 def test_faults_are_found(tab: Page, tmp_path: Path) -> None:
     page = tmp_path / "page.html"
     page.write_text(
-        '<h1 id="first">A</h1><p style="position: absolute; left: 0; width: 500px">B</p><template><h2 id="last">C</h2></template>'
+        '<!DOCTYPE html><h1 id="first">A</h1><p style="position: absolute; left: 0; width: 500px">B</p><template><h2 id="last">C</h2></template>'
     )
     assert faults(tab, [], page) == ["the heading last is not in the document", "500 pixels wide"]
