@@ -40,11 +40,13 @@ SNAKEMAKE := $(LOCKED) $(PYTHON) snakemake --nolock $(if $(FRESH),--forceall) $(
 COMPARE := $(if $(SEED)$(REPLICAS)$(ERROR)$(FRESH),$(PYTHON) workflow.provenance.compare $(OF))
 ESTIMATE := $(if $(ERROR),$(PYTHON) workflow.cluster.cost $(OF))
 REACHED := $(if $(ERROR),$(PYTHON) workflow.provenance.errors $(OF))
+# Snakemake's line on the profile in use is the same in every run.
+BRIEF := 2> >(trap '' INT TERM; grep --line-buffered -v '^Using workflow specific profile' >&2)
 # Makes a target of Snakemake and prints a line; with DRY=yes prints the files that would be made.
 define MAKE_TARGET
 $(if $(DRY),,$(ESTIMATE))
 $(if $(DRY),,$(if $(FRESH),$(COMPARE) --keep))
-$(SNAKEMAKE) $1 $(if $(DRY),| sed -nE 's/^ *output: //p; /^Nothing/p')
+$(SNAKEMAKE) $1 $(BRIEF) $(if $(DRY),| sed -nE 's/^ *output: //p; /^Nothing/p')
 $(if $(DRY),,$(if $(filter figures panel,$1),$(COMPARE)))
 $(if $(DRY),,$(if $(filter figures panel,$1),$(REACHED)))
 $(if $(DRY),,echo '$2')
@@ -103,7 +105,7 @@ describe: build  ## Options and quantities of the programs: schema of the config
 bench: setup-dev build  ## Cost of an event
 	$(PYTHON) workflow.tradeoff.bench
 tradeoff: setup-dev build  ## Accuracy against time, and rounding: figures/tradeoff
-	$(SNAKEMAKE) tradeoff
+	$(SNAKEMAKE) tradeoff $(BRIEF)
 docs: setup-dev  ## The documentation as a static site, build/docs/index.html
 	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --strict 2> >(grep -v '^INFO' >&2)
 	doxygen docs/site/Doxyfile

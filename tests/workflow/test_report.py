@@ -141,6 +141,9 @@ def test_the_gallery_has_every_panel_and_claim(kept: Clone) -> None:
         with Image.open(small, formats=["PNG"]) as picture, Image.open(original, formats=["PNG"]) as large:
             assert picture.width == min(1440, large.width)
         assert read_panel(kept.folder / kept.record(panel))["caption"] in page
+    traced = kept.module("provenance.tree", "docs/gallery/fig05.png")
+    assert traced.startswith("fig05.png is docs/gallery/fig05.png, rendered")
+    assert "panel fig05 at quality smoke" in traced
     assert all((folder / "claims" / f"{claim['id']}.svg").is_file() for claim in read_claims(ROOT))
     for link in re.findall(r"\]\(([^)]*)\)", page):
         anchored = f'id="{link[1:]}"' in page or re.search(

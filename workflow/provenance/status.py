@@ -16,6 +16,10 @@ from workflow.provenance.checks import Products
 from workflow.provenance.obsolete import faults
 
 WIDE = 150  # columns if the output is not a terminal
+CAPTION = (
+    "Largest error: standard error of the target quantity, relative to it, or absolute where it can be 0; of runs with a target\n"
+    "error, error of target. The run that is farthest from its target counts. CPU time: simulations."
+)
 
 
 def worst_error(products: Products, panel: Panel) -> str:
@@ -37,7 +41,9 @@ def worst_error(products: Products, panel: Panel) -> str:
 def main() -> None:
     options, plan, panels = command(__doc__)
     products = Products(options.quality, plan)
-    table = Table("panel", "state", "largest error", "CPU s", title=f"Quality {options.quality}")
+    table = Table(
+        "panel", "state", "largest error", "CPU time, s", title=f"Quality {options.quality}", caption=CAPTION
+    )
     for panel in panels:
         state = "fresh" if products.is_made(panel.name) else "missing"
         if state == "fresh" and (fault := next(products.faults(panel.name), None)):

@@ -11,7 +11,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from workflow.lib.command import command
+from workflow.lib.command import command, counted
 from workflow.lib.files import ROOT, file_hash
 from workflow.lib.program import ProgramError, execute
 from workflow.provenance.checks import Products
@@ -57,11 +57,12 @@ def main() -> None:
                 same = False
             print(f"{number} of {len(runs)}: {path}: {'equal bytes' if same else 'other bytes'}", flush=True)
             differing += [] if same else [path]
-    for fault in filter(None, (redraw(products, name) for name in options.panel or [])):
-        print(fault)
-        differing.append(fault.path)
-    print(f"{len(runs)} results rerun: {len(differing)} differ")
-    sys.exit(1 if differing else 0)
+    figures = options.panel or []
+    faults = [fault for fault in (redraw(products, name) for name in figures) if fault]
+    print(*faults, sep="\n", end="\n" * bool(faults))
+    rendered = f"; {counted(len(figures), 'panel')} rendered again: {len(faults)} differ" if figures else ""
+    print(f"{counted(len(runs), 'result')} rerun: {len(differing)} differ{rendered}")
+    sys.exit(1 if differing or faults else 0)
 
 
 if __name__ == "__main__":
