@@ -173,6 +173,7 @@ def kept(clean: Clone) -> Iterator[Clone]:
         "cpp",
         "docs",
         "README.md",
+        "codecheck.yml",
         "uv.lock",
         "build/id",
     )
