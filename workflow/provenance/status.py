@@ -16,10 +16,8 @@ from workflow.provenance.checks import Products
 from workflow.provenance.obsolete import faults
 
 WIDE = 150  # columns if the output is not a terminal
-CAPTION = (
-    "Largest error: standard error of the target quantity, relative to it, or absolute where it can be 0; of runs with a target\n"
-    "error, error of target. The run that is farthest from its target counts. CPU time: simulations."
-)
+LEGEND = """Largest error: standard error of the target quantity, relative to it, or absolute where that can be 0; of runs with a target, error
+of target. It is that of the run farthest from its target. CPU time: simulations."""
 
 
 def worst_error(products: Products, panel: Panel) -> str:
@@ -41,9 +39,7 @@ def worst_error(products: Products, panel: Panel) -> str:
 def main() -> None:
     options, plan, panels = command(__doc__)
     products = Products(options.quality, plan)
-    table = Table(
-        "panel", "state", "largest error", "CPU time, s", title=f"Quality {options.quality}", caption=CAPTION
-    )
+    table = Table("panel", "state", "largest error", "CPU time, s", title=f"Quality {options.quality}")
     for panel in panels:
         state = "fresh" if products.is_made(panel.name) else "missing"
         if state == "fresh" and (fault := next(products.faults(panel.name), None)):
@@ -53,6 +49,7 @@ def main() -> None:
         cost = f"{sum(seconds):.1f}" if any(seconds) else ""
         table.add_row(panel.name, escape(state), worst_error(products, panel), cost)
     Console(width=None if sys.stdout.isatty() else WIDE).print(table)
+    print(LEGEND)
     if obsolete := faults(products, options.panel or []):
         print(f"Obsolete: {len(obsolete)} results or figures that no plan names; make prune removes them")
 
