@@ -77,7 +77,7 @@ def records() -> Iterator[tuple[str, str, dict[str, Any]]]:
             )
     for path in records_of(ROOT / GALLERY):
         for name, digest in json.loads(path.read_text("utf-8"))["files"].items():
-            copied = path.with_name(name)
+            copied = path.parent / name
             if copied.suffix != ".json" and (record := _record(copied.with_suffix(".json"))):
                 yield digest, str(copied.relative_to(ROOT)), record
 
