@@ -42,11 +42,13 @@ SNAKEMAKE := $(LOCKED) $(PYTHON) snakemake --nolock $(if $(FRESH),--forceall) $(
 COMPARE := $(if $(SEED)$(REPLICAS)$(ERROR)$(FRESH),$(PYTHON) workflow.provenance.compare $(OF))
 ESTIMATE := $(if $(ERROR),$(PYTHON) workflow.cluster.cost $(OF))
 REACHED := $(if $(ERROR),$(PYTHON) workflow.provenance.errors $(OF))
+# Snakemake's line on the profile in use is the same in every run.
+BRIEF := 2> >(trap '' INT TERM; grep --line-buffered -v '^Using workflow specific profile' >&2)
 # Makes a target of Snakemake and prints a line; with DRY=yes prints the files that would be made.
 define MAKE_TARGET
 $(if $(DRY),,$(ESTIMATE))
 $(if $(DRY),,$(if $(FRESH),$(COMPARE) --keep))
-$(SNAKEMAKE) $1 $(if $(DRY),| sed -nE 's/^ *output: //p; /^Nothing/p')
+$(SNAKEMAKE) $1 $(BRIEF) $(if $(DRY),| sed -nE 's/^ *output: //p; /^Nothing/p')
 $(if $(DRY),,$(if $(filter figures panel,$1),$(COMPARE)))
 $(if $(DRY),,$(if $(filter figures panel,$1),$(REACHED)))
 $(if $(DRY),,echo '$2')
@@ -95,6 +97,7 @@ check: setup-dev build docs  ## Format, lint, types, documentation
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 .venv/bin/clang-format --dry-run --Werror
 	.venv/bin/ruff check --quiet . && .venv/bin/ruff format --quiet --check . && .venv/bin/mypy --no-error-summary
 	.venv/bin/snakefmt --no-format-shell --line-length 110 --check --compact-diff Snakefile workflow/rules
+	.venv/bin/actionlint
 format: setup-dev  ## Format every source in place
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 .venv/bin/clang-format -i
 	.venv/bin/ruff check --quiet --fix . && .venv/bin/ruff format --quiet .
@@ -104,10 +107,10 @@ describe: build  ## Options and quantities of the programs: schema of the config
 bench: setup-dev build  ## Cost of an event
 	$(PYTHON) workflow.tradeoff.bench
 tradeoff: setup-dev build  ## Accuracy against time, and rounding: figures/tradeoff
-	$(SNAKEMAKE) tradeoff
+	$(SNAKEMAKE) tradeoff $(BRIEF)
 docs: setup-dev  ## The documentation as a static site, build/docs/index.html
 	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --strict 2> >(grep -v '^INFO' >&2)
-	doxygen docs/Doxyfile
+	doxygen docs/site/Doxyfile
 	cp .venv/lib/python*/site-packages/mathjax/static/mathjax/es5/tex-svg.js build/docs/mathjax.js
 clean:  ## Remove programs, logs and caches; make distclean: also results, figures and .venv
 	$(LOCKED) rm -rf build .cache

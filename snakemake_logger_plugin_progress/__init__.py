@@ -25,6 +25,7 @@ from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from workflow.cluster.cost import DRAWING, estimated_seconds
+from workflow.lib.command import counted
 from workflow.lib.plan import data_path, load_plan, with_used
 
 Record = Any  # a logging.LogRecord with the fields of its event
@@ -127,8 +128,7 @@ class LogHandler(LogHandlerBase):
         self._estimated += self._cost(job)
         self._taken += elapsed(job) * job.threads
         if job.rule_name.startswith("draw"):
-            runs = "1 run" if len(job.input) == 1 else f"{len(job.input)} runs"
-            self._console.print(f"{name}: rendered from {runs}, {self._state}")
+            self._console.print(f"{name}: rendered from {counted(len(job.input), 'run')}, {self._state}")
             self._paper -= job.rule_name == "draw"
             if job.rule_name == "draw" and not self._paper and self._extensions:
                 self._console.print(

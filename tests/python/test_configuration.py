@@ -91,7 +91,7 @@ def test_a_mistake_is_reported_in_one_line(folder: Path, file: str, old: str, ne
     assert found
     (folder / file).write_text(before + new + after)
     lines = refusal(folder)
-    assert all(re.match(rf"{file}:[0-9]+:[0-9]+: ", line) for line in lines)
+    assert all(re.match(rf"{folder / file}:[0-9]+:[0-9]+: ", line) for line in lines)
     assert any(words in line for line in lines)
 
 
@@ -103,8 +103,8 @@ def test_the_position_of_a_mistake_and_the_order_of_two(folder: Path) -> None:
     )
     (folder / "quality/smoke.yaml").write_text("default: {replicas: 4}\n")
     first, second = refusal(folder)
-    assert first.startswith("paper.yaml:5:7: panels.a.common.sigma: 2 is invalid")
-    assert second.startswith("paper.yaml:8:11: panels.a.series.y.gamma: 0 is invalid")
+    assert first.startswith(f"{folder}/paper.yaml:5:7: panels.a.common.sigma: 2 is invalid")
+    assert second.startswith(f"{folder}/paper.yaml:8:11: panels.a.series.y.gamma: 0 is invalid")
 
 
 def test_yaml_of_version_1_2(tmp_path: Path) -> None:

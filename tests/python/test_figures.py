@@ -109,8 +109,8 @@ def test_a_damaged_record_is_refused(tmp_path: Path, content: str) -> None:
     (tmp_path / "x.json").write_text(content)
     with pytest.raises(MetadataError, match=r"x\.json is not the record of a panel"):
         read_panel(tmp_path / "x.json")
-    with pytest.raises(MetadataError, match="metadata of another version"):
-        Parents.parse(json.dumps({"more": 1}))
+    with pytest.raises(MetadataError, match="panel fig08 at quality paper, rendered by another version"):
+        Parents.parse(json.dumps({"panel": "fig08", "quality": "paper", "more": 1}))
 
 
 def test_nothing_is_left_where_the_disk_is_full(tmp_path: Path) -> None:

@@ -165,7 +165,18 @@ def clean(tmp_path_factory: pytest.TempPathFactory) -> Clone:
 @pytest.fixture
 def kept(clean: Clone) -> Iterator[Clone]:
     """The clean clone. Sources and products are restored after the test."""
-    places = ("data", "figures", "workflow", "profiles", "cpp", "docs", "README.md", "uv.lock", "build/id")
+    places = (
+        "data",
+        "figures",
+        "workflow",
+        "profiles",
+        "cpp",
+        "docs",
+        "README.md",
+        "codecheck.yml",
+        "uv.lock",
+        "build/id",
+    )
     before = {
         file: (file.read_bytes(), file.stat().st_mtime_ns)
         for place in places

@@ -118,14 +118,14 @@ def test_what_is_broken_is_named(
 
 @pytest.mark.long  # the next test has four panels
 def test_all_of_it_holds(clean: Clone) -> None:
-    assert audit(clean).endswith("30 panels with their results: 0 broken, 0 not checked, all else holds\n")
+    assert audit(clean).endswith("30 panels with results: 0 broken, 0 not checked, all else holds\n")
 
 
 def test_four_panels_hold(kept: Clone) -> None:
     """With results of their own, of others, and both."""
     kept.keep_only("fig01", "fig01_inset", "ext12", "ext09")
     printed = audit(kept)
-    assert printed.endswith("4 panels with their results: 0 broken, 0 not checked, all else holds\n")
+    assert printed.endswith("4 panels with results: 0 broken, 0 not checked, all else holds\n")
 
 
 def test_what_is_not_in_the_plan_is_named_and_what_the_user_named_is_not_removed(kept: Clone) -> None:
@@ -157,7 +157,7 @@ def test_a_panel_needs_the_results_that_it_plots_and_no_other_figure(kept: Clone
     for path in (kept.folder / "figures/smoke").glob("ext09.*"):
         path.unlink()
     printed = audit(kept, "--panel", "fig08")
-    assert printed == "1 panels with their results: 0 broken, 0 not checked, all else holds\n"
+    assert printed == "1 panel with results: 0 broken, 0 not checked, all else holds\n"
 
 
 def test_other_packages_and_compilers_are_not_checked(kept: Clone) -> None:
@@ -186,7 +186,7 @@ def test_a_crate_unpacked_in_another_repository_holds(clean: Clone, tmp_path: Pa
     crate = Clone(tmp_path / "thesis")
     shutil.copytree(ROOT / ".cache", crate.folder / ".cache", ignore=shutil.ignore_patterns("mypy"))
     printed = crate.make("audit", "QUALITY=smoke").stdout
-    assert printed.endswith("1 panels with their results: 0 broken, 0 not checked, all else holds\n")
+    assert printed.endswith("1 panel with results: 0 broken, 0 not checked, all else holds\n")
     assert "Not made at quality smoke: model, fig01, " in printed
 
 

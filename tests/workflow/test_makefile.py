@@ -288,7 +288,7 @@ def test_several_panels_and_a_dry_run(kept: Clone) -> None:
     assert "In figures/smoke: fig03.pdf fig06.pdf and" in kept.make("panel", names, "QUALITY=smoke").stdout
     (kept.folder / kept.result("fig06/all_sigma=0")).unlink()
     printed = kept.make("audit", names, "QUALITY=smoke", status=2).stdout
-    assert "2 panels with their results: 2 broken" in printed  # the result, and the figure without it
+    assert "2 panels with results: 2 broken" in printed  # the result, and the figure without it
 
 
 def test_slurm_without_its_commands_is_refused(clean: Clone, tmp_path: Path) -> None:

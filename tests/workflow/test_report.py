@@ -20,6 +20,7 @@ from workflow.claims.judge import read_claims
 from workflow.lib.figure_metadata import embedded, read_panel
 from workflow.lib.plan import load_plan
 from workflow.report.gallery import gallery
+from workflow.report.questions import read_questions
 from workflow.report.sources import ReportError
 
 HTML = "figures/smoke/report.html"
@@ -140,17 +141,22 @@ def test_the_gallery_has_every_panel_and_claim(kept: Clone) -> None:
         with Image.open(small, formats=["PNG"]) as picture, Image.open(original, formats=["PNG"]) as large:
             assert picture.width == min(1440, large.width)
         assert read_panel(kept.folder / kept.record(panel))["caption"] in page
+    traced = kept.module("provenance.tree", "docs/gallery/fig05.png")
+    assert traced.startswith("fig05.png is docs/gallery/fig05.png, rendered")
+    assert "panel fig05 at quality smoke" in traced
     assert all((folder / "claims" / f"{claim['id']}.svg").is_file() for claim in read_claims(ROOT))
     for link in re.findall(r"\]\(([^)]*)\)", page):
         anchored = f'id="{link[1:]}"' in page or re.search(
             rf"^#+ {link[1:].replace('-', ' ')}$", page, re.I | re.M
         )
         assert anchored if link.startswith("#") else (folder / link).is_file(), link
-    readme = (kept.folder / "README.md").read_text()
-    rows = re.findall(r"^\| (.*\?) \| ", readme.split("<!-- answer, by make gallery -->")[1], re.MULTILINE)
-    assert len(rows) == 7
-    assert all(f"| {row} | " in page for row in rows)
-    assert len(readme.splitlines()) <= 130
+    for front in ("README.md", "docs/index.md"):
+        text = (kept.folder / front).read_text()
+        table = text.split("<!-- questions, by make gallery -->")[1]
+        rows = re.findall(r"^\| (.*\?) \| ", table, re.MULTILINE)
+        assert len(rows) == len(read_questions())
+        assert all(f"| {row} | " in page for row in rows)
+    assert len((kept.folder / "README.md").read_text().splitlines()) <= 130
 
 
 def test_the_gallery_shows_unmodified_products_only(kept: Clone) -> None:
@@ -221,7 +227,7 @@ def test_there_are_no_messages_and_no_requests(browser: Browser, clone: Clone) -
 def test_the_first_screen_has_the_answer_beside_its_picture(browser: Browser, clone: Clone) -> None:
     page = opened(browser, clone)
     rows, picture = page.locator(".questions tbody tr"), page.locator("#answer img").bounding_box()
-    assert rows.count() == 7
+    assert rows.count() == len(read_questions())
     table = page.locator(".questions").bounding_box()
     assert max(box["y"] + box["height"] for box in (table, picture)) <= 900
     assert picture["x"] > table["x"] + table["width"]

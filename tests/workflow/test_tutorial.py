@@ -46,6 +46,8 @@ def test_a_panel_of_your_own(own: Clone) -> None:
     alone = load(own.folder / "kappa.h5")
     assert alone.converged == "reached"
     assert alone.provenance["achieved_error"] <= 0.02
+    assert re.search(r"^stationary \[0\. 0\. 1\.\]$", printed, re.MULTILINE)
+    own.run(".venv/bin/python", "-m", "pytest", "-q", "tests/python/test_standards.py", "-k", "manifest")
 
 
 def test_an_observable_of_your_own(own: Clone) -> None:
@@ -55,6 +57,8 @@ def test_an_observable_of_your_own(own: Clone) -> None:
     table = pd.read_csv(own.folder / "figures/smoke/rate.csv", comment="#")
     assert list(table.sigma) == [-0.9, -0.5, 0, 0.5, 0.9]
     assert (table.rate > 0).all()
+    density = load(own.folder / "momenta.h5")["density"]
+    assert density.mean.sum() * (density.axes["p"][1] - density.axes["p"][0]) == pytest.approx(1)
     assert "| `collision_rate` | `rate` | 1/time |" in (own.folder / "docs/format.md").read_text()
     # The other programs keep their build ids; figures depend on the schema, which has the units of options.
     assert [job for job in own.stale() if "/" in job] == []

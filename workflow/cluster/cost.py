@@ -169,6 +169,7 @@ def main() -> None:
     options, _, panels = command(__doc__, batch=batch)
     jobs: list[float] = []
     unknown = 0
+    print(f"{'panel':<18}{'CPU time, h:m:s':>17}  from")
     for panel in panels:
         recorded = [seconds_spent(options.quality, panel.name, run) for run in panel.runs]
         seconds = [
@@ -181,7 +182,9 @@ def main() -> None:
         found = [one for one in seconds if one is not None]
         unknown += len(seconds) - len(found)
         jobs += [*found, DRAWING]
-        source = f"{len(seconds) - recorded.count(None)} of {len(seconds)} runs recorded"
+        source = (
+            f"{len(seconds) - recorded.count(None)} of {len(seconds)} runs recorded, the others estimated"
+        )
         source += f", {len(seconds) - len(found)} unknown" if len(found) < len(seconds) else ""
         print(f"{panel.name:<18}{wall([*found, DRAWING], 1)!s:>17}  {source}")
     cores = os.cpu_count() or 1

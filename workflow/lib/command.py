@@ -34,3 +34,8 @@ def product_command(description: str | None) -> argparse.Namespace:
     parser.add_argument("--quality", required=True)
     parser.add_argument("--identity", required=True, help="identity in the name of the record")
     return parser.parse_args()
+
+
+def counted(number: int, noun: str) -> str:
+    """As 1 panel, 2 panels."""
+    return f"{number} {noun}{'s' * (number != 1)}"

@@ -15,7 +15,7 @@ from ruamel.yaml import YAML
 from ruamel.yaml.error import MarkedYAMLError, YAMLError
 from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
 
-from workflow.lib.files import in_one_line
+from workflow.lib.files import ROOT, in_one_line
 from workflow.lib.nearest import nearest
 from workflow.lib.units import SCHEMA
 
@@ -88,19 +88,26 @@ def read(folder: Path, name: str) -> Document:
     """Reads a YAML 1.2 file. Raises ConfigurationError, also for duplicate keys."""
     try:
         text = (folder / name).read_text("utf-8")
-        return Document(name, text, SAFE.load(text))
+        return Document(_shown(folder / name), text, SAFE.load(text))
     except OSError as error:
         raise ConfigurationError(in_one_line(error)) from error
     except MarkedYAMLError as error:
         mark, problem = error.problem_mark, str(error.problem)
         problem = "a tab; indent with spaces" if "'\\t'" in problem else problem
-        raise ConfigurationError(f"{name}:{mark.line + 1}:{mark.column + 1}: {problem}") from error
+        raise ConfigurationError(
+            f"{_shown(folder / name)}:{mark.line + 1}:{mark.column + 1}: {problem}"
+        ) from error
     except (YAMLError, UnicodeDecodeError) as error:
-        raise ConfigurationError(f"{name}: {' '.join(str(error).split())}") from error
+        raise ConfigurationError(f"{_shown(folder / name)}: {' '.join(str(error).split())}") from error
+
+
+def _shown(path: Path) -> str:
+    """A path of the project relative to its folder."""
+    return str(path.relative_to(ROOT) if path.is_relative_to(ROOT) else path)
 
 
 def load_configuration(quality: str, folder: Path = FOLDER) -> tuple[Document, Document]:
-    """Validated paper.yaml and quality/<quality>.yaml. Raises ConfigurationError."""
+    """Validated `paper.yaml` and `quality/<quality>.yaml`. Raises ConfigurationError."""
     programs: dict[str, Schema] = json.loads(SCHEMA.read_text())["programs"]
     paper, efforts = read(folder, "paper.yaml"), read(folder, f"quality/{quality}.yaml")
     paper.check(_panels(programs))

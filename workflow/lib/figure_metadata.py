@@ -60,9 +60,19 @@ class Parents:
     def parse(cls, text: str) -> "Parents":
         """Inverse of as_json. Raises MetadataError."""
         try:
-            return cls(**json.loads(text))
-        except (ValueError, TypeError) as error:
-            raise MetadataError(f"metadata of another version, not readable here: {error}") from error
+            stated = json.loads(text)
+            return cls(**stated)
+        except ValueError as error:
+            raise MetadataError(f"not the parents of a panel: {error}") from error
+        except TypeError as error:
+            which = (
+                f"panel {stated.get('panel')} at quality {stated.get('quality')}"
+                if isinstance(stated, dict)
+                else "no panel"
+            )
+            raise MetadataError(
+                f"{which}, rendered by another version, whose record of parents is not readable here"
+            ) from error
 
     def inputs(self) -> dict[str, str]:
         """All input files with their hashes."""

@@ -9,7 +9,7 @@ import os
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
-from workflow.lib.command import command
+from workflow.lib.command import command, counted
 from workflow.lib.files import in_one_line
 from workflow.provenance.checks import Kind, Products
 from workflow.provenance.obsolete import faults
@@ -36,7 +36,7 @@ def main() -> None:
     broken, unchecked, obsolete = (sum(fault.kind is kind for fault in found) for kind in Kind)
     more = f", {obsolete} obsolete" if obsolete else ""
     print(
-        f"{len(shown)} panels with their results: {broken} broken, {unchecked} not checked{more}, all else holds"
+        f"{counted(len(shown), 'panel')} with results: {broken} broken, {unchecked} not checked{more}, all else holds"
     )
     sys.exit(1 if broken else 3 if unchecked or not shown else 0)
 

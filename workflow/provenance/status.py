@@ -16,6 +16,8 @@ from workflow.provenance.checks import Products
 from workflow.provenance.obsolete import faults
 
 WIDE = 150  # columns if the output is not a terminal
+LEGEND = """Largest error: standard error of the target quantity, relative to it, or absolute where that can be 0; of runs with a target, error
+of target. It is that of the run farthest from its target. CPU time: simulations."""
 
 
 def worst_error(products: Products, panel: Panel) -> str:
@@ -37,7 +39,7 @@ def worst_error(products: Products, panel: Panel) -> str:
 def main() -> None:
     options, plan, panels = command(__doc__)
     products = Products(options.quality, plan)
-    table = Table("panel", "state", "largest error", "CPU s", title=f"Quality {options.quality}")
+    table = Table("panel", "state", "largest error", "CPU time, s", title=f"Quality {options.quality}")
     for panel in panels:
         state = "fresh" if products.is_made(panel.name) else "missing"
         if state == "fresh" and (fault := next(products.faults(panel.name), None)):
@@ -47,6 +49,7 @@ def main() -> None:
         cost = f"{sum(seconds):.1f}" if any(seconds) else ""
         table.add_row(panel.name, escape(state), worst_error(products, panel), cost)
     Console(width=None if sys.stdout.isatty() else WIDE).print(table)
+    print(LEGEND)
     if obsolete := faults(products, options.panel or []):
         of = " ".join(
             [Quality.of(options.quality).arguments, *(f"PANEL={name}" for name in options.panel or [])]

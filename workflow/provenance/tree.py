@@ -5,6 +5,7 @@ not; 2 for bad input.
 """
 
 import argparse
+import json
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,8 +14,10 @@ from typing import Any
 from workflow.lib.figure_metadata import MetadataError, Parents, embedded, read_panel
 from workflow.lib.files import ROOT, file_hash
 from workflow.lib.load import FormatError, load_statements
+from workflow.lib.record import records_of
 from workflow.provenance.build_id import sources_of_program
 
+GALLERY = "docs/gallery/gallery"  # its record, without the identity
 SHORT = 16  # printed digits of a hash
 FEW = 3  # printed entries of a list without --full
 
@@ -65,14 +68,26 @@ def parent_lines(parents: Parents, few: int | None) -> Iterator[str]:
 
 
 def records() -> Iterator[tuple[str, str, dict[str, Any]]]:
-    """Hash, path and record of the panel of every figure file here."""
+    """Hash, path and record of the panel of every figure file here, then of the smaller pictures and the tables in the gallery."""
     for path in sorted((ROOT / "figures").glob("*/*.json")):
-        try:
-            record = read_panel(path)
-        except (MetadataError, OSError):
-            continue
-        for name, digest in record["files"].items():
-            yield digest, str(path.with_name(name).relative_to(ROOT)), record
+        if record := _record(path):
+            yield from (
+                (digest, str(path.with_name(name).relative_to(ROOT)), record)
+                for name, digest in record["files"].items()
+            )
+    for path in records_of(ROOT / GALLERY):
+        for name, digest in json.loads(path.read_text("utf-8"))["files"].items():
+            copied = path.parent / name
+            if copied.suffix != ".json" and (record := _record(copied.with_suffix(".json"))):
+                yield digest, str(copied.relative_to(ROOT)), record
+
+
+def _record(path: Path) -> dict[str, Any] | None:
+    """Record of a panel; None if it cannot be read."""
+    try:
+        return read_panel(path)
+    except (MetadataError, OSError):
+        return None
 
 
 def explain(path: Path, few: int | None) -> tuple[bool, list[str]]:

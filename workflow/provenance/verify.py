@@ -11,7 +11,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from workflow.lib.command import command
+from workflow.lib.command import command, counted
 from workflow.lib.files import ROOT, file_hash, in_one_line
 from workflow.lib.program import ProgramError, execute
 from workflow.provenance.checks import Products
@@ -59,11 +59,13 @@ def main() -> None:
                 state = f"not checked: {in_one_line(error) if isinstance(error, OSError) else error}"
                 unchecked += 1
             print(f"{number} of {len(runs)}: {path}: {state}", flush=True)
-    for fault in filter(None, (redraw(products, name) for name in options.panel or [])):
-        print(fault)
-        differing.append(fault.path)
-    print(f"{len(runs)} results: {len(differing)} results or figures differ, {unchecked} not checked")
-    sys.exit(1 if differing else 3 if unchecked else 0)
+    figures = options.panel or []
+    faults = [fault for fault in (redraw(products, name) for name in figures) if fault]
+    print(*faults, sep="\n", end="\n" * bool(faults))
+    rendered = f"; {counted(len(figures), 'panel')} rendered again: {len(faults)} differ" if figures else ""
+    missing = f", {unchecked} not checked" if unchecked else ""
+    print(f"{counted(len(runs), 'result')} rerun: {len(differing)} differ{missing}{rendered}")
+    sys.exit(1 if differing or faults else 3 if unchecked else 0)
 
 
 if __name__ == "__main__":

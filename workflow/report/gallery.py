@@ -1,4 +1,4 @@
-"""Writes docs/gallery (pictures, tables, verdicts) and the answer and the panels in README.md, from the products of one quality."""
+"""Writes docs/gallery (pictures, tables, verdicts) and the marked parts of README.md and docs/index.md, from the products of one quality."""
 
 import io
 import sys
@@ -17,9 +17,16 @@ from workflow.report.content import content
 from workflow.report.sources import ReportError
 from workflow.report.templates import rendered
 
-README = f"{'README'}.md"  # written, not read for its content: a literal would count as a source
+README = (
+    f"{'README'}.md"  # written, not read for its content: a literal with its path would count as a source
+)
 GALLERY = "docs/gallery"
-BLOCKS = ("answer", "panels")  # of README.md, each with a template
+INDEX = str(Path(GALLERY).with_name("index.md"))  # of the documentation
+# Pages with marked parts, each of which has a template: their way to the gallery, and the parts.
+FRONT = {
+    README: (f"{GALLERY}/", ("answer", "questions", "panels")),
+    INDEX: ("gallery/", ("answer", "questions")),
+}
 WIDTH, COLORS = 1440, 256  # largest width in pixels, number of colours
 
 
@@ -38,23 +45,24 @@ def small(picture: Path) -> bytes:
         return content.getvalue()
 
 
-def with_blocks(readme: str, context: Mapping[str, Any]) -> str:
-    """README.md with the text between its marks replaced. Raises ReportError if a mark is missing."""
-    for name in BLOCKS:
-        first, last = f"<!-- {name}, by make gallery -->\n", f"<!-- end of the {name} -->"
-        before, opened, rest = readme.partition(first)
+def with_parts(name: str, page: str, context: Mapping[str, Any]) -> str:
+    """The page with the text between its marks replaced. Raises ReportError if a mark is missing."""
+    way, parts = FRONT[name]
+    for part in parts:
+        first, last = f"<!-- {part}, by make gallery -->\n", f"<!-- end of the {part} -->"
+        before, opened, rest = page.partition(first)
         _, closed, after = rest.partition(last)
         if not (opened and closed):
             missing = (last if opened else first).strip()
-            raise ReportError(f"{README} has no line '{missing}', which marks the {name}; restore it")
-        readme = before + first + rendered(f"readme_{name}.md", **context) + last + after
-    return readme
+            raise ReportError(f"{name} has no line '{missing}', which marks the {part}; restore it")
+        page = before + first + rendered(f"front_{part}.md", **context, gallery=way) + last + after
+    return page
 
 
 def gallery(quality: str, identity: str, root: Path = ROOT) -> None:
     """Raises ReportError."""
     context, folder = content(quality, root), root / GALLERY
-    readme = with_blocks((root / README).read_text(), context).encode()
+    front = {root / name: with_parts(name, (root / name).read_text(), context).encode() for name in FRONT}
     files = {folder / README: rendered("gallery.md", **context).encode()}
     for name, panel in context["panels"].items():
         stem = root / "figures" / quality / name
@@ -63,7 +71,7 @@ def gallery(quality: str, identity: str, root: Path = ROOT) -> None:
         files[folder / f"{name}.json"] = panel["record"].read_bytes()
     for claim in context["claims"]:
         files[folder / "claims" / f"{claim['id']}.svg"] = rendered("strip.svg", claim=claim).encode()
-    write_together({root / README: readme})
+    write_together(front)
     write_with_record(folder / "gallery", identity, files, {"quality": quality})
 
 

@@ -3,18 +3,15 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from workflow.claims.data import Data, MissingError, by_size, number
+from workflow.claims.data import Data, by_size, number
 from workflow.claims.fluxes import decay
 from workflow.claims.growth import (
     BULK,
-    between_baths,
     exponent,
     halves,
     largest_sizes,
-    last_exponent,
     last_octave,
     longest_rings,
-    saturation,
     sizes,
     stationary_at_fixed_spacing,
     thinning_exponents,
@@ -26,7 +23,6 @@ from workflow.lib import caption
 from workflow.lib.fit import with_error
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
-from workflow.report.words import value
 
 
 def kappa_of_small_chains(data: Data) -> Number:
@@ -46,16 +42,9 @@ def _half(data: Data, half: int) -> Sequence[Result]:
     return halves([one for one in sizes(data, "N") if one.parameters["cells"] >= BULK])[half]
 
 
-def small_chains(data: Data) -> str:
-    return _sizes_of_half(data, 0)
-
-
-def large_chains(data: Data) -> str:
-    return _sizes_of_half(data, -1)
-
-
-def _sizes_of_half(data: Data, half: int) -> str:
-    return _from_to(_half(data, half))
+def middle_size(data: Data) -> str:
+    """Where the smaller sizes of fig. 8 end and the larger ones begin."""
+    return f"N = {_half(data, -1)[0].parameters['cells']}"
 
 
 def _from_to(runs: Sequence[Result]) -> str:
@@ -63,22 +52,13 @@ def _from_to(runs: Sequence[Result]) -> str:
     return f"N = {min(cells)} to {max(cells)}"
 
 
-def kappa_of_longest_chains(data: Data) -> str:
-    """Exponents between the two largest sizes at the paper's spacing."""
-    return caption.listed(f"{value(one)} ({one.label})" for one in thinning_exponents(data))
+def kappa_of_longest_chains(data: Data) -> Number:
+    """Exponent between the two largest sizes at the paper's spacing, at the drive with the smaller error."""
+    return min(thinning_exponents(data), key=lambda one: one.error)
 
 
-def kappa_at_fixed_density(data: Data) -> str:
-    """Exponents of κ between baths, from the two largest sizes of every fixed spacing."""
-    series = [between_baths(data, name) for name in ("dilute", "dense")]
-    found = [value(last_exponent(runs)) for runs in series if len(runs) > 1]
-    if not found:
-        raise MissingError("Fewer than two sizes of ext09 are stationary at this quality")
-    return caption.listed(found)
-
-
-def kappa_of_random_directions(data: Data) -> str:
-    return saturation(data)
+def sizes_of_longest_chains(data: Data) -> str:
+    return kappa_of_longest_chains(data).label.rpartition(", ")[2]
 
 
 def heat_exponent(data: Data) -> Number:
@@ -87,14 +67,14 @@ def heat_exponent(data: Data) -> Number:
     return _exponent(max(rings, key=lambda one: float(one["heat_variance"].axes["time"][-1])))
 
 
-def heat_exponents(data: Data) -> str:
-    """Of every gas, over the last octave of its longest ring."""
-    return caption.listed(f"{value(_exponent(ring))} ({_gas_and_time(ring)})" for ring in longest_rings(data))
+def lowest_heat_exponent(data: Data) -> Number:
+    """The smallest of all gases, each over the last octave of its longest ring."""
+    return min(map(_exponent, longest_rings(data)), key=lambda one: one.value)
 
 
-def heat_exponent_without_momentum(data: Data) -> str:
+def heat_exponent_without_momentum(data: Data) -> Number:
     (ring,) = data.of("ext13", rule="random-direction")
-    return f"{value(number(ring, 'local_exponent', -1))} ({_gas_and_time(ring)})"
+    return number(ring, "local_exponent", -1)
 
 
 def _exponent(ring: Result) -> Number:

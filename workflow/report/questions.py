@@ -1,4 +1,4 @@
-"""The answer: seven questions, each answered by the sentence of questions.yaml that belongs to the verdict."""
+"""The answer: questions, each answered by the sentence of questions.yaml that belongs to the verdict."""
 
 import string
 from collections.abc import Mapping, Sequence
@@ -28,7 +28,7 @@ def read_questions(folder: Path = Path(__file__).parent) -> list[dict[str, Any]]
 
 
 def answers(judgements: Sequence[Judgement], data: Data) -> list[dict[str, Any]]:
-    """question, answer, outcome, claim and panels of each."""
+    """question, answer, outcome, claim, panels and summary of each; the summary is empty where the question has none."""
     by_id = {one.claim["id"]: one for one in judgements}
     level = level_of_each(len(judgements) + 1)
     rows = []
@@ -39,9 +39,10 @@ def answers(judgements: Sequence[Judgement], data: Data) -> list[dict[str, Any]]
             else getattr(by_id[question["claim"]], question["reading"])
         )
         outcome = reading.outcome if reading else Outcome.NOT_TESTABLE
-        rows.append(
-            {**question, "outcome": outcome.value, "answer": _filled(question[outcome.value], reading, data)}
-        )
+        answer = _filled(question[outcome.value], reading, data)
+        sentence = question.get("summary", {outcome.value: ""}).get(outcome.value)
+        summary = f"{question['question']} {answer}" if sentence is None else _filled(sentence, reading, data)
+        rows.append({**question, "outcome": outcome.value, "answer": answer, "summary": summary})
     return rows
 
 

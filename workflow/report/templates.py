@@ -9,7 +9,7 @@ from workflow.report import words
 
 
 def rendered(template: str, **context: Any) -> str:
-    """pages/<template>.j2. An unknown name is an error; text is escaped in HTML and SVG."""
+    """`pages/<template>.j2`. An unknown name is an error; text is escaped in HTML and SVG."""
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(Path(__file__).parent / "pages"),
         autoescape=template.endswith((".html", ".svg")),

@@ -1,4 +1,4 @@
-"""Writes figures/<quality>/report.html from the products of one quality. Equal inputs give equal bytes."""
+"""Writes `figures/<quality>/report.html` from the products of one quality. Equal inputs give equal bytes."""
 
 import sys
 

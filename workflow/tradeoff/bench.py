@@ -35,6 +35,7 @@ def event_loops(benchmarks: list[dict[str, Any]]) -> pd.DataFrame:
     table.insert(0, "particles", rows.groupby(case).particles.max())
     table["reference/engine"] = table.reference / table.engine
     table["engine/floor"] = table.engine / table.floor
+    table = table.rename(columns={name: f"{name}, ns" for name in ("engine", "floor", "reference")})
     return table.sort_values(["chain", "gamma", "particles"], ascending=[True, False, True]).reset_index()
 
 
@@ -60,17 +61,27 @@ def whole_program(name: str) -> dict[str, object]:
     pairs = [[cost(each, replicas)[1] for each in (run, bare(run))] for _ in range(REPETITIONS)]
     program, loop = np.median(pairs, axis=0)
     row = {"program": run.program, "run": name, "gamma": run.options.get("gamma", "N")}
-    return row | {"program ns": program, "bare loop ns": loop, "program/loop": program / loop}
+    return row | {"program, ns": program, "bare loop, ns": loop, "program/loop": program / loop}
 
 
 def main() -> None:
+    print("Benchmarks take about 7 minutes", flush=True)
     subprocess.run(["bash", "workflow/environment/build.sh", "benchmarks"], check=True)
     output = Path("build/bench.json")
     flags = f"repetitions=3 enable_random_interleaving=true report_aggregates_only=true out={output}".split()
-    subprocess.run([PROGRAMS / "benchmarks", *(f"--benchmark_{flag}" for flag in flags)], check=True)
+    subprocess.run(
+        [PROGRAMS / "benchmarks", *(f"--benchmark_{flag}" for flag in flags)],
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )
     loops = event_loops(json.loads(output.read_text())["benchmarks"])
-    for table in (loops, pd.DataFrame(map(whole_program, RUNS))):
-        print(table.to_string(index=False, float_format="{:.3g}".format, na_rep="-"))
+    programs = pd.DataFrame(map(whole_program, RUNS))
+    for title, table in (("Event loops", loops), ("Programs", programs)):
+        print(
+            f"\n{title}: CPU time per event",
+            table.to_string(index=False, float_format="{:.3g}".format, na_rep="-"),
+            sep="\n",
+        )
 
 
 if __name__ == "__main__":

@@ -1,0 +1,65 @@
+"""The documentation in a browser: whole, without messages, and no wider than a narrow screen."""
+
+import re
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page, sync_playwright
+
+from tests.workflow.conftest import clone_into
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+NARROW = 390  # pixels
+HEADING = re.compile(r'<h[1-6][^>]*\bid="([^"]+)"')
+EQUATIONS = """[...document.querySelectorAll("mjx-container[display]")].filter(
+  equation => equation.scrollWidth > equation.parentElement.clientWidth + 1).map(equation => equation.textContent)"""
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    if CHROMIUM is None:
+        pytest.skip("no Chromium")
+    clone = clone_into(tmp_path_factory.mktemp("site"))
+    clone.make("docs")
+    return clone.folder / "build/docs"
+
+
+@pytest.fixture(scope="module")
+def tab() -> Iterator[Page]:
+    with sync_playwright() as player:
+        browser = player.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield browser.new_context(viewport={"width": NARROW, "height": 844}).new_page()
+        browser.close()
+
+
+def faults(tab: Page, messages: list[str], path: Path) -> list[str]:
+    messages.clear()
+    tab.goto(path.as_uri())
+    tab.evaluate("window.MathJax?.startup?.promise")
+    headings = HEADING.findall(path.read_text("utf-8"))
+    if headings and not tab.evaluate("id => document.getElementById(id) !== null", headings[-1]):
+        messages.append(f"the heading {headings[-1]} is not in the document")
+    if (width := tab.evaluate("document.documentElement.scrollWidth")) > NARROW:
+        messages.append(f"{width} pixels wide")
+    return [*messages, *(f"wide equation: {text}" for text in tab.evaluate(EQUATIONS))]
+
+
+def test_every_page(site: Path, tab: Page) -> None:
+    """Finds: an unescaped <template> in a docstring, a script that is missing, a table or a signature without a frame."""
+    pages = [path for path in site.rglob("*.html") if path.name != "404.html"]  # that one needs a server
+    assert len(pages) > 100
+    messages: list[str] = []
+    tab.on("console", lambda message: messages.append(message.text))
+    tab.on("pageerror", lambda error: messages.append(str(error)))
+    found = {str(path.relative_to(site)): faults(tab, messages, path) for path in pages}
+    assert {name: messages for name, messages in found.items() if messages} == {}
+
+
+def test_faults_are_found(tab: Page, tmp_path: Path) -> None:
+    page = tmp_path / "page.html"
+    page.write_text(
+        '<!DOCTYPE html><h1 id="first">A</h1><p style="position: absolute; left: 0; width: 500px">B</p><template><h2 id="last">C</h2></template>'
+    )
+    assert faults(tab, [], page) == ["the heading last is not in the document", "500 pixels wide"]
