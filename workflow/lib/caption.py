@@ -55,18 +55,18 @@ def listed(texts: Iterable[str]) -> str:
 
 def parameters(results: Sequence[Result], *names: str) -> str:
     """The named parameters that the results have, with all their values: `N = 11 cells, σ = −1/2 and 1/2`."""
-    found = []
+    texts = []
     for name in names:
         values = {result.parameters[name] for result in results if name in result.parameters}
         numbers = sorted(value for value in values if not isinstance(value, str))
         words = sorted(value for value in values if isinstance(value, str))
         if values:
-            found.append(SYMBOLS[name].format(listed([*map(number, numbers), *words])))
-    return ", ".join(found)
+            texts.append(SYMBOLS[name].format(listed([*map(number, numbers), *words])))
+    return ", ".join(texts)
 
 
 def baths(result: Result) -> str:
-    """baths ν = 220 and 180, T = 81.82 and 122.2, left and right; equal ones once."""
+    """baths ν = 220 and 180, T = 81.82 and 122.2, left and right; equal values are given once."""
     both = [listed(dict.fromkeys(map(number, result.ends(name)))) for name in ("nu", "temperature")]
     return f"baths ν = {both[0]}, T = {both[1]}"
 

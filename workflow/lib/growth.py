@@ -11,7 +11,7 @@ from workflow.lib.fit import p_value
 
 Basis = Callable[[np.ndarray], list[np.ndarray]]  # functions of the size, combined linearly
 
-# Leading term and first correction. A sound peak that spreads as t^(2/3) makes corrections of relative order N^(-1/3).
+# Leading term and first correction of each law. A sound peak whose width grows as t^(2/3) gives corrections of relative order N^(-1/3).
 LAWS: dict[str, Basis] = {
     "constant": lambda n: [n**0, n ** (-1 / 3)],
     "logarithm": lambda n: [n**0, np.log(n)],
@@ -57,9 +57,9 @@ def widest(size: ArrayLike, value: ArrayLike, error: ArrayLike, law: str, level:
     """Fit of a law over the widest range, up to the largest size, with a p-value above the level and at least two degrees of
     freedom; None without one."""
     for first in np.asarray(size, dtype=float):
-        for one in fits(size, value, error, first):
-            if one.law == law and one.freedom > 1 and one.p_value > level:
-                return one
+        for growth in fits(size, value, error, first):
+            if growth.law == law and growth.freedom > 1 and growth.p_value > level:
+                return growth
     return None
 
 

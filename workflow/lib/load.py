@@ -122,10 +122,10 @@ class Result:
 
     def columns(self, *names: str) -> dict[str, Any]:
         """Means and errors of quantities, as columns or numbers of a table: kappa and kappa_error."""
-        found: dict[str, Any] = {}
+        columns: dict[str, Any] = {}
         for name in names:
-            found |= {name: self[name].mean[()], f"{name}_error": self[name].error[()]}
-        return found
+            columns |= {name: self[name].mean[()], f"{name}_error": self[name].error[()]}
+        return columns
 
     def to_xarray(self) -> "xarray.DataTree":
         """A Dataset of every quantity, by its name; the attributes are the parameters, `converged`, and the doubts."""
@@ -137,25 +137,24 @@ class Result:
 
     @property
     def converged(self) -> str:
-        """Of the target error: reached, not reached, or no target."""
+        """State of the target error: reached, not reached, or no target."""
         return str(self.provenance["converged"])
 
     @property
     def doubts(self) -> list[str]:
-        """What a user of the numbers has to know: a missed target error, an early end, a window that is not stationary or was not
-        tested."""
-        found = []
+        """Reasons to doubt the numbers: a missed target error, an early end, a window that is not stationary or was not tested."""
+        reasons = []
         if self.converged == NOT_REACHED:
             targeted = np.isfinite(self.provenance["target_error"])
-            found.append(
+            reasons.append(
                 "target error not reached" if targeted else "stopped early, or target quantity undetermined"
             )
         of_a_stationary_state = {"nu-left", "relaxation-time"} <= self.parameters.keys()
         if of_a_stationary_state and np.isnan(self._drift_p_value):
-            found.append("stationarity not tested")
+            reasons.append("stationarity not tested")
         elif of_a_stationary_state and self["stationary"].mean != 1:
-            found.append("not stationary")
-        return found
+            reasons.append("not stationary")
+        return reasons
 
     @property
     def _drift_p_value(self) -> float:

@@ -99,7 +99,7 @@ def apply() -> None:
 
 
 def points(marker: str, color: str, face: str | None = None, **more: Any) -> Look:
-    """Look of measured points. face: colour inside of the marker, if it is another."""
+    """Style of measured points. face: fill colour of the marker, if it differs from its edge."""
     return {**POINTS, "marker": marker, "color": color, "markerfacecolor": face or color, **more}
 
 
@@ -126,11 +126,11 @@ def letter(*panels: Axes, lift: float | None = None, start: str = "a") -> None:
         axes.set_title(f"({character})", loc="left", y=None if lift is None else 1, pad=lift)
 
 
-SHOWN_MOMENTA = 45  # of the flux F(p), to either side
+SHOWN_MOMENTA = 45  # largest |p| in panels of the flux F(p)
 
 
 def both_rates(result: Result) -> float:
-    """ν_L + ν_R. The flux over it has about the integral 1, as the paper's."""
+    """ν_L + ν_R. Divided by it, the flux has an integral of about 1, as in the paper."""
     return sum(result.ends("nu"))
 
 
@@ -143,10 +143,10 @@ def guide_at(axes: Axes, value: float, name: str) -> None:
 def second_axis(axes: Axes, factor: float, label: str) -> None:
     """The y axis in another unit, on the right."""
     axes.tick_params(axis="y", which="both", right=False)
-    other = axes.secondary_yaxis(
+    secondary = axes.secondary_yaxis(
         "right", functions=(lambda y: np.multiply(factor, y), lambda y: np.divide(y, factor))
     )
-    other.set_ylabel(label)
+    secondary.set_ylabel(label)
 
 
 def label_within_decades(axis: Axis) -> None:

@@ -45,8 +45,11 @@ def new_crate(quality: str) -> ROCrate:
     crate.license = add(crate, f"https://spdx.org/licenses/{cited['license']}", text)
     root = crate.root_dataset
     root["version"] = cited["version"]
-    names = [one.get("name") or f"{one['given-names']} {one['family-names']}" for one in cited["authors"]]
-    kinds = ["Person" if "family-names" in one else "Organization" for one in cited["authors"]]
+    names = [
+        author.get("name") or f"{author['given-names']} {author['family-names']}"
+        for author in cited["authors"]
+    ]
+    kinds = ["Person" if "family-names" in author else "Organization" for author in cited["authors"]]
     authors = enumerate(zip(kinds, names, strict=True), 1)
     root["author"] = compact(
         [add(crate, f"#author-{i}", {"@type": kind, "name": name}) for i, (kind, name) in authors]
@@ -61,7 +64,7 @@ def new_crate(quality: str) -> ROCrate:
 def pack(products: Products, panels: list[str]) -> ROCrate:
     """Crate of the panels, the results that they plot, and all sources."""
     quality, plan, crate = products.quality, products.plan, new_crate(products.quality)
-    shown = {one.name: one for name in panels for one in with_used(plan, name)}
+    shown = {used.name: used for name in panels for used in with_used(plan, name)}
     scripts = {name: f"workflow/figures/{plan[name].script}.py" for name in panels}
     data = {path for name in panels for path in products.results_of(name)}
     drawn = {name: products.files_of(plan[name]) for name in panels}

@@ -32,11 +32,11 @@ REPORT = "report"  # has a record, and is no panel
 @cache
 def plans() -> dict[str, dict[str, Panel]]:
     """Plans by quality. Raises ConfigurationError."""
-    found = {name: load_plan(name) for name in QUALITIES}
+    by_quality = {name: load_plan(name) for name in QUALITIES}
     for folder in sorted((ROOT / "figures").glob("*_*")):
         with suppress(ConfigurationError):
-            found[folder.name] = load_plan(folder.name)
-    return found
+            by_quality[folder.name] = load_plan(folder.name)
+    return by_quality
 
 
 def obsolete(quality: str, panels: Sequence[str] = ()) -> list[Path]:
@@ -48,21 +48,24 @@ def obsolete(quality: str, panels: Sequence[str] = ()) -> list[Path]:
         for run in panel.runs
     }
     runs = {stem.rpartition(".")[0] for stem in known}
-    found = set()
+    obsolete_files = set()
     for file in (ROOT / "data" / quality.partition("_")[0]).glob("*/*"):
         parts = OF_A_RESULT.fullmatch(str(file.relative_to(ROOT)))
         if not parts or parts[1] in known or (panels and file.parent.name not in panels):
             continue
         if parts[3] or parts[2] in runs:
-            found.add(file)
+            obsolete_files.add(file)
     for record in (ROOT / "figures" / quality).glob("*.json"):
         parts = OF_A_PANEL.fullmatch(record.name)
         if not parts or parts[1] in {*load_plan(quality), REPORT} or (panels and parts[1] not in panels):
             continue
         with suppress(MetadataError, OSError):
             files = [record.with_name(name) for name in read_panel(record)["files"]]
-            found |= {record, *(file for file in files if file.parent == record.parent and file.is_file())}
-    return sorted(found)
+            obsolete_files |= {
+                record,
+                *(file for file in files if file.parent == record.parent and file.is_file()),
+            }
+    return sorted(obsolete_files)
 
 
 def faults(products: Products, panels: Sequence[str]) -> list[Fault]:

@@ -30,11 +30,13 @@ class Strip:
 
 def strip_of(reading: Reading) -> Strip | None:
     """None where no number has an error."""
-    intervals = [(*one.interval(reading.share), one.value) for one in reading.numbers]
-    finite = [one for one in intervals if all(map(math.isfinite, one))]
+    intervals = [(*number.interval(reading.share), number.value) for number in reading.numbers]
+    finite = [entry for entry in intervals if all(map(math.isfinite, entry))]
     if not finite:
         return None
-    shown = sorted(finite, key=lambda one: max(reading.band.low - one[0], one[1] - reading.band.high))[-MOST:]
+    shown = sorted(finite, key=lambda entry: max(reading.band.low - entry[0], entry[1] - reading.band.high))[
+        -MOST:
+    ]
     edges = [edge for edge in (reading.band.low, reading.band.high) if math.isfinite(edge)]
     seen = [*edges, *(value for *_, value in shown)]
     low, high = min(seen), max(seen)

@@ -36,7 +36,7 @@ def typeset(text: str) -> Markup:
     """As HTML: powers after ^, indices after _, and minus signs."""
     power = r"\^(?:\(([^)]*)\)|([-−]?\d+\.\d+(?:\(\d+\))?|[-−]?\w+))"
     text = re.sub(
-        power, lambda found: f"<sup>{found[1] or found[2]}</sup>", str(escape(text)).replace("&#39;", "'")
+        power, lambda match: f"<sup>{match[1] or match[2]}</sup>", str(escape(text)).replace("&#39;", "'")
     )
     text = re.sub(r"_(\w+)", r"<sub>\1</sub>", text)
     return Markup(re.sub(r"(?<![\w)])-(?=\d)|(?<=\s)-(?=\s)", MINUS, text))
@@ -67,9 +67,9 @@ def value(number: Number) -> str:
     return f"{with_error(number.value, number.error)}{bound}"
 
 
-def value_or_text(found: Number | str) -> str:
+def value_or_text(shown: Number | str) -> str:
     """As value(); a text is returned as it is."""
-    return found if isinstance(found, str) else value(found)
+    return shown if isinstance(shown, str) else value(shown)
 
 
 def or_reason(text: Callable[[T], str], number: Callable[[Data], T], data: Data) -> str:

@@ -25,8 +25,8 @@ class Estimate(NamedTuple):
 
 
 def stored(done: Done, name: str, index: Any = ()) -> Estimate:
-    found = done.result[name]
-    return Estimate(found.mean[index], found.error[index], int(found.replicas.max()), done.seconds)
+    quantity = done.result[name]
+    return Estimate(quantity.mean[index], quantity.error[index], int(quantity.replicas.max()), done.seconds)
 
 
 def averaged(sample: np.ndarray, seconds: float) -> Estimate:
