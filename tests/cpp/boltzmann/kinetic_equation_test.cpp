@@ -33,7 +33,7 @@ KineticSolution solve(const KineticProblem& problem, int level = 1) {
   return {problem, Resolution::level(level, problem.gamma)};
 }
 
-/// F at p > 0, then at p < 0, at the same |p| for every resolution.
+/// Flux at p > 0, then at p < 0, at the given |p|, which do not depend on the resolution.
 Flux flux_at(const KineticSolution& solution, const VectorXd& x, const VectorXd& p) {
   const Flux flux = solution.flux(x);
   const MatrixXd values = solution.momenta().interpolation(p);
@@ -42,7 +42,7 @@ Flux flux_at(const KineticSolution& solution, const VectorXd& x, const VectorXd&
   return result;
 }
 
-/// Largest difference, relative to the largest value.
+/// Largest difference of two arrays, relative to the largest value of the second.
 double distance(const MatrixXd& a, const MatrixXd& b) {
   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
 }
@@ -114,7 +114,7 @@ TEST(KineticEquation, WrongEquationsDoNotAgree) {
   EXPECT_GT(largest(problem(0.5, 1 + 1e-6)), 1e-8);  // rate of scattering
   EXPECT_GT(largest(problem(0.5 + 1e-6, 1)), 1e-8);  // mass ratio
   KineticProblem chain = right;
-  chain.cells = 100;  // whether a scatterer's own gain reaches it
+  chain.cells = 100;  // the discrete chain in place of the continuum
   EXPECT_GT(largest(chain), 1e-6);
 }
 
@@ -209,8 +209,8 @@ TEST(KineticEquation, MirrorImage) {
   EXPECT_NEAR(currents(solution).energy[0], -currents(mirrored).energy[0], 1e-8);
 }
 
-/// The error decreases exponentially with the numbers of nodes: at every step by a given factor at least,
-/// until rounding limits it.
+/// The error decreases exponentially with the numbers of nodes: each refinement reduces it at least by a
+/// given factor until rounding limits it.
 TEST(KineticEquation, ConvergesSpectrally) {
   for (const double sigma : {-0.9, 0.05, 0.5}) {
     const KineticProblem p = problem(sigma, 3);
@@ -249,7 +249,8 @@ TEST(MeanFieldChain, TendsToTheContinuum) {
   EXPECT_LT(last, 1e-2 * std::abs(limit));
 }
 
-/// One scatterer with q = 1: the outgoing F is the gain of what the baths inject.
+/// A chain of one scatterer with the scattering probability q = 1: the outgoing flux is the gain of the
+/// injected one.
 TEST(MeanFieldChain, OneScatterer) {
   KineticProblem p = problem(0.5, 1);
   p.cells = 1;
@@ -269,7 +270,7 @@ TEST(MeanFieldChain, OneScatterer) {
   EXPECT_LT(distance(flux.col(0).tail(half), gain.head(half).reverse()), 1e-10);  // leaves at the left
 }
 
-/// Both need shortened Newton steps.
+/// Both problems converge only with shortened Newton steps.
 TEST(KineticEquation, HotAndOneSidedBathsConverge) {
   KineticProblem hot = problem(0.5, 50), empty = problem(-0.5, 10);
   hot.right.temperature = 1000 * hot.left.temperature;

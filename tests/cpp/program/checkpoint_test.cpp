@@ -23,7 +23,7 @@ using support::TemporaryFolder;
 
 const std::string identity = "sigma = 0.5\nbuild_id = abc\n";
 
-/// A number and a pair, as in some_replicas().
+/// Tallies of a number and of a pair, as in some_replicas().
 const std::vector<Description> tallies{{"a", "1", "A number"},
                                        {"b", "momentum", "A pair", {{"i", "1", "", {0, 1}}}}};
 const ReplicaFile format{identity, tallies};

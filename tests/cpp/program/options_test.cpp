@@ -73,8 +73,8 @@ TEST(Options, AcceptTheEndsOfTheirRanges) {
   EXPECT_FALSE(example.options.given("--threads"));
 }
 
-// 0.002877 is so close to the midpoint of two doubles that double rounding, through extended precision, gives
-// the wrong one. A leading zero does not mean octal.
+// 0.002877 is so close to the midpoint of two doubles that rounding first to extended precision and then to
+// double gives the wrong one. A leading zero does not mean octal.
 TEST(Options, ReadNumbersAsTheCompilerDoes) {
   Example example;
   EXPECT_FALSE(

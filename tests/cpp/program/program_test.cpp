@@ -33,8 +33,8 @@ TEST(Program, ErrorsLeaveNothingBehind) {
   EXPECT_EQ(folder.names(), Names{});
 }
 
-// Runs in a separate process, which a signal ends. Neither replica has a heartbeat: the first three are too
-// short, and the fourth is being set up.
+// The program runs in a separate process, which a signal ends. No replica has a heartbeat: the first three
+// are too short, and the fourth is interrupted during its setup.
 TEST(ProgramDeathTest, SignalsEndTheRunWithACheckpoint) {
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
     const TemporaryFolder folder;

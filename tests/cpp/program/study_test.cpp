@@ -252,7 +252,7 @@ TEST(Study, UsesTheLowestIndicesAtTheTimeLimitOfAResumedRun) {
   EXPECT_EQ(replicas_in(folder / "a.h5"), 2U);
 }
 
-// Before anything is measured.
+// A run without its target quantity is refused before anything is measured.
 TEST(Study, WithoutItsTargetIsRefused) {
   const TemporaryFolder folder;
   const auto without_target = [] {

@@ -50,7 +50,8 @@ class Encounters {
 
 using Samples = std::array<support::Sample, quantities>;
 
-/// Mean of every quantity with its standard error over the replicas; encounters(replica) measures one.
+/// Mean of every quantity over the replicas with its standard error. encounters(replica) measures one
+/// replica.
 template <class Measure>
 Samples over_replicas(const Measure& encounters) {
   std::array<std::vector<double>, quantities> values;
