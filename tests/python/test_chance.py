@@ -39,7 +39,7 @@ class Chain:
 
 
 DECADES, POINTS_PER_DECADE, EVERY = 2, 8, 4  # times of the programs; every fourth is compared
-BINS_PER_DECADE, BINS = 10, 50  # of waiting times
+BINS_PER_DECADE, BINS = 10, 50  # bins of the waiting times
 
 
 def waiting_time_edges(chain: Chain) -> np.ndarray:
@@ -74,7 +74,7 @@ Measured = dict[str, tuple[np.ndarray, np.ndarray]]  # means and standard errors
 
 
 def measured(measure: Measure, chain: Chain) -> Measured:
-    """Measurements of the programs."""
+    """Means and standard errors of all measurements by the programs."""
     found: Measured = {}
 
     def add(name: str, quantities: list[str], every: int = 1, **options: object) -> None:
@@ -109,7 +109,7 @@ def scores(found: Measured, chain: Chain) -> dict[str, np.ndarray]:
 
 
 def agree(z: dict[str, np.ndarray]) -> bool:
-    """Bound for the largest of as many independent normal scores; correlations reduce the largest."""
+    """Whether the largest score is below the bound for as many independent normal ones. Correlations only make it smaller."""
     every = np.concatenate([np.ravel(each) for each in z.values()])
     return bool(np.abs(every).max() < norm.isf(1e-4 / 2 / every.size))
 

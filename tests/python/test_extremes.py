@@ -43,9 +43,9 @@ def execute(name: str, options: dict[str, object]) -> tuple[int, str, Result | N
         return done.returncode, done.stderr, load(output) if output.exists() else None
 
 
-# NaN if there is nothing to measure, as documented in docs/format.md.
+# Quantities that are NaN if there is nothing to measure (docs/format.md).
 MAY_BE_NAN = {
-    "current_correlation",  # of currents that do not vary
+    "current_correlation",  # if the currents do not vary
     "alpha_relative", "alpha_difference", "density_slope", "density_excess", "temperature_difference",
     "rate_right_deviation", "rate_left_deviation", "drift_p_value", "exponent_by_cut", "exponent_spread", "front", "front_exponent", "kurtosis", "local_slope",
     "logarithmic_power", "momentum_drift", "plateau", "square", "temperature_particle", "peak", "peak_position",
@@ -145,7 +145,7 @@ def test_baths_are_a_matter_of_units(k: int, sigma: float) -> None:
 
 @pytest.mark.parametrize("sign", [1, -1])
 def test_scatterers_close_to_sigma_1_gain_in_proportion(sign: int) -> None:
-    """From rest, an energy in proportion to 1 - sigma^2 to first order."""
+    """A scatterer at rest gains an energy that is proportional to 1 - sigma^2 to first order."""
 
     def gain(k: int) -> float:
         sigma = sign * (1 - 10.0**-k)

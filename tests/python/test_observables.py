@@ -38,7 +38,7 @@ def test_waiting_times_at_sigma_0_are_the_exact_ones(measure: Measure) -> None:
         return float(np.abs((density.mean[seen] - expected) / density.standard_error[seen]).max())
 
     assert largest_score(lambda t: np.exp(-((thermal / t) ** 2) / 2)) < 4
-    # Finds: another temperature; momenta without the flux weight.
+    # Detected mistakes: another temperature; momenta without the weight of the flux.
     assert largest_score(lambda t: np.exp(-1.05 * (thermal / t) ** 2 / 2)) > 4
     assert largest_score(lambda t: erfc(thermal / t / np.sqrt(2))) > 40
 
@@ -74,7 +74,7 @@ FEW = {"cells": 4, "particles_per_cell": 5, "observation_time": 20, "decades": 1
 
 
 def test_displacement_with_known_momentum(measure: Measure) -> None:
-    """Over seeds both estimates agree, also with moving scatterers at the start, and one has the smaller error."""
+    """Over seeds the plain and the corrected estimate agree, also if scatterers move at the start. The corrected one has the smaller error."""
     found = []
     for seed in range(50):
         result = measure("displacement", **FEW, sigma=0.8, scatterer_temperature=500,
@@ -88,7 +88,7 @@ def test_displacement_with_known_momentum(measure: Measure) -> None:
         return abs(float(sample.mean() / sample.std(ddof=1))) * np.sqrt(len(sample))
 
     assert difference(1) < 4
-    # Finds: the mean square of the particles' momentum only, 20 / (20 + 4 x 9) of the total.
+    # Detected mistake: the known mean square is that of the particles' momentum alone, 20 / (20 + 4 x 9) of the total.
     assert difference(20 / 56) > 10
     assert np.mean(plain_error**2) > 10 * np.mean(error**2)
 

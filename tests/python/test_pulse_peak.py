@@ -175,5 +175,5 @@ def test_mirror_symmetry(measure: Measure, gamma: str | int) -> None:
         z = np.array(odd)[:, reached] / np.array(errors)[:, reached]
         squares = np.sum(z**2, axis=1) * (REPLICAS - 3) / (REPLICAS - 1)
         assert abs(squares.mean() - reached.sum()) < 4 * squares.std(ddof=1) / np.sqrt(MIRRORED)
-        # Finds: folding about a cell other than that of the pulse.
+        # Detected mistake: the profile is folded about another cell than that of the pulse.
         assert not mean_is_zero(np.array(off_centre)[:, reached])

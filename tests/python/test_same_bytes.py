@@ -143,7 +143,7 @@ def libraries_of(program: Path) -> dict[str, str]:
 
 @pytest.mark.parametrize("program", PROGRAMS)
 def test_no_inexact_function_of_the_c_library(program: str) -> None:
-    """Neither in the program nor in a library that computes for it."""
+    """Neither the program nor a library that computes results for it calls such a function."""
     path = ROOT / "build/bin" / program
     libraries = libraries_of(path)
     of_c = dynamic_symbols(libraries["libm.so.6"], "--defined-only") - EXACT

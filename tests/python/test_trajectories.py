@@ -119,7 +119,7 @@ def test_all_collisions_are_those_of_another_simulation(flights: Flights, chain:
     assert len(expected) > 50
     assert found.shape == expected.shape
     assert np.abs(found - expected).max() < 1e-6  # rounding errors grow with the number of collisions
-    assert len(collisions(first.iloc[1:], ring)) != len(found)  # finds: without a particle
+    assert len(collisions(first.iloc[1:], ring)) != len(found)  # detected mistake: a particle is missing
 
 
 def test_a_later_window_cuts_the_same_flights(flights: Flights) -> None:

@@ -1,4 +1,4 @@
-"""Sources and documents use standard terms: words that they once had in a private sense do not come back."""
+"""Sources and documents use standard terms instead of words in a private sense."""
 
 import re
 import subprocess

@@ -26,7 +26,7 @@ FOLDER, ARCHIVE = "build/crate/smoke", "build/crate/fig03.zip"
 METADATA = "ro-crate-metadata.json"
 CONTEXT = "https://w3id.org/ro/crate/1.1/context"
 TERMS_OF_1_1 = {"ComputationalWorkflow": "https://bioschemas.org/ComputationalWorkflow"}
-WORKFLOW_RUN = "workflow-run-crate-0.5"  # with the profiles that it builds on
+WORKFLOW_RUN = "workflow-run-crate-0.5"  # includes the profiles on which it is based
 
 pytestmark = pytest.mark.filterwarnings("ignore:ConjunctiveGraph:DeprecationWarning")
 

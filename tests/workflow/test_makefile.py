@@ -66,7 +66,7 @@ def moved(clean: Clone, tmp_path_factory: pytest.TempPathFactory) -> Clone:
 
 
 def test_a_moved_folder_and_an_unusual_environment_change_nothing(clean: Clone, moved: Clone) -> None:
-    """Without a network. Packages of the user stay."""
+    """This holds without a network, and packages that the user has installed are kept."""
     products = moved.products()
     assert products == clean.products()
     printed = moved.make("figures", "QUALITY=smoke", **HOSTILE, **OFFLINE).stdout
@@ -83,7 +83,7 @@ def test_a_moved_folder_and_an_unusual_environment_change_nothing(clean: Clone, 
 
 
 def test_an_environment_has_no_path_of_its_folder(moved: Clone) -> None:
-    """So that a copy of it, or a link to it, belongs to the folder that it is in."""
+    """A copy of an environment, or a link to it, thus works for the folder that contains it."""
     found = subprocess.run(
         ["grep", "-rlI", "-e", "/first[^/]*/project", "--exclude=*.pyc", moved.folder / ".venv"],
         capture_output=True, text=True, check=False,
@@ -124,7 +124,7 @@ def test_a_link_to_the_folder_changes_nothing(moved: Clone, tmp_path: Path) -> N
 
 
 def test_an_environment_without_interpreter_is_renewed(moved: Clone) -> None:
-    """As after an upgrade of the system's Python."""
+    """The interpreter is missing after an upgrade of the system's Python."""
     python = moved.folder / ".venv/bin/python"
     python.unlink()
     python.symlink_to("/nonexistent/python3")

@@ -37,7 +37,7 @@ def importing(module: str) -> Jobs:
 
 
 def another_build(program: str) -> Edit:
-    """As of another compiler: the sources are the same, the build id is not."""
+    """Changes the build id but not the sources, as another compiler does."""
 
     def edit(clone: Clone) -> None:
         path = clone.folder / f"build/id/{program}.json"
@@ -58,7 +58,7 @@ def forget(clone: Clone) -> None:
 
 
 def other_times(clone: Clone) -> None:
-    """As rsync without times: in the order of the copy."""
+    """Sets the modification times in the order of a copy, as rsync without --times does."""
     for number, file in enumerate(
         sorted(files_below(clone.folder / "data") + files_below(clone.folder / "figures"))
     ):

@@ -47,8 +47,10 @@ def faults(tab: Page, messages: list[str], path: Path) -> list[str]:
 
 
 def test_every_page(site: Path, tab: Page) -> None:
-    """Finds: an unescaped <template> in a docstring, a script that is missing, a table or a signature without a frame."""
-    pages = [path for path in site.rglob("*.html") if path.name != "404.html"]  # that one needs a server
+    """Detected mistakes: an unescaped <template> in a docstring; a missing script; a table or a signature that is wider than the page."""
+    pages = [
+        path for path in site.rglob("*.html") if path.name != "404.html"
+    ]  # the 404 page works on a server only
     assert len(pages) > 100
     messages: list[str] = []
     tab.on("console", lambda message: messages.append(message.text))

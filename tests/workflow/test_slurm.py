@@ -86,7 +86,7 @@ def processes(clone: Clone, program: str) -> list[int]:
 
 
 def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, kept: Clone) -> None:
-    """By Ctrl-C, scancel, kill -9, its time limit, while the controller is away, and while the node is drained."""
+    """Jobs end by Ctrl-C, scancel, kill -9 or their time limit, while the controller does not run, and while the node is drained."""
     program = "particle_count"
     with on_cluster(kept, *LONG, "batch=0.1") as making:
         soon(lambda: processes(kept, program), seconds=600)
@@ -135,12 +135,12 @@ def test_a_part_resumes_from_its_checkpoint(cluster: slurm.Cluster, kept: Clone)
 
 
 def text_of(log: Path) -> str:
-    """Empty between two attempts."""
+    """Content of a log; empty if it does not exist, as between two attempts."""
     with contextlib.suppress(FileNotFoundError):
         return log.read_text()
     return ""
 
 
 def reports(log: Path) -> list[float]:
-    """Numbers of replicas, which a program prints every ten seconds."""
+    """Numbers of finished replicas that a program has printed, one every ten seconds."""
     return [float(number) for number in re.findall(r"(\d+\.\d) of \d+ replicas", text_of(log))]

@@ -74,7 +74,7 @@ def test_every_column_scales_as_its_units(clean: Clone, panel: str) -> None:
 
 @pytest.mark.parametrize("panel", PLAN)
 def test_every_panel_is_drawn_from_runs_that_missed_their_targets(clean: Clone, panel: str) -> None:
-    """As after HOURS."""
+    """Runs that HOURS has stopped miss their target errors."""
     draw = importlib.import_module(f"workflow.figures.{PLAN[panel].script}").draw
     results = [load(clean.folder / path) for path in data_of(PLAN, panel, "smoke")]
     missed = [replace(one, provenance=one.provenance | {"converged": NOT_REACHED}) for one in results]

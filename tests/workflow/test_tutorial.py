@@ -65,7 +65,7 @@ def test_an_observable_of_your_own(own: Clone) -> None:
 
 
 def test_a_collision_rule_of_your_own(own: Clone) -> None:
-    """Finds: the rotation of (u, w) in place of (u, U)."""
+    """Detected mistake: the rule rotates (u, w) instead of (u, U)."""
     try:
         for block in BLOCK.finditer(RULE):
             follow(own, block)
