@@ -270,7 +270,7 @@ claim(
 
 
 def curved(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
-    """F with a curvature at p > 0. The line through the bins at p = 0.6 and 1.8 is wrong at p = 0 by 3 x 0.6^2 times the coefficient of p^2."""
+    """F with a curvature at p > 0. At p = 0 the line through the bins at 0.6 and 1.8 is wrong by 3 x 0.6^2 times the coefficient of p^2."""
     return np.where(p > 0, 10 + 0.05 * p**2, 8 + 0.1 * p) * (
         run.name in ("equal", "mean-field-equal")
     ) + 12 * (abs(p) > 50)

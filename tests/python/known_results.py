@@ -80,7 +80,7 @@ def axes(run: Run) -> dict[str, np.ndarray]:
     times = np.array(str(run.options.get("times", 1)).split(","), dtype=float)
     bins, largest = run.options.get("momentum-bins", 100), run.options.get("momentum-max", 60)
     decades, end = run.options.get("decades", 6), run.options.get("observation-time")
-    places = run.options.get("positions")
+    positions = run.options.get("positions")
     return {
         "time": times,
         "from": times[:-1],
@@ -90,7 +90,7 @@ def axes(run: Run) -> dict[str, np.ndarray]:
         "bond": np.arange(cells + 1.0),
         "end": np.arange(2.0),
         "half": np.array([-1.0, 1.0]),
-        "x": np.array(places.split(","), dtype=float) if places else np.linspace(0, 1, cells + 1),
+        "x": np.array(positions.split(","), dtype=float) if positions else np.linspace(0, 1, cells + 1),
         "momentum": (np.arange(bins) + 0.5) * (2 * largest / bins) - largest,
         "distance": np.arange(1.0, cells // 2 + 1),
         "decade": (end if isinstance(end, int) else 1) * 10.0 ** np.arange(-decades, 0),
@@ -134,7 +134,7 @@ def truth(
 
     def fill(run: Run) -> dict[str, Quantity]:
         coordinates = axes(run)
-        found = {}
+        quantities = {}
         for name in QUANTITIES[run.program].keys() & given.keys():
             grids = np.meshgrid(*(coordinates[axis] for axis in QUANTITIES[run.program][name]), indexing="ij")
             value = given[name](run, *grids) if callable(given[name]) else given[name]
@@ -144,7 +144,7 @@ def truth(
                 mean = mean + error * random.standard_normal(mean.shape)
                 freedom = run.options["replicas"] - 1
                 error = error * np.sqrt(random.chisquare(freedom, mean.shape) / freedom)
-            found[name] = quantity(run, name, mean, error)
-        return found
+            quantities[name] = quantity(run, name, mean, error)
+        return quantities
 
     return fill

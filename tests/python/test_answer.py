@@ -102,7 +102,7 @@ def test_the_verdict_selects_the_sentence(verdict: str, begin: str) -> None:
 
 
 def heat(exponent: float, error: float, monkeypatch: pytest.MonkeyPatch) -> str:
-    """Answer on heat transport if the longest ring has this exponent in its last octave and 0.01 more before. Other rings have another one."""
+    """Answer on heat transport if the longest ring has this exponent in its last octave and 0.01 more before. Others have another one."""
     monkeypatch.setitem(
         QUANTITIES, "heat_current", {"heat_variance": ("time",), "local_exponent": ("middle",)}
     )

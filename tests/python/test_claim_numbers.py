@@ -81,11 +81,11 @@ def test_noisy_results_scatter_about_them_as_the_errors_predict(name: str) -> No
     draws = [numbers(name, data(case, random)) for _ in range(TRIALS)]
     known = answers(case)[:, 0]
     measured = [k for k, label in enumerate(draws[0]) if label.error]
-    found = np.array([[(draw[k].value, draw[k].error) for k in measured] for draw in draws])
+    trials = np.array([[(draw[k].value, draw[k].error) for k in measured] for draw in draws])
     if not measured:
         assert name in ("C09", "C33")  # these are computed and have no statistical error
         return
-    z = (found[..., 0] - known[measured]) / found[..., 1]
+    z = (trials[..., 0] - known[measured]) / trials[..., 1]
     labels = [draws[0][k].label for k in measured]
     freedom = np.array([min(draws[0][k].freedom, 1e6) for k in measured])
     freedom[["heat peak" in label for label in labels]] = (
@@ -103,13 +103,16 @@ def changed(known: Known, path: str) -> Known:
     """The data with all means of one run changed by different relative amounts of about a thousandth."""
     run, random = known.loaded[path], np.random.default_rng(1)
 
-    def other(quantity: Quantity) -> Quantity:
+    def shifted(quantity: Quantity) -> Quantity:
         return replace(quantity, mean=quantity.mean * random.uniform(1.001, 1.002, quantity.mean.shape))
 
-    others = {name: one if name == "stationary" else other(one) for name, one in run.quantities.items()}
-    found = known.anew()
-    found.loaded = known.loaded | {path: replace(run, quantities=others)}
-    return found
+    quantities = {
+        name: quantity if name == "stationary" else shifted(quantity)
+        for name, quantity in run.quantities.items()
+    }
+    data = known.anew()
+    data.loaded = known.loaded | {path: replace(run, quantities=quantities)}
+    return data
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -122,8 +125,8 @@ def test_degrees_of_freedom_are_those_of_the_run_with_the_fewest_replicas(name: 
         run = known.loaded[path]
         if "replicas" not in run.parameters:
             continue  # computed runs have no replicas
-        for k, shifted in enumerate(numbers(name, changed(known, path))):
-            if abs(shifted.value - plain[k].value) > 1e-9 * abs(plain[k].value):
+        for k, number in enumerate(numbers(name, changed(known, path))):
+            if abs(number.value - plain[k].value) > 1e-9 * abs(plain[k].value):
                 fewest[k] = min(fewest[k], run.parameters["replicas"] - 1)
-    fewest[["heat peak" in shifted.label for shifted in plain]] = 7
+    fewest[["heat peak" in number.label for number in plain]] = 7
     np.testing.assert_array_equal([shifted.freedom for shifted in plain], fewest)

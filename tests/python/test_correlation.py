@@ -61,14 +61,14 @@ def scores(
 ) -> dict[str, np.ndarray]:
     """z-scores of every field up to half the ring; the other half is equal by symmetry."""
     half = CELLS // 2 + 1
-    found = {}
+    by_field = {}
     for name in FIELDS:
         quantity = result[f"{name}_correlation"]
         error = quantity.standard_error[index, CELLS // 2 :]
         if errors:
             error = np.hypot(error, errors[name][:half])
-        found[name] = (quantity.mean[index, CELLS // 2 :] - expected[name][:half]) / error
-    return found
+        by_field[name] = (quantity.mean[index, CELLS // 2 :] - expected[name][:half]) / error
+    return by_field
 
 
 def accepted(z: np.ndarray) -> bool:
@@ -100,13 +100,13 @@ def reference(lag: float, replicas: int) -> dict[str, np.ndarray]:
 def test_against_the_reference(correlation: Measure, lag: float) -> None:
     """Detected mistake: heavier scatterers."""
     sample = reference(lag, 4000)
-    expected = {name: each.mean(axis=0) for name, each in sample.items()}
-    errors = {name: each.std(axis=0, ddof=1) / np.sqrt(len(each)) for name, each in sample.items()}
+    expected = {name: values.mean(axis=0) for name, values in sample.items()}
+    errors = {name: values.std(axis=0, ddof=1) / np.sqrt(len(values)) for name, values in sample.items()}
     run = {"observation_time": OBSERVED, "times": f"{lag / 2},{lag}", "replicas": 1000}
     z = scores(correlation(**run), 1, expected, errors)
-    assert all(accepted(one) for one in z.values()), z
+    assert all(accepted(score) for score in z.values()), z
     heavier = scores(correlation(**run, sigma=0.6), 1, expected, errors)
-    assert not all(accepted(one) for one in heavier.values())
+    assert not all(accepted(score) for score in heavier.values())
 
 
 def test_the_sum_over_the_ring_is_known(correlation: Measure) -> None:

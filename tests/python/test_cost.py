@@ -152,7 +152,7 @@ def test_every_replica_is_in_one_part_and_batches_are_full(quality: str, batch: 
     assert division.keys() == runs.keys()
     for name, parts in division.items():
         assert [parts[0].first, parts[-1].last] == [0, runs[name].options["replicas"] - 1]
-        assert all(one.last + 1 == other.first for one, other in itertools.pairwise(parts))
+        assert all(part.last + 1 == following.first for part, following in itertools.pairwise(parts))
         sizes = [part.last - part.first + 1 for part in parts]
         assert max(sizes) - min(sizes) <= 1
         assert max(sizes) == 1 or parts[0].seconds <= batch + OVERHEAD

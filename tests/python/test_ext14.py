@@ -9,8 +9,8 @@ from workflow.lib.plan import Run
 
 
 def test_laws_are_horizontal_and_the_runs_are_those_of_one_start() -> None:
-    """The height falls as t^(-2/3) and the position is that of free flight. For the other start both deviate by 0.5 % per unit of ln t. At the
-    first time there is no peak. Detected mistakes: another power; the run of fig. 9 with the other start; another speed."""
+    """The height falls as t^(-2/3) and the position is that of free flight. For the other start both deviate by 0.5 % per unit of ln t.
+    At the first time there is no peak. Detected mistakes: another power; the run of fig. 9 with the other start; another speed."""
 
     def fill(run: Run) -> dict[str, Quantity]:
         time = axes(run)["time"]

@@ -64,11 +64,11 @@ def check_physics(result: Result) -> None:
             and not name.startswith("kappa")
         ):
             assert not np.isnan(quantity.mean).any(), name
-        known = quantity.mean[np.isfinite(quantity.mean)]
+        finite = quantity.mean[np.isfinite(quantity.mean)]
         positive = name.startswith(("temperature", "rate", "density", "weighted", "variance"))
         signed = name.endswith(("_drift", "_difference", "_deviation", "_slope", "_excess"))
         if (positive or name.endswith(("particle_energy", "scatterer_energy"))) and not signed:
-            assert (known >= -1e-9 * np.abs(known).max(initial=0)).all(), name
+            assert (finite >= -1e-9 * np.abs(finite).max(initial=0)).all(), name
     drift = result.quantities.get("energy_drift")
     if drift is not None:
         # Worst case: every collision has 14 rounding errors of a velocity, all of the same sign.

@@ -59,12 +59,13 @@ def test_sizes_from_the_first_on_and_never_fewer_than_three() -> None:
 
 
 def test_widest_range_of_a_law() -> None:
-    """The range excludes the two smallest sizes, which are far from the law. There is none if only three sizes, or only another law, agree."""
+    """The range excludes the two smallest sizes, which are far from the law. There is none if only three sizes
+    agree, or only another law does."""
     values, error = TRUTH["N^(1/3)"].copy(), np.full(len(SIZES), 0.1)
     values[:2] += 50
-    found = widest(SIZES, values, error, "N^(1/3)", 0.01)
-    assert found is not None
-    assert (found.law, found.first, found.freedom) == ("N^(1/3)", 64, 4)
+    growth = widest(SIZES, values, error, "N^(1/3)", 0.01)
+    assert growth is not None
+    assert (growth.law, growth.first, growth.freedom) == ("N^(1/3)", 64, 4)
     values[-4] += 50
     assert widest(SIZES, values, error, "N^(1/3)", 0.01) is None
     assert widest(SIZES, TRUTH["logarithm"], error, "N^(1/3)", 0.01) is None

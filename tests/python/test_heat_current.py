@@ -92,14 +92,13 @@ def test_growth_is_the_weighted_fit(heat_current: Measure) -> None:
 
     def fitted(weight: np.ndarray) -> np.ndarray:
         basis = np.stack([4.5 * np.cbrt(time), np.full_like(time, 2)], axis=1)
-        found: np.ndarray = np.linalg.lstsq(basis * weight[:, None], y / time * weight)[0]
-        return found
+        coefficients: np.ndarray = np.linalg.lstsq(basis * weight[:, None], y / time * weight)[0]
+        return coefficients
 
-    found = [float(result[name].mean) for name in ("amplitude", "diffusion")]
-    np.testing.assert_allclose(found, fitted(np.sqrt(time) / y), rtol=1e-9)
-    assert not np.allclose(
-        found, fitted(np.ones_like(time)), rtol=1e-3
-    )  # detected mistake: a fit without weights
+    stored = [float(result[name].mean) for name in ("amplitude", "diffusion")]
+    np.testing.assert_allclose(stored, fitted(np.sqrt(time) / y), rtol=1e-9)
+    # Detected mistake: a fit without weights.
+    assert not np.allclose(stored, fitted(np.ones_like(time)), rtol=1e-3)
 
 
 def test_sound_must_not_come_around(program: Program) -> None:

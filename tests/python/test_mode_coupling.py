@@ -108,9 +108,11 @@ def test_speed_and_couplings(chain: Chain) -> None:
     speeds = linear.jacobian(modes).subs(numbers).evalf()
     assert np.allclose(np.array(speeds, dtype=float), np.diag([chain.sound_speed, -chain.sound_speed]))
     current = sympy.Poly(quadratic[0].subs(numbers).evalf(), *modes)
-    found = [float(current.coeff_monomial(x)) for x in (modes[0] ** 2, modes[1] ** 2, modes[0] * modes[1])]
-    own, other, both = chain.couplings
-    assert found == pytest.approx([own, other, 2 * both])
+    coefficients = [
+        float(current.coeff_monomial(x)) for x in (modes[0] ** 2, modes[1] ** 2, modes[0] * modes[1])
+    ]
+    own, opposite, both = chain.couplings
+    assert coefficients == pytest.approx([own, opposite, 2 * both])
     assert chain.self_coupling == pytest.approx(2 * sqrt(2) * own)
 
 

@@ -74,14 +74,15 @@ FEW = {"cells": 4, "particles_per_cell": 5, "observation_time": 20, "decades": 1
 
 
 def test_displacement_with_known_momentum(measure: Measure) -> None:
-    """Over seeds the plain and the corrected estimate agree, also if scatterers move at the start. The corrected one has the smaller error."""
-    found = []
+    """Over seeds the plain and the corrected estimate agree, also if scatterers move at the start. The corrected
+    one has the smaller error."""
+    estimates = []
     for seed in range(50):
         result = measure("displacement", **FEW, sigma=0.8, scatterer_temperature=500,
                      replicas=40, seed=seed)  # fmt: skip
         pair = (result["variance"], result["variance_plain"])
-        found.append([(each.mean[-1], each.standard_error[-1]) for each in pair])
-    (reduced, error), (plain, plain_error) = np.moveaxis(np.array(found), 0, -1)
+        estimates.append([(quantity.mean[-1], quantity.standard_error[-1]) for quantity in pair])
+    (reduced, error), (plain, plain_error) = np.moveaxis(np.array(estimates), 0, -1)
 
     def difference(factor: float) -> float:
         sample = factor * reduced - plain

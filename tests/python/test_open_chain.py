@@ -160,17 +160,18 @@ def test_equilibrium(measure: Measure, gamma: str | int) -> None:
 def test_reduced_and_plain_estimates_over_seeds(
     measure: Measure, gamma: str | int, cells: int, target: str
 ) -> None:
-    """Estimates with and without control variates agree, the former have smaller errors, and both errors predict the spread over 50 seeds."""
+    """Estimates with and without control variates agree, the former have smaller errors, and both errors predict the spread
+    over 50 seeds."""
     seeds, replicas = 50, 40
     options = {"gamma": gamma, "cells": cells, "replicas": replicas}
     options |= {"relaxation_time": 5, "observation_time": 12}
-    found = []
+    estimates = []
     for seed in range(seeds):
         result = measure("conductivity", **options, seed=seed)
         names = (target, f"{target}_plain", "kappa")
-        found.append([(result[name].mean, result[name].standard_error) for name in names])
+        estimates.append([(result[name].mean, result[name].standard_error) for name in names])
     (reduced, error), (plain, plain_error), (kappa, kappa_error) = np.moveaxis(
-        np.array(found, dtype=float), 0, -1
+        np.array(estimates, dtype=float), 0, -1
     )
     difference = reduced - plain
     assert abs(difference.mean()) < 4 * difference.std(ddof=1) / np.sqrt(seeds)

@@ -29,15 +29,15 @@ def fit(profile: np.ndarray) -> tuple[float, float]:
     middle, half = (left + right) / 2, max((right - left) / 2, 2.5)
     cells = np.arange(max(0, int(np.ceil(middle - half))), int(middle + half) + 1)
     u = (cells - middle) / half
-    found = least_squares(
+    coefficients = least_squares(
         lambda c: np.sqrt(1 - u**2) * (np.exp(np.polyval(c, u)) - profile[cells] / profile[top]),
         [0, np.log(0.5), 0, 0],
         xtol=1e-14,
         ftol=1e-14,
     ).x
-    steps = np.roots(np.polyder(found))
-    place = next(root.real for root in steps if np.polyval(np.polyder(found, 2), root.real) < 0)
-    return middle + half * place, profile[top] * np.exp(np.polyval(found, place))
+    extrema = np.roots(np.polyder(coefficients))
+    maximum = next(root.real for root in extrema if np.polyval(np.polyder(coefficients, 2), root.real) < 0)
+    return middle + half * maximum, profile[top] * np.exp(np.polyval(coefficients, maximum))
 
 
 @cache
@@ -65,9 +65,9 @@ def test_free_flight(measure: Measure) -> None:
     profiles = np.array([free_profile(time) for time in TIMES])
     expected = np.concatenate([profiles[:, :0:-1], profiles], axis=1)
     # Cells reached by so few particles that their error is undefined are left out.
-    known = difference.standard_error > 0.002 * np.nanmax(difference.standard_error)
-    known &= np.abs(np.arange(CELLS) - half) < 35
-    z = (difference.mean - expected)[known] / difference.standard_error[known]
+    defined = difference.standard_error > 0.002 * np.nanmax(difference.standard_error)
+    defined &= np.abs(np.arange(CELLS) - half) < 35
+    z = (difference.mean - expected)[defined] / difference.standard_error[defined]
     assert len(z) > 80
     assert np.abs(z).max() < 4.5
 
@@ -115,7 +115,7 @@ def mean_is_zero(samples: np.ndarray) -> bool:
 def test_errors_over_seeds(measure: Measure, gamma: str | int) -> None:
     """Spread over 70 seeds against the stored errors, for all quantities of the peak."""
     times = "0.007,0.01,0.014,0.02" if gamma == "N" else "0.006,0.008,0.012,0.018"
-    found: dict[str, list[np.ndarray]] = {}
+    by_name: dict[str, list[np.ndarray]] = {}
     for seed in range(SEEDS):
         result = measure(
             "energy_pulse",
@@ -130,18 +130,15 @@ def test_errors_over_seeds(measure: Measure, gamma: str | int) -> None:
         for name in ("peak", "peak_position", "peak_speed", "local_damping_exponent", "damping_exponent_from",
                      "damping_exponent", "damping_drift", "peak_collapse"):  # fmt: skip
             quantity = result[name]
-            found.setdefault(name, []).append(
+            by_name.setdefault(name, []).append(
                 np.array([quantity.mean.ravel(), quantity.standard_error.ravel()])
             )
-    for name, samples in found.items():
+    for name, samples in by_name.items():
         values, errors = np.moveaxis(np.array(samples), 1, 0)
         assert (errors > 0).all(), name
         for column in range(values.shape[1]):
-            for factor, good in (
-                (1, True),
-                (2, False),
-                (0.5, False),
-            ):  # mutants: errors twice and half as large
+            # Detected mistakes: errors that are twice or half as large.
+            for factor, good in ((1, True), (2, False), (0.5, False)):
                 accepted = spread_accepted(values[:, column], factor * errors[:, column])
                 assert accepted == good, (name, column, factor)
 

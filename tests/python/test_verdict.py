@@ -105,19 +105,19 @@ def test_one_contradiction_outweighs_what_is_open_and_what_agrees() -> None:
 
 
 def test_the_number_shown_is_nearest_to_the_edge_in_the_unit_of_the_band() -> None:
-    """Detected mistake: distances are measured in widths of the intervals, which makes 0.5 with the error 0.01 closer to 0 than 0.1 with the
-    error 0.001."""
+    """Detected mistake: distances are measured in widths of the intervals, in which 0.5 with the error 0.01 is closer to 0 than 0.1 with
+    the error 0.001."""
     near, far = Number("", 0.1, 0.001), Number("", 0.5, 0.01)
     across, further = Number("", 0.01, 0.02), Number("", 0.01, 0.03)
     outside, farthest = Number("", -0.5, 1e-9), Number("", -0.8, 0.01)
-    for shown, other in (
+    for shown, hidden in (
         (near, far),
         (across, near),
         (further, across),
         (outside, further),
         (farthest, outside),
     ):
-        for numbers in ((shown, other), (other, shown)):
+        for numbers in ((shown, hidden), (hidden, shown)):
             assert Reading(Band(0, math.inf), numbers, LEVEL).worst is shown
 
 

@@ -50,13 +50,13 @@ def test_standard_terms(word: str) -> None:
     listed = subprocess.run(
         ["git", "ls-files", *pathspec], cwd=ROOT, capture_output=True, text=True, check=True
     )
-    found = [
+    lines = [
         f"{path}:{number}: {line.strip()}"
         for path in filter(lambda path: (ROOT / path).is_file(), listed.stdout.splitlines())
         for number, line in enumerate((ROOT / path).read_text("utf-8").splitlines(), 1)
         if uses(word, line)
     ]
-    assert not found, f"write: {STANDARD[word]}\n" + "\n".join(found)
+    assert not lines, f"write: {STANDARD[word]}\n" + "\n".join(lines)
 
 
 def test_words_are_found_whole_and_in_any_case() -> None:

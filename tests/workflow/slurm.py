@@ -141,12 +141,12 @@ def cluster() -> Iterator[Cluster]:
     """A running cluster. Its folder is below /tmp, as the path of a socket must be short and accessible to another user."""
     folder = Path(tempfile.mkdtemp(prefix=PREFIX))
     folder.chmod(0o755)
-    one = Cluster(folder)
+    instance = Cluster(folder)
     try:
-        one.start()
-        yield one
+        instance.start()
+        yield instance
     finally:
-        one.stop()
+        instance.stop()
         shutil.rmtree(folder, ignore_errors=True)
 
 

@@ -110,7 +110,7 @@ def test_what_is_broken_is_named(
     for edit, _ in edits:
         edit(kept)
     printed = audit(kept, *(f"--panel={panel}" for panel in EDITED), status=1)
-    expected = [re.sub(r"{([^}]+)}", lambda found: paths[found[1]], text) for _, text in edits]
+    expected = [re.sub(r"{([^}]+)}", lambda match: paths[match[1]], text) for _, text in edits]
     assert [text for text in expected if f"broken: {text}" not in printed] == []
     table = " ".join(kept.module("provenance.status", "--quality", "smoke").split())
     assert [text for text in in_status if text not in table] == []

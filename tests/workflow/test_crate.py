@@ -65,7 +65,7 @@ def test_every_file_is_there_with_its_hash(packed: Clone) -> None:
 
 def test_every_run_and_figure_is_an_action(packed: Clone) -> None:
     stated = entities(packed.folder / FOLDER)
-    actions = {one["name"]: one for one in stated.values() if one["@type"] == "CreateAction"}
+    actions = {entity["name"]: entity for entity in stated.values() if entity["@type"] == "CreateAction"}
     assert {*actions} == {"workflow", "job/fig03", "job/fig03/paper", "job/fig03/equal", "job/fig03/exchange"}
     run, drawing = actions["job/fig03/paper"], actions["job/fig03"]
     assert run["description"].startswith("boltzmann --sigma 0.5 --gamma 1 --nu-left 220 ")
@@ -92,8 +92,8 @@ def test_a_second_make_crate_does_nothing(kept: Clone) -> None:
     assert "Nothing to be done" in kept.run(*command).stdout
     (kept.folder / "workflow/figures/mine.py").write_text("x = 1\n")
     kept.run(*command)
-    (other,) = {*(kept.folder / "build/crate").glob("lorentz-gas-smoke-fig03.*.zip")} - {archive}
-    with zipfile.ZipFile(other) as content:
+    (second,) = {*(kept.folder / "build/crate").glob("lorentz-gas-smoke-fig03.*.zip")} - {archive}
+    with zipfile.ZipFile(second) as content:
         assert "workflow/figures/mine.py" in content.namelist()
 
 

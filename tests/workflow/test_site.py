@@ -55,8 +55,8 @@ def test_every_page(site: Path, tab: Page) -> None:
     messages: list[str] = []
     tab.on("console", lambda message: messages.append(message.text))
     tab.on("pageerror", lambda error: messages.append(str(error)))
-    found = {str(path.relative_to(site)): faults(tab, messages, path) for path in pages}
-    assert {name: messages for name, messages in found.items() if messages} == {}
+    messages_by_page = {str(path.relative_to(site)): faults(tab, messages, path) for path in pages}
+    assert {name: messages for name, messages in messages_by_page.items() if messages} == {}
 
 
 def test_faults_are_found(tab: Page, tmp_path: Path) -> None:

@@ -53,8 +53,8 @@ def on_cluster(clone: Clone, *config: str, option: str = "--keep-going") -> Iter
 
 def products(clone: Clone, quality: str) -> dict[Path, bytes]:
     """Results and figures of fig01 and fig06, without the records of the commit."""
-    places = (f"data/{quality.partition('_')[0]}/fig0[16]/*.h5", f"figures/{quality}/fig0[16].???")
-    return {path: path.read_bytes() for place in places for path in clone.folder.glob(place)}
+    folders = (f"data/{quality.partition('_')[0]}/fig0[16]/*.h5", f"figures/{quality}/fig0[16].???")
+    return {path: path.read_bytes() for folder in folders for path in clone.folder.glob(folder)}
 
 
 def test_parts_and_batches_give_the_same_bytes(cluster: slurm.Cluster, kept: Clone) -> None:

@@ -72,9 +72,9 @@ def test_a_collision_rule_of_your_own(own: Clone) -> None:
         profile, mu = load(own.folder / "equilibrium.h5"), load(own.folder / "mu.h5")["mu"]
         assert profile.parameters["rule"] == "random-rotation"
         for name in ("temperature_scatterer", "temperature_particle"):
-            found = profile[name]
-            assert np.abs((found.mean - 100) / found.error).max() < 4, name
-            assert np.abs((found.mean - 102) / found.error).max() > 6, name
+            temperature = profile[name]
+            assert np.abs((temperature.mean - 100) / temperature.error).max() < 4, name
+            assert np.abs((temperature.mean - 102) / temperature.error).max() > 6, name
         assert abs(mu.mean - 0.5) < 4 * mu.error < 0.01
         refused = own.run("build/bin/persistence", "--rule", "rotation", "--output", "x.h5", status=2).stdout
         assert "elastic, random-direction, random-rotation" in refused

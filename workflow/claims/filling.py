@@ -14,9 +14,9 @@ SPACINGS = {"paper": "1", "short": "0.05"}  # the two other spacings by run; not
 
 def stationary_above_front(data: Data) -> Evidence:
     """Relative changes of |p| n_t(p) above p_0 from each time to the next."""
-    others = _others(data)
-    changes = [_rise(run, 0, -1) for run in others.values()]
-    pairs = zip(others, changes, strict=True)
+    by_spacing = _others(data)
+    changes = [_rise(run, 0, -1) for run in by_spacing.values()]
+    pairs = zip(by_spacing, changes, strict=True)
     texts = [f"λ = {name}: {with_error(change.value, change.error)}" for name, change in pairs]
     result = data.one("fig01", "unit-chain")
     later = range(1, len(result["plateau"].mean))
@@ -43,9 +43,9 @@ def grows_as_logarithm(data: Data) -> Evidence:
 def front_falls(data: Data) -> Evidence:
     """Exponent of p_0(t). For p_0 ~ 1/ln t it would be -1/ln t."""
     result = data.one("fig01", "unit-chain")
-    others = _others(data)
-    exponents = [number(run, "front_exponent", label=f"at λ = {name}") for name, run in others.items()]
-    misfits = [f"{_misfits(run)} at λ = {name}" for name, run in {"1/N": result, **others}.items()]
+    by_spacing = _others(data)
+    exponents = [number(run, "front_exponent", label=f"at λ = {name}") for name, run in by_spacing.items()]
+    misfits = [f"{_misfits(run)} at λ = {name}" for name, run in {"1/N": result, **by_spacing}.items()]
     return Evidence(
         [number(result, "front_exponent", label="d ln p₀ / d ln t at λ = 1/N")],
         alternative=exponents,

@@ -25,7 +25,7 @@ WIDE = 6  # cells; narrower heat peaks are not fitted
 PRECISE = 2  # number of times that count: the first ones at which the heat peak is so wide
 AT_BOUND = 0.01  # smallest distance of a fitted order from the bounds of the fit; closer ones are not determined by the profile
 WIDE_FROM = 0.032  # time from which the peak of a weak pulse of one cell spans several
-PEAK_BIAS = 0.02  # of an octave's damping exponent, at most (cpp/statistics/moving_peak.hpp)
+PEAK_BIAS = 0.02  # largest bias of the damping exponent of an octave (cpp/statistics/moving_peak.hpp)
 
 
 def _gaussian(data: Data, panel: str) -> Result:

@@ -70,7 +70,7 @@ class Band:
 
     @classmethod
     def of(cls, text: str) -> "Band":
-        """As written in the table of claims: `0.95 to 1.05`, `above 0`, `below -0.5`."""
+        """Parses a band as written in the table of claims: `0.95 to 1.05`, `above 0`, `below -0.5`."""
         match text.split():
             case ["above", low]:
                 return cls(float(low), math.inf)
@@ -104,13 +104,14 @@ class Reading:
     def outcome(self) -> Outcome:
         outcomes = {self.band.outcome(number.interval(self.share)) for number in self.numbers}
         order = (Outcome.CONTRADICTED, Outcome.UNDECIDED, Outcome.REPRODUCED)
-        return next((one for one in order if one in outcomes), Outcome.NOT_TESTABLE)
+        return next((outcome for outcome in order if outcome in outcomes), Outcome.NOT_TESTABLE)
 
     @property
     def p_value(self) -> float:
         """Bonferroni-corrected p-value of the most significant number."""
         return min(
-            (min(1.0, len(self.numbers) * one.p_value(self.band)) for one in self.numbers), default=math.nan
+            (min(1.0, len(self.numbers) * number.p_value(self.band)) for number in self.numbers),
+            default=math.nan,
         )
 
     @property

@@ -77,11 +77,13 @@ def expected_replicas(panel: str, run: Run) -> float | None:
     target = run.target
     if target is None or not run.replicated:
         return float(run.options.get("replicas", 1))
-    unit = _at_size(panel, run, "error")  # of one unit of effort
+    unit = _at_size(panel, run, "error")  # error after one unit of effort
     if unit is None:
         return None
     replicas = (unit / target) ** 2 / effort(run.options)
-    bound = 1 + 1.645 / math.sqrt(2 * max(replicas, LEAST))  # of a standard error, relative to its estimate
+    bound = 1 + 1.645 / math.sqrt(
+        2 * max(replicas, LEAST)
+    )  # upper bound of a standard error over its estimate
     return max(LEAST, replicas * bound**2)
 
 

@@ -42,7 +42,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("qualities", nargs="+", choices=QUALITIES)
     with TABLE.open(newline="") as file:
-        known: dict[Key, Row] = {
+        rows: dict[Key, Row] = {
             tuple(line[name] for name in COLUMNS[:3]): line for line in csv.DictReader(file)
         }
     replicas: dict[Key, int] = {}
@@ -60,16 +60,16 @@ def main() -> None:
                     int(run.options.get("replicas", 1)),
                 )
                 if count > replicas.get(key, 0):
-                    known[key], replicas[key] = entry, count
+                    rows[key], replicas[key] = entry, count
                 elif count == replicas[key]:
                     for column in COLUMNS[4:]:
-                        known[key][column] = max(
-                            known[key][column], entry[column], key=lambda text: float(str(text) or 0)
+                        rows[key][column] = max(
+                            rows[key][column], entry[column], key=lambda text: float(str(text) or 0)
                         )
     text = io.StringIO()
     writer = csv.DictWriter(text, COLUMNS, restval="", lineterminator="\n")
     writer.writeheader()
-    writer.writerows(known.values())
+    writer.writerows(rows.values())
     write_together({TABLE: text.getvalue().encode()})
 
 

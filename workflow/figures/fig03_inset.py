@@ -21,7 +21,7 @@ SHOWN = 45  # largest momentum that is plotted
 LOWEST, HIGHEST = 6e-4, 0.08  # range of the deviations that are plotted
 LIMITS = [(1e-3, "0.1 %"), (1e-4, "0.01 %")]  # upper bounds of the deviation in the paper
 SIMULATION, MEAN_FIELD = "simulation", "mean field"
-MARKERS = ["o", "s", "^", "D"]  # by N
+MARKERS = ["o", "s", "^", "D"]  # one for each N
 
 
 def outgoing(values: np.ndarray, momentum: np.ndarray) -> np.ndarray:

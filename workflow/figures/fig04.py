@@ -143,9 +143,9 @@ def extrapolation_error(table: pd.DataFrame) -> float:
 
     A measured jump is the difference of the lines through two bins on either side of p = 0. Here the lines are applied to the bins of
     the kinetic equation, and the result is compared with the exact jump."""
-    known = table.dropna(subset="kinetic").sort_values("momentum")
+    solved = table.dropna(subset="kinetic").sort_values("momentum")
     errors = []
-    for _, part in known.groupby(["gamma", "nu_left", "x"]):
+    for _, part in solved.groupby(["gamma", "nu_left", "x"]):
         before, after = (half.kinetic.to_numpy() for half in halves(part))
         extrapolated = 1.5 * (after[0] - before[-1]) - 0.5 * (after[1] - before[-2])
         errors.append(abs(extrapolated - part.kinetic_jump.iloc[0]))

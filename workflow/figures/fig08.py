@@ -61,7 +61,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         rows.append(row)
     table = pd.DataFrame(rows).sort_values("cells", ignore_index=True)
     columns = ["between", "exponent_to_next", "exponent_to_next_error"]
-    table[columns] = np.nan  # where fewer than two sizes are usable
+    table[columns] = np.nan  # stays NaN if fewer than two sizes are usable
     for _, part in table[table.usable].groupby(SERIES):
         local = local_exponents(part.cells, part.kappa, part.kappa_error)
         for column, values in zip(columns, local, strict=True):

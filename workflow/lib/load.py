@@ -269,7 +269,7 @@ def axes_of(dataset: h5py.Dataset) -> list[str]:
     """Names of the HDF5 dimension scales attached to the dimensions. Raises FormatError."""
     try:
         attached = [[str(scale.name) for scale in dimension.values()] for dimension in dataset.dims]
-    except RuntimeError:  # of a scale that was deleted
+    except RuntimeError:  # raised if an attached scale was deleted
         attached = [[]]
     for names in attached:
         if len(names) != 1 or Path(names[0]).parent != Path(dataset.parent.name):

@@ -24,7 +24,7 @@ Look = dict[str, Any]  # keyword arguments of plotting functions
 COLUMN = 3.4
 HEIGHT = 3.0
 
-# In the label of quantities with a dimension.
+# Text in the axis labels of quantities with a dimension.
 UNITS = "$m = k_B = 1$"
 
 # Okabe and Ito (2008), ordered so that neighbours differ in lightness; markers differ too.
@@ -35,7 +35,7 @@ GREEN = "#009E73"
 VERMILLION = "#D55E00"
 SKY = "#56B4E9"
 
-# For an ordered set of curves: increasing lightness, and increasing gaps of the dashes.
+# Colours and dashes for an ordered set of curves, with increasing lightness and increasing gaps.
 SEQUENCE = [BLACK, BLUE, VERMILLION, ORANGE, SKY]
 DASHES: list[LineStyleType] = ["solid", (0, (6, 1)), (0, (4, 1, 1, 1)), (0, (3, 1.5)), (0, (1, 1))]
 

@@ -47,8 +47,8 @@ def _tails(a: Quantity, b: Quantity) -> np.ndarray:
     error_a, error_b = (np.asarray(q.discretisation_error if computed else q.error) for q in (a, b))
     error, difference = np.atleast_1d(np.hypot(error_a, error_b)), np.atleast_1d(np.abs(a.mean - b.mean))
     replicas = np.full(error.shape, COMPUTED if computed else np.minimum(a.replicas, b.replicas))
-    known = (error > 0) & np.isfinite(difference) & (replicas > 1)
-    return np.asarray(2 * stdtr(2 * (replicas[known] - 1.0), -difference[known] / error[known]))
+    usable = (error > 0) & np.isfinite(difference) & (replicas > 1)
+    return np.asarray(2 * stdtr(2 * (replicas[usable] - 1.0), -difference[usable] / error[usable]))
 
 
 def main() -> None:

@@ -70,7 +70,7 @@ def pack(products: Products, panels: list[str]) -> ROCrate:
     drawn = {name: products.files_of(plan[name]) for name in panels}
     figures = {path for paths in drawn.values() for path in paths}
     parents = {name: read_panel(ROOT / products.record(plan[name]))["parents"].inputs() for name in panels}
-    read = {path for paths in parents.values() for path in paths}  # also files that git ignores
+    read = {path for paths in parents.values() for path in paths}  # may include files that git ignores
     files = {
         path: add_file(crate, path, path in scripts.values())
         for path in sorted({*project_files(), *data, *figures, *read})
@@ -132,7 +132,7 @@ def write(crate: ROCrate, folder: Path, archive: Path) -> None:
     crate.write(unfinished)
     with ZipFile(archive.with_suffix(".tmp"), "w") as content:
         for path in sorted(path for path in unfinished.rglob("*") if path.is_file()):
-            entry = ZipInfo(str(path.relative_to(unfinished)))  # has a constant time
+            entry = ZipInfo(str(path.relative_to(unfinished)))  # its default time is constant
             entry.external_attr = 0o644 << 16
             content.writestr(entry, path.read_bytes(), ZIP_DEFLATED)
     shutil.rmtree(folder, ignore_errors=True)

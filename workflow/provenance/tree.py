@@ -118,14 +118,14 @@ def main() -> None:
     parser.add_argument("--full", action="store_true", help="all sources and results")
     options = parser.parse_args()
     try:
-        known, lines = explain(options.file, None if options.full else FEW)
+        unmodified, lines = explain(options.file, None if options.full else FEW)
     except OSError as error:
         print(f"{options.file}: {error.strerror}", file=sys.stderr)
         sys.exit(2)
     except (FormatError, MetadataError) as error:
         sys.exit(str(error))
     print(*lines, sep="\n")
-    sys.exit(0 if known and not any(OTHER in line for line in lines) else 1)
+    sys.exit(0 if unmodified and not any(OTHER in line for line in lines) else 1)
 
 
 if __name__ == "__main__":

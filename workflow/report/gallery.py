@@ -21,8 +21,8 @@ README = (
     f"{'README'}.md"  # written, not read for its content: a literal with its path would count as a source
 )
 GALLERY = "docs/gallery"
-INDEX = str(Path(GALLERY).with_name("index.md"))  # of the documentation
-# Pages with marked parts, each of which has a template: their way to the gallery, and the parts.
+INDEX = str(Path(GALLERY).with_name("index.md"))  # front page of the documentation
+# Pages with marked parts, each of which has a template: the relative path from page to gallery, and the names of the parts.
 FRONT = {
     README: (f"{GALLERY}/", ("answer", "questions", "panels")),
     INDEX: ("gallery/", ("answer", "questions")),

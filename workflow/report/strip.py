@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 from workflow.claims.verdict import Reading
 
-WIDTH = 200  # of the picture, in its own units
-BORDER = 0.15  # around the values, in units of their range
+WIDTH = 200  # width of the picture in SVG units
+BORDER = 0.15  # space beside the values, in units of their range
 MOST = 24  # numbers in a picture; of more, those closest to an edge of the band or beyond it
 
 
@@ -29,7 +29,7 @@ class Strip:
 
 
 def strip_of(reading: Reading) -> Strip | None:
-    """None where no number has an error."""
+    """Picture of a reading; None if no number has a finite interval."""
     intervals = [(*number.interval(reading.share), number.value) for number in reading.numbers]
     finite = [entry for entry in intervals if all(map(math.isfinite, entry))]
     if not finite:

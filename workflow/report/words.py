@@ -33,7 +33,7 @@ MINUS = "\N{MINUS SIGN}"
 
 
 def typeset(text: str) -> Markup:
-    """As HTML: powers after ^, indices after _, and minus signs."""
+    """Text as HTML, with superscripts after ^, subscripts after _, and typographic minus signs."""
     power = r"\^(?:\(([^)]*)\)|([-−]?\d+\.\d+(?:\(\d+\))?|[-−]?\w+))"
     text = re.sub(
         power, lambda match: f"<sup>{match[1] or match[2]}</sup>", str(escape(text)).replace("&#39;", "'")
@@ -43,7 +43,7 @@ def typeset(text: str) -> Markup:
 
 
 def cell(text: str) -> str:
-    """As a cell of a Markdown table."""
+    """Text as the content of a cell of a Markdown table."""
     return typeset(text).replace("|", r"\|")
 
 
@@ -55,7 +55,7 @@ def acceptance(band: Band) -> str:
 
 
 def value(number: Number) -> str:
-    """With the standard error in units of the last digit, and the bound on the systematic error."""
+    """Number with its standard error in units of the last digit, and the bound on its systematic error."""
     if not number.error and abs(number.value) < number.systematic:
         return f"0 to rounding{BOUND}{short(number.systematic)}"
     size = max(abs(number.value), number.error, number.systematic)
@@ -68,7 +68,7 @@ def value(number: Number) -> str:
 
 
 def value_or_text(shown: Number | str) -> str:
-    """As value(); a text is returned as it is."""
+    """The number as by value(); a text unchanged."""
     return shown if isinstance(shown, str) else value(shown)
 
 

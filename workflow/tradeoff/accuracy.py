@@ -12,7 +12,7 @@ from workflow.lib import style
 from workflow.tradeoff.measure import Done, execute, planned, shortened
 
 REPLICAS = (10, 32, 110, 360, 1300)
-TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)  # of the kinetic equation, which has no replicas
+TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)  # target errors of the kinetic equation, which has no replicas
 FIRST_LOOK = 64  # replicas at the first comparison of error and target
 REDUCTION = 4  # ratio of the error at the first look to the target
 PREDICTION = re.compile(r"the run ends after (\d+) to (\d+)")  # replicas, in the log of a program
