@@ -31,7 +31,7 @@ class Chain:
 
     @property
     def options(self) -> dict[str, object]:
-        """Options of a program."""
+        """The chain as options of a program."""
         return asdict(self)
 
     def __str__(self) -> str:

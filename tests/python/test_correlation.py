@@ -77,7 +77,7 @@ def accepted(z: np.ndarray) -> bool:
 
 
 def test_free_flight(correlation: Measure) -> None:
-    """Detected mistake: the correlation at another time."""
+    """The correlations of massless scatterers are exact. Detected mistake: they are measured at another time."""
     result = correlation(sigma=-1, observation_time=OBSERVED, times="0.5,2", replicas=400)
     for index, time in enumerate((0.5, 2.0)):
         for name, z in scores(result, index, of_free_flight(time)).items():
@@ -98,7 +98,7 @@ def reference(lag: float, replicas: int) -> dict[str, np.ndarray]:
 
 @pytest.mark.parametrize("lag", [0.6, 3.0])
 def test_against_the_reference(correlation: Measure, lag: float) -> None:
-    """Detected mistake: heavier scatterers."""
+    """The correlations agree with the reference simulator. Detected mistake: the scatterers are heavier."""
     sample = reference(lag, 4000)
     expected = {name: values.mean(axis=0) for name, values in sample.items()}
     errors = {name: values.std(axis=0, ddof=1) / np.sqrt(len(values)) for name, values in sample.items()}

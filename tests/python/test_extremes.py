@@ -45,7 +45,7 @@ def execute(name: str, options: dict[str, object]) -> tuple[int, str, Result | N
 
 # Quantities that are NaN if there is nothing to measure (docs/format.md).
 MAY_BE_NAN = {
-    "current_correlation",  # if the currents do not vary
+    "current_correlation",  # NaN if the currents do not vary
     "alpha_relative", "alpha_difference", "density_slope", "density_excess", "temperature_difference",
     "rate_right_deviation", "rate_left_deviation", "drift_p_value", "exponent_by_cut", "exponent_spread", "front", "front_exponent", "kurtosis", "local_slope",
     "logarithmic_power", "momentum_drift", "plateau", "square", "temperature_particle", "peak", "peak_position",

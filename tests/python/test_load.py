@@ -45,7 +45,7 @@ def write(path: Path, axes: Mapping[str, np.ndarray], values: Mapping[str, np.nd
 
 
 def seal(file: h5py.File) -> None:
-    """States the digest of the present values."""
+    """Writes the digest of the present values into the file, as a program does."""
     file["provenance"].attrs["results_digest"] = results_digest(file["results"])
 
 

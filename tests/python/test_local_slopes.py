@@ -29,7 +29,7 @@ def test_slopes_of_a_logarithm_are_its_factor() -> None:
     time = np.geomspace(1, 100, 11)
     table = pd.DataFrame({"time": time, "number": 3 + 8 * np.log(time), "number_error": 0.5})
     slopes = fig01_inset.slopes(table)
-    assert [*slopes.dropna().index] == [1, 4, 7]  # the last time is used
+    assert [*slopes.dropna().index] == [1, 4, 7]  # the last step ends at the last time
     np.testing.assert_allclose(slopes.slope.dropna(), 8)
     step = 0.3 * np.log(100)
     np.testing.assert_allclose(slopes.slope_error.dropna(), 0.5 * np.sqrt(2) / step)
@@ -45,7 +45,7 @@ def test_the_estimate_conserves_energy_and_is_used_at_late_times(particles: int)
     scatterer, particle = ext07.estimate(chain, time).values()
     assert np.isnan([scatterer[0], particle[0]]).all()
     np.testing.assert_allclose(particles * particle[1:] + scatterer[1:], particles * 250)
-    np.testing.assert_allclose(scatterer[-1], particles * 250, rtol=particles / 80)  # saturation
+    np.testing.assert_allclose(scatterer[-1], particles * 250, rtol=particles / 80)  # the energy saturates
     a = 1 / (time[2] * np.sqrt(2 * scatterer[2]))
     logarithm = np.log(np.sqrt(2) / a) - np.euler_gamma / 2 + 1  # eq. 13 at late times
     np.testing.assert_allclose(scatterer[2] / particle[2], logarithm, rtol=1e-6)

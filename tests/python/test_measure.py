@@ -115,7 +115,7 @@ def test_lists_keep_their_order_and_mix_types() -> None:
     assert kappa.coords["gamma"].values.tolist() == ["N", 1]
     alone = measure("conductivity", **SMALL | {"cells": 8, "gamma": 1})
     assert float(kappa[0, 1]) == float(alone["kappa"]["mean"])
-    # Positions differ between chains.
+    # The positions of scatterers differ between chains.
     assert measure("boltzmann", cells=[2, 4])["energy_current"]["mean"].shape == (2,)
 
 
@@ -207,7 +207,9 @@ def test_doubts_are_warned_of() -> None:
 
 def test_an_interrupted_call_is_continued(folder: Path, capfd: pytest.CaptureFixture[str]) -> None:
     options = {"cells": 4, "relaxation_time": 1, "observation_time": 200, "replicas": 4000, "threads": 1}
-    former = signal.signal(signal.SIGINT, signal.default_int_handler)  # workers of pytest ignore it
+    former = signal.signal(
+        signal.SIGINT, signal.default_int_handler
+    )  # the workers of pytest ignore this signal
     timer = threading.Timer(1.5, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
     try:

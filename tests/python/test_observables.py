@@ -153,6 +153,6 @@ def test_pulse(measure: Measure) -> None:
     difference = result["energy_difference"]
     sums = difference.mean.sum(axis=1)
     np.testing.assert_allclose(sums, float(result["injected_energy"].mean), rtol=1e-12)
-    # The fastest particles of the pulse, sqrt(10) times faster than thermal ones, are still near.
+    # Even the fastest particles of the pulse, sqrt(10) times faster than thermal ones, have not reached these cells.
     assert (difference.mean[0, :12] == 0).all()
     assert (difference.mean[0, 19:] == 0).all()

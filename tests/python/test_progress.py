@@ -73,7 +73,7 @@ def test_a_pipe_has_a_line_per_panel_and_per_doubt(handler: LogHandler, capsys: 
     for number, run in enumerate(["a", "b", ""]):
         start(handler, number, run)
     finish(handler, 0, 1, 2)
-    emit(handler, LogEvent.JOB_FINISHED, job_id=99)  # the target
+    emit(handler, LogEvent.JOB_FINISHED, job_id=99)  # the job of the target, which is not counted
     handler.close()
     shown = capsys.readouterr().out.splitlines()
     assert shown[0].startswith("fig05/b: mu = 0.3289(30), not stationary, 2 of 3 done, about 0:00:")

@@ -28,7 +28,7 @@ def reference(gamma: float, times: tuple[float, ...], *, replicas: int, pairs: i
 
 
 def damping_exponent(profiles: np.ndarray, times: tuple[float, ...]) -> float:
-    """Slope of ln peak against ln t."""
+    """Slope of the logarithm of the peak's height against ln t."""
     centre = CELLS // 2
     heights = [fit((profile[centre:] + profile[centre::-1]) / 2)[1] for profile in profiles]
     return -np.polyfit(np.log(times), np.log(heights), 1)[0]

@@ -52,7 +52,7 @@ def free_profile(time: float) -> np.ndarray:
     density = with_pulse / with_pulse.sum() - without / without.sum()
     inside = [np.clip(1 - np.abs(speed * time - d), 0, None) for d in range(CELLS // 2 + 1)]
     profile = np.array([PARTICLES * np.sum(density * speed**2 / 2 * part) for part in inside])
-    profile[0] += PULSE_ENERGY - ENERGY  # energy of the scatterer
+    profile[0] += PULSE_ENERGY - ENERGY  # energy that the scatterer gains
     return profile
 
 
@@ -72,7 +72,7 @@ def test_free_flight(measure: Measure) -> None:
     assert np.abs(z).max() < 4.5
 
     tops = np.array([fit(profile) for profile in profiles])
-    octaves = [(0, 3), (3, 6)]  # first and last time
+    octaves = [(0, 3), (3, 6)]  # indices of the first and the last time
     exponents = [-np.polyfit(np.log(TIMES[a : b + 1]), np.log(tops[a : b + 1, 1]), 1)[0] for a, b in octaves]
     middles = [np.sqrt(TIMES[a] * TIMES[b]) for a, b in octaves]
     wanted = {
@@ -164,9 +164,9 @@ def test_mirror_symmetry(measure: Measure, gamma: str | int) -> None:
             right, left = profile[cells // 2 + distance], profile[cells // 2 - distance]
             np.testing.assert_allclose(quantity.mean[-1], (right - left) / 2, atol=1e-12 * profile.max())
             odd.append(quantity.mean[-1])
-            errors.append(np.nan_to_num(quantity.standard_error[-1]))  # NaN: never reached
+            errors.append(np.nan_to_num(quantity.standard_error[-1]))  # NaN where no particle arrived
             off_centre.append((right - profile[cells // 2 - distance + 1]) / 2)
-        reached = np.min(errors, axis=0) > 0.1 * np.max(errors)  # often enough for a Gaussian mean
+        reached = np.min(errors, axis=0) > 0.1 * np.max(errors)  # reached often enough for a Gaussian mean
         assert reached.sum() > 7
         assert mean_is_zero(np.array(odd)[:, reached])
         z = np.array(odd)[:, reached] / np.array(errors)[:, reached]

@@ -23,7 +23,7 @@ TEXT = (
     "Snakefile",
 )
 NOT = ("tests", "docs/gallery")  # tests quote; the gallery is written from templates
-STANDARD = {  # private word: standard one
+STANDARD = {  # pattern of a private word, and the standard terms for it
     "foretold|foretells?": "estimated, predicted",
     "(?:is|are|was|were) told": "is reported, printed",
     "admitted|(?:claims?|band|it) admits?": "acceptance band, accepts; supported (of an option)",

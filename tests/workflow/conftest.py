@@ -52,7 +52,7 @@ class Clone:
         return self.run("/usr/bin/make", *arguments, status=status, **environment)
 
     def snakemake(self, *arguments: str, status: int | None = 0) -> str:
-        """Output of a bare snakemake."""
+        """Output of snakemake, called without make."""
         command = (".venv/bin/snakemake", *arguments, "--config", "quality=smoke")
         return self.run(*command, status=status, TERM="dumb").stdout
 

@@ -116,7 +116,7 @@ def test_what_is_broken_is_named(
     assert [text for text in in_status if text not in table] == []
 
 
-@pytest.mark.long  # the next test has four panels
+@pytest.mark.long  # all panels; the next test checks four of them
 def test_all_of_it_holds(clean: Clone) -> None:
     assert audit(clean).endswith("30 panels with results: 0 broken, 0 not checked, all else holds\n")
 

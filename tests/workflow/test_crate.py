@@ -85,7 +85,7 @@ def test_equal_inputs_give_equal_bytes_that_name_no_folder(packed: Clone) -> Non
 
 
 def test_a_second_make_crate_does_nothing(kept: Clone) -> None:
-    """New sources are packed, tracked or not."""
+    """After a new source the crate is written again, and contains it even if git does not track it."""
     command = (".venv/bin/snakemake", "--config", "quality=smoke", "panel=fig03", "--", "crate")
     kept.run(*command)
     (archive,) = (kept.folder / "build/crate").glob("lorentz-gas-smoke-fig03.*.zip")

@@ -17,9 +17,11 @@ from tests.workflow.test_makefile import HOSTILE, names
 TOOLS = sorted(
     ".".join(path.relative_to(ROOT).with_suffix("").parts)
     for path in (ROOT / "workflow").rglob("*.py")
-    if "__main__" in path.read_text() and path.name != "build_id.py"  # which CMake runs, with paths
+    if "__main__" in path.read_text() and path.name != "build_id.py"  # CMake runs build_id.py with paths
 )
-TOOLS = [name for name in TOOLS if ".figures." not in name or name.endswith("fig03")]  # equal in this respect
+TOOLS = [
+    name for name in TOOLS if ".figures." not in name or name.endswith("fig03")
+]  # all figure scripts behave alike
 RUN = "fig03/paper"
 
 
@@ -136,7 +138,7 @@ def test_the_remedies_of_damaged_products_help(kept: Clone) -> None:
         assert remedy(line) == "make figures QUALITY=smoke"
     kept.snakemake("figures")
     after = kept.products()
-    records = {kept.record(panel) for panel in ("fig03", "fig05", "fig06")}  # the commit
+    records = {kept.record(panel) for panel in ("fig03", "fig05", "fig06")}  # a record contains the commit
     assert {name for name in after if after[name] != before.get(name)} <= records
     kept.module(*audit)
 

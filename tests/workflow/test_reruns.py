@@ -147,7 +147,7 @@ def test_going_back_costs_nothing_and_prune_removes_the_rest(kept: Clone) -> Non
     kept.snakemake(kept.stale_path("fig06"))
     assert len([*(kept.folder / "data/smoke/fig06").glob("*.h5")]) == 4
     replace("workflow/config/quality/smoke.yaml", EFFORT.replace("8", "9"), EFFORT)(kept)
-    assert kept.stale() == {"fig06"}  # the figure, from the former results
+    assert kept.stale() == {"fig06"}  # only the figure is rendered again, from the former results
     printed = kept.module("provenance.audit", "--quality", "smoke", "--panel", "fig06", status=1)
     assert printed.count("obsolete: data/smoke/fig06/all_sigma=0") == 2
     kept.snakemake("figures")

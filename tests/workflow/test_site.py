@@ -11,7 +11,7 @@ from playwright.sync_api import Page, sync_playwright
 from tests.workflow.conftest import clone_into
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-NARROW = 390  # pixels
+NARROW = 390  # width in pixels
 HEADING = re.compile(r'<h[1-6][^>]*\bid="([^"]+)"')
 EQUATIONS = """[...document.querySelectorAll("mjx-container[display]")].filter(
   equation => equation.scrollWidth > equation.parentElement.clientWidth + 1).map(equation => equation.textContent)"""

@@ -102,7 +102,7 @@ def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, kept: Clone) -> Non
         cluster.stop_controller()
         time.sleep(5)
         cluster.start_controller()
-        soon(cluster.jobs)  # the controller is back
+        soon(cluster.jobs)  # jobs are listed again once the controller runs
         cluster.command("scontrol", "update", "NodeName=localhost", "State=DRAIN", "Reason=test")
         time.sleep(5)
         cluster.command("scontrol", "update", "NodeName=localhost", "State=RESUME")

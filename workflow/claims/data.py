@@ -23,8 +23,8 @@ class Data:
     def __init__(self, quality: str, root: Path) -> None:
         self.quality, self.root = quality, root
         self.plan = load_plan(quality)
-        self.loaded: dict[str, Result] = {}  # by path
-        self.used: dict[str, Result] = {}  # by path, those that a claim has used
+        self.loaded: dict[str, Result] = {}  # loaded results by path
+        self.used: dict[str, Result] = {}  # results that a claim has used, by path
         self.damaged: list[str] = []  # paths of existing results that cannot be loaded
 
     def anew(self) -> "Data":

@@ -54,7 +54,7 @@ def front_falls(data: Data) -> Evidence:
 
 
 def _others(data: Data) -> dict[str, Result]:
-    """Runs at the other spacings, by spacing."""
+    """Results at the two other spacings, as far as the quality has them, by spacing."""
     names = {run.name for run in data.plan["fig01"].runs}
     return {spacing: data.one("fig01", run) for run, spacing in SPACINGS.items() if run in names}
 

@@ -29,7 +29,7 @@ from workflow.lib.load import Result
 REACH = 40
 # Weights of the means over the three innermost bins of a half in the value at p = 0, extrapolated by a line or a parabola.
 LINE, PARABOLA = np.array([12, -4, 0]) / 8, np.array([15, -10, 3]) / 8
-EXTRAPOLATED = "extrapolated"  # part of the labels of such numbers
+EXTRAPOLATED = "extrapolated"  # part of the labels of extrapolated numbers
 NORMALISATION = "F as printed, with the mean of both rates, integrates to 1; relative to max F in the alternative reading."
 OUTGOING = ((0, 0, "p < 0 at x = 0"), (-1, 1, "p > 0 at x = 1"))  # index of the end, index of the half, name
 

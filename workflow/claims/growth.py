@@ -29,7 +29,7 @@ T = TypeVar("T")
 BULK = 16  # cells; shorter chains are dominated by their ends
 LARGE = 16  # the largest sizes are those within this factor of the largest
 FIXED_SPACING = 0.1  # spacing of the chains of ext. 11 that have a thermodynamic limit
-EXPONENT = "d ln κ/d ln N"  # part of labels
+EXPONENT = "d ln κ/d ln N"  # part of the labels of exponents
 THINNING = "spacing 1/N"  # at which the gas thins out as N grows
 SERIES = ("thinning", "dilute", "dense")  # first parts of the names of the runs of ext09, one per spacing
 
@@ -159,7 +159,7 @@ def gas_name(ring: Result) -> str:
 
 
 def _last_time(ring: Result) -> float:
-    """Middle of the last octave."""
+    """Geometric middle of the last octave of time."""
     return float(ring["local_exponent"].axes["middle"][-1])
 
 

@@ -41,7 +41,7 @@ class Judgement:
 
 
 def read_claims(root: Path) -> list[dict[str, str]]:
-    """Raises ConfigurationError, OSError."""
+    """Rows of the table of claims. Raises ConfigurationError, OSError."""
     try:
         table = pd.read_csv(root / CLAIMS_FILE, dtype=str, keep_default_na=False)[COLUMNS]
         rows: list[dict[str, str]] = table.to_dict("records")

@@ -36,7 +36,7 @@ class Number:
     systematic: float = 0.0
 
     def over(self, unit: float, minus: float = 0) -> "Number":
-        """value/unit - minus."""
+        """The number value/unit - minus, with its errors divided by |unit|."""
         size = abs(unit)
         return replace(
             self, value=self.value / unit - minus, error=self.error / size, systematic=self.systematic / size

@@ -29,7 +29,7 @@ PURE = ("1", "that of the target quantity")  # options without units of their ow
 OF_THE_MACHINE = {"threads": "processors"}  # defaults that depend on the machine
 WIDTH = 118
 
-Described = dict[str, dict[str, Any]]  # by program
+Described = dict[str, dict[str, Any]]  # descriptions by program
 
 
 def built(programs: Path = ROOT / "build/bin") -> list[str]:

@@ -28,7 +28,7 @@ from workflow.lib.mode_coupling import Chain, f_kpz, levy
 FIRST = 16  # first time that is used, in λ/√T: earlier peaks are as narrow as a cell
 HALF_WIDTH = 0.880466  # of f_KPZ at half of its maximum
 REACH = 3  # largest scaled distance that is plotted, of sound peaks
-HEAT_REACH = 4  # of heat peaks
+HEAT_REACH = 4  # largest scaled distance that is plotted, of heat peaks
 FITTED = 8  # largest distance in the fit of a heat peak, in predicted widths
 HEAT_ORDER, GAUSSIAN = 5 / 3, 2  # orders of the stable law in theory [eq. M29] and of diffusion
 RATIOS_ALLOWED = (0.1, 10)  # bounds of width and area in the fit, over the predicted ones
@@ -121,7 +121,7 @@ def scaled_heat(record: Record) -> pd.DataFrame:
 
 
 def heat_width(record: Record) -> float:
-    """(D_h t)^(3/5) [eq. M29]."""
+    """Predicted width of the heat peak, (D_h t)^(3/5) [eq. M29]."""
     return float((record.mobile.heat_spreading * record.time) ** (3 / 5))
 
 

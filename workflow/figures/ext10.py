@@ -91,7 +91,7 @@ def draw(results: Sequence[Result]) -> Drawn:
         "steady_profile": (columns[1], end_scatterers, "scatterer_density"),
     }
     tables = []
-    for result in sorted(results, key=style.gamma, reverse=True):  # gamma = N first
+    for result in sorted(results, key=style.gamma, reverse=True):  # so that gamma = N is plotted first
         axes, curve, name = kinds[result.provenance["program"]]
         shift = 0.2 if style.gamma(result) == "1" else -0.2
         table = plot(axes, result, curve(result), result[name].units, shift)

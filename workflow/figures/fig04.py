@@ -20,7 +20,7 @@ from workflow.lib.load import Quantity, Result
 
 EQUAL = "\n$\\nu_L = \\nu_R$"
 FEW = 0.5  # if a jump is below this fraction of the largest, the axis includes 0
-NEAR = 12  # momenta shown about the jump
+NEAR = 12  # largest |p| in the panel of the jump
 
 # Bonds behind the first and behind the last scatterer: index, colour, line style and marker.
 ENDS = {"x = 1/N": (1, style.BLUE, "solid", "o"), "x = 1": (-1, style.VERMILLION, (0, (4, 1.5)), "s")}

@@ -70,7 +70,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 
 def draw_guide(axes: Axes, part: pd.DataFrame, slope: float, name: str) -> None:
-    """The paper's power law, below the points."""
+    """Plots the paper's power law below the points."""
     power = part.cells**slope
     guide = BELOW * (part.kappa / power).min() * power
     axes.plot(part.cells, guide, **style.GUIDE)

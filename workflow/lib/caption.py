@@ -48,7 +48,7 @@ def number(value: float) -> str:
 
 
 def listed(texts: Iterable[str]) -> str:
-    """a, b and c."""
+    """The texts as an English list: a, b and c."""
     *most, last = texts
     return f"{', '.join(most)} and {last}" if most else last
 
@@ -94,7 +94,7 @@ def power_of_ten(power: int) -> str:
 
 
 def goodness(chi_square: float, freedom: int) -> str:
-    """chi^2, degrees of freedom and p-value."""
+    """Text with chi^2, its degrees of freedom and its p-value."""
     if freedom < 1:
         return "no degree of freedom to test it"
     p = p_value(chi_square, freedom)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:  # imports that would delay every start of Snakemake by 0.5 s
     from workflow.lib.load import Result
 
 BUILD = ("program", "source_hash", "compiler", "flags", "libraries")
-IDENTITY_LINE = "# identity: "  # of a CSV
+IDENTITY_LINE = "# identity: "  # begin of the line of a CSV that states the identity of the panel
 
 
 class MetadataError(ValueError):
@@ -35,10 +35,10 @@ class Parents:
 
     panel: str
     quality: str
-    data: dict[str, dict[str, Any]]  # path: sha256, build_id, seed
+    data: dict[str, dict[str, Any]]  # sha256, build_id and seed of each result, by path
     builds: dict[str, dict[str, str]]  # build id: program, source_hash, compiler, flags, libraries
     sources: dict[str, str]  # closure of the script, and the locked packages
-    python: str  # version
+    python: str  # version of Python
 
     @classmethod
     def of(cls, script: str, stem: Path, results: "Sequence[Result]") -> "Parents":
@@ -65,7 +65,7 @@ class Parents:
 
     @classmethod
     def parse(cls, text: str) -> "Parents":
-        """Inverse of as_json. Raises MetadataError."""
+        """Parents from the text of as_json(). Raises MetadataError."""
         try:
             stated = json.loads(text)
             return cls(**stated)

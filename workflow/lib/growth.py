@@ -17,7 +17,7 @@ LAWS: dict[str, Basis] = {
     "logarithm": lambda n: [n**0, np.log(n)],
     "N^(1/3)": lambda n: [n ** (1 / 3), n**0],
 }
-POWER = "power"  # a N^b
+POWER = "power"  # name of the law a N^b
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Growth:
     parameters: int
     exponent: float = np.nan
     exponent_error: float = np.nan
-    predicted: tuple[float, ...] = ()  # at the sizes fitted
+    predicted: tuple[float, ...] = ()  # values of the law at the sizes in the fit
 
     @property
     def p_value(self) -> float:

@@ -5,7 +5,7 @@ import json
 from typing import Any
 
 DIGITS = 12  # 48 bits: two of a million names are equal with a probability of 0.2 %
-IDENTITY = f"[0-9a-f]{{{DIGITS}}}"  # regular expression
+IDENTITY = f"[0-9a-f]{{{DIGITS}}}"  # regular expression of an identity
 
 
 def identity(*parts: Any) -> str:

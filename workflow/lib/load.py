@@ -221,9 +221,9 @@ def _opened(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
     except FormatError as error:
         raise FormatError(f"{path}: {error}") from error
     except (OSError, KeyError, RuntimeError, ValueError) as error:
-        if isinstance(error, OSError) and error.errno:  # unreadable, not damaged
+        if isinstance(error, OSError) and error.errno:  # the file is unreadable, not damaged
             raise OSError(error.errno, os.strerror(error.errno), str(path)) from error
-        if not re.search(rf"\.{IDENTITY}\.h5$", str(path)):  # not named by the project
+        if not re.search(rf"\.{IDENTITY}\.h5$", str(path)):  # the name is not one that the project gives
             raise FormatError(
                 f"{path} is damaged, or not a result file: {error}; name a result file"
             ) from error

@@ -109,7 +109,7 @@ class Quality:
 
     @property
     def arguments(self) -> str:
-        """Arguments of make."""
+        """Arguments of make that select this quality and effort."""
         given = {"QUALITY": self.base, **{key.upper(): getattr(self, key) for key in EFFORTS}}
         return " ".join(f"{name}={value}" for name, value in given.items() if value is not None)
 

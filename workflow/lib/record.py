@@ -15,7 +15,7 @@ from workflow.lib.identity import IDENTITY
 
 
 def record_path(stem: Path, identity_of_panel: str) -> Path:
-    """Path of the record of products stem.*"""
+    """Path of the record of the products stem.*, which contains their identity."""
     return stem.with_name(f"{stem.name}.{identity_of_panel}.json")
 
 

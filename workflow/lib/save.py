@@ -21,7 +21,7 @@ CREATOR = "lorentz-gas"
 @dataclass(frozen=True)
 class Text:
     title: str
-    caption: str  # one line
+    caption: str  # text without line breaks
 
 
 def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -> None:

@@ -42,7 +42,7 @@ DASHES: list[LineStyleType] = ["solid", (0, (6, 1)), (0, (4, 1, 1, 1)), (0, (3, 
 # Marker and colour by gamma.
 BY_GAMMA = {"N": ("o", BLUE), 1: ("s", VERMILLION)}
 
-# Shaded range of a fit.
+# Style of the shaded range of a fit.
 WINDOW: Look = {"color": "0.92", "linewidth": 0, "zorder": -1}
 
 GUIDE: Look = {"color": "0.55", "linestyle": (0, (4, 2)), "linewidth": 0.8, "zorder": 0}
@@ -141,7 +141,7 @@ def guide_at(axes: Axes, value: float, name: str) -> None:
 
 
 def second_axis(axes: Axes, factor: float, label: str) -> None:
-    """The y axis in another unit, on the right."""
+    """Adds a y axis in another unit on the right."""
     axes.tick_params(axis="y", which="both", right=False)
     secondary = axes.secondary_yaxis(
         "right", functions=(lambda y: np.multiply(factor, y), lambda y: np.divide(y, factor))

@@ -17,7 +17,7 @@ from workflow.lib.load import FormatError, load_statements
 from workflow.lib.record import records_of
 from workflow.provenance.build_id import sources_of_program
 
-GALLERY = "docs/gallery/gallery"  # its record, without the identity
+GALLERY = "docs/gallery/gallery"  # path of the record of the gallery, without identity and suffix
 SHORT = 16  # printed digits of a hash
 FEW = 3  # printed entries of a list without --full
 

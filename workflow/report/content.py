@@ -26,7 +26,7 @@ WIDE = 1.3  # columns of a journal; a wider panel takes the full width of the pa
 
 
 def content(quality: str, root: Path) -> dict[str, Any]:
-    """Raises ReportError."""
+    """Variables of the templates. Raises ReportError."""
     data = Data(quality, root)
     products = Products(root, quality, data.plan)
     judgements = products.judged(data)
@@ -77,7 +77,7 @@ def claim(judgement: Judgement) -> dict[str, Any]:
 
 
 def panel(panel: Panel, products: Products) -> dict[str, Any]:
-    """Raises ReportError."""
+    """Title, caption, picture and parents of a panel for the templates. Raises ReportError."""
     record = products.record(panel.name)
     files = [products.file(f"figures/{products.quality}/{name}") for name in record["files"]]
     svg = next(file.read_text() for file in files if file.suffix == ".svg")

@@ -60,7 +60,7 @@ def with_parts(name: str, page: str, context: Mapping[str, Any]) -> str:
 
 
 def gallery(quality: str, identity: str, root: Path = ROOT) -> None:
-    """Raises ReportError."""
+    """Writes the gallery and the marked parts of the front pages. Raises ReportError."""
     context, folder = content(quality, root), root / GALLERY
     front = {root / name: with_parts(name, (root / name).read_text(), context).encode() for name in FRONT}
     files = {folder / README: rendered("gallery.md", **context).encode()}

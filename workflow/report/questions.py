@@ -12,11 +12,13 @@ from workflow.lib.configuration import ConfigurationError, read
 from workflow.report import numbers, words
 
 FILE = "questions.yaml"
-VERDICTS = [outcome.value for outcome in Outcome if outcome is not Outcome.IN_MEANING]  # of one reading
+VERDICTS = [
+    outcome.value for outcome in Outcome if outcome is not Outcome.IN_MEANING
+]  # possible verdicts on one reading
 
 
 def read_questions(folder: Path = Path(__file__).parent) -> list[dict[str, Any]]:
-    """Each with a sentence for every verdict. Raises ConfigurationError."""
+    """Questions, each with a sentence for every verdict. Raises ConfigurationError."""
     content = read(folder, FILE).content
     questions = [content["otherwise"] | question for question in content["questions"]]
     for question in questions:

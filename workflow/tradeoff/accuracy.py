@@ -61,7 +61,7 @@ def errors(program: str) -> pd.DataFrame:
         provenance = done.result.provenance
         row = {"program": program, "quantity": provenance["target_quantity"], option: value}
         rows.append(row | {"cpu_seconds": done.seconds, "error": provenance["achieved_error"]})
-    return pd.DataFrame(rows).dropna()  # too few replicas for an error
+    return pd.DataFrame(rows).dropna()  # drops rows without an error, which too few replicas give
 
 
 def measure() -> pd.DataFrame:

@@ -40,7 +40,7 @@ def event_loops(benchmarks: list[dict[str, Any]]) -> pd.DataFrame:
 
 
 def bare(run: Run) -> Run:
-    """The run without its observer."""
+    """The same simulation as a run of the bare loop, which has no observer."""
     options = {key: value for key, value in run.options.items() if key not in OF_OBSERVERS}
     if "times" in run.options:
         options |= {"relaxation-time": 0, "observation-time": run.options["times"].split(",")[-1]}
@@ -48,7 +48,7 @@ def bare(run: Run) -> Run:
 
 
 def cost(run: Run, replicas: int) -> tuple[float, float]:
-    """CPU seconds, and nanoseconds per event."""
+    """CPU seconds of a run, and its nanoseconds per event."""
     done = execute(run, replicas=replicas, progress="none")
     return done.seconds, 1e9 * done.seconds / done.result.provenance["events"]
 

@@ -56,7 +56,8 @@ double maxwellian(double p, double temperature) {
   return std::exp(-p * p / (2 * temperature)) * std::sqrt(2 / (std::numbers::pi * temperature));
 }
 
-/// Differences of both solutions at the sites of the reference, with the flux at p > 0 above that at p < 0.
+/// Differences of both solutions at the sites of the reference solution. The flux at p > 0 is stored above
+/// that at p < 0.
 struct Comparison {
   double flux, particles, energy, temperature, density;
 };
@@ -110,11 +111,11 @@ TEST(KineticEquation, WrongEquationsDoNotAgree) {
   const reference::KineticEquation equation = reference_for(right, 6, 7);
   const auto largest = [&](const KineticProblem& wrong) { return compare(wrong, equation).flux; };
   EXPECT_LT(largest(right), 1e-8);
-  EXPECT_GT(largest(problem(-0.5, 1)), 1e-3);        // sign of sigma
-  EXPECT_GT(largest(problem(0.5, 1 + 1e-6)), 1e-8);  // rate of scattering
-  EXPECT_GT(largest(problem(0.5 + 1e-6, 1)), 1e-8);  // mass ratio
+  EXPECT_GT(largest(problem(-0.5, 1)), 1e-3);        // detected mistake: wrong sign of sigma
+  EXPECT_GT(largest(problem(0.5, 1 + 1e-6)), 1e-8);  // detected mistake: another rate of scattering
+  EXPECT_GT(largest(problem(0.5 + 1e-6, 1)), 1e-8);  // detected mistake: another mass ratio
   KineticProblem chain = right;
-  chain.cells = 100;  // the discrete chain in place of the continuum
+  chain.cells = 100;  // detected mistake: a discrete chain in place of the continuum
   EXPECT_GT(largest(chain), 1e-6);
 }
 
@@ -177,7 +178,7 @@ TEST(KineticEquation, ExchangeOfMomentaIsExact) {
     EXPECT_LT((density.row(i).array() - right / 400).abs().maxCoeff(), 1e-13);
   }
   EXPECT_LT(std::abs(currents(solution).particles[0] - 40), 1e-11);
-  // Small sigma gives nearly the same.
+  // For small sigma the particle current changes linearly.
   const double at_1 = currents(solve(problem(1e-3, 1))).particles[0],
                at_2 = currents(solve(problem(2e-3, 1))).particles[0];
   EXPECT_NEAR((40 - at_2) / (40 - at_1), 2, 0.01);
@@ -266,8 +267,9 @@ TEST(MeanFieldChain, OneScatterer) {
   const VectorXd gain = equation.gain(arriving, equation.scatterer(arriving));
   const VectorXd ends = VectorXd::LinSpaced(2, 0, 1);
   const Flux flux = flux_at(solution, ends, positive);
-  EXPECT_LT(distance(flux.col(1).head(half), gain.tail(half)), 1e-10);            // leaves at the right
-  EXPECT_LT(distance(flux.col(0).tail(half), gain.head(half).reverse()), 1e-10);  // leaves at the left
+  EXPECT_LT(distance(flux.col(1).head(half), gain.tail(half)), 1e-10);  // particles that leave at the right
+  EXPECT_LT(distance(flux.col(0).tail(half), gain.head(half).reverse()),
+            1e-10);  // particles that leave at the left
 }
 
 /// Both problems converge only with shortened Newton steps.

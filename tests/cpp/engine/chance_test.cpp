@@ -80,7 +80,7 @@ PhasePoint start_of(std::uint32_t cells, std::uint32_t particles_per_cell, const
   return closed_chain_start(chain, {1, 1}, false, key);
 }
 
-/// Positions, and momenta of particles and scatterers.
+/// Draws of a closed start: positions of the particles, and momenta of particles and scatterers.
 Draws closed_start(const StreamKey& key, const StreamKey&) {
   Sequence drawn = start_of(1000, 1, key).scatterers;
   for (const Particle& particle : start_of(1, 1000, key).particles) {
@@ -285,7 +285,7 @@ Draws pair_flights(const ClosedChain& chain, const PhasePoint& start, const Stre
   constexpr double step = 0.05;
   PairDynamics pair(chain, start, start, duration, key, /*share=*/false);
   std::vector<Particle> last = plain_particles(pair, 0, chain.particles());
-  std::vector<double> departure(last.size(), -1);  // -1: from the start
+  std::vector<double> departure(last.size(), -1);  // -1: the first flight, whose departure is unknown
   std::vector<Sequence> drawn(last.size());
   for (double time = step; time < duration; time += step) {
     pair.run(time, support::nothing);

@@ -50,7 +50,7 @@ Arrivals in_extended_precision(double sigma) {
   return result;
 }
 
-/// Compares as far as both lists go, as the last events may belong to another scatterer.
+/// Whether all common elements of the lists are equal. The last event of a list may have no counterpart.
 bool same_order(const Arrivals& a, const Arrivals& b) {
   for (std::size_t cell = 0; cell < a.size(); ++cell) {
     const auto common = static_cast<std::ptrdiff_t>(std::min(a[cell].size(), b[cell].size()));

@@ -81,7 +81,8 @@ TEST(InitialState, IsDrawnFromStreamsOfItsOwn) {
   for (std::size_t i = 0; i < point.particles.size(); ++i) {
     ASSERT_EQ(point.particles[i].position, again.particles[i].position);
     ASSERT_EQ(point.particles[i].velocity, again.particles[i].velocity);
-    ASSERT_EQ(point.particles[i].velocity, colder.particles[i].velocity);  // streams of their own
+    ASSERT_EQ(point.particles[i].velocity,
+              colder.particles[i].velocity);  // particles and scatterers have different streams
   }
 }
 

@@ -64,7 +64,7 @@ struct Invariances {
 };
 
 struct Outcome {
-  double energy_drift = 0, momentum_drift = 0;  // relative, of the invariants themselves
+  double energy_drift = 0, momentum_drift = 0;  // relative changes of both invariants
   Invariances steps;
 };
 

@@ -154,13 +154,14 @@ TEST(EventQueue, NeverReturnsArrivalsAtOrAfterTheEnd) {
   EXPECT_EQ(flight.particle, 4U);
   flight.time = end;
   queue.schedule(flight);
-  EXPECT_FALSE(queue.take_before(last, flight));  // strictly before
+  EXPECT_FALSE(
+      queue.take_before(last, flight));  // only flights that arrive strictly before the limit are taken
   ASSERT_TRUE(queue.take_before(end, flight));
   EXPECT_EQ(flight.particle, 1U);
   flight.time = infinity;
   queue.schedule(flight);
   for (const double until : {end, 9.0, 100.0, infinity}) EXPECT_FALSE(queue.take_before(until, flight));
-  EXPECT_EQ(queue.flights()[0].time, end);  // kept
+  EXPECT_EQ(queue.flights()[0].time, end);  // the flight is still in the queue
 }
 
 TEST(EventQueue, IsEmptyWithoutFlights) {

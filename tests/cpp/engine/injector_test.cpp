@@ -83,7 +83,7 @@ TEST(Injector, IntervalsAreExponentialAndIndependent) {
   std::vector<double> interval, square, product_with_last, product_with_momentum;
   double before = 0, last = 0;
   for (int k = 0; k < 100'000; ++k) {
-    const double scaled = bath.rate * (injector.time() - before);  // mean 1
+    const double scaled = bath.rate * (injector.time() - before);  // its mean is 1
     before = injector.time();
     const double momentum = injector.take() / bath.mean_momentum();
     interval.push_back(scaled);

@@ -46,7 +46,7 @@ TEST(ProgramDeathTest, SignalsEndTheRunWithACheckpoint) {
       return measure(replica);
     };
     const auto run = [&] {
-      ::signal(SIGHUP, SIG_DFL);  // which nohup has these tests ignore
+      ::signal(SIGHUP, SIG_DFL);  // under nohup these tests would ignore it
       run_program({"--output", folder / "a.h5", "--threads", "1"}, [&] { return study_of(killed); });
     };
     EXPECT_EXIT(run(), testing::ExitedWithCode(128 + number), "");

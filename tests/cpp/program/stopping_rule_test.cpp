@@ -15,7 +15,7 @@ namespace stopping_rule_test {
 using namespace lorentz;
 
 constexpr int seeds = 3000;
-constexpr double significant = 4;  // standard errors
+constexpr double significant = 4;  // significance threshold in standard errors
 
 /// Record of two sums y and x; the ratio of their means is estimated. x is 1 if a mean is estimated.
 struct Record {
@@ -92,11 +92,11 @@ Sample until(const Law& law, double target, const Looks& next, const Stop& stop,
 /// Statistics of many runs whose target is the error of `ideal` replicas.
 struct Runs {
   double inside[2] = {0, 0};   // parts of the runs within 1 and 2 standard errors of the truth
-  double student[2] = {0, 0};  // the same for normal records
+  double student[2] = {0, 0};  // these fractions for normal records
   double reached = 0;          // part whose true error is within the target
   double bias = 0;             // mean deviation
   double bias_error = 0;
-  double expected_bias = 0;  // by the delta method
+  double expected_bias = 0;  // bias by the delta method
 };
 
 Runs many(const Law& law, double ideal, const Looks& next, const Stop& stop) {

@@ -84,7 +84,7 @@ TEST(Limits, NameTheOptionsThatLeadBeyondThem) {
   EXPECT_NO_THROW(require_representable(extent));
   extent.end_time = 1.01e10;
   EXPECT_TRUE(refused("--until: the number of thermal flights of one particle", extent));
-  extent.hottest = 0.25;  // half as fast
+  extent.hottest = 0.25;  // particles of half the speed
   EXPECT_NO_THROW(require_representable(extent));
 
   // The sum of all energies is 2e299 * 50 flights * particles.

@@ -16,7 +16,7 @@ TEST(LogTimes, EndWithTheObservation) {
     ASSERT_EQ(times.size(), 25U);
     EXPECT_EQ(times.back(), last);
     EXPECT_NEAR(times.front() / last, 1e-3, 1e-15);
-    EXPECT_NEAR(times[16] / last, 0.1, 1e-13);  // eight per decade
+    EXPECT_NEAR(times[16] / last, 0.1, 1e-13);  // the grid has eight times per decade
   }
 }
 

@@ -27,7 +27,7 @@ TEST(OpenParameters, StartsFromEquilibriumWithOneReservoir) {
     return sum / parameters.scattering.cells;
   };
   OpenParameters parameters{.scattering = {.cells = 20'000}, .cell_length = 1e-4};
-  constexpr double error = 0.01;  // sqrt(2/cells), relative
+  constexpr double error = 0.01;  // relative standard error, sqrt(2/cells)
   for (const bool mirrored : {false, true}) {
     parameters.left.temperature = mirrored ? 900 : 100;
     parameters.right.temperature = mirrored ? 100 : 900;

@@ -15,7 +15,7 @@ using namespace lorentz;
 constexpr int cells = 121, centre = cells / 2;
 const std::vector<double> times{1, 2, 4};
 constexpr double positions[] = {20, 25, 35};
-constexpr double heights[] = {8, 4, 2};  // 8/t
+constexpr double heights[] = {8, 4, 2};  // equal to 8/t
 
 /// Gaussian peaks at equal distances on both sides, for which the fit of the logarithm is exact, plus an odd
 /// part: `odd` at the distance 3 on the right, minus `odd` on the left.
@@ -94,8 +94,8 @@ TEST(MovingPeak, ExponentsOfOctavesAndTheirDrift) {
   EXPECT_NEAR(peak.exponent_drift(), 1 / std::numbers::ln2, 3e-3);
 }
 
-// Detected mistakes: the even part; the left side minus the right one; the fraction of the centre on one side
-// only.
+// Detected mistakes: the even part is returned; the right side is subtracted from the left one; the energy of
+// the centre includes one side only.
 TEST(MovingPeak, OddPartAndCentre) {
   const std::vector<double> mean = profiles(1, 0.5);
   const MovingPeak peak = peak_of(mean, PeakWindows(times.size()));
@@ -124,7 +124,7 @@ TEST(MovingPeak, IsNoneBeforeThePeakHasLeftTheCentre) {
   EXPECT_TRUE(std::isnan(peak.exponents_from()[0]));
   EXPECT_TRUE(std::isnan(peak.exponents_by_octave()[0]));
   EXPECT_NEAR(peak.exponents_by_octave()[1], 1, 1e-3);
-  EXPECT_TRUE(std::isnan(peak.exponent_drift()));  // of one octave
+  EXPECT_TRUE(std::isnan(peak.exponent_drift()));  // one octave has no drift
   EXPECT_NEAR(peak.speeds()[1], 5, 1e-3);
   EXPECT_NEAR(peak.exponent(), 1, 1e-3);
 }

@@ -57,7 +57,7 @@ Shape gaussian(double place, double width) {
   return {"Gaussian", [=](double x) { return mean_of_cell(density, x); }};
 }
 
-/// sech^2, which has longer tails than a Gaussian.
+/// Peak of the shape sech^2, which has longer tails than a Gaussian.
 Shape soliton(double place, double width) {
   const auto density = [=](double x) {
     return std::pow(std::cosh((x - place) / (0.8 * width)), -2) + centre(x);

@@ -65,8 +65,8 @@ TEST(EndsAndOpenings, Temperatures) {
 TEST(EndsAndOpenings, ArrivalsAndScatteringControl) {
   const BlockTallies tallies;
   OpenChain rare = chain;
-  rare.gamma = 1.5;  // half of those that arrive are scattered
-  rare.sigma = 0;    // and exchange momenta
+  rare.gamma = 1.5;  // half of the arriving particles are scattered
+  rare.sigma = 0;    // scattering exchanges the momenta
   EndsAndOpenings observer(rare, window);
   observer.on_flight({.departure = 3,
                       .arrival = 5.5,

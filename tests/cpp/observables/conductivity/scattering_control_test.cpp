@@ -13,7 +13,7 @@ namespace scattering_control_test {
 using namespace lorentz;
 
 struct Watched {
-  double control[2];  // of both halves of the window
+  double control[2];  // control variates of both halves of the window
   double energy;      // mean U^2
 };
 
@@ -67,7 +67,7 @@ Found found(double sigma, double assumed_sigma, bool late) {
     energies.push_back(watched.energy);
   }
   const support::Sample control = support::sample(controls), energy = support::sample(energies);
-  double covariance = 0;  // of the two means
+  double covariance = 0;  // covariance of the two means
   for (std::size_t i = 0; i < controls.size(); ++i)
     covariance += (controls[i] - control.mean) * (energies[i] - energy.mean) / (samples * (samples - 1.));
   const double correlation = covariance / (control.standard_error * energy.standard_error);

@@ -39,8 +39,10 @@ TEST(HalfHeightWidth, OfGaussianPeaks) {
 }
 
 TEST(HalfHeightWidth, IsUndefinedWithoutFlanks) {
-  EXPECT_TRUE(std::isnan(half_height_width(gaussian(90, 2), 90, 7, 2)));    // two cells
-  EXPECT_TRUE(std::isnan(half_height_width(gaussian(150, 9), 90, 7, 20)));  // rises on one side
+  // The range of the fit has two cells only.
+  EXPECT_TRUE(std::isnan(half_height_width(gaussian(90, 2), 90, 7, 2)));
+  // On one side the profile rises away from the given position.
+  EXPECT_TRUE(std::isnan(half_height_width(gaussian(150, 9), 90, 7, 20)));
 }
 
 }  // namespace

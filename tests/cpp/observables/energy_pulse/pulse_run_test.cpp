@@ -51,7 +51,7 @@ TEST(PulseRun, ConservesTheEnergyOfThePulse) {
     std::vector<double> difference = run.energy_difference();
     EXPECT_LT(run.conservation_error(difference), 1e-13);
     EXPECT_LT(difference[4], 0.9 * run.injected_energy()) << "the pulse has spread";
-    difference[2] += 0.01 * run.injected_energy();  // an error is found
+    difference[2] += 0.01 * run.injected_energy();  // an energy error of 1 % must be reported
     EXPECT_GT(run.conservation_error(difference), 1e-3);
   }
   EXPECT_GT(run.events(), 10U);
