@@ -56,7 +56,7 @@ def _by_baths(run: Result) -> Number:
 def exponent(
     runs: Sequence[Result], name: str, kappa: Callable[[Result], Number] = _kappa
 ) -> tuple[Number, PowerLaw]:
-    """Exponent of the conductivity over the sizes of the runs. Raises MissingError for fewer than two."""
+    """Exponent of the conductivity against the number of cells, over the sizes of the runs. Raises MissingError for fewer than two."""
     if len(runs) < 2:
         raise MissingError(f"Fewer than two sizes are stationary at this quality ({name})")
     cells = [run.parameters["cells"] for run in runs]

@@ -1,10 +1,9 @@
 """Fig. 8: heat conductivity against the number of cells, and local exponents d ln kappa / d ln N between neighbouring sizes,
 which are constant where a power law holds.
 
-Beside the paper's drive a stronger one at the same spacing, whose errors are smaller (ext. 9). The control has random
-directions after collisions, which do not conserve momentum, at the paper's spacing 1/N and at a fixed one. The mean field is the
-kinetic equation of N scatterers. Points whose window is not stationary, or whose run stopped before its target, are crossed out and
-not used.
+The runs have the paper's drive, and a stronger one at the same spacing with smaller errors (ext. 9). Control runs have random directions
+after collisions, which do not conserve momentum, at the paper's spacing 1/N and at a fixed one. The mean field is the kinetic equation
+of N scatterers. Points whose window is not stationary, or whose run stopped before its target, are crossed out and not used.
 """
 
 from collections.abc import Sequence

@@ -112,7 +112,7 @@ def which(reading: Reading) -> str:
 
 
 def consequence(judgement: Judgement) -> str:
-    """The power of the test, or what would decide it."""
+    """Sentence on the power of a decided test, or on the effort that would decide an undecided one."""
     reading = judgement.deciding
     if reading is None:
         return ""

@@ -267,9 +267,8 @@ TEST(MeanFieldChain, OneScatterer) {
   const VectorXd gain = equation.gain(arriving, equation.scatterer(arriving));
   const VectorXd ends = VectorXd::LinSpaced(2, 0, 1);
   const Flux flux = flux_at(solution, ends, positive);
-  EXPECT_LT(distance(flux.col(1).head(half), gain.tail(half)), 1e-10);  // particles that leave at the right
-  EXPECT_LT(distance(flux.col(0).tail(half), gain.head(half).reverse()),
-            1e-10);  // particles that leave at the left
+  EXPECT_LT(distance(flux.col(1).head(half), gain.tail(half)), 1e-10);            // leaving at the right
+  EXPECT_LT(distance(flux.col(0).tail(half), gain.head(half).reverse()), 1e-10);  // leaving at the left
 }
 
 /// Both problems converge only with shortened Newton steps.

@@ -81,8 +81,8 @@ TEST(InitialState, IsDrawnFromStreamsOfItsOwn) {
   for (std::size_t i = 0; i < point.particles.size(); ++i) {
     ASSERT_EQ(point.particles[i].position, again.particles[i].position);
     ASSERT_EQ(point.particles[i].velocity, again.particles[i].velocity);
-    ASSERT_EQ(point.particles[i].velocity,
-              colder.particles[i].velocity);  // particles and scatterers have different streams
+    // The particles have streams of their own, so that the scatterers' temperature does not change them.
+    ASSERT_EQ(point.particles[i].velocity, colder.particles[i].velocity);
   }
 }
 

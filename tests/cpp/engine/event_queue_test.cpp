@@ -154,8 +154,7 @@ TEST(EventQueue, NeverReturnsArrivalsAtOrAfterTheEnd) {
   EXPECT_EQ(flight.particle, 4U);
   flight.time = end;
   queue.schedule(flight);
-  EXPECT_FALSE(
-      queue.take_before(last, flight));  // only flights that arrive strictly before the limit are taken
+  EXPECT_FALSE(queue.take_before(last, flight));  // takes only arrivals strictly before the limit
   ASSERT_TRUE(queue.take_before(end, flight));
   EXPECT_EQ(flight.particle, 1U);
   flight.time = infinity;

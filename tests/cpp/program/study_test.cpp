@@ -153,8 +153,8 @@ TEST(Study, ReplacesNoResultOfOtherOptions) {
   const TemporaryFolder folder;
   const Arguments a{"--output", folder / "a.h5"};
   EXPECT_EQ(run(a), 0);
-  EXPECT_EQ(run(with(a, {"--threads", "2"})),
-            0);  // the existing result does not depend on the number of threads
+  // The existing result does not depend on the number of threads.
+  EXPECT_EQ(run(with(a, {"--threads", "2"})), 0);
   const std::string before = content_of(folder / "a.h5");
   expect_refused_run(with(a, {"--seed", "2"}), {"another --seed", "--overwrite"});
   EXPECT_EQ(content_of(folder / "a.h5"), before);
