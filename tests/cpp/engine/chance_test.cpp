@@ -256,9 +256,8 @@ INSTANTIATE_TEST_SUITE_P(Sources, Chance,
                                          Source{"DirectionsOfAnOpenChain", open_directions}),
                          [](const auto& source) { return source.param.name; });
 
-// The random numbers of a collision in an open chain are named by the cell and the number of collisions in
-// it. Detected mistakes: they are named by the cell alone, by the number alone, or by the index of the
-// particle, which is reused.
+// Random numbers of a collision in an open chain are named by the cell and its count of collisions. Detected
+// mistakes: they are named by the cell alone, the count alone, or the index of the particle, which is reused.
 TEST(ChanceOfAnOpenChain, EveryCollisionOfACellHasNumbersOfItsOwn) {
   const StreamKey key(3, 2);
   const std::vector<Sequence> drawn = directions_at_cells(key, key);
@@ -312,8 +311,7 @@ TEST(ChanceOfThePulse, RelaxationAndPulseShareNoDraw) {
 
     PhasePoint relaxed = relaxing.phase_point(duration);
     EXPECT_FALSE(share(relaxation, pair_flights(chain, relaxed, key)));
-    // Detected mistake: draws are counted from 0 again.
-    for (Particle& particle : relaxed.particles) particle.draws = 0;
+    for (Particle& particle : relaxed.particles) particle.draws = 0;  // mistake: counted from 0 again
     EXPECT_TRUE(share(relaxation, pair_flights(chain, relaxed, key)));
   }
 }
