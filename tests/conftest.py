@@ -7,7 +7,7 @@ from types import FrameType
 
 import pytest
 
-SECONDS = {False: 600, True: 1800}  # of a test's call, or of its fixtures; True: of a long test
+SECONDS = {False: 600, True: 1800}  # time limit of a test, and of its fixtures; True: of a long test
 
 
 @contextmanager

@@ -24,7 +24,7 @@ FOLDER = ROOT / "data/measured"
 CONDUCT = (
     "threads",
     "time-limit",
-)  # options that conduct a run; a result depends on the second, where it stops the run
+)  # options of the execution; of these only time-limit can change the result, if it stops the run
 
 
 class MeasureError(ValueError):
@@ -32,7 +32,7 @@ class MeasureError(ValueError):
 
 
 def measure(program: str, **options: object) -> "xarray.DataTree":
-    """Runs a program and returns what Result.to_xarray() does. Options are those of the command line, with underscores for dashes and
+    """Runs a program and returns its result as from Result.to_xarray(). Options are those of the command line, with underscores for dashes and
     True for a flag; also threads and time_limit. A list of values of an option gives every quantity its dimension.
 
     The seed follows from program and options, so that two calls with different options have independent errors; `seed=1` in several
@@ -82,9 +82,13 @@ def _checked(program: str, options: Mapping[str, object], known: Mapping[str, An
 
 
 def _plain(options: Mapping[str, Any]) -> Options:
-    """Numbers of NumPy as those of Python, and whole ones as integers."""
+    """Converts numbers of NumPy to those of Python, and whole numbers to integers."""
     plain = {name: getattr(value, "item", lambda value=value: value)() for name, value in options.items()}
-    whole = {name: int(one) for name, one in plain.items() if isinstance(one, float) and one.is_integer()}
+    whole = {
+        name: int(number)
+        for name, number in plain.items()
+        if isinstance(number, float) and number.is_integer()
+    }
     return plain | whole
 
 
@@ -120,7 +124,10 @@ def _combined(trees: "Sequence[xarray.DataTree]", listed: Mapping[str, list[Any]
         return parts[0]
 
     names = [name for name in trees[0].children if all(name in tree.children for tree in trees)]
-    doubts = [xarray.Dataset({one: tree.attrs[one] for one in ("converged", "doubts")}) for tree in trees]
+    doubts = [
+        xarray.Dataset({attribute: tree.attrs[attribute] for attribute in ("converged", "doubts")})
+        for tree in trees
+    ]
     root = gridded(doubts)
     common = {
         key: value

@@ -1,5 +1,6 @@
-"""Worlds for every claim with the numbers that must be found there. The values of no two runs, elements or quantities that could be
-confused are alike, so that a number from another one is wrong."""
+"""Exact results for every claim, called worlds, with the numbers that the claims must take from them.
+
+Runs, elements and quantities that could be confused have different values, so that a number from a wrong one is noticed."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -11,14 +12,14 @@ import numpy as np
 from tests.python.test_claim_verdicts import COLD, HOT, World, gaussian, rare
 from workflow.lib.plan import Run
 
-# A value, or a value and its systematic error, which is 0 otherwise.
+# Expected numbers of a reading: values, or pairs of value and systematic error. Without a pair the systematic error is 0.
 Answer = Sequence[float | tuple[float, float]]
-EXACT = 1e-9  # relative error of denominators whose errors a claim neglects
+EXACT = 1e-9  # relative standard error of denominators, whose errors the claims neglect
 
 
 @dataclass(frozen=True)
 class Case:
-    """errors: relative errors of quantities that do not have the usual one."""
+    """A claim in a world, with the expected numbers of each reading. errors: relative standard errors by quantity; "*": all others."""
 
     world: World
     literal: Answer
@@ -29,7 +30,7 @@ class Case:
 
 
 CASES: dict[str, Case] = {}
-ERROR = 1e-3  # relative, of the other quantities
+ERROR = 1e-3  # relative standard error of quantities without one of their own
 
 
 def claim(name: str, world: World, *readings: Answer, quality: str = "paper", **errors: float) -> None:
@@ -37,11 +38,11 @@ def claim(name: str, world: World, *readings: Answer, quality: str = "paper", **
 
 
 def named(values: Mapping[str, Any]) -> Callable[..., Any]:
-    """By the name of the run."""
+    """Function of a quantity that gives each run the value of its name."""
     return lambda run, *_: values[run.name]
 
 
-# Filling chains, at 200, 600, 1000, 1400 and 1800.
+# Filling chains. levels: heights of the plateau at the times 200, 600, 1000, 1400 and 1800.
 levels = 10 * np.cumprod([1, 1.1, 1.2, 1.3, 1.4])
 claim(
     "C01",
@@ -104,7 +105,7 @@ claim(
     found, found, rate_right=EXACT,
 )  # fmt: skip
 
-# The excess at the smallest of these sizes is off the line by 0.1; errors are all alike.
+# The excess is linear in ln N except at the smallest of these sizes, where it is 0.1 larger. All errors are equal.
 logarithms = np.log([20, 30, 50, 100, 200, 500, 1000])
 lever = (logarithms[0] - logarithms.mean()) / np.sum((logarithms - logarithms.mean()) ** 2)
 
@@ -121,7 +122,7 @@ claim(
 )  # fmt: skip
 
 
-# Equilibrium at T = 100, with deviations that are twice as large at gamma = 1.
+# Equilibrium at T = 100, with deviations from it that are twice as large at gamma = 1.
 def times(run: Run) -> int:
     return 2 if rare(run) else 1
 
@@ -169,11 +170,11 @@ claim(
     departures("equal"),
 )
 
-# F_N - F of simulations: 1.25 of that in mean field, parabolas in p on either side of p = 0, where lines through the two innermost
-# bins, at p = 1 and 3, miss 3 times the coefficient of p^2.
+# F_N - F of simulations is 1.25 times that in mean field, which is a parabola in p on either side of p = 0. The line through the two
+# innermost bins, at p = 1 and 3, differs from the parabola at p = 0 by 3 times the coefficient of p^2.
 P = np.arange(-59, 60, 2)
 SEEN = abs(P) < 40
-HEIGHT = 20  # of F
+HEIGHT = 20  # largest value of F
 
 
 def parabola(cells: int, p: np.ndarray) -> np.ndarray:
@@ -191,7 +192,7 @@ def finite(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
 
 
 def printed(sizes: Sequence[int]) -> list[tuple[float, float]]:
-    """Every bin, then p = 0 from below and from above; integrated over p, F is 220 + 180."""
+    """Deviations in the printed normalisation: of every bin, then at p = 0 from below and from above. F integrates to 220 + 180."""
     bins = [(value, 0.0) for value in parabola(1, P)[SEEN]]
     at_0 = [(2 + 9e-4, 9e-4), (3 - 15e-4, 15e-4)]
     return [(1.25 / 400 / size * x, 1.25 / 400 / size * bound) for size in sizes for x, bound in bins + at_0]
@@ -208,7 +209,8 @@ claim("C11", {"fig03_inset": {"flux": finite}}, printed([16]), printed([16]), of
 
 
 def at_centre(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
-    """At N = 2: -0.4 and -0.6 in the innermost bins, nearly their mean beyond; other sizes and halves are far off."""
+    """F_N whose deviation at N = 2 is -0.4 and -0.6 in the innermost bins and 0.5 (1 + p/1000) beyond. Other sizes and halves have the
+    deviation 3, which no number may contain."""
     if run.options["cells"] == "continuum":
         return HEIGHT + 0 * p
     outgoing = np.where(place == 0, p < 0, p > 0) & (run.options["cells"] == 2)
@@ -220,7 +222,7 @@ outer = P[(abs(P) > math.sqrt(0.5 * (COLD + HOT))) & SEEN]
 claim("C32", {"fig03_inset": {"flux": at_centre}}, [*(-1e-3 * outer), 0.2])
 
 
-# F_30 and the kinetic equation: deviations that differ from bin to bin and between the ends.
+# F_30 minus the solution of the kinetic equation: it differs from bin to bin and between the ends.
 def bumps(place: float, p: np.ndarray) -> np.ndarray:
     return 0.5 * np.sin(p / 7) + 1.5 * (place == 1) + 4
 
@@ -246,7 +248,7 @@ claim("C13", {"fig04a": {"flux": flux}}, np.array(found) / largest_of([1 / 30, 1
 
 
 def decaying(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
-    """Of the shape in mean field at N = 2, and in simulations a part that is orthogonal to it."""
+    """F_N whose deviation has the shape of that in mean field at N = 2; simulations have in addition a part that is orthogonal to it."""
     size = run.options["cells"]
     if size == "continuum":
         return 10 + 0 * p
@@ -268,7 +270,7 @@ claim(
 
 
 def curved(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
-    """The bins at 0.6 and 1.8: lines through them miss 3 x 0.6^2 of the coefficient of p^2."""
+    """F with a curvature at p > 0. At p = 0 the line through the bins at 0.6 and 1.8 is wrong by 3 x 0.6^2 times the coefficient of p^2."""
     return np.where(p > 0, 10 + 0.05 * p**2, 8 + 0.1 * p) * (
         run.name in ("equal", "mean-field-equal")
     ) + 12 * (abs(p) > 50)

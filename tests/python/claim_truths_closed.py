@@ -1,4 +1,4 @@
-"""Worlds as in claim_truths.py: closed chains, conductivity against size, and pulses."""
+"""Exact results as in claim_truths.py, for the claims on closed chains, conductivity against size, and pulses."""
 
 import math
 from collections.abc import Callable
@@ -13,10 +13,11 @@ from workflow.lib.plan import Run
 
 
 def of_runs(panel: str, value: Callable[[Run], float], chosen: Callable[[Run], bool]) -> list[float]:
+    """Values of the runs of a panel that satisfy a condition."""
     return [value(run) for run in plan("paper")[panel].runs if chosen(run)]
 
 
-# Persistence: the law but for a shift by sigma, another one in the dense chain.
+# Persistence: the law plus a shift that depends on sigma and is twice as large in the dense chain.
 def shift(run: Run) -> float:
     return float((0.02 if run.series == "dense" else 0.01) * (2 + run.options["sigma"]))
 
@@ -26,14 +27,14 @@ dense, paper = (
 )
 claim("C15", {"fig05": {"mu": lambda run: law(run) + shift(run)}}, [0.01, 0.02, 0.03], dense, paper)
 
-# Waiting times after relaxations of 1 (which does not count), 10, 100 and 1000; spread over cuts 0.1.
+# Exponents of waiting times by relaxation time, of which 1 does not count. The spread over cuts of the tail is 0.1.
 aged = {1: 9, 10: -2.05, 100: -1.8, 1000: -2.1}
 waits = {"fig06": {"exponent": named({"all_sigma=0.5": -2, "all_sigma=0": -3}), "exponent_spread": 0.1}}
 claim("C16", {**waits, "ext07": {"exponent": lambda run: aged[run.options["relaxation-time"]]}}, [(-2, 0.3)])
 claim("C17", waits, [(-3, 0.1)])
 
 
-# Spreading: alpha by sigma, content, relaxation time, total momentum and rule.
+# Spreading: alpha depends on sigma, particles per cell, relaxation time, total momentum and collision rule.
 def alpha(run: Run) -> float:
     o = run.options
     zero, later = o.get("zero-total-momentum", False), o["relaxation-time"] == 1000
@@ -56,8 +57,8 @@ drift = {"fig07_inset": {"momentum_drift": lambda run: 10 ** (-3 - alpha(run))}}
 claim("C22", drift, [-4.8 - 0.1 * sigma for sigma in sigmas] + [-4.4 - 0.1 * sigma for sigma in sigmas])
 
 
-# Ageing over decades from 1 on: slopes from 100 to 150, the largest in the second of them; in the chain of few particles from 40 to 3,
-# after 60 before t = 1.
+# Ageing: slope of the energy by decade. In the longest run it is 100 in the first decade from t = 1 on, 200 in the second and 150 in the
+# last. In the chain of few particles it is 60 before t = 1, then 40, and 3 in the last decade.
 def slopes(run: Run, decade: np.ndarray) -> np.ndarray:
     if run.name == "few":
         return np.select([decade == decade.max(), np.isclose(decade, 1), decade < 0.9], [3.0, 40, 60], 20)
@@ -72,9 +73,10 @@ claim("C29", ageing, [0.5], [3 / 40], quality="deep")
 claim("C29, without the two long runs", ageing, [0.5], quality="standard")
 
 
-# Conductivity. gamma = 1: N, but too small by a factor of e^-0.002 at 128, the first of the sizes within a factor of 16 of the largest:
-# of five equally spaced points the slope changes by a fifth of that over the spacing. gamma = N: sqrt(N) up to 256, N^0.2 beyond.
-# Between the temperatures of particles and of baths, exponents that differ by 0.03 and -0.05. N = 64 is not stationary.
+# Conductivity. At gamma = 1 kappa is N, but smaller by a factor of e^-0.002 at 128, the first of the five sizes within a factor of 16 of
+# the largest. The sizes are equally spaced in ln N, so this changes the slope by 0.002/5 over the spacing. At gamma = N kappa is sqrt(N) up
+# to 256 and N^0.2 beyond. With the temperatures of the particles its exponent is 0.03 larger, with those of the baths 0.05 smaller. The
+# runs at N = 64 are not stationary.
 def kappa(run: Run) -> float:
     size = run.options["cells"]
     if size == 64 or (size < 128 and rare(run)):
@@ -97,7 +99,7 @@ both = {
 rare_exponent = (1 + 4e-4 / math.log(2), 4e-4 / math.log(2))
 claim("C23", {"fig08": both}, [rare_exponent])
 response = {**linear_response(lambda size: size**0.3), "stationary": 1, "current_correlation": 0}
-# Of every ring the exponent over the last octave, and 0.02 less before; rings differ by gas and length.
+# Exponent over the last octave by ring; over the octave before it is 0.02 smaller. Rings differ by gas and length.
 last = {"light-longest": 1.31, "dense-longest": 1.32, "dilute-longest": 1.34}
 
 
@@ -112,8 +114,8 @@ claim(
 )  # fmt: skip
 
 
-# Peaks at 5.2 + 3k cells, of heights 100 + 10k, lost at the first time and at the last. The odd part is 0.001 of the height per cell,
-# twice that from the Gaussian start, which ends later.
+# At the k-th time the peak is at 5.2 + 3k cells and 100 + 10k high; there is none at the first and at the last time. The odd part per cell
+# is 0.001 of the height, and twice that from the Gaussian start, which has one more time.
 def place(_run: Run, t: np.ndarray) -> np.ndarray:
     k = np.arange(len(t))
     return np.where((k == 0) | (k == len(t) - 1), np.nan, 5.2 + 3 * k)
@@ -131,7 +133,7 @@ claim(
 )
 
 
-# Ballistic but for the last time, at which the peak is e^d times farther: the exponent without that time is 1.
+# The peak moves ballistically except at the last time, at which it is e^d times farther. Without that time the exponent is 1.
 def farther(d: float) -> Callable[..., np.ndarray]:
     return lambda run, t: (
         (300 if run.name != "gaussian" else 1)
@@ -151,7 +153,7 @@ claim(
 )  # fmt: skip
 
 
-# Damping. Fits from later times on differ by 0.01 each, from the second on; the other start differs by 0.5.
+# Damping exponents. Each fit that begins one time later gives an exponent that is 0.01 larger. That of the other start differs by 0.5.
 def later(exponent: float, step: float = 0.01) -> Callable[..., np.ndarray]:
     return lambda run, _: exponent + step * np.arange(len(str(run.options["times"]).split(",")) - 1)
 
@@ -178,15 +180,15 @@ sound = {
     "damping_exponent_from": lambda run, _: later(rings.get(run.name, 3))(run, 0),
     "peak": 1,
 }
-sound_exponent = (0.8, 0.03)  # of the first of the longest records, of 8 times
+sound_exponent = (0.8, 0.03)  # of the first of the longest records, which have 8 times
 damping = {**damped("fig09a", 0.66, 1.16, **local), **damped("ext14", 0.9, 0.6), "ext03": sound}
 octave = [(0.1 * k, 0.02) for k in (5, 6, 7, 8)]
 # The weak pulse is fitted from its fourth time on.
 claim("C27", damping, octave, [sound_exponent], [(0.63, 0.01)])
 claim("C28", damped("fig09b", 1, 1.5), [(1.5, 0.02)], [(1, 0.03)])
 
-# 2 - 1/xi of 0.66 and 0.9 with the exponents of kappa over the largest sizes, of which the one at gamma = N is exact. kappa_0 ~ N^0.3.
-# Heat peaks have the order 1.7, and 1.3 where they are fewer than 6 cells wide.
+# 2 - 1/xi with xi = 0.66 and 0.9, and the exponents of kappa over the largest sizes; at gamma = N kappa is an exact power. kappa_0 ~ N^0.3.
+# Heat peaks have the order 1.7, but 1.3 while they are less than 6 cells wide.
 of_peaks = {**sound, "heat_correlation": heat_peak(1.7, 1.3)}
 linked = {
     **damped("fig09a", 1.16, 0.66),
@@ -209,7 +211,7 @@ moving: Answer = [(2 - 1 / xi - 0.3, bound / xi**2)]
 claim("C30", {**linked, "fig08": both | kappa_n}, excess, [2 - 1.7 - 0.3], moving, heat_correlation=0.03)
 
 
-# Speeds t^-0.1 and t^-0.4; unknown at first, and twice as large at the third time.
+# Speeds fall as t^-0.1 and t^-0.4. They are NaN at the first time and twice as large at the third.
 def speeds(run: Run, middle: np.ndarray) -> np.ndarray:
     k = np.arange(len(middle))
     power = {"rest": -0.1, "weak": -0.4}.get(run.name, -1)

@@ -34,7 +34,7 @@ Measure = Callable[..., Result]
 
 
 def command_line(program: str, options: dict) -> list[str]:
-    """A value of True gives a flag; None omits an option of SMALL."""
+    """Command of a program with the options of SMALL, changed by `options`. True gives a flag; None omits an option of SMALL."""
     words = [str(ROOT / "build/bin" / program)]
     for name, value in {**SMALL[program], **options}.items():
         if value is True:
@@ -46,7 +46,7 @@ def command_line(program: str, options: dict) -> list[str]:
 
 @pytest.fixture
 def program(tmp_path: Path) -> Program:
-    """Runs a program in an empty folder. Options are keywords with underscores instead of dashes."""
+    """Function that runs a program in an empty folder. Options are keywords with underscores instead of dashes."""
 
     def run(name: str, **options: object) -> subprocess.CompletedProcess:
         named = {key.replace("_", "-"): value for key, value in options.items()}
@@ -70,7 +70,7 @@ def persistence(program: Program) -> Program:
 
 @pytest.fixture
 def measure(program: Program, tmp_path: Path) -> Measure:
-    """Runs a program and loads its result."""
+    """Function that runs a program and loads its result. allowed: exit statuses that are no failure."""
 
     def run(name: str, allowed: tuple[int, ...] = (0,), **options: object) -> Result:
         done = program(name, **options)

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import strategies as st
 
 LIMITS = [1 - 10.0**-k for k in range(1, 17)]
-RULES = [{"rule": "random-direction"}]  # besides the default
+RULES = [{"rule": "random-direction"}]  # rules other than the default
 SIGMAS = st.sampled_from([0.0, 1.0, -1.0, 5e-324, *LIMITS, *(-x for x in LIMITS)]) | st.floats(-1, 1)
 # log10 of the number of flights: runs that end soon, and runs that no machine could finish.
 FLIGHTS = st.floats(-3, 2) | st.floats(-300, -20) | st.floats(16, 300)

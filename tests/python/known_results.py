@@ -14,7 +14,7 @@ from workflow.claims.data import Data, MissingError
 from workflow.lib.load import Quantity, Result
 from workflow.lib.plan import Panel, Run, data_path, load_plan
 
-# Of every program, the quantities that claims are judged by, with their axes (docs/format.md).
+# Quantities on which claims depend, by program, with their axes (docs/format.md).
 QUANTITIES: dict[str, dict[str, tuple[str, ...]]] = {
     "particle_count": {"log_slope": (), "log_curvature": (), "plateau": ("time",), "front": ("time",), "front_exponent": ()},
     "persistence": {"mu": ()},
@@ -43,17 +43,17 @@ DEFAULTS = {
     "cells": "continuum",
     "zero-total-momentum": False,
     "rule": "elastic",
-}  # where the plan leaves an option out
+}  # defaults of options that the plan does not give
 
 Fill = Callable[[Run], Mapping[str, Quantity]]
-# By quantity: a number, or a function of the run and the coordinates along each axis.
+# True value by quantity: a number, or a function of the run and of the coordinates along each axis.
 Truth = Mapping[str, Any]
 
 plan = cache(load_plan)
 
 
 class Known(Data):
-    """Every run of these panels has the results that the function returns for it; other panels have none."""
+    """Data in which every run of some panels has the result that the function of its panel returns; other panels have no results."""
 
     def __init__(
         self, fills: Mapping[str, Fill], quality: str = "paper", converged: str = "no target"
@@ -80,7 +80,7 @@ def axes(run: Run) -> dict[str, np.ndarray]:
     times = np.array(str(run.options.get("times", 1)).split(","), dtype=float)
     bins, largest = run.options.get("momentum-bins", 100), run.options.get("momentum-max", 60)
     decades, end = run.options.get("decades", 6), run.options.get("observation-time")
-    places = run.options.get("positions")
+    positions = run.options.get("positions")
     return {
         "time": times,
         "from": times[:-1],
@@ -90,7 +90,7 @@ def axes(run: Run) -> dict[str, np.ndarray]:
         "bond": np.arange(cells + 1.0),
         "end": np.arange(2.0),
         "half": np.array([-1.0, 1.0]),
-        "x": np.array(places.split(","), dtype=float) if places else np.linspace(0, 1, cells + 1),
+        "x": np.array(positions.split(","), dtype=float) if positions else np.linspace(0, 1, cells + 1),
         "momentum": (np.arange(bins) + 0.5) * (2 * largest / bins) - largest,
         "distance": np.arange(1.0, cells // 2 + 1),
         "decade": (end if isinstance(end, int) else 1) * 10.0 ** np.arange(-decades, 0),
@@ -98,7 +98,7 @@ def axes(run: Run) -> dict[str, np.ndarray]:
 
 
 def quantity(run: Run, name: str, mean: np.ndarray, error: np.ndarray) -> Quantity:
-    """With a standard error, or a discretisation error if the run is not replicated."""
+    """Quantity with a standard error, or with a discretisation error if the run is not replicated."""
     along = {axis: axes(run)[axis] for axis in QUANTITIES[run.program][name]}
     if run.replicated:
         count = np.full(mean.shape, run.options["replicas"])
@@ -107,7 +107,7 @@ def quantity(run: Run, name: str, mean: np.ndarray, error: np.ndarray) -> Quanti
 
 
 def uneven(run: Run) -> dict[str, Quantity]:
-    """All quantities of a run: values from 1 to 2, errors from 0.01 to 0.02, different for every element and run."""
+    """All quantities of a run, with values from 1 to 2 and errors from 0.01 to 0.02 that differ between elements and runs."""
     random = np.random.default_rng(zlib.crc32(f"{run.name} {run.program} {run.options.get('seed')}".encode()))
     coordinates = axes(run)
     shapes = {
@@ -125,14 +125,16 @@ def uneven(run: Run) -> dict[str, Quantity]:
 def truth(
     given: Truth, relative: float | Mapping[str, float], random: np.random.Generator | None = None
 ) -> Callable[[Run], dict[str, Quantity]]:
-    """The quantities given, with this relative error, or this error where they vanish; relative errors of single quantities beside
-    that of all others, "*". With random numbers, quantities of replicated runs are measured: normal values with errors that are
-    estimated from as many replicas as the run has."""
+    """Function that returns the results of a run with given true values.
+
+    The error is relative to the value, or absolute where the value is 0; a mapping gives it by quantity, with "*" for all others. With
+    random numbers the quantities of replicated runs are drawn: normal means, and errors that are estimated from the run's number of
+    replicas."""
     relative = relative if isinstance(relative, Mapping) else {"*": relative}
 
     def fill(run: Run) -> dict[str, Quantity]:
         coordinates = axes(run)
-        found = {}
+        quantities = {}
         for name in QUANTITIES[run.program].keys() & given.keys():
             grids = np.meshgrid(*(coordinates[axis] for axis in QUANTITIES[run.program][name]), indexing="ij")
             value = given[name](run, *grids) if callable(given[name]) else given[name]
@@ -142,7 +144,7 @@ def truth(
                 mean = mean + error * random.standard_normal(mean.shape)
                 freedom = run.options["replicas"] - 1
                 error = error * np.sqrt(random.chisquare(freedom, mean.shape) / freedom)
-            found[name] = quantity(run, name, mean, error)
-        return found
+            quantities[name] = quantity(run, name, mean, error)
+        return quantities
 
     return fill

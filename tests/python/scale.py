@@ -8,7 +8,9 @@ import numpy as np
 from workflow.lib.load import Quantity, Result
 from workflow.lib.units import option_units, parse
 
-COEFFICIENT = re.compile(r"(?<![\^\d.])\d[\d.]*(?:e[-+]?\d+)?")  # not the exponent of N
+COEFFICIENT = re.compile(
+    r"(?<![\^\d.])\d[\d.]*(?:e[-+]?\d+)?"
+)  # number in a polynomial, but not the exponent of N
 ROUNDING = 1e-9  # relative to the largest value of a dataset
 
 

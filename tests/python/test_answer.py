@@ -1,4 +1,4 @@
-"""The answer: every verdict has its sentence, with the numbers of the results."""
+"""The answers of the report: every verdict has a sentence, which contains the numbers of the results."""
 
 import re
 import string
@@ -102,7 +102,7 @@ def test_the_verdict_selects_the_sentence(verdict: str, begin: str) -> None:
 
 
 def heat(exponent: float, error: float, monkeypatch: pytest.MonkeyPatch) -> str:
-    """The answer on heat transport if the longest ring has this exponent in its last octave, 0.01 more before, and others another."""
+    """Answer on heat transport if the longest ring has this exponent in its last octave and 0.01 more before. Others have another one."""
     monkeypatch.setitem(
         QUANTITIES, "heat_current", {"heat_variance": ("time",), "local_exponent": ("middle",)}
     )
@@ -135,7 +135,7 @@ def test_heat_transport_is_superdiffusive_if_the_longest_times_show_it(
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 @pytest.mark.parametrize("quality", QUALITIES)
 def test_every_quality_has_answers(quality: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Series that a quality leaves out end no report. Finds: a number that takes the dilute chains of ext09 for granted."""
+    """The report can be written if a quality omits series. Detected mistake: a number requires the dilute chains of ext09."""
 
     def fill(run: Run) -> dict[str, Quantity]:
         return uneven(run) | truth({"stationary": 1, "current_correlation": 0.5}, 1e-9)(run)
@@ -146,7 +146,8 @@ def test_every_quality_has_answers(quality: str, monkeypatch: pytest.MonkeyPatch
 
 
 def test_numbers_are_those_of_the_right_runs() -> None:
-    """Finds: another chain, relaxation time, half of the sizes, or the smallest change of momentum."""
+    """Detected mistakes: a number is taken from another chain, relaxation time or half of the sizes; the change of momentum is the
+    smallest."""
     fills = {
         "fig07": truth({"alpha": 1.85}, 0.001),
         "ext01": truth(
@@ -167,7 +168,7 @@ def test_numbers_are_those_of_the_right_runs() -> None:
 
 
 def test_exponents_of_the_last_octave_are_those_of_the_longest_chains() -> None:
-    """κ_0 ∼ √N up to 128 cells and N^0.2 beyond; κ with random directions ∼ N^0.1; κ at γ = N ∼ N^0.3."""
+    """In these results κ_0 ∼ √N up to 128 cells and N^0.2 beyond, κ ∼ N^0.1 with random directions, and κ ∼ N^0.3 at γ = N."""
 
     def kappa(run: Run) -> float:
         cells = run.options["cells"]
@@ -196,7 +197,7 @@ def test_exponents_of_the_last_octave_are_those_of_the_longest_chains() -> None:
 
 
 def test_the_heat_in_a_ring_predicts_the_conductivity_of_chains(monkeypatch: pytest.MonkeyPatch) -> None:
-    """⟨Q²⟩/N = t^1.3, from which sound takes away what passes after 0.3 N/c, c = 0.887."""
+    """⟨Q²⟩/N = t^1.3; in chains sound ends its growth at the time 0.3 N/c with c = 0.887."""
     monkeypatch.setitem(QUANTITIES["heat_current"], "heat_variance", ("time",))
     rings = {"heat_variance": lambda _, t: t**1.3, "local_exponent": 1.3}
     response = {**linear_response(lambda cells: 65 * (0.3 * cells / 0.887) ** 0.3), "stationary": 1}
@@ -205,7 +206,7 @@ def test_the_heat_in_a_ring_predicts_the_conductivity_of_chains(monkeypatch: pyt
 
 
 def test_the_kinetic_limit_without_the_smallest_chain() -> None:
-    """The deviation falls as 1/N^2 from 2 to 4 cells and as 1/N beyond."""
+    """In these results the deviation falls as 1/N^2 from 2 to 4 cells and as 1/N beyond."""
     factor = {2: 2.0, "continuum": 0.0}
 
     def flux(run: Run, _place: np.ndarray, p: np.ndarray) -> np.ndarray:

@@ -135,7 +135,7 @@ def check_refusal(result: subprocess.CompletedProcess, name: str, *words: str) -
     ("name", "options", "words"), [(name, *case) for name, cases in BAD.items() for case in cases]
 )
 def test_refused(program: Program, tmp_path: Path, name: str, options: dict, words: str) -> None:
-    """The first option is named."""
+    """The message begins with the first of the options."""
     check_refusal(program(name, **options), name, words, f"--{next(iter(options))}")
     assert list(tmp_path.iterdir()) == []
 

@@ -45,7 +45,7 @@ def test_closure(tree: Path) -> None:
 
 
 def test_a_source_may_have_bytes_that_are_no_text(tree: Path) -> None:
-    """Compilers accept them in comments."""
+    """Compilers accept such bytes in comments."""
     before = include_closure(tree / "cpp", "observables/a.cpp")
     with (tree / "cpp/engine/x.hpp").open("ab") as file:
         file.write(b"// caf\xe9\n")
@@ -53,7 +53,7 @@ def test_a_source_may_have_bytes_that_are_no_text(tree: Path) -> None:
 
 
 def test_a_header_beside_the_source_comes_before_that_of_the_root(tree: Path) -> None:
-    """As for the compiler."""
+    """The order of the search is that of the compiler."""
     (tree / "cpp/engine/model").mkdir()
     (tree / "cpp/engine/model/y.hpp").write_text("")
     closure = include_closure(tree / "cpp", "observables/a.cpp")
@@ -67,7 +67,7 @@ def test_id_follows_sources_and_flags_only(tree: Path) -> None:
     (tree / "cpp/model/unused.hpp").write_text("// changed\n")
     (tree / "cpp/engine/x.hpp").touch()
     assert identify(tree) == first
-    assert (tree / "out/a.json").stat().st_mtime_ns == stamp  # not rewritten
+    assert (tree / "out/a.json").stat().st_mtime_ns == stamp  # the file was not written again
     assert identify(tree, flags="-O2")["build_id"] != first["build_id"]
     assert identify(tree, version="2")["build_id"] == first["build_id"]  # a release keeps results
     (tree / "cpp/engine/own.hpp").write_text("// changed\n")
@@ -85,7 +85,9 @@ def test_the_libraries_and_definitions_that_change_results_are_named() -> None:
     libraries = {library.split()[0] for library in identity["libraries"].split(", ")}
     assert libraries == {"CLI11", "Eigen", "HDF5", "Random123", "SLEEF", "fmt"}
     assert "-DEIGEN_DONT_VECTORIZE" in identity["flags"].split()
-    assert re.fullmatch(r"(GNU|Clang|AppleClang) [0-9.]+", identity["compiler"])  # without the processor
+    assert re.fullmatch(
+        r"(GNU|Clang|AppleClang) [0-9.]+", identity["compiler"]
+    )  # the name does not contain the processor
 
 
 def test_another_compiler_or_a_failure_starts_a_new_configuration(tmp_path: Path) -> None:

@@ -13,15 +13,15 @@ from workflow.lib.load import Quantity, Result
 
 SPEAKING = [*sorted((ROOT / "workflow/figures").glob("*.py")), ROOT / "workflow/lib/caption.py"]
 
-# Numbers that no data could give: names of figures, the values of gamma and of ideal exponents, exact ends of an axis.
+# Numbers that do not depend on data: in names of figures, values of gamma and of ideal exponents, exact ends of an axis.
 NAMES = re.compile(
     r"(?:figs?|ext|eq)\. \d+|(?:γ|gamma) = 1\b|σ [=≠] 0\b|α < 1\b|t = 0\b|\b[xp] = [01]\b|\b[124]/[2356]\b|\b1/N\b|\bminus 1\b"
 )
-NUMBER = re.compile(r"(?<![\w.^/])\d+(?:\.\d+)?")  # none within a symbol, as in T_1, chi^2 or λ/2t
+NUMBER = re.compile(r"(?<![\w.^/])\d+(?:\.\d+)?")  # excludes digits within a symbol, as in T_1, chi^2 or λ/2t
 
 
 def words(node: ast.AST) -> Iterator[str]:
-    """Texts, but for formats and documentation."""
+    """String literals in the code of a function, without format specifications and docstrings."""
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
         yield node.value
     documented = isinstance(node, ast.FunctionDef) and ast.get_docstring(node)
@@ -35,7 +35,7 @@ def words(node: ast.AST) -> Iterator[str]:
 
 
 def speaks(node: ast.AST) -> bool:
-    """A function that returns a text, or a text that is called a caption."""
+    """Whether a node is a function that returns a text, or the assignment of a text to the name `caption`."""
     if isinstance(node, ast.FunctionDef):
         return isinstance(node.returns, ast.Name) and node.returns.id == "str"
     names = node.targets if isinstance(node, ast.Assign) else []

@@ -31,7 +31,7 @@ class Chain:
 
     @property
     def options(self) -> dict[str, object]:
-        """Options of a program."""
+        """The chain as options of a program."""
         return asdict(self)
 
     def __str__(self) -> str:
@@ -39,7 +39,7 @@ class Chain:
 
 
 DECADES, POINTS_PER_DECADE, EVERY = 2, 8, 4  # times of the programs; every fourth is compared
-BINS_PER_DECADE, BINS = 10, 50  # of waiting times
+BINS_PER_DECADE, BINS = 10, 50  # bins of the waiting times
 
 
 def waiting_time_edges(chain: Chain) -> np.ndarray:
@@ -56,8 +56,8 @@ def reference(chain: Chain) -> dict[str, np.ndarray]:
     rows = simulate("closed_chain", **options, **bins)[0].astype(float)
     moments, scatterings, persistent, waits = np.split(rows, 4 * len(times) + np.arange(3), axis=1)
     names = ("variance", "centre_of_mass", "mean_displacement", "scatterer_energy")
-    found = dict(zip(names, np.moveaxis(moments.reshape(chain.replicas, -1, 4), 2, 0), strict=True))
-    return found | {"scatterings": scatterings, "persistent": persistent, "waits": waits}
+    measurements = dict(zip(names, np.moveaxis(moments.reshape(chain.replicas, -1, 4), 2, 0), strict=True))
+    return measurements | {"scatterings": scatterings, "persistent": persistent, "waits": waits}
 
 
 def average(sample: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -74,42 +74,46 @@ Measured = dict[str, tuple[np.ndarray, np.ndarray]]  # means and standard errors
 
 
 def measured(measure: Measure, chain: Chain) -> Measured:
-    """Measurements of the programs."""
-    found: Measured = {}
+    """Means and standard errors of all measurements by the programs."""
+    measurements: Measured = {}
 
     def add(name: str, quantities: list[str], every: int = 1, **options: object) -> None:
         result = measure(name, **chain.options, **options)
         for key in quantities:
-            found[key] = tuple(np.ravel(x)[::every] for x in (result[key].mean, result[key].standard_error))
+            measurements[key] = tuple(
+                np.ravel(x)[::every] for x in (result[key].mean, result[key].standard_error)
+            )
 
     moments = ["variance", "variance_plain", "centre_of_mass", "mean_displacement"]
     add("displacement", moments, EVERY, decades=DECADES)
     add("ageing", ["scatterer_energy"], EVERY, decades=DECADES)
     add("persistence", ["mu"])
     add("waiting_time", ["density"])
-    return found
+    return measurements
 
 
-def scores(found: Measured, chain: Chain) -> dict[str, np.ndarray]:
+def scores(measurements: Measured, chain: Chain) -> dict[str, np.ndarray]:
     """z-scores of all measurements against the reference simulator."""
     sample = reference(chain)
     expected = {
-        name: average(sample[name.removesuffix("_plain")]) for name in found if name not in ("mu", "density")
+        name: average(sample[name.removesuffix("_plain")])
+        for name in measurements
+        if name not in ("mu", "density")
     }
     often = sample["waits"].sum(axis=0) > 200  # often enough for a normal mean
     expected["mu"] = ratio(sample["persistent"], sample["scatterings"])
     widths = np.diff(waiting_time_edges(chain))
     density = ratio(sample["waits"], sample["scatterings"])
     expected["density"] = tuple((x / widths)[often] for x in density)
-    found = found | {"density": tuple(x[:BINS][often] for x in found["density"])}
+    measurements = measurements | {"density": tuple(x[:BINS][often] for x in measurements["density"])}
     return {
-        name: (found[name][0] - mean) / np.hypot(found[name][1], error)
+        name: (measurements[name][0] - mean) / np.hypot(measurements[name][1], error)
         for name, (mean, error) in expected.items()
     }
 
 
 def agree(z: dict[str, np.ndarray]) -> bool:
-    """Bound for the largest of as many independent normal scores; correlations reduce the largest."""
+    """Whether the largest score is below the bound for as many independent normal ones. Correlations only make it smaller."""
     every = np.concatenate([np.ravel(each) for each in z.values()])
     return bool(np.abs(every).max() < norm.isf(1e-4 / 2 / every.size))
 
@@ -137,9 +141,9 @@ def test_closed_chain_against_the_reference_simulator(measure: Measure, chain: C
 
 @pytest.mark.parametrize("chain", [Chain(gamma=1), Chain(gamma=1, rule="random-direction")], ids=str)
 def test_another_chain_does_not_agree(measure: Measure, chain: Chain) -> None:
-    found = measured(measure, chain)
-    assert agree(scores(found, chain))
-    other = "random-direction" if chain.rule == "elastic" else "elastic"
+    measurements = measured(measure, chain)
+    assert agree(scores(measurements, chain))
+    another_rule = "random-direction" if chain.rule == "elastic" else "elastic"
     for mutant in ({"sigma": 0.44}, {"gamma": 1.1}, {"temperature": 450}, {"relaxation_time": 1}):
-        assert not agree(scores(found, replace(chain, **mutant))), mutant
-    assert not agree(scores(found, replace(chain, rule=other)))
+        assert not agree(scores(measurements, replace(chain, **mutant))), mutant
+    assert not agree(scores(measurements, replace(chain, rule=another_rule)))

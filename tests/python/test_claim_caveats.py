@@ -1,4 +1,4 @@
-"""Labels and caveats of claims, and claims that too few results are left for."""
+"""Labels and caveats of claims, and claims for which there are too few results."""
 
 import math
 from dataclasses import replace
@@ -21,7 +21,7 @@ def caveat(name: str) -> str:
 
 
 def with_peaks(name: str, kept: slice) -> Fill:
-    """Peaks at the times of the slice only: position 10, speeds of 500, 499, ... with errors of a tenth."""
+    """Results with peaks only at the times of the slice: position 10, speeds 500, 499, ..., relative errors of a tenth."""
 
     def fill(run: Run) -> dict[str, Quantity]:
         values = np.full(len(uneven(run)[name].mean), math.nan)
@@ -32,7 +32,7 @@ def with_peaks(name: str, kept: slice) -> Fill:
 
 
 def test_misfits_of_the_front() -> None:
-    """Exactly 1/ln t, the same relative error everywhere: chi^2 of 1/t is the variance of t/ln t over its mean square."""
+    """The front is exactly 1/ln t with constant relative errors. chi^2 of 1/t is then the variance of t/ln t over its mean square."""
 
     def fill(run: Run) -> dict[str, Quantity]:
         time = uneven(run)["front"].axes["time"]
@@ -69,7 +69,7 @@ def test_numbers_in_caveats() -> None:
 
 
 def test_what_another_shape_misses_is_a_systematic_error() -> None:
-    """The simulation is off the shape of the mean field by +-0.02 in alternate bins, 5e-5 as printed."""
+    """The simulation differs from the shape of the mean field by +-0.02 in alternate bins, which is 5e-5 in the printed normalisation."""
 
     def another(run: Run, place: np.ndarray, p: np.ndarray) -> np.ndarray:
         return finite(run, place, p) + run.replicated * 0.02 * np.where(p % 4 == 1, 1, -1)
@@ -100,7 +100,7 @@ def test_a_decade_from_1_on_counts_though_rounding_puts_it_below() -> None:
 
 
 def test_an_exponent_is_called_a_mean_slope_where_the_law_is_rejected() -> None:
-    """Of kappa ~ N with errors of a hundredth, and with one size three times as large."""
+    """In these results kappa ~ N with relative errors of a hundredth; kappa of one size may be three times as large."""
 
     def label(odd: int) -> str:
         given = {
@@ -116,7 +116,7 @@ def test_an_exponent_is_called_a_mean_slope_where_the_law_is_rejected() -> None:
 
 @pytest.mark.parametrize("few", [1, 2])
 def test_an_exponent_takes_two_sizes(few: int) -> None:
-    """So many sizes of ext09 are stationary, besides fig08."""
+    """few: number of stationary sizes of ext09; all sizes of fig08 are stationary."""
 
     def still(run: Run) -> float:
         return float(run.series == "thinning" and run.options["cells"] in (16, 32)[:few])
@@ -165,7 +165,7 @@ def test_whether_a_power_describes_the_height_is_stated(drift: float, begin: str
 
 @pytest.mark.parametrize("known", [0, 1, 2, 5])
 def test_speeds_that_are_stated(known: int) -> None:
-    """The first and the last of those at which there is a moving peak."""
+    """The caveat states the speeds at the first and at the last time with a moving peak."""
     results = Known({"fig09a": with_peaks("peak_speed", slice(2, 2 + known))})
     middle = results.one("fig09a", "rest")["peak_speed"].axes["middle"]
     ends = [f"{500 - k}.00(10) at t = {middle[2 + k]:.3g}" for k in (0, known - 1)]

@@ -1,4 +1,4 @@
-"""The numbers that claims are judged by, on results of known truth (claim_truths*.py).
+"""The numbers of the claims, calculated from results with known true values (claim_truths*.py).
 
 Exact results give the known numbers and systematic errors. Noisy results, drawn TRIALS times with the standard errors that they
 state, give numbers that scatter about them as their own errors predict: chi-square over the trials and their mean, both at the
@@ -21,7 +21,7 @@ from workflow.lib.load import Quantity
 
 TRIALS, LEVEL = 200, 1e-5
 READINGS = ("literal", "intended", "alternative")
-# Errors that are bounds or the larger part of the true one, and how many times too large they may be.
+# Numbers whose errors are upper bounds: part of the label, and largest factor by which the error may be too large.
 BOUNDS = {"Kolmogorov's distance": 1.5, "1 - |deviation at p": 1.1}
 
 
@@ -37,7 +37,7 @@ def numbers(name: str, known: Known) -> list[Number]:
 
 
 def answers(case: Case) -> np.ndarray:
-    """[number, (value, systematic error)]."""
+    """Expected numbers as an array [number, (value, systematic error)]."""
     every = [one for reading in READINGS for one in getattr(case, reading)]
     return np.array([one if isinstance(one, tuple) else (one, 0.0) for one in every])
 
@@ -57,8 +57,8 @@ def test_exact_results_give_the_known_numbers(name: str) -> None:
 
 
 def outside(z: np.ndarray, freedom: np.ndarray, widest: np.ndarray) -> np.ndarray:
-    """Whether the scores [trial, number] contradict a variance of 1, of Student's t of these degrees of freedom, or a mean of 0.
-    widest: how many times too large an error may be."""
+    """Whether the scores [trial, number] contradict Student's t with these degrees of freedom, by their variance or by their mean.
+    widest: largest factor by which an error may be too large."""
     total, stretch = np.sum(z**2, axis=0), freedom / (freedom - 2)
     low, high = chi2.ppf(LEVEL, TRIALS) / widest**2, chi2.isf(LEVEL, TRIALS) * stretch
     return (
@@ -67,7 +67,7 @@ def outside(z: np.ndarray, freedom: np.ndarray, widest: np.ndarray) -> np.ndarra
 
 
 def test_the_order_of_the_heat_peak_scatters_as_its_error_predicts() -> None:
-    """Of the peak alone, as in C30 most of the error is that of the conductivity."""
+    """The peak is tested alone, as most of the error in C30 is that of the conductivity."""
     case, random = CASES["C30"], np.random.default_rng(6)
     draws = [heat_peak(data(case, random))[0] for _ in range(TRIALS)]
     z = np.array([[(one.value - 1.7) / one.error] for one in draws])
@@ -80,16 +80,18 @@ def test_noisy_results_scatter_about_them_as_the_errors_predict(name: str) -> No
     case, random = CASES[name], np.random.default_rng(5)
     draws = [numbers(name, data(case, random)) for _ in range(TRIALS)]
     known = answers(case)[:, 0]
-    measured = [k for k, one in enumerate(draws[0]) if one.error]
-    found = np.array([[(draw[k].value, draw[k].error) for k in measured] for draw in draws])
+    measured = [k for k, label in enumerate(draws[0]) if label.error]
+    trials = np.array([[(draw[k].value, draw[k].error) for k in measured] for draw in draws])
     if not measured:
-        assert name in ("C09", "C33")  # computed without chance
+        assert name in ("C09", "C33")  # these are computed and have no statistical error
         return
-    z = (found[..., 0] - known[measured]) / found[..., 1]
+    z = (trials[..., 0] - known[measured]) / trials[..., 1]
     labels = [draws[0][k].label for k in measured]
     freedom = np.array([min(draws[0][k].freedom, 1e6) for k in measured])
-    freedom[["heat peak" in one for one in labels]] = 31  # of κ_0, whose error is the larger part
-    widest = np.array([next((w for text, w in BOUNDS.items() if text in one), 1) for one in labels])
+    freedom[["heat peak" in label for label in labels]] = (
+        31  # degrees of freedom of κ_0, which has most of the error
+    )
+    widest = np.array([next((w for text, w in BOUNDS.items() if text in label), 1) for label in labels])
     wrong = outside(z, freedom, widest)
     assert not wrong.any(), [labels[k] for k in np.flatnonzero(wrong)]
     for factor, power in ((1.5, 0.95), (2, 1)):
@@ -98,30 +100,33 @@ def test_noisy_results_scatter_about_them_as_the_errors_predict(name: str) -> No
 
 
 def changed(known: Known, path: str) -> Known:
-    """The data with all means of one run changed by about a thousandth, each by another amount."""
+    """The data with all means of one run changed by different relative amounts of about a thousandth."""
     run, random = known.loaded[path], np.random.default_rng(1)
 
-    def other(quantity: Quantity) -> Quantity:
+    def shifted(quantity: Quantity) -> Quantity:
         return replace(quantity, mean=quantity.mean * random.uniform(1.001, 1.002, quantity.mean.shape))
 
-    others = {name: one if name == "stationary" else other(one) for name, one in run.quantities.items()}
-    found = known.anew()
-    found.loaded = known.loaded | {path: replace(run, quantities=others)}
-    return found
+    quantities = {
+        name: quantity if name == "stationary" else shifted(quantity)
+        for name, quantity in run.quantities.items()
+    }
+    data = known.anew()
+    data.loaded = known.loaded | {path: replace(run, quantities=quantities)}
+    return data
 
 
 @pytest.mark.parametrize("name", CASES)
 def test_degrees_of_freedom_are_those_of_the_run_with_the_fewest_replicas(name: str) -> None:
-    """Of the runs whose means change a number. The error of the heat peak follows from the spread over eight runs."""
+    """The runs of a number are those whose means change it. The error of the heat peak follows from the spread over eight runs."""
     known = data(CASES[name])
     plain = numbers(name, known)
     fewest = np.full(len(plain), np.inf)
     for path in list(known.used):
         run = known.loaded[path]
         if "replicas" not in run.parameters:
-            continue  # computed
-        for k, one in enumerate(numbers(name, changed(known, path))):
-            if abs(one.value - plain[k].value) > 1e-9 * abs(plain[k].value):
+            continue  # computed runs have no replicas
+        for k, number in enumerate(numbers(name, changed(known, path))):
+            if abs(number.value - plain[k].value) > 1e-9 * abs(plain[k].value):
                 fewest[k] = min(fewest[k], run.parameters["replicas"] - 1)
-    fewest[["heat peak" in one.label for one in plain]] = 7
-    np.testing.assert_array_equal([one.freedom for one in plain], fewest)
+    fewest[["heat peak" in number.label for number in plain]] = 7
+    np.testing.assert_array_equal([shifted.freedom for shifted in plain], fewest)

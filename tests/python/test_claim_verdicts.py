@@ -1,5 +1,7 @@
-"""Verdicts on results whose truth is known: every claim is reproduced where it holds and contradicted where it does not, open where
-errors are large, and not tested without the runs; and none is wrong more often than the level."""
+"""Verdicts on results with known true values.
+
+Every claim is reproduced where it holds, contradicted where it does not, undecided where errors are large, and not testable without its
+runs. No verdict is wrong more often than the significance level."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -20,49 +22,54 @@ from workflow.lib.plan import Run
 LEVEL = 0.1
 TRIALS = 250
 CLAIMS = {claim["id"]: claim for claim in read_claims(ROOT)}
-COLD, HOT = 900 / 11, 1100 / 9  # the baths
+COLD, HOT = 900 / 11, 1100 / 9  # temperatures of the baths
 
-# Results in a world where a claim holds or fails: by panel, the truth of the quantities that matter.
+# Exact results in which a claim holds or fails: by panel, the true values of the quantities on which the claim depends.
 World = Mapping[str, Truth]
 
 
 def rare(run: Run) -> bool:
-    """gamma = 1."""
+    """Whether the run has gamma = 1, where scattering is rare."""
     return bool(run.options["gamma"] == 1)
 
 
 def law(run: Run) -> float:
+    """Law of the persistence, arccos(sigma)/pi."""
     return float(np.arccos(run.options["sigma"]) / np.pi)
 
 
 def gaussian(temperature: float, factor: float) -> Any:
+    """Gaussian momentum distribution of a temperature, whose integral is `factor`."""
     return lambda _run, _place, p: factor * np.exp(-(p**2) / 2 / temperature) / np.sqrt(2 * np.pi * temperature)  # fmt: skip
 
 
 def equilibrium(temperature: float) -> World:
+    """Ext. 10 in equilibrium at a temperature; that of the baths is 100."""
     return {"ext10": {"flux": gaussian(temperature, 400), "scatterer_density": gaussian(temperature, 1),
                       "square": temperature, "kurtosis": 3, "temperature_scatterer": temperature}}  # fmt: skip
 
 
 def finite(amplitude: float, exponent: float = -1, middle: float = 0, odd: float = 0.2) -> World:
-    """F is Gaussian; F_N deviates by bumps at +-middle of height 400 amplitude N^exponent."""
+    """Inset of fig. 3: F is Gaussian; F_N - F consists of bumps at p = +-middle, of height 400 amplitude N^exponent (1 +- odd)."""
 
     def flux(run: Run, _place: np.ndarray, p: np.ndarray) -> np.ndarray:
         cells = run.options["cells"]
         size = 0 if cells == "continuum" else 400 * amplitude * cells**exponent
         bump = np.exp(-((abs(p) - middle) ** 2) / 50) * (1 + odd * np.sign(p))
-        found: np.ndarray = gaussian(102, 400)(run, _place, p) + size * bump
-        return found
+        values: np.ndarray = gaussian(102, 400)(run, _place, p) + size * bump
+        return values
 
     return {"fig03_inset": {"flux": flux}}
 
 
 def profile(**given: Any) -> World:
+    """Fig. 2 with the given quantities."""
     return {"fig02_upper": given}
 
 
 def straight(steep: float, less: float) -> World:
-    """Temperature difference between the ends over that of the baths, at gamma = N and 1."""
+    """Fig. 2 with linear temperature profiles. Their difference between the ends, over that of the baths, is `steep` at gamma = N and
+    `less` at gamma = 1."""
 
     def temperature(run: Run, cell: np.ndarray) -> np.ndarray:
         return (COLD + HOT) / 2 + (less if rare(run) else steep) * (HOT - COLD) * (cell / 29 - 0.5)
@@ -71,29 +78,31 @@ def straight(steep: float, less: float) -> World:
 
 
 def densities(slope: tuple[float, float], excess: tuple[float, float]) -> World:
-    """At gamma = N and 1."""
+    """Fig. 2 with these density slopes and excesses of the end cells, each at gamma = N and at gamma = 1."""
     return profile(
         density_slope=lambda run: slope[rare(run)], density_excess=lambda run, _: excess[rare(run)]
     )
 
 
 def rates(deviation: float) -> World:
+    """Fig. 2 with rates of 200, and deviations of rates and currents from straight lines or means of this size."""
     names = ("rate_right_deviation", "rate_left_deviation", "particle_current_deviation")
     return profile(rate_right=200, **dict.fromkeys(names, deviation))
 
 
 def jumping(height: float) -> World:
-    """A flux of 10 with a jump of this height at p = 0."""
+    """Fig. 4b with a flux of 10 that increases by `height` at p = 0."""
     return {"fig04b": {"jump": height, "flux": lambda _, place, p: 10 + height * (p > 0)}}
 
 
 def halves(paper: float, exchange: float = 3.07, equal: float = 3.0, jump: float = 4) -> World:
+    """Fig. 3 with these kurtoses of the half fluxes by run, and a jump at p = 0; 3 is that of a Gaussian."""
     kurtosis = {"paper": paper, "exchange": exchange, "equal": equal}
     return {"fig03": {"flux_density": 10, "jump": jump, "kurtosis": lambda run, *_: kurtosis[run.name]}}
 
 
 def chain(plateau: float = 15, slope: float = 15, curvature: float = 0, growth: float = 0) -> World:
-    """growth: power of time with which the plateau grows."""
+    """Fig. 1: plateau of |p| n(p), which grows with the power `growth` of time, and slope and curvature of n(t) against ln t."""
     given = {
         "log_slope": slope,
         "log_curvature": curvature,
@@ -103,27 +112,33 @@ def chain(plateau: float = 15, slope: float = 15, curvature: float = 0, growth: 
 
 
 def fronts(exponent: float, others: float) -> World:
+    """Fig. 1 with these exponents of the front, at the spacing 1/N and at the other spacings."""
     return {"fig01": {"front": lambda _, t: 1 / t,
                       "front_exponent": lambda run: exponent if run.name == "unit-chain" else others}}  # fmt: skip
 
 
 def jumps(deterministic: float, rare_: float) -> World:
+    """Fig. 4 with these jumps at p = 0, at gamma = N and at gamma = 1."""
     return {"fig04a": {"jump": rare_, "flux": 1}, "fig04b": {"jump": deterministic}}
 
 
 def waits(exponent: float, spread: float = 0) -> World:
+    """Fig. 6 with this exponent of waiting times, and its spread over cuts of the tail."""
     return {"fig06": {"exponent": exponent, "exponent_spread": spread}}
 
 
 def waits_aged(exponent: float, aged: float, spread: float = 0) -> World:
+    """As waits(), with another exponent after other relaxation times."""
     return {**waits(exponent, spread), "ext07": {"exponent": aged}}
 
 
 def spreads(panel: str, alpha: float, aged: float) -> World:
+    """Exponent alpha of a panel, and alpha after other relaxation times."""
     return {panel: {"alpha": alpha}, "ext01": {"alpha": aged}}
 
 
 def every_sigma(free: float, zero: float) -> World:
+    """Exponent alpha at every sigma, with random and with zero total momentum."""
     return {"fig07_inset": {"alpha": lambda run: zero if run.options["zero-total-momentum"] else free}}
 
 
@@ -133,8 +148,10 @@ def drop_per_cell(run: Run) -> float:
 
 
 def kappas(deterministic: float, rare_: float, end: float = 0, fixed: float = 1 / 3) -> World:
-    """Powers of N; end: part of kappa by which small chains at gamma = N are off, falling as 1/N. fixed: power at fixed density, in
-    equilibrium and in linear response."""
+    """Conductivities kappa as powers of N.
+
+    deterministic, rare_: exponents at gamma = N and 1. end: at gamma = N kappa contains in addition a factor 1 + end/N. fixed: exponent at
+    fixed density, in equilibrium and in linear response."""
 
     def kappa(run: Run) -> float:
         size = run.options["cells"]
@@ -149,12 +166,13 @@ def kappas(deterministic: float, rare_: float, end: float = 0, fixed: float = 1 
 
 
 def rare_kappas(power: float) -> World:
-    """In fig. 8 only."""
+    """Fig. 8 with this exponent of kappa at gamma = 1, without the other panels of kappas()."""
     return {"fig08": kappas(1, power)["fig08"]}
 
 
 def linear_response(kappa_0: Callable[[int], float]) -> Truth:
-    """Currents between two baths at a small difference of temperature or pressure; the thinning gas has another L_un."""
+    """Currents between baths with a small difference of temperature or pressure. kappa_0: conductivity at J_n = 0 as a function of N.
+    The thinning gas has another coefficient L_un."""
 
     def current(name: str) -> Callable[[Run], float]:
         def of_run(run: Run) -> float:
@@ -174,7 +192,7 @@ def linear_response(kappa_0: Callable[[int], float]) -> Truth:
 
 
 def pulse(panel: str, **given: Any) -> World:
-    """On a ring that has not closed."""
+    """Pulse of a panel in a ring that has not closed, with the given quantities and defaults for all others."""
     shape = {
         "peak": 1,
         "peak_raw": 1,
@@ -185,7 +203,7 @@ def pulse(panel: str, **given: Any) -> World:
 
 
 def ballistic(power: float, long: float) -> World:
-    """Powers of time of the path in the paper's ring and in the long one."""
+    """Position of the peaks as powers of time, in the paper's ring and in the long one."""
     return {
         **pulse("fig09b", peak_position=lambda _, t: 300 * t**power),
         **pulse("ext14", peak_position=lambda _, t: 300 * t**long),
@@ -193,7 +211,7 @@ def ballistic(power: float, long: float) -> World:
 
 
 def damped(panel: str, exponent: float, gaussian: float | None = None, later: float | None = None) -> World:
-    """From the paper's start and the Gaussian one; later: in fits that leave out early times."""
+    """Damping exponents of a panel, from the paper's start and from the Gaussian one. later: exponent of fits that omit early times."""
 
     def of_start(run: Run) -> float:
         return exponent if gaussian is None or run.name != "gaussian" else gaussian
@@ -206,28 +224,30 @@ def damped(panel: str, exponent: float, gaussian: float | None = None, later: fl
 
 
 def shock(exponent: float, sound: float, later: float | None = None) -> World:
-    """Damping of the paper's pulse and of sound."""
+    """Damping exponents of the paper's pulse and of sound in equilibrium. later: exponent for sound in fits that omit early times."""
     return {**damped("fig09a", exponent), **damped("ext14", 2 / 3), "ext03": of_sound(sound, later)}
 
 
 def of_sound(exponent: float, later: float | None = None) -> Truth:
+    """Damping exponent of sound in equilibrium. later: exponent of fits that omit early times."""
     fits = {"damping_exponent": exponent, "damping_exponent_from": exponent if later is None else later}
     return {**fits, "peak": 1}
 
 
 def slowing(power: float) -> World:
-    """Speed of the peaks as a power of time."""
+    """Speed of the peaks as a power of time, for the paper's pulse and for the weak one."""
     speed = {"peak_speed": lambda _, t: 300 * t**power}
     return {**pulse("fig09a", **speed), **pulse("ext14", **speed)}
 
 
 def equilibrium_heat(power: float) -> World:
-    """Exponent of the conductivity that the heat in equilibrium has."""
+    """Ext. 13, where the heat that passes in equilibrium corresponds to this exponent of the conductivity."""
     return {"ext13": {"local_exponent": 1 + power}}
 
 
 def linked(conductivity: float, shift: float = 0, order: float = 5 / 3) -> World:
-    """2 - 1/xi of the pulses is 1/3 and 1, less the shift. order: of the heat peak in equilibrium."""
+    """Pulses for which 2 - 1/xi is 1/3 at gamma = N and 1 at gamma = 1, minus the shift, with conductivities. conductivity: exponent of
+    kappa at gamma = N; order: that of the heat peak in equilibrium."""
     peaks = damped("fig09a", 1 / (5 / 3 + shift)), damped("fig09b", 1 / (1 + shift))
     both = kappas(conductivity, 1)
     equilibrium = {"ext03": {**of_sound(2 / 3), "heat_correlation": heat_peak(order)}, "ext11": both["ext11"]}
@@ -235,8 +255,8 @@ def linked(conductivity: float, shift: float = 0, order: float = 5 / 3) -> World
 
 
 def heat_peak(order: float, narrow: float | None = None) -> Callable[..., np.ndarray]:
-    """A stable law about the central cell, which is about 7 cells wide at t = 256, and has the order `narrow` before; its area differs
-    from run to run. Runs for sound have another shape."""
+    """Heat peak: a stable law about the central cell, about 7 cells wide at t = 256. Earlier peaks have the order `narrow`. The area differs
+    between runs. Runs that are meant for sound have a constant profile."""
 
     def profile(run: Run, t: np.ndarray, _cell: np.ndarray) -> np.ndarray:
         if not run.series.startswith("heat"):
@@ -249,6 +269,7 @@ def heat_peak(order: float, narrow: float | None = None) -> Callable[..., np.nda
 
 @cache
 def stable_peaks(times: str, cells: int, order: float, narrow: float) -> np.ndarray:
+    """Profiles of heat_peak() of unit area [time, cell]."""
     t, cell = np.meshgrid(np.array(times.split(","), float), np.arange(cells), indexing="ij")
     width = 0.25 * t**0.6
     densities = stable_densities().ev(abs(cell - cells // 2) / width, np.where(t < 200, narrow, order))
@@ -256,8 +277,10 @@ def stable_peaks(times: str, cells: int, order: float, narrow: float) -> np.ndar
 
 
 def ageing(power: float, last: float = 1, few: float = 0) -> World:
-    """The slope against ln t grows as a power of t, but for the last decade; few: what that is in the chain of few particles, whose
-    slope before t = 1 is 100 times as large."""
+    """Ext. 7: slope of the energy against ln t by decade, as a power of t.
+
+    In the last decade it contains a factor `last`, or `few` in the chain of few particles. In that chain the slope before t = 1 is 100
+    times as large."""
 
     def slope(run: Run, t: np.ndarray) -> np.ndarray:
         end = few if run.name == "few" else last
@@ -268,16 +291,18 @@ def ageing(power: float, last: float = 1, few: float = 0) -> World:
 
 
 def excess(power: float) -> World:
-    """Excess of the end cells against ln N."""
+    """Excess density of the end cells as 1 + power ln N."""
     both = {"density_excess": lambda run, _: 1 + power * np.log(run.options["cells"])}
     return {"ext05": both, "fig02_upper": both}
 
 
 def persistent(shift: float, limits: float = 0) -> World:
+    """Fig. 5: persistence minus its law, for |sigma| < 1 and at sigma = -1 and 1."""
     return {"fig05": {"mu": lambda run: law(run) + (shift if abs(run.options["sigma"]) < 1 else limits)}}
 
 
 def drift(size: float) -> World:
+    """Relative change of the total momentum over a run."""
     return {"fig07_inset": {"momentum_drift": size}}
 
 
@@ -365,7 +390,7 @@ def test_large_errors_show_nothing(claim: str) -> None:
 
 @pytest.mark.parametrize("claim", CLAIMS)
 def test_no_claim_is_judged_without_its_runs(claim: str) -> None:
-    """Exception: ext09, each series of which adds a number to the alternative reading of C24."""
+    """An exception is ext09, each series of which adds a number to the alternative reading of C24."""
     world = HOLDING[claim]
     for panel in world.keys() - {"ext09"}:
         rest = {name: given for name, given in world.items() if name != panel}
@@ -391,7 +416,7 @@ def test_runs_that_did_not_reach_their_target_are_reported() -> None:
     ]
 
 
-# The truth is on the edge of the band; by the claim, with the relative error of the results.
+# Claims with results whose true value is on the edge of the band, and the relative error of the results.
 EDGES: list[tuple[str, World, float]] = [
     ("C01", {"fig01": {"plateau": lambda _, t: 15 * 1.1 ** np.searchsorted([200, 600, 1000, 1400, 1800], t)}}, 0.02),
     ("C02", chain(plateau=12), 0.02),
@@ -413,7 +438,8 @@ EDGES: list[tuple[str, World, float]] = [
 def test_wrong_verdicts_are_no_more_frequent_than_the_level(
     claim: str, world: World, relative: float
 ) -> None:
-    """On the edge both are wrong, reproduced and contradicted. Finds: half the error, which makes them several times as many."""
+    """If the true value is on the edge of the band, both verdicts, reproduced and contradicted, are wrong. Detected mistake: errors are
+    half as large, which makes wrong verdicts several times as frequent."""
     random = np.random.default_rng(3)
     outcomes = []
     for _ in range(TRIALS):

@@ -107,15 +107,15 @@ def test_damaged_results_are_missing(tmp_path: Path) -> None:
 
 
 def test_errors_of_ratios_and_sums() -> None:
-    one, other = Number("", 4.0, 0.3, 7, 0.1), Number("", 2.0, 0.2, 9, 0.0)
-    found = ratio(one, other, "r")
-    assert (found.value, found.freedom) == (2, 7)
-    assert found.error == pytest.approx(2 * (0.075**2 + 0.1**2) ** 0.5)
-    assert found.systematic == pytest.approx(0.05)
+    first, second = Number("", 4.0, 0.3, 7, 0.1), Number("", 2.0, 0.2, 9, 0.0)
+    result = ratio(first, second, "r")
+    assert (result.value, result.freedom) == (2, 7)
+    assert result.error == pytest.approx(2 * (0.075**2 + 0.1**2) ** 0.5)
+    assert result.systematic == pytest.approx(0.05)
     vanishing = ratio(Number("", 0.0, 0.3, 5, 0.1), Number("", -2.0, 0.5, 4, 0.2), "r")
     assert (vanishing.value, vanishing.error, vanishing.systematic, vanishing.freedom) == (0, 0.15, 0.05, 4)
-    total = combination([one, other], [1, -2], "d", 1)
+    total = combination([first, second], [1, -2], "d", 1)
     assert (total.value, total.freedom, total.systematic) == (-1, 7, 0.1)
     assert total.error == pytest.approx(0.5)
-    scaled = one.over(-2, 1)
+    scaled = first.over(-2, 1)
     assert (scaled.value, scaled.error, scaled.systematic) == (-3, 0.15, 0.05)

@@ -1,4 +1,4 @@
-"""Collision rules of the programs: what is exact for them, and what they refuse."""
+"""Collision rules of the programs: exact results, and combinations of options that are refused."""
 
 import importlib
 
@@ -16,14 +16,15 @@ RANDOM = {"rule": "random-direction"}
 
 
 def score(quantity: Quantity, expected: float | np.ndarray) -> float:
-    """The largest."""
+    """Largest absolute z-score of the elements."""
     return float(np.abs((quantity.mean - expected) / quantity.standard_error).max())
 
 
 @pytest.mark.parametrize(("cells", "gamma"), [(1, "N"), (5, "N"), (5, 2), (12, 3)])
 def test_currents_of_independent_walkers(measure: Measure, cells: int, gamma: float | str) -> None:
     """Scatterers without mass keep the speed. A scatterer reflects with the probability r = q/2, and a row of N transmits
-    1/(1 + N r/(1 - r)). Slow particles, which are still inside, carry little energy. Finds: three scatterers more."""
+    1/(1 + N r/(1 - r)). Slow particles, which are still inside, carry little energy. Detected mistake:
+    the chain has three more scatterers."""
     chain = {"cells": cells, "gamma": gamma, "sigma": -1, "relaxation_time": 50, "observation_time": 400}
     result = measure("conductivity", **chain, **UNEQUAL, **RANDOM, replicas=200)
     reflected = 0.5 if gamma == "N" else float(gamma) / cells / 2
@@ -39,7 +40,8 @@ def test_currents_of_independent_walkers(measure: Measure, cells: int, gamma: fl
 
 @pytest.mark.parametrize("gamma", ["N", 3])
 def test_equilibrium_with_random_directions(measure: Measure, gamma: float | str) -> None:
-    """Temperatures of scatterers and particles are those of the baths, and no current flows [eq. 8]. Finds: by 2 %."""
+    """Temperatures of scatterers and particles are those of the baths, and no current flows [eq. 8]. Detected mistake: temperatures
+    that are 2 % too high."""
     times = {"relaxation_time": 20, "observation_time": 100}
     result = measure(
         "steady_profile", cells=8, gamma=gamma, sigma=0.3, **times, **EQUAL, **RANDOM, replicas=64
@@ -52,7 +54,7 @@ def test_equilibrium_with_random_directions(measure: Measure, gamma: float | str
 
 
 def test_heat_conductivity_grows_only_where_momentum_is_conserved(measure: Measure) -> None:
-    """At fixed spacing and equal pressures."""
+    """The spacing is fixed and both baths have the same pressure."""
 
     def kappa(cells: int, rule: str) -> tuple[float, float]:
         chain = {"cells": cells, "cell_length": 0.1, "rule": rule, **SAME_PRESSURE}

@@ -1,4 +1,4 @@
-"""What the configuration refuses: one line per error, with file, line, column, key, problem and remedy."""
+"""Mistakes in the configuration are reported in one line each, with file, line, column, key, problem and remedy."""
 
 import math
 import re
@@ -24,7 +24,7 @@ def refusal(folder: Path) -> list[str]:
 
 
 FIG05 = "panels.fig05.common"
-CELLS = "      cells: 11\n"  # of fig05, the first panel that has it
+CELLS = "      cells: 11\n"  # in fig05, the first panel with this line
 PAPER = [
     (CELLS, "      cells: 0\n", f"7: {FIG05}.cells: 0 is invalid; allowed: integer at least 1 and at most 1"),
     (CELLS, "      cells: true\n", f"{FIG05}.cells: true is invalid; allowed: integer"),
@@ -96,7 +96,7 @@ def test_a_mistake_is_reported_in_one_line(folder: Path, file: str, old: str, ne
 
 
 def test_the_position_of_a_mistake_and_the_order_of_two(folder: Path) -> None:
-    """A mapping that others merge is reported once, where it is."""
+    """A mistake in a mapping that others merge is reported once, at the position of this mapping."""
     (folder / "paper.yaml").write_text(
         "panels:\n  a:\n    program: persistence\n    common: &shared {cells: 1,\n      sigma: 2}\n"
         "    series:\n      x: {<<: *shared}\n      y: {gamma: 0, <<: *shared}\n"

@@ -18,25 +18,25 @@ FIELDS = ("momentum", "heat")
 CELLS, ZETA, T, SIGMA = 25, 1.5, 4.0, 0.5
 MASS = (1 + SIGMA) / (1 - SIGMA)
 CHAIN = {"cells": CELLS, "fugacity": ZETA, "temperature": T, "sigma": SIGMA}
-VARIANCE = T * (2 * ZETA + MASS)  # of the total momentum, per cell
-OBSERVED = 8  # time
-SLOWEST = 0.01 / OBSERVED  # of the particles at the start
+VARIANCE = T * (2 * ZETA + MASS)  # variance of the total momentum per cell
+OBSERVED = 8  # observation time
+SLOWEST = 0.01 / OBSERVED  # speed of the slowest particles at the start
 
 
 @pytest.fixture
 def correlation(measure: Measure) -> Measure:
-    # 4: without a moving peak.
+    # The exit status is 4 if no moving peak is found.
     return lambda **options: measure("correlation", allowed=(0, 4), **CHAIN | options)
 
 
 def overlap(shift: float, distance: int) -> float:
-    """Probability that a particle that begins anywhere in a cell and moves by `shift` cells ends that many cells on."""
+    """Probability that a particle with a uniform position in a cell, which moves by `shift` cells, ends in the cell at `distance`."""
     turns = distance + CELLS * np.arange(-3, 4)
     return float(np.maximum(0, 1 - np.abs(shift - turns)).sum())
 
 
 def free_flight(power: int, distance: int, time: float) -> float:
-    """Mean number of particles per cell that arrive, with the weight |p|^power; to the right and to the left."""
+    """Mean of |p|^power, summed over the particles of a cell that are at +-distance after the time."""
 
     def integrand(shift: float) -> float:
         p = shift / time
@@ -48,7 +48,7 @@ def free_flight(power: int, distance: int, time: float) -> float:
 
 
 def of_free_flight(time: float) -> dict[str, np.ndarray]:
-    """Scatterers without mass: their energies stay, their momenta vanish."""
+    """Exact correlations by field for scatterers without mass: their energies stay constant, their momenta vanish."""
     distances = range(CELLS // 2 + 1)
     momentum = np.array([free_flight(2, r, time) for r in distances])
     heat = np.array([free_flight(4, r, time) for r in distances]) / 4 / (2 * ZETA) ** 2
@@ -59,25 +59,25 @@ def of_free_flight(time: float) -> dict[str, np.ndarray]:
 def scores(
     result: Result, index: int, expected: dict[str, np.ndarray], errors: dict[str, np.ndarray] | None = None
 ) -> dict[str, np.ndarray]:
-    """z of every field up to half the ring; the other half is the same."""
+    """z-scores of every field up to half the ring; the other half is equal by symmetry."""
     half = CELLS // 2 + 1
-    found = {}
+    by_field = {}
     for name in FIELDS:
         quantity = result[f"{name}_correlation"]
         error = quantity.standard_error[index, CELLS // 2 :]
         if errors:
             error = np.hypot(error, errors[name][:half])
-        found[name] = (quantity.mean[index, CELLS // 2 :] - expected[name][:half]) / error
-    return found
+        by_field[name] = (quantity.mean[index, CELLS // 2 :] - expected[name][:half]) / error
+    return by_field
 
 
 def accepted(z: np.ndarray) -> bool:
-    """Distances may be correlated, so only the largest score and a generous sum count."""
+    """Whether the scores agree with 0. As distances may be correlated, only their maximum and, with a wide margin, their sum are tested."""
     return bool(np.abs(z).max() < 4.2 and np.sum(z**2) < 2 * chi2.ppf(1 - 1e-4, len(z)))
 
 
 def test_free_flight(correlation: Measure) -> None:
-    """Finds: another time."""
+    """The correlations of massless scatterers are exact. Detected mistake: they are measured at another time."""
     result = correlation(sigma=-1, observation_time=OBSERVED, times="0.5,2", replicas=400)
     for index, time in enumerate((0.5, 2.0)):
         for name, z in scores(result, index, of_free_flight(time)).items():
@@ -87,33 +87,33 @@ def test_free_flight(correlation: Measure) -> None:
 
 @cache
 def reference(lag: float, replicas: int) -> dict[str, np.ndarray]:
-    """By field: [replica, distance]."""
+    """Correlations of the reference simulator by field [replica, distance]."""
     gas = {"cells": CELLS, "fugacity": ZETA, "sigma": SIGMA, "temperature": T, "slowest": SLOWEST}
     rows, _ = simulate("correlation", **gas, lag=lag, replicas=replicas, seed=1)
     sample = rows.astype(float).reshape(replicas, len(FIELDS), CELLS)
-    # Both signs of r are the same in the mean.
+    # The expectation does not depend on the sign of r.
     sample = 0.5 * (sample + np.roll(sample[:, :, ::-1], 1, axis=2))
     return {name: sample[:, k] for k, name in enumerate(FIELDS)}
 
 
 @pytest.mark.parametrize("lag", [0.6, 3.0])
 def test_against_the_reference(correlation: Measure, lag: float) -> None:
-    """Finds: heavier scatterers."""
+    """The correlations agree with the reference simulator. Detected mistake: the scatterers are heavier."""
     sample = reference(lag, 4000)
-    expected = {name: each.mean(axis=0) for name, each in sample.items()}
-    errors = {name: each.std(axis=0, ddof=1) / np.sqrt(len(each)) for name, each in sample.items()}
+    expected = {name: values.mean(axis=0) for name, values in sample.items()}
+    errors = {name: values.std(axis=0, ddof=1) / np.sqrt(len(values)) for name, values in sample.items()}
     run = {"observation_time": OBSERVED, "times": f"{lag / 2},{lag}", "replicas": 1000}
     z = scores(correlation(**run), 1, expected, errors)
-    assert all(accepted(one) for one in z.values()), z
+    assert all(accepted(score) for score in z.values()), z
     heavier = scores(correlation(**run, sigma=0.6), 1, expected, errors)
-    assert not all(accepted(one) for one in heavier.values())
+    assert not all(accepted(score) for score in heavier.values())
 
 
 def test_the_sum_over_the_ring_is_known(correlation: Measure) -> None:
     """The variance of the total momentum over the number of cells, exact in every run."""
     result = correlation(observation_time=OBSERVED, times="1,2,4", replicas=3)
     sums = result["momentum_correlation"].mean.sum(axis=1)
-    np.testing.assert_allclose(sums, VARIANCE, rtol=1e-4)  # but for the cut, 2e-5
+    np.testing.assert_allclose(sums, VARIANCE, rtol=1e-4)  # the cut at small momenta changes it by 2e-5
     assert result["momentum_drift"].mean < 1e-12
 
 
@@ -123,14 +123,14 @@ def ratios(quantity: Quantity, index: int, expected: float) -> tuple[float, floa
 
 
 def test_sound_has_the_speed_and_the_area_of_the_theory(correlation: Measure) -> None:
-    """At ζ = 0.8 and M = 1/3, where the peak settles first: within 3 %, the tail that mode coupling predicts besides, and four
-    standard errors. Finds: heavier scatterers, fewer particles."""
+    """ζ = 0.8 and M = 1/3, where the peak approaches its asymptotic shape first. Allowed are 3 %, the predicted contribution of the tail,
+    and four standard errors. Detected mistakes: heavier scatterers; fewer particles."""
     gas = {"sigma": -0.5, "fugacity": 0.8, "temperature": 1}
     ring = {"cells": 216, "observation_time": 512, "times": "16,32,64", "replicas": 300}
     result = correlation(**gas | ring)
 
     def off(chain: Chain) -> list[float]:
-        """Deviations in units of what is allowed."""
+        """Deviations in units of the allowed ones."""
         found = [
             ratios(result["sound_speed"], 1, chain.sound_speed),
             ratios(result["peak_area"], 2, chain.peak_area),

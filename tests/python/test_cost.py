@@ -21,7 +21,7 @@ from workflow.cluster.cost import (
 )
 from workflow.lib.plan import QUALITIES, Panel, Run, load_plan
 
-TOLERANCE = 1.5  # of an estimate, over sizes, replicas and windows
+TOLERANCE = 1.5  # allowed ratio of an estimated to a measured time, over sizes, replicas and windows
 # CPU seconds of whole runs of quality standard, on the machine of the table.
 EXECUTED = {
     "fig05": {"dense_sigma=0.75": 0.531, "paper_sigma=0.5": 0.210},
@@ -43,7 +43,7 @@ def test_estimates_against_executions(panel: str) -> None:
 
 @pytest.mark.parametrize("quality", QUALITIES)
 def test_runs_of_the_table_have_estimates(quality: str) -> None:
-    """Panels of the user need not be in it."""
+    """Panels that are not in the table, such as those of a user, are ignored."""
     listed = {panel for panel, _ in cost._table()}
     runs = [(name, run) for name, panel in load_plan(quality).items() if name in listed for run in panel.runs]
     assert len(listed) > 20
@@ -51,7 +51,7 @@ def test_runs_of_the_table_have_estimates(quality: str) -> None:
 
 
 def test_every_sampled_run_of_the_table_has_an_error() -> None:
-    """An error that ERROR needs: of the default quality."""
+    """The option ERROR needs the errors of the runs of the default quality."""
     listed = {panel for panel, _ in cost._table()}
     runs = [
         (name, run)
@@ -90,7 +90,7 @@ def test_a_pilot_of_two_replicas() -> None:
 
 
 def test_an_unknown_series(monkeypatch: pytest.MonkeyPatch) -> None:
-    """An execution at another quality is scaled by effort."""
+    """The time of a series without a row in the table is scaled by effort from an execution at another quality."""
     run = load_plan("standard")["fig07"].runs[0]
     mine = replace(run, series="mine")
     assert estimated_seconds("fig07", mine) is None
@@ -152,7 +152,7 @@ def test_every_replica_is_in_one_part_and_batches_are_full(quality: str, batch: 
     assert division.keys() == runs.keys()
     for name, parts in division.items():
         assert [parts[0].first, parts[-1].last] == [0, runs[name].options["replicas"] - 1]
-        assert all(one.last + 1 == other.first for one, other in itertools.pairwise(parts))
+        assert all(part.last + 1 == following.first for part, following in itertools.pairwise(parts))
         sizes = [part.last - part.first + 1 for part in parts]
         assert max(sizes) - min(sizes) <= 1
         assert max(sizes) == 1 or parts[0].seconds <= batch + OVERHEAD

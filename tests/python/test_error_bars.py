@@ -56,7 +56,7 @@ CASES: dict[str, list[tuple[str, dict]]] = {
 
 @pytest.mark.parametrize("name", with_option("replicas"))
 def test_standard_error_over_seeds(measure: Measure, name: str) -> None:
-    """Of an array, its last element."""
+    """Of an array the last element is tested."""
     for quantity, options in CASES[name]:
         check_standard_error(measure, name, quantity, options)
 
@@ -68,7 +68,7 @@ def check_standard_error(measure: Measure, name: str, quantity: str, options: di
         estimates.append((result.mean.flat[-1], result.standard_error.flat[-1]))
     values, errors = np.array(estimates).T
     assert accepted(chi_square(values, errors))
-    # The standard deviation of one replica instead of the mean, and errors wrong by a factor of two, are found.
+    # Detected mistakes: the standard deviation of one replica instead of the mean; errors that are wrong by a factor of two.
     for factor in (np.sqrt(REPLICAS), 2, 0.5):
         assert not accepted(chi_square(values, factor * errors))
 
@@ -87,20 +87,20 @@ def check_standard_error(measure: Measure, name: str, quantity: str, options: di
 def test_standard_error_over_seeds_where_a_target_ends_the_run(
     program: Program, tmp_path: Path, name: str, quantity: str, options: dict
 ) -> None:
-    """The smallest batches that have an error. tests/cpp/program/stopping_rule_test.cpp measures the effect of the
+    """Runs with the smallest batches that have an error. tests/cpp/program/stopping_rule_test.cpp measures the effect of the
     rule on means and errors; this test covers programs, with control variates where they have some."""
-    found, predicted = [], []
+    estimates, predicted = [], []
     for seed in range(SEEDS):
         done = program(name, seed=seed, replicas=2, progress="log", **options)
         assert done.returncode == 0
         result = load(tmp_path / "out.h5")[quantity]
-        found.append((float(result.mean), float(result.standard_error), int(result.count)))
+        estimates.append((float(result.mean), float(result.standard_error), int(result.count)))
         predicted.append([int(bound) for bound in PREDICTION.search(done.stderr).groups()])
-    values, errors, counts = np.array(found).T
+    values, errors, counts = np.array(estimates).T
     least, most = np.array(predicted).T
     as_predicted = np.count_nonzero((least <= counts) & (counts <= most))
     assert binom.cdf(as_predicted, SEEDS, 0.95) > 5e-4
-    # Finds: the middle of the range, with half the spacing of the looks, an eighth, on either side.
+    # Detected mistake: the range is only the middle of the predicted one, plus and minus 1/16, half of the distance between looks.
     middle = np.sqrt(least * most)
     assert binom.cdf(np.count_nonzero(abs(counts - middle) < middle / 16), SEEDS, 0.95) < 5e-4
     assert (errors <= options["target_error"] * abs(values)).all()

@@ -9,8 +9,8 @@ from workflow.lib.plan import Run
 
 
 def test_laws_are_horizontal_and_the_runs_are_those_of_one_start() -> None:
-    """Height as t^(-2/3) and position as in free flight, but 0.5 % a unit of ln t off for the other start, and the first time without
-    a peak. Finds: another power; the first run of fig. 9; another speed."""
+    """The height falls as t^(-2/3) and the position is that of free flight. For the other start both deviate by 0.5 % per unit of ln t.
+    At the first time there is no peak. Detected mistakes: another power; the run of fig. 9 with the other start; another speed."""
 
     def fill(run: Run) -> dict[str, Quantity]:
         time = axes(run)["time"]
@@ -25,7 +25,7 @@ def test_laws_are_horizontal_and_the_runs_are_those_of_one_start() -> None:
         return uneven(run) | {name: quantity(run, name, law, 0.01 * law) for name, law in laws.items()}
 
     data = Known(dict.fromkeys(("fig09a", "fig09b", "ext14"), fill))
-    _, table, caption = draw([one for panel in ("fig09b", "ext14", "fig09a") for one in data.of(panel)])
+    _, table, caption = draw([result for panel in ("fig09b", "ext14", "fig09a") for result in data.of(panel)])
     np.testing.assert_allclose(table.relative, 1)
     np.testing.assert_allclose(table.relative_error, 0.01)
     assert [*table.groupby("quantity").cells.unique()["peak_position"]] == [101, 1001]

@@ -43,9 +43,9 @@ def execute(name: str, options: dict[str, object]) -> tuple[int, str, Result | N
         return done.returncode, done.stderr, load(output) if output.exists() else None
 
 
-# NaN if there is nothing to measure, as documented in docs/format.md.
+# Quantities that are NaN if there is nothing to measure (docs/format.md).
 MAY_BE_NAN = {
-    "current_correlation",  # of currents that do not vary
+    "current_correlation",  # NaN if the currents do not vary
     "alpha_relative", "alpha_difference", "density_slope", "density_excess", "temperature_difference",
     "rate_right_deviation", "rate_left_deviation", "drift_p_value", "exponent_by_cut", "exponent_spread", "front", "front_exponent", "kurtosis", "local_slope",
     "logarithmic_power", "momentum_drift", "plateau", "square", "temperature_particle", "peak", "peak_position",
@@ -64,11 +64,11 @@ def check_physics(result: Result) -> None:
             and not name.startswith("kappa")
         ):
             assert not np.isnan(quantity.mean).any(), name
-        known = quantity.mean[np.isfinite(quantity.mean)]
+        finite = quantity.mean[np.isfinite(quantity.mean)]
         positive = name.startswith(("temperature", "rate", "density", "weighted", "variance"))
         signed = name.endswith(("_drift", "_difference", "_deviation", "_slope", "_excess"))
         if (positive or name.endswith(("particle_energy", "scatterer_energy"))) and not signed:
-            assert (known >= -1e-9 * np.abs(known).max(initial=0)).all(), name
+            assert (finite >= -1e-9 * np.abs(finite).max(initial=0)).all(), name
     drift = result.quantities.get("energy_drift")
     if drift is not None:
         # Worst case: every collision has 14 rounding errors of a velocity, all of the same sign.
@@ -145,7 +145,7 @@ def test_baths_are_a_matter_of_units(k: int, sigma: float) -> None:
 
 @pytest.mark.parametrize("sign", [1, -1])
 def test_scatterers_close_to_sigma_1_gain_in_proportion(sign: int) -> None:
-    """From rest, an energy in proportion to 1 - sigma^2 to first order."""
+    """A scatterer at rest gains an energy that is proportional to 1 - sigma^2 to first order."""
 
     def gain(k: int) -> float:
         sigma = sign * (1 - 10.0**-k)

@@ -25,35 +25,38 @@ from mpmath.calculus.quadrature import GaussLegendre
 from tests.python.conftest import ROOT
 
 DIGITS = 150
-FIRST, LAST = -11, 40  # range of x; exp(-FIRST^3/12) and what is beyond LAST are below 1e-40 for w <= END
-ORDER = 70  # of Taylor series in x, in steps of 1
-DEGREE = 4  # of Gauss's rule in a step: 24 nodes
-END = 4  # of the table, in w
+FIRST, LAST = -11, 40  # range of x; the contributions from outside are below 1e-40 for w <= END
+ORDER = 70  # order of the Taylor series in x, which are used over steps of 1
+DEGREE = 4  # mpmath's degree of the Gauss-Legendre rule in a step, which has 24 nodes
+END = 4  # largest w of the table
 NEGLIGIBLE = mpf(10) ** -40
 
 Series = list[mpf]
 
 
 class Node(NamedTuple):
-    """Of the integral over x."""
+    """Node of the quadrature over x in V(w), with the functions in the integrand at x."""
 
     x: mpf
     weight: mpf
     u: mpf
-    slope: mpf  # u'
+    slope: mpf  # du/dx
     tail: mpf  # int_x^inf u
     h: mpf  # H(x)
 
 
 def product(a: Series, b: Series) -> Series:
+    """Product of two power series, to the lower order of both."""
     return [sum((a[j] * b[n - j] for j in range(n + 1)), mpf(0)) for n in range(min(len(a), len(b)))]
 
 
 def integral(a: Series, value: mpf) -> Series:
+    """Integral of a power series, with this value at 0."""
     return [value] + [term / (n + 1) for n, term in enumerate(a)]
 
 
 def at(series: Series, x: mpf) -> mpf:
+    """Value of a power series."""
     return polyval(series[::-1], x)
 
 
@@ -69,7 +72,7 @@ def painleve(s: mpf, u: mpf, derivative: mpf) -> Series:
 
 
 def nodes() -> Iterator[Node]:
-    """From LAST down to FIRST."""
+    """Nodes from x = LAST down to FIRST: Taylor series of all functions are continued from step to step."""
     rule = GaussLegendre(mp).calc_nodes(DEGREE, mp.prec)
     s = mpf(LAST)
     u, derivative = -airyai(s), -airyai(s, derivative=1)
@@ -97,7 +100,7 @@ def nodes() -> Iterator[Node]:
 
 
 def in_powers_of_w(node: Node) -> tuple[Series, Series]:
-    """a(x, w) and b(x, w)."""
+    """Coefficients of the power series of a(x, w) and b(x, w) in w."""
     x, u, slope = node.x, node.u, node.slope
     a, b = [exp(node.tail)], [-exp(node.tail)]
     n = 0
@@ -119,7 +122,8 @@ def with_derivatives(a: mpf, b: mpf, w: mpf, node: Node) -> tuple[mpf, mpf, mpf]
 
 
 def f_kpz(positions: np.ndarray) -> np.ndarray:
-    exact = [mpf(round(20 * w)) / 20 for w in positions]  # the table's steps are of 1/20
+    """f_KPZ at positions w that are multiples of 1/20."""
+    exact = [mpf(round(20 * w)) / 20 for w in positions]  # the steps of the table are 1/20
     sums = [mpf(0)] * len(exact)
     for node in nodes():
         of_a, of_b = in_powers_of_w(node)

@@ -145,11 +145,11 @@ def test_imports_are_followed() -> None:
 def test_a_record_is_whole_if_its_files_are_as_stated(tmp_path: Path) -> None:
     stem = tmp_path / "fig05"
     write_with_record(stem, "0" * 12, {stem.with_suffix(".csv"): b"1"}, {})
-    other = tmp_path / "fig05_inset.000000000000.json"  # of another panel
-    other.write_text("{}")
+    foreign = tmp_path / "fig05_inset.000000000000.json"  # record of another panel
+    foreign.write_text("{}")
     write_with_record(stem, "1" * 12, {stem.with_suffix(".csv"): b"2"}, {})
     assert records_of(stem) == [record_path(stem, "1" * 12)]
-    assert other.exists()
+    assert foreign.exists()
     assert is_whole(record_path(stem, "1" * 12))
     stem.with_suffix(".csv").write_bytes(b"3")
     assert not is_whole(record_path(stem, "1" * 12))
@@ -165,13 +165,13 @@ CLOSURE = {
     "workflow/figures/pages/a.txt": "a",
     "workflow/config/units.json": "{}",
     "workflow/lib/fit.py": "from workflow.lib import growth\n",
-    "workflow/lib/growth.py": "'figures'\n",  # of another folder
+    "workflow/lib/growth.py": "'figures'\n",  # a literal that names a folder, but not one beside the module
     "workflow/figures/unused.py": "",
 }
 
 
 def test_the_closure_of_a_script(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Relative imports, files that a literal names, and folders; not what nothing names."""
+    """The closure includes relative imports, and files and folders that a literal names; it excludes all other files."""
     for path, text in CLOSURE.items():
         (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / path).write_text(text)

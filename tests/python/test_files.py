@@ -11,8 +11,8 @@ from workflow.lib.files import in_one_line, write_together
 
 
 def test_a_failure_leaves_the_previous_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    one, other = tmp_path / "one", tmp_path / "other"
-    write_together({one: b"1", other: b"2"})
+    first, second = tmp_path / "one", tmp_path / "other"
+    write_together({first: b"1", second: b"2"})
     write = Path.write_bytes
 
     def full(path: Path, content: bytes) -> int:
@@ -22,8 +22,8 @@ def test_a_failure_leaves_the_previous_files(tmp_path: Path, monkeypatch: pytest
 
     monkeypatch.setattr(Path, "write_bytes", full)
     with pytest.raises(OSError, match="No space left") as error:
-        write_together({one: b"3", other: b"4"})
-    assert in_one_line(error.value) == f"{other}.{os.getpid()}.tmp: No space left on device"
+        write_together({first: b"3", second: b"4"})
+    assert in_one_line(error.value) == f"{second}.{os.getpid()}.tmp: No space left on device"
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == {"one": b"1", "other": b"2"}
 
 

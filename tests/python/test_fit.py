@@ -27,7 +27,9 @@ def test_error_and_goodness_over_samples() -> None:
         chi_squares.append(law.chi_square)
     low, high = chi2.ppf([5e-4, 1 - 5e-4], 400)
     assert low < np.sum(np.square(pulls)) < high
-    assert not low < np.sum(np.square(pulls)) * 1.5**2 < high  # finds: errors too small
+    assert (
+        not low < np.sum(np.square(pulls)) * 1.5**2 < high
+    )  # detected mistake: errors that are 1.5 times too small
     low, high = chi2.ppf([5e-4, 1 - 5e-4], 400 * 3)
     assert low < np.sum(chi_squares) < high
 

@@ -46,7 +46,7 @@ def scalar(value: Any) -> dict[str, Any]:
     if array.shape:
         return {"dtype": f"array of {type_name(array.dtype)}"}
     plain = array[()].decode() if array.dtype.kind == "S" else array.item()
-    is_text = isinstance(plain, float) and not math.isfinite(plain)  # JSON has no nan and no inf
+    is_text = isinstance(plain, float) and not math.isfinite(plain)  # JSON has neither nan nor inf
     return {"dtype": type_name(array.dtype), "value": str(plain) if is_text else plain}
 
 
@@ -126,7 +126,7 @@ def test_files_have_the_format_and_the_same_bytes_for_any_threads(
 
 @pytest.fixture(scope="module")
 def result(tmp_path_factory: pytest.TempPathFactory) -> bytes:
-    """With a scalar quantity and one with an axis."""
+    """Content of a result file with a scalar quantity and one with an axis."""
     path = tmp_path_factory.mktemp("result") / "out.h5"
     subprocess.run(command_line("waiting_time", {"output": path, "target-error": 100}), check=True)
     return path.read_bytes()

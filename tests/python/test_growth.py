@@ -37,7 +37,7 @@ def test_a_parameter_has_to_lower_chi_square_by_two() -> None:
 
 
 def test_exponent_and_its_error() -> None:
-    """Finds: an error that ignores the factor, which is fitted too."""
+    """Detected mistake: the error ignores that the amplitude is fitted too."""
     scores = []
     for seed in range(300):
         power = fits(SIZES, *noisy(TRUTH[POWER], 0.01, seed), first=16)[-1]
@@ -47,7 +47,7 @@ def test_exponent_and_its_error() -> None:
     power = fits(SIZES, TRUTH[POWER], 0.01 * TRUTH[POWER], first=16)[-1]
     spread = np.sum(
         (np.log(SIZES) - np.log(SIZES).mean()) ** 2
-    )  # of a line through logarithms of equal errors
+    )  # slope of a line through logarithms with equal errors
     assert power.exponent_error == pytest.approx(0.01 / np.sqrt(spread), rel=1e-3)
 
 
@@ -59,12 +59,13 @@ def test_sizes_from_the_first_on_and_never_fewer_than_three() -> None:
 
 
 def test_widest_range_of_a_law() -> None:
-    """Without the two smallest sizes, which are far off; no range if only three sizes, or only another law, agree."""
+    """The range excludes the two smallest sizes, which are far from the law. There is none if only three sizes
+    agree, or only another law does."""
     values, error = TRUTH["N^(1/3)"].copy(), np.full(len(SIZES), 0.1)
     values[:2] += 50
-    found = widest(SIZES, values, error, "N^(1/3)", 0.01)
-    assert found is not None
-    assert (found.law, found.first, found.freedom) == ("N^(1/3)", 64, 4)
+    growth = widest(SIZES, values, error, "N^(1/3)", 0.01)
+    assert growth is not None
+    assert (growth.law, growth.first, growth.freedom) == ("N^(1/3)", 64, 4)
     values[-4] += 50
     assert widest(SIZES, values, error, "N^(1/3)", 0.01) is None
     assert widest(SIZES, TRUTH["logarithm"], error, "N^(1/3)", 0.01) is None

@@ -24,7 +24,7 @@ SHORT = {
     "sigma": 0.5,
 }
 LONGER = {"times": "0.05,0.1,0.2,0.4,0.8", "fit_from": 0.1, "observation_time": 3.2, "replicas": 2000}
-SLOWEST = 0.01 * LENGTH / 3.2  # of the particles at the start
+SLOWEST = 0.01 * LENGTH / 3.2  # speed of the slowest particles at the start
 
 
 @pytest.fixture
@@ -38,14 +38,14 @@ def scores(quantity: Quantity, expected: np.ndarray | float) -> np.ndarray:
 
 
 def test_short_times_have_the_variances_of_the_currents(heat_current: Measure) -> None:
-    """2ζT³ of J_q, and of J_n 2ζT less the part of the total momentum [eq. M31]; M = 3."""
+    """The variance of J_q is 2ζT³. That of J_n is 2ζT minus the part of the conserved total momentum [eq. M31]. M = 3."""
     result = heat_current(**SHORT)
     time = result["heat_variance"].axes["time"]
     projected = 2 * ZETA * T * 3 / (2 * ZETA + 3)
     assert np.abs(scores(result["heat_variance"], 2 * ZETA * T**3 * time**2)).max() < 4
     assert np.abs(scores(result["number_variance"], projected * time**2)).max() < 4
     assert np.abs(result["local_exponent"].mean - 2).max() < 0.01
-    # Finds: the current of energy, whose variance is 6ζT³ larger, and no projection.
+    # Detected mistakes: the current of energy, whose variance is 6ζT³ larger; the part of the total momentum is not subtracted.
     assert np.abs(scores(result["heat_variance"], 4 * ZETA * T**3 * time**2)).min() > 10
     assert np.abs(scores(result["number_variance"], 2 * ZETA * T * time**2)).min() > 10
 
@@ -78,7 +78,7 @@ def test_drawn_directions(heat_current: Measure) -> None:
     for name, power in (("heat_variance", 1), ("number_variance", 0)):
         expected = np.array([of_walkers(time, power) for time in times])
         assert np.abs(scores(result[name], expected)).max() < 4, name
-        # Finds: windows longer by 5 %.
+        # Detected mistake: windows that are 5 % longer.
         longer = np.array([of_walkers(1.05 * time, power) for time in times])
         assert np.abs(scores(result[name], longer)).max() > 6, name
 
@@ -92,16 +92,17 @@ def test_growth_is_the_weighted_fit(heat_current: Measure) -> None:
 
     def fitted(weight: np.ndarray) -> np.ndarray:
         basis = np.stack([4.5 * np.cbrt(time), np.full_like(time, 2)], axis=1)
-        found: np.ndarray = np.linalg.lstsq(basis * weight[:, None], y / time * weight)[0]
-        return found
+        coefficients: np.ndarray = np.linalg.lstsq(basis * weight[:, None], y / time * weight)[0]
+        return coefficients
 
-    found = [float(result[name].mean) for name in ("amplitude", "diffusion")]
-    np.testing.assert_allclose(found, fitted(np.sqrt(time) / y), rtol=1e-9)
-    assert not np.allclose(found, fitted(np.ones_like(time)), rtol=1e-3)  # finds: without weights
+    stored = [float(result[name].mean) for name in ("amplitude", "diffusion")]
+    np.testing.assert_allclose(stored, fitted(np.sqrt(time) / y), rtol=1e-9)
+    # Detected mistake: a fit without weights.
+    assert not np.allclose(stored, fitted(np.ones_like(time)), rtol=1e-3)
 
 
 def test_sound_must_not_come_around(program: Program) -> None:
-    """Twice the distance of a peak, and of its root-mean-square width, in cells [eq. M18]."""
+    """The ring must be longer than twice the distance of a peak plus twice its root-mean-square width [eq. M18]."""
     chain, time = Chain(zeta=1.6, mass=3), 20.0
     reach = chain.sound_speed * time + np.sqrt(0.510523) * (chain.self_coupling * time) ** (2 / 3)
     ring = {"fugacity": 1.6, "sigma": 0.5, "temperature": 1, "times": "10,20", "fit_from": 10,

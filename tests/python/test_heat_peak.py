@@ -1,4 +1,4 @@
-"""The order of the heat peak in equilibrium: interpolated stable densities, the times that count, and what is missing."""
+"""The order of the heat peak in equilibrium: interpolated stable densities, times that count, missing results."""
 
 import numpy as np
 import pytest
@@ -20,27 +20,27 @@ def test_interpolated_densities(order: float) -> None:
 
 
 def test_the_first_time_bounds_the_systematic_error() -> None:
-    """Order 1.7, but 1.6 at t = 256: the mean lies between, and the bound reaches from there to 1.7."""
+    """The order is 1.6 at t = 256 and 1.7 later. The mean is between them, and the systematic error extends up to 1.7."""
 
     def profile(run: Run, t: np.ndarray, cell: np.ndarray) -> np.ndarray:
         first, later = (stable_peak(order)(run, t, cell) for order in (1.6, 1.7))
         return np.where(t < 300, first, later)
 
-    order, told = heat_peak(Known({"ext03": truth(of_peaks | {"heat_correlation": profile}, 1e-4)}))
+    order, sentence = heat_peak(Known({"ext03": truth(of_peaks | {"heat_correlation": profile}, 1e-4)}))
     assert 1.6 < order.value < 1.7
     assert order.value + order.systematic == pytest.approx(1.7, abs=1e-6)
-    assert "at t = 256, 512 and 1024. The peak is then 7 to 16 cells wide" in told
+    assert "at t = 256, 512 and 1024. The peak is then 7 to 16 cells wide" in sentence
 
 
 def test_times_whose_profile_determines_no_order_do_not_count() -> None:
-    """At t = 1024 the profile has no peak, and its order is at a bound."""
+    """At t = 1024 the profile has no peak, so that the fitted order is at a bound."""
 
     def profile(run: Run, t: np.ndarray, cell: np.ndarray) -> np.ndarray:
         return np.where(t > 1000, np.cos(cell / 20), stable_peak(1.7)(run, t, cell))
 
-    order, told = heat_peak(Known({"ext03": truth(of_peaks | {"heat_correlation": profile}, 1e-4)}))
+    order, sentence = heat_peak(Known({"ext03": truth(of_peaks | {"heat_correlation": profile}, 1e-4)}))
     assert order.value == pytest.approx(1.7, abs=1e-6)
-    assert "at t = 256 and 512." in told
+    assert "at t = 256 and 512." in sentence
     flat = truth(of_peaks | {"heat_correlation": lambda *_: 1.0}, 1e-4)
     with pytest.raises(MissingError, match="determine no order"):
         heat_peak(Known({"ext03": flat}))

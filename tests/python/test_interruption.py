@@ -10,7 +10,7 @@ from tests.python.conftest import Program, command_line
 
 
 def test_no_interruption_loses_more_than_a_checkpoint_interval(program: Program, tmp_path: Path) -> None:
-    """Half of the time is that of the jackknife of 2000 replicas."""
+    """The jackknife of 2000 replicas takes half of the run time, so that it is interrupted too."""
     options = {"cells": 5, "particles-per-cell": 2, "relaxation-time": 0, "observation-time": 1, "decades": 11,
                "replicas": 2000, "threads": 1, "checkpoint-interval": 0.1}  # fmt: skip
     keywords = {key.replace("-", "_"): value for key, value in options.items()}

@@ -13,7 +13,7 @@ def response(forces: list[float], noise: np.ndarray, covariance: np.ndarray) -> 
 
 
 def test_matrix_symmetry_and_conductivity() -> None:
-    """Finds: forces in the columns' place."""
+    """Detected mistake: the matrix of the forces is transposed."""
     still = np.zeros((2, 2))
     row = onsager(response([-2e-3, 0.2], np.zeros(2), still), response([0, 0.05], np.zeros(2), still))
     assert [row[name] for name in ("L_uu", "L_un", "L_nu", "L_nn")] == pytest.approx([2e7, 2e5, 2e5, 2.2e3])
@@ -22,7 +22,7 @@ def test_matrix_symmetry_and_conductivity() -> None:
 
 
 def test_errors() -> None:
-    """Finds: the correlation of the currents left out, which makes the error of kappa_0 larger."""
+    """Detected mistake: the correlation of the currents is ignored, which makes the error of kappa_0 larger."""
     errors = np.array([1.0, 0.01])
     covariance = np.outer(errors, errors) * [[1, 0.98], [0.98, 1]]
     random, scores = np.random.default_rng(1), {"kappa_0": [], "L_un": [], "asymmetry": []}
@@ -33,11 +33,11 @@ def test_errors() -> None:
         noise = random.multivariate_normal(np.zeros(2), covariance, 2)
         runs = (response([-2e-3, 0.2], noise[0], covariance), response([0, 0.05], noise[1], covariance))
         row = onsager(*runs)
-        for name, found in scores.items():
-            found.append((row[name] - exact[name]) / row[f"{name}_error"])
-    for name, found in scores.items():
-        assert np.std(found) == pytest.approx(1, abs=4 / np.sqrt(300) + 0.02), name
-        assert abs(np.mean(found)) < 4 / np.sqrt(150), name
+        for name, values in scores.items():
+            values.append((row[name] - exact[name]) / row[f"{name}_error"])
+    for name, values in scores.items():
+        assert np.std(values) == pytest.approx(1, abs=4 / np.sqrt(300) + 0.02), name
+        assert abs(np.mean(values)) < 4 / np.sqrt(150), name
     independent = np.diag(errors**2)
     plain = onsager(
         response([-2e-3, 0.2], np.zeros(2), independent), response([0, 0.05], np.zeros(2), independent)

@@ -1,4 +1,4 @@
-"""The loader takes the order of the dimensions from the dimension scales, and names units of all that it returns."""
+"""The loader takes the order of the dimensions from the dimension scales, and gives the units of all values."""
 
 import errno
 import zlib
@@ -21,7 +21,7 @@ from workflow.lib.load import (
 )
 
 TIME, CELL = np.array([1.0, 2.0, 4.0]), np.array([0.5, 1.5, 2.5])
-MEAN = np.arange(9.0).reshape(3, 3)  # a square: lengths do not tell its dimensions apart
+MEAN = np.arange(9.0).reshape(3, 3)  # square, so that lengths do not identify the dimensions
 
 
 def write(path: Path, axes: Mapping[str, np.ndarray], values: Mapping[str, np.ndarray]) -> h5py.Group:
@@ -45,7 +45,7 @@ def write(path: Path, axes: Mapping[str, np.ndarray], values: Mapping[str, np.nd
 
 
 def seal(file: h5py.File) -> None:
-    """States the digest of the present values."""
+    """Writes the digest of the present values into the file, as a program does."""
     file["provenance"].attrs["results_digest"] = results_digest(file["results"])
 
 
@@ -110,7 +110,7 @@ def test_wrong_dimensions_are_refused(path: Path, spoil: Callable[[h5py.Group], 
 
 
 def test_an_unknown_quantity_is_named_with_those_that_there_are(path: Path) -> None:
-    """In a file that text names."""
+    """The path of the file is given as text."""
     assert load(str(path)).path == path
     with pytest.raises(FormatError, match=r"a\.h5 has no quantity enrgy; did you mean energy\?$"):
         load(str(path))["enrgy"]
@@ -145,7 +145,7 @@ def test_what_is_no_result(path: Path, change: Callable[[Path], object], words: 
 
 
 def test_unreadable_is_not_damaged(monkeypatch: pytest.MonkeyPatch) -> None:
-    """As root may read everything, h5py is made to fail as it does where permission is denied."""
+    """Root can read every file, so h5py is replaced by a function that fails as if permission were denied."""
 
     def denied(*_: object, **__: object) -> None:
         raise PermissionError(

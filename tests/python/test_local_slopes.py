@@ -1,4 +1,4 @@
-"""What panels derive from the results: local slopes, extrapolations and the quasi-stationary estimate, on laws that are known."""
+"""Numbers that panels derive from results, for known laws: local slopes, extrapolations and the quasi-stationary estimate."""
 
 import numpy as np
 import pandas as pd
@@ -10,42 +10,42 @@ from workflow.lib.load import Result
 
 
 def test_the_slope_against_the_cube_root_is_constant_for_one_law_only() -> None:
-    """Finds: another power of N; the slope of another law; slopes in other rows."""
+    """Detected mistakes: another power of N; the slope of another law; slopes in wrong rows of the table."""
     size = np.array([16.0, 32, 64, 128])
     table = pd.DataFrame(
         {"cells": size, "kappa": 5 + 7 * np.cbrt(size), "kappa_error": 0.1}, index=[3, 4, 6, 9]
     )
-    found = ext09.slopes(table)
-    assert [*found.index] == [3, 4, 6]
-    np.testing.assert_allclose(found.slope, 7)
-    np.testing.assert_allclose(found["slope_N^(1/3)"], 7)
-    np.testing.assert_allclose(found.slope_error, 0.1 * np.sqrt(2) / np.diff(np.cbrt(size)))
-    assert (np.diff(found.slope_logarithm) < 0).all()
-    assert 0 < found.slope_constant.iloc[-1] < found.slope_logarithm.iloc[-1]
+    slopes = ext09.slopes(table)
+    assert [*slopes.index] == [3, 4, 6]
+    np.testing.assert_allclose(slopes.slope, 7)
+    np.testing.assert_allclose(slopes["slope_N^(1/3)"], 7)
+    np.testing.assert_allclose(slopes.slope_error, 0.1 * np.sqrt(2) / np.diff(np.cbrt(size)))
+    assert (np.diff(slopes.slope_logarithm) < 0).all()
+    assert 0 < slopes.slope_constant.iloc[-1] < slopes.slope_logarithm.iloc[-1]
     assert ext09.rejected(table, 16) == "saturation and logarithm"
 
 
 def test_slopes_of_a_logarithm_are_its_factor() -> None:
     time = np.geomspace(1, 100, 11)
     table = pd.DataFrame({"time": time, "number": 3 + 8 * np.log(time), "number_error": 0.5})
-    found = fig01_inset.slopes(table)
-    assert [*found.dropna().index] == [1, 4, 7]  # the last time is used
-    np.testing.assert_allclose(found.slope.dropna(), 8)
+    slopes = fig01_inset.slopes(table)
+    assert [*slopes.dropna().index] == [1, 4, 7]  # the last step ends at the last time
+    np.testing.assert_allclose(slopes.slope.dropna(), 8)
     step = 0.3 * np.log(100)
-    np.testing.assert_allclose(found.slope_error.dropna(), 0.5 * np.sqrt(2) / step)
-    np.testing.assert_allclose(found.slope_time.dropna(), np.sqrt(time[[1, 4, 7]] * time[[4, 7, 10]]))
+    np.testing.assert_allclose(slopes.slope_error.dropna(), 0.5 * np.sqrt(2) / step)
+    np.testing.assert_allclose(slopes.slope_time.dropna(), np.sqrt(time[[1, 4, 7]] * time[[4, 7, 10]]))
 
 
 @pytest.mark.parametrize("particles", [2, 20])
 def test_the_estimate_conserves_energy_and_is_used_at_late_times(particles: int) -> None:
-    """Finds: a factor of 2 or Λ that is missing; an iteration that has not converged."""
+    """Detected mistakes: a factor of 2 or Λ is missing; the iteration has not converged."""
     options = {"particles-per-cell": particles, "temperature": 500.0, "cell-length": 1.0}
     chain = Result(ROOT, options, {}, {})
     time = np.array([0.1, 1.0, 1e3, 1e40])
     scatterer, particle = ext07.estimate(chain, time).values()
     assert np.isnan([scatterer[0], particle[0]]).all()
     np.testing.assert_allclose(particles * particle[1:] + scatterer[1:], particles * 250)
-    np.testing.assert_allclose(scatterer[-1], particles * 250, rtol=particles / 80)  # saturation
+    np.testing.assert_allclose(scatterer[-1], particles * 250, rtol=particles / 80)  # the energy saturates
     a = 1 / (time[2] * np.sqrt(2 * scatterer[2]))
     logarithm = np.log(np.sqrt(2) / a) - np.euler_gamma / 2 + 1  # eq. 13 at late times
     np.testing.assert_allclose(scatterer[2] / particle[2], logarithm, rtol=1e-6)

@@ -65,7 +65,7 @@ def test_a_flag_and_a_target_that_is_not_reached() -> None:
 
 
 def test_a_target_quantity_that_is_not_determined() -> None:
-    """Without a moving peak; the exit status is 4."""
+    """Without a moving peak the program exits with status 4, and a result is returned."""
     tree = measure("correlation", cells=25, sigma=-1, observation_time=1, times="0.5,1", replicas=2)
     assert np.isnan(tree["damping_exponent"]["mean"])
     assert np.isfinite(tree["momentum_correlation"]["mean"]).all()
@@ -115,7 +115,7 @@ def test_lists_keep_their_order_and_mix_types() -> None:
     assert kappa.coords["gamma"].values.tolist() == ["N", 1]
     alone = measure("conductivity", **SMALL | {"cells": 8, "gamma": 1})
     assert float(kappa[0, 1]) == float(alone["kappa"]["mean"])
-    # Positions differ between chains.
+    # The positions of scatterers differ between chains.
     assert measure("boltzmann", cells=[2, 4])["energy_current"]["mean"].shape == (2,)
 
 
@@ -151,7 +151,7 @@ def test_a_killed_program_is_named(folder: Path) -> None:
 
 
 def test_the_program_ends_with_the_session(folder: Path) -> None:
-    """It writes a checkpoint; otherwise it would go on alone, beside that of the next call."""
+    """The program writes a checkpoint and exits. Otherwise it would continue alone, at the same time as that of the next call."""
     code = (
         f"from pathlib import Path; from workflow import measure as m; m.FOLDER = Path({str(folder)!r}); "
         f"m.measure('persistence', **{LONG})"
@@ -166,7 +166,7 @@ def test_the_program_ends_with_the_session(folder: Path) -> None:
 
 
 def test_points_have_independent_errors() -> None:
-    """Currents at neighbouring sigma over 40 starts of the measurement: with one seed their correlation is 0.95."""
+    """Currents at two neighbouring sigma in 40 pairs of runs. With a common seed their correlation would be 0.95."""
     sigmas = [0.5, 0.51]
     common = {"cells": 8, "replicas": 4, "relaxation_time": 1}
     times = np.linspace(2, 2.4, 40)
@@ -207,7 +207,9 @@ def test_doubts_are_warned_of() -> None:
 
 def test_an_interrupted_call_is_continued(folder: Path, capfd: pytest.CaptureFixture[str]) -> None:
     options = {"cells": 4, "relaxation_time": 1, "observation_time": 200, "replicas": 4000, "threads": 1}
-    former = signal.signal(signal.SIGINT, signal.default_int_handler)  # workers of pytest ignore it
+    former = signal.signal(
+        signal.SIGINT, signal.default_int_handler
+    )  # the workers of pytest ignore this signal
     timer = threading.Timer(1.5, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
     try:

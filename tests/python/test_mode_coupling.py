@@ -25,7 +25,7 @@ def second_order(expression: Expr) -> Expr:
 
 
 def moment(power: int, sign: int) -> Expr:
-    """Of |p|^power over both halves of the flux exp(-(p-w)²/2T), the left one with a sign, to second order in w."""
+    """Integral of |p|^power over both halves of the flux exp(-(p-w)²/2T), the left half times `sign`, to second order in w."""
     expanded = second_order(exp((2 * p * w - w**2) / (2 * T)))
     both = expanded + sign * expanded.subs(w, -w)
     return sympy.expand(integrate(sympy.expand(both * p**power * exp(-(p**2) / (2 * T))), (p, 0, oo)))
@@ -108,9 +108,11 @@ def test_speed_and_couplings(chain: Chain) -> None:
     speeds = linear.jacobian(modes).subs(numbers).evalf()
     assert np.allclose(np.array(speeds, dtype=float), np.diag([chain.sound_speed, -chain.sound_speed]))
     current = sympy.Poly(quadratic[0].subs(numbers).evalf(), *modes)
-    found = [float(current.coeff_monomial(x)) for x in (modes[0] ** 2, modes[1] ** 2, modes[0] * modes[1])]
-    own, other, both = chain.couplings
-    assert found == pytest.approx([own, other, 2 * both])
+    coefficients = [
+        float(current.coeff_monomial(x)) for x in (modes[0] ** 2, modes[1] ** 2, modes[0] * modes[1])
+    ]
+    own, opposite, both = chain.couplings
+    assert coefficients == pytest.approx([own, opposite, 2 * both])
     assert chain.self_coupling == pytest.approx(2 * sqrt(2) * own)
 
 
@@ -153,7 +155,7 @@ def test_three_fields_with_many_slow_particles(chain: Chain) -> None:
         square = mode_coupling.SQUARE_INTEGRAL * finite.self_coupling ** (-2 / 3)
         gaussian = finite.gaussian_heat_correlation(square)
         assert gaussian == pytest.approx(mode_coupling.SQUARE_INTEGRAL * amplitude)
-        # As M27 is to M25.
+        # The ratio of eq. M25 to eq. M27.
         assert finite.heat_amplitude / gaussian == pytest.approx(8 / 9 * 0.510523 / 0.389813)
     _, steepening, _ = found(300.0)
     to_first_order = replace(chain, slow_logarithm=300.0).steepening

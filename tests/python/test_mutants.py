@@ -50,7 +50,7 @@ class Tree:
 
 @pytest.fixture(scope="module")
 def tree(tmp_path_factory: pytest.TempPathFactory) -> Tree:
-    """Without a patch the tests pass."""
+    """Copy of the sources, whose tests pass without a patch."""
     tree = Tree(tmp_path_factory.mktemp("mutants"))
     done = tree.test(":".join(head(patch)["tests"] for patch in PATCHES))
     assert done.returncode == 0, done.stdout

@@ -38,7 +38,7 @@ def test_waiting_times_at_sigma_0_are_the_exact_ones(measure: Measure) -> None:
         return float(np.abs((density.mean[seen] - expected) / density.standard_error[seen]).max())
 
     assert largest_score(lambda t: np.exp(-((thermal / t) ** 2) / 2)) < 4
-    # Finds: another temperature; momenta without the flux weight.
+    # Detected mistakes: another temperature; momenta without the weight of the flux.
     assert largest_score(lambda t: np.exp(-1.05 * (thermal / t) ** 2 / 2)) > 4
     assert largest_score(lambda t: erfc(thermal / t / np.sqrt(2))) > 40
 
@@ -74,21 +74,22 @@ FEW = {"cells": 4, "particles_per_cell": 5, "observation_time": 20, "decades": 1
 
 
 def test_displacement_with_known_momentum(measure: Measure) -> None:
-    """Over seeds both estimates agree, also with moving scatterers at the start, and one has the smaller error."""
-    found = []
+    """Over seeds the plain and the corrected estimate agree, also if scatterers move at the start. The corrected
+    one has the smaller error."""
+    estimates = []
     for seed in range(50):
         result = measure("displacement", **FEW, sigma=0.8, scatterer_temperature=500,
                      replicas=40, seed=seed)  # fmt: skip
         pair = (result["variance"], result["variance_plain"])
-        found.append([(each.mean[-1], each.standard_error[-1]) for each in pair])
-    (reduced, error), (plain, plain_error) = np.moveaxis(np.array(found), 0, -1)
+        estimates.append([(quantity.mean[-1], quantity.standard_error[-1]) for quantity in pair])
+    (reduced, error), (plain, plain_error) = np.moveaxis(np.array(estimates), 0, -1)
 
     def difference(factor: float) -> float:
         sample = factor * reduced - plain
         return abs(float(sample.mean() / sample.std(ddof=1))) * np.sqrt(len(sample))
 
     assert difference(1) < 4
-    # Finds: the mean square of the particles' momentum only, 20 / (20 + 4 x 9) of the total.
+    # Detected mistake: the known mean square is that of the particles' momentum alone, 20 / (20 + 4 x 9) of the total.
     assert difference(20 / 56) > 10
     assert np.mean(plain_error**2) > 10 * np.mean(error**2)
 
@@ -152,6 +153,6 @@ def test_pulse(measure: Measure) -> None:
     difference = result["energy_difference"]
     sums = difference.mean.sum(axis=1)
     np.testing.assert_allclose(sums, float(result["injected_energy"].mean), rtol=1e-12)
-    # The fastest particles of the pulse, sqrt(10) times faster than thermal ones, are still near.
+    # Even the fastest particles of the pulse, sqrt(10) times faster than thermal ones, have not reached these cells.
     assert (difference.mean[0, :12] == 0).all()
     assert (difference.mean[0, 19:] == 0).all()

@@ -42,7 +42,7 @@ def scores(quantity: Quantity, sample: np.ndarray) -> np.ndarray:
 
 
 def agree(z: np.ndarray) -> bool:
-    """Bound for the largest of as many independent normal scores; correlations reduce the largest."""
+    """Whether the largest score is below the bound for as many independent normal ones. Correlations only make it smaller."""
     return bool(np.abs(z).max() < norm.isf(1e-4 / 2 / len(z)))
 
 
@@ -78,7 +78,7 @@ def test_against_the_reference_simulator(measure: Measure, cells: int, gamma: st
                          for name, sample in found.items() for suffix in ("", "_plain")])  # fmt: skip
 
     assert np.abs(conductivity_scores()).max() < 4
-    # Finds: baths exchanged; one bath slightly hotter.
+    # Detected mistakes: the baths are exchanged; one bath is slightly hotter.
     assert np.abs(conductivity_scores(temperature_left=1100 / 9, temperature_right=900 / 11)).max() > 4
     assert np.abs(conductivity_scores(temperature_right=145)).max() > 4
 
@@ -120,7 +120,9 @@ def test_equilibrium(measure: Measure, gamma: str | int) -> None:
     assert abs(ends["energy_current"].mean) < 4 * ends["energy_current"].standard_error
     for name in ("temperature_first", "temperature_last"):
         assert abs(ends[name].mean - 100) < 4 * ends[name].standard_error
-        assert abs(ends[name].mean - 103) > 4 * ends[name].standard_error  # finds: 3 % too hot
+        assert (
+            abs(ends[name].mean - 103) > 4 * ends[name].standard_error
+        )  # detected mistake: a temperature that is 3 % too high
 
     def gaussian(edges: np.ndarray, temperature: float) -> np.ndarray:
         return np.diff(norm.cdf(edges / np.sqrt(temperature)))
@@ -158,17 +160,18 @@ def test_equilibrium(measure: Measure, gamma: str | int) -> None:
 def test_reduced_and_plain_estimates_over_seeds(
     measure: Measure, gamma: str | int, cells: int, target: str
 ) -> None:
-    """Both agree, the reduced error is smaller, and both errors predict the spread of the results of 50 seeds."""
+    """Estimates with and without control variates agree, the former have smaller errors, and both errors predict the spread
+    over 50 seeds."""
     seeds, replicas = 50, 40
     options = {"gamma": gamma, "cells": cells, "replicas": replicas}
     options |= {"relaxation_time": 5, "observation_time": 12}
-    found = []
+    estimates = []
     for seed in range(seeds):
         result = measure("conductivity", **options, seed=seed)
         names = (target, f"{target}_plain", "kappa")
-        found.append([(result[name].mean, result[name].standard_error) for name in names])
+        estimates.append([(result[name].mean, result[name].standard_error) for name in names])
     (reduced, error), (plain, plain_error), (kappa, kappa_error) = np.moveaxis(
-        np.array(found, dtype=float), 0, -1
+        np.array(estimates, dtype=float), 0, -1
     )
     difference = reduced - plain
     assert abs(difference.mean()) < 4 * difference.std(ddof=1) / np.sqrt(seeds)

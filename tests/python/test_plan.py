@@ -49,8 +49,8 @@ def test_seeds_stay_as_they_are() -> None:
         **{"observation-time": 100, "particles-per-cell": 20, "sigma": 0.5},
         **{"replicas": 1024, "seed": 3069184982},
     }
-    other = load_plan("paper_seed=7_replicas=5")["fig05"].run("paper_sigma=0.5")
-    assert other.options == run.options | {"replicas": 5, "seed": 3127557821}
+    changed = load_plan("paper_seed=7_replicas=5")["fig05"].run("paper_sigma=0.5")
+    assert changed.options == run.options | {"replicas": 5, "seed": 3127557821}
 
 
 def test_replicas_of_the_user_replace_a_target_error() -> None:
@@ -77,8 +77,10 @@ def test_quality_changes_effort_only() -> None:
     plans = [load_plan(quality) for quality in QUALITIES]
     for name, panel in plans[0].items():
         for run in panel.runs:
-            same = [each for other in plans for each in other[name].runs if each.name == run.name]
-            physics = [{key: one.options[key] for key in one.options if key not in EFFORT} for one in same]
+            same = [match for plan in plans for match in plan[name].runs if match.name == run.name]
+            physics = [
+                {key: value for key, value in match.options.items() if key not in EFFORT} for match in same
+            ]
             assert all(options == physics[0] for options in physics)
 
 
@@ -128,7 +130,7 @@ def test_invalid_efforts(name: str, message: str) -> None:
 def test_what_determines_a_result_is_in_its_name(monkeypatch: pytest.MonkeyPatch) -> None:
     run = Run("a", "persistence", {"sigma": 0.5, "cells": 8, "seed": 1})
     same = Run("b", "persistence", {"cells": 8.0, "seed": 1, "sigma": 0.5})
-    others = [
+    different = [
         Run("a", "persistence", {"sigma": 0.5, "cells": 8, "seed": 2}),
         Run("a", "persistence", {"sigma": 0.5, "cells": 8}),
         Run("a", "ageing", run.options),
@@ -136,8 +138,8 @@ def test_what_determines_a_result_is_in_its_name(monkeypatch: pytest.MonkeyPatch
     ]
     assert run.identity == same.identity
     monkeypatch.setattr(plan, "build_id", lambda program: "another")
-    names = {one.identity for one in (run, *others, Run("a", "persistence", run.options))}
-    assert len(names) == 2 + len(others)
+    names = {variant.identity for variant in (run, *different, Run("a", "persistence", run.options))}
+    assert len(names) == 2 + len(different)
     assert data_path("standard_seed=7", "fig05", run) == f"data/standard/fig05/a.{run.identity}.h5"
 
 

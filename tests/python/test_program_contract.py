@@ -76,7 +76,7 @@ LONG = {
 
 
 def started(folder: Path, name: str, *before: str) -> subprocess.Popen[str]:
-    """A long run that has written a checkpoint. before: a command that executes the program."""
+    """A long run that has written a checkpoint. before: command and options that execute the program, as env."""
     command = command_line(name, {**LONG[name], "checkpoint-interval": 0.1, "threads": 2, "output": "out.h5"})
     process = subprocess.Popen([*before, *command], cwd=folder, stderr=subprocess.PIPE, text=True)
     deadline = time.monotonic() + 30
@@ -94,7 +94,7 @@ def test_interrupted_and_resumed_run_gives_the_same_bytes(
 ) -> None:
     keywords = {key.replace("-", "_"): value for key, value in LONG[name].items()}
     assert program(name, **keywords, output="whole.h5").returncode == 0
-    process = started(tmp_path, name, "env", "--default-signal=HUP")  # also where nohup runs the tests
+    process = started(tmp_path, name, "env", "--default-signal=HUP")  # needed if the tests run under nohup
     process.send_signal(number)
     _, message = process.communicate(timeout=10)
     assert process.returncode == 128 + number
@@ -120,7 +120,7 @@ def test_a_closed_terminal_is_ignored_with_nohup(tmp_path: Path) -> None:
     [
         ({"target_error": 1e-9, "replicas": 4, "time_limit": 1e-9}, True),
         ({"time_limit": 0.3, "replicas": 100_000, "observation_time": 200, "threads": 1}, True),
-        ({"relaxation_time": 0, "observation_time": 1e-12}, False),  # without scatterings
+        ({"relaxation_time": 0, "observation_time": 1e-12}, False),  # no particle scatters
     ],
 )
 def test_a_result_short_of_its_target_is_marked(

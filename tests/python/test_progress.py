@@ -33,7 +33,7 @@ def handler_of(**output: bool) -> LogHandler:
 
 @pytest.fixture
 def handler(monkeypatch: pytest.MonkeyPatch) -> LogHandler:
-    """Two runs of 8 s and a drawing on one core."""
+    """Handler for two runs of 8 s and a panel on one core."""
     monkeypatch.setattr(progress, "estimated_seconds", lambda *_: 8)
     monkeypatch.setattr(
         progress, "outcome", lambda path: ("mu = 0.3289(30)", ["not stationary"] * (path.stem == "b"))
@@ -73,7 +73,7 @@ def test_a_pipe_has_a_line_per_panel_and_per_doubt(handler: LogHandler, capsys: 
     for number, run in enumerate(["a", "b", ""]):
         start(handler, number, run)
     finish(handler, 0, 1, 2)
-    emit(handler, LogEvent.JOB_FINISHED, job_id=99)  # the target
+    emit(handler, LogEvent.JOB_FINISHED, job_id=99)  # the job of the target, which is not counted
     handler.close()
     shown = capsys.readouterr().out.splitlines()
     assert shown[0].startswith("fig05/b: mu = 0.3289(30), not stationary, 2 of 3 done, about 0:00:")
@@ -107,7 +107,7 @@ def test_time_left_follows_what_finished_jobs_took(
 def test_a_failure_is_shown_with_the_end_of_its_log(
     handler: LogHandler, capsys: Captured, tmp_path: Path, lines: list
 ) -> None:
-    """Without the messages of Snakemake itself."""
+    """The messages of Snakemake itself are not shown."""
     log = tmp_path / "a.log"
     log.write_text("\n".join(lines))
     start(handler, 1, "a", str(log))

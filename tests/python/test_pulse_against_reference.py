@@ -13,7 +13,7 @@ from workflow.lib.load import Result
 from workflow.tradeoff.measure import simulate
 
 CELLS, PARTICLES, SIGMA, ENERGY, PULSE_ENERGY = 41, 20, 0.5, 5000, 50000
-PAIRS = {"N": 90, 1: 150}  # enough to find the mutants
+PAIRS = {"N": 90, 1: 150}  # enough to detect the mistakes below
 TIMES = {"N": (0.02, 0.03, 0.045, 0.06), 1: (0.008, 0.01, 0.015, 0.02)}
 
 
@@ -28,7 +28,7 @@ def reference(gamma: float, times: tuple[float, ...], *, replicas: int, pairs: i
 
 
 def damping_exponent(profiles: np.ndarray, times: tuple[float, ...]) -> float:
-    """Slope of ln peak against ln t."""
+    """Slope of the logarithm of the peak's height against ln t."""
     centre = CELLS // 2
     heights = [fit((profile[centre:] + profile[centre::-1]) / 2)[1] for profile in profiles]
     return -np.polyfit(np.log(times), np.log(heights), 1)[0]
@@ -52,7 +52,7 @@ def scores(result: Result, gamma: float, times: tuple[float, ...], pairs: int) -
 
 
 def accepted(z: np.ndarray) -> bool:
-    """Bound for the largest score, valid although cells are anticorrelated by conservation of energy."""
+    """Whether the largest score is below a bound that is valid although energy conservation makes cells anticorrelated."""
     return bool(np.abs(z).max() < 4 and np.sum(z**2) < chi2.ppf(1 - 1e-4, len(z)))
 
 
@@ -70,6 +70,6 @@ def test_profiles_and_exponent(measure: Measure, gamma: str | int) -> None:
     assert len(z) > 60
     assert accepted(z)
     assert abs(exponent_score) < 4
-    # Finds: lighter scatterers; a larger pulse.
+    # Detected mistakes: lighter scatterers; a larger pulse.
     assert not accepted(scores(pulse(sigma=0.4 if gamma == "N" else 0.3), visited, times, pairs)[0])
     assert not accepted(scores(pulse(pulse_energy=53000), visited, times, pairs)[0])

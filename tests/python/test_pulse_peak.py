@@ -29,15 +29,15 @@ def fit(profile: np.ndarray) -> tuple[float, float]:
     middle, half = (left + right) / 2, max((right - left) / 2, 2.5)
     cells = np.arange(max(0, int(np.ceil(middle - half))), int(middle + half) + 1)
     u = (cells - middle) / half
-    found = least_squares(
+    coefficients = least_squares(
         lambda c: np.sqrt(1 - u**2) * (np.exp(np.polyval(c, u)) - profile[cells] / profile[top]),
         [0, np.log(0.5), 0, 0],
         xtol=1e-14,
         ftol=1e-14,
     ).x
-    steps = np.roots(np.polyder(found))
-    place = next(root.real for root in steps if np.polyval(np.polyder(found, 2), root.real) < 0)
-    return middle + half * place, profile[top] * np.exp(np.polyval(found, place))
+    extrema = np.roots(np.polyder(coefficients))
+    maximum = next(root.real for root in extrema if np.polyval(np.polyder(coefficients, 2), root.real) < 0)
+    return middle + half * maximum, profile[top] * np.exp(np.polyval(coefficients, maximum))
 
 
 @cache
@@ -52,7 +52,7 @@ def free_profile(time: float) -> np.ndarray:
     density = with_pulse / with_pulse.sum() - without / without.sum()
     inside = [np.clip(1 - np.abs(speed * time - d), 0, None) for d in range(CELLS // 2 + 1)]
     profile = np.array([PARTICLES * np.sum(density * speed**2 / 2 * part) for part in inside])
-    profile[0] += PULSE_ENERGY - ENERGY  # energy of the scatterer
+    profile[0] += PULSE_ENERGY - ENERGY  # energy that the scatterer gains
     return profile
 
 
@@ -65,14 +65,14 @@ def test_free_flight(measure: Measure) -> None:
     profiles = np.array([free_profile(time) for time in TIMES])
     expected = np.concatenate([profiles[:, :0:-1], profiles], axis=1)
     # Cells reached by so few particles that their error is undefined are left out.
-    known = difference.standard_error > 0.002 * np.nanmax(difference.standard_error)
-    known &= np.abs(np.arange(CELLS) - half) < 35
-    z = (difference.mean - expected)[known] / difference.standard_error[known]
+    defined = difference.standard_error > 0.002 * np.nanmax(difference.standard_error)
+    defined &= np.abs(np.arange(CELLS) - half) < 35
+    z = (difference.mean - expected)[defined] / difference.standard_error[defined]
     assert len(z) > 80
     assert np.abs(z).max() < 4.5
 
     tops = np.array([fit(profile) for profile in profiles])
-    octaves = [(0, 3), (3, 6)]  # first and last time
+    octaves = [(0, 3), (3, 6)]  # indices of the first and the last time
     exponents = [-np.polyfit(np.log(TIMES[a : b + 1]), np.log(tops[a : b + 1, 1]), 1)[0] for a, b in octaves]
     middles = [np.sqrt(TIMES[a] * TIMES[b]) for a, b in octaves]
     wanted = {
@@ -115,7 +115,7 @@ def mean_is_zero(samples: np.ndarray) -> bool:
 def test_errors_over_seeds(measure: Measure, gamma: str | int) -> None:
     """Spread over 70 seeds against the stored errors, for all quantities of the peak."""
     times = "0.007,0.01,0.014,0.02" if gamma == "N" else "0.006,0.008,0.012,0.018"
-    found: dict[str, list[np.ndarray]] = {}
+    by_name: dict[str, list[np.ndarray]] = {}
     for seed in range(SEEDS):
         result = measure(
             "energy_pulse",
@@ -130,18 +130,15 @@ def test_errors_over_seeds(measure: Measure, gamma: str | int) -> None:
         for name in ("peak", "peak_position", "peak_speed", "local_damping_exponent", "damping_exponent_from",
                      "damping_exponent", "damping_drift", "peak_collapse"):  # fmt: skip
             quantity = result[name]
-            found.setdefault(name, []).append(
+            by_name.setdefault(name, []).append(
                 np.array([quantity.mean.ravel(), quantity.standard_error.ravel()])
             )
-    for name, samples in found.items():
+    for name, samples in by_name.items():
         values, errors = np.moveaxis(np.array(samples), 1, 0)
         assert (errors > 0).all(), name
         for column in range(values.shape[1]):
-            for factor, good in (
-                (1, True),
-                (2, False),
-                (0.5, False),
-            ):  # mutants: errors twice and half as large
+            # Detected mistakes: errors that are twice or half as large.
+            for factor, good in ((1, True), (2, False), (0.5, False)):
                 accepted = spread_accepted(values[:, column], factor * errors[:, column])
                 assert accepted == good, (name, column, factor)
 
@@ -167,13 +164,13 @@ def test_mirror_symmetry(measure: Measure, gamma: str | int) -> None:
             right, left = profile[cells // 2 + distance], profile[cells // 2 - distance]
             np.testing.assert_allclose(quantity.mean[-1], (right - left) / 2, atol=1e-12 * profile.max())
             odd.append(quantity.mean[-1])
-            errors.append(np.nan_to_num(quantity.standard_error[-1]))  # NaN: never reached
+            errors.append(np.nan_to_num(quantity.standard_error[-1]))  # NaN where no particle arrived
             off_centre.append((right - profile[cells // 2 - distance + 1]) / 2)
-        reached = np.min(errors, axis=0) > 0.1 * np.max(errors)  # often enough for a Gaussian mean
+        reached = np.min(errors, axis=0) > 0.1 * np.max(errors)  # reached often enough for a Gaussian mean
         assert reached.sum() > 7
         assert mean_is_zero(np.array(odd)[:, reached])
         z = np.array(odd)[:, reached] / np.array(errors)[:, reached]
         squares = np.sum(z**2, axis=1) * (REPLICAS - 3) / (REPLICAS - 1)
         assert abs(squares.mean() - reached.sum()) < 4 * squares.std(ddof=1) / np.sqrt(MIRRORED)
-        # Finds: folding about a cell other than that of the pulse.
+        # Detected mistake: the profile is folded about another cell than that of the pulse.
         assert not mean_is_zero(np.array(off_centre)[:, reached])

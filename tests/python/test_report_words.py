@@ -77,7 +77,7 @@ def test_a_strip_keeps_order_and_stays_in_its_picture() -> None:
     assert 0 < strip.band[0] < strip.band[1] < WIDTH
     for low, value, high, _ in strip.points:
         assert 0 <= low <= value <= high <= WIDTH
-    assert {(one.value > strip.band[1], one.verdict) for one in strip.points} == {
+    assert {(point.value > strip.band[1], point.verdict) for point in strip.points} == {
         (True, "contradicted"),
         (False, "reproduced"),
         (False, "undecided"),

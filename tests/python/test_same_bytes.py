@@ -76,14 +76,14 @@ def data_of(command: list[str], options: dict, output: Path, environment: dict[s
         check=False,
     )
     assert done.returncode in (0, 4), done.stderr  # 4: the target error was not reached
-    found = {}
+    contents = {}
     with h5py.File(output) as file:
         file.visititems(
-            lambda name, item: found.update(
+            lambda name, item: contents.update(
                 {name: item[()].tobytes()} if isinstance(item, h5py.Dataset) else {}
             )
         )
-    return found | {"the file": output.read_bytes()}
+    return contents | {"the file": output.read_bytes()}
 
 
 def differing(one: dict[str, bytes], other: dict[str, bytes]) -> list[str]:
@@ -143,7 +143,7 @@ def libraries_of(program: Path) -> dict[str, str]:
 
 @pytest.mark.parametrize("program", PROGRAMS)
 def test_no_inexact_function_of_the_c_library(program: str) -> None:
-    """Neither in the program nor in a library that computes for it."""
+    """Neither the program nor a library that computes results for it calls such a function."""
     path = ROOT / "build/bin" / program
     libraries = libraries_of(path)
     of_c = dynamic_symbols(libraries["libm.so.6"], "--defined-only") - EXACT
@@ -156,13 +156,13 @@ def test_no_inexact_function_of_the_c_library(program: str) -> None:
 
 @pytest.mark.parametrize("program", PROGRAMS)
 def test_no_instruction_depends_on_the_processor(program: str) -> None:
-    """No 80-bit arithmetic, and no query of caches or instruction sets, on which Eigen's sums would depend."""
+    """Programs use no 80-bit arithmetic. They query neither caches nor instruction sets, on which Eigen's sums would depend."""
     lines = output_of("objdump", "-d", "-C", "--no-show-raw-insn", ROOT / "build/bin" / program).splitlines()
-    function, found = "", set()
+    function, functions = "", set()
     for line in lines:
         if line.endswith(">:"):
             function = line
         elif re.search(r"\t(fld|fadd|fmul|fild|fst|cpuid|xgetbv|vfmadd)", line):
-            found.add(function)
+            functions.add(function)
     # CLI11 compiles its own reading of numbers, which no option uses.
-    assert [name for name in found if "CLI::" not in name] == []
+    assert [name for name in functions if "CLI::" not in name] == []

@@ -13,7 +13,7 @@ from tests.python.conftest import Program, command_line
 
 
 def limited(folder: Path, limits: dict[int, int], options: dict, name: str) -> subprocess.CompletedProcess:
-    """Runs a program with limits of its resources, and with the signals that go with them."""
+    """Runs a program with limits of its resources, with the default actions of the signals that are sent beyond them."""
 
     def limit() -> None:
         for kind, size in limits.items():

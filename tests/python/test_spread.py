@@ -11,12 +11,13 @@ from workflow.tradeoff.measure import call, shortened
 
 SEEDS = 32
 MOST_REPLICAS = 64
-FIRST_TIMES = 3  # of a pulse; later peaks are lost in the noise of one pair per replica
-# By which factors errors may be too small or too large, that so many seeds detect for each quantity, and for all together.
+FIRST_TIMES = 3  # number of times of a pulse; later peaks are below the noise of one pair per replica
+# Errors that are wrong by these factors are detected with this number of seeds: too small or too large for one quantity, and either for
+# all quantities together.
 TOO_SMALL, TOO_LARGE, TOGETHER = 2, 3, 1.15
-FACTORS = {"particle_count": 2e-3}  # factor of all times
-OTHERS = 5e-3
-IN_PLACE = {  # of the options of a program
+FACTORS = {"particle_count": 2e-3}  # factor of all times by program
+OTHERS = 5e-3  # factor for the other programs
+IN_PLACE = {  # options that replace those of the plan, by program
     "energy_pulse": {"pairs-per-replica": 1, "relaxation-time": 0},
     "correlation": {"cells": 101, "observation-time": 64, "times": "4,8,16"},
     "heat_current": {"cells": 20, "observation-time": 8, "times": "1,2,4", "fit-from": 1},
@@ -39,13 +40,13 @@ NUMBERS = {
 
 
 def middle_runs() -> dict[str, Run]:
-    """The middle one of the replicated runs of each series."""
-    found: dict[str, list[Run]] = {}
+    """By panel and series: the run in the middle of the list of replicated runs."""
+    by_series: dict[str, list[Run]] = {}
     for panel in load_plan("standard").values():
         for run in panel.runs:
             if run.replicated:
-                found.setdefault(f"{panel.name}-{run.series}", []).append(run)
-    return {name: runs[len(runs) // 2] for name, runs in found.items()}
+                by_series.setdefault(f"{panel.name}-{run.series}", []).append(run)
+    return {name: runs[len(runs) // 2] for name, runs in by_series.items()}
 
 
 def in_small(run: Run) -> dict[str, object]:
@@ -120,7 +121,7 @@ def test_seeds_scatter_as_their_errors_predict(ratios: Ratios) -> None:
         ]
 
     assert outliers(1) == []
-    # Errors too small by a factor of two, and too large by three, are found in most quantities.
+    # Errors that are too small by a factor of two or too large by three are detected in most quantities.
     assert len(outliers(TOO_SMALL**2)) > 0.8 * len(ratios)
     assert len(outliers(1 / TOO_LARGE**2)) > 0.8 * len(ratios)
 
@@ -135,6 +136,6 @@ def test_errors_are_right_on_the_whole(ratios: Ratios) -> None:
         return bool(chi2.isf(1 - 5e-5, freedom) < total < chi2.isf(5e-5, freedom))
 
     assert plausible_sum(1)
-    # Errors too small or too large by 15 % are found; the normalisation n instead of n - 1 would pass.
+    # Errors that are 15 % too small or too large are detected; the normalisation n instead of n - 1 is not.
     assert not plausible_sum(TOGETHER**2)
     assert not plausible_sum(1 / TOGETHER**2)

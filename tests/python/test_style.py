@@ -11,7 +11,7 @@ from workflow.lib import style
 
 @pytest.mark.parametrize("family", ["STIXGeneral", "STIXSizeOneSym", "Times New Roman"])
 def test_no_font_but_those_of_matplotlib_is_taken(family: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Neither from a cached list of fonts nor from a system font of the same name."""
+    """Fonts are taken neither from a cached list of fonts nor from a system font of the same name."""
     own = Path(mpl.get_data_path(), "fonts/ttf")
     foreign = font_manager.FontEntry(fname=str(own / "DejaVuSans.ttf"), name=family)
     fonts = font_manager.FontManager()
@@ -19,7 +19,7 @@ def test_no_font_but_those_of_matplotlib_is_taken(family: str, monkeypatch: pyte
     monkeypatch.setattr(font_manager, "fontManager", fonts)
     assert Path(fonts.findfont(family)).name == "DejaVuSans.ttf"
     style.apply()
-    found = [Path(fonts.findfont(name)) for name in ("STIXGeneral", "STIXSizeOneSym", "serif")]
-    assert [path.parent for path in found] == [own] * 3
-    assert [path.stem for path in found] == ["STIXGeneral", "STIXSizOneSymReg", "STIXGeneral"]
+    chosen = [Path(fonts.findfont(name)) for name in ("STIXGeneral", "STIXSizeOneSym", "serif")]
+    assert [path.parent for path in chosen] == [own] * 3
+    assert [path.stem for path in chosen] == ["STIXGeneral", "STIXSizOneSymReg", "STIXGeneral"]
     assert foreign not in fonts.ttflist

@@ -30,7 +30,7 @@ def test_uncertainty_over_samples() -> None:
     errors = samples.std(axis=1, ddof=1) / np.sqrt(10)
     ratio = np.var(errors) / np.mean(accuracy.uncertainty(errors, 10) ** 2)
     assert 0.9 < ratio < 1.1
-    assert not 0.9 < 2 * ratio < 1.1  # finds: without the 2
+    assert not 0.9 < 2 * ratio < 1.1  # detected mistake: the factor 2 is missing
 
 
 @pytest.mark.parametrize(
@@ -55,9 +55,7 @@ def test_average_over_samples() -> None:
     samples = np.random.default_rng(1).normal(size=(20, 4000))
     estimate = efficiency.averaged(samples, 1)
     pulls = estimate.value / estimate.error
-    assert np.var(pulls) == pytest.approx(
-        19 / 17, rel=0.1
-    )  # of Student's variable with 19 degrees of freedom
+    assert np.var(pulls) == pytest.approx(19 / 17, rel=0.1)  # for Student's t with 19 degrees of freedom
 
 
 def test_bias_is_relative_to_the_last_value_of_a_setting() -> None:
@@ -90,7 +88,7 @@ def test_error_falls_with_replicas(monkeypatch: pytest.MonkeyPatch) -> None:
     few, many = table.itertuples()
     ratio, error = np.log(few.error / many.error), np.sqrt(1 / (2 * 29) + 1 / (2 * 479))
     assert abs(ratio - np.log(4)) < SIGMAS * error
-    assert abs(ratio - np.log(16)) > SIGMAS * error  # finds: 1/replicas
+    assert abs(ratio - np.log(16)) > SIGMAS * error  # detected mistake: an error that falls as 1/replicas
     assert many.cpu_seconds > few.cpu_seconds > 0
     assert (accuracy.errors("boltzmann").error.to_numpy() <= accuracy.TARGETS).all()
     monkeypatch.setattr(accuracy, "errors", lambda program: table.assign(program=program))
@@ -114,7 +112,7 @@ def test_results_with_and_without_a_method() -> None:
     assert [row["method"] for row in rows] == ["engine", "control variates", "both", "control variates"]
     one, known = efficiency.spreading("ext07", "spreading_relaxation-time=1", "label")
     assert all(row["z"] < SIGMAS for row in [*rows, one, known])
-    assert one["factor"] > 10  # of some hundred particles
+    assert one["factor"] > 10  # the chain has some hundred particles
 
 
 def test_pulse_with_and_without_methods() -> None:
@@ -122,7 +120,9 @@ def test_pulse_with_and_without_methods() -> None:
     short = {"cells": 21, "particles-per-cell": 5, "pairs-per-replica": 4, "times": "0.016,0.05"}
     rows = [*efficiency.pulse(replace(run, options=run.options | short), (50, 60))]
     assert [row["method"] for row in rows] == ["one start for both", "engine", "both"]
-    assert all(row["z"] < SIGMAS + np.log(row["values"]) for row in rows)  # the largest of so many
+    assert all(
+        row["z"] < SIGMAS + np.log(row["values"]) for row in rows
+    )  # bound for the largest of this number of scores
     assert rows[0]["factor"] > 1
 
 

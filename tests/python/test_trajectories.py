@@ -40,30 +40,30 @@ def differ(a: float, b: float) -> bool:
 
 def violations(table: pd.DataFrame, ring: bool) -> set[str]:
     """Violations of free flight, of continuity, of eq. 2 and of the conservation of energy."""
-    found = set()
+    violated = set()
     moved = table.momentum * (table.end_time - table.start_time)
     if not np.allclose(table.end_position - table.start_position, moved, rtol=0, atol=1e-9):
-        found.add("a flight is not free")
+        violated.add("a flight is not free")
     collisions = []
     for _, line in table.groupby("particle"):
         rows = [*line.itertuples()]
         for before, after in itertools.pairwise(rows):
             end = before.end_position % LENGTH if ring else before.end_position
             if differ(before.end_time, after.start_time) or differ(end, after.start_position):
-                found.add("a world line is broken")
+                violated.add("a world line is broken")
             collisions.append((after.start_time, before.momentum, after))
         if rows[-1].end_time < END and (ring or rows[-1].end_position not in (0, LENGTH)):
-            found.add("a world line is broken")
+            violated.add("a world line is broken")
     scatterers: dict[float, float] = {}
-    for _, u, after in sorted(collisions, key=lambda one: one[0]):
+    for _, u, after in sorted(collisions, key=lambda collision: collision[0]):
         u_after, w_after = after.momentum, after.scatterer_momentum
         w = scatterers.get(after.start_position, (u_after + SIGMA * u) / C)
         if differ(u_after, C * w - SIGMA * u) or differ(w_after, C * u + SIGMA * w):
-            found.add("a collision violates eq. 2")
+            violated.add("a collision violates eq. 2")
         if differ(u_after**2 + w_after**2, u**2 + w**2):
-            found.add("energy is not conserved")
+            violated.add("energy is not conserved")
         scatterers[after.start_position] = w_after
-    return found
+    return violated
 
 
 @pytest.mark.parametrize("gamma", ["N", 1])
@@ -98,10 +98,10 @@ def collisions(first_flights: pd.DataFrame, ring: bool) -> list[tuple[float, flo
         if u != 0 and (ring or 0 <= cell < CELLS):
             heapq.heappush(arrivals, (time + distance / abs(u), cell % CELLS, u))
 
-    for one in first_flights.itertuples():
-        passed = one.start_position / SPACING - 0.5  # scatterers, as a real number
-        cell = int(np.floor(passed) + 1 if one.momentum > 0 else np.ceil(passed) - 1)
-        fly(one.start_time, abs(cell - passed) * SPACING, cell, one.momentum)
+    for flight in first_flights.itertuples():
+        passed = flight.start_position / SPACING - 0.5  # number of scatterers to the left, as a real number
+        cell = int(np.floor(passed) + 1 if flight.momentum > 0 else np.ceil(passed) - 1)
+        fly(flight.start_time, abs(cell - passed) * SPACING, cell, flight.momentum)
     while arrivals and arrivals[0][0] < END:
         time, cell, u = heapq.heappop(arrivals)
         u, scatterers[cell] = C * scatterers[cell] - SIGMA * u, C * u + SIGMA * scatterers[cell]
@@ -114,12 +114,14 @@ def collisions(first_flights: pd.DataFrame, ring: bool) -> list[tuple[float, flo
 def test_all_collisions_are_those_of_another_simulation(flights: Flights, chain: str) -> None:
     table = flights(chain, **SCATTERERS_AT_REST[chain])
     first, ring = table[table.scatterer_momentum.isna()], chain == "closed"
-    found = table[table.scatterer_momentum.notna()][["start_time", "start_position", "momentum"]].to_numpy()
+    simulated = table[table.scatterer_momentum.notna()][
+        ["start_time", "start_position", "momentum"]
+    ].to_numpy()
     expected = np.array(collisions(first, ring))
     assert len(expected) > 50
-    assert found.shape == expected.shape
-    assert np.abs(found - expected).max() < 1e-6  # rounding errors grow with the number of collisions
-    assert len(collisions(first.iloc[1:], ring)) != len(found)  # finds: without a particle
+    assert simulated.shape == expected.shape
+    assert np.abs(simulated - expected).max() < 1e-6  # rounding errors grow with the number of collisions
+    assert len(collisions(first.iloc[1:], ring)) != len(simulated)  # detected mistake: a particle is missing
 
 
 def test_a_later_window_cuts_the_same_flights(flights: Flights) -> None:
@@ -128,6 +130,6 @@ def test_a_later_window_cuts_the_same_flights(flights: Flights) -> None:
         for time in (0, 5)
     )
     expected = early[(early.start_time > 5) & early.scatterer_momentum.notna()]
-    found = late[(late.start_time < END - 5) & late.scatterer_momentum.notna()]
-    assert np.allclose(expected.start_time - 5, found.start_time.to_numpy(), rtol=0, atol=1e-6)
-    assert np.allclose(expected.momentum, found.momentum.to_numpy(), rtol=0, atol=1e-6)
+    shifted = late[(late.start_time < END - 5) & late.scatterer_momentum.notna()]
+    assert np.allclose(expected.start_time - 5, shifted.start_time.to_numpy(), rtol=0, atol=1e-6)
+    assert np.allclose(expected.momentum, shifted.momentum.to_numpy(), rtol=0, atol=1e-6)

@@ -139,18 +139,18 @@ def datasets(result: Result) -> Iterator[tuple[str, np.ndarray, str]]:
 
 def faults(plain: Result, scaled: Result, scale: Scale) -> list[str]:
     """The datasets that do not scale according to the units of the plain result."""
-    found = []
-    for (place, values, units), (_, others, _) in zip(datasets(plain), datasets(scaled), strict=True):
-        rounding = 0 if place in COUNTS else ROUNDING
-        if not agree(values, others, scale(units), rounding):
-            found.append(f"{place} in {units}")
-    return found
+    wrong = []
+    for (path, values, units), (_, converted, _) in zip(datasets(plain), datasets(scaled), strict=True):
+        rounding = 0 if path in COUNTS else ROUNDING
+        if not agree(values, converted, scale(units), rounding):
+            wrong.append(f"{path} in {units}")
+    return wrong
 
 
 @pytest.mark.parametrize("case", CASES)
 def test_every_number_scales_as_its_units(case: str) -> None:
-    plain, *others = measured(case)
-    for scale, scaled in zip(SCALES, others, strict=True):
+    plain, *in_other_units = measured(case)
+    for scale, scaled in zip(SCALES, in_other_units, strict=True):
         assert scaled.provenance["events"] == plain.provenance["events"]
         assert scaled.quantities.keys() == plain.quantities.keys()
         assert faults(plain, scaled, scale) == []
@@ -181,16 +181,16 @@ def mutants(result: Result) -> Iterator[tuple[str, Result]]:
 
 @pytest.mark.parametrize("program", built())
 def test_every_wrong_unit_is_found(program: str) -> None:
-    """Found in at least one case of the program, because a quantity may be NaN or 0 in others."""
+    """A wrong unit is found in at least one case of the program, as a quantity may be NaN or 0 in the other cases."""
     missed: set[str] | None = None
     cases = [name for name, (its_program, _) in CASES.items() if its_program == program]
     assert cases, f"{program} has no entry in CASES: add it"
     for case in cases:
-        plain, *others = measured(case)
+        plain, *in_other_units = measured(case)
         unseen = {
-            place
-            for place, mutant in mutants(plain)
-            if not any(place in faults(mutant, *pair) for pair in zip(others, SCALES, strict=True))
+            path
+            for path, mutant in mutants(plain)
+            if not any(path in faults(mutant, *pair) for pair in zip(in_other_units, SCALES, strict=True))
         }
         missed = unseen if missed is None else missed & unseen
     assert missed == set()

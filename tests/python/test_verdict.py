@@ -24,7 +24,7 @@ TRIALS, REPLICAS = 20000, 12
 
 
 def measured(truth: float, spread: float, numbers: int = 1) -> list[Reading]:
-    """One reading per trial, from normal replicas, with an estimated error."""
+    """One reading per trial, with numbers and estimated errors from normal replicas."""
     replicas = np.random.default_rng(1).normal(truth, spread, (TRIALS, numbers, REPLICAS))
     mean, error = replicas.mean(axis=2), replicas.std(axis=2, ddof=1) / math.sqrt(REPLICAS)
     return [
@@ -44,7 +44,7 @@ def within(count: int, probability: float) -> bool:
 
 @pytest.mark.parametrize("wrong", [Outcome.CONTRADICTED, Outcome.REPRODUCED])
 def test_wrong_verdicts_at_the_edge_are_as_frequent_as_the_level(wrong: Outcome) -> None:
-    """A true value on the edge is inside the band and outside it: each verdict is wrong with half the two-sided level."""
+    """If the true value is on the edge of the band, each of both verdicts occurs with half of the two-sided level, and is wrong."""
     assert within(share(measured(1, 0.2), wrong), LEVEL / 2)
 
 
@@ -60,7 +60,7 @@ def test_numbers_deep_inside_or_far_outside_are_decided() -> None:
 
 
 def test_a_detectable_deviation_is_detected() -> None:
-    """With the error known, as with many replicas, in 95 of 100 cases."""
+    """The detection probability is 95 % if the error is known, as with many replicas."""
     number = Number("", 0, 0.3, math.inf)
     beyond = 1 + number.detectable(LEVEL)
     values = np.random.default_rng(2).normal(beyond, 0.3, TRIALS)
@@ -105,18 +105,19 @@ def test_one_contradiction_outweighs_what_is_open_and_what_agrees() -> None:
 
 
 def test_the_number_shown_is_nearest_to_the_edge_in_the_unit_of_the_band() -> None:
-    """Finds: distances in widths of the intervals, by which a value of 0.5(0.01) is nearer to 0 than one of 0.1(0.001)."""
+    """Detected mistake: distances are measured in widths of the intervals, in which 0.5 with the error 0.01 is closer to 0 than 0.1 with
+    the error 0.001."""
     near, far = Number("", 0.1, 0.001), Number("", 0.5, 0.01)
     across, further = Number("", 0.01, 0.02), Number("", 0.01, 0.03)
     outside, farthest = Number("", -0.5, 1e-9), Number("", -0.8, 0.01)
-    for shown, other in (
+    for shown, hidden in (
         (near, far),
         (across, near),
         (further, across),
         (outside, further),
         (farthest, outside),
     ):
-        for numbers in ((shown, other), (other, shown)):
+        for numbers in ((shown, hidden), (hidden, shown)):
             assert Reading(Band(0, math.inf), numbers, LEVEL).worst is shown
 
 

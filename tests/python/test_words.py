@@ -1,4 +1,4 @@
-"""Sources and documents use standard terms: words that they once had in a private sense do not come back."""
+"""Sources and documents use standard terms instead of words in a private sense."""
 
 import re
 import subprocess
@@ -23,7 +23,7 @@ TEXT = (
     "Snakefile",
 )
 NOT = ("tests", "docs/gallery")  # tests quote; the gallery is written from templates
-STANDARD = {  # private word: standard one
+STANDARD = {  # pattern of a private word, and the standard terms for it
     "foretold|foretells?": "estimated, predicted",
     "(?:is|are|was|were) told": "is reported, printed",
     "admitted|(?:claims?|band|it) admits?": "acceptance band, accepts; supported (of an option)",
@@ -50,13 +50,13 @@ def test_standard_terms(word: str) -> None:
     listed = subprocess.run(
         ["git", "ls-files", *pathspec], cwd=ROOT, capture_output=True, text=True, check=True
     )
-    found = [
+    lines = [
         f"{path}:{number}: {line.strip()}"
         for path in filter(lambda path: (ROOT / path).is_file(), listed.stdout.splitlines())
         for number, line in enumerate((ROOT / path).read_text("utf-8").splitlines(), 1)
         if uses(word, line)
     ]
-    assert not found, f"write: {STANDARD[word]}\n" + "\n".join(found)
+    assert not lines, f"write: {STANDARD[word]}\n" + "\n".join(lines)
 
 
 def test_words_are_found_whole_and_in_any_case() -> None:

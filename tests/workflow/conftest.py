@@ -52,7 +52,7 @@ class Clone:
         return self.run("/usr/bin/make", *arguments, status=status, **environment)
 
     def snakemake(self, *arguments: str, status: int | None = 0) -> str:
-        """Output of a bare snakemake."""
+        """Output of snakemake, called without make."""
         command = (".venv/bin/snakemake", *arguments, "--config", "quality=smoke")
         return self.run(*command, status=status, TERM="dumb").stdout
 
@@ -65,7 +65,7 @@ class Clone:
         return {*OUTPUT.findall(self.snakemake("--dry-run", target))}
 
     def stale_path(self, panel: str) -> str:
-        """Path of the record of a panel that is to be made."""
+        """Path of the record that a stale panel will have."""
         listed = self.snakemake("--dry-run", "figures")
         (path,) = {*re.findall(rf"output: (figures/smoke/{panel}\.{IDENTITY}\.json)", listed)}
         return path
@@ -99,9 +99,9 @@ class Clone:
                 shutil.rmtree(path) if path.is_dir() else path.unlink()
 
     def products(self) -> dict[str, bytes]:
-        """Results and figures by path."""
+        """Content of results and figures by path."""
         files = [
-            path for place in ("data/smoke", "figures/smoke") for path in (self.folder / place).rglob("*")
+            path for folder in ("data/smoke", "figures/smoke") for path in (self.folder / folder).rglob("*")
         ]
         return {
             str(path.relative_to(self.folder)): path.read_bytes()
@@ -130,10 +130,10 @@ def share_build(clone: Clone) -> None:
 
 
 def copy_made(source: Path, target: Path) -> None:
-    for place in MADE:
-        if (source / place).is_dir():
+    for folder in MADE:
+        if (source / folder).is_dir():
             without = shutil.ignore_patterns("report.*", "cpp_tests", "benchmarks", "reference_*")
-            shutil.copytree(source / place, target / place, dirs_exist_ok=True, ignore=without)
+            shutil.copytree(source / folder, target / folder, dirs_exist_ok=True, ignore=without)
 
 
 @contextlib.contextmanager
@@ -165,7 +165,7 @@ def clean(tmp_path_factory: pytest.TempPathFactory) -> Clone:
 @pytest.fixture
 def kept(clean: Clone) -> Iterator[Clone]:
     """The clean clone. Sources and products are restored after the test."""
-    places = (
+    folders = (
         "data",
         "figures",
         "workflow",
@@ -179,11 +179,11 @@ def kept(clean: Clone) -> Iterator[Clone]:
     )
     before = {
         file: (file.read_bytes(), file.stat().st_mtime_ns)
-        for place in places
-        for file in files_below(clean.folder / place)
+        for folder in folders
+        for file in files_below(clean.folder / folder)
     }
     yield clean
-    for file in {file for place in places for file in files_below(clean.folder / place)} - before.keys():
+    for file in {file for folder in folders for file in files_below(clean.folder / folder)} - before.keys():
         file.unlink()
     for file, (content, time) in before.items():
         if not file.exists() or file.read_bytes() != content:
@@ -192,8 +192,8 @@ def kept(clean: Clone) -> Iterator[Clone]:
         os.utime(file, ns=(time, time))
 
 
-def files_below(place: Path) -> list[Path]:
-    return [file for file in (place, *place.rglob("*")) if file.is_file() and "__pycache__" not in file.parts]
+def files_below(path: Path) -> list[Path]:
+    return [file for file in (path, *path.rglob("*")) if file.is_file() and "__pycache__" not in file.parts]
 
 
 Edit = Callable[[Clone], object]  # changes a clone

@@ -14,8 +14,8 @@ from typing import TypeVar
 
 T = TypeVar("T")
 
-INSTALLED = Path("/etc/slurm/slurm.conf")  # where Slurm's commands look, also those in jobs
-PREFIX = "slurm."  # of a cluster's folder
+INSTALLED = Path("/etc/slurm/slurm.conf")  # default path of the configuration, which commands in jobs use too
+PREFIX = "slurm."  # prefix of the folder of a cluster
 PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
 CONFIGURATION = """ClusterName=test
 SlurmctldHost=localhost(127.0.0.1)
@@ -55,7 +55,7 @@ def available() -> bool:
 
 
 def left_behind() -> bool:
-    """Whether the configuration is that of killed tests, whose controller has ended."""
+    """Whether the installed configuration was left by killed tests: its controller does not run."""
     if not INSTALLED.is_symlink() or not INSTALLED.readlink().parent.name.startswith(PREFIX):
         return False
     pid = INSTALLED.readlink().with_name("slurmctld.pid")
@@ -74,7 +74,7 @@ class Cluster:
         text = CONFIGURATION.format(folder=self._folder, controller=controller, node=node)
         (self._folder / "slurm.conf").write_text(text)
         INSTALLED.parent.mkdir(exist_ok=True)
-        INSTALLED.unlink(missing_ok=True)  # left behind, or there would be no cluster here
+        INSTALLED.unlink(missing_ok=True)  # left by killed tests, as no cluster runs here
         INSTALLED.symlink_to(self._folder / "slurm.conf")
         (self._munge / "key").write_bytes(secrets.token_bytes(1024))
         for path, mode in ((self._munge / "key", 0o400), (self._munge, 0o755)):
@@ -138,15 +138,15 @@ class Cluster:
 
 @contextlib.contextmanager
 def cluster() -> Iterator[Cluster]:
-    """Below /tmp, as the path of a socket must be short and its folder open to another user."""
+    """A running cluster. Its folder is below /tmp, as the path of a socket must be short and accessible to another user."""
     folder = Path(tempfile.mkdtemp(prefix=PREFIX))
     folder.chmod(0o755)
-    one = Cluster(folder)
+    instance = Cluster(folder)
     try:
-        one.start()
-        yield one
+        instance.start()
+        yield instance
     finally:
-        one.stop()
+        instance.stop()
         shutil.rmtree(folder, ignore_errors=True)
 
 

@@ -1,4 +1,4 @@
-"""make audit, verify and provenance: what they find, what they cannot check, and copies elsewhere."""
+"""make audit, verify and provenance: detected faults, products that cannot be checked, and copies of products."""
 
 import json
 import re
@@ -37,7 +37,7 @@ def exchange(clone: Clone) -> None:
 
 
 def edit_table_and_record(clone: Clone) -> None:
-    """So that they agree."""
+    """Edits a value in a table, and its hash in the record, so that both agree."""
     append("figures/smoke/fig02_lower.csv", "1,2,3\n")(clone)
     path = clone.folder / clone.record("fig02_lower")
     record = json.loads(path.read_text())
@@ -53,8 +53,8 @@ def halve(name: Callable[[Clone], str]) -> Edit:
     return edit
 
 
-# Edits with the fault that audit prints of each; {panel} and {panel/run}: paths of record and result before. Every edit is of another
-# product, as one fault of a product is printed.
+# Edits, and the fault that make audit prints for each. {panel} and {panel/run} stand for the paths of record and result before the edit.
+# Every edit changes another product, as only one fault per product is printed.
 PRODUCTS: list[tuple[Edit, str]] = [
     (exchange, "{fig03/exchange}: stale: it has --"),
     (edit_option, "{fig03/equal}: stale: it has --sigma 0.25, the configuration 0.5"),
@@ -110,19 +110,19 @@ def test_what_is_broken_is_named(
     for edit, _ in edits:
         edit(kept)
     printed = audit(kept, *(f"--panel={panel}" for panel in EDITED), status=1)
-    expected = [re.sub(r"{([^}]+)}", lambda found: paths[found[1]], text) for _, text in edits]
+    expected = [re.sub(r"{([^}]+)}", lambda match: paths[match[1]], text) for _, text in edits]
     assert [text for text in expected if f"broken: {text}" not in printed] == []
     table = " ".join(kept.module("provenance.status", "--quality", "smoke").split())
     assert [text for text in in_status if text not in table] == []
 
 
-@pytest.mark.long  # the next test has four panels
+@pytest.mark.long  # all panels; the next test checks four of them
 def test_all_of_it_holds(clean: Clone) -> None:
     assert audit(clean).endswith("30 panels with results: 0 broken, 0 not checked, all else holds\n")
 
 
 def test_four_panels_hold(kept: Clone) -> None:
-    """With results of their own, of others, and both."""
+    """The four panels plot their own results, those of other panels, or both."""
     kept.keep_only("fig01", "fig01_inset", "ext12", "ext09")
     printed = audit(kept)
     assert printed.endswith("4 panels with results: 0 broken, 0 not checked, all else holds\n")
@@ -177,7 +177,7 @@ def test_other_packages_and_compilers_are_not_checked(kept: Clone) -> None:
 
 
 def test_a_crate_unpacked_in_another_repository_holds(clean: Clone, tmp_path: Path) -> None:
-    """A panel with `=` in the names of its runs."""
+    """The panel has runs with `=` in their names."""
     packed = ("--archive", "build/crate/fig06.zip")
     clean.module("provenance.crate", "--quality", "smoke", "--panel", "fig06", *packed)
     Clone(tmp_path).git("init", "--quiet")
@@ -191,7 +191,7 @@ def test_a_crate_unpacked_in_another_repository_holds(clean: Clone, tmp_path: Pa
 
 
 def test_verify_reruns_a_panel(kept: Clone) -> None:
-    """With an existing fresh build."""
+    """The programs of an existing build are used, so that nothing is compiled."""
     shutil.copytree(kept.folder / "build/bin", kept.folder / "build/fresh", dirs_exist_ok=True)
     command = ["provenance.verify", "--quality", "smoke", "--sample", "1", "--panel", "fig03"]
     command += ["--programs", "build/fresh"]

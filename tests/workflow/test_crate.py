@@ -26,7 +26,7 @@ FOLDER, ARCHIVE = "build/crate/smoke", "build/crate/fig03.zip"
 METADATA = "ro-crate-metadata.json"
 CONTEXT = "https://w3id.org/ro/crate/1.1/context"
 TERMS_OF_1_1 = {"ComputationalWorkflow": "https://bioschemas.org/ComputationalWorkflow"}
-WORKFLOW_RUN = "workflow-run-crate-0.5"  # with the profiles that it builds on
+WORKFLOW_RUN = "workflow-run-crate-0.5"  # includes the profiles on which it is based
 
 pytestmark = pytest.mark.filterwarnings("ignore:ConjunctiveGraph:DeprecationWarning")
 
@@ -65,7 +65,7 @@ def test_every_file_is_there_with_its_hash(packed: Clone) -> None:
 
 def test_every_run_and_figure_is_an_action(packed: Clone) -> None:
     stated = entities(packed.folder / FOLDER)
-    actions = {one["name"]: one for one in stated.values() if one["@type"] == "CreateAction"}
+    actions = {entity["name"]: entity for entity in stated.values() if entity["@type"] == "CreateAction"}
     assert {*actions} == {"workflow", "job/fig03", "job/fig03/paper", "job/fig03/equal", "job/fig03/exchange"}
     run, drawing = actions["job/fig03/paper"], actions["job/fig03"]
     assert run["description"].startswith("boltzmann --sigma 0.5 --gamma 1 --nu-left 220 ")
@@ -85,15 +85,15 @@ def test_equal_inputs_give_equal_bytes_that_name_no_folder(packed: Clone) -> Non
 
 
 def test_a_second_make_crate_does_nothing(kept: Clone) -> None:
-    """New sources are packed, tracked or not."""
+    """After a new source the crate is written again, and contains it even if git does not track it."""
     command = (".venv/bin/snakemake", "--config", "quality=smoke", "panel=fig03", "--", "crate")
     kept.run(*command)
     (archive,) = (kept.folder / "build/crate").glob("lorentz-gas-smoke-fig03.*.zip")
     assert "Nothing to be done" in kept.run(*command).stdout
     (kept.folder / "workflow/figures/mine.py").write_text("x = 1\n")
     kept.run(*command)
-    (other,) = {*(kept.folder / "build/crate").glob("lorentz-gas-smoke-fig03.*.zip")} - {archive}
-    with zipfile.ZipFile(other) as content:
+    (second,) = {*(kept.folder / "build/crate").glob("lorentz-gas-smoke-fig03.*.zip")} - {archive}
+    with zipfile.ZipFile(second) as content:
         assert "workflow/figures/mine.py" in content.namelist()
 
 

@@ -1,4 +1,4 @@
-"""Which folder a tool works on, what it prints where it cannot go on, and whether the printed remedy helps."""
+"""The folder in which a tool works, its messages after failures, and the effect of the printed remedies."""
 
 import os
 import re
@@ -17,9 +17,11 @@ from tests.workflow.test_makefile import HOSTILE, names
 TOOLS = sorted(
     ".".join(path.relative_to(ROOT).with_suffix("").parts)
     for path in (ROOT / "workflow").rglob("*.py")
-    if "__main__" in path.read_text() and path.name != "build_id.py"  # which CMake runs, with paths
+    if "__main__" in path.read_text() and path.name != "build_id.py"  # CMake runs build_id.py with paths
 )
-TOOLS = [name for name in TOOLS if ".figures." not in name or name.endswith("fig03")]  # equal in this respect
+TOOLS = [
+    name for name in TOOLS if ".figures." not in name or name.endswith("fig03")
+]  # all figure scripts behave alike
 RUN = "fig03/paper"
 
 
@@ -44,7 +46,12 @@ def test_variables_are_unset_by_prefix_and_those_of_the_network_are_kept(clean: 
     printed = clean.run("/bin/bash", "-c", script, **(HOSTILE | {"LD_PRELOAD": ""} | kept)).stdout
     after = dict(line.split("=", 1) for line in printed.splitlines() if "=" in line)
     assert kept.items() <= after.items()
-    allowed = {*overridden, "QUALITY", "PANEL", "FRESH"}  # the last are options, which the Makefile forgets
+    allowed = {
+        *overridden,
+        "QUALITY",
+        "PANEL",
+        "FRESH",
+    }  # the last three are options, which the Makefile unsets
     assert {name for name in HOSTILE if name in after} == allowed
     assert not {name for name in overridden if after[name] == HOSTILE[name]}
 
@@ -100,7 +107,7 @@ def test_an_environment_reached_through_a_link_serves_and_is_never_changed(
     subprocess.run(["python3", "-m", "venv", "--without-pip", empty], check=True)
     (linked.folder / ".venv").unlink()
     (linked.folder / ".venv").symlink_to(empty)
-    files = {path for path in empty.rglob("*")} | {empty / ".lock"}  # by which uv excludes another uv
+    files = {path for path in empty.rglob("*")} | {empty / ".lock"}  # lock file of uv
     advice = linked.make("setup", status=2).stdout
     assert "is not changed from here: run make setup there, or rm .venv" in advice
     assert files >= {*empty.rglob("*")}
@@ -115,7 +122,7 @@ def remedy(printed: str) -> str:
 
 
 def test_the_remedies_of_damaged_products_help(kept: Clone) -> None:
-    """A value edited, a result truncated, and a table saved from a spreadsheet."""
+    """The damages are an edited value, a truncated result, and a table saved by a spreadsheet."""
     before = kept.products()
     edited, truncated, table = kept.result(RUN), kept.result("fig06/all_sigma=0"), "figures/smoke/fig05.csv"
     with h5py.File(kept.folder / edited, "r+") as file:
@@ -131,7 +138,7 @@ def test_the_remedies_of_damaged_products_help(kept: Clone) -> None:
         assert remedy(line) == "make figures QUALITY=smoke"
     kept.snakemake("figures")
     after = kept.products()
-    records = {kept.record(panel) for panel in ("fig03", "fig05", "fig06")}  # the commit
+    records = {kept.record(panel) for panel in ("fig03", "fig05", "fig06")}  # a record contains the commit
     assert {name for name in after if after[name] != before.get(name)} <= records
     kept.module(*audit)
 

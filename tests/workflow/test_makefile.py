@@ -66,7 +66,7 @@ def moved(clean: Clone, tmp_path_factory: pytest.TempPathFactory) -> Clone:
 
 
 def test_a_moved_folder_and_an_unusual_environment_change_nothing(clean: Clone, moved: Clone) -> None:
-    """Without a network. Packages of the user stay."""
+    """This holds without a network, and packages that the user has installed are kept."""
     products = moved.products()
     assert products == clean.products()
     printed = moved.make("figures", "QUALITY=smoke", **HOSTILE, **OFFLINE).stdout
@@ -79,11 +79,13 @@ def test_a_moved_folder_and_an_unusual_environment_change_nothing(clean: Clone, 
     moved.make("panel", "PANEL=fig03", "QUALITY=smoke", **HOSTILE, **OFFLINE)
     assert (packages / "mine.py").is_file()
     after = moved.products()
-    assert {path for path in after if after[path] != products[path]} <= {moved.record("fig03")}  # the commit
+    assert {path for path in after if after[path] != products[path]} <= {
+        moved.record("fig03")
+    }  # its record contains the commit
 
 
 def test_an_environment_has_no_path_of_its_folder(moved: Clone) -> None:
-    """So that a copy of it, or a link to it, belongs to the folder that it is in."""
+    """A copy of an environment, or a link to it, thus works for the folder that contains it."""
     found = subprocess.run(
         ["grep", "-rlI", "-e", "/first[^/]*/project", "--exclude=*.pyc", moved.folder / ".venv"],
         capture_output=True, text=True, check=False,
@@ -113,7 +115,7 @@ def test_a_link_to_the_folder_changes_nothing(moved: Clone, tmp_path: Path) -> N
     moved.make("build")
     (compiler,) = moved.folder.glob(
         "build/CMakeFiles/*/CMakeCXXCompiler.cmake"
-    )  # written by a new configuration
+    )  # file that a new configuration would write again
     files = [compiler, *(moved.folder / ".venv" / name for name in ("pyvenv.cfg", "bin/snakemake"))]
     before = [file.stat().st_mtime_ns for file in files]
     (tmp_path / "link").symlink_to(moved.folder)
@@ -124,7 +126,7 @@ def test_a_link_to_the_folder_changes_nothing(moved: Clone, tmp_path: Path) -> N
 
 
 def test_an_environment_without_interpreter_is_renewed(moved: Clone) -> None:
-    """As after an upgrade of the system's Python."""
+    """The interpreter is missing after an upgrade of the system's Python."""
     python = moved.folder / ".venv/bin/python"
     python.unlink()
     python.symlink_to("/nonexistent/python3")
@@ -246,7 +248,7 @@ def test_mistyped_options_get_a_line(clean: Clone, arguments: tuple[str, ...], l
     printed = clean.make(*arguments, status=2).stdout
     assert line in printed
     assert "Traceback" not in printed
-    assert len(printed.splitlines()) <= 2  # the second is make's own
+    assert len(printed.splitlines()) <= 2  # the second line is from make itself
 
 
 def test_an_unknown_panel_gets_a_line(clean: Clone) -> None:

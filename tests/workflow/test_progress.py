@@ -27,7 +27,7 @@ def on_a_terminal(
         if select.select([terminal], [], [], 0.1)[0]:
             try:
                 shown += os.read(terminal, 65536).decode(errors="replace")
-            except OSError:  # the end of the terminal
+            except OSError:  # raised when the terminal is closed
                 break
         if until and not pressed and re.search(until, shown):
             for _ in range(times):

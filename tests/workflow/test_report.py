@@ -208,9 +208,9 @@ def test_it_is_accessible_and_no_wider_than_the_screen(
     browser: Browser, clone: Clone, width: int, scheme: str
 ) -> None:
     page = opened(browser, clone, width, scheme)
-    found = Axe().run(page).response
-    assert len(found["passes"]) > 20
-    assert [(one["id"], one["nodes"][0]["html"]) for one in found["violations"]] == []
+    response = Axe().run(page).response
+    assert len(response["passes"]) > 20
+    assert [(violation["id"], violation["nodes"][0]["html"]) for violation in response["violations"]] == []
     assert page.evaluate("document.documentElement.scrollWidth") <= width
 
 

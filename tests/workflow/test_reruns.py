@@ -37,7 +37,7 @@ def importing(module: str) -> Jobs:
 
 
 def another_build(program: str) -> Edit:
-    """As of another compiler: the sources are the same, the build id is not."""
+    """Changes the build id but not the sources, as another compiler does."""
 
     def edit(clone: Clone) -> None:
         path = clone.folder / f"build/id/{program}.json"
@@ -58,7 +58,7 @@ def forget(clone: Clone) -> None:
 
 
 def other_times(clone: Clone) -> None:
-    """As rsync without times: in the order of the copy."""
+    """Sets the modification times in the order of a copy, as rsync without --times does."""
     for number, file in enumerate(
         sorted(files_below(clone.folder / "data") + files_below(clone.folder / "figures"))
     ):
@@ -147,7 +147,7 @@ def test_going_back_costs_nothing_and_prune_removes_the_rest(kept: Clone) -> Non
     kept.snakemake(kept.stale_path("fig06"))
     assert len([*(kept.folder / "data/smoke/fig06").glob("*.h5")]) == 4
     replace("workflow/config/quality/smoke.yaml", EFFORT.replace("8", "9"), EFFORT)(kept)
-    assert kept.stale() == {"fig06"}  # the figure, from the former results
+    assert kept.stale() == {"fig06"}  # only the figure is rendered again, from the former results
     printed = kept.module("provenance.audit", "--quality", "smoke", "--panel", "fig06", status=1)
     assert printed.count("obsolete: data/smoke/fig06/all_sigma=0") == 2
     kept.snakemake("figures")

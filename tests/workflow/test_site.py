@@ -11,7 +11,7 @@ from playwright.sync_api import Page, sync_playwright
 from tests.workflow.conftest import clone_into
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-NARROW = 390  # pixels
+NARROW = 390  # width in pixels
 HEADING = re.compile(r'<h[1-6][^>]*\bid="([^"]+)"')
 EQUATIONS = """[...document.querySelectorAll("mjx-container[display]")].filter(
   equation => equation.scrollWidth > equation.parentElement.clientWidth + 1).map(equation => equation.textContent)"""
@@ -47,14 +47,16 @@ def faults(tab: Page, messages: list[str], path: Path) -> list[str]:
 
 
 def test_every_page(site: Path, tab: Page) -> None:
-    """Finds: an unescaped <template> in a docstring, a script that is missing, a table or a signature without a frame."""
-    pages = [path for path in site.rglob("*.html") if path.name != "404.html"]  # that one needs a server
+    """Detected mistakes: an unescaped <template> in a docstring; a missing script; a table or a signature that is wider than the page."""
+    pages = [
+        path for path in site.rglob("*.html") if path.name != "404.html"
+    ]  # the 404 page works on a server only
     assert len(pages) > 100
     messages: list[str] = []
     tab.on("console", lambda message: messages.append(message.text))
     tab.on("pageerror", lambda error: messages.append(str(error)))
-    found = {str(path.relative_to(site)): faults(tab, messages, path) for path in pages}
-    assert {name: messages for name, messages in found.items() if messages} == {}
+    messages_by_page = {str(path.relative_to(site)): faults(tab, messages, path) for path in pages}
+    assert {name: messages for name, messages in messages_by_page.items() if messages} == {}
 
 
 def test_faults_are_found(tab: Page, tmp_path: Path) -> None:

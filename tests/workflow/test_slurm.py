@@ -53,8 +53,8 @@ def on_cluster(clone: Clone, *config: str, option: str = "--keep-going") -> Iter
 
 def products(clone: Clone, quality: str) -> dict[Path, bytes]:
     """Results and figures of fig01 and fig06, without the records of the commit."""
-    places = (f"data/{quality.partition('_')[0]}/fig0[16]/*.h5", f"figures/{quality}/fig0[16].???")
-    return {path: path.read_bytes() for place in places for path in clone.folder.glob(place)}
+    folders = (f"data/{quality.partition('_')[0]}/fig0[16]/*.h5", f"figures/{quality}/fig0[16].???")
+    return {path: path.read_bytes() for folder in folders for path in clone.folder.glob(folder)}
 
 
 def test_parts_and_batches_give_the_same_bytes(cluster: slurm.Cluster, kept: Clone) -> None:
@@ -86,7 +86,7 @@ def processes(clone: Clone, program: str) -> list[int]:
 
 
 def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, kept: Clone) -> None:
-    """By Ctrl-C, scancel, kill -9, its time limit, while the controller is away, and while the node is drained."""
+    """Jobs end by Ctrl-C, scancel, kill -9 or their time limit, while the controller does not run, and while the node is drained."""
     program = "particle_count"
     with on_cluster(kept, *LONG, "batch=0.1") as making:
         soon(lambda: processes(kept, program), seconds=600)
@@ -102,7 +102,7 @@ def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, kept: Clone) -> Non
         cluster.stop_controller()
         time.sleep(5)
         cluster.start_controller()
-        soon(cluster.jobs)  # the controller is back
+        soon(cluster.jobs)  # jobs are listed again once the controller runs
         cluster.command("scontrol", "update", "NodeName=localhost", "State=DRAIN", "Reason=test")
         time.sleep(5)
         cluster.command("scontrol", "update", "NodeName=localhost", "State=RESUME")
@@ -135,12 +135,12 @@ def test_a_part_resumes_from_its_checkpoint(cluster: slurm.Cluster, kept: Clone)
 
 
 def text_of(log: Path) -> str:
-    """Empty between two attempts."""
+    """Content of a log; empty if it does not exist, as between two attempts."""
     with contextlib.suppress(FileNotFoundError):
         return log.read_text()
     return ""
 
 
 def reports(log: Path) -> list[float]:
-    """Numbers of replicas, which a program prints every ten seconds."""
+    """Numbers of finished replicas that a program has printed, one every ten seconds."""
     return [float(number) for number in re.findall(r"(\d+\.\d) of \d+ replicas", text_of(log))]

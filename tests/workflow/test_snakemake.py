@@ -20,7 +20,9 @@ def test_it_gives_the_bytes_of_make_in_any_environment(kept: Clone) -> None:
     command = (".venv/bin/snakemake", "--config", "quality=smoke", "panel=fig03", "--", "panel")
     kept.run(*command, **settings)
     after = kept.products()
-    assert {path for path in before if before[path] != after[path]} <= {kept.record("fig03")}  # the commit
+    assert {path for path in before if before[path] != after[path]} <= {
+        kept.record("fig03")
+    }  # its record contains the commit
 
 
 def test_a_file_is_a_target(kept: Clone) -> None:

@@ -37,7 +37,8 @@ def tables(folder: Path, panel: str) -> tuple[pd.DataFrame, ...]:
     results = [load(folder / path) for path in data_of(PLAN, panel, "smoke")]
     style.apply()
     drawn = [
-        draw(one)[1] for one in (results, *([scale.result(each) for each in results] for scale in SCALES))
+        draw(inputs)[1]
+        for inputs in (results, *([scale.result(result) for result in results] for scale in SCALES))
     ]
     plt.close("all")
     return tuple(drawn)
@@ -48,23 +49,23 @@ OPTION_AS_GIVEN = "spacing"  # a label: 1/N, or a length as it is configured
 
 def scales(folder: Path, panel: str, name: str, text: str) -> bool:
     """Whether a column scales according to these units."""
-    plain, *others = tables(folder, panel)
+    plain, *in_other_units = tables(folder, panel)
     by_row = text.startswith(BY_ROW)
-    for scale, scaled in zip(SCALES, others, strict=True):
+    for scale, scaled in zip(SCALES, in_other_units, strict=True):
         factor = plain[text.removeprefix(BY_ROW)].map(scale).to_numpy() if by_row else scale(text)
-        values, other = (table[name].to_numpy(dtype=float) for table in (plain, scaled))
-        if not agree(values, other / factor, 1, ROUNDING):
+        values, converted = (table[name].to_numpy(dtype=float) for table in (plain, scaled))
+        if not agree(values, converted / factor, 1, ROUNDING):
             return False
     return True
 
 
 @pytest.mark.parametrize("panel", PLAN)
 def test_every_column_scales_as_its_units(clean: Clone, panel: str) -> None:
-    plain, *others = tables(clean.folder, panel)
+    plain, *in_other_units = tables(clean.folder, panel)
     units = stated(clean.folder / f"figures/smoke/{panel}.csv")
-    for other in others:
+    for converted in in_other_units:
         labels = [name for name in plain if name not in units and name != OPTION_AS_GIVEN]
-        pd.testing.assert_frame_equal(plain[labels], other[labels])
+        pd.testing.assert_frame_equal(plain[labels], converted[labels])
     for name, text in units.items():
         assert scales(clean.folder, panel, name, text), name
         mutant = "1" if text != "1" else "energy"
@@ -74,10 +75,12 @@ def test_every_column_scales_as_its_units(clean: Clone, panel: str) -> None:
 
 @pytest.mark.parametrize("panel", PLAN)
 def test_every_panel_is_drawn_from_runs_that_missed_their_targets(clean: Clone, panel: str) -> None:
-    """As after HOURS."""
+    """Runs that HOURS has stopped miss their target errors."""
     draw = importlib.import_module(f"workflow.figures.{PLAN[panel].script}").draw
     results = [load(clean.folder / path) for path in data_of(PLAN, panel, "smoke")]
-    missed = [replace(one, provenance=one.provenance | {"converged": NOT_REACHED}) for one in results]
+    missed = [
+        replace(result, provenance=result.provenance | {"converged": NOT_REACHED}) for result in results
+    ]
     style.apply()
     _, table, caption = draw(missed)
     plt.close("all")

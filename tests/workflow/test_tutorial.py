@@ -65,16 +65,16 @@ def test_an_observable_of_your_own(own: Clone) -> None:
 
 
 def test_a_collision_rule_of_your_own(own: Clone) -> None:
-    """Finds: the rotation of (u, w) in place of (u, U)."""
+    """Detected mistake: the rule rotates (u, w) instead of (u, U)."""
     try:
         for block in BLOCK.finditer(RULE):
             follow(own, block)
         profile, mu = load(own.folder / "equilibrium.h5"), load(own.folder / "mu.h5")["mu"]
         assert profile.parameters["rule"] == "random-rotation"
         for name in ("temperature_scatterer", "temperature_particle"):
-            found = profile[name]
-            assert np.abs((found.mean - 100) / found.error).max() < 4, name
-            assert np.abs((found.mean - 102) / found.error).max() > 6, name
+            temperature = profile[name]
+            assert np.abs((temperature.mean - 100) / temperature.error).max() < 4, name
+            assert np.abs((temperature.mean - 102) / temperature.error).max() > 6, name
         assert abs(mu.mean - 0.5) < 4 * mu.error < 0.01
         refused = own.run("build/bin/persistence", "--rule", "rotation", "--output", "x.h5", status=2).stdout
         assert "elastic, random-direction, random-rotation" in refused

@@ -15,23 +15,26 @@ from workflow.lib.load import Result
 
 
 def _named(results: list[Result], quantity: str, name: str) -> list[Number]:
-    """One number of each run, labelled by name and mass ratio and, where they differ, particles per cell and relaxation time."""
-    told = {"particles-per-cell": "n", "relaxation-time": "t_r"}
-    differing = [key for key in told if len({one.parameters[key] for one in results}) > 1]
-    found = []
-    for one in results:
-        others = (f", {told[key]} = {one.parameters[key]:g}" for key in differing)
-        label = f"{name}, σ = {one.parameters['sigma']:g}{''.join(others)}"
-        found.append(number(one, quantity, label=label))
-    return found
+    """One number per run. Labels have the name, the mass ratio and, if they differ between runs, particles per cell and relaxation time."""
+    symbols = {"particles-per-cell": "n", "relaxation-time": "t_r"}
+    differing = [key for key in symbols if len({result.parameters[key] for result in results}) > 1]
+    numbers = []
+    for result in results:
+        values = (f", {symbols[key]} = {result.parameters[key]:g}" for key in differing)
+        label = f"{name}, σ = {result.parameters['sigma']:g}{''.join(values)}"
+        numbers.append(number(result, quantity, label=label))
+    return numbers
 
 
 def persistence(data: Data) -> Evidence:
-    """mu at -1, 0 and 1; the law arccos(sigma)/pi at every sigma, in a dense chain and in the paper's."""
+    """mu minus arccos(sigma)/pi. Literal: at sigma = -1, 0 and 1; intended: at every sigma in a dense chain; alternative: at every sigma in
+    the paper's chain."""
     paper = data.of("fig05", particles_per_cell=20)
-    limits = [one for one in paper if one.parameters["sigma"] in (-1, 0, 1)]
+    limits = [result for result in paper if result.parameters["sigma"] in (-1, 0, 1)]
     dense = data.of("fig05", particles_per_cell=320)
-    literal, intended, alternative = ([_from_law(one) for one in runs] for runs in (limits, dense, paper))
+    literal, intended, alternative = (
+        [_from_law(result) for result in runs] for runs in (limits, dense, paper)
+    )
     return Evidence(literal, intended, alternative)
 
 
@@ -41,8 +44,8 @@ def _from_law(result: Result) -> Number:
 
 
 def waiting_half(data: Data) -> Evidence:
-    runs = [one for one in data.of("ext07", "waiting_time") if one.parameters["relaxation-time"] >= 10]
-    aged = [float(one["exponent"].mean) for one in runs]
+    runs = [run for run in data.of("ext07", "waiting_time") if run.parameters["relaxation-time"] >= 10]
+    aged = [float(run["exponent"].mean) for run in runs]
     return Evidence(
         [with_systematic(_waiting(data, 0.5), aged)],
         caveat="The systematic bound is what the relaxation time changes (ext07); cuts of the tail change less.",
@@ -57,14 +60,14 @@ def waiting_zero(data: Data) -> Evidence:
 
 
 def _waiting(data: Data, sigma: float) -> Number:
-    """The spread over cuts within a factor of three counts as systematic."""
+    """Exponent of the waiting times. Its spread over cuts of the tail within a factor of three is a systematic error."""
     (result,) = data.of("fig06", sigma=sigma)
     exponent = number(result, "exponent", label="exponent of Ψ(τ)")
     return with_systematic(exponent, [exponent.value + float(result["exponent_spread"].mean)])
 
 
 def spreading_half(data: Data) -> Evidence:
-    """The relaxation time's influence counts as systematic."""
+    """alpha at sigma = 1/2. Its change with the relaxation time is a systematic error."""
     aged = _relaxed(data, 0.5)
     zero = _named(data.of("ext01", sigma=0.5, zero_total_momentum=True), "alpha", "α at zero total momentum")
     return Evidence(
@@ -87,7 +90,7 @@ def spreading_zero(data: Data) -> Evidence:
 
 
 def _relaxed(data: Data, sigma: float) -> list[float]:
-    return [float(one["alpha"].mean) for one in _drifting(data, sigma, 20)]
+    return [float(run["alpha"].mean) for run in _drifting(data, sigma, 20)]
 
 
 def _drifting(data: Data, sigma: float, n: int) -> list[Result]:
@@ -97,47 +100,51 @@ def _drifting(data: Data, sigma: float, n: int) -> list[Result]:
 
 
 def _without_drift(zero: list[Number]) -> str:
-    return f"At zero total momentum α lies between {min(one.value for one in zero):.3f} and {max(one.value for one in zero):.3f}."
+    return f"At zero total momentum α lies between {min(alpha.value for alpha in zero):.3f} and {max(alpha.value for alpha in zero):.3f}."
 
 
 def superdiffusive(data: Data) -> Evidence:
-    """alpha for every sigma but 0, with the paper's random total momentum; intended meaning: without."""
-    runs = [one for one in data.of("fig07_inset") if one.parameters["sigma"]]
+    """alpha for every sigma but 0. Literal: with the paper's random total momentum; intended: with zero total momentum."""
+    runs = [run for run in data.of("fig07_inset") if run.parameters["sigma"]]
     free, zero = (
-        _named([one for one in runs if one.parameters["zero-total-momentum"] == given], "alpha", name)
+        _named([run for run in runs if run.parameters["zero-total-momentum"] == given], "alpha", name)
         for given, name in ((False, "α"), (True, "α at zero total momentum"))
     )
     return Evidence(free, zero, caveat=_without_drift(zero))
 
 
 def diffusion_recovered(data: Data) -> Evidence:
-    found = _named(data.of("ext01", rule="random-direction"), "alpha", "α")
+    exponents = _named(data.of("ext01", rule="random-direction"), "alpha", "α")
     return Evidence(
-        found, found, caveat="Waits of τ⁻² make t/ln t, whose exponent approaches 1 from below (ext01)."
+        exponents,
+        exponents,
+        caveat="Waits of τ⁻² make t/ln t, whose exponent approaches 1 from below (ext01).",
     )
 
 
 def only_energy(data: Data) -> Evidence:
-    """Change of the total momentum over a run, relative to the sum of all |momenta|, as a power of ten. What is below
-    rounding counts as rounding."""
-    runs = [one for one in data.of("fig07_inset") if one.parameters["sigma"]]
-    found = []
-    for one in _named(runs, "momentum_drift", "log₁₀ of the relative change of Σp + ΣP"):
-        change = max(one.value, sys.float_info.epsilon)
-        found.append(Number(one.label, math.log10(change), one.error / (change * math.log(10)), one.freedom))
-    largest = max(float(one["momentum_drift"].mean) for one in runs)
+    """Change of the total momentum over a run, relative to the sum of all |momenta|, as a power of ten. Changes below
+    the rounding error are replaced by it."""
+    runs = [run for run in data.of("fig07_inset") if run.parameters["sigma"]]
+    changes = []
+    for drift in _named(runs, "momentum_drift", "log₁₀ of the relative change of Σp + ΣP"):
+        change = max(drift.value, sys.float_info.epsilon)
+        changes.append(
+            Number(drift.label, math.log10(change), drift.error / (change * math.log(10)), drift.freedom)
+        )
+    largest = max(float(run["momentum_drift"].mean) for run in runs)
     return Evidence(
-        found,
+        changes,
         caveat=f"The largest change is {scientific(largest)}, rounding; every collision conserves p + P.",
     )
 
 
 def ageing(data: Data) -> Evidence:
-    """Slope of the scatterers' energy against ln t in the last decade over that in the first from t = 1 on. Literal: minus 1, as
-    growth with log t has one slope. Intended: in a chain of few particles, which saturates first."""
+    """Slope of the scatterers' energy against ln t in the last decade over that in the first decade from t = 1 on. Literal: this ratio
+    minus 1, which is 0 for logarithmic growth. Intended: the ratio in a chain of few particles, which saturates first."""
     runs = data.of("ext07", "ageing")
     result = max(
-        runs, key=lambda one: [one.parameters[key] for key in ("particles-per-cell", "observation-time")]
+        runs, key=lambda run: [run.parameters[key] for key in ("particles-per-cell", "observation-time")]
     )
     change = _last_slope(result)
     return Evidence(

@@ -1,4 +1,4 @@
-"""What the claims are judged by: the result files of the panels, and numbers taken from them."""
+"""Data of the claims: the result files of the panels, and numbers taken from them."""
 
 import copy
 from collections.abc import Callable, Iterable, Sequence
@@ -14,41 +14,42 @@ from workflow.lib.plan import Run, data_path, load_plan
 
 
 class MissingError(LookupError):
-    """There is no result that a claim could be judged by."""
+    """A result that a claim depends on does not exist or cannot be loaded."""
 
 
 class Data:
-    """The results at one quality. Each file is loaded once, for all that look at the data."""
+    """The results at one quality. Each file is loaded once for all claims."""
 
     def __init__(self, quality: str, root: Path) -> None:
         self.quality, self.root = quality, root
         self.plan = load_plan(quality)
-        self.loaded: dict[str, Result] = {}  # by path
-        self.used: dict[str, Result] = {}  # of these, by path, those that a claim took
-        self.damaged: list[str] = []  # paths of results that are there and refused
+        self.loaded: dict[str, Result] = {}  # loaded results by path
+        self.used: dict[str, Result] = {}  # results that a claim has used, by path
+        self.damaged: list[str] = []  # paths of existing results that cannot be loaded
 
     def anew(self) -> "Data":
-        """The same data, of which nothing has been used yet."""
-        other = copy.copy(self)
-        other.used = {}
-        return other
+        """A copy that shares the loaded results, and has an empty list of used ones."""
+        fresh = copy.copy(self)
+        fresh.used = {}
+        return fresh
 
     def of(self, panel: str, program: str | None = None, **parameters: object) -> list[Result]:
         """The panel's own runs with these parameters (underscores for dashes). Raises MissingError if there is none."""
         wanted = {name.replace("_", "-"): value for name, value in parameters.items()}
         runs = [run for run in self._runs(panel) if program in (None, run.program)]
-        found = {
+        results = {
             path: result
             for path, result in (self._load(panel, run) for run in runs)
             if all(result.parameters.get(name) == value for name, value in wanted.items())
         }
-        if not found:
+        if not results:
             raise MissingError(f"{panel} has no runs with {wanted or 'results'} at quality {self.quality}")
-        self.used |= found
-        return [*found.values()]
+        self.used |= results
+        return [*results.values()]
 
     def one(self, panel: str, run: str) -> Result:
-        named = [each for each in self._runs(panel) if each.name == run]
+        """The result of a run of the panel, by its name. Raises MissingError."""
+        named = [planned for planned in self._runs(panel) if planned.name == run]
         if not named:
             raise MissingError(f"{panel} has no run {run} at quality {self.quality}")
         path, result = self._load(panel, named[0])
@@ -87,7 +88,7 @@ Claim = Callable[[Data], Evidence]
 
 
 def where_made(find: Callable[[], Sequence[Number]]) -> Sequence[Number]:
-    """Empty where a result is missing that not every quality has."""
+    """The numbers; none if a result is missing, as not every quality has all runs."""
     try:
         return find()
     except MissingError:
@@ -95,16 +96,16 @@ def where_made(find: Callable[[], Sequence[Number]]) -> Sequence[Number]:
 
 
 def freedom(*results: Result) -> float:
-    """Degrees of freedom of the error of what is made from these runs: those of the one with the fewest replicas."""
+    """Degrees of freedom of a number that is calculated from these runs: those of the run with the fewest replicas."""
     return min(int(result.parameters["replicas"]) for result in results) - 1
 
 
 def by_size(results: Iterable[Result]) -> list[Result]:
-    return sorted(results, key=lambda one: one.parameters["cells"])
+    return sorted(results, key=lambda result: result.parameters["cells"])
 
 
 def number(result: Result, name: str, index: Index = (), label: str = "") -> Number:
-    """A quantity of a run, or one of an array."""
+    """A quantity of a run, or one element of an array. A computed quantity has a systematic error only."""
     quantity = result[name]
     value = float(quantity.mean[index])
     if quantity.discretisation_error is not None:
@@ -113,7 +114,7 @@ def number(result: Result, name: str, index: Index = (), label: str = "") -> Num
 
 
 def ratio(above: Number, below: Number, label: str) -> Number:
-    """Of two independent numbers."""
+    """Ratio of two independent numbers."""
     value, size = above.value / below.value, abs(below.value)
     error = float(np.hypot(above.error, value * below.error)) / size
     systematic = (above.systematic + abs(value) * below.systematic) / size
@@ -121,23 +122,27 @@ def ratio(above: Number, below: Number, label: str) -> Number:
 
 
 def combination(numbers: Sequence[Number], weights: Sequence[float], label: str, minus: float = 0) -> Number:
-    """Weighted sum of independent numbers, minus what is expected."""
+    """Weighted sum of independent numbers, minus an expected value."""
     terms = [*zip(weights, numbers, strict=True)]
     return Number(
         label,
-        sum(weight * one.value for weight, one in terms) - minus,
-        float(np.sqrt(sum((weight * one.error) ** 2 for weight, one in terms))),
-        min(one.freedom for one in numbers),
-        sum(abs(weight) * one.systematic for weight, one in terms),
+        sum(weight * term.value for weight, term in terms) - minus,
+        float(np.sqrt(sum((weight * term.error) ** 2 for weight, term in terms))),
+        min(term.freedom for term in numbers),
+        sum(abs(weight) * term.systematic for weight, term in terms),
     )
 
 
 def power(
     results: Sequence[Result], size: Sequence[float], values: Sequence[Number], label: str
 ) -> tuple[Number, PowerLaw]:
-    """Exponent of a power law through independent numbers; where they reject one, its name says so. Its systematic error is the
-    change without the first of them."""
-    x, y, error = np.asarray(size, float), [one.value for one in values], [one.error for one in values]
+    """Exponent of a power law through independent numbers; if they reject the law, the label states it. The
+    systematic error is the change of the exponent without the first number."""
+    x, y, error = (
+        np.asarray(size, float),
+        [point.value for point in values],
+        [point.error for point in values],
+    )
     law = fit_power(x, y, error)
     later = fit_power(x[1:], y[1:], error[1:]).exponent if len(x) > 2 else law.exponent
     exponent = Number(mean_slope(label, law), law.exponent, law.error, freedom(*results))
@@ -145,7 +150,7 @@ def power(
 
 
 def mean_slope(label: str, law: PowerLaw) -> str:
-    """What the exponent of a power law is called: no exponent where the points reject the law."""
+    """The label, which calls the exponent a mean slope if the points reject the power law."""
     if not law.rejected:
         return label
     return f"{label}, a mean slope (χ² = {law.chi_square:.0f} for {law.freedom})"

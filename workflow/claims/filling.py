@@ -1,4 +1,4 @@
-"""Claims on the chain that fills (fig. 1), at the spacing 1/N of the paper's other open chains; it states none here."""
+"""Claims on the chain that fills (fig. 1), at the spacing 1/N of the paper's other open chains, as it states none for this one."""
 
 import math
 
@@ -9,21 +9,21 @@ from workflow.claims.verdict import Number
 from workflow.lib.fit import fit_multiple, with_error
 from workflow.lib.load import Result
 
-SPACINGS = {"paper": "1", "short": "0.05"}  # the other two, of which not every quality has both
+SPACINGS = {"paper": "1", "short": "0.05"}  # the two other spacings by run; not every quality has both
 
 
 def stationary_above_front(data: Data) -> Evidence:
     """Relative changes of |p| n_t(p) above p_0 from each time to the next."""
-    others = _others(data)
-    changes = [_rise(one, 0, -1) for one in others.values()]
-    pairs = zip(others, changes, strict=True)
-    told = [f"λ = {name}: {with_error(one.value, one.error)}" for name, one in pairs]
+    by_spacing = _others(data)
+    changes = [_rise(run, 0, -1) for run in by_spacing.values()]
+    pairs = zip(by_spacing, changes, strict=True)
+    texts = [f"λ = {name}: {with_error(change.value, change.error)}" for name, change in pairs]
     result = data.one("fig01", "unit-chain")
     later = range(1, len(result["plateau"].mean))
     return Evidence(
         [_rise(result, k - 1, k) for k in later],
         alternative=changes,
-        caveat=f"The paper states no spacing; judged at 1/N. From the first time to the last it rises at {' and at '.join(told)}.",
+        caveat=f"The paper states no spacing; judged at 1/N. From the first time to the last it rises at {' and at '.join(texts)}.",
     )
 
 
@@ -41,20 +41,20 @@ def grows_as_logarithm(data: Data) -> Evidence:
 
 
 def front_falls(data: Data) -> Evidence:
-    """Exponent of p_0(t); 1/ln t has -1/ln t."""
+    """Exponent of p_0(t). For p_0 ~ 1/ln t it would be -1/ln t."""
     result = data.one("fig01", "unit-chain")
-    others = _others(data)
-    found = [number(one, "front_exponent", label=f"at λ = {name}") for name, one in others.items()]
-    told = [f"{_misfits(one)} at λ = {name}" for name, one in {"1/N": result, **others}.items()]
+    by_spacing = _others(data)
+    exponents = [number(run, "front_exponent", label=f"at λ = {name}") for name, run in by_spacing.items()]
+    misfits = [f"{_misfits(run)} at λ = {name}" for name, run in {"1/N": result, **by_spacing}.items()]
     return Evidence(
         [number(result, "front_exponent", label="d ln p₀ / d ln t at λ = 1/N")],
-        alternative=found,
-        caveat=f"χ² of the five fronts for p₀ ~ 1/t and ~ 1/ln t: {', '.join(told)}, with 4 degrees of freedom.",
+        alternative=exponents,
+        caveat=f"χ² of the five fronts for p₀ ~ 1/t and ~ 1/ln t: {', '.join(misfits)}, with 4 degrees of freedom.",
     )
 
 
 def _others(data: Data) -> dict[str, Result]:
-    """Runs at the other spacings, by spacing."""
+    """Results at the two other spacings, as far as the quality has them, by spacing."""
     names = {run.name for run in data.plan["fig01"].runs}
     return {spacing: data.one("fig01", run) for run, spacing in SPACINGS.items() if run in names}
 
@@ -67,7 +67,7 @@ def _rise(result: Result, first: int, last: int) -> Number:
 
 
 def _misfits(result: Result) -> str:
-    """Of p_0 ~ 1/t and of p_0 ~ 1/ln t."""
+    """χ² of the fits p_0 ~ 1/t and p_0 ~ 1/ln t, as text."""
     front = result["front"]
     time = front.axes["time"]
     return " and ".join(

@@ -29,7 +29,7 @@ class Judgement:
     intended: Reading | None = None
     alternative: Reading | None = None
     caveat: str = ""
-    data: tuple[str, ...] = ()  # paths of the result files that it rests on
+    data: tuple[str, ...] = ()  # paths of the result files that it depends on
 
     @property
     def deciding(self) -> Reading | None:
@@ -41,7 +41,7 @@ class Judgement:
 
 
 def read_claims(root: Path) -> list[dict[str, str]]:
-    """Raises ConfigurationError, OSError."""
+    """Rows of the table of claims. Raises ConfigurationError, OSError."""
     try:
         table = pd.read_csv(root / CLAIMS_FILE, dtype=str, keep_default_na=False)[COLUMNS]
         rows: list[dict[str, str]] = table.to_dict("records")
@@ -49,7 +49,7 @@ def read_claims(root: Path) -> list[dict[str, str]]:
             raise ValueError(f"{min(unmatched)} has no row there or no function in workflow/claims: add it")
         for band in (row[reading] for row in rows for reading in READINGS if row[reading]):
             Band.of(band)
-    except (ValueError, KeyError) as error:  # pandas' own are of the first kind
+    except (ValueError, KeyError) as error:  # errors of pandas are ValueErrors
         raise ConfigurationError(f"{CLAIMS_FILE}: {error}") from error
     return rows
 

@@ -11,8 +11,8 @@ from workflow.lib.fit import fit_line
 from workflow.lib.load import Result
 
 RUNS = {"deterministic": "γ = N", "rare": "γ = 1"}
-FROM_SIZE = 20  # smaller chains have no bulk
-DEVIATIONS = (  # quantity, what it is of, number of the first
+FROM_SIZE = 20  # cells; shorter chains have no bulk
+DEVIATIONS = (  # quantity, label, number of the first scatterer or bond
     ("rate_right", "rate to the right at scatterer", 1),
     ("rate_left", "rate to the left at scatterer", 1),
     ("particle_current", "particle current through bond", 0),
@@ -38,44 +38,45 @@ def temperatures_mismatch(data: Data) -> Evidence:
 
 def temperatures_coincide(data: Data) -> Evidence:
     """T of the scatterer minus T of the particles in every cell, relative to the latter."""
-    found = []
+    numbers = []
     for result, name in _both(data):
         for k, local in enumerate(result["temperature_particle"].mean):
             label = f"T of scatterer over that of particles, minus 1, in cell {k + 1}, {name}"
-            found.append(number(result, "temperature_difference", k, label).over(local))
+            numbers.append(number(result, "temperature_difference", k, label).over(local))
     caveat = "Exact only where the mean momentum vanishes (docs/model.md, eq. 39)."
-    return Evidence(found, found, caveat=caveat)
+    return Evidence(numbers, numbers, caveat=caveat)
 
 
 def density_profiles(data: Data) -> Evidence:
-    """At gamma = 1 less steep in the bulk, and more particles than the bulk's line gives in both end cells."""
+    """Slope of the density in the bulk at gamma = 1 over that at gamma = N, and excess of particles in both end cells over the line through
+    the bulk."""
     both = [result for result, _ in _both(data)]
-    above, below = (number(one, "density_slope") for one in reversed(both))
+    above, below = (number(profile, "density_slope") for profile in reversed(both))
     slope = ratio(above, below, "")
     less = replace(slope.over(-1, -1), label="1 - slope(γ = 1)/slope(γ = N)")
     excess = []
     for end, name in enumerate(("first", "last")):
-        ends = [number(one, "density_excess", end) for one in both]
+        ends = [number(profile, "density_excess", end) for profile in both]
         excess.append(combination(ends, [-1, 1], f"excess of the {name} cell, γ = 1 minus γ = N"))
     return Evidence([less, *excess])
 
 
 def linear_rates(data: Data) -> Evidence:
     """Deviations of the rates from a straight line and of the current from its mean, over the mean rate."""
-    found = []
+    numbers = []
     for result, name in _both(data):
         scale = float(result["rate_right"].mean.mean())
         for quantity, words, first in DEVIATIONS:
             for k in range(len(result[f"{quantity}_deviation"].mean)):
                 label = f"{words} {k + first}, {name}"
-                found.append(number(result, f"{quantity}_deviation", k, label).over(scale))
-    return Evidence(found, found)
+                numbers.append(number(result, f"{quantity}_deviation", k, label).over(scale))
+    return Evidence(numbers, numbers)
 
 
 def boundary_grows(data: Data) -> Evidence:
     """Excess density of the end cells against ln N at gamma = 1."""
     every = [*data.of("ext05"), data.one("fig02_upper", "rare")]
-    results = by_size(one for one in every if one.parameters["cells"] >= FROM_SIZE)
+    results = by_size(run for run in every if run.parameters["cells"] >= FROM_SIZE)
     return Evidence(
         [_slope(results, end, name) for end, name in enumerate(("first", "last"))],
         caveat="Growth up to the largest N; that it goes on without limit cannot be seen in finite chains.",
@@ -83,9 +84,9 @@ def boundary_grows(data: Data) -> Evidence:
 
 
 def _slope(results: Sequence[Result], end: int, name: str) -> Number:
-    size = np.log([one.parameters["cells"] for one in results])
-    points = [number(one, "density_excess", end) for one in results]
-    value, error = [one.value for one in points], [one.error for one in points]
+    size = np.log([run.parameters["cells"] for run in results])
+    points = [number(run, "density_excess", end) for run in results]
+    value, error = [point.value for point in points], [point.error for point in points]
     line, later = fit_line(size, value, error), fit_line(size[1:], value[1:], error[1:])
     label = f"excess of the {name} cell per unit of ln N"
     return with_systematic(Number(label, line.slope, line.error, freedom(*results)), [later.slope])

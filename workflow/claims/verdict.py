@@ -1,4 +1,4 @@
-"""Rules by which numbers decide a claim. Pure functions: data come in as numbers, verdicts go out.
+"""Rules that give the verdict on a claim from numbers: pure functions, which read no files.
 
 A claim has an acceptance band. A measurement is an interval: the value, plus and minus the systematic error and as
 many standard errors as the level requires. The claim is reproduced if the interval lies inside the band, contradicted
@@ -14,7 +14,7 @@ from functools import cache
 from scipy.special import stdtr, stdtrit  # scipy.stats takes half a second to import
 
 FAMILY_LEVEL = 0.05  # probability that any of the claims gets a wrong verdict by chance
-POWER = 0.95  # with which the deviation that is stated would have been seen
+POWER = 0.95  # probability of detecting a deviation as large as the stated one
 
 
 class Outcome(StrEnum):
@@ -27,7 +27,7 @@ class Outcome(StrEnum):
 
 @dataclass(frozen=True)
 class Number:
-    """error is the standard error, known with so many degrees of freedom; systematic bounds what chance does not explain."""
+    """A measured number. error: standard error with `freedom` degrees of freedom; systematic: bound on the systematic error."""
 
     label: str
     value: float
@@ -36,26 +36,27 @@ class Number:
     systematic: float = 0.0
 
     def over(self, unit: float, minus: float = 0) -> "Number":
-        """value/unit - minus."""
+        """The number value/unit - minus, with its errors divided by |unit|."""
         size = abs(unit)
         return replace(
             self, value=self.value / unit - minus, error=self.error / size, systematic=self.systematic / size
         )
 
     def interval(self, level: float) -> tuple[float, float]:
-        """Contains the true value but for the given probability."""
+        """Interval that contains the true value with the probability 1 - level."""
         half = critical(level, self.freedom) * self.error + self.systematic if self.error else self.systematic
         return self.value - half, self.value + half
 
     def p_value(self, band: "Band") -> float:
-        """Two-sided, of the band being true: below the level exactly if the interval lies outside the band."""
+        """Two-sided p-value of the hypothesis that the true value is in the band. It is below a level exactly if the interval of this level is
+        outside the band."""
         beyond = max(band.low - self.value, self.value - band.high) - self.systematic
         if not beyond > 0:
             return math.nan if math.isnan(beyond) else 1.0
         return float(2 * stdtr(self.freedom, -beyond / self.error)) if self.error else 0.0
 
     def detectable(self, level: float) -> float:
-        """Distance beyond the band that would have been found a contradiction with the probability POWER."""
+        """Distance of a true value from the band at which the band is contradicted with the probability POWER."""
         spread = critical(level, self.freedom) + critical(2 * (1 - POWER), self.freedom)
         return spread * self.error + self.systematic if self.error else self.systematic
 
@@ -69,7 +70,7 @@ class Band:
 
     @classmethod
     def of(cls, text: str) -> "Band":
-        """As written in the table of claims: `0.95 to 1.05`, `above 0`, `below -0.5`."""
+        """Parses a band as written in the table of claims: `0.95 to 1.05`, `above 0`, `below -0.5`."""
         match text.split():
             case ["above", low]:
                 return cls(float(low), math.inf)
@@ -92,23 +93,25 @@ class Reading:
 
     band: Band
     numbers: tuple[Number, ...]
-    level: float  # of the reading; each number is tested at its share
+    level: float  # significance level of the reading; each number is tested at an equal fraction of it
 
     @property
     def share(self) -> float:
+        """Significance level of each number, by Bonferroni."""
         return self.level / max(1, len(self.numbers))
 
     @property
     def outcome(self) -> Outcome:
         outcomes = {self.band.outcome(number.interval(self.share)) for number in self.numbers}
         order = (Outcome.CONTRADICTED, Outcome.UNDECIDED, Outcome.REPRODUCED)
-        return next((one for one in order if one in outcomes), Outcome.NOT_TESTABLE)
+        return next((outcome for outcome in order if outcome in outcomes), Outcome.NOT_TESTABLE)
 
     @property
     def p_value(self) -> float:
-        """By Bonferroni over the numbers."""
+        """Bonferroni-corrected p-value of the most significant number."""
         return min(
-            (min(1.0, len(self.numbers) * one.p_value(self.band)) for one in self.numbers), default=math.nan
+            (min(1.0, len(self.numbers) * number.p_value(self.band)) for number in self.numbers),
+            default=math.nan,
         )
 
     @property
@@ -130,7 +133,7 @@ class Reading:
 
 
 def combined(literal: Outcome, intended: Outcome | None) -> Outcome:
-    """Of the literal statement and the intended meaning, where they differ. A literal statement that holds is contradicted by a
+    """Verdict from the literal statement and from the intended meaning, if it differs. A literal statement that holds is contradicted by a
     refuted meaning: a number may come out for another reason than the one claimed."""
     if intended in (None, Outcome.NOT_TESTABLE):
         return literal
@@ -140,7 +143,7 @@ def combined(literal: Outcome, intended: Outcome | None) -> Outcome:
 
 
 def level_of_each(claims: int) -> float:
-    """Bonferroni's share of a claim, so that the look at many claims makes no wrong verdict likely."""
+    """Significance level of each claim by Bonferroni: the probability of any wrong verdict is at most FAMILY_LEVEL."""
     return FAMILY_LEVEL / claims
 
 
@@ -150,6 +153,6 @@ def critical(level: float, freedom: float) -> float:
 
 
 def with_systematic(number: Number, others: Sequence[float]) -> Number:
-    """The largest distance from what other settings give is added as a bound."""
+    """Adds the largest distance from the values of other settings to the bound on the systematic error."""
     differences = [abs(other - number.value) for other in others if math.isfinite(other)]
     return replace(number, systematic=number.systematic + max(differences, default=0.0))

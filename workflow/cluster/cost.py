@@ -27,10 +27,10 @@ from workflow.provenance.build_id import BuildError
 
 TABLE = ROOT / "workflow/config/seconds.csv"  # panel, series, cells, effort, cpu_seconds
 UNKNOWN = 900.0  # seconds assumed by the jobs of a cluster for a series that is not in the table
-PILOT, PILOT_SECONDS = 2, 20  # replicas of a trial, and the longest time that it takes
+PILOT, PILOT_SECONDS = 2, 20  # replicas of a trial execution, and its time limit in seconds
 LEAST = 64  # replicas that a target error needs (cpp/program/stopping_rule.hpp)
 DRAWING = 4.0  # CPU seconds of rendering a panel
-PARTS = "build/parts"  # of runs on a cluster: PARTS/<quality>/<panel>/<run>.<identity>/
+PARTS = "build/parts"  # folder of the parts of runs on a cluster: PARTS/<quality>/<panel>/<run>.<identity>/
 
 
 def seconds_spent(quality: str, panel: str, run: Run) -> float | None:
@@ -46,7 +46,7 @@ def recorded_seconds(path: str) -> float | None:
     stem = path.removesuffix(".h5")
     try:
         own = _cost(ROOT / f"{stem}.cost.json")
-        parts = [_cost(one) for one in (ROOT / PARTS / stem.removeprefix("data/")).glob("*.cost.json")]
+        parts = [_cost(path) for path in (ROOT / PARTS / stem.removeprefix("data/")).glob("*.cost.json")]
     except (OSError, ValueError, KeyError, TypeError):
         return None
     # The cost of joining is negligible.
@@ -77,11 +77,13 @@ def expected_replicas(panel: str, run: Run) -> float | None:
     target = run.target
     if target is None or not run.replicated:
         return float(run.options.get("replicas", 1))
-    unit = _at_size(panel, run, "error")  # of one unit of effort
+    unit = _at_size(panel, run, "error")  # error after one unit of effort
     if unit is None:
         return None
     replicas = (unit / target) ** 2 / effort(run.options)
-    bound = 1 + 1.645 / math.sqrt(2 * max(replicas, LEAST))  # of a standard error, relative to its estimate
+    bound = 1 + 1.645 / math.sqrt(
+        2 * max(replicas, LEAST)
+    )  # upper bound of a standard error over its estimate
     return max(LEAST, replicas * bound**2)
 
 
@@ -91,7 +93,7 @@ _plan = cache(load_plan)  # read for many runs
 def scaled_seconds(panel: str, run: Run) -> float | None:
     """CPU seconds scaled from a recorded execution at another quality; None without one, or with a target error."""
     for quality in QUALITIES if run.target is None else ():
-        for other in (one for one in _plan(quality)[panel].runs if one.name == run.name):
+        for other in (candidate for candidate in _plan(quality)[panel].runs if candidate.name == run.name):
             if seconds := seconds_spent(quality, panel, other):
                 replicas = float(run.options.get("replicas", 1)) / float(other.options.get("replicas", 1))
                 return seconds * replicas * effort(run.options) / effort(other.options)
@@ -118,7 +120,8 @@ def pilot_seconds(run: Run) -> float | None:
 
 @cache
 def _table() -> dict[tuple[str, str], list[dict[str, float]]]:
-    """Sizes with CPU seconds and error of one unit of effort, by panel and series. An error falls as the root of the effort."""
+    """Rows of the table by panel and series, with CPU seconds and error per unit of effort. The error is inversely proportional to the
+    root of the effort."""
     table: dict[tuple[str, str], list[dict[str, float]]] = {}
     with TABLE.open(newline="") as file:
         for row in csv.DictReader(file):
@@ -138,8 +141,8 @@ def _at_size(panel: str, run: Run, name: str) -> float | None:
         return known[size]
     if len(known) < 2:
         return None
-    near, next_to_it = sorted(known, key=lambda one: abs(math.log(one / size)))[:2]
-    power = math.log(known[next_to_it] / known[near]) / math.log(next_to_it / near)
+    near, second = sorted(known, key=lambda candidate: abs(math.log(candidate / size)))[:2]
+    power = math.log(known[second] / known[near]) / math.log(second / near)
     return float(known[near] * (size / near) ** power)
 
 
@@ -173,20 +176,20 @@ def main() -> None:
     for panel in panels:
         recorded = [seconds_spent(options.quality, panel.name, run) for run in panel.runs]
         seconds = [
-            known
+            recorded_value
             or estimated_seconds(panel.name, run)
             or scaled_seconds(panel.name, run)
             or pilot_seconds(run)
-            for known, run in zip(recorded, panel.runs, strict=True)
+            for recorded_value, run in zip(recorded, panel.runs, strict=True)
         ]
-        found = [one for one in seconds if one is not None]
-        unknown += len(seconds) - len(found)
-        jobs += [*found, DRAWING]
+        estimates = [value for value in seconds if value is not None]
+        unknown += len(seconds) - len(estimates)
+        jobs += [*estimates, DRAWING]
         source = (
             f"{len(seconds) - recorded.count(None)} of {len(seconds)} runs recorded, the others estimated"
         )
-        source += f", {len(seconds) - len(found)} unknown" if len(found) < len(seconds) else ""
-        print(f"{panel.name:<18}{wall([*found, DRAWING], 1)!s:>17}  {source}")
+        source += f", {len(seconds) - len(estimates)} unknown" if len(estimates) < len(seconds) else ""
+        print(f"{panel.name:<18}{wall([*estimates, DRAWING], 1)!s:>17}  {source}")
     cores = os.cpu_count() or 1
     more = f", and {unknown} runs of unknown cost" if unknown else ""
     print(f"CPU time: {wall(jobs, 1)}{more}. Wall time on {cores} cores here: {wall(jobs, cores)}")

@@ -1,7 +1,7 @@
 """Writes workflow/config/seconds.csv from the results of the given qualities: cost and error of every series and size.
 
-Of several qualities, that of most replicas counts; of several runs of one size, as for a list of sigma, the largest cost and error.
-Rows of other series and sizes stay.
+If several qualities have a series and size, the one with the most replicas is used. If several runs have one size, as for a list of
+sigma, the largest cost and error are used. Rows of other series and sizes are kept.
 """
 
 import argparse
@@ -20,7 +20,7 @@ Key = tuple[object, ...]
 
 
 def row(quality: str, panel: str, run: Run) -> Row | None:
-    """None without a recorded execution. The error of a series with a target-scale is relative to it."""
+    """Row of a run; None without a recorded execution. The error of a series with a target-scale is relative to this scale."""
     path = data_path(quality, panel, run)
     seconds = recorded_seconds(path)
     if seconds is None:
@@ -42,34 +42,34 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("qualities", nargs="+", choices=QUALITIES)
     with TABLE.open(newline="") as file:
-        known: dict[Key, Row] = {
-            tuple(one[name] for name in COLUMNS[:3]): one for one in csv.DictReader(file)
+        rows: dict[Key, Row] = {
+            tuple(line[name] for name in COLUMNS[:3]): line for line in csv.DictReader(file)
         }
     replicas: dict[Key, int] = {}
     for quality in parser.parse_args().qualities:
         for name, panel in load_plan(quality).items():
             for run in panel.runs:
                 try:
-                    found = row(quality, name, run)
+                    entry = row(quality, name, run)
                 except FormatError:
                     continue
-                if found is None:
+                if entry is None:
                     continue
                 key, count = (
-                    tuple(found[column] for column in COLUMNS[:3]),
+                    tuple(entry[column] for column in COLUMNS[:3]),
                     int(run.options.get("replicas", 1)),
                 )
                 if count > replicas.get(key, 0):
-                    known[key], replicas[key] = found, count
+                    rows[key], replicas[key] = entry, count
                 elif count == replicas[key]:
                     for column in COLUMNS[4:]:
-                        known[key][column] = max(
-                            known[key][column], found[column], key=lambda text: float(str(text) or 0)
+                        rows[key][column] = max(
+                            rows[key][column], entry[column], key=lambda text: float(str(text) or 0)
                         )
     text = io.StringIO()
     writer = csv.DictWriter(text, COLUMNS, restval="", lineterminator="\n")
     writer.writeheader()
-    writer.writerows(known.values())
+    writer.writerows(rows.values())
     write_together({TABLE: text.getvalue().encode()})
 
 

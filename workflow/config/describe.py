@@ -29,7 +29,7 @@ PURE = ("1", "that of the target quantity")  # options without units of their ow
 OF_THE_MACHINE = {"threads": "processors"}  # defaults that depend on the machine
 WIDTH = 118
 
-Described = dict[str, dict[str, Any]]  # by program
+Described = dict[str, dict[str, Any]]  # descriptions by program
 
 
 def built(programs: Path = ROOT / "build/bin") -> list[str]:
@@ -48,11 +48,17 @@ def descriptions(programs: Path) -> Described:
     described = {}
     for name in built(programs):
         plain = _describe(programs / name)
-        flags = [one["name"] for one in plain["options"] if one["type"] == "flag" and one["affects_results"]]
+        flags = [
+            option["name"]
+            for option in plain["options"]
+            if option["type"] == "flag" and option["affects_results"]
+        ]
         variants = [plain, *(_describe(programs / name, f"--{flag}") for flag in flags)]
-        quantities = {one["name"]: one for variant in variants for one in variant["quantities"]}
-        every = Counter(one["name"] for variant in variants for one in variant["quantities"])
-        always = [one for one in quantities if every[one] == len(variants)]
+        quantities = {
+            quantity["name"]: quantity for variant in variants for quantity in variant["quantities"]
+        }
+        every = Counter(quantity["name"] for variant in variants for quantity in variant["quantities"])
+        always = [quantity for quantity in quantities if every[quantity] == len(variants)]
         described[name] = plain | {"quantities": [*quantities.values()], "always": always}
     return described
 
@@ -62,10 +68,10 @@ def texts(described: Described) -> dict[Path, str]:
     options: dict[str, Any] = {"title": "Options of the programs, by make describe", "programs": {}}
     rules = []
     for name, program in described.items():
-        determining = [one for one in program["options"] if one["affects_results"]]
-        options["programs"][name] = {one["name"]: schema(one) for one in determining}
-        found = {one["name"]: {"const": _signature(one)} for one in program["quantities"]}
-        own = {"properties": found, "required": program["always"], "additionalProperties": False}
+        determining = [option for option in program["options"] if option["affects_results"]]
+        options["programs"][name] = {option["name"]: schema(option) for option in determining}
+        quantities = {quantity["name"]: {"const": _signature(quantity)} for quantity in program["quantities"]}
+        own = {"properties": quantities, "required": program["always"], "additionalProperties": False}
         condition = {"properties": {"program": {"const": name}}}
         rules.append({"if": condition, "then": {"properties": {"quantities": own}}})
     tables = _with_table(FORMAT.read_text(), "options", _option_rows(described))
@@ -77,9 +83,9 @@ def texts(described: Described) -> dict[Path, str]:
 
 
 def schema(option: dict[str, Any]) -> dict[str, Any]:
-    """JSON Schema of an option. A text has a pattern, whose numbers only the program checks. `allowed` is for messages and tables,
+    """JSON Schema of an option. A text option has a pattern; only the program checks the range of the numbers in it. `allowed` is for messages and tables,
     `units` for the columns of tables."""
-    kind, _, other = option["type"].partition(" or ")
+    kind, _, alternative = option["type"].partition(" or ")
     if kind in SIMPLE:
         return SIMPLE[kind]
     if kind == "choice":
@@ -97,17 +103,17 @@ def schema(option: dict[str, Any]) -> dict[str, Any]:
         )
     elif "word" in option:
         pattern, allowed = option["word"], f"{allowed}, or {option['word']}"
-    elif other:
+    elif alternative:
         pattern = polynomial.pattern(number)
         allowed += ", or a sum of such, each alone or followed by N or N^2"
-    found = {"type": [kind, "string"], "pattern": f"^({pattern})$"} if pattern else {"type": kind}
+    types = {"type": [kind, "string"], "pattern": f"^({pattern})$"} if pattern else {"type": kind}
     units = {} if option["units"] in PURE else {"units": option["units"]}
-    return found | limits | {"allowed": allowed} | units
+    return types | limits | {"allowed": allowed} | units
 
 
 def signature(units: str, axes: dict[str, str]) -> str:
     """Units and axes of a quantity in short: `1/(time momentum) [bond in 1, momentum in momentum]`."""
-    return f"{units} [{', '.join(f'{name} in {one}' for name, one in axes.items())}]" if axes else units
+    return f"{units} [{', '.join(f'{name} in {unit}' for name, unit in axes.items())}]" if axes else units
 
 
 def _describe(program: Path, *options: str) -> dict[str, Any]:
@@ -130,32 +136,34 @@ def _with_table(text: str, name: str, rows: Iterable[tuple[str, ...]]) -> str:
 
 
 def _option_rows(described: Described) -> Iterator[tuple[str, ...]]:
-    """Rows of the table of options, those that most programs have first."""
-    users = Counter(json.dumps(one) for program in described.values() for one in program["options"])
-    shared = [json.loads(one) for one, count in users.items() if count > len(described) / 2]
-    lacking = [[f"`{name}`" for name in described if one not in described[name]["options"]] for one in shared]
+    """Rows of the table of options. Options of most programs are first."""
+    users = Counter(json.dumps(option) for program in described.values() for option in program["options"])
+    shared = [json.loads(option) for option, count in users.items() if count > len(described) / 2]
+    lacking = [
+        [f"`{name}`" for name in described if option not in described[name]["options"]] for option in shared
+    ]
     labelled = [
-        (f"all{' but ' * bool(names)}{', '.join(names)}", one)
-        for names, one in zip(lacking, shared, strict=True)
+        (f"all{' but ' * bool(names)}{', '.join(names)}", option)
+        for names, option in zip(lacking, shared, strict=True)
     ]
     for name, program in described.items():
-        own = [one for one in program["options"] if one not in shared]
-        labelled += [("" if i else f"`{name}`", one) for i, one in enumerate(own)]
+        own = [option for option in program["options"] if option not in shared]
+        labelled += [("" if i else f"`{name}`", option) for i, option in enumerate(own)]
     yield from (("program", "option", "values", "default", "units", "meaning"), ("---",) * 6)
-    for label, one in labelled:
-        default = OF_THE_MACHINE.get(one["name"], one["default"])
+    for label, option in labelled:
+        default = OF_THE_MACHINE.get(option["name"], option["default"])
         shown = f"{default:.10g}" if isinstance(default, float) else json.dumps(default).strip('"')
-        values, units = schema(one)["allowed"], one.get("units", "")
-        yield label, f"`--{one['name']}`", values, shown, units, one["description"]
+        values, units = schema(option)["allowed"], option.get("units", "")
+        yield label, f"`--{option['name']}`", values, shown, units, option["description"]
 
 
 def _quantity_rows(described: Described) -> Iterator[tuple[str, ...]]:
     yield from (("program", "quantity", "units", "meaning"), ("---",) * 4)
     for name, program in described.items():
-        for i, one in enumerate(program["quantities"]):
-            axes = ", ".join(axis["name"] for axis in one["axes"])
-            label = f"`{one['name']}`{f' [{axes}]' if axes else ''}"
-            yield "" if i else f"`{name}`", label, one["units"], one["description"]
+        for i, quantity in enumerate(program["quantities"]):
+            axes = ", ".join(axis["name"] for axis in quantity["axes"])
+            label = f"`{quantity['name']}`{f' [{axes}]' if axes else ''}"
+            yield "" if i else f"`{name}`", label, quantity["units"], quantity["description"]
 
 
 def _compact(value: Any, indent: int = 0, used: int = 0) -> str:
@@ -166,8 +174,8 @@ def _compact(value: Any, indent: int = 0, used: int = 0) -> str:
     if isinstance(value, dict):
         keys = {key: f"{inner}{json.dumps(key)}: " for key in value}
         parts = [start + _compact(value[key], indent + 2, len(start)) for key, start in keys.items()]
-    elif any(isinstance(one, dict | list) for one in value):
-        parts = [inner + _compact(one, indent + 2, indent + 2) for one in value]
+    elif any(isinstance(element, dict | list) for element in value):
+        parts = [inner + _compact(element, indent + 2, indent + 2) for element in value]
     else:
         parts = [
             textwrap.indent(textwrap.fill(line[1:-1], WIDTH - len(inner), break_on_hyphens=False), inner)

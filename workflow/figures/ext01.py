@@ -24,7 +24,7 @@ LOOKS: dict[str, style.Look] = {
     RANDOM: style.points("D", style.GREEN, "white"),
 }
 LABELS = ("sigma", "particles-per-cell", "relaxation-time", "zero-total-momentum", "rule")
-APART = 0.1  # of a slot, by which kinds are plotted beside each other
+APART = 0.1  # distance of a kind from the middle of its slot, in units of the slot
 
 
 def kind(result: Result) -> str:
@@ -51,7 +51,8 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 
 def draw_slopes(axes: Axes, table: pd.DataFrame) -> None:
-    """Local slopes at the paper's number of particles, after the longest relaxation; every third time, as neighbours share a time."""
+    """Plots local slopes at the paper's number of particles, after the longest relaxation; every third time, as neighbouring
+    slopes have a time in common."""
     few = table[table.particles_per_cell == table.particles_per_cell.min()]
     for name, part in few[few.relaxation_time == few.relaxation_time.max()].groupby("kind"):
         every = part.iloc[::3]
@@ -61,17 +62,17 @@ def draw_slopes(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def draw_exponents(axes: Axes, runs: pd.DataFrame) -> None:
-    """alpha without drift, one slot per number of particles and relaxation time."""
-    places = sorted(set(zip(runs.particles_per_cell, runs.relaxation_time, strict=True)))
+    """Plots alpha without drift, with one slot per number of particles and relaxation time."""
+    slots = sorted(set(zip(runs.particles_per_cell, runs.relaxation_time, strict=True)))
     for name, shift in ((ZERO, -APART), (RANDOM, APART)):
         part = runs[runs.kind == name]
         pairs = zip(part.particles_per_cell, part.relaxation_time, strict=True)
-        x = [places.index(pair) + shift for pair in pairs]
+        x = [slots.index(pair) + shift for pair in pairs]
         axes.errorbar(x, part.alpha, part.alpha_error, **LOOKS[name])
-    names = [f"$n = {n}$\n$t_r = {relaxed:g}$" for n, relaxed in places]
-    axes.set_xticks(range(len(places)), names)
+    names = [f"$n = {n}$\n$t_r = {relaxed:g}$" for n, relaxed in slots]
+    axes.set_xticks(range(len(slots)), names)
     axes.tick_params(axis="x", length=0)
-    axes.set_xlim(-0.5, len(places) - 0.5)
+    axes.set_xlim(-0.5, len(slots) - 0.5)
 
 
 def extremes(runs: pd.DataFrame) -> str:

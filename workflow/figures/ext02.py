@@ -1,8 +1,9 @@
 """Ext. 2: local exponent of the heat conductivity, d ln kappa / d ln N, at the paper's spacing and at fixed spacings, with three
 definitions of the temperature difference.
 
-Lines are what linear response expects at these sizes, from rings in equilibrium (ext. 11): for the temperatures of the baths, and of
-κ_0, to which κ at equal pressures is proportional, as the ratio of convected to conducted heat does not depend on N.
+Lines: exponents of κ_0 that linear response predicts at these sizes from rings in equilibrium (ext. 11). They are compared with κ for
+the temperatures of the baths. At equal pressures κ is proportional to κ_0, as the ratio of convected to conducted heat does not depend
+on N.
 """
 
 from collections.abc import Sequence
@@ -21,22 +22,24 @@ from workflow.lib.fit import with_error
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
-BESIDE = 1.07  # factor of the sizes at which neighbouring spacings are plotted: points would hide each other
-# Suffixes of columns, and titles, by whose temperatures eq. 28 has.
+BESIDE = (
+    1.07  # ratio of the abscissas of points of equal N at neighbouring spacings, so that they do not overlap
+)
+# Suffix of the columns and title of the panel, by the temperatures whose difference is used in eq. 28.
 DEFINITIONS = {"": "$T_1$, $T_N$", "_particle": "arriving particles", "_baths": "baths"}
 
 
 def local(part: pd.DataFrame) -> pd.DataFrame:
-    """Between neighbouring sizes of one spacing, for each definition of kappa."""
-    found: dict[str, np.ndarray] = {}
+    """Local exponents between neighbouring sizes of one spacing, for each definition of kappa."""
+    columns: dict[str, np.ndarray] = {}
     for name in DEFINITIONS:
         middle, slope, error = local_exponents(part.cells, part[f"kappa{name}"], part[f"kappa{name}_error"])
-        found |= {"size": middle, f"exponent{name}": slope, f"exponent{name}_error": error}
-    return pd.DataFrame(found)
+        columns |= {"size": middle, f"exponent{name}": slope, f"exponent{name}_error": error}
+    return pd.DataFrame(columns)
 
 
 def expected(weak: Sequence[Result], results: Sequence[Result]) -> pd.DataFrame:
-    """Of κ_0 of the gases of ext. 11, between neighbouring sizes."""
+    """Local exponents of κ_0 between neighbouring sizes that linear response predicts, for the gases of ext. 11."""
     table, _ = response(weak, results)
     parts = []
     for name, part in table.groupby("gas", sort=False):
@@ -61,20 +64,20 @@ def caption(exponents: pd.DataFrame, results: Sequence[Result]) -> str:
 
 
 def draw(results: Sequence[Result]) -> Drawn:
-    require_elastic([one for one in results if "nu-left" in one.parameters], "linear response")
-    chains = [one for one in results if one.provenance["program"] == "conductivity"]
+    require_elastic([result for result in results if "nu-left" in result.parameters], "linear response")
+    chains = [result for result in results if result.provenance["program"] == "conductivity"]
     strongest = max(map(drive, chains))
-    strong = [one for one in chains if drive(one) == strongest]
-    weak = [one for one in chains if drive(one) < strongest]
+    strong = [result for result in chains if drive(result) == strongest]
+    weak = [result for result in chains if drive(result) < strongest]
     table, spacing = tabulate(strong), spacings(strong)
     gases = table.groupby("gas", sort=False)
     exponents = pd.concat([local(part).assign(gas=name) for name, part in gases])
     theory = expected(weak, results)
     figure, row = plt.subplots(1, len(DEFINITIONS), sharey=True, figsize=(2 * style.COLUMN, style.HEIGHT))
     for axes, (suffix, title) in zip(row, DEFINITIONS.items(), strict=True):
-        for place, (name, part) in enumerate(exponents.groupby("gas", sort=False)):
+        for rank, (name, part) in enumerate(exponents.groupby("gas", sort=False)):
             look = style.points(*LOOKS[name], label=rf"$\lambda = {spacing[name]}$")
-            size = BESIDE ** (place - 1) * part["size"]
+            size = BESIDE ** (rank - 1) * part["size"]
             axes.errorbar(size, part[f"exponent{suffix}"], part[f"exponent{suffix}_error"], **look)
         style.guide_at(axes, 1 / 3, "1/3" * (axes is row[-1]))
         axes.set_title(title)

@@ -3,7 +3,7 @@
 C_g, the covariance of the momenta of two cells, has the sound peaks [mode_coupling.md, eq. M19]; that of E_s - theta E_p, the
 energies of scatterer and particles with theta = 1/(2 zeta), has the heat peak [eq. M29]. A stable law of free order, width and
 area is fitted to the heat peak inside the sound peaks. Values of neighbouring cells are correlated, so its errors follow from
-the spread over runs that differ in the seed alone.
+the spread over runs that differ only in their seed.
 """
 
 from collections.abc import Callable, Sequence
@@ -25,43 +25,44 @@ from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 from workflow.lib.mode_coupling import Chain, f_kpz, levy
 
-FIRST = 16  # time from which a peak is wider than cells, in λ/√T
-HALF_WIDTH = 0.880466  # of f_KPZ
-REACH = 3  # of the scaled profiles
-HEAT_REACH = 4
-FITTED = 8  # widths of the heat peak, within which it is fitted
-HEAT_ORDER, GAUSSIAN = 5 / 3, 2  # of stable laws [eq. M29], and of diffusion
-RATIOS_ALLOWED = (0.1, 10)  # of width and area of a fitted stable law, over the predicted ones
-ORDERS = (1, 3)  # allowed
-BIN = 0.2  # of the scaled distances, over which profiles are averaged
+FIRST = 16  # first time that is used, in λ/√T: earlier peaks are as narrow as a cell
+HALF_WIDTH = 0.880466  # of f_KPZ at half of its maximum
+REACH = 3  # largest scaled distance that is plotted, of sound peaks
+HEAT_REACH = 4  # largest scaled distance that is plotted, of heat peaks
+FITTED = 8  # largest distance in the fit of a heat peak, in predicted widths
+HEAT_ORDER, GAUSSIAN = 5 / 3, 2  # orders of the stable law in theory [eq. M29] and of diffusion
+RATIOS_ALLOWED = (0.1, 10)  # bounds of width and area in the fit, over the predicted ones
+ORDERS = (1, 3)  # bounds of the order in the fit
+BIN = 0.2  # width in scaled distance of the bins over which profiles are averaged
 
 
 class Record(NamedTuple):
-    """Profiles at one time, from the runs in which they have the smallest error: equal ones but for the seed."""
+    """Correlation profiles at one time, from runs that differ only in their seed."""
 
     results: Sequence[Result]
-    position: int  # of the time
+    position: int  # index of the time
     time: float
     gas: Chain  # with infinitely many slow particles
-    mobile: Chain  # with those that move within the time
+    mobile: Chain  # with the slow particles that move within the time
 
     def value(self, name: str) -> tuple[float, float]:
-        each = [result[name] for result in self.results]
+        """Mean of a quantity over the runs, and its error."""
+        quantities = [result[name] for result in self.results]
         mean, error = mean_over_runs(
-            np.array([one.mean[self.position] for one in each]),
-            np.array([one.error[self.position] for one in each]),
+            np.array([quantity.mean[self.position] for quantity in quantities]),
+            np.array([quantity.error[self.position] for quantity in quantities]),
         )
         return float(mean), float(error)
 
     def profile(self, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Distances from the centre, in lengths; mean of both sides, and its error."""
-        each = self.profiles(name)
+        """Distances from the centre as lengths; mean of both sides over the runs; its error."""
+        profiles = self.profiles(name)
         errors = np.stack([result[name].error[self.position] for result in self.results])
-        mean, error = mean_over_runs(each, errors[:, errors.shape[1] // 2 :])
+        mean, error = mean_over_runs(profiles, errors[:, errors.shape[1] // 2 :])
         return np.arange(len(mean)) * self.gas.cell_length, mean, error
 
     def profiles(self, name: str) -> np.ndarray:
-        """Mean of both sides, by run and distance in cells."""
+        """Mean of both sides [run, distance in cells]."""
         means = np.stack([result[name].mean[self.position] for result in self.results])
         middle = means.shape[1] // 2
         return 0.5 * (means[:, middle:] + means[:, middle::-1][:, : means.shape[1] - middle])
@@ -72,32 +73,32 @@ class Record(NamedTuple):
 
 
 def mean_over_runs(values: np.ndarray, errors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Of the first dimension; runs have equal numbers of replicas."""
+    """Mean over the first dimension, and its error. All runs have equal numbers of replicas."""
     return values.mean(axis=0), np.sqrt(np.sum(errors**2, axis=0)) / len(values)
 
 
 def records(results: Sequence[Result]) -> list[Record]:
-    """By gas and time."""
+    """One record per gas and time, from the rings in which the momentum profile has the smallest error."""
     rings: dict[tuple[float, float, int], list[Result]] = {}
     for result in results:
         gas = chain(result)
         rings.setdefault((gas.zeta, gas.mass, int(result.parameters["cells"])), []).append(result)
-    found: dict[tuple[float, float, float], Record] = {}
+    best: dict[tuple[float, float, float], Record] = {}
     for (zeta, mass, _), runs in rings.items():
         for index, time in enumerate(runs[0]["peak"].axes["time"]):
-            one = Record(runs, index, float(time), chain(runs[0]), chain(runs[0], time))
-            if time * np.sqrt(one.gas.temperature) / one.gas.cell_length < FIRST:
+            record = Record(runs, index, float(time), chain(runs[0]), chain(runs[0], time))
+            if time * np.sqrt(record.gas.temperature) / record.gas.cell_length < FIRST:
                 continue
             key = (zeta, mass, float(time))
-            found[key] = min(found.get(key, one), one, key=lambda record: record.mean_error)
-    return [found[key] for key in sorted(found)]
+            best[key] = min(best.get(key, record), record, key=lambda record: record.mean_error)
+    return [best[key] for key in sorted(best)]
 
 
 def binned(x: np.ndarray, y: np.ndarray, error: np.ndarray) -> pd.DataFrame:
-    """Means over the cells of every bin, whose errors are almost independent."""
+    """Means over the cells of every bin. The errors of the cells are almost independent and are combined as such."""
     cells = pd.DataFrame({"x": x, "y": y, "y_error": error**2}).groupby(np.floor(x / BIN))
-    found = cells.mean()
-    return found.assign(y_error=np.sqrt(found.y_error / cells.size())).reset_index(drop=True)
+    means = cells.mean()
+    return means.assign(y_error=np.sqrt(means.y_error / cells.size())).reset_index(drop=True)
 
 
 def scaled_sound(record: Record) -> pd.DataFrame:
@@ -120,12 +121,12 @@ def scaled_heat(record: Record) -> pd.DataFrame:
 
 
 def heat_width(record: Record) -> float:
-    """(D_h t)^(3/5) [eq. M29]."""
+    """Predicted width of the heat peak, (D_h t)^(3/5) [eq. M29]."""
     return float((record.mobile.heat_spreading * record.time) ** (3 / 5))
 
 
 def heat_area(record: Record) -> float:
-    """Of the covariances of the cells: T^4/(4 λ χ_q)."""
+    """Predicted sum of the heat covariance over all cells: T^4/(4 λ χ_q)."""
     return record.gas.temperature**4 / (4 * record.gas.cell_length * record.mobile.heat_susceptibility)
 
 
@@ -133,17 +134,17 @@ def heat_area(record: Record) -> float:
 def stable_densities() -> RectBivariateSpline:
     """Interpolates levy(x, order), which fits need thousands of times."""
     x, order = np.arange(0, 40, 0.1), np.arange(0.9, 3.15, 0.1)
-    return RectBivariateSpline(x, order, np.stack([levy(x, one) for one in order], axis=1))
+    return RectBivariateSpline(x, order, np.stack([levy(x, exponent) for exponent in order], axis=1))
 
 
 def stable_law(record: Record, profile: np.ndarray, order: float | None = None) -> np.ndarray:
-    """Width and area, over the predicted ones, and order, free or given, of the stable law that fits a heat peak inside
-    the sound peaks best."""
+    """Width and area, over the predicted ones, and order of the stable law that best fits a heat peak inside the sound peaks. order:
+    fixed order; free if None."""
     within = min(0.5 * record.gas.sound_speed * record.time, FITTED * heat_width(record))
     inside = profile[: int(within / record.gas.cell_length)]
     x = np.arange(len(inside)) * record.gas.cell_length / heat_width(record)
     y = inside * heat_width(record) / (heat_area(record) * record.gas.cell_length)
-    weight = np.where(x == 0, np.sqrt(0.5), 1)  # elsewhere there are two sides
+    weight = np.where(x == 0, np.sqrt(0.5), 1)  # other values are means of two sides
 
     def residuals(law: np.ndarray) -> np.ndarray:
         width, area, exponent = law
@@ -151,10 +152,10 @@ def stable_law(record: Record, profile: np.ndarray, order: float | None = None) 
 
     exact = {"ftol": 1e-12, "xtol": 1e-12, "gtol": 1e-12}
     if order is not None:
-        found = least_squares(
+        fit = least_squares(
             lambda law: residuals(np.append(law, order)), [1, 1], bounds=RATIOS_ALLOWED, **exact
         )
-        return np.append(found.x, order)
+        return np.append(fit.x, order)
     bounds = [*zip(RATIOS_ALLOWED, RATIOS_ALLOWED, ORDERS, strict=True)]
     return least_squares(residuals, [1, 1, HEAT_ORDER], bounds=bounds, **exact).x
 
@@ -167,19 +168,21 @@ def diffusive(record: Record, y: np.ndarray) -> np.ndarray:
 
 
 def stable_laws(record: Record) -> tuple[np.ndarray, np.ndarray]:
-    """Of the mean over all runs, and of the means without one of them [run, width, area and order]."""
-    each = record.profiles("heat_correlation")
-    without_one = [stable_law(record, np.delete(each, k, axis=0).mean(axis=0)) for k in range(len(each))]
-    return stable_law(record, each.mean(axis=0)), np.array(without_one)
+    """Stable laws (width, area, order) of the mean over all runs, and of the means that leave out one run [run, parameter]."""
+    profiles = record.profiles("heat_correlation")
+    without_one = [
+        stable_law(record, np.delete(profiles, k, axis=0).mean(axis=0)) for k in range(len(profiles))
+    ]
+    return stable_law(record, profiles.mean(axis=0)), np.array(without_one)
 
 
 def jackknife_error(without_one: np.ndarray) -> np.ndarray:
-    """Of values without one of the runs. Their spread is the error although values of neighbouring cells are correlated."""
+    """Jackknife error from the values without one run each. It includes the correlation of neighbouring cells."""
     return np.sqrt(len(without_one) - 1) * np.std(without_one, axis=0)
 
 
 def fitted(record: Record) -> dict[str, float]:
-    """The stable law with its errors. Empty for one run."""
+    """Columns of the stable law with its errors; empty for one run, which has no jackknife error."""
     if len(record.results) < 2:
         return {}
     law, without_one = stable_laws(record)
@@ -211,7 +214,7 @@ def draw_sound(axes: Axes, shown: Sequence[Record]) -> list[pd.DataFrame]:
 
 
 def draw_heat(axes: Axes, shown: Sequence[Record]) -> list[pd.DataFrame]:
-    """On a logarithmic axis, on which laws of different order differ in the tails."""
+    """Plots the heat peaks on a logarithmic axis, which shows the tails, in which laws of different order differ."""
     y = np.linspace(0, HEAT_REACH, 400)
     axes.plot(y, levy(y), color=style.BLACK, label="order 5/3, theory")
     axes.plot(y, diffusive(shown[-1], y), color="0.4", linestyle=style.DASHES[3], label="order 2, fitted")
@@ -236,19 +239,19 @@ def labelled(part: pd.DataFrame, record: Record) -> pd.DataFrame:
     return part.assign(zeta=record.gas.zeta, mass=record.gas.mass, time=record.time)
 
 
-# Of the sound peak, measured over predicted: name of the quantity and prediction.
+# Quantities of the sound peak that are compared with the theory: name and prediction.
 RATIOS: list[tuple[str, Callable[[Record], float]]] = [
-    ("peak", lambda one: float(one.gas.sound_peak(one.gas.sound_speed * one.time, one.time)) * one.gas.cell_length**2),
-    ("peak_width", lambda one: 2 * HALF_WIDTH * (one.gas.self_coupling * one.time) ** (2 / 3) / one.gas.cell_length),
-    ("peak_area", lambda one: one.gas.peak_area * one.gas.cell_length),
-    ("centroid", lambda one: one.mobile.sound_speed_in_cells * one.time),
+    ("peak", lambda record: float(record.gas.sound_peak(record.gas.sound_speed * record.time, record.time)) * record.gas.cell_length**2),
+    ("peak_width", lambda record: 2 * HALF_WIDTH * (record.gas.self_coupling * record.time) ** (2 / 3) / record.gas.cell_length),
+    ("peak_area", lambda record: record.gas.peak_area * record.gas.cell_length),
+    ("centroid", lambda record: record.mobile.sound_speed_in_cells * record.time),
 ]  # fmt: skip
 
 
-def tabulate(found: Sequence[Record]) -> pd.DataFrame:
-    """One row per gas and time: measured over predicted."""
+def tabulate(all_records: Sequence[Record]) -> pd.DataFrame:
+    """One row per gas and time: ratios of measured to predicted values."""
     rows = []
-    for record in found:
+    for record in all_records:
         row = {"zeta": record.gas.zeta, "mass": record.gas.mass, "time": record.time}
         expected = {name: predicted(record) for name, predicted in RATIOS}
         for name, predicted in (expected | {"heat_area": heat_area(record)}).items():
@@ -259,7 +262,7 @@ def tabulate(found: Sequence[Record]) -> pd.DataFrame:
 
 
 def draw_heights(axes: Axes, table: pd.DataFrame) -> None:
-    """Of the sound peaks of all gases, over the theory."""
+    """Plots the heights of the sound peaks of all gases over the theory."""
     for (marker, color), ((zeta, mass), part) in zip(LOOKS, table.groupby(["zeta", "mass"]), strict=False):
         look = style.points(marker, color, label=f"$\\zeta = {zeta:g}$, $M = {number(mass)}$")
         axes.errorbar(part.time, part.peak_ratio, part.peak_ratio_error, **look)
@@ -269,6 +272,7 @@ def draw_heights(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def of(table: pd.DataFrame, gas: Chain) -> pd.DataFrame:
+    """The rows of a gas."""
     return table[(table.zeta == gas.zeta) & (table.mass == gas.mass)]
 
 
@@ -279,11 +283,13 @@ def at_end(table: pd.DataFrame, name: str) -> str:
 
 
 def draw(results: Sequence[Result]) -> Drawn:
-    found = records(results)
-    table = tabulate(found)
+    all_records = records(results)
+    table = tabulate(all_records)
     first = chain(results[0])
-    sound = [one for one in found if (one.gas.zeta, one.gas.mass) == (first.zeta, first.mass)]
-    heat = [one for one in found if len(one.results) > 1][-3:]
+    sound = [
+        record for record in all_records if (record.gas.zeta, record.gas.mass) == (first.zeta, first.mass)
+    ]
+    heat = [record for record in all_records if len(record.results) > 1][-3:]
     figure, panels = plt.subplots(1, 3, figsize=(2.1 * style.COLUMN, style.HEIGHT))
     parts = draw_sound(panels[0], sound[::-2][:4][::-1]) + draw_heat(panels[1], heat)
     draw_heights(panels[2], table)
@@ -303,6 +309,6 @@ def draw(results: Sequence[Result]) -> Drawn:
 
 
 if __name__ == "__main__":
-    names = (*(one[0] for one in RATIOS), "heat_area", "stable_width", "stable_area")
+    names = (*(name for name, _ in RATIOS), "heat_area", "stable_width", "stable_area")
     ratios = {f"{name}_ratio": "1" for name in names} | {"stable_order": "1"}
     run(draw, "Sound and heat peaks in equilibrium", zeta="1", mass="1", x="1", y="1", **ratios)

@@ -15,20 +15,21 @@ from workflow.lib.load import Result
 
 FITTED = 20  # cells of the smallest chain in the fit of the excess
 
-# Deviation of a quantity from a straight line or from the mean over the bonds, with an error of its own.
+# Markers by quantity. Files have the deviation of a rate from a straight line, and of a current from its mean over the bonds, each with
+# its own error.
 SIDES = {"rate_right": ">", "rate_left": "<"}
 CURRENTS = {"particle_current": "o", "energy_current": "s"}
 
 
 def look_of(result: Result, marker: str, index: int) -> style.Look:
-    """Large at gamma = N, small at gamma = 1; the second of two curves is open."""
+    """Style of the symbols: large at gamma = N, small at gamma = 1, open for the second of two curves."""
     gamma = result.parameters["gamma"]
     face, size = "white" if index else None, 4 if gamma == "N" else 2
     return style.points(marker, style.BY_GAMMA[gamma][1], face, markersize=size, capsize=0)
 
 
 def plot_deviations(axes: Axes, result: Result, curves: dict[str, str]) -> list[pd.DataFrame]:
-    """In percent of the mean."""
+    """Plots the deviations of quantities in percent of their means. Returns one table per quantity."""
     tables = []
     cells = int(result.parameters["cells"])
     for index, (name, marker) in enumerate(curves.items()):
@@ -47,7 +48,7 @@ def plot_deviations(axes: Axes, result: Result, curves: dict[str, str]) -> list[
 
 
 def plot_rates(axes: Axes, result: Result) -> None:
-    """Rates, with the fitted straight lines."""
+    """Plots both rates, with the fitted straight lines."""
     for index, (name, marker) in enumerate(SIDES.items()):
         rate, deviation = result[name], result[f"{name}_deviation"]
         x = (rate.axes["cell"] + 0.5) / int(result.parameters["cells"])
@@ -57,7 +58,7 @@ def plot_rates(axes: Axes, result: Result) -> None:
 
 
 def plot_excess(axes: Axes, results: Sequence[Result]) -> pd.DataFrame:
-    """Excess density of both end cells against the size, with a + b ln N through the longer chains."""
+    """Plots the excess density of both end cells against the size, with a + b ln N fitted to the longer chains. Returns the table."""
     cells = np.array([int(result.parameters["cells"]) for result in results])
     tables = []
     for end, (name, marker, color, dashes) in enumerate(

@@ -1,8 +1,8 @@
-"""Ext. 7: ageing. Energies against the logarithm of time, with the quasi-stationary estimate, and what changes with the relaxation
+"""Ext. 7: ageing. Energies against the logarithm of time, with the quasi-stationary estimate, and the influence of the relaxation
 time.
 
-With few particles the energy saturates. Of the quantities that depend on the relaxation time the exponent of the spreading
-is plotted; the table has all.
+With few particles the energy saturates. Several quantities depend on the relaxation time. The exponent of the
+spreading is plotted; the table has all of them.
 """
 
 from collections.abc import Sequence
@@ -26,38 +26,38 @@ ENERGIES: dict[str, style.Look] = {
 }
 SLOPES = [style.points("o", style.BLUE), style.points("D", style.GREEN, "white")]
 
-# Of the quasi-stationary estimate.
-FLIGHTS = 10  # λ/√T at the start, from which on all but slow particles have scattered often
-ITERATIONS = 20  # each approaches the fixed point by a factor of 8 or more
+# Parameters of the quasi-stationary estimate.
+FLIGHTS = 10  # first time of the estimate in units of λ/√T at the start: all but slow particles have scattered often
+ITERATIONS = 20  # each reduces the distance from the fixed point by a factor of at least 8
 
 
 def contents(results: Sequence[Result]) -> list[Result]:
-    """The longest run of every number of particles, the paper's, which is the largest, first."""
+    """The longest run for each number of particles, in descending order: the first has the paper's number, which is the largest."""
     longest: dict[int, Result] = {}
-    ageing = [one for one in results if one.provenance["program"] == "ageing"]
-    for one in sorted(ageing, key=lambda result: result.parameters["observation-time"]):
-        longest[one.parameters["particles-per-cell"]] = one
+    ageing = [result for result in results if result.provenance["program"] == "ageing"]
+    for result in sorted(ageing, key=lambda result: result.parameters["observation-time"]):
+        longest[result.parameters["particles-per-cell"]] = result
     return [longest[particles] for particles in sorted(longest, reverse=True)]
 
 
 def estimate(result: Result, time: np.ndarray) -> dict[str, np.ndarray]:
-    """Quasi-stationary energies, T/2 of a scatterer and T/2Λ of a particle, with the temperature T(t) of eq. 14, also in Λ [eq. 13];
-    NaN at early times."""
+    """Quasi-stationary mean energies at the given times: T/2 of a scatterer and T/(2Λ) of a particle. T solves eq. 14, in which Λ
+    [eq. 13] depends on T. NaN at early times."""
     particles, start, length = (
         float(result.parameters[name]) for name in ("particles-per-cell", "temperature", "cell-length")
     )
-    found = []
-    for one in time:
-        temperature = start if one > FLIGHTS * length / np.sqrt(start) else np.nan
+    energies = []
+    for moment in time:
+        temperature = start if moment > FLIGHTS * length / np.sqrt(start) else np.nan
         for _ in range(ITERATIONS):
-            slow = logarithm_at(one, temperature, length)
+            slow = logarithm_at(moment, temperature, length)
             temperature = start * particles * slow / (particles + slow)
-        found.append((temperature / 2, temperature / (2 * slow)))
-    return dict(zip(ENERGIES, np.array(found).T, strict=True))
+        energies.append((temperature / 2, temperature / (2 * slow)))
+    return dict(zip(ENERGIES, np.array(energies).T, strict=True))
 
 
 def plot_energies(axes: Axes, result: Result) -> list[pd.DataFrame]:
-    """Mean energies, of a scatterer over windows of time, of a particle at their ends."""
+    """Plots mean energies: of a scatterer, averaged over windows of time; of a particle, at the ends of the windows."""
     tables = []
     for name, look in ENERGIES.items():
         energy = result[name]
@@ -73,7 +73,7 @@ def plot_energies(axes: Axes, result: Result) -> list[pd.DataFrame]:
 
 
 def plot_slopes(axes: Axes, results: Sequence[Result]) -> list[pd.DataFrame]:
-    """Of the scatterers' energy against ln t, by decade."""
+    """Plots the slope of the scatterers' energy against ln t, by decade of time."""
     tables = []
     for result, look in zip(results, SLOPES, strict=False):
         slope, particles = result["decade_slope"], result.parameters["particles-per-cell"]
@@ -93,7 +93,7 @@ def plot_slopes(axes: Axes, results: Sequence[Result]) -> list[pd.DataFrame]:
 
 
 def aged(results: Sequence[Result], program: str) -> pd.DataFrame:
-    """A quantity by relaxation time."""
+    """Table of the quantity of a program against the relaxation time."""
     name = AGED[program]
     runs = [result for result in results if result.provenance["program"] == program]
     runs.sort(key=lambda result: result.parameters["relaxation-time"])
@@ -114,8 +114,8 @@ def caption(ageing: Sequence[Result], spreading: pd.DataFrame, results: Sequence
     slope = ageing[0]["decade_slope"]
     largest, last = (style.with_error(slope, k) for k in (int(np.argmax(slope.mean)), -1))
     few = [
-        f"; with n = {one.parameters['particles-per-cell']} the last is {style.with_error(one['decade_slope'], -1)}"
-        for one in ageing[1:]
+        f"; with n = {result.parameters['particles-per-cell']} the last is {style.with_error(result['decade_slope'], -1)}"
+        for result in ageing[1:]
     ]
     first, end = (
         f"{with_error(row.value, row.error)} after {number(row.time)}"

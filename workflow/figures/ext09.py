@@ -24,11 +24,11 @@ LOOKS = {
     "thinning": ("o", style.BLACK),
     "dilute": ("s", style.VERMILLION),
     "dense": ("^", style.BLUE),
-}  # by gas
+}  # marker and colour by gas
 THINNING = "thinning"  # the gas that has no thermodynamic limit
 LEVEL = 0.01  # p-value below which a law is rejected
 CUBE_ROOT = "N^(1/3)"
-# In captions and in the legend of the slopes, which have no power law.
+# Name of each law in captions, and its label in the legend of panel (c), where no power law is plotted.
 LAWS = {
     CUBE_ROOT: ("cube root", "$a + bN^{1/3}$"),
     "logarithm": ("logarithm", r"$a + b\,\ln N$"),
@@ -36,11 +36,11 @@ LAWS = {
     POWER: ("power law", ""),
 }
 LINES: dict[str, LineStyleType] = {CUBE_ROOT: "solid", "logarithm": "dashed", "constant": "dotted"}
-ABOVE = 14  # points that the axis of N takes above (b)
+ABOVE = 14  # height in points of the axis of N above panel (b)
 
 
 def gas(result: Result) -> str:
-    """How the gas behaves as the chain grows, by the name of the run."""
+    """Name of the gas: the first part of the name of the run."""
     return result.run.partition("_")[0].partition("-")[0]
 
 
@@ -75,11 +75,15 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 
 def laws(part: pd.DataFrame) -> pd.DataFrame:
-    """Every law fitted to the sizes of one spacing from every size on that leaves a degree of freedom."""
-    found = [
-        one for first in part.cells for one in fits(part.cells, part.kappa, part.kappa_error, float(first))
+    """Fits of all laws to the sizes of one spacing: one row per law and smallest size in the fit."""
+    growths = [
+        growth
+        for first in part.cells
+        for growth in fits(part.cells, part.kappa, part.kappa_error, float(first))
     ]
-    return pd.DataFrame([vars(one) | {"p_value": one.p_value, "criterion": one.criterion} for one in found])
+    return pd.DataFrame(
+        [vars(growth) | {"p_value": growth.p_value, "criterion": growth.criterion} for growth in growths]
+    )
 
 
 def cube_root(part: pd.DataFrame) -> Growth | None:
@@ -88,25 +92,25 @@ def cube_root(part: pd.DataFrame) -> Growth | None:
 
 
 def rejected(part: pd.DataFrame, first: float) -> str:
-    """The laws that the sizes from the first on reject."""
-    found = [
-        LAWS[one.law][0]
-        for one in fits(part.cells, part.kappa, part.kappa_error, first)
-        if one.p_value < LEVEL
+    """Text with the laws that are rejected by the sizes from `first` on."""
+    names = [
+        LAWS[growth.law][0]
+        for growth in fits(part.cells, part.kappa, part.kappa_error, first)
+        if growth.p_value < LEVEL
     ]
-    return listed(found) if found else "no other law"
+    return listed(names) if names else "no other law"
 
 
 def slopes(part: pd.DataFrame) -> pd.DataFrame:
     """dκ/d(N^(1/3)) between neighbouring sizes, at their geometric mean, with the slopes of the laws fitted to all sizes."""
     size, value, error = (part[name].to_numpy(dtype=float) for name in ("cells", "kappa", "kappa_error"))
     step = np.diff(np.cbrt(size))
-    found = {"between": np.sqrt(size[1:] * size[:-1]), "slope": np.diff(value) / step}
-    found["slope_error"] = np.hypot(error[1:], error[:-1]) / step
-    for one in fits(size, value, error, size[0]):
-        if one.law in LINES:
-            found[f"slope_{one.law}"] = np.diff(one.predicted) / step
-    return pd.DataFrame(found, part.index[:-1])
+    columns = {"between": np.sqrt(size[1:] * size[:-1]), "slope": np.diff(value) / step}
+    columns["slope_error"] = np.hypot(error[1:], error[:-1]) / step
+    for growth in fits(size, value, error, size[0]):
+        if growth.law in LINES:
+            columns[f"slope_{growth.law}"] = np.diff(growth.predicted) / step
+    return pd.DataFrame(columns, part.index[:-1])
 
 
 def draw_powers(axes: Axes, table: pd.DataFrame, spacing: Mapping[str, str]) -> None:
@@ -125,17 +129,17 @@ def draw_powers(axes: Axes, table: pd.DataFrame, spacing: Mapping[str, str]) -> 
 
 
 def draw_slopes(axes: Axes, table: pd.DataFrame) -> None:
-    """Of kappa against N^(1/3), which are constant where it is a + b N^(1/3), with those of the fitted laws at the fixed spacings."""
+    """Plots the slope of kappa against N^(1/3), which is constant for a + b N^(1/3). Lines: slopes of the laws fitted at the fixed spacings."""
     for name, part in table.groupby("gas", sort=False):
-        found = slopes(part)
-        axes.errorbar(found.between, found.slope, found.slope_error, **style.points(*LOOKS[name]))
+        local = slopes(part)
+        axes.errorbar(local.between, local.slope, local.slope_error, **style.points(*LOOKS[name]))
         for law, dashes in LINES.items():
-            if name != THINNING and f"slope_{law}" in found:
+            if name != THINNING and f"slope_{law}" in local:
                 look: style.Look = {"color": LOOKS[name][1], "linestyle": dashes, "linewidth": 0.8}
-                axes.plot(found.between, found[f"slope_{law}"], zorder=1, **look)
+                axes.plot(local.between, local[f"slope_{law}"], zorder=1, **look)
     style.against_size(axes)
     axes.set(yscale="log", ylabel=r"$d\kappa/d(N^{1/3})$")
-    axes.set_ylim(bottom=0.3 * axes.get_ylim()[0])  # room for the legend
+    axes.set_ylim(bottom=0.3 * axes.get_ylim()[0])  # space for the legend
     style.label_within_decades(axes.yaxis)
     handles = [
         Line2D([], [], color="grey", linestyle=dashes, label=LAWS[law][1]) for law, dashes in LINES.items()
@@ -144,7 +148,7 @@ def draw_slopes(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def draw_cube_roots(axes: Axes, table: pd.DataFrame) -> None:
-    """kappa against N^(1/3), with a + b N^(1/3) over the sizes for which that is not rejected."""
+    """Plots kappa against N^(1/3), with a + b N^(1/3) over the sizes for which this law is not rejected."""
     for name, part in table.groupby("gas", sort=False):
         size = np.cbrt(part.cells)
         axes.errorbar(size, part.kappa, part.kappa_error, **style.points(*LOOKS[name]))
@@ -158,12 +162,12 @@ def draw_cube_roots(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def caption(table: pd.DataFrame, results: Sequence[Result], spacing: Mapping[str, str]) -> str:
-    found = [
+    ranges = [
         f"from N = {law.first:.0f} on at λ = {spacing[name]} ({rejected(part, law.first)} rejected)"
         for name, part in table.groupby("gas", sort=False)
         if (law := cube_root(part))
     ]
-    held = listed(found) if found else "nowhere"
+    held = listed(ranges) if ranges else "nowhere"
     return f"""
         Heat conductivity κ = −J_U N/(T_N − T_1) of open chains at the paper's λ = 1/N, where the gas thins out, and at
         fixed λ; {parameters(results, "gamma", "sigma")}, {baths(results[0])}, {replicas(results)}.

@@ -1,8 +1,8 @@
-"""Ext. 10: equilibrium. Both baths alike: the flux of the particles and the momenta of the end scatterers against the
-Gaussian at the temperature of the baths.
+"""Ext. 10: equilibrium between equal baths. Flux of the particles and momenta of the end scatterers against the Gaussian at the
+temperature of the baths.
 
-Left the flux F_N that leaves at both ends, right the density g of the end scatterers' P/sqrt(M), both over the exact one, bin by
-bin, minus 1. The table has chi^2 over the bins shown, and the distance of Kolmogorov and Smirnov.
+Left: flux F_N of the particles that leave at both ends. Right: density g of P/sqrt(M) of the end scatterers. Both are divided by the
+exact value of the bin, minus 1. The table has chi^2 over the bins shown, and the Kolmogorov-Smirnov distance.
 """
 
 from collections.abc import Sequence
@@ -21,7 +21,9 @@ from workflow.lib.load import Result
 
 SEEN = 1e-3  # probability of the rarest bins that are shown
 
-Curve = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]  # momenta, what was found, its error, exact
+Curve = tuple[
+    np.ndarray, np.ndarray, np.ndarray, np.ndarray
+]  # momenta, measured values, their errors, exact values
 
 
 def gaussian(momentum: np.ndarray, temperature: float) -> np.ndarray:
@@ -32,7 +34,7 @@ def gaussian(momentum: np.ndarray, temperature: float) -> np.ndarray:
 
 
 def outgoing_flux(result: Result) -> Curve:
-    """Momenta, F_N of what leaves (p < 0 at the left end, p > 0 at the right one), its error, the exact F."""
+    """Momenta, F_N of the particles that leave (p < 0 at the left end, p > 0 at the right one), its error, the exact F."""
     flux, parameters = result["flux"], result.parameters
     momentum = flux.axes["momentum"]
     left = momentum < 0
@@ -50,24 +52,24 @@ def end_scatterers(result: Result) -> Curve:
     return momentum, density.mean.mean(axis=0), error, exact
 
 
-def largest_distance(found: np.ndarray, error: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
-    """Kolmogorov and Smirnov's, between the sums up to a bin, with the error of the sum where it is largest."""
+def largest_distance(measured: np.ndarray, error: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
+    """Kolmogorov-Smirnov distance of two histograms: the largest difference of their cumulative sums, with the error of the sum there."""
     total = exact.sum()
-    distance = np.cumsum(found - exact) / total
+    distance = np.cumsum(measured - exact) / total
     at = int(np.abs(distance).argmax())
     return float(np.abs(distance[at])), float(np.sqrt(np.nansum(error[: at + 1] ** 2)) / total)
 
 
 def plot(axes: Axes, result: Result, curve: Curve, units: str, shift: float) -> pd.DataFrame:
-    momentum, found, error, exact = curve
+    momentum, measured, error, exact = curve
     seen = exact * (momentum[1] - momentum[0]) > SEEN * exact.sum() * (momentum[1] - momentum[0])
-    momentum, found, error, exact = (array[seen] for array in (momentum, found, error, exact))
-    chi_square = float(np.sum(((found - exact) / error) ** 2))
-    distance, distance_error = largest_distance(found, error, exact)
+    momentum, measured, error, exact = (array[seen] for array in (momentum, measured, error, exact))
+    chi_square = float(np.sum(((measured - exact) / error) ** 2))
+    distance, distance_error = largest_distance(measured, error, exact)
     look = style.points(*style.BY_GAMMA[result.parameters["gamma"]], "white", markersize=2.5)
     label = rf"$\gamma = {style.gamma(result)}$"
-    axes.errorbar(momentum + shift, 100 * (found / exact - 1), 100 * error / exact, label=label, **look)
-    table = pd.DataFrame({"momentum": momentum, "found": found, "found_error": error, "exact": exact})
+    axes.errorbar(momentum + shift, 100 * (measured / exact - 1), 100 * error / exact, label=label, **look)
+    table = pd.DataFrame({"momentum": momentum, "found": measured, "found_error": error, "exact": exact})
     table.insert(0, "gamma", style.gamma(result))
     return table.assign(units=units, chi_square=chi_square, distance=distance, distance_error=distance_error)
 
@@ -89,7 +91,7 @@ def draw(results: Sequence[Result]) -> Drawn:
         "steady_profile": (columns[1], end_scatterers, "scatterer_density"),
     }
     tables = []
-    for result in sorted(results, key=style.gamma, reverse=True):  # gamma = N first
+    for result in sorted(results, key=style.gamma, reverse=True):  # so that gamma = N is plotted first
         axes, curve, name = kinds[result.provenance["program"]]
         shift = 0.2 if style.gamma(result) == "1" else -0.2
         table = plot(axes, result, curve(result), result[name].units, shift)

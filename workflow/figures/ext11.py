@@ -2,7 +2,8 @@
 
 J_i = sum_k L_ik X_k / N with X_u = 1/T_R - 1/T_L and X_n = (mu/T)_L - (mu/T)_R, where mu/T = ln(nu/sqrt(T)) + const for
 half-Gaussian baths [eq. 29]. The heat conductivity without a current of particles is κ_0 = (L_uu - L_un L_nu/L_nn)/T^2.
-Sound leaves the chain after the time t = τN/c, c in cells, so that κ_0 is that of a ring of the same gas up to this time:
+Sound leaves the chain after the time t = τN/c, where c is the speed of sound in cells per time. κ_0 is that of a ring of the same gas
+up to this time:
 κ_0 = (√T/λ) ½ d(<Q²>/N)/dt, <Q²> measured in the units of T and λ [mode_coupling.md, eq. M33].
 """
 
@@ -23,9 +24,9 @@ from workflow.lib.fit import mean_of, with_error
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
-DRAWN = 4000  # samples of the currents, for errors good to 1 %
-TOP = 1.15  # of what is drawn from 0 on, over its largest value
-DENSE = "dense"  # the gas of a fixed spacing
+DRAWN = 4000  # samples of the currents, which determine the errors to 1 %
+TOP = 1.15  # upper end of the axis over the largest value
+DENSE = "dense"  # name of the gas at a fixed spacing
 COEFFICIENTS = ("L_uu", "L_un", "L_nu", "L_nn")
 
 
@@ -44,7 +45,7 @@ class Response:
     forces: np.ndarray  # X_u, X_n
     currents: np.ndarray  # J_u, J_n
     covariance: np.ndarray
-    temperature: float  # geometric mean of the baths'
+    temperature: float  # geometric mean of the temperatures of the baths
     sound: bool
 
     @classmethod
@@ -64,7 +65,7 @@ class Response:
         )
 
     def drawn(self, random: np.random.Generator) -> np.ndarray:
-        """Samples of the currents, by standard normal numbers that do not depend on the units."""
+        """Samples [sample, current] from the normal distribution of the currents. The random numbers do not depend on the units."""
         errors = np.sqrt(np.diag(self.covariance))
         product = np.prod(errors)
         correlation = self.covariance[0, 1] / product if product else 0.0
@@ -74,8 +75,8 @@ class Response:
 
 
 def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
-    """L from a run at equal pressure and one at equal temperature, and kappa = -J_u N/(T_R - T_L) of the former. The errors
-    are those of currents that are drawn anew from normal distributions with the runs' covariances."""
+    """Matrix L from two runs, and kappa = -J_u N/(T_R - T_L) of the first. temperature: run with a temperature difference at equal
+    pressure; pressure: run with a pressure difference at equal temperature. Errors are standard deviations over samples of the currents."""
     runs = (temperature, pressure)
     inverse = np.linalg.inv(np.stack([run.forces for run in runs], axis=1)) * temperature.cells
     currents = np.stack([run.currents for run in runs], axis=1)
@@ -84,12 +85,12 @@ def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
     matrix, spread = currents @ inverse, drawn @ inverse
     row: dict[str, float] = {"usable": all(run.sound for run in runs)}
     for index, name in enumerate(COEFFICIENTS):
-        place = divmod(index, 2)
-        row[name], row[f"{name}_error"] = matrix[place], spread[:, *place].std()
+        element = divmod(index, 2)
+        row[name], row[f"{name}_error"] = matrix[element], spread[:, *element].std()
 
-    def heat(found: np.ndarray) -> np.ndarray:
-        convected = found[..., 0, 1] * found[..., 1, 0] / found[..., 1, 1]
-        return (found[..., 0, 0] - convected) / pressure.temperature**2
+    def heat(matrices: np.ndarray) -> np.ndarray:
+        convected = matrices[..., 0, 1] * matrices[..., 1, 0] / matrices[..., 1, 1]
+        return (matrices[..., 0, 0] - convected) / pressure.temperature**2
 
     row["kappa_0"], row["kappa_0_error"] = float(heat(matrix)), float(heat(spread).std())
     per_current = temperature.cells / (temperature.forces[0] * temperature.temperature**2)
@@ -124,7 +125,7 @@ class Ring:
 
     @classmethod
     def of(cls, results: Sequence[Result]) -> "Ring":
-        """From rings of one gas, of which the one with the smallest error gives every time."""
+        """Combines rings of one gas. Each time is taken from the ring with the smallest error."""
         rows: list[tuple[float, ...]] = []
         rate = np.sqrt(results[0].parameters["temperature"]) / results[0].parameters["cell-length"]
         unit = results[0].parameters["temperature"] * results[0].parameters["cell-length"]
@@ -159,11 +160,11 @@ class Ring:
 
 
 def rings(results: Sequence[Result]) -> dict[float, Ring]:
-    """By ζ, for the mass of the open chains."""
-    found: dict[float, list[Result]] = {}
+    """Rings of one mass, combined by gas, by their ζ."""
+    of_zeta: dict[float, list[Result]] = {}
     for result in results:
-        found.setdefault(chain(result).zeta, []).append(result)
-    return {zeta: Ring.of(of_gas) for zeta, of_gas in found.items()}
+        of_zeta.setdefault(chain(result).zeta, []).append(result)
+    return {zeta: Ring.of(of_gas) for zeta, of_gas in of_zeta.items()}
 
 
 def fugacity(result: Result) -> float:
@@ -173,64 +174,66 @@ def fugacity(result: Result) -> float:
 
 
 def nearest_of(value: float, given: Iterable[float]) -> float:
-    """ζ of ext13's rings is rounded to 1.6."""
-    return min(given, key=lambda one: abs(one / value - 1))
+    """The given value with the smallest relative distance from `value`, as ζ of the rings of ext. 13 is rounded to 1.6."""
+    return min(given, key=lambda candidate: abs(candidate / value - 1))
 
 
 def with_theory(
-    table: pd.DataFrame, open_chains: Sequence[Result], found: dict[float, Ring]
+    table: pd.DataFrame, open_chains: Sequence[Result], by_zeta: dict[float, Ring]
 ) -> tuple[pd.DataFrame, Mean]:
-    """τ of every size at the fixed spacing, κ_0 of every size predicted with their mean, and that mean."""
-    ring, unit = {}, {}
+    """Adds to the table τ of every size at the fixed spacing, and κ_0 predicted with the mean of τ. Returns the table and this mean.
+    by_zeta: rings by ζ."""
+    ring_of, unit = {}, {}
     for result in open_chains:
         key = gas(result), int(result.parameters["cells"])
-        ring[key] = found[nearest_of(fugacity(result), found)]
+        ring_of[key] = by_zeta[nearest_of(fugacity(result), by_zeta)]
         unit[key] = np.sqrt(np.sqrt(np.prod(result.ends("temperature")))) / style.spacing(result)[0]
     keys = [*zip(table.gas, table.cells, strict=True)]
     for k, (name, cells) in enumerate(keys):
         if name != DENSE:
             continue
-        one, scale = ring[name, cells], unit[name, cells]
-        time = one.departure(table.kappa_0[k] / scale, table.kappa_0_error[k] / scale)
-        table.loc[k, ["tau", "tau_error"]] = np.array(time) * one.sound_speed / cells
+        ring, scale = ring_of[name, cells], unit[name, cells]
+        time = ring.departure(table.kappa_0[k] / scale, table.kappa_0_error[k] / scale)
+        table.loc[k, ["tau", "tau_error"]] = np.array(time) * ring.sound_speed / cells
     fixed = table.dropna(subset="tau")
     tau = Mean(*mean_of(fixed.tau, fixed.tau_error), len(fixed) - 1)
     for k, (name, cells) in enumerate(keys):
-        one = ring[name, cells]
-        value = one.conductivity(tau.value * cells / one.sound_speed)
+        ring = ring_of[name, cells]
+        value = ring.conductivity(tau.value * cells / ring.sound_speed)
         table.loc[k, ["predicted", "predicted_error"]] = np.array(value) * unit[name, cells]
     return table, tau
 
 
 def response(open_chains: Sequence[Result], results: Sequence[Result]) -> tuple[pd.DataFrame, Mean]:
-    """Table of the open chains, with theory from those rings among the results that have their mass, and τ."""
+    """Table of the open chains with the prediction, and the mean of τ. The prediction uses the rings with the mass of the open chains."""
     mass = open_chains[0].parameters["sigma"]
     closed = [
-        one
-        for one in results
-        if one.provenance["program"] == "heat_current"
-        and one.parameters["rule"] == "elastic"
-        and one.parameters["sigma"] == mass
+        result
+        for result in results
+        if result.provenance["program"] == "heat_current"
+        and result.parameters["rule"] == "elastic"
+        and result.parameters["sigma"] == mass
     ]
     return with_theory(tabulate(open_chains), open_chains, rings(closed))
 
 
 def exponents(sizes: pd.Series, values: pd.Series, errors: pd.Series) -> str:
     _, slope, error = local_exponents(sizes, values, errors)
-    return listed([with_error(*one) for one in zip(slope, error, strict=True)])
+    return listed([with_error(*pair) for pair in zip(slope, error, strict=True)])
 
 
 def crossed(table: pd.DataFrame) -> str:
+    """Sentence of the caption on the crossed points; empty if there are none."""
     unsound = int((~table.usable).sum())
-    told = f" Crosses: {unsound} points of which a run is not stationary or missed its target error."
-    return told if unsound else ""
+    text = f" Crosses: {unsound} points of which a run is not stationary or missed its target error."
+    return text if unsound else ""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
     require_elastic(
-        [one for one in results if "nu-left" in one.parameters], "the conductivity of mode coupling"
+        [result for result in results if "nu-left" in result.parameters], "the conductivity of mode coupling"
     )
-    open_chains = [one for one in results if one.provenance["program"] == "conductivity"]
+    open_chains = [result for result in results if result.provenance["program"] == "conductivity"]
     spacing = spacings(open_chains)
     table, tau = response(open_chains, results)
     thinning = table[table.gas == "thinning"]

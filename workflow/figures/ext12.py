@@ -16,9 +16,9 @@ from workflow.lib.fit import mean_of
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
-APART = 0.15  # of a slot, by which starts are plotted beside each other
+APART = 0.15  # distance of neighbouring starts in a slot, in units of the slot
 WARM = "warm"
-FACES = (None, "white")  # of the smallest and of the largest pair of sizes
+FACES = (None, "white")  # fill colours of the smallest and of the largest pair of sizes
 STARTS = {
     WARM: ("s", style.BLACK),
     "cold": ("v", style.BLUE),
@@ -30,7 +30,9 @@ COMPARED = {"kappa": r"\kappa", "particle_current": "J_n"}
 
 def read(results: Sequence[Result]) -> pd.DataFrame:
     """One row per run, with its start and its drive, the ratio of the baths' temperatures."""
-    rows = [tabulate([one]).assign(start=one.parameters["start"], drive=drive(one)) for one in results]
+    rows = [
+        tabulate([result]).assign(start=result.parameters["start"], drive=drive(result)) for result in results
+    ]
     return pd.concat(rows).sort_values("cells", ignore_index=True)
 
 
@@ -38,10 +40,10 @@ def exponents(table: pd.DataFrame) -> pd.DataFrame:
     """Local exponents of every drive between the sizes that all drives have."""
     parts = []
     for name, part in table[table.start == WARM].groupby("gas", sort=False):
-        common = set.intersection(*(set(one.cells) for _, one in part.groupby("drive")))
-        for ratio, one in part[part.cells.isin(common)].groupby("drive"):
-            size, slope, error = local_exponents(one.cells, one.kappa, one.kappa_error)
-            smaller, larger = one.cells.to_numpy()[:-1], one.cells.to_numpy()[1:]
+        common = set.intersection(*(set(rows.cells) for _, rows in part.groupby("drive")))
+        for ratio, rows in part[part.cells.isin(common)].groupby("drive"):
+            size, slope, error = local_exponents(rows.cells, rows.kappa, rows.kappa_error)
+            smaller, larger = rows.cells.to_numpy()[:-1], rows.cells.to_numpy()[1:]
             columns = {"size": size, "smaller": smaller, "larger": larger}
             columns |= {"exponent": slope, "exponent_error": error}
             parts.append(pd.DataFrame({"gas": name, "drive": ratio, **columns}))
@@ -49,29 +51,30 @@ def exponents(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def deviations(table: pd.DataFrame, quantity: str) -> pd.DataFrame:
-    """A quantity from every start relative to the mean over the starts, minus 1, at the drive that has several, and chi^2 of them."""
+    """One row per gas, size and start, at the drive with several starts: a quantity relative to its mean over the starts, minus 1, and
+    chi^2 of the starts."""
     driven = table[table.drive.isin(table[table.start != WARM].drive)]
     parts = []
     for (name, cells), part in driven.groupby(["gas", "cells"], sort=False):
         if len(part) > 1:
             value, error = part[quantity], part[f"{quantity}_error"]
             mean, _, chi_square = mean_of(value, error)
-            found = {"deviation": value / mean - 1, "deviation_error": error / abs(mean)}
-            found |= {"chi_square": chi_square, "freedom": len(part) - 1}
-            parts.append(part[["start"]].assign(gas=name, cells=cells, quantity=quantity, **found))
+            columns = {"deviation": value / mean - 1, "deviation_error": error / abs(mean)}
+            columns |= {"chi_square": chi_square, "freedom": len(part) - 1}
+            parts.append(part[["start"]].assign(gas=name, cells=cells, quantity=quantity, **columns))
     return pd.concat(parts, ignore_index=True)
 
 
-def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) -> None:
-    """Against the drive, between the two smallest and the two largest sizes."""
-    for name, gas in found.groupby("gas", sort=False):
+def draw_exponents(axes: Axes, table: pd.DataFrame, spacing: Mapping[str, str]) -> None:
+    """Plots local exponents between the two smallest and the two largest sizes against the drive."""
+    for name, gas in table.groupby("gas", sort=False):
         pairs = [pair for pair, _ in gas.groupby(["smaller", "larger"])]
         for (smaller, larger), face in zip(dict.fromkeys((pairs[0], pairs[-1])), FACES, strict=False):
-            one = gas[(gas.smaller == smaller) & (gas.larger == larger)]
+            rows = gas[(gas.smaller == smaller) & (gas.larger == larger)]
             label = rf"$\lambda = {spacing[name]}$, $N = {smaller:g}$ to {larger:g}"
             look = style.points(*LOOKS[name], face, linestyle=":", label=label)
-            axes.errorbar(one.drive, one.exponent, one.exponent_error, **look)
-    drives = sorted(found.drive.unique())
+            axes.errorbar(rows.drive, rows.exponent, rows.exponent_error, **look)
+    drives = sorted(table.drive.unique())
     axes.set(xscale="log", xlim=(drives[0] / 1.4, drives[-1] * 1.4))
     axes.set_xticks(drives, [f"{ratio:g}" for ratio in drives])
     axes.set_xticks([], minor=True)
@@ -80,15 +83,15 @@ def draw_exponents(axes: Axes, found: pd.DataFrame, spacing: Mapping[str, str]) 
     style.guide_at(axes, 1 / 3, "1/3")
 
 
-def draw_starts(axes: Axes, found: pd.DataFrame, symbol: str, spacing: Mapping[str, str]) -> None:
-    """One slot per spacing and size."""
-    present = set(zip(found.gas, found.cells, strict=True))
+def draw_starts(axes: Axes, table: pd.DataFrame, symbol: str, spacing: Mapping[str, str]) -> None:
+    """Plots the deviations of the starts, with one slot per spacing and size."""
+    present = set(zip(table.gas, table.cells, strict=True))
     slots = sorted(present, key=lambda slot: ([*spacing].index(slot[0]), slot[1]))
     for rank, (start, shape) in enumerate(STARTS.items()):
-        one = found[found.start == start]
-        slot = np.array([slots.index(key) for key in zip(one.gas, one.cells, strict=True)])
+        rows = table[table.start == start]
+        slot = np.array([slots.index(key) for key in zip(rows.gas, rows.cells, strict=True)])
         look = style.points(*shape, label=start)
-        axes.errorbar(slot + APART * (rank - 1.5), 100 * one.deviation, 100 * one.deviation_error, **look)
+        axes.errorbar(slot + APART * (rank - 1.5), 100 * rows.deviation, 100 * rows.deviation_error, **look)
     axes.axhline(0, **style.GUIDE)
     names = [f"$\\lambda = {spacing[name]}$\n$N = {cells}$" for name, cells in slots]
     axes.set_xticks(range(len(slots)), names)
@@ -97,10 +100,10 @@ def draw_starts(axes: Axes, found: pd.DataFrame, symbol: str, spacing: Mapping[s
 
 
 def agreement(starts: pd.DataFrame, quantity: str) -> str:
-    """Largest deviation of a start from the mean, and whether all agree with it."""
-    found = starts[starts.quantity == quantity]
-    slots = found.drop_duplicates(["gas", "cells"])
-    largest = 100 * found.deviation.abs().max()
+    """Text with the largest deviation of a start from the mean, and the goodness of the agreement of all starts."""
+    rows = starts[starts.quantity == quantity]
+    slots = rows.drop_duplicates(["gas", "cells"])
+    largest = 100 * rows.deviation.abs().max()
     return f"{largest:.1f} % ({goodness(slots.chi_square.sum(), int(slots.freedom.sum()))})"
 
 

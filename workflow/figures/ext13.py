@@ -1,4 +1,4 @@
-"""Ext. 13: growth of the mean square of the heat that passes in equilibrium, against mode coupling, and without momentum.
+"""Ext. 13: growth of the mean square of the heat that passes in equilibrium, against mode coupling, and without conserved momentum.
 
 Q is the integral of J_q = sum v (v²/2 − T) over all particles of a ring of N cells [mode_coupling.md, eqs. M21-M28]. The fitted
 amplitude of its correlation is compared with that which the measured sound peaks (ext. 3) would have if they were Gaussian.
@@ -19,12 +19,12 @@ from workflow.lib.mode_coupling import Chain, logarithm_at
 
 LOOKS = [("o", style.BLUE), ("s", style.VERMILLION), ("^", style.ORANGE), ("v", style.SKY)]
 RANDOM = style.points("D", style.GREEN, "white")
-REACH = 4  # of the sound peak, over its width
-GAS = ["rule", "zeta", "mass"]  # columns that tell gases apart
+REACH = 4  # largest distance from the centre of a sound peak that counts, in widths
+GAS = ["rule", "zeta", "mass"]  # columns that identify a gas
 
 
 def chain(result: Result, time: float = np.inf) -> Chain:
-    """With the slow particles that move within a time."""
+    """The gas of a ring, with only those slow particles that move within a time."""
     temperature, length, sigma = (result.parameters[name] for name in ("temperature", "cell-length", "sigma"))
     slow = logarithm_at(time, temperature, length) if np.isfinite(time) else np.inf
     zeta = result.parameters["fugacity"] * length
@@ -32,15 +32,15 @@ def chain(result: Result, time: float = np.inf) -> Chain:
 
 
 def predicted(result: Result, time: float) -> float:
-    """<Q²> per cell without a normal part."""
+    """<Q²> per cell in theory, without normal diffusion; NaN before the range of the fit and without conserved momentum."""
     if result.parameters["rule"] != "elastic" or time < result.parameters["fit-from"]:
         return np.nan
     return float(chain(result, time).heat_variance(time) * result.parameters["cell-length"])
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per gas and time, from the ring whose exponent over the octave from there on, or whose variance, has the
-    smallest error."""
+    """One row per gas and time. The variance, and the exponent over the octave that begins at this time, are each taken from the ring
+    in which their error is smallest."""
     rows = []
     for result in results:
         heat, exponent, gas = result["heat_variance"], result["local_exponent"], chain(result)
@@ -81,12 +81,12 @@ def last_octave(part: pd.DataFrame) -> str:
 
 
 def longest_rings(results: Sequence[Result]) -> list[Result]:
-    """The run over the longest time of every gas with sound, in the order of GAS."""
-    found: dict[tuple[float, float], Result] = {}
+    """The run over the longest time of every gas, sorted by ζ and mass."""
+    longest: dict[tuple[float, float], Result] = {}
     for result in results:
         gas = chain(result)
-        found[gas.zeta, gas.mass] = max(found.get((gas.zeta, gas.mass), result), result, key=last_time)
-    return [found[gas] for gas in sorted(found)]
+        longest[gas.zeta, gas.mass] = max(longest.get((gas.zeta, gas.mass), result), result, key=last_time)
+    return [longest[gas] for gas in sorted(longest)]
 
 
 def last_time(result: Result) -> float:
@@ -94,8 +94,8 @@ def last_time(result: Result) -> float:
 
 
 def amplitudes(rings: Sequence[Result], peaks: Sequence[Result]) -> pd.DataFrame:
-    """By gas: the fitted amplitude of <J_q(t) J_q(0)> over the predicted one [eqs. M25 and M22], and over that of Gaussian
-    fluctuations with the measured sound peak, from the times of the fit at which the peak was measured."""
+    """One row per gas: the fitted amplitude of <J_q(t) J_q(0)> over the predicted one [eqs. M25 and M22], and over that of Gaussian
+    fluctuations with the measured sound peak, averaged over the times in the range of the fit at which the peak was measured."""
     rows = []
     for ring in rings:
         first, last = ring.parameters["fit-from"], last_time(ring)
@@ -122,8 +122,8 @@ def amplitudes(rings: Sequence[Result], peaks: Sequence[Result]) -> pd.DataFrame
 
 
 def square_of_peak(result: Result, index: int, gas: Chain) -> tuple[float, float]:
-    """t^(2/3) times the integral of the square of the sound peak of unit area, and its error. Cells near each other have
-    correlated errors, so the relative error is that of the peak's height."""
+    """t^(2/3) times the integral of the square of the sound peak of unit area, and its error. Errors of
+    neighbouring cells are correlated, so the relative error of the peak's height is used."""
     time = float(result["peak"].axes["time"][index])
     correlation, peak = result["momentum_correlation"], result["peak"]
     middle = correlation.mean.shape[1] // 2
@@ -132,7 +132,8 @@ def square_of_peak(result: Result, index: int, gas: Chain) -> tuple[float, float
     near = (offset > -REACH) & (offset < REACH)
     right, left = correlation.mean[index, middle : 2 * middle], correlation.mean[index, middle:0:-1]
     noise = correlation.error[index, middle : 2 * middle] ** 2
-    # The mean of a square exceeds the square of the mean by the variance; both sides are equal, as pairs of cells are.
+    # The mean of a square exceeds the square of the mean by the variance. Averaging both sides does not reduce it: they are equal, as they
+    # come from the same pairs of cells.
     squares = (0.5 * (right + left)) ** 2 - noise
     per_area = (gas.peak_area * gas.cell_length) ** 2
     square = time ** (2 / 3) * float(np.sum(squares[near])) / per_area / gas.cell_length
@@ -140,12 +141,14 @@ def square_of_peak(result: Result, index: int, gas: Chain) -> tuple[float, float
 
 
 def draw(results: Sequence[Result]) -> Drawn:
-    heat = [one for one in results if one.provenance["program"] == "heat_current"]
+    heat = [result for result in results if result.provenance["program"] == "heat_current"]
     table = tabulate(heat)
-    rings = longest_rings([one for one in heat if one.parameters["rule"] == "elastic"])
-    compared = amplitudes(rings, [one for one in results if one.provenance["program"] == "correlation"])
+    rings = longest_rings([result for result in heat if result.parameters["rule"] == "elastic"])
+    compared = amplitudes(
+        rings, [result for result in results if result.provenance["program"] == "correlation"]
+    )
     figure, (left, right) = plt.subplots(1, 2, figsize=(2 * style.COLUMN, style.HEIGHT))
-    looks, said = iter(LOOKS), []
+    looks, exponents = iter(LOOKS), []
     for _, part in table.groupby(GAS, sort=False):
         gas = part.iloc[0]
         look = RANDOM if gas.rule == "random-direction" else style.points(*next(looks))
@@ -153,7 +156,7 @@ def draw(results: Sequence[Result]) -> Drawn:
         left.errorbar(part.time, part.heat_variance / part.time, error, label=label(gas), **look)
         left.plot(part.time, part.predicted / part.time, color=look["color"])
         right.errorbar(part.middle, part.local_exponent, part.local_exponent_error, **look)
-        said.append(last_octave(part))
+        exponents.append(last_octave(part))
     left.set(
         xscale="log", yscale="log", xlabel="time $t$", ylabel=rf"$\langle Q^2 \rangle/Nt$ ({style.UNITS})"
     )
@@ -174,7 +177,7 @@ def draw(results: Sequence[Result]) -> Drawn:
         Heat Q that passes in a time t in rings in equilibrium, {parameters(heat, "cell-length", "temperature")}, {replicas(heat)}; ζ: flux of
         slow particles. (a) Mean square per cell and time. Lines: fluctuating hydrodynamics, nothing fitted, without normal
         diffusion. Random directions do not conserve momentum. (b) Exponents over octaves;
-        dashed: 4/3 of the theory, and diffusion. In the last octave: {", ".join(said)}. Amplitudes fitted with a normal part, from t =
+        dashed: 4/3 of the theory, and diffusion. In the last octave: {", ".join(exponents)}. Amplitudes fitted with a normal part, from t =
         {number(best.fit_from)} on, over the predicted ones: {ratios(compared, "amplitude_ratio")}.{fluctuations}"""
     return figure, pd.concat([table, compared]), caption
 

@@ -15,7 +15,7 @@ from workflow.lib.load import Result
 
 SOUND = 2 / 3
 
-# By γ: quantity, its power of time that is divided out, and label of the axis.
+# By γ: plotted quantity, power of time by which it is divided, and label of the axis.
 PLOTTED = {
     "N": ("peak", -SOUND, r"peak $\times\, t^{2/3}$ over its mean"),
     1: ("peak_position", 1, r"$x_p/t$ over that in free flight"),
@@ -30,12 +30,13 @@ def free_flight(result: Result) -> float:
 
 
 def scaled(result: Result) -> pd.DataFrame:
-    """The height of the peak over its law, relative to the weighted mean, or the position over that in free flight."""
+    """One row per time with a moving peak: height of the peak times t^(2/3) relative to its weighted mean (γ = N), or position of the peak
+    relative to that in free flight (γ = 1)."""
     name, power, _ = PLOTTED[result.parameters["gamma"]]
-    found = result[name]
-    known = np.isfinite(found.mean)
-    time = found.axes["time"][known]
-    value, error = (array[known] / time**power for array in (found.mean, found.error))
+    quantity = result[name]
+    resolved = np.isfinite(quantity.mean)
+    time = quantity.axes["time"][resolved]
+    value, error = (array[resolved] / time**power for array in (quantity.mean, quantity.error))
     scale = mean_of(value, error)[0] if name == "peak" else free_flight(result)
     columns = {"time": time, "relative": value / scale, "relative_error": error / scale}
     return pd.DataFrame(columns).assign(
@@ -65,18 +66,18 @@ def plot(axes: Axes, results: Sequence[Result]) -> pd.DataFrame:
 
 
 def draw(results: Sequence[Result]) -> Drawn:
-    given = [one.parameters for one in results]
-    starts = [(each["gamma"], each["scatterer-temperature"]) for each in given]
+    all_options = [result.parameters for result in results]
+    starts = [(options["gamma"], options["scatterer-temperature"]) for options in all_options]
     heights, positions = (
-        [one for one, of_it in zip(results, starts, strict=True) if of_it == start]
+        [result for result, key in zip(results, starts, strict=True) if key == start]
         for start in (("N", 0), (1, "particles"))
     )
-    heights.sort(key=lambda one: -one.parameters["pulse-energy"])
-    positions.sort(key=lambda one: one.parameters["cells"])
+    heights.sort(key=lambda result: -result.parameters["pulse-energy"])
+    positions.sort(key=lambda result: result.parameters["cells"])
     figure, (left, right) = plt.subplots(1, 2, figsize=(2 * style.COLUMN, style.HEIGHT))
     table = pd.concat([plot(left, heights), plot(right, positions)])
     style.letter(left, right)
-    strong, weak = (style.with_error(one["damping_exponent"]) for one in heights)
+    strong, weak = (style.with_error(result["damping_exponent"]) for result in heights)
     caption = f"""
         Moving peak of the energy difference after a pulse; {parameters(heights, "particles-per-cell", "sigma", "energy")} per degree of
         freedom, in the cell of the pulse ε̃, {replicas(heights + positions)}. (a) Height times t^(2/3) over its mean, from scatterers at rest that have

@@ -1,6 +1,6 @@
 """Fig. 1: momentum distribution of the particles in an empty chain that fills, times |p|, at several times.
 
-With three distances between scatterers, as the paper states none. Below on logarithmic bins, with the fronts p_0(t), and
+Shown for three distances between scatterers, as the paper states none. Below, the same on logarithmic bins, with the fronts p_0(t), and
 the fronts over lambda/2t, the momentum that crosses half a cell within t.
 """
 
@@ -30,9 +30,9 @@ def tabulate(result: Result) -> pd.DataFrame:
         parts.append(frame[["time", "momentum", "weighted_density", "error"]].assign(bins=bins))
     table = pd.concat(parts)
     for name in ("front", "plateau"):
-        found = result[name]
-        for column, values in ((name, found.mean), (f"{name}_error", found.error)):
-            table[column] = table.time.map(dict(zip(found.axes["time"], values, strict=True)))
+        estimate = result[name]
+        for column, values in ((name, estimate.mean), (f"{name}_error", estimate.error)):
+            table[column] = table.time.map(dict(zip(estimate.axes["time"], values, strict=True)))
     table.insert(0, "cell_length", style.spacing(result)[0])
     return table
 
@@ -52,7 +52,7 @@ def bin_width(result: Result) -> float:
 
 
 def number_bins(axes: Axes, result: Result) -> None:
-    """The bins' numbers on top, which the paper has."""
+    """Adds an upper axis with the numbers of the bins, the abscissa of the paper."""
     width, low = bin_width(result), float(result.parameters["momentum-max"])
     scales = (lambda p: (p + low) / width, lambda k: k * width - low)
     axes.tick_params(axis="x", which="both", top=False)
@@ -60,7 +60,7 @@ def number_bins(axes: Axes, result: Result) -> None:
 
 
 def by_spacing(results: Sequence[Result]) -> list[Result]:
-    """The paper's own first, as 1/N is the shortest."""
+    """In ascending order, so that 1/N, the spacing of the paper's other chains, is first."""
     return sorted(results, key=lambda result: style.spacing(result)[0])
 
 

@@ -1,7 +1,8 @@
 """Fig. 1, inset: number of particles inside against the logarithm of time.
 
-Below, its slope dn/d ln t, which is the height of |p| n_t(p) above the front where the chain has filled. At first all particles
-push scatterers at rest ahead of them, and hardly one leaves; growth breaks off when the two fronts have crossed the chain.
+Below, its slope dn/d ln t, which is the height of |p| n_t(p) above the front once the chain is filled. At early times
+the scatterers ahead of both fronts are at rest and few particles leave, so that n(t) grows faster, until the fronts have crossed the
+chain.
 """
 
 from collections.abc import Sequence
@@ -17,19 +18,20 @@ from workflow.lib.caption import ERRORS, baths, parameters, replicas
 from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
 
-SURE = 3  # standard errors of a curvature that is not chance
-APART = 3  # neighbouring times are too close for a slope: its error grows as their distance in ln t shrinks
+SURE = 3  # standard errors above which a curvature is significant
+APART = 3  # number of time steps of a slope; slopes between neighbouring times would have large errors
 NUMBER = style.points("o", style.BLUE)
 HEIGHT = style.points("s", style.VERMILLION, "white", label=r"$|p|\,[n_t(p) + n_t(-p)]$")
 
 
 def straight(result: Result) -> bool:
+    """Whether n(t) has no significant curvature in ln t."""
     curvature = result["log_curvature"]
     return not abs(float(curvature.mean)) > SURE * float(curvature.error)
 
 
 def tabulate(result: Result) -> pd.DataFrame:
-    """Numbers and slopes at the times of the file; where n is straight in ln t, the line fitted from the first of --times on."""
+    """One row per time: number, slope, and the line fitted from the first of --times on if n is straight in ln t."""
     count = result["total_number"]
     time = count.axes["time"]
     late = time >= result["plateau"].axes["time"][0] * (1 - 1e-9)
@@ -42,14 +44,14 @@ def tabulate(result: Result) -> pd.DataFrame:
 
 
 def slopes(table: pd.DataFrame) -> pd.DataFrame:
-    """dn/d ln t from every APARTth time to the next of them, in the rows of the former. The errors are those of independent numbers,
-    upper bounds as n(t) is positively correlated in time."""
+    """dn/d ln t between times that are APART steps from each other, in the row of the earlier one. The errors assume independent numbers;
+    they are upper bounds, as n(t) is positively correlated in time."""
     few = table.iloc[::-APART][::-1]
     step = np.diff(np.log(few.time))
-    found = pd.DataFrame({"slope": np.diff(few.number) / step}, few.index[:-1])
-    found["slope_error"] = np.hypot(few.number_error.to_numpy()[1:], few.number_error.to_numpy()[:-1]) / step
-    found["slope_time"] = np.sqrt(few.time.to_numpy()[1:] * few.time.to_numpy()[:-1])
-    return found.reindex(table.index)
+    local = pd.DataFrame({"slope": np.diff(few.number) / step}, few.index[:-1])
+    local["slope_error"] = np.hypot(few.number_error.to_numpy()[1:], few.number_error.to_numpy()[:-1]) / step
+    local["slope_time"] = np.sqrt(few.time.to_numpy()[1:] * few.time.to_numpy()[:-1])
+    return local.reindex(table.index)
 
 
 def draw_number(axes: Axes, table: pd.DataFrame, result: Result) -> None:

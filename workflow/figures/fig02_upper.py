@@ -54,11 +54,11 @@ def draw(results: Sequence[Result]) -> Drawn:
         below.errorbar(table.x, table.particle_minus_scatterer, table.particle_minus_scatterer_error, **look)
     temperatures = results[0].ends("temperature")
     marks = (("$T_L$", 0.06, -3), ("$T_R$", 0.94, 3))
-    for temperature, (name, place, lift) in zip(temperatures, marks, strict=True):
+    for temperature, (name, x, lift) in zip(temperatures, marks, strict=True):
         above.axhline(temperature, **style.GUIDE)
         side = "bottom" if lift > 0 else "top"
         above.annotate(
-            name, (place, temperature), (0, lift), textcoords="offset points", ha="center", va=side, size=8
+            name, (x, temperature), (0, lift), textcoords="offset points", ha="center", va=side, size=8
         )
     middle = np.mean(temperatures)
     above.set(ylabel=f"temperature ({style.UNITS})", xlim=(0, 1), ylim=(0.76 * middle, 1.28 * middle))

@@ -1,6 +1,6 @@
 """Fig. 3: momentum distribution of the particles at both ends, by the kinetic equation.
 
-Below, each half over the Gaussian of its own rate and temperature, also for baths of one temperature. The table has also the
+Below, each half over the Gaussian of its own rate and second moment, also for baths of equal temperatures. The table has also the
 case sigma = 0, whose halves are Gaussian.
 """
 
@@ -18,7 +18,7 @@ from workflow.lib.load import Result
 
 ENDS = [(0, "x = 0", style.BLUE, "solid"), (-1, "x = 1", style.VERMILLION, (0, (4, 1.5)))]
 PAPER, EQUAL, EXCHANGE = "as in the paper", "equal temperatures", "sigma = 0"
-OFTEN = 0.01  # fluxes over the largest one, above which the ratio to a Gaussian is shown
+OFTEN = 0.01  # fraction of the largest flux above which the ratio to a Gaussian is shown
 
 
 def case(result: Result) -> str:
@@ -29,7 +29,7 @@ def case(result: Result) -> str:
 
 
 def gaussian_half(momentum: np.ndarray, flux: np.ndarray) -> np.ndarray:
-    """Of the same integral and second moment on the same half line, by the midpoint rule."""
+    """Gaussian on a half line with the integral and the second moment of the flux, by the midpoint rule."""
     square = np.average(momentum**2, weights=flux)
     rate = flux.sum() * (momentum[1] - momentum[0])
     return rate * np.sqrt(2 / (np.pi * square)) * np.exp(-(momentum**2) / (2 * square))
@@ -41,9 +41,9 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     for result in results:
         density = result["flux_density"]
         momentum = density.axes["momentum"]
-        for index, place, *_ in ENDS:
+        for index, end, *_ in ENDS:
             flux = density.mean[index]
-            part = pd.DataFrame({"case": case(result), "x": place, "momentum": momentum, "flux": flux})
+            part = pd.DataFrame({"case": case(result), "x": end, "momentum": momentum, "flux": flux})
             halves = (momentum < 0, momentum > 0)
             part["gaussian"] = np.concatenate([gaussian_half(momentum[h], flux[h]) for h in halves])
             part["kurtosis"] = np.where(momentum > 0, *result["kurtosis"].mean[index][::-1])
@@ -53,7 +53,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 
 def draw_halves(axes: Axes, part: pd.DataFrame, values: pd.Series, **look: Any) -> None:
-    """Not joined across the jump."""
+    """Plots the halves p < 0 and p > 0 as separate curves, as F jumps at p = 0."""
     for half in (part.momentum < 0, part.momentum > 0):
         axes.plot(part.momentum[half], values[half], **look)
         look.pop("label", None)
@@ -62,7 +62,7 @@ def draw_halves(axes: Axes, part: pd.DataFrame, values: pd.Series, **look: Any) 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     (paper,) = (result for result in results if case(result) == PAPER)
     rows = table[table.case == PAPER].drop_duplicates("x")
-    jumps = listed(f"{number(one.jump)} at {one.x}" for one in rows.itertuples())
+    jumps = listed(f"{number(row.jump)} at {row.x}" for row in rows.itertuples())
     largest = table.groupby("case")["kurtosis"].max()
     return f"""
         Flux F(p, x) of the particles, per momentum, at both ends by the kinetic equation;
@@ -75,10 +75,10 @@ def draw(results: Sequence[Result]) -> Drawn:
     table = tabulate(results)
     figure, (above, below) = style.stacked(2, 1, height=1.5, width=1.1)
     departure = (100 * (table.flux / table.gaussian - 1)).where(table.flux > OFTEN * table.flux.max())
-    for _, place, color, dashes in ENDS:
-        ends = table[table.x == place]
+    for _, end, color, dashes in ENDS:
+        ends = table[table.x == end]
         paper, equal = (ends[ends.case == name] for name in (PAPER, EQUAL))
-        draw_halves(above, paper, paper.flux, color=color, linestyle=dashes, label=f"${place}$")
+        draw_halves(above, paper, paper.flux, color=color, linestyle=dashes, label=f"${end}$")
         draw_halves(below, paper, departure[paper.index], color=color, linestyle=dashes)
         draw_halves(below, equal, departure[equal.index], color=color, linestyle="dotted", linewidth=0.8)
     for axes in (above, below):

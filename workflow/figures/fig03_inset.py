@@ -1,4 +1,4 @@
-"""Fig. 3, inset: finite chains against the kinetic equation, in the halves that leave the chain.
+"""Fig. 3, inset: finite chains against the kinetic equation, for the particles that leave the chain.
 
 F_N(p, 0) for p < 0 and F_N(p, 1) for p > 0, both averaged over the bins, minus F, in units of the largest F.
 Lines: the mean field, the kinetic equation of N scatterers.
@@ -17,15 +17,15 @@ from workflow.lib.figure import Drawn, require_elastic, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
-SHOWN = 45  # momenta
-LOWEST, HIGHEST = 6e-4, 0.08  # of the deviations that are shown
-LIMITS = [(1e-3, "0.1 %"), (1e-4, "0.01 %")]  # of the paper
+SHOWN = 45  # largest momentum that is plotted
+LOWEST, HIGHEST = 6e-4, 0.08  # range of the deviations that are plotted
+LIMITS = [(1e-3, "0.1 %"), (1e-4, "0.01 %")]  # upper bounds of the deviation in the paper
 SIMULATION, MEAN_FIELD = "simulation", "mean field"
-MARKERS = ["o", "s", "^", "D"]  # by N
+MARKERS = ["o", "s", "^", "D"]  # one for each N
 
 
 def outgoing(values: np.ndarray, momentum: np.ndarray) -> np.ndarray:
-    """By momentum: of the first place where p < 0, of the last one where p > 0."""
+    """Values by momentum for the outgoing particles: from the first position if p < 0, from the last one if p > 0."""
     return np.where(momentum < 0, values[0], values[-1])
 
 
@@ -40,22 +40,24 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     for result in results:
         if result is continuum:
             continue
-        found = result["flux"]
-        simulated = found.standard_error is not None
+        chain_flux = result["flux"]
+        simulated = chain_flux.standard_error is not None
         table = pd.DataFrame({"momentum": momentum})
-        table["deviation"] = (outgoing(found.mean, momentum) - exact) / largest
-        table["error"] = outgoing(found.error, momentum) / largest if simulated else 0.0
+        table["deviation"] = (outgoing(chain_flux.mean, momentum) - exact) / largest
+        table["error"] = outgoing(chain_flux.error, momentum) / largest if simulated else 0.0
         table.insert(0, "kind", SIMULATION if simulated else MEAN_FIELD)
         table.insert(1, "cells", int(result.parameters["cells"]))
         tables.append(table)
-    # As printed, F of a chain without correlations integrates to 1.
+    # In the normalisation that the paper prints, F of a chain without correlations integrates to 1.
     table = pd.concat(tables, ignore_index=True)
     return table.assign(absolute_as_printed=table.deviation * largest / style.both_rates(continuum))
 
 
 def amplitudes(table: pd.DataFrame, kind: str = SIMULATION) -> pd.DataFrame:
-    """Per N, the part of the deviation that has the shape of that of the mean field of the shortest chain, at its
-    largest; with its error, for bins as independent. Unlike the largest of noisy bins it has no bias."""
+    """One row per N: amplitude of the deviation, and its error for independent bins.
+
+    The deviation is projected on its mean-field shape in the shortest chain; the amplitude is the largest value of this part. Unlike the
+    largest of noisy bins it has no bias."""
     mean_field = table[table.kind == MEAN_FIELD]
     shape = mean_field[mean_field.cells == mean_field.cells.min()].deviation.to_numpy()
     scale = np.abs(shape).max() / (shape @ shape)
@@ -71,17 +73,18 @@ def amplitudes(table: pd.DataFrame, kind: str = SIMULATION) -> pd.DataFrame:
 
 
 def at_centre(table: pd.DataFrame) -> pd.Series:
-    """Per N, the deviation of the mean field at p = 0, where it is largest, on the lines through the two innermost bins of both
-    halves."""
-    found = {}
+    """Mean-field deviation at p = 0 by N: the larger one of the two halves, each extrapolated by a line through its two innermost bins."""
+    centres = {}
     for cells, part in table[table.kind == MEAN_FIELD].groupby("cells"):
         inner = [part[np.sign(part.momentum) == side].sort_values("momentum", key=abs) for side in (-1, 1)]
-        found[cells] = max(abs(1.5 * half.deviation.iloc[0] - 0.5 * half.deviation.iloc[1]) for half in inner)
-    return pd.Series(found, name="centre").rename_axis("cells")
+        centres[cells] = max(
+            abs(1.5 * half.deviation.iloc[0] - 0.5 * half.deviation.iloc[1]) for half in inner
+        )
+    return pd.Series(centres, name="centre").rename_axis("cells")
 
 
-def draw_end(axes: Axes, table: pd.DataFrame, sign: int, place: str) -> None:
-    """The half that leaves at one end: points from simulations, lines from the mean field."""
+def draw_end(axes: Axes, table: pd.DataFrame, sign: int, title: str) -> None:
+    """Plots the particles that leave at one end: points from simulations, lines from the mean field."""
     half = table[np.sign(table.momentum) == sign]
     looks = zip(style.SEQUENCE, style.DASHES, MARKERS, strict=False)
     for (size, rows), (color, dashes, marker) in zip(half.groupby("cells"), looks, strict=False):
@@ -90,11 +93,11 @@ def draw_end(axes: Axes, table: pd.DataFrame, sign: int, place: str) -> None:
         axes.errorbar(points.momentum, 1e3 * points.deviation, 1e3 * points.error, **look)
         axes.plot(line.momentum, 1e3 * line.deviation, color=color, linestyle=dashes, linewidth=0.8)
     axes.axhline(0, **style.GUIDE)
-    axes.set(xlabel="momentum $p$", title=place, xlim=sorted((0, sign * SHOWN)))
+    axes.set(xlabel="momentum $p$", title=title, xlim=sorted((0, sign * SHOWN)))
 
 
 def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
-    """Amplitude of the deviation against N, with the paper's limits in either normalisation."""
+    """Plots the amplitude of the deviation against N, with the paper's limits in either normalisation."""
     printed = (table.absolute_as_printed / table.deviation).median()
     points, line = amplitudes(table), amplitudes(table, MEAN_FIELD)
     look = style.points("o", style.BLUE, label=SIMULATION)
@@ -121,12 +124,13 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     runs = [result for result in results if result.provenance["program"] == "momentum_flux"]
     first, last = (
-        with_error(one.amplitude, one.error) for one in amplitudes(table).iloc[[0, -1]].itertuples()
+        with_error(row.amplitude, row.error) for row in amplitudes(table).iloc[[0, -1]].itertuples()
     )
     printed = (table.absolute_as_printed / table.deviation).median()
     bins = table[table.kind == MEAN_FIELD].groupby("cells").absolute_as_printed.agg(lambda x: x.abs().max())
     bounds = [
-        f"{number(one.iloc[0])} and {number(one.iloc[-1])}" for one in (bins, printed * at_centre(table))
+        f"{number(by_size.iloc[0])} and {number(by_size.iloc[-1])}"
+        for by_size in (bins, printed * at_centre(table))
     ]
     return f"""
         Chains of N cells against the kinetic equation, particles that leave; {parameters(runs, "cell-length", "sigma", "gamma")},

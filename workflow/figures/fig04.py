@@ -1,7 +1,7 @@
 """Fig. 4: momentum distribution of the particles at both ends of an open chain; a: gamma = 1, b: gamma = N.
 
-Beside it the surroundings of p = 0, where the distribution jumps, and the jumps; in b also with equal rates at both ends. The
-mean field is the kinetic equation at gamma = 1, and that of N scatterers at gamma = N.
+Further panels show the distribution near p = 0, its deviation from mean field, and its jump at p = 0; the last also for equal rates at
+both ends if gamma = N. Mean field is the kinetic equation: that of the continuum at gamma = 1, that of N scatterers at gamma = N.
 """
 
 from collections.abc import Sequence
@@ -20,9 +20,9 @@ from workflow.lib.load import Quantity, Result
 
 EQUAL = "\n$\\nu_L = \\nu_R$"
 FEW = 0.5  # if a jump is below this fraction of the largest, the axis includes 0
-NEAR = 12  # momenta shown about the jump
+NEAR = 12  # largest |p| in the panel of the jump
 
-# First and last bond behind a scatterer.
+# Bonds behind the first and behind the last scatterer: index, colour, line style and marker.
 ENDS = {"x = 1/N": (1, style.BLUE, "solid", "o"), "x = 1": (-1, style.VERMILLION, (0, (4, 1.5)), "s")}
 
 
@@ -31,7 +31,7 @@ def measured(results: Sequence[Result]) -> list[Result]:
 
 
 def uncorrelated(results: Sequence[Result], like: Result) -> Result | None:
-    """The solution of the kinetic equation for the same chain."""
+    """The solution of the kinetic equation for the chain of `like`; None if there is none."""
     for result in results:
         same = style.gamma(result) == style.gamma(like) and result.ends("nu") == like.ends("nu")
         same &= result.parameters["rule"] == like.parameters["rule"]
@@ -41,16 +41,16 @@ def uncorrelated(results: Sequence[Result], like: Result) -> Result | None:
 
 
 def at(quantity: Quantity, x: float) -> np.ndarray:
-    """Solution of the kinetic equation at a position."""
+    """Values of a solution of the kinetic equation at the grid point nearest to x."""
     return quantity.mean[np.abs(quantity.axes["x"] - x).argmin()]
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     """One row per chain, end and bin."""
     parts = []
-    for result, (place, (bond, *_)) in product(measured(results), ENDS.items()):
+    for result, (end, (bond, *_)) in product(measured(results), ENDS.items()):
         flux, jump, expected = result["flux"], result["jump"], uncorrelated(results, result)
-        part = pd.DataFrame({"x": place, "momentum": flux.axes["momentum"], "flux": flux.mean[bond]})
+        part = pd.DataFrame({"x": end, "momentum": flux.axes["momentum"], "flux": flux.mean[bond]})
         part["flux_error"] = flux.error[bond]
         part["jump"], part["jump_error"] = jump.mean[bond], jump.error[bond]
         if expected:
@@ -63,15 +63,15 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 
 def halves(part: pd.DataFrame) -> list[pd.DataFrame]:
-    """Not joined across the jump."""
+    """The rows with p < 0 and those with p > 0, which are plotted as separate curves as F jumps at p = 0."""
     return [part[part.momentum < 0], part[part.momentum > 0]]
 
 
 def draw_distribution(axes: Axes, table: pd.DataFrame, reach: float) -> None:
-    """F over its bins at both ends; black in mean field."""
-    for place, part in table.groupby("x", sort=False):
-        _, color, dashes, _ = ENDS[place]
-        label: str | None = f"${place}$"
+    """Plots F at both ends, and in black that of the mean field."""
+    for end, part in table.groupby("x", sort=False):
+        _, color, dashes, _ = ENDS[end]
+        label: str | None = f"${end}$"
         for half in halves(part[part.momentum.abs() < reach]):
             look: style.Look = {"color": color, "linestyle": dashes}
             axes.errorbar(half.momentum, half.flux, half.flux_error, elinewidth=0.8, label=label, **look)
@@ -82,8 +82,8 @@ def draw_distribution(axes: Axes, table: pd.DataFrame, reach: float) -> None:
 
 
 def draw_residuals(axes: Axes, table: pd.DataFrame) -> None:
-    for place, part in table.groupby("x", sort=False):
-        _, color, dashes, marker = ENDS[place]
+    for end, part in table.groupby("x", sort=False):
+        _, color, dashes, marker = ENDS[end]
         for half in halves(part[part.momentum.abs() < style.SHOWN_MOMENTA]):
             unit = table.kinetic.max() / 100
             look: style.Look = {"marker": marker, "color": color, "markersize": 2}
@@ -100,14 +100,14 @@ def draw_residuals(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def cases(table: pd.DataFrame) -> list[tuple[str, bool, pd.DataFrame]]:
-    """gamma, whether the rates are equal, and both ends of every chain."""
+    """For every chain: gamma, whether the rates of the baths are equal, and the rows of both ends."""
     ends = table.drop_duplicates(["gamma", "nu_left", "x"])
     chains = ends.groupby(["gamma", "nu_left"], sort=False)
     return [(gamma, bool((part.nu_right == left).all()), part) for (gamma, left), part in chains]
 
 
 def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
-    """One row per chain; both ends, and in mean field."""
+    """Plots the jumps at both ends, measured and in mean field, with one row per chain."""
     chains = cases(table)
     for row, (_, _, part) in enumerate(chains):
         for shift, end in zip((0.17, -0.17), part.itertuples(), strict=True):
@@ -115,30 +115,40 @@ def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
             look = {"marker": marker, "color": color, **style.POINTS}
             axes.errorbar(end.jump, -row + shift, xerr=end.jump_error, **look)
             axes.plot(end.kinetic_jump, -row + shift, "|", color=style.BLACK, markersize=8, zorder=1)
-            text, place = with_error(end.jump, end.jump_error), (0.98, -row + shift)
+            text, position = with_error(end.jump, end.jump_error), (0.98, -row + shift)
             axes.annotate(
-                text, place, xycoords=axes.get_yaxis_transform(), ha="right", va="center", size=8, color=color
+                text,
+                position,
+                xycoords=axes.get_yaxis_transform(),
+                ha="right",
+                va="center",
+                size=8,
+                color=color,
             )
     jumps = table.jump.abs()
-    if jumps.min() < FEW * jumps.max():  # elsewhere they could not be distinguished on an axis that reaches 0
+    if (
+        jumps.min() < FEW * jumps.max()
+    ):  # jumps of similar size could not be distinguished on an axis that includes 0
         axes.axvline(0, **style.GUIDE)
     axes.set(xlabel=r"jump $F_N(0^+, x) - F_N(0^-, x)$", ylim=(0.5 - len(chains), 0.5))
     names = [rf"$\gamma = {gamma}$" + EQUAL * equal for gamma, equal, _ in chains]
     axes.set_yticks([-row for row in range(len(chains))], names)
     axes.tick_params(axis="y", length=0)
     low, high = axes.get_xlim()
-    axes.set_xlim(low, high + 0.45 * (high - low))  # room for the numbers
+    axes.set_xlim(low, high + 0.45 * (high - low))  # space for the numbers
 
 
 def extrapolation_error(table: pd.DataFrame) -> float:
-    """Of the jumps, which are differences of lines through two bins on either side: what these make of the kinetic equation's
-    bins, minus its jump; the largest over the chains and their ends."""
-    known = table.dropna(subset="kinetic").sort_values("momentum")
+    """Largest error, over chains and ends, that the extrapolation of bins to p = 0 makes in mean field.
+
+    A measured jump is the difference of the lines through two bins on either side of p = 0. Here the lines are applied to the bins of
+    the kinetic equation, and the result is compared with the exact jump."""
+    solved = table.dropna(subset="kinetic").sort_values("momentum")
     errors = []
-    for _, part in known.groupby(["gamma", "nu_left", "x"]):
+    for _, part in solved.groupby(["gamma", "nu_left", "x"]):
         before, after = (half.kinetic.to_numpy() for half in halves(part))
-        found = 1.5 * (after[0] - before[-1]) - 0.5 * (after[1] - before[-2])
-        errors.append(abs(found - part.kinetic_jump.iloc[0]))
+        extrapolated = 1.5 * (after[0] - before[-1]) - 0.5 * (after[1] - before[-2])
+        errors.append(abs(extrapolated - part.kinetic_jump.iloc[0]))
     return float(max(errors))
 
 
@@ -149,7 +159,7 @@ def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]
     jumps = listed(with_error(end.jump, end.jump_error) for end in ends)
     far = 100 * (unequal.flux - unequal.kinetic).abs().max() / unequal.kinetic.max()
     equal = " and at equal rates" if len(runs) > 1 else ""
-    found = (
+    statement = (
         f"The jumps, {jumps}, are much smaller than at γ = 1, as in the paper, but remain at equal rates"
         if len(runs) > 1
         else f"As in the paper F_N agrees with the kinetic equation, within {number(float(f'{far:.1g}'))} %; it jumps by {jumps}"
@@ -158,7 +168,7 @@ def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]
         Flux F_N(p, x) of the particles, per momentum, behind the first and the last scatterer;
         {parameters([chain], *CHAIN)}, {baths(chain)}, {parameters([chain], *WINDOW)}, {replicas(runs)}. Black: mean field, the kinetic equation.
         (a) F_N; right axis: over ν_L + ν_R, the scale of the paper. (b) Close-up of p = 0. (c) Deviation from the mean
-        field. (d) Jump at p = 0, extrapolated{equal}. {found}. {ERRORS}"""
+        field. (d) Jump at p = 0, extrapolated{equal}. {statement}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
@@ -175,8 +185,8 @@ def draw(results: Sequence[Result]) -> Drawn:
     style.second_axis(panels["main"], 1 / style.both_rates(results[0]), r"$F_N/(\nu_L + \nu_R)$")
     draw_residuals(panels["residual"], unequal)
     draw_jumps(panels["jump"], main)
-    place: style.Look = {"transform": panels["main"].transAxes, "ha": "right"}
-    panels["main"].text(0.95, 0.9, rf"$\gamma = {main.gamma.iloc[0]}$", **place)
+    corner: style.Look = {"transform": panels["main"].transAxes, "ha": "right"}
+    panels["main"].text(0.95, 0.9, rf"$\gamma = {main.gamma.iloc[0]}$", **corner)
     panels["near"].plot([], [], color=style.BLACK, linewidth=0.6, label="mean field")
     figure.legend(*panels["near"].get_legend_handles_labels(), loc="outside upper center", ncols=5)
     style.letter(*panels.values())

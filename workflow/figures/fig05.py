@@ -15,12 +15,12 @@ MARKS = [style.points("o", style.BLUE), style.points("s", style.VERMILLION, "whi
 
 
 def law(sigma: np.ndarray) -> np.ndarray:
-    """Particle and scatterer Gaussian and independent, at one temperature."""
+    """Persistence for independent Gaussian momenta of particle and scatterer at one temperature."""
     return np.arccos(sigma) / np.pi
 
 
 def law_at_local_energies(table: pd.DataFrame) -> pd.Series:
-    """The same at the mean energies that particles and scatterers have when they meet."""
+    """Persistence for independent Gaussian momenta with the measured mean energies of particles and scatterers before collisions."""
     c = np.sqrt((1 - table.sigma) * (1 + table.sigma))
     speeds = np.sqrt(table.particle_energy / table.scatterer_energy)
     return 0.5 - np.arctan2(table.sigma * speeds, c) / np.pi

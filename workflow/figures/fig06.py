@@ -1,7 +1,7 @@
 """Fig. 6: density of waiting times for sigma = 0 and 1/2, with power laws of the fitted exponents.
 
-Below, the density times the power of tau that the paper states. At sigma = 0 momenta are only exchanged, so the density follows
-the start: the paper's Gaussian one gives tau^-3 at long times, times exp(-lambda^2 / (2 T tau^2)) at all times.
+Below, the density times the power of tau that the paper states. At sigma = 0 momenta are only exchanged, so the density is
+that of the start: the paper's Gaussian one gives tau^-3 at long times, times exp(-lambda^2 / (2 T tau^2)) at all times.
 """
 
 from collections.abc import Sequence
@@ -17,11 +17,11 @@ from workflow.lib.load import Result
 
 MARKS = {0.0: ("o", style.BLUE, "dashed"), 0.5: ("s", style.VERMILLION, "dotted")}
 POWERS = {0.0: 3, 0.5: 2}  # the paper's exponents, times -1
-UNSURE = 0.5  # relative error above which a bin is a limit from above
+UNSURE = 0.5  # relative error above which a symbol is open
 
 
 def gaussian_start(tau: np.ndarray, temperature: float, cell_length: float) -> np.ndarray:
-    """Exact at sigma = 0 for n to infinity: |u| exp(-u^2/2T) at u = lambda/tau."""
+    """Exact density of waiting times at sigma = 0 for n to infinity, from the flux |u| exp(-u^2/2T) at u = lambda/tau."""
     square = cell_length**2 / temperature
     return square / tau**3 * np.exp(-square / (2 * tau**2))
 
@@ -49,7 +49,7 @@ def tabulate(result: Result) -> pd.DataFrame:
 
 
 def draw_density(axes: Axes, table: pd.DataFrame, power: float = 0, label: str = "") -> None:
-    """Bins with errors; open where the error is large. Times tau^power."""
+    """Plots the density times tau^power with errors. Symbols are open where the error is large."""
     sigma = float(table.sigma.iloc[0])
     marker, color, dashes = MARKS[sigma]
     scale = table.tau**power
@@ -61,7 +61,7 @@ def draw_density(axes: Axes, table: pd.DataFrame, power: float = 0, label: str =
 
 
 def mark_outside(axes: Axes, table: pd.DataFrame, power: float, top: float) -> None:
-    """Bins whose symbol would lie above the strip."""
+    """Marks bins above the frame by triangles at its upper edge."""
     outside = table.tau[table.tau**power * table.density > top]
     _, color, _ = MARKS[float(table.sigma.iloc[0])]
     look: style.Look = {"marker": "^", "color": color, "markerfacecolor": "white", "markersize": 3.5}

@@ -1,5 +1,7 @@
-"""Fig. 7: spreading of a tagged particle at sigma = 1/2, with the paper's random total momentum and with none, the part that is
-the drift of all particles, and how it falls with the number of cells."""
+"""Fig. 7: spreading of a tagged particle at sigma = 1/2, with the paper's random total momentum and with zero total momentum.
+
+The mean square displacement of the centre of mass is the part due to drift. Several sizes show how it falls with the number of cells.
+"""
 
 from collections.abc import Sequence
 
@@ -12,12 +14,16 @@ from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
-ROUNDING = 1e-9  # relative, of times on a logarithmic grid
-GUIDED = 100  # the guides span so much of the times
+ROUNDING = 1e-9  # relative rounding error of times on a logarithmic grid
+GUIDED = 100  # last time over the first time of the guides
 APART = 3  # factor between a guide and the last point
 
 ZERO = style.points("s", style.VERMILLION, "white")
-RANDOM = [("o", style.BLUE), ("^", style.SKY), ("D", style.GREEN)]  # by size
+RANDOM = [
+    ("o", style.BLUE),
+    ("^", style.SKY),
+    ("D", style.GREEN),
+]  # marker and colour by number of cells, in ascending order
 
 
 def zero(result: Result) -> bool:
@@ -29,7 +35,7 @@ def cells(result: Result) -> int:
 
 
 def tabulate(result: Result) -> pd.DataFrame:
-    """One row per time. The error of the fraction neglects that both parts vary together: it is an upper bound."""
+    """One row per time. The error of the fraction neglects the correlation of drift and variance: it is an upper bound."""
     variance, drift, slope = result["variance"], result["centre_of_mass"], result["local_slope"]
     columns = result.columns("variance", "centre_of_mass")
     run = {"cells": cells(result), "zero_total_momentum": zero(result)}
@@ -45,9 +51,9 @@ def tabulate(result: Result) -> pd.DataFrame:
 
 def caption(random: pd.DataFrame, results: Sequence[Result], window: tuple[float, float]) -> str:
     last = random.iloc[-1]
-    alpha = [(cells(one), style.with_error(one["alpha"])) for one in results if not zero(one)]
+    alpha = [(cells(result), style.with_error(result["alpha"])) for result in results if not zero(result)]
     larger = listed(f"{text} at N = {size}" for size, text in alpha[1:]) if alpha[1:] else ""
-    without = [style.with_error(one["alpha"]) for one in results if zero(one)]
+    without = [style.with_error(result["alpha"]) for result in results if zero(result)]
     options = [name for name in (*CHAIN, *GAS, "relaxation-time") if name != "cells"]
     return f"""
         Spreading of a tagged particle in closed chains of N cells, {parameters(results, *options)}, {replicas(results)}.
@@ -58,7 +64,7 @@ def caption(random: pd.DataFrame, results: Sequence[Result], window: tuple[float
 
 
 def draw(results: Sequence[Result]) -> Drawn:
-    results = sorted(results, key=lambda one: (zero(one), cells(one)))
+    results = sorted(results, key=lambda result: (zero(result), cells(result)))
     tables = [tabulate(result) for result in results]
     random = tables[0]
     time = random.time

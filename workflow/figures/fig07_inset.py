@@ -1,8 +1,8 @@
 """Inset of fig. 7: exponent alpha of the spreading against sigma, with the paper's random total momentum and with none.
 
-Subtracting the motion of the centre of mass is shown too, and is not the same: the scatterers stand still, so a conserved
-total momentum moves a particle at every collision, and with waiting times ~ tau^-2 the numbers of collisions differ between
-particles by a part that falls only as 1/ln t. What is left by the subtraction grows nearly as t^2.
+The exponent of the displacement about the centre of mass is shown too. It differs from that at zero total momentum. Scatterers stay in
+place, so a conserved total momentum shifts a particle at every collision. With waiting times ~ tau^-2 the relative difference between
+the numbers of collisions of two particles falls only as 1/ln t. The displacement about the centre of mass thus grows nearly as t^2.
 """
 
 from collections.abc import Sequence
@@ -18,7 +18,7 @@ from workflow.lib.load import NOT_REACHED, Result
 
 TICKS = (-1, -0.5, 0, 0.5, 1)
 
-# By zero total momentum and column: label, marker, colour, face.
+# By zero total momentum and column: label, marker, colour, fill colour.
 CURVES = {
     (False, "alpha"): ("random total momentum, as in the paper", "o", style.BLUE, style.BLUE),
     (False, "alpha_relative"): ("about the centre of mass", "^", style.SKY, "white"),

@@ -1,10 +1,9 @@
 """Fig. 8: heat conductivity against the number of cells, and local exponents d ln kappa / d ln N between neighbouring sizes,
 which are constant where a power law holds.
 
-Beside the paper's drive a stronger one at the same spacing, whose errors are smaller (ext. 9). The control has random
-directions after collisions, which do not conserve momentum, at the paper's spacing 1/N and at a fixed one. The mean field is the
-kinetic equation of N scatterers. Points whose window is not stationary, or whose run stopped before its target, are crossed out and
-not used.
+The runs have the paper's drive, and a stronger one at the same spacing with smaller errors (ext. 9). Control runs have random directions
+after collisions, which do not conserve momentum, at the paper's spacing 1/N and at a fixed one. The mean field is the kinetic equation
+of N scatterers. Points whose window is not stationary, or whose run stopped before its target, are crossed out and not used.
 """
 
 from collections.abc import Sequence
@@ -22,13 +21,13 @@ from workflow.lib.fit import with_error
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
-BELOW = 0.7  # factor by which guides lie below the lowest point
-SERIES = ["rule", "gamma", "spacing", "drive"]  # columns that tell curves apart
+BELOW = 0.7  # ratio of a guide to the lowest point
+SERIES = ["rule", "gamma", "spacing", "drive"]  # columns that identify a curve
 GUIDES = {"N": (1 / 3, r"$N^{1/3}$", "1/3"), 1: (1, "$N$", "1")}  # the paper's exponents by gamma
 STRONG = style.points("^", style.ORANGE, "white")
 RANDOM = [
     style.points("D", style.GREEN, face) for face in ("white", None)
-]  # at the spacing 1/N and at a fixed one
+]  # random directions, at the spacing 1/N and at a fixed one
 
 
 def drive(result: Result) -> float:
@@ -38,7 +37,7 @@ def drive(result: Result) -> float:
 
 
 def mean_field(results: Sequence[Result]) -> pd.DataFrame:
-    """kappa in mean field, sorted by N."""
+    """kappa in mean field, one row per size, sorted by N."""
     rows = []
     for result in results:
         if result.provenance["program"] == "boltzmann":
@@ -50,7 +49,8 @@ def mean_field(results: Sequence[Result]) -> pd.DataFrame:
 
 
 def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per run, sorted by N, with the local exponent from every sound size to the next; neighbours share a size."""
+    """One row per run, sorted by N, with the local exponent from every sound size to the next. Neighbouring exponents have a
+    size in common."""
     rows = []
     for result in results:
         row = {name: result.parameters[name] for name in ("rule", "gamma", "cells")}
@@ -60,7 +60,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         rows.append(row)
     table = pd.DataFrame(rows).sort_values("cells", ignore_index=True)
     columns = ["between", "exponent_to_next", "exponent_to_next_error"]
-    table[columns] = np.nan  # where fewer than two sizes are usable
+    table[columns] = np.nan  # stays NaN if fewer than two sizes are usable
     for _, part in table[table.usable].groupby(SERIES):
         local = local_exponents(part.cells, part.kappa, part.kappa_error)
         for column, values in zip(columns, local, strict=True):
@@ -69,7 +69,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 
 def draw_guide(axes: Axes, part: pd.DataFrame, slope: float, name: str) -> None:
-    """The paper's power law, below the points."""
+    """Plots the paper's power law below the points."""
     power = part.cells**slope
     guide = BELOW * (part.kappa / power).min() * power
     axes.plot(part.cells, guide, **style.GUIDE)
@@ -78,8 +78,8 @@ def draw_guide(axes: Axes, part: pd.DataFrame, slope: float, name: str) -> None:
 
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
-    elastic = [one for one in results if one.parameters["rule"] == "elastic"]
-    weak = [one for one in elastic if drive(one) == table.drive.min()]
+    elastic = [result for result in results if result.parameters["rule"] == "elastic"]
+    weak = [result for result in elastic if drive(result) == table.drive.min()]
     slopes = table.dropna(subset="between")
     pairs = zip(slopes.exponent_to_next, slopes.exponent_to_next_error, strict=True)
     texts = pd.Series([with_error(*pair) for pair in pairs], slopes.index, dtype=str)
@@ -94,21 +94,21 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         for last in [part.iloc[-1]]
     ]
 
-    def one(found: pd.Series, index: int) -> str:
-        return str(found.iloc[index]) if len(found) else "an unknown value"
+    def text_at(index: int, values: pd.Series) -> str:
+        return str(values.iloc[index]) if len(values) else "an unknown value"
 
     return f"""
         Heat conductivity κ = −J_U N/(T_N − T_1) of open chains against the number of cells N, {parameters(weak, "cell-length", "sigma")},
         {baths(weak[0])}, {replicas(results)}. Triangles, diamonds: T_R/T_L = {number(table.drive.max())} (ext. 9). (a) κ; dashed
         grey: the paper's powers of N, blue: mean field, the kinetic equation of N scatterers. (b) Local exponents between neighbouring
-        sizes. For γ = 1 the exponent tends to {one(rare, -1)}. For γ = N no single power holds: from {one(often, 0)} at the
-        smallest sizes the exponent rises above 1/2 and falls to {one(often, -1)} at the largest; {one(strong, -1)} at stronger drive.
+        sizes. For γ = 1 the exponent tends to {text_at(-1, rare)}. For γ = N no single power holds: from {text_at(0, often)} at the
+        smallest sizes the exponent rises above 1/2 and falls to {text_at(-1, often)} at the largest; {text_at(-1, strong)} at stronger drive.
         With random directions, which do not conserve momentum, κ tends to a constant: {listed(random)}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
-    runs = [one for one in results if one.provenance["program"] == "conductivity"]
-    runs = [one for one in runs if gas(one) not in ("dilute", "dense")]  # of a fixed spacing
+    runs = [result for result in results if result.provenance["program"] == "conductivity"]
+    runs = [result for result in runs if gas(result) not in ("dilute", "dense")]  # gases at a fixed spacing
     table, theory = tabulate(runs), mean_field(results)
     size = (2 * style.COLUMN, 1.1 * style.HEIGHT)
     figure, (left, right) = plt.subplots(1, 2, figsize=size, sharex=True)

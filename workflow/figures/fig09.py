@@ -1,7 +1,7 @@
 """Fig. 9: energy difference after a pulse, at several times; a: gamma = N, b: gamma = 1.
 
-From the paper's start, in which scatterers at rest have relaxed, beside one in which all momenta are Gaussian; and the position
-and the speed of the moving peak. Faint: times at which the ring has closed.
+Shown from the paper's start, in which scatterers at rest have relaxed, and from a start in which all momenta are Gaussian; also position
+and speed of the moving peak. Faint: times at which both sides of the pulse have met opposite to it, so that the ring has closed.
 """
 
 import functools
@@ -18,10 +18,10 @@ from workflow.lib.caption import CHAIN, ERRORS, listed, number, parameters, repl
 from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
 
-CLOSED = 0.02  # of the peak's height, at the cell opposite to the pulse
+CLOSED = 0.02  # energy opposite to the pulse over the largest energy, above which the ring has closed
 FAINT = 0.45
 
-# Marker, colour and face by what scatterers start from: the paper's start first.
+# Marker, colour, fill colour and label by the initial temperature of the scatterers; the paper's start first.
 STARTS = {
     0: ("s", style.VERMILLION, "white", "from rest, as in the paper"),
     "particles": ("o", style.BLUE, style.BLUE, "Gaussian start"),
@@ -63,14 +63,14 @@ def draw_marked(
 
 
 def draw_profiles(axes: Axes, result: Result, shown: np.ndarray) -> pd.DataFrame:
-    """shown: times."""
+    """Plots the energy difference at the times `shown`. Returns the table."""
     difference = result["energy_difference"]
     times = difference.axes["time"]
     distance = difference.axes["cell"] - len(difference.axes["cell"]) // 2
     closed = ring_closed(result)
     parts = []
-    places = np.flatnonzero(np.isin(times, shown))
-    for k, color, dashes in zip(places, style.SEQUENCE, style.DASHES, strict=False):
+    indices = np.flatnonzero(np.isin(times, shown))
+    for k, color, dashes in zip(indices, style.SEQUENCE, style.DASHES, strict=False):
         mean, error = difference.mean[k] / 1e3, difference.error[k] / 1e3
         alpha = FAINT if closed[k] else 1
         label = f"$t = {times[k]:g}$"
@@ -85,7 +85,7 @@ def draw_profiles(axes: Axes, result: Result, shown: np.ndarray) -> pd.DataFrame
 
 
 def draw_position(axes: Axes, result: Result) -> None:
-    """With the way of a peak that keeps the speed from the pulse to its first position."""
+    """Plots the position of the peak, and the line of constant speed through its first position."""
     position, closed = result["peak_position"], ring_closed(result)
     time = position.axes["time"]
     label = STARTS[start(result)][3]
@@ -102,7 +102,7 @@ def draw_speed(axes: Axes, result: Result) -> None:
 
 
 def pulse(results: Sequence[Result]) -> str:
-    """Parameters; the paper states the start from rest, but not for how long it relaxes."""
+    """Text with the parameters and starts. The paper states the start from rest, but not its relaxation time."""
     names = parameters(results, "particles-per-cell", "energy", "pulse-energy")
     time = listed(number(result.parameters["relaxation-time"]) for result in results if start(result) == 0)
     return f"""{parameters(results, *CHAIN)}, {names} per degree of freedom, {replicas(results)}. Start from scatterers at rest, as in the
@@ -111,10 +111,10 @@ def pulse(results: Sequence[Result]) -> str:
 
 def caption(results: Sequence[Result]) -> str:
     rest = results[0]["peak_speed"]
-    known = np.flatnonzero(np.isfinite(rest.mean))
-    ends = [style.with_error(rest, k) for k in known[[0, -1]]] if len(known) else []
+    resolved = np.flatnonzero(np.isfinite(rest.mean))
+    ends = [style.with_error(rest, k) for k in resolved[[0, -1]]] if len(resolved) else []
     speed = "changes from {} to {}".format(*ends) if ends else "is not resolved"
-    closed = any(ring_closed(one).any() for one in results)
+    closed = any(ring_closed(result).any() for result in results)
     faint = (
         f" Faint: the two sides have met, ΔE opposite to the pulse above {number(100 * CLOSED)} % of the largest."
         if closed

@@ -18,8 +18,8 @@ from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
 SLOPES = {"N": (-2 / 3, r"$t^{-2/3}$", "2/3"), 1: (-1, r"$t^{-1}$", "1")}  # the paper's guides
-SPAN = 0.12  # of the exponents that are shown on either side of the paper's, at least
-ABOVE = 1.2  # factor by which these lie above the first point
+SPAN = 0.12  # smallest range of exponents shown on either side of the paper's
+ABOVE = 1.2  # ratio of a guide to the first point
 
 
 def tabulate(result: Result) -> pd.DataFrame:
@@ -29,7 +29,7 @@ def tabulate(result: Result) -> pd.DataFrame:
     part = part.assign(ring_closed=ring_closed(result), peak_raw=result["peak_raw"].mean)
     part = part.assign(**result.columns("peak_position"))
     later = {"exponent_from_here": "damping_exponent_from", "speed_to_next": "peak_speed"}
-    for column, name in later.items():  # all but the last time have them
+    for column, name in later.items():  # defined at all times but the last
         part[column] = pd.Series(result[name].mean)
         part[f"{column}_error"] = pd.Series(result[name].error)
     part = part.merge(by_octave(result).rename(columns={"until": "time"}), on="time", how="left")
@@ -78,7 +78,7 @@ def draw(results: Sequence[Result]) -> Drawn:
         draw_peaks(above, result, table)
         draw_exponents(below, result)
     slope, guide, exponent = SLOPES[results[0].parameters["gamma"]]
-    seen = tables[-1].dropna(subset="peak")  # the highest
+    seen = tables[-1].dropna(subset="peak")  # the start with the highest peaks
     if len(seen):
         law = ABOVE * seen.peak.iloc[0] / 1e3 * (seen.time / seen.time.iloc[0]) ** slope
         above.plot(seen.time, law, **style.GUIDE, label=guide)
@@ -89,8 +89,8 @@ def draw(results: Sequence[Result]) -> Drawn:
     below.set(xlabel="time $t$", ylabel=r"$-d\ln\,\mathrm{peak}/d\ln t$")
     for axis in (above.yaxis, below.xaxis):
         style.label_within_decades(axis)
-    place: style.Look = {"transform": above.transAxes, "ha": "right", "va": "top"}
-    above.text(0.95, 0.95, rf"$\gamma = {style.gamma(results[0])}$", **place)
+    corner: style.Look = {"transform": above.transAxes, "ha": "right", "va": "top"}
+    above.text(0.95, 0.95, rf"$\gamma = {style.gamma(results[0])}$", **corner)
     figure.legend(*above.get_legend_handles_labels(), loc="outside upper left", ncols=1)
     return figure, pd.concat(tables), caption(results)
 

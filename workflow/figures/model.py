@@ -14,13 +14,14 @@ from workflow.lib.caption import number, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
 
-# Of plasma, which is perceptually uniform, the part that is visible on white: cold is dark, hot is bright.
+# The part of the perceptually uniform map plasma that is visible on white: low energies are dark, high ones bright.
 COLOURS = LinearSegmentedColormap.from_list("energy", plt.get_cmap("plasma")(np.linspace(0, 0.88, 256)))
 COLUMNS = ("particle", "start_time", "end_time", "start_position", "end_position", "momentum")
 BATH = 0.75  # width of a bath, in cells
 
 
 def flights(result: Result) -> pd.DataFrame:
+    """One row per flight of a run, with the energy of the particle."""
     table = pd.DataFrame({name: result[name].mean for name in COLUMNS})
     table["energy"] = table.momentum**2 / 2
     table.insert(0, "chain", result.parameters["chain"])
@@ -30,7 +31,7 @@ def flights(result: Result) -> pd.DataFrame:
 def world_lines(
     axes: Axes, table: pd.DataFrame, shifts: Sequence[float], energies: PowerNorm
 ) -> LineCollection:
-    """The fastest on top. On a ring, a flight across its ends is plotted at both, by shifts of its length."""
+    """Plots the flights, the fastest on top, once per shift of x. A flight across the ends of a ring is thus visible at both ends."""
     table = table.sort_values("energy")
     lines = np.stack([table[["start_position", "start_time"]], table[["end_position", "end_time"]]], axis=1)
     copies = [lines + np.array([shift, 0]) for shift in shifts]
@@ -43,7 +44,7 @@ def world_lines(
 
 
 def baths(axes: Axes, result: Result, length: float, energies: PowerNorm) -> None:
-    """Bands beside the chain, in the colour of the temperature as an energy."""
+    """Plots each bath as a band beside the chain. Its colour is that of a particle whose energy equals the temperature."""
     temperatures = result.ends("temperature")
     for side, temperature, begin in zip("LR", temperatures, (-BATH, length), strict=True):
         axes.axvspan(begin, begin + BATH, color=COLOURS(energies(temperature)), linewidth=0, zorder=3)

@@ -48,25 +48,25 @@ def number(value: float) -> str:
 
 
 def listed(texts: Iterable[str]) -> str:
-    """a, b and c."""
+    """The texts as an English list: a, b and c."""
     *most, last = texts
     return f"{', '.join(most)} and {last}" if most else last
 
 
 def parameters(results: Sequence[Result], *names: str) -> str:
     """The named parameters that the results have, with all their values: `N = 11 cells, σ = −1/2 and 1/2`."""
-    found = []
+    texts = []
     for name in names:
         values = {result.parameters[name] for result in results if name in result.parameters}
         numbers = sorted(value for value in values if not isinstance(value, str))
         words = sorted(value for value in values if isinstance(value, str))
         if values:
-            found.append(SYMBOLS[name].format(listed([*map(number, numbers), *words])))
-    return ", ".join(found)
+            texts.append(SYMBOLS[name].format(listed([*map(number, numbers), *words])))
+    return ", ".join(texts)
 
 
 def baths(result: Result) -> str:
-    """baths ν = 220 and 180, T = 81.82 and 122.2, left and right; equal ones once."""
+    """baths ν = 220 and 180, T = 81.82 and 122.2, left and right; equal values are given once."""
     both = [listed(dict.fromkeys(map(number, result.ends(name)))) for name in ("nu", "temperature")]
     return f"baths ν = {both[0]}, T = {both[1]}"
 
@@ -94,7 +94,7 @@ def power_of_ten(power: int) -> str:
 
 
 def goodness(chi_square: float, freedom: int) -> str:
-    """chi^2, degrees of freedom and p-value."""
+    """Text with chi^2, its degrees of freedom and its p-value."""
     if freedom < 1:
         return "no degree of freedom to test it"
     p = p_value(chi_square, freedom)

@@ -18,15 +18,15 @@ def sources_of(script: str) -> list[str]:
     """Sorted paths of the closure of a script: the modules of the project that it imports, and the files that these read, directly or
     indirectly. A file is taken as read if a literal of a module names it, relative to the module's folder or one above it; a folder is
     taken with its content."""
-    found: set[str] = set()
+    closure: set[str] = set()
     waiting = [script]
     while waiting:
         path = waiting.pop()
-        if path not in found and (ROOT / path).is_file():
-            found.add(path)
+        if path not in closure and (ROOT / path).is_file():
+            closure.add(path)
             if path.endswith(".py"):
                 waiting += _used(path, (ROOT / path).read_text("utf-8"))
-    return sorted(found)
+    return sorted(closure)
 
 
 @cache  # panels have most modules in common
@@ -53,13 +53,13 @@ def _files_named(literal: str, folder: Path) -> Iterator[str]:
     if not PATH.fullmatch(literal):
         return
     for above in (folder, *folder.parents):
-        place = above / literal
-        if (ROOT / place).is_file():
-            yield str(place)
-        elif (ROOT / place).is_dir() and above == folder:
-            content = (ROOT / place).rglob("*")
+        candidate = above / literal
+        if (ROOT / candidate).is_file():
+            yield str(candidate)
+        elif (ROOT / candidate).is_dir() and above == folder:
+            content = (ROOT / candidate).rglob("*")
             yield from (
-                str(one.relative_to(ROOT)) for one in content if one.is_file() and one.suffix != ".pyc"
+                str(file.relative_to(ROOT)) for file in content if file.is_file() and file.suffix != ".pyc"
             )
 
 

@@ -22,17 +22,17 @@ BY_ROW = "column "
 
 def inherited(results: Sequence[Result]) -> dict[str, str]:
     """Units by name from the result files, without names that have several units."""
-    found: dict[str, set[str]] = defaultdict(set)
+    by_name: dict[str, set[str]] = defaultdict(set)
     for result in results:
         for name, quantity in result.quantities.items():
-            found[name].add(quantity.units)
-            found[f"{name}_error"].add(quantity.units)
+            by_name[name].add(quantity.units)
+            by_name[f"{name}_error"].add(quantity.units)
             for axis, units in quantity.axis_units.items():
-                found[axis].add(units)
+                by_name[axis].add(units)
         for option in result.parameters:
             for name in (option, option.replace("-", "_")):
-                found[name].add(option_units().get(option, "1"))
-    return {name: units.pop() for name, units in found.items() if len(units) == 1}
+                by_name[name].add(option_units().get(option, "1"))
+    return {name: units.pop() for name, units in by_name.items() if len(units) == 1}
 
 
 def as_csv(table: pd.DataFrame, known: Mapping[str, str]) -> str:
@@ -59,9 +59,9 @@ def _units(table: pd.DataFrame, known: Mapping[str, str]) -> dict[str, str]:
         )
     units = {name: known[name] for name in numbers}
     for name, text in units.items():
-        for each in table[text.removeprefix(BY_ROW)].unique() if text.startswith(BY_ROW) else [text]:
+        for unit in table[text.removeprefix(BY_ROW)].unique() if text.startswith(BY_ROW) else [text]:
             try:
-                parse(each)
+                parse(unit)
             except UnitsError as error:
                 raise UnitsError(f"column {name}: {error}") from error
     return units

@@ -37,5 +37,5 @@ def product_command(description: str | None) -> argparse.Namespace:
 
 
 def counted(number: int, noun: str) -> str:
-    """As 1 panel, 2 panels."""
+    """The number with its noun in singular or plural: 1 panel, 2 panels."""
     return f"{number} {noun}{'s' * (number != 1)}"

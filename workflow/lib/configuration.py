@@ -59,12 +59,12 @@ class Document:
 
     def check(self, schema: Schema) -> None:
         """Validates the content. Raises ConfigurationError."""
-        found: dict[tuple[int, int], str] = {}  # a shared mapping is reported once
+        complaints: dict[tuple[int, int], str] = {}  # a shared mapping is reported once
         for error in Draft202012Validator(schema).iter_errors(self.content):
             for keys, problem in _problems(error):
-                found.setdefault(self._position(keys), self.complaint(keys, problem))
-        if found:
-            raise ConfigurationError("\n".join(found[position] for position in sorted(found)))
+                complaints.setdefault(self._position(keys), self.complaint(keys, problem))
+        if complaints:
+            raise ConfigurationError("\n".join(complaints[position] for position in sorted(complaints)))
 
     def complaint(self, keys: Keys, problem: str) -> str:
         line, column = self._position(keys)
@@ -78,8 +78,8 @@ class Document:
         """Line and column of a key or an item; of a merged key, in the mapping that defines it."""
         node, position = self._root, (1, 1)
         for key in keys:
-            if found := _member(node, key):
-                mark, node = found
+            if member := _member(node, key):
+                mark, node = member
                 position = mark.line + 1, mark.column + 1
         return position
 
@@ -118,7 +118,9 @@ def load_configuration(quality: str, folder: Path = FOLDER) -> tuple[Document, D
 
 def programs_of(panel: dict[str, Any]) -> dict[str, str]:
     """Program of each series."""
-    return {one: own.get("program", panel.get("program")) for one, own in panel.get("series", {}).items()}
+    return {
+        series: own.get("program", panel.get("program")) for series, own in panel.get("series", {}).items()
+    }
 
 
 def arguments(options: Options) -> list[str]:
@@ -153,13 +155,13 @@ def _physics(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
     elsewhere = {name: "belongs into quality/*.yaml" for name in EFFORT if name not in ALSO_PHYSICS}
     elsewhere["seed"] = "follows from the names of panel and run; `make panel SEED=7` chooses another"
     common = {name: _options(name, options, elsewhere) for name, options in programs.items()}
-    series = {name: one | {"properties": OF_SERIES | one["properties"]} for name, one in common.items()}
+    series = {name: own | {"properties": OF_SERIES | own["properties"]} for name, own in common.items()}
     panels = {}
     for name, panel in paper["panels"].items():
         used = programs_of(panel)
-        each = {"properties": {one: series[program] for one, program in used.items()}}
+        by_series = {"properties": {key: series[program] for key, program in used.items()}}
         every = {"allOf": [True, *(common[program] for program in sorted({*used.values()}))]}
-        panels[name] = {"properties": {"common": every, "series": each}}
+        panels[name] = {"properties": {"common": every, "series": by_series}}
     return {"properties": {"panels": {"properties": panels}}}
 
 
@@ -169,7 +171,7 @@ def _efforts(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
     elsewhere = dict.fromkeys(physics, "belongs into paper.yaml")
     series = {name: _options(name, options, elsewhere) for name, options in programs.items()}
     panels = {
-        name: _object({one: series[program] for one, program in programs_of(panel).items()})
+        name: _object({key: series[program] for key, program in programs_of(panel).items()})
         for name, panel in paper["panels"].items()
     }
     default = {"type": "object", "allOf": [series[name] for name in programs if "replicas" in programs[name]]}

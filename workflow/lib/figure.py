@@ -25,7 +25,7 @@ from workflow.lib.units import UnitsError
 Drawn = tuple[
     Figure, pd.DataFrame, str
 ]  # figure, table of the plotted numbers, caption as one paragraph of plain text
-READ = FilesRead()  # from the first import of a script on
+READ = FilesRead()  # created at the first import of a script, so that all later reads are recorded
 
 Draw = Callable[[Sequence[Result]], Drawn]
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:  # imports that would delay every start of Snakemake by 0.5 s
     from workflow.lib.load import Result
 
 BUILD = ("program", "source_hash", "compiler", "flags", "libraries")
-IDENTITY_LINE = "# identity: "  # of a CSV
+IDENTITY_LINE = "# identity: "  # begin of the line of a CSV that states the identity of the panel
 
 
 class MetadataError(ValueError):
@@ -35,10 +35,10 @@ class Parents:
 
     panel: str
     quality: str
-    data: dict[str, dict[str, Any]]  # path: sha256, build_id, seed
+    data: dict[str, dict[str, Any]]  # sha256, build_id and seed of each result, by path
     builds: dict[str, dict[str, str]]  # build id: program, source_hash, compiler, flags, libraries
     sources: dict[str, str]  # closure of the script, and the locked packages
-    python: str  # version
+    python: str  # version of Python
 
     @classmethod
     def of(cls, script: str, stem: Path, results: "Sequence[Result]") -> "Parents":
@@ -48,17 +48,24 @@ class Parents:
             panel=stem.name,
             quality=stem.parent.name,
             data={
-                path: {"sha256": file_hash(Path(path)), "build_id": one["build_id"], "seed": int(one["seed"])}
-                for path, one in stated.items()
+                path: {
+                    "sha256": file_hash(Path(path)),
+                    "build_id": provenance["build_id"],
+                    "seed": int(provenance["seed"]),
+                }
+                for path, provenance in stated.items()
             },
-            builds={one["build_id"]: {name: one[name] for name in BUILD} for one in stated.values()},
+            builds={
+                provenance["build_id"]: {name: provenance[name] for name in BUILD}
+                for provenance in stated.values()
+            },
             sources=hashes_of(script),
             python=f"{sys.version_info.major}.{sys.version_info.minor}",
         )
 
     @classmethod
     def parse(cls, text: str) -> "Parents":
-        """Inverse of as_json. Raises MetadataError."""
+        """Parents from the text of as_json(). Raises MetadataError."""
         try:
             stated = json.loads(text)
             return cls(**stated)
@@ -76,7 +83,7 @@ class Parents:
 
     def inputs(self) -> dict[str, str]:
         """All input files with their hashes."""
-        return {path: one["sha256"] for path, one in self.data.items()} | self.sources
+        return {path: result["sha256"] for path, result in self.data.items()} | self.sources
 
     @property
     def identity(self) -> str:
@@ -145,9 +152,9 @@ def _of_table(path: Path) -> str:
 
 
 def _of_svg(path: Path) -> str:
-    found = ElementTree.parse(path).find(".//{http://purl.org/dc/elements/1.1/}description")
-    assert found is not None
-    return str(found.text)
+    element = ElementTree.parse(path).find(".//{http://purl.org/dc/elements/1.1/}description")
+    assert element is not None
+    return str(element.text)
 
 
 def _of_png(path: Path) -> str:

@@ -30,8 +30,8 @@ def file_hash(path: Path) -> str:
 
 
 def write_together(contents: Mapping[Path, bytes], instead_of: Iterable[Path] = ()) -> None:
-    """Writes all files under other names, removes the files that they replace, then renames them in order, so that a full disk keeps
-    the old ones. Raises OSError."""
+    """Writes all files under temporary names, removes the files of `instead_of`, then renames the new ones in order. If the disk is full,
+    the old files are kept. Raises OSError."""
     files = {path: path.with_name(f"{path.name}.{os.getpid()}.tmp") for path in contents}
     try:
         for path, file in files.items():
@@ -70,13 +70,17 @@ def project_files() -> list[str]:
 def _report(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
     if isinstance(error, OSError):
         print(in_one_line(error), file=sys.stderr)
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what a full disk did not take is not tried again
+        os.dup2(
+            os.open(os.devnull, os.O_WRONLY), 1
+        )  # at exit Python would try again to flush what a full disk has refused
     else:
         sys.__excepthook__(kind, error, trace)
 
 
 if Path(sys.argv[0]).resolve().is_relative_to(ROOT / "workflow"):  # a tool: python -m workflow.NAME
     refuse_another_folder()
-    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # as of `make status | head`
-    sys.stdout = sys.stdout or open(os.devnull, "w")  # noqa: SIM115  # as of `make status >&-`
+    signal.signal(
+        signal.SIGPIPE, signal.SIG_DFL
+    )  # default of command-line tools, as for `make status | head`
+    sys.stdout = sys.stdout or open(os.devnull, "w")  # noqa: SIM115  # None if stdout is closed, as by `make status >&-`
     sys.excepthook = _report

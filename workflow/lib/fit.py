@@ -45,7 +45,8 @@ class PowerLaw:
 
 
 def p_value(chi_square: float, freedom: int) -> float:
-    """p-value of chi^2; nan without a degree of freedom. Most panels need none, and the import takes a tenth of their time."""
+    """p-value of chi^2; nan without a degree of freedom."""
+    # Imported here: most panels need no p-value, and the import takes a tenth of their time.
     from scipy.special import chdtrc  # noqa: PLC0415
 
     return float(chdtrc(freedom, chi_square)) if freedom > 0 else np.nan
@@ -73,7 +74,8 @@ def mean_of(value: ArrayLike, error: ArrayLike) -> tuple[float, float, float]:
 
 
 def fit_multiple(shape: ArrayLike, y: ArrayLike, error: ArrayLike) -> tuple[float, float, float]:
-    """Factor of y = factor shape, its error, and chi^2, over the points with an error: with few replicas all may agree."""
+    """Factor of y = factor shape, its error, and chi^2, over the points with an error. A point has none if all of its few
+    replicas agree."""
     shape, y, error = (np.asarray(values, dtype=float) for values in (shape, y, error))
     weight = np.where(error > 0, error, np.inf) ** -2.0
     variance = 1 / np.sum(weight * shape**2)

@@ -11,13 +11,13 @@ from workflow.lib.fit import p_value
 
 Basis = Callable[[np.ndarray], list[np.ndarray]]  # functions of the size, combined linearly
 
-# Leading term and first correction. A sound peak that spreads as t^(2/3) makes corrections of relative order N^(-1/3).
+# Leading term and first correction of each law. A sound peak whose width grows as t^(2/3) gives corrections of relative order N^(-1/3).
 LAWS: dict[str, Basis] = {
     "constant": lambda n: [n**0, n ** (-1 / 3)],
     "logarithm": lambda n: [n**0, np.log(n)],
     "N^(1/3)": lambda n: [n ** (1 / 3), n**0],
 }
-POWER = "power"  # a N^b
+POWER = "power"  # name of the law a N^b
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Growth:
     parameters: int
     exponent: float = np.nan
     exponent_error: float = np.nan
-    predicted: tuple[float, ...] = ()  # at the sizes fitted
+    predicted: tuple[float, ...] = ()  # values of the law at the sizes in the fit
 
     @property
     def p_value(self) -> float:
@@ -57,9 +57,9 @@ def widest(size: ArrayLike, value: ArrayLike, error: ArrayLike, law: str, level:
     """Fit of a law over the widest range, up to the largest size, with a p-value above the level and at least two degrees of
     freedom; None without one."""
     for first in np.asarray(size, dtype=float):
-        for one in fits(size, value, error, first):
-            if one.law == law and one.freedom > 1 and one.p_value > level:
-                return one
+        for growth in fits(size, value, error, first):
+            if growth.law == law and growth.freedom > 1 and growth.p_value > level:
+                return growth
     return None
 
 

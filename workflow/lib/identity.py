@@ -5,12 +5,12 @@ import json
 from typing import Any
 
 DIGITS = 12  # 48 bits: two of a million names are equal with a probability of 0.2 %
-IDENTITY = f"[0-9a-f]{{{DIGITS}}}"  # regular expression
+IDENTITY = f"[0-9a-f]{{{DIGITS}}}"  # regular expression of an identity
 
 
 def identity(*parts: Any) -> str:
     """First digits of the sha256 of the parts, values of JSON. Equal numbers count as equal: 8 and 8.0."""
-    content = json.dumps([_canonical(one) for one in parts], sort_keys=True)
+    content = json.dumps([_canonical(part) for part in parts], sort_keys=True)
     return hashlib.sha256(content.encode()).hexdigest()[:DIGITS]
 
 
@@ -21,7 +21,7 @@ def seed_of(text: str) -> int:
 
 def _canonical(value: Any) -> Any:
     if isinstance(value, dict):
-        return {key: _canonical(one) for key, one in value.items()}
+        return {key: _canonical(element) for key, element in value.items()}
     if isinstance(value, list | tuple):
-        return [_canonical(one) for one in value]
+        return [_canonical(element) for element in value]
     return int(value) if isinstance(value, float) and value.is_integer() else value

@@ -122,10 +122,10 @@ class Result:
 
     def columns(self, *names: str) -> dict[str, Any]:
         """Means and errors of quantities, as columns or numbers of a table: kappa and kappa_error."""
-        found: dict[str, Any] = {}
+        columns: dict[str, Any] = {}
         for name in names:
-            found |= {name: self[name].mean[()], f"{name}_error": self[name].error[()]}
-        return found
+            columns |= {name: self[name].mean[()], f"{name}_error": self[name].error[()]}
+        return columns
 
     def to_xarray(self) -> "xarray.DataTree":
         """A Dataset of every quantity, by its name; the attributes are the parameters, `converged`, and the doubts."""
@@ -137,25 +137,24 @@ class Result:
 
     @property
     def converged(self) -> str:
-        """Of the target error: reached, not reached, or no target."""
+        """State of the target error: reached, not reached, or no target."""
         return str(self.provenance["converged"])
 
     @property
     def doubts(self) -> list[str]:
-        """What a user of the numbers has to know: a missed target error, an early end, a window that is not stationary or was not
-        tested."""
-        found = []
+        """Reasons to doubt the numbers: a missed target error, an early end, a window that is not stationary or was not tested."""
+        reasons = []
         if self.converged == NOT_REACHED:
             targeted = np.isfinite(self.provenance["target_error"])
-            found.append(
+            reasons.append(
                 "target error not reached" if targeted else "stopped early, or target quantity undetermined"
             )
         of_a_stationary_state = {"nu-left", "relaxation-time"} <= self.parameters.keys()
         if of_a_stationary_state and np.isnan(self._drift_p_value):
-            found.append("stationarity not tested")
+            reasons.append("stationarity not tested")
         elif of_a_stationary_state and self["stationary"].mean != 1:
-            found.append("not stationary")
-        return found
+            reasons.append("not stationary")
+        return reasons
 
     @property
     def _drift_p_value(self) -> float:
@@ -222,9 +221,9 @@ def _opened(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
     except FormatError as error:
         raise FormatError(f"{path}: {error}") from error
     except (OSError, KeyError, RuntimeError, ValueError) as error:
-        if isinstance(error, OSError) and error.errno:  # unreadable, not damaged
+        if isinstance(error, OSError) and error.errno:  # the file is unreadable, not damaged
             raise OSError(error.errno, os.strerror(error.errno), str(path)) from error
-        if not re.search(rf"\.{IDENTITY}\.h5$", str(path)):  # not named by the project
+        if not re.search(rf"\.{IDENTITY}\.h5$", str(path)):  # the name is not one that the project gives
             raise FormatError(
                 f"{path} is damaged, or not a result file: {error}; name a result file"
             ) from error
@@ -270,7 +269,7 @@ def axes_of(dataset: h5py.Dataset) -> list[str]:
     """Names of the HDF5 dimension scales attached to the dimensions. Raises FormatError."""
     try:
         attached = [[str(scale.name) for scale in dimension.values()] for dimension in dataset.dims]
-    except RuntimeError:  # of a scale that was deleted
+    except RuntimeError:  # raised if an attached scale was deleted
         attached = [[]]
     for names in attached:
         if len(names) != 1 or Path(names[0]).parent != Path(dataset.parent.name):

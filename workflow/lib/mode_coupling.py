@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 from scipy.special import exp1
 
-# Of f_KPZ (Prähofer and Spohn, J. Stat. Phys. 115, 255, 2004), and recomputed from f_kpz.csv by the tests.
+# Integrals of f_KPZ (Prähofer and Spohn, J. Stat. Phys. 115, 255, 2004). The tests recompute them from f_kpz.csv.
 SECOND_MOMENT = 0.510523
 SQUARE_INTEGRAL = 0.389813
 
@@ -23,7 +23,7 @@ SQUARE_INTEGRAL = 0.389813
 class Chain:
     """A closed chain in equilibrium: ζ = zλ, where F(p) = z exp(-p²/2T) is the flux, the mass M of the scatterers, T and λ.
 
-    slow_logarithm is Λ, half the integral of exp(-p²/2T)/|p| over all populated p: infinite, or that of a cut.
+    slow_logarithm is Λ, half the integral of exp(-p²/2T)/|p| over all populated p: infinite, or finite with a cut at small |p|.
     """
 
     zeta: float
@@ -34,7 +34,7 @@ class Chain:
 
     @property
     def fugacity(self) -> float:
-        """z."""
+        """z: the flux F(p) in the limit p -> 0."""
         return self.zeta / self.cell_length
 
     @property
@@ -86,7 +86,7 @@ class Chain:
 
     @property
     def heat_amplitude(self) -> float:
-        """A [eqs. M25, M26] of <J_q(t) J_q(0)> per length = T² A t^(-2/3)."""
+        """A [eqs. M25, M26], where <J_q(t) J_q(0)> per length is T² A t^(-2/3)."""
         return 8 / 9 * SECOND_MOMENT * self._amplitude_scale
 
     def gaussian_heat_correlation(self, square: ArrayLike) -> np.ndarray:
@@ -111,7 +111,7 @@ class Chain:
 
     @property
     def peak_area(self) -> float:
-        """Of each sound peak of C_g per length [eq. M19]."""
+        """Area of each sound peak of C_g per length [eq. M19]."""
         return self.inertia * self.temperature / 2
 
     def sound_peak(self, x: ArrayLike, time: float) -> np.ndarray:
@@ -121,7 +121,7 @@ class Chain:
         return self.peak_area * f_kpz(offset) / width
 
     def heat_variance(self, time: ArrayLike) -> np.ndarray:
-        """<Q(t)²> per length [eq. M28] without a normal part."""
+        """<Q(t)²> per length [eq. M28] without normal diffusion."""
         return 4.5 * self.temperature**2 * self.heat_amplitude * np.asarray(time, dtype=float) ** (4 / 3)
 
     @property
@@ -132,7 +132,7 @@ class Chain:
 
     @property
     def heat_spreading(self) -> float:
-        """D_h of exp(-D_h |k|^(5/3) t) [eq. M29], the Fourier transform of the heat peak."""
+        """D_h [eq. M29]: the Fourier transform of the heat peak is exp(-D_h |k|^(5/3) t)."""
         per_susceptibility = self.temperature**2 * self.heat_amplitude / self.heat_susceptibility
         return float(per_susceptibility * gamma(1 / 3) * cos(pi / 6) * self.sound_speed ** (-1 / 3))
 
@@ -143,7 +143,7 @@ def slow_logarithm(cut: float, temperature: float = 1.0) -> float:
 
 
 def logarithm_at(time: float, temperature: float = 1.0, cell_length: float = 1.0) -> float:
-    """Λ(t) [eq. 13] of the particles that move within a time: 1 more than that of the cut λ/t."""
+    """Λ(t) [eq. 13] of the particles that move within a time: at most 1 more than that of the cut λ/t."""
     cut = cell_length / time
     slower = sqrt(pi * temperature / 2) * erf(cut / sqrt(2 * temperature)) / cut
     return slow_logarithm(cut, temperature) + slower
@@ -163,8 +163,8 @@ def _spline() -> CubicSpline:
 
 
 def levy(x: ArrayLike, order: float = 5 / 3) -> np.ndarray:
-    """Symmetric stable density of the order 5/3: Fourier transform of exp(-|k|^order)."""
-    # k = s^3 makes the integrand smooth at 0, where the trapezoidal rule would notice |k|^order.
+    """Symmetric stable density of the given order: Fourier transform of exp(-|k|^order)."""
+    # k = s^3 makes the integrand smooth at 0, where the singularity of |k|^order would spoil the trapezoidal rule.
     distance = np.asarray(x, dtype=float)
     s = np.linspace(0, 2.4, int(np.clip(150 * np.abs(distance).max(), 1000, 6000)))
     weight = 3 * s**2 * np.exp(-(s ** (3 * order))) * (s[1] - s[0]) / pi

@@ -7,5 +7,5 @@ from difflib import get_close_matches
 def nearest(name: str, names: Iterable[str]) -> str:
     """`did you mean fig05?`, or a list of all names if none is similar."""
     known = [*names]
-    found = get_close_matches(name, known, 1)
-    return f"did you mean {found[0]}?" if found else f"choose one of {', '.join(known)}"
+    similar = get_close_matches(name, known, 1)
+    return f"did you mean {similar[0]}?" if similar else f"choose one of {', '.join(known)}"

@@ -31,9 +31,9 @@ EFFORTS: dict[str, tuple[str, Any, str]] = {  # pattern, type and description of
 }
 
 
-@cache  # each is read for many runs
+@cache  # called for many runs
 def build_id(program: str) -> str:
-    """Raises BuildError."""
+    """Build id of a program. Raises BuildError."""
     return str(built(program)["build_id"])
 
 
@@ -48,11 +48,11 @@ class Run:
     series: str = ""  # key in the configuration; the name also has the listed values
     hours: float | None = None  # wall time of all runs, after which a run with a target error stops
     target: float | None = None  # ERROR: relative error of the target quantity, or error over its scale
-    scale: float | None = None  # of a target quantity that can be 0
+    scale: float | None = None  # size of a target quantity that can be 0
 
     @cached_property
     def identity(self) -> str:
-        """What determines the result: program, build, options, and a bound on the time. Raises BuildError."""
+        """Hash of all that determines the result: program, build, options, and a bound on the time. Raises BuildError."""
         bound = [] if self.hours is None else [self.hours]
         return identity(self.program, build_id(self.program), self.options, *bound)
 
@@ -89,7 +89,7 @@ class Quality:
         if base not in QUALITIES:
             raise ConfigurationError(f"{base} is not a quality; choose one of {', '.join(QUALITIES)}")
         values: dict[str, Any] = {}
-        for key, _, text in (one.partition("=") for one in given):
+        for key, _, text in (word.partition("=") for word in given):
             if key not in EFFORTS:
                 raise ConfigurationError(f"{key}={text} is no effort; {nearest(key, EFFORTS)}")
             if key in values:
@@ -109,7 +109,7 @@ class Quality:
 
     @property
     def arguments(self) -> str:
-        """Arguments of make."""
+        """Arguments of make that select this quality and effort."""
         given = {"QUALITY": self.base, **{key.upper(): getattr(self, key) for key in EFFORTS}}
         return " ".join(f"{name}={value}" for name, value in given.items() if value is not None)
 
@@ -155,7 +155,7 @@ def panel_named(plan: dict[str, Panel], name: str) -> Panel:
 
 def with_used(plan: dict[str, Panel], name: str) -> list[Panel]:
     """Panels whose runs a panel plots: those in `uses`, then itself."""
-    return [plan[one] for one in (*plan[name].uses, name)]
+    return [plan[used] for used in (*plan[name].uses, name)]
 
 
 def data_path(quality: str, panel: str, run: Run) -> str:

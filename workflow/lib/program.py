@@ -19,7 +19,7 @@ class ProgramError(ValueError):
 
 
 def command_line(run: Run, programs: Path | str = "build/bin", limit: float | None = None) -> list[str]:
-    """Words of the command of a run, without its output. limit: seconds after which no replica starts."""
+    """Command of a run as a list of words, without the option --output. limit: seconds after which no replica starts."""
     conduct = ["--threads", "1", "--resume"] if run.replicated else []
     conduct += [] if limit is None or not run.replicated else ["--time-limit", f"{limit:.0f}"]
     return [f"{programs}/{run.program}", *arguments(run.options), *conduct]
@@ -28,13 +28,15 @@ def command_line(run: Run, programs: Path | str = "build/bin", limit: float | No
 def execute(
     program: str, options: Options, output: Path, *more: str, programs: Path = PROGRAMS, relay: bool = False
 ) -> str:
-    """Writes the result of a program, and returns its messages; relay: prints them meanwhile. Raises ProgramError with them;
-    KeyboardInterrupt after the program has written its checkpoint."""
+    """Executes a program, which writes its result to `output`, and returns its messages. relay: also print them at once. Raises ProgramError
+    with the messages; KeyboardInterrupt, after the program has written its checkpoint."""
     command: list[str | Path] = [programs / program, *arguments(options), *more, "--output", output]
-    if shutil.which("setpriv"):  # of Linux: if this process dies, the program writes its checkpoint and ends
+    if shutil.which(
+        "setpriv"
+    ):  # Linux only: if this process dies, the program writes its checkpoint and exits
         command = ["setpriv", "--pdeathsig", "TERM", *command]
     lines: list[str] = []
-    # In a session of its own, the program gets an interrupt from here alone, once.
+    # In a session of its own the program does not receive the Ctrl-C of the terminal, only the one signal sent below.
     with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True) as running:
         assert running.stderr
         try:

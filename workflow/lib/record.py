@@ -1,6 +1,6 @@
-"""Records of products: a product has a plain name, and beside it a record whose name has the identity of what determines it.
+"""Records of products: a product has a plain name; the name of its record contains the identity of all that determines the product.
 
-Snakemake asks for the record alone: where it is missing, the product is made again.
+The record is the output in the Snakemake workflow: if it is missing, the product is made again.
 """
 
 import glob
@@ -15,7 +15,7 @@ from workflow.lib.identity import IDENTITY
 
 
 def record_path(stem: Path, identity_of_panel: str) -> Path:
-    """Path of the record of products stem.*"""
+    """Path of the record of the products stem.*, which contains their identity."""
     return stem.with_name(f"{stem.name}.{identity_of_panel}.json")
 
 
@@ -28,7 +28,7 @@ def records_of(stem: Path) -> list[Path]:
 
 
 def is_whole(record: Path) -> bool:
-    """Whether all files of a record are as it states."""
+    """Whether all files of a record have the hashes that it states."""
     try:
         files = json.loads(record.read_text("utf-8"))["files"]
         return all(file_hash(record.parent / name) == digest for name, digest in files.items())

@@ -21,7 +21,7 @@ CREATOR = "lorentz-gas"
 @dataclass(frozen=True)
 class Text:
     title: str
-    caption: str  # one line
+    caption: str  # text without line breaks
 
 
 def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -> None:
@@ -63,6 +63,6 @@ def _picture(figure: Figure, kind: str, metadata: dict[str, Any]) -> bytes:
 
 def _with_fallbacks(picture: bytes) -> bytes:
     """Adds the fallback fonts to formulas, where matplotlib names only one."""
-    first, *others = (name if name == "serif" else f"'{name}'" for name in FONTS)
-    one = f"font-family: {first}"
-    return picture.replace(f'{one}"'.encode(), f'{", ".join([one, *others])}"'.encode())
+    first, *fallbacks = (name if name == "serif" else f"'{name}'" for name in FONTS)
+    only = f"font-family: {first}"
+    return picture.replace(f'{only}"'.encode(), f'{", ".join([only, *fallbacks])}"'.encode())

@@ -24,7 +24,7 @@ Look = dict[str, Any]  # keyword arguments of plotting functions
 COLUMN = 3.4
 HEIGHT = 3.0
 
-# In the label of quantities with a dimension.
+# Text in the axis labels of quantities with a dimension.
 UNITS = "$m = k_B = 1$"
 
 # Okabe and Ito (2008), ordered so that neighbours differ in lightness; markers differ too.
@@ -35,14 +35,14 @@ GREEN = "#009E73"
 VERMILLION = "#D55E00"
 SKY = "#56B4E9"
 
-# For an ordered set of curves: increasing lightness, and increasing gaps of the dashes.
+# Colours and dashes for an ordered set of curves, with increasing lightness and increasing gaps.
 SEQUENCE = [BLACK, BLUE, VERMILLION, ORANGE, SKY]
 DASHES: list[LineStyleType] = ["solid", (0, (6, 1)), (0, (4, 1, 1, 1)), (0, (3, 1.5)), (0, (1, 1))]
 
 # Marker and colour by gamma.
 BY_GAMMA = {"N": ("o", BLUE), 1: ("s", VERMILLION)}
 
-# Shaded range of a fit.
+# Style of the shaded range of a fit.
 WINDOW: Look = {"color": "0.92", "linewidth": 0, "zorder": -1}
 
 GUIDE: Look = {"color": "0.55", "linestyle": (0, (4, 2)), "linewidth": 0.8, "zorder": 0}
@@ -99,7 +99,7 @@ def apply() -> None:
 
 
 def points(marker: str, color: str, face: str | None = None, **more: Any) -> Look:
-    """Look of measured points. face: colour inside of the marker, if it is another."""
+    """Style of measured points. face: fill colour of the marker, if it differs from its edge."""
     return {**POINTS, "marker": marker, "color": color, "markerfacecolor": face or color, **more}
 
 
@@ -126,11 +126,11 @@ def letter(*panels: Axes, lift: float | None = None, start: str = "a") -> None:
         axes.set_title(f"({character})", loc="left", y=None if lift is None else 1, pad=lift)
 
 
-SHOWN_MOMENTA = 45  # of the flux F(p), to either side
+SHOWN_MOMENTA = 45  # largest |p| in panels of the flux F(p)
 
 
 def both_rates(result: Result) -> float:
-    """ν_L + ν_R. The flux over it has about the integral 1, as the paper's."""
+    """ν_L + ν_R. Divided by it, the flux has an integral of about 1, as in the paper."""
     return sum(result.ends("nu"))
 
 
@@ -141,12 +141,12 @@ def guide_at(axes: Axes, value: float, name: str) -> None:
 
 
 def second_axis(axes: Axes, factor: float, label: str) -> None:
-    """The y axis in another unit, on the right."""
+    """Adds a y axis in another unit on the right."""
     axes.tick_params(axis="y", which="both", right=False)
-    other = axes.secondary_yaxis(
+    secondary = axes.secondary_yaxis(
         "right", functions=(lambda y: np.multiply(factor, y), lambda y: np.divide(y, factor))
     )
-    other.set_ylabel(label)
+    secondary.set_ylabel(label)
 
 
 def label_within_decades(axis: Axis) -> None:

@@ -23,17 +23,17 @@ def main() -> None:
     shown = [panel for panel in made if panel.name in (options.panel or plan)]
     figures = {panel.name: products.fault_of_figure(panel) for panel in shown}
     runs = [(panel.name, run) for panel in made for run in panel.runs]
-    found = [fault for panel, run in runs if (fault := products.fault_of_result(panel, run))]
-    found += filter(None, figures.values())
+    all_faults = [fault for panel, run in runs if (fault := products.fault_of_result(panel, run))]
+    all_faults += filter(None, figures.values())
     with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as threads:
         whole = [name for name, fault in figures.items() if not fault]
-        found += filter(None, threads.map(lambda name: redraw(products, name), whole))
-    found += faults(products, options.panel or [])
-    for fault in found:
+        all_faults += filter(None, threads.map(lambda name: redraw(products, name), whole))
+    all_faults += faults(products, options.panel or [])
+    for fault in all_faults:
         print(fault)
     if missing := [panel.name for panel in panels if panel not in made]:
         print(f"Not made at quality {options.quality}: {', '.join(missing)}")
-    broken, unchecked, obsolete = (sum(fault.kind is kind for fault in found) for kind in Kind)
+    broken, unchecked, obsolete = (sum(fault.kind is kind for fault in all_faults) for kind in Kind)
     more = f", {obsolete} obsolete" if obsolete else ""
     print(
         f"{counted(len(shown), 'panel')} with results: {broken} broken, {unchecked} not checked{more}, all else holds"

@@ -53,7 +53,7 @@ def include_closure(root: Path, source: str) -> list[str]:
             continue
         closure.add(name)
         named = INCLUDE.findall((root / name).read_text("utf-8", "surrogateescape"))
-        included = [found for one in named if (found := _included(root, name, one))]
+        included = [path for include in named if (path := _included(root, name, include))]
         twins = [str(Path(i).with_suffix(".cpp")) for i in included]
         pending += included + [twin for twin in twins if (root / twin).is_file()]
     return sorted(closure)

@@ -61,31 +61,31 @@ class Products:
 
     def results_of(self, panel: str) -> list[str]:
         """Paths of the results that a panel plots."""
-        return [self.result(one.name, run) for one in with_used(self.plan, panel) for run in one.runs]
+        return [self.result(used.name, run) for used in with_used(self.plan, panel) for run in used.runs]
 
     def result(self, panel: str, run: Run) -> str:
-        """Path of the result of a run: the planned one, or else the most recent one of the run."""
+        """Path of the result of a run: the planned one, or else the most recent of this run, preferably one without faults."""
         try:
             planned = data_path(self.quality, panel, run)
         except BuildError:  # an unpacked crate has no build
             planned = f"data/{self.quality.partition('_')[0]}/{panel}/{run.name}.h5"
         if _there(planned):
             return planned
-        others = re.compile(rf"{re.escape(run.name)}\.{IDENTITY}\.h5")
-        found = [path for path in (ROOT / planned).parent.glob("*.h5") if others.fullmatch(path.name)]
-        fitting = [path for path in found if not self._fault(str(path.relative_to(ROOT)), run)]
-        latest = max(fitting or found, key=lambda path: path.stat().st_mtime, default=ROOT / planned)
+        pattern = re.compile(rf"{re.escape(run.name)}\.{IDENTITY}\.h5")
+        existing = [path for path in (ROOT / planned).parent.glob("*.h5") if pattern.fullmatch(path.name)]
+        fitting = [path for path in existing if not self._fault(str(path.relative_to(ROOT)), run)]
+        latest = max(fitting or existing, key=lambda path: path.stat().st_mtime, default=ROOT / planned)
         return str(latest.relative_to(ROOT))
 
     def stem(self, panel: str) -> str:
         return f"figures/{self.quality}/{panel}"
 
     def record(self, panel: Panel) -> str:
-        """Path of the record of a panel: that of its present results and sources, or else another one."""
+        """Path of the record of a panel: that of its present results and sources, or else a former one."""
         present = panel_identity(panel.name, panel.script, self.results_of(panel.name))
         path = record_path(Path(self.stem(panel.name)), present)
-        others = [] if (ROOT / path).exists() else records_of(ROOT / self.stem(panel.name))
-        return str(others[0].relative_to(ROOT)) if others else str(path)
+        records = [] if (ROOT / path).exists() else records_of(ROOT / self.stem(panel.name))
+        return str(records[0].relative_to(ROOT)) if records else str(path)
 
     def files_of(self, panel: Panel) -> list[str]:
         """Paths of the figure files of a panel, then of their record. Raises MetadataError, OSError."""
@@ -99,9 +99,9 @@ class Products:
 
     def faults(self, panel: str) -> Iterator[Fault]:
         """Faults of the results that the panel plots, then of its figure."""
-        for one in with_used(self.plan, panel):
-            for run in one.runs:
-                if fault := self.fault_of_result(one.name, run):
+        for used in with_used(self.plan, panel):
+            for run in used.runs:
+                if fault := self.fault_of_result(used.name, run):
                     yield fault
         if fault := self.fault_of_figure(self.plan[panel]):
             yield fault
@@ -158,12 +158,12 @@ class Products:
                 reason = f"edited or replaced: its parents differ from those in its record; remove it and run make figures QUALITY={self.quality}"
                 return Fault(path, reason)
         picture, present = files[0], self.results_of(panel.name)
-        if other := [*({*parents.data} ^ {*present})]:
-            return Fault(picture, f"stale: it plots other results than the configuration: {min(other)}")
-        for path, one in parents.data.items():
+        if differing := [*({*parents.data} ^ {*present})]:
+            return Fault(picture, f"stale: it plots other results than the configuration: {min(differing)}")
+        for path, result in parents.data.items():
             if not _there(path):
                 return Fault(picture, f"its result {path} is missing")
-            if _hash(ROOT / path) != one["sha256"]:
+            if _hash(ROOT / path) != result["sha256"]:
                 return Fault(picture, f"stale: {path} has changed")
         sources = hashes_of(f"workflow/figures/{panel.script}.py")
         changed = dict(sources.items() ^ parents.sources.items())
@@ -194,10 +194,10 @@ def _fault_of_build(path: str, program: str, stated: dict[str, Any]) -> Fault | 
         return None
     for name in BUILD:
         if build[name] != stated[name]:
-            other = (
+            reason = (
                 f"by another {name.removesuffix('s')}: {stated[name]}, the present build has {build[name]}"
             )
-            return Fault(path, other, Kind.UNCHECKED)
+            return Fault(path, reason, Kind.UNCHECKED)
     return None
 
 
@@ -217,8 +217,8 @@ def _agree(option: Any, stated: Any) -> bool:
 def other_package() -> str | None:
     """First installed package whose version is not the locked one."""
     locked = defaultdict(set)
-    for one in tomllib.loads((ROOT / PACKAGES).read_text())["package"]:
-        locked[one["name"]].add(one.get("version"))
+    for entry in tomllib.loads((ROOT / PACKAGES).read_text())["package"]:
+        locked[entry["name"]].add(entry.get("version"))
     for package in metadata.distributions():
         name = re.sub(r"[-_.]+", "-", package.metadata["Name"]).lower()
         if name in locked and package.version not in locked[name]:

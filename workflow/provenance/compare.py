@@ -44,11 +44,11 @@ def p_value(one: Path, other: Path) -> float:
 def _tails(a: Quantity, b: Quantity) -> np.ndarray:
     """Two-sided p-value of each difference of values with errors."""
     computed = a.standard_error is None
-    one, other = (np.asarray(q.discretisation_error if computed else q.error) for q in (a, b))
-    error, difference = np.atleast_1d(np.hypot(one, other)), np.atleast_1d(np.abs(a.mean - b.mean))
+    error_a, error_b = (np.asarray(q.discretisation_error if computed else q.error) for q in (a, b))
+    error, difference = np.atleast_1d(np.hypot(error_a, error_b)), np.atleast_1d(np.abs(a.mean - b.mean))
     replicas = np.full(error.shape, COMPUTED if computed else np.minimum(a.replicas, b.replicas))
-    known = (error > 0) & np.isfinite(difference) & (replicas > 1)
-    return np.asarray(2 * stdtr(2 * (replicas[known] - 1.0), -difference[known] / error[known]))
+    usable = (error > 0) & np.isfinite(difference) & (replicas > 1)
+    return np.asarray(2 * stdtr(2 * (replicas[usable] - 1.0), -difference[usable] / error[usable]))
 
 
 def main() -> None:
@@ -65,11 +65,11 @@ def main() -> None:
     for panel in panels:
         for run in panel.runs:
             path = data_path(quality.name, panel.name, run)
-            other = data_path(quality.base, panel.name, base[panel.name].run(run.name))
-            other = str(BEFORE / other) if again else other
-            if (ROOT / other).is_file():
-                same = file_hash(ROOT / path) == file_hash(ROOT / other)
-                values[path] = 1.0 if same else p_value(ROOT / path, ROOT / other)
+            reference = data_path(quality.base, panel.name, base[panel.name].run(run.name))
+            reference = str(BEFORE / reference) if again else reference
+            if (ROOT / reference).is_file():
+                same = file_hash(ROOT / path) == file_hash(ROOT / reference)
+                values[path] = 1.0 if same else p_value(ROOT / path, ROOT / reference)
     if not values:
         print(f"No results in {against} to compare with: make them first, then repeat this command")
         return

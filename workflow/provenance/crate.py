@@ -45,8 +45,11 @@ def new_crate(quality: str) -> ROCrate:
     crate.license = add(crate, f"https://spdx.org/licenses/{cited['license']}", text)
     root = crate.root_dataset
     root["version"] = cited["version"]
-    names = [one.get("name") or f"{one['given-names']} {one['family-names']}" for one in cited["authors"]]
-    kinds = ["Person" if "family-names" in one else "Organization" for one in cited["authors"]]
+    names = [
+        author.get("name") or f"{author['given-names']} {author['family-names']}"
+        for author in cited["authors"]
+    ]
+    kinds = ["Person" if "family-names" in author else "Organization" for author in cited["authors"]]
     authors = enumerate(zip(kinds, names, strict=True), 1)
     root["author"] = compact(
         [add(crate, f"#author-{i}", {"@type": kind, "name": name}) for i, (kind, name) in authors]
@@ -61,13 +64,13 @@ def new_crate(quality: str) -> ROCrate:
 def pack(products: Products, panels: list[str]) -> ROCrate:
     """Crate of the panels, the results that they plot, and all sources."""
     quality, plan, crate = products.quality, products.plan, new_crate(products.quality)
-    shown = {one.name: one for name in panels for one in with_used(plan, name)}
+    shown = {used.name: used for name in panels for used in with_used(plan, name)}
     scripts = {name: f"workflow/figures/{plan[name].script}.py" for name in panels}
     data = {path for name in panels for path in products.results_of(name)}
     drawn = {name: products.files_of(plan[name]) for name in panels}
     figures = {path for paths in drawn.values() for path in paths}
     parents = {name: read_panel(ROOT / products.record(plan[name]))["parents"].inputs() for name in panels}
-    read = {path for paths in parents.values() for path in paths}  # also files that git ignores
+    read = {path for paths in parents.values() for path in paths}  # may include files that git ignores
     files = {
         path: add_file(crate, path, path in scripts.values())
         for path in sorted({*project_files(), *data, *figures, *read})
@@ -129,7 +132,7 @@ def write(crate: ROCrate, folder: Path, archive: Path) -> None:
     crate.write(unfinished)
     with ZipFile(archive.with_suffix(".tmp"), "w") as content:
         for path in sorted(path for path in unfinished.rglob("*") if path.is_file()):
-            entry = ZipInfo(str(path.relative_to(unfinished)))  # has a constant time
+            entry = ZipInfo(str(path.relative_to(unfinished)))  # its default time is constant
             entry.external_attr = 0o644 << 16
             content.writestr(entry, path.read_bytes(), ZIP_DEFLATED)
     shutil.rmtree(folder, ignore_errors=True)

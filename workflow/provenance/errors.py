@@ -23,7 +23,9 @@ def main() -> None:
                 sys.exit(f"{fault}; run make panel PANEL={panel.name} {quality.arguments}")
             error = float(stated["achieved_error"]) / (run.scale or 1)
             line = f"{panel.name}/{run.name}: error {error:.2g} of {stated['target_quantity']}, requested {run.target:g}"
-            if error <= (run.target or 0):  # also where the estimate itself is uncertain [eq. 52]
+            if error <= (
+                run.target or 0
+            ):  # the upper bound of the error can still exceed the target [eq. 52]
                 line += f", not with 95 % confidence and at least {LEAST} replicas"
             missed += [line] if stated["converged"] == NOT_REACHED else []
             total += 1

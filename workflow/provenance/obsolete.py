@@ -26,43 +26,46 @@ OF_A_RESULT = re.compile(
     rf"((.+?)(\.{IDENTITY})?)\.(?:h5|cost\.json|h5\.checkpoint|h5\.damaged)(?:(?:\.[0-9a-f]{{8}})?\.tmp)?"
 )
 OF_A_PANEL = re.compile(rf"(.+)\.{IDENTITY}\.json")
-REPORT = "report"  # has a record, and is no panel
+REPORT = "report"  # has a record like a panel
 
 
 @cache
 def plans() -> dict[str, dict[str, Panel]]:
     """Plans by quality. Raises ConfigurationError."""
-    found = {name: load_plan(name) for name in QUALITIES}
+    by_quality = {name: load_plan(name) for name in QUALITIES}
     for folder in sorted((ROOT / "figures").glob("*_*")):
         with suppress(ConfigurationError):
-            found[folder.name] = load_plan(folder.name)
-    return found
+            by_quality[folder.name] = load_plan(folder.name)
+    return by_quality
 
 
 def obsolete(quality: str, panels: Sequence[str] = ()) -> list[Path]:
     """Sorted paths of obsolete files of a quality, of these panels or of all. Raises ConfigurationError, BuildError."""
-    known = {
+    planned = {
         data_path(name, panel.name, run).removesuffix(".h5")
         for name, plan in plans().items()
         for panel in plan.values()
         for run in panel.runs
     }
-    runs = {stem.rpartition(".")[0] for stem in known}
-    found = set()
+    runs = {stem.rpartition(".")[0] for stem in planned}
+    obsolete_files = set()
     for file in (ROOT / "data" / quality.partition("_")[0]).glob("*/*"):
         parts = OF_A_RESULT.fullmatch(str(file.relative_to(ROOT)))
-        if not parts or parts[1] in known or (panels and file.parent.name not in panels):
+        if not parts or parts[1] in planned or (panels and file.parent.name not in panels):
             continue
         if parts[3] or parts[2] in runs:
-            found.add(file)
+            obsolete_files.add(file)
     for record in (ROOT / "figures" / quality).glob("*.json"):
         parts = OF_A_PANEL.fullmatch(record.name)
         if not parts or parts[1] in {*load_plan(quality), REPORT} or (panels and parts[1] not in panels):
             continue
         with suppress(MetadataError, OSError):
             files = [record.with_name(name) for name in read_panel(record)["files"]]
-            found |= {record, *(file for file in files if file.parent == record.parent and file.is_file())}
-    return sorted(found)
+            obsolete_files |= {
+                record,
+                *(file for file in files if file.parent == record.parent and file.is_file()),
+            }
+    return sorted(obsolete_files)
 
 
 def faults(products: Products, panels: Sequence[str]) -> list[Fault]:
@@ -88,7 +91,7 @@ def main() -> None:
         print(file.relative_to(ROOT))
         if not options.dry:
             file.unlink()
-            with suppress(OSError):  # not empty
+            with suppress(OSError):  # raised if the folder is not empty
                 file.parent.rmdir()
     done = "To remove" if options.dry else "Removed"
     others = len(files) - len(results)

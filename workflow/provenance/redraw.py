@@ -27,9 +27,9 @@ def redraw(products: Products, panel: str) -> Fault | None:
         last = (done.stderr.strip().splitlines() or ["no message"])[-1]
         return Fault(files[0], f"cannot be rendered: {last}", Kind.UNCHECKED)
     for path in files:
-        other = again / Path(path).name
-        if file_hash(ROOT / path) != file_hash(other):
-            return Fault(path, f"rendering it again gives other bytes: compare {other.relative_to(ROOT)}")
-    for other in again.glob(f"{panel}.*"):
-        other.unlink()
+        fresh = again / Path(path).name
+        if file_hash(ROOT / path) != file_hash(fresh):
+            return Fault(path, f"rendering it again gives other bytes: compare {fresh.relative_to(ROOT)}")
+    for fresh in again.glob(f"{panel}.*"):
+        fresh.unlink()
     return None

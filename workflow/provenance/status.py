@@ -33,7 +33,7 @@ def worst_error(products: Products, panel: Panel) -> str:
             aimed.append((achieved / target, f"{achieved:.1e} of {target:.0e}"))
         elif not math.isnan(achieved):
             errors.append((achieved, f"{achieved:.1e}"))
-    return "; ".join(max(found)[1] for found in (errors, aimed) if found)
+    return "; ".join(max(group)[1] for group in (errors, aimed) if group)
 
 
 def main() -> None:

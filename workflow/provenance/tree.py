@@ -17,7 +17,7 @@ from workflow.lib.load import FormatError, load_statements
 from workflow.lib.record import records_of
 from workflow.provenance.build_id import sources_of_program
 
-GALLERY = "docs/gallery/gallery"  # its record, without the identity
+GALLERY = "docs/gallery/gallery"  # path of the record of the gallery, without identity and suffix
 SHORT = 16  # printed digits of a hash
 FEW = 3  # printed entries of a list without --full
 
@@ -51,16 +51,16 @@ def parent_lines(parents: Parents, few: int | None) -> Iterator[str]:
     yield f"  panel {parents.panel} at quality {parents.quality}, identity {parents.identity}"
     yield f"  Python {parents.python}"
     inputs = {path: (digest, "") for path, digest in parents.sources.items()}
-    inputs |= {path: (one["sha256"], f", seed {one['seed']}") for path, one in parents.data.items()}
+    inputs |= {path: (result["sha256"], f", seed {result['seed']}") for path, result in parents.data.items()}
     by_state: dict[str, list[str]] = {OTHER: [], MISSING: [], SAME: []}
     for path, (digest, seed) in inputs.items():
-        found = state(path, digest)
-        by_state[found].append(f"  {path}  {digest[:SHORT]}  {found}{seed}")
-    for found, lines in by_state.items():
-        shown = None if found == OTHER else few
+        status = state(path, digest)
+        by_state[status].append(f"  {path}  {digest[:SHORT]}  {status}{seed}")
+    for status, lines in by_state.items():
+        shown = None if status == OTHER else few
         yield from lines[:shown]
         if hidden := len(lines) - len(lines[:shown]):
-            yield f"  and {hidden} more that are {found}, shown with FULL=yes"
+            yield f"  and {hidden} more that are {status}, shown with FULL=yes"
     for build in parents.builds.values():
         yield from build_lines(build)
     if by_state[OTHER]:
@@ -97,8 +97,8 @@ def explain(path: Path, few: int | None) -> tuple[bool, list[str]]:
         provenance, parameters, whole = load_statements(path)
         first = f"{path.name} is {'unmodified' if whole else 'edited or damaged'}"
         return whole, [first, *result_lines(provenance, parameters)]
-    known = [(product, record) for one, product, record in records() if one == digest]
-    for product, record in known[:1]:
+    matches = [(product, record) for recorded, product, record in records() if recorded == digest]
+    for product, record in matches[:1]:
         clean = {True: "clean", False: "with uncommitted changes", None: "no repository"}[record["clean"]]
         first = f"{path.name} is {product}, rendered at commit {str(record['commit'])[:SHORT]} ({clean})"
         return True, [first, *parent_lines(record["parents"], few)]
@@ -118,14 +118,14 @@ def main() -> None:
     parser.add_argument("--full", action="store_true", help="all sources and results")
     options = parser.parse_args()
     try:
-        known, lines = explain(options.file, None if options.full else FEW)
+        unmodified, lines = explain(options.file, None if options.full else FEW)
     except OSError as error:
         print(f"{options.file}: {error.strerror}", file=sys.stderr)
         sys.exit(2)
     except (FormatError, MetadataError) as error:
         sys.exit(str(error))
     print(*lines, sep="\n")
-    sys.exit(0 if known and not any(OTHER in line for line in lines) else 1)
+    sys.exit(0 if unmodified and not any(OTHER in line for line in lines) else 1)
 
 
 if __name__ == "__main__":

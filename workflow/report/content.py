@@ -26,25 +26,27 @@ WIDE = 1.3  # columns of a journal; a wider panel takes the full width of the pa
 
 
 def content(quality: str, root: Path) -> dict[str, Any]:
-    """Raises ReportError."""
+    """Variables of the templates. Raises ReportError."""
     data = Data(quality, root)
     products = Products(root, quality, data.plan)
     judgements = products.judged(data)
-    counts = Counter(one.outcome for one in judgements)
-    found = {
+    counts = Counter(judgement.outcome for judgement in judgements)
+    context = {
         "quality": quality,
         "effort": Quality.of(quality).arguments,
         "answers": answers(judgements, data),
-        "counts": [(words.SIGNS[one], counts[one], one.value) for one in Outcome if counts[one]],
-        "claims": [claim(one) for one in judgements],
+        "counts": [
+            (words.SIGNS[outcome], counts[outcome], outcome.value) for outcome in Outcome if counts[outcome]
+        ],
+        "claims": [claim(judgement) for judgement in judgements],
         "misprints": misprints(judgements, data),
         "terms": read(HERE, "terms.yaml").content,
-        "panels": {name: panel(one, products) for name, one in data.plan.items()},
+        "panels": {name: panel(planned, products) for name, planned in data.plan.items()},
         "citation": citation(root),
     }
     for path in data.used:
         products.file(path)
-    return found | {"parents": {"products": products.used, "sources": hashes_of(SCRIPT)}}
+    return context | {"parents": {"products": products.used, "sources": hashes_of(SCRIPT)}}
 
 
 def claim(judgement: Judgement) -> dict[str, Any]:
@@ -75,7 +77,7 @@ def claim(judgement: Judgement) -> dict[str, Any]:
 
 
 def panel(panel: Panel, products: Products) -> dict[str, Any]:
-    """Raises ReportError."""
+    """Title, caption, picture and parents of a panel for the templates. Raises ReportError."""
     record = products.record(panel.name)
     files = [products.file(f"figures/{products.quality}/{name}") for name in record["files"]]
     svg = next(file.read_text() for file in files if file.suffix == ".svg")
@@ -92,7 +94,7 @@ def panel(panel: Panel, products: Products) -> dict[str, Any]:
 
 
 def misprints(judgements: Sequence[Judgement], data: Data) -> list[dict[str, Any]]:
-    by_id = {one.claim["id"]: one for one in judgements}
+    by_id = {judgement.claim["id"]: judgement for judgement in judgements}
     return [row | {"shown": _shown(row, by_id, data)} for row in read(HERE, "misprints.yaml").content]
 
 

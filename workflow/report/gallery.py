@@ -21,8 +21,8 @@ README = (
     f"{'README'}.md"  # written, not read for its content: a literal with its path would count as a source
 )
 GALLERY = "docs/gallery"
-INDEX = str(Path(GALLERY).with_name("index.md"))  # of the documentation
-# Pages with marked parts, each of which has a template: their way to the gallery, and the parts.
+INDEX = str(Path(GALLERY).with_name("index.md"))  # front page of the documentation
+# Pages with marked parts, each of which has a template: the relative path from page to gallery, and the names of the parts.
 FRONT = {
     README: (f"{GALLERY}/", ("answer", "questions", "panels")),
     INDEX: ("gallery/", ("answer", "questions")),
@@ -60,7 +60,7 @@ def with_parts(name: str, page: str, context: Mapping[str, Any]) -> str:
 
 
 def gallery(quality: str, identity: str, root: Path = ROOT) -> None:
-    """Raises ReportError."""
+    """Writes the gallery and the marked parts of the front pages. Raises ReportError."""
     context, folder = content(quality, root), root / GALLERY
     front = {root / name: with_parts(name, (root / name).read_text(), context).encode() for name in FRONT}
     files = {folder / README: rendered("gallery.md", **context).encode()}

@@ -39,22 +39,22 @@ def _kappa_of_half(data: Data, half: int) -> Number:
 
 def _half(data: Data, half: int) -> Sequence[Result]:
     """Runs of fig. 8 with the smaller (0) or larger (-1) sizes."""
-    return halves([one for one in sizes(data, "N") if one.parameters["cells"] >= BULK])[half]
+    return halves([run for run in sizes(data, "N") if run.parameters["cells"] >= BULK])[half]
 
 
 def middle_size(data: Data) -> str:
-    """Where the smaller sizes of fig. 8 end and the larger ones begin."""
+    """Size that both halves of fig. 8's sizes have in common, as text."""
     return f"N = {_half(data, -1)[0].parameters['cells']}"
 
 
 def _from_to(runs: Sequence[Result]) -> str:
-    cells = [one.parameters["cells"] for one in runs]
+    cells = [run.parameters["cells"] for run in runs]
     return f"N = {min(cells)} to {max(cells)}"
 
 
 def kappa_of_longest_chains(data: Data) -> Number:
     """Exponent between the two largest sizes at the paper's spacing, at the drive with the smaller error."""
-    return min(thinning_exponents(data), key=lambda one: one.error)
+    return min(thinning_exponents(data), key=lambda slope: slope.error)
 
 
 def sizes_of_longest_chains(data: Data) -> str:
@@ -64,12 +64,12 @@ def sizes_of_longest_chains(data: Data) -> str:
 def heat_exponent(data: Data) -> Number:
     """Exponent of <Q²> over the last octave of the ring that was observed for the longest time."""
     rings = data.of("ext13", rule="elastic")
-    return _exponent(max(rings, key=lambda one: float(one["heat_variance"].axes["time"][-1])))
+    return _exponent(max(rings, key=lambda ring: float(ring["heat_variance"].axes["time"][-1])))
 
 
 def lowest_heat_exponent(data: Data) -> Number:
-    """The smallest of all gases, each over the last octave of its longest ring."""
-    return min(map(_exponent, longest_rings(data)), key=lambda one: one.value)
+    """Smallest exponent of <Q²> of all gases, each over the last octave of its longest ring."""
+    return min(map(_exponent, longest_rings(data)), key=lambda slope: slope.value)
 
 
 def heat_exponent_without_momentum(data: Data) -> Number:
@@ -78,8 +78,8 @@ def heat_exponent_without_momentum(data: Data) -> Number:
 
 
 def _exponent(ring: Result) -> Number:
-    found = last_octave(ring).over(1, -1)
-    return replace(found, label=f"d ln⟨Q²⟩/d ln t, {_gas_and_time(ring)}")
+    slope = last_octave(ring).over(1, -1)
+    return replace(slope, label=f"d ln⟨Q²⟩/d ln t, {_gas_and_time(ring)}")
 
 
 def _gas_and_time(ring: Result) -> str:
@@ -100,20 +100,23 @@ def kappa_0_in_the_last_octave(data: Data) -> Number:
 
 
 def kappa_0_expected(data: Data) -> str:
-    """Exponent in the last octave that the heat predicts which passes a ring before sound leaves the chain (ext. 11)."""
+    """Exponent of κ_0 in the last octave, predicted from the heat that passes in a ring before sound leaves the chain (ext. 11)."""
     chains = stationary_at_fixed_spacing(data)
     rings = data.of("ext13", rule="elastic", sigma=chains[0].parameters["sigma"])
     table, _ = ext11.with_theory(ext11.tabulate(chains), chains, ext11.rings(rings))
     last = table.iloc[-2:]
     return with_error(
-        *(float(one[-1]) for one in local_exponents(last.cells, last.predicted, last.predicted_error)[1:])
+        *(
+            float(values[-1])
+            for values in local_exponents(last.cells, last.predicted, last.predicted_error)[1:]
+        )
     )
 
 
 def momentum_change(data: Data) -> Number:
-    """The largest over all mass ratios."""
-    runs = [one for one in data.of("fig07_inset") if one.parameters["sigma"]]
-    return max((number(one, "momentum_drift") for one in runs), key=lambda one: one.value)
+    """Largest relative change of the total momentum over all mass ratios."""
+    runs = [run for run in data.of("fig07_inset") if run.parameters["sigma"]]
+    return max((number(run, "momentum_drift") for run in runs), key=lambda change: change.value)
 
 
 def alpha(data: Data) -> Number:
@@ -121,9 +124,9 @@ def alpha(data: Data) -> Number:
 
 
 def alpha_without_drift(data: Data) -> Number:
-    """Of the chain that relaxed longest."""
+    """alpha at zero total momentum of the chain that relaxed longest."""
     runs = data.of("ext01", sigma=0.5, zero_total_momentum=True, particles_per_cell=20)
-    relaxed = max(runs, key=lambda one: one.parameters["relaxation-time"])
+    relaxed = max(runs, key=lambda run: run.parameters["relaxation-time"])
     return number(relaxed, "alpha", label="α at zero total momentum, σ = 1/2")
 
 
@@ -140,7 +143,7 @@ def _persistence(data: Data, sigma: float, label: str) -> Number:
 
 
 def injected_energy(data: Data) -> Number:
-    """The right half at the left end is what the bath injects."""
+    """Energy that the left bath injects per νT: the moment of the half p > 0 at the left end."""
     result = data.of("ext10", "momentum_flux", gamma="N")[0]
     label = "energy over νT that crosses the left opening inwards"
     return number(result, "square", (0, 1), label).over(2 * result.parameters["temperature-left"])
@@ -148,11 +151,13 @@ def injected_energy(data: Data) -> Number:
 
 def printed_conductivity(data: Data) -> Number:
     runs = largest_sizes(sizes(data, 1))
-    return exponent(runs, "exponent of κ as printed, γ = 1", lambda one: number(one, "kappa_printed"))[0]
+    return exponent(runs, "exponent of κ as printed, γ = 1", lambda run: number(run, "kappa_printed"))[0]
 
 
 def peak_collapse(data: Data) -> Number:
-    result = next(one for one in data.of("fig09a") if one.parameters["scatterer-temperature"] == "particles")
+    result = next(
+        result for result in data.of("fig09a") if result.parameters["scatterer-temperature"] == "particles"
+    )
     return number(result, "peak_collapse", label="ξ of the collapse about the peak, γ = N")
 
 
@@ -162,7 +167,7 @@ def particle_current(data: Data) -> Number:
 
 
 def kinetic_exponent_of_longer_chains(data: Data) -> Number:
-    """Without the smallest N."""
+    """Exponent of the deviation from the kinetic limit without the smallest N."""
     return decay(data, skipped=1)[0]
 
 

@@ -12,11 +12,13 @@ from workflow.lib.configuration import ConfigurationError, read
 from workflow.report import numbers, words
 
 FILE = "questions.yaml"
-VERDICTS = [one.value for one in Outcome if one is not Outcome.IN_MEANING]  # of one reading
+VERDICTS = [
+    outcome.value for outcome in Outcome if outcome is not Outcome.IN_MEANING
+]  # possible verdicts on one reading
 
 
 def read_questions(folder: Path = Path(__file__).parent) -> list[dict[str, Any]]:
-    """Each with a sentence for every verdict. Raises ConfigurationError."""
+    """Questions, each with a sentence for every verdict. Raises ConfigurationError."""
     content = read(folder, FILE).content
     questions = [content["otherwise"] | question for question in content["questions"]]
     for question in questions:
@@ -29,7 +31,7 @@ def read_questions(folder: Path = Path(__file__).parent) -> list[dict[str, Any]]
 
 def answers(judgements: Sequence[Judgement], data: Data) -> list[dict[str, Any]]:
     """question, answer, outcome, claim, panels and summary of each; the summary is empty where the question has none."""
-    by_id = {one.claim["id"]: one for one in judgements}
+    by_id = {judgement.claim["id"]: judgement for judgement in judgements}
     level = level_of_each(len(judgements) + 1)
     rows = []
     for question in read_questions():

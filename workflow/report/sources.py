@@ -37,7 +37,7 @@ class Products:
         return judgements
 
     def record(self, panel: str) -> dict[str, Any]:
-        """Raises ReportError."""
+        """Record of a panel, from read_panel(). Raises ReportError."""
         if panel not in self.records:
             try:
                 self.records[panel] = read_panel(self.path_of_record(panel))
@@ -52,7 +52,7 @@ class Products:
         return record_path(self.root / "figures" / self.quality / panel, present)
 
     def file(self, path: str) -> Path:
-        """Raises ReportError if it is missing or modified."""
+        """Absolute path of a result or figure. Raises ReportError if it is missing or modified."""
         here = self.root / path
         try:
             if path.startswith("figures/"):

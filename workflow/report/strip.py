@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 from workflow.claims.verdict import Reading
 
-WIDTH = 200  # of the picture, in its own units
-BORDER = 0.15  # around the values, in units of their range
+WIDTH = 200  # width of the picture in SVG units
+BORDER = 0.15  # space beside the values, in units of their range
 MOST = 24  # numbers in a picture; of more, those closest to an edge of the band or beyond it
 
 
@@ -29,12 +29,14 @@ class Strip:
 
 
 def strip_of(reading: Reading) -> Strip | None:
-    """None where no number has an error."""
-    intervals = [(*one.interval(reading.share), one.value) for one in reading.numbers]
-    finite = [one for one in intervals if all(map(math.isfinite, one))]
+    """Picture of a reading; None if no number has a finite interval."""
+    intervals = [(*number.interval(reading.share), number.value) for number in reading.numbers]
+    finite = [entry for entry in intervals if all(map(math.isfinite, entry))]
     if not finite:
         return None
-    shown = sorted(finite, key=lambda one: max(reading.band.low - one[0], one[1] - reading.band.high))[-MOST:]
+    shown = sorted(finite, key=lambda entry: max(reading.band.low - entry[0], entry[1] - reading.band.high))[
+        -MOST:
+    ]
     edges = [edge for edge in (reading.band.low, reading.band.high) if math.isfinite(edge)]
     seen = [*edges, *(value for *_, value in shown)]
     low, high = min(seen), max(seen)

@@ -33,17 +33,17 @@ MINUS = "\N{MINUS SIGN}"
 
 
 def typeset(text: str) -> Markup:
-    """As HTML: powers after ^, indices after _, and minus signs."""
+    """Text as HTML, with superscripts after ^, subscripts after _, and typographic minus signs."""
     power = r"\^(?:\(([^)]*)\)|([-−]?\d+\.\d+(?:\(\d+\))?|[-−]?\w+))"
     text = re.sub(
-        power, lambda found: f"<sup>{found[1] or found[2]}</sup>", str(escape(text)).replace("&#39;", "'")
+        power, lambda match: f"<sup>{match[1] or match[2]}</sup>", str(escape(text)).replace("&#39;", "'")
     )
     text = re.sub(r"_(\w+)", r"<sub>\1</sub>", text)
     return Markup(re.sub(r"(?<![\w)])-(?=\d)|(?<=\s)-(?=\s)", MINUS, text))
 
 
 def cell(text: str) -> str:
-    """As a cell of a Markdown table."""
+    """Text as the content of a cell of a Markdown table."""
     return typeset(text).replace("|", r"\|")
 
 
@@ -55,7 +55,7 @@ def acceptance(band: Band) -> str:
 
 
 def value(number: Number) -> str:
-    """With the standard error in units of the last digit, and the bound on the systematic error."""
+    """Number with its standard error in units of the last digit, and the bound on its systematic error."""
     if not number.error and abs(number.value) < number.systematic:
         return f"0 to rounding{BOUND}{short(number.systematic)}"
     size = max(abs(number.value), number.error, number.systematic)
@@ -67,9 +67,9 @@ def value(number: Number) -> str:
     return f"{with_error(number.value, number.error)}{bound}"
 
 
-def value_or_text(found: Number | str) -> str:
-    """As value(); a text is returned as it is."""
-    return found if isinstance(found, str) else value(found)
+def value_or_text(shown: Number | str) -> str:
+    """The number as by value(); a text unchanged."""
+    return shown if isinstance(shown, str) else value(shown)
 
 
 def or_reason(text: Callable[[T], str], number: Callable[[Data], T], data: Data) -> str:
@@ -112,7 +112,7 @@ def which(reading: Reading) -> str:
 
 
 def consequence(judgement: Judgement) -> str:
-    """The power of the test, or what would decide it."""
+    """Sentence on the power of a decided test, or on the effort that would decide an undecided one."""
     reading = judgement.deciding
     if reading is None:
         return ""

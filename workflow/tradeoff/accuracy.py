@@ -12,9 +12,9 @@ from workflow.lib import style
 from workflow.tradeoff.measure import Done, execute, planned, shortened
 
 REPLICAS = (10, 32, 110, 360, 1300)
-TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)  # of the kinetic equation, which has no replicas
+TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)  # target errors of the kinetic equation, which has no replicas
 FIRST_LOOK = 64  # replicas at the first comparison of error and target
-REDUCTION = 4  # of the error at the first look, to the target
+REDUCTION = 4  # ratio of the error at the first look to the target
 PREDICTION = re.compile(r"the run ends after (\d+) to (\d+)")  # replicas, in the log of a program
 SETTINGS = {  # a cheap run of every program with an error, and the simulated fraction of its times
     "persistence": ("fig05", "paper_sigma=0.5", 0.5),
@@ -61,7 +61,7 @@ def errors(program: str) -> pd.DataFrame:
         provenance = done.result.provenance
         row = {"program": program, "quantity": provenance["target_quantity"], option: value}
         rows.append(row | {"cpu_seconds": done.seconds, "error": provenance["achieved_error"]})
-    return pd.DataFrame(rows).dropna()  # too few replicas for an error
+    return pd.DataFrame(rows).dropna()  # drops rows without an error, which too few replicas give
 
 
 def measure() -> pd.DataFrame:
@@ -75,12 +75,12 @@ def draw(table: pd.DataFrame) -> Figure:
     figure, axes = plt.subplots(-(-len(sampled) // 3), 3, figsize=size, sharex=True, sharey=True)
     for empty in axes.flat[len(sampled) :]:
         empty.set_axis_off()
-    for one, ((program, quantity), rows) in zip(axes.flat, sampled, strict=False):
+    for panel, ((program, quantity), rows) in zip(axes.flat, sampled, strict=False):
         seconds, error, replicas = rows[["cpu_seconds", "error", "replicas"]].to_numpy().T
         law = amplitude(seconds, error, replicas)
-        one.errorbar(seconds, error, rows.uncertainty, marker="o", color=style.BLUE, **style.POINTS)
-        one.plot(seconds, law / np.sqrt(seconds), **style.GUIDE)
-        one.set(xscale="log", yscale="log", title=f"{program}: {quantity}\n{100 * law:.2g} % in 1 s")
+        panel.errorbar(seconds, error, rows.uncertainty, marker="o", color=style.BLUE, **style.POINTS)
+        panel.plot(seconds, law / np.sqrt(seconds), **style.GUIDE)
+        panel.set(xscale="log", yscale="log", title=f"{program}: {quantity}\n{100 * law:.2g} % in 1 s")
     figure.supxlabel("CPU seconds", size=9)
     figure.supylabel("relative error", size=9)
     return figure

@@ -1,6 +1,6 @@
 """Nanoseconds per event: the event loop against the reference simulator, and whole programs against the bare loop.
 
-Floor: collisions and flights without a queue. Bare loop: the event loop without an observer.
+The floor is the time of collisions and flights without a queue. The bare loop is the event loop without an observer.
 """
 
 import json
@@ -22,7 +22,7 @@ OPEN = ("conductivity", "momentum_flux", "particle_count", "steady_profile")
 OF_OBSERVERS = ("momentum-bins", "momentum-max", "decades", "fit-decades", "tail-from", "times")
 SECONDS = 1.5  # per run, long against the start of a process
 REPETITIONS = 3
-CHAIN = r"^(?P<chain>closed|open)_(?P<loop>\w+)/(?P<size>.*)/gamma:(?P<gamma>\d)"  # of a benchmark's name
+CHAIN = r"^(?P<chain>closed|open)_(?P<loop>\w+)/(?P<size>.*)/gamma:(?P<gamma>\d)"  # pattern of the name of a benchmark
 
 
 def event_loops(benchmarks: list[dict[str, Any]]) -> pd.DataFrame:
@@ -40,7 +40,7 @@ def event_loops(benchmarks: list[dict[str, Any]]) -> pd.DataFrame:
 
 
 def bare(run: Run) -> Run:
-    """The run without its observer."""
+    """The same simulation as a run of the bare loop, which has no observer."""
     options = {key: value for key, value in run.options.items() if key not in OF_OBSERVERS}
     if "times" in run.options:
         options |= {"relaxation-time": 0, "observation-time": run.options["times"].split(",")[-1]}
@@ -48,7 +48,7 @@ def bare(run: Run) -> Run:
 
 
 def cost(run: Run, replicas: int) -> tuple[float, float]:
-    """CPU seconds, and nanoseconds per event."""
+    """CPU seconds of a run, and its nanoseconds per event."""
     done = execute(run, replicas=replicas, progress="none")
     return done.seconds, 1e9 * done.seconds / done.result.provenance["events"]
 
@@ -58,7 +58,7 @@ def whole_program(name: str) -> dict[str, object]:
     run = planned(*name.split("/"))
     least = 2  # replicas needed for an error
     replicas = max(least, round(least * SECONDS / cost(run, least)[0]))
-    pairs = [[cost(each, replicas)[1] for each in (run, bare(run))] for _ in range(REPETITIONS)]
+    pairs = [[cost(variant, replicas)[1] for variant in (run, bare(run))] for _ in range(REPETITIONS)]
     program, loop = np.median(pairs, axis=0)
     row = {"program": run.program, "run": name, "gamma": run.options.get("gamma", "N")}
     return row | {"program, ns": program, "bare loop, ns": loop, "program/loop": program / loop}

@@ -14,21 +14,21 @@ UNITS = {"value": "column value_units", "result": "column units", "result_error"
 def varied(
     panel: str, name: str, quantity: str, setting: str, values: Sequence[float], **changes: object
 ) -> Iterator[dict[str, object]]:
-    """One run per value of an option, the most careful last, with the first number of an array."""
+    """One row per value of an option, the most careful value last. Of an array the first element is taken."""
     head = {"panel": panel, "start": changes.get("start", ""), "quantity": quantity, "setting": setting}
     for value in values:
-        found = execute(planned(panel, name), **changes, **{setting: value}).result[quantity]
-        mean, error = (float(np.ravel(numbers)[0]) for numbers in (found.mean, found.error))
-        units = {"value_units": option_units().get(setting, "1"), "units": found.units}
+        estimate = execute(planned(panel, name), **changes, **{setting: value}).result[quantity]
+        mean, error = (float(np.ravel(numbers)[0]) for numbers in (estimate.mean, estimate.error))
+        units = {"value_units": option_units().get(setting, "1"), "units": estimate.units}
         yield head | {"value": value, "result": mean, "result_error": error} | units
 
 
 def with_bias(table: pd.DataFrame) -> pd.DataFrame:
     """Adds the difference relative to the last, most careful value; errors are combined as independent."""
-    of = ["panel", "start", "setting", "quantity"]
-    last = table.groupby(of)[["result", "result_error"]].transform("last")
+    case = ["panel", "start", "setting", "quantity"]
+    last = table.groupby(case)[["result", "result_error"]].transform("last")
     both = np.hypot(table.result_error, last.result_error)
-    error = both.where(table.duplicated(of, keep="last"), table.result_error)
+    error = both.where(table.duplicated(case, keep="last"), table.result_error)
     return table.assign(bias=table.result / last.result - 1, bias_error=error / abs(last.result))
 
 

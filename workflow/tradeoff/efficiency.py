@@ -25,8 +25,8 @@ class Estimate(NamedTuple):
 
 
 def stored(done: Done, name: str, index: Any = ()) -> Estimate:
-    found = done.result[name]
-    return Estimate(found.mean[index], found.error[index], int(found.replicas.max()), done.seconds)
+    quantity = done.result[name]
+    return Estimate(quantity.mean[index], quantity.error[index], int(quantity.replicas.max()), done.seconds)
 
 
 def averaged(sample: np.ndarray, seconds: float) -> Estimate:
@@ -38,10 +38,10 @@ def averaged(sample: np.ndarray, seconds: float) -> Estimate:
 def compared(method: str, quantity: str, plain: Estimate, better: Estimate) -> Row:
     """factor: median gain over the values, with its error from the numbers of replicas. z: largest difference in combined
     errors."""
-    known = (plain.error > 0) & (better.error > 0)
-    factor = np.median((plain.error[known] / better.error[known]) ** 2) * plain.seconds / better.seconds
+    usable = (plain.error > 0) & (better.error > 0)
+    factor = np.median((plain.error[usable] / better.error[usable]) ** 2) * plain.seconds / better.seconds
     relative = np.sqrt(2 / (plain.replicas - 1) + 2 / (better.replicas - 1))
-    z = np.abs(plain.value - better.value)[known] / np.hypot(plain.error, better.error)[known]
+    z = np.abs(plain.value - better.value)[usable] / np.hypot(plain.error, better.error)[usable]
     row = {"method": method, "quantity": quantity, "factor": factor, "factor_error": factor * relative}
     return row | {"z": z.max(), "values": len(z)}
 

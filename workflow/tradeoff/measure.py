@@ -24,7 +24,7 @@ QUALITY = "smoke"  # fewest pairs per replica and largest target errors
 class Done:
     result: Result
     seconds: float  # CPU time of the process
-    log: str  # standard error
+    log: str  # output on the standard error stream
 
 
 @cache

@@ -82,7 +82,7 @@ class Equilibrium {
 
 double distance(const Flux& a, const Flux& b) { return (a - b).norm() / b.norm(); }
 
-// Eigenvalues [eq. 42]. Finds: the eigenvalues of -sigma.
+// The eigenvalues are those of eq. 42. Detected mistake: the eigenvalues are those of -sigma.
 TEST(LinearisedCollisions, HaveHermiteFunctionsAsEigenfunctions) {
   for (const double sigma : {-0.7, 0.5}) {
     const Equilibrium gas(sigma, 1);
@@ -99,9 +99,9 @@ TEST(LinearisedCollisions, HaveHermiteFunctionsAsEigenfunctions) {
   }
 }
 
-// Six modes have their own eigenvalues and two more the shared ones, so 1 - L G' is inverted exactly for
-// these eight and only approximately for others. Finds: the preconditioner for -sigma, whose odd modes have
-// other eigenvalues.
+// Six modes have their own eigenvalues and two more have the shared one, so 1 - L G' is inverted exactly for
+// these eight modes and approximately for all others. Detected mistake: the preconditioner is that of -sigma,
+// whose odd modes have other eigenvalues.
 TEST(HydrodynamicPreconditioner, InvertsTheLinearisedOperatorForTheSlowModes) {
   for (const double sigma : {-0.7, 0.5}) {
     for (const double gamma : {1., 50.}) {
@@ -121,7 +121,8 @@ TEST(HydrodynamicPreconditioner, InvertsTheLinearisedOperatorForTheSlowModes) {
   }
 }
 
-// At gamma = 50, 9 to 18 steps instead of 52 to 75. Finds: the preconditioner for -sigma, 22 and 31 steps.
+// At gamma = 50 the preconditioner reduces the number of steps from between 52 and 75 to between 9 and 18.
+// Detected mistake: with the preconditioner of -sigma the numbers are 22 and 31.
 TEST(HydrodynamicPreconditioner, SavesSteps) {
   const LinearMap none = [](const VectorXd& v) { return v; };
   for (const double sigma : {-0.9, 0.5, 0.9}) {

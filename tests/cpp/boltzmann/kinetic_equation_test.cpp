@@ -33,7 +33,7 @@ KineticSolution solve(const KineticProblem& problem, int level = 1) {
   return {problem, Resolution::level(level, problem.gamma)};
 }
 
-/// F at p > 0, then at p < 0, at the same |p| for every resolution.
+/// Flux at p > 0, then at p < 0, at the given |p|, which do not depend on the resolution.
 Flux flux_at(const KineticSolution& solution, const VectorXd& x, const VectorXd& p) {
   const Flux flux = solution.flux(x);
   const MatrixXd values = solution.momenta().interpolation(p);
@@ -42,7 +42,7 @@ Flux flux_at(const KineticSolution& solution, const VectorXd& x, const VectorXd&
   return result;
 }
 
-/// Largest difference, relative to the largest value.
+/// Largest difference of two arrays, relative to the largest value of the second.
 double distance(const MatrixXd& a, const MatrixXd& b) {
   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
 }
@@ -56,7 +56,8 @@ double maxwellian(double p, double temperature) {
   return std::exp(-p * p / (2 * temperature)) * std::sqrt(2 / (std::numbers::pi * temperature));
 }
 
-/// Differences of both solutions at the sites of the reference, with the flux at p > 0 above that at p < 0.
+/// Differences of both solutions at the sites of the reference solution. The flux at p > 0 is stored above
+/// that at p < 0.
 struct Comparison {
   double flux, particles, energy, temperature, density;
 };
@@ -110,11 +111,11 @@ TEST(KineticEquation, WrongEquationsDoNotAgree) {
   const reference::KineticEquation equation = reference_for(right, 6, 7);
   const auto largest = [&](const KineticProblem& wrong) { return compare(wrong, equation).flux; };
   EXPECT_LT(largest(right), 1e-8);
-  EXPECT_GT(largest(problem(-0.5, 1)), 1e-3);        // sign of sigma
-  EXPECT_GT(largest(problem(0.5, 1 + 1e-6)), 1e-8);  // rate of scattering
-  EXPECT_GT(largest(problem(0.5 + 1e-6, 1)), 1e-8);  // mass ratio
+  EXPECT_GT(largest(problem(-0.5, 1)), 1e-3);        // detected mistake: wrong sign of sigma
+  EXPECT_GT(largest(problem(0.5, 1 + 1e-6)), 1e-8);  // detected mistake: another rate of scattering
+  EXPECT_GT(largest(problem(0.5 + 1e-6, 1)), 1e-8);  // detected mistake: another mass ratio
   KineticProblem chain = right;
-  chain.cells = 100;  // whether a scatterer's own gain reaches it
+  chain.cells = 100;  // detected mistake: a discrete chain in place of the continuum
   EXPECT_GT(largest(chain), 1e-6);
 }
 
@@ -177,7 +178,7 @@ TEST(KineticEquation, ExchangeOfMomentaIsExact) {
     EXPECT_LT((density.row(i).array() - right / 400).abs().maxCoeff(), 1e-13);
   }
   EXPECT_LT(std::abs(currents(solution).particles[0] - 40), 1e-11);
-  // Small sigma gives nearly the same.
+  // For small sigma the particle current changes linearly.
   const double at_1 = currents(solve(problem(1e-3, 1))).particles[0],
                at_2 = currents(solve(problem(2e-3, 1))).particles[0];
   EXPECT_NEAR((40 - at_2) / (40 - at_1), 2, 0.01);
@@ -209,8 +210,8 @@ TEST(KineticEquation, MirrorImage) {
   EXPECT_NEAR(currents(solution).energy[0], -currents(mirrored).energy[0], 1e-8);
 }
 
-/// The error decreases exponentially with the numbers of nodes: at every step by a given factor at least,
-/// until rounding limits it.
+/// The error decreases exponentially with the numbers of nodes: each refinement reduces it at least by a
+/// given factor until rounding limits it.
 TEST(KineticEquation, ConvergesSpectrally) {
   for (const double sigma : {-0.9, 0.05, 0.5}) {
     const KineticProblem p = problem(sigma, 3);
@@ -249,7 +250,8 @@ TEST(MeanFieldChain, TendsToTheContinuum) {
   EXPECT_LT(last, 1e-2 * std::abs(limit));
 }
 
-/// One scatterer with q = 1: the outgoing F is the gain of what the baths inject.
+/// A chain of one scatterer with the scattering probability q = 1: the outgoing flux is the gain of the
+/// injected one.
 TEST(MeanFieldChain, OneScatterer) {
   KineticProblem p = problem(0.5, 1);
   p.cells = 1;
@@ -265,11 +267,11 @@ TEST(MeanFieldChain, OneScatterer) {
   const VectorXd gain = equation.gain(arriving, equation.scatterer(arriving));
   const VectorXd ends = VectorXd::LinSpaced(2, 0, 1);
   const Flux flux = flux_at(solution, ends, positive);
-  EXPECT_LT(distance(flux.col(1).head(half), gain.tail(half)), 1e-10);            // leaves at the right
-  EXPECT_LT(distance(flux.col(0).tail(half), gain.head(half).reverse()), 1e-10);  // leaves at the left
+  EXPECT_LT(distance(flux.col(1).head(half), gain.tail(half)), 1e-10);            // leaving at the right
+  EXPECT_LT(distance(flux.col(0).tail(half), gain.head(half).reverse()), 1e-10);  // leaving at the left
 }
 
-/// Both need shortened Newton steps.
+/// Both problems converge only with shortened Newton steps.
 TEST(KineticEquation, HotAndOneSidedBathsConverge) {
   KineticProblem hot = problem(0.5, 50), empty = problem(-0.5, 10);
   hot.right.temperature = 1000 * hot.left.temperature;

@@ -32,7 +32,7 @@ struct Draws {
   double chance;
 };
 
-/// Whether any number occurs in both, which independent continuous draws exclude.
+/// Whether any number occurs in both sets of draws, which is impossible for independent continuous draws.
 bool share_a_number(const Draws& a, const Draws& b) {
   const auto sorted = [](const Draws& draws) {
     Sequence all;
@@ -46,8 +46,8 @@ bool share_a_number(const Draws& a, const Draws& b) {
   return !common.empty();
 }
 
-/// Whether discrete draws at the same place of the same sequence agree more often than by chance: the number
-/// of agreements is binomial.
+/// Whether discrete draws at equal positions of equal sequences agree more often than by chance; the number
+/// of agreements of independent draws is binomial.
 bool agree_too_often(const Draws& a, const Draws& b) {
   double pairs = 0, equal = 0;
   for (std::size_t i = 0; i < std::min(a.sequences.size(), b.sequences.size()); ++i) {
@@ -71,7 +71,7 @@ double chance_of_equal_cells(double scattering_probability) {
   return scattering_probability / (2 - scattering_probability);
 }
 
-// Starts.
+// Draws of initial states.
 
 PhasePoint start_of(std::uint32_t cells, std::uint32_t particles_per_cell, const StreamKey& key) {
   ClosedChain chain;
@@ -80,7 +80,7 @@ PhasePoint start_of(std::uint32_t cells, std::uint32_t particles_per_cell, const
   return closed_chain_start(chain, {1, 1}, false, key);
 }
 
-/// Positions, and momenta of particles and scatterers.
+/// Draws of a closed start: positions of the particles, and momenta of particles and scatterers.
 Draws closed_start(const StreamKey& key, const StreamKey&) {
   Sequence drawn = start_of(1000, 1, key).scatterers;
   for (const Particle& particle : start_of(1, 1000, key).particles) {
@@ -112,7 +112,7 @@ Draws warm_start(const StreamKey& key, const StreamKey&) {
   return {{drawn}, 0};
 }
 
-// Injections.
+// Draws of the injections.
 
 struct Injections {
   End end;
@@ -131,7 +131,7 @@ Draws injections(const StreamKey& key, const StreamKey&) {
   return {{seen.drawn}, 0};
 }
 
-// Flights.
+// Draws of the flights.
 
 /// Cells of every flight in the order of departures. A flight with fewer than 80 cells ahead may leave the
 /// chain, so its number of cells is unknown.
@@ -218,7 +218,7 @@ Draws open_directions(const StreamKey& key, const StreamKey& of_start) {
   return {directions_at_cells(key, of_start), 0.5};
 }
 
-/// key: of the stream under test; of_start: of the start before it.
+/// A source of draws. key names the stream under test; of_start names the stream of the initial state.
 struct Source {
   std::string name;
   Draws (*draw)(const StreamKey& key, const StreamKey& of_start);
@@ -256,8 +256,8 @@ INSTANTIATE_TEST_SUITE_P(Sources, Chance,
                                          Source{"DirectionsOfAnOpenChain", open_directions}),
                          [](const auto& source) { return source.param.name; });
 
-// The random numbers of a collision in an open chain are named by the cell and the count of its collisions.
-// Finds: by the cell alone, by the count alone, by the number of the particle, which is reused.
+// Random numbers of a collision in an open chain are named by the cell and its count of collisions. Detected
+// mistakes: they are named by the cell alone, the count alone, or the index of the particle, which is reused.
 TEST(ChanceOfAnOpenChain, EveryCollisionOfACellHasNumbersOfItsOwn) {
   const StreamKey key(3, 2);
   const std::vector<Sequence> drawn = directions_at_cells(key, key);
@@ -278,13 +278,13 @@ std::vector<Particle> plain_particles(const PairDynamics& pair, double time, std
   return particles;
 }
 
-/// The same of the plain trajectory of a pair, which has no observer: a flight ends where the velocity
-/// changes. Velocities are sampled so often that no flight of one cell is missed.
+/// Draws of the flights of the plain trajectory of a pair, which has no observer: a flight ends where the
+/// velocity changes. Velocities are sampled so often that no flight of one cell is missed.
 Draws pair_flights(const ClosedChain& chain, const PhasePoint& start, const StreamKey& key) {
   constexpr double step = 0.05;
   PairDynamics pair(chain, start, start, duration, key, /*share=*/false);
   std::vector<Particle> last = plain_particles(pair, 0, chain.particles());
-  std::vector<double> departure(last.size(), -1);  // -1: from the start
+  std::vector<double> departure(last.size(), -1);  // -1: the first flight, whose departure is unknown
   std::vector<Sequence> drawn(last.size());
   for (double time = step; time < duration; time += step) {
     pair.run(time, support::nothing);
@@ -311,7 +311,7 @@ TEST(ChanceOfThePulse, RelaxationAndPulseShareNoDraw) {
 
     PhasePoint relaxed = relaxing.phase_point(duration);
     EXPECT_FALSE(share(relaxation, pair_flights(chain, relaxed, key)));
-    for (Particle& particle : relaxed.particles) particle.draws = 0;  // finds: draws counted from 0 again
+    for (Particle& particle : relaxed.particles) particle.draws = 0;  // mistake: counted from 0 again
     EXPECT_TRUE(share(relaxation, pair_flights(chain, relaxed, key)));
   }
 }

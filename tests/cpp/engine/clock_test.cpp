@@ -16,14 +16,14 @@ using namespace lorentz;
 constexpr std::size_t events = 4000;
 constexpr double cell_length = 1, temperature = 500;
 
-/// The sequence of particles at each scatterer, on which alone the velocities depend.
+/// For each scatterer the sequence of arriving particles, which alone determines the velocities.
 using Arrivals = std::vector<std::vector<std::size_t>>;
 
 ClosedChain chain(double sigma) { return {11, 20, cell_length, sigma}; }
 
 PhasePoint start(double sigma) { return closed_chain_start(chain(sigma), {temperature, 100}, false, {1, 0}); }
 
-/// The clock begins at `flights` thermal flights and is restarted so many times.
+/// Arrivals in a chain whose clock begins at `flights` thermal flights and is restarted `restarts` times.
 Arrivals arrivals(double sigma, double flights, int restarts = 0) {
   const double shown = flights * cell_length / std::sqrt(temperature);
   ClosedDynamics dynamics(chain(sigma), start(sigma), 1e6, {1, 0});
@@ -50,7 +50,7 @@ Arrivals in_extended_precision(double sigma) {
   return result;
 }
 
-/// Compares as far as both lists go, as the last events may belong to another scatterer.
+/// Whether all common elements of the lists are equal. The last event of a list may have no counterpart.
 bool same_order(const Arrivals& a, const Arrivals& b) {
   for (std::size_t cell = 0; cell < a.size(); ++cell) {
     const auto common = static_cast<std::ptrdiff_t>(std::min(a[cell].size(), b[cell].size()));
@@ -59,7 +59,8 @@ bool same_order(const Arrivals& a, const Arrivals& b) {
   return true;
 }
 
-// Programs restart the clock of a closed chain every 2^32 thermal flights. Finds: at 2^40.
+// Programs restart the clock of a closed chain every 2^32 thermal flights. Detected mistake: the clock runs
+// for 2^40 flights, where the order of events is wrong.
 TEST(Clock, KeepsTheOrderOfEventsAsLongAsItRuns) {
   for (const double sigma : {-0.9, 0.0, 0.5}) {
     const Arrivals exact = in_extended_precision(sigma);

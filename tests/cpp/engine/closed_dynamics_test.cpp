@@ -40,8 +40,8 @@ TEST(Simulate, TimesNeverDecreaseAndStayBeforeTheEnd) {
   EXPECT_LT(all.back().time, 5);
 }
 
-// Mirror images reach the scatterer at 1.5 at the same time, 0.25. The lower number goes first, and the
-// other particle meets the scatterer in its new state.
+// Two particles that are mirror images reach the scatterer at 1.5 at the same time, 0.25. The particle with
+// the lower number scatters first, and the other one meets the scatterer in its new state.
 TEST(Simulate, SimultaneousArrivalsGoInTheOrderOfTheParticles) {
   const ClosedChain chain{3, 1, 1, 0};
   const Particle left{1.25, 1}, right{1.75, -1}, elsewhere{0.25, 0};

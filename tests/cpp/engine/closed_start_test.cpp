@@ -25,7 +25,7 @@ double place(std::size_t index, const Particle& particle) {
   return particle.position / chain.cell_length - static_cast<double>(index / chain.particles_per_cell);
 }
 
-/// chi^2 of 100 equal bins.
+/// chi^2 of the positions in 100 equal bins.
 double evenness(const std::function<double(std::size_t)>& place_of) {
   std::vector<double> bins(100, 0);
   for (std::size_t i = 0; i < chain.particles(); ++i)
@@ -45,7 +45,7 @@ TEST(InitialState, PlacesParticlesEvenlyInTheirOwnCells) {
   }
   const auto place_of = [&](std::size_t i) { return place(i, point.particles[i]); };
   EXPECT_TRUE(plausible(evenness(place_of), 99));
-  // Finds: the last two hundredths of each cell are left out.
+  // Detected mistake: no particle starts in the last two hundredths of a cell.
   EXPECT_FALSE(plausible(evenness([&](std::size_t i) { return 0.98 * place_of(i); }), 99));
 }
 
@@ -63,7 +63,8 @@ TEST(InitialState, DrawsVelocitiesAtTheTemperatures) {
   EXPECT_TRUE(plausible(particles, chain.particles()));
   EXPECT_TRUE(plausible(scatterers, chain.cells));
   EXPECT_LT(std::abs(mean) / std::sqrt(temperatures.particles / chain.particles()), 4);
-  // Finds: the temperature taken as the mean energy u^2/2; the particles' temperature for scatterers.
+  // Detected mistakes: the temperature is the mean energy u^2/2; scatterers have the temperature of the
+  // particles.
   EXPECT_FALSE(plausible(particles / 2, chain.particles()));
   EXPECT_FALSE(plausible(scatterers * temperatures.scatterers / temperatures.particles, chain.cells));
 }
@@ -73,18 +74,19 @@ TEST(InitialState, ScatterersAreAtRestAtTemperatureZero) {
     EXPECT_EQ(scatterer, 0);
 }
 
-// That seeds and replicas share no number is tested in chance_test.cpp.
+// chance_test.cpp tests that different seeds and replicas share no number.
 TEST(InitialState, IsDrawnFromStreamsOfItsOwn) {
   const PhasePoint point = start(), again = start();
   const PhasePoint colder = closed_chain_start(chain, {500, 0}, false, {1, 0});
   for (std::size_t i = 0; i < point.particles.size(); ++i) {
     ASSERT_EQ(point.particles[i].position, again.particles[i].position);
     ASSERT_EQ(point.particles[i].velocity, again.particles[i].velocity);
-    ASSERT_EQ(point.particles[i].velocity, colder.particles[i].velocity);  // streams of their own
+    // The particles have streams of their own, so that the scatterers' temperature does not change them.
+    ASSERT_EQ(point.particles[i].velocity, colder.particles[i].velocity);
   }
 }
 
-// The bound is that of a sum of so many numbers in double precision.
+// The bound is the rounding error of a sum of that many numbers in double precision.
 TEST(InitialState, ShiftsTheTotalMomentumToZero) {
   for (const double sigma : {-1.0, -0.9, 0.0, 0.3, 1 - 1e-12, 1.0}) {
     ClosedChain other = chain;

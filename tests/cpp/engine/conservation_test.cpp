@@ -32,8 +32,8 @@ class Steps {
   /// grow with the root of the number of events.
   double as_random_walk() const { return static_cast<double>(total_ / std::sqrt(squares_)); }
 
-  /// The same when only the sums of different particles are independent: between scatterers that hardly
-  /// move, a particle's velocity and with it its rounding error repeat for thousands of collisions.
+  /// The score if only the sums of different particles are independent: between scatterers that hardly move,
+  /// a particle's velocity and its rounding error repeat for thousands of collisions.
   double as_walks_of_particles() const {
     long double squares = 0;
     for (const long double sum : of_particle_) squares += sum * sum;
@@ -64,7 +64,7 @@ struct Invariances {
 };
 
 struct Outcome {
-  double energy_drift = 0, momentum_drift = 0;  // relative, of the invariants themselves
+  double energy_drift = 0, momentum_drift = 0;  // relative changes of both invariants
   Invariances steps;
 };
 
@@ -114,8 +114,8 @@ Steps encounters(const Law& law, std::uint64_t events) {
   return energy;
 }
 
-// Finds: the reflection as printed, with c = sqrt(1-sigma^2) rounded. sigma^2 + c^2 differs from 1, so every
-// collision errs in the same direction.
+// Detected mistake: the reflection as printed in the paper, with c = sqrt(1-sigma^2) rounded. sigma^2 + c^2
+// differs from 1, so every collision has an error of the same sign.
 TEST(Conservation, ScoreFindsALinearDrift) {
   const double sigma = 0.5;
   const double c = std::sqrt((1 - sigma) * (1 + sigma));
@@ -139,7 +139,7 @@ TEST(Conservation, ScoreFindsALinearDrift) {
   EXPECT_NEAR(static_cast<double>(mutant.total() / part.total()), 10, tolerance);
 }
 
-// The engine's form, where M = 4 m, with 1+sigma = 8/5 as near as a double comes to it.
+// Detected mistake: the form of the engine at M = 4 m with 1+sigma = 8/5 rounded to the nearest double.
 TEST(Conservation, ScoreFindsTheResonanceOfAFractionOfFive) {
   const auto resonant = [](double& u, double& scatterer) {
     constexpr double heavy = 1.6, light = 2 - heavy;
@@ -150,8 +150,8 @@ TEST(Conservation, ScoreFindsTheResonanceOfAFractionOfFive) {
   EXPECT_GT(std::abs(encounters(resonant, ten_million).as_walks_of_particles()), 10);
 }
 
-/// Mean over its standard error of the energy that independent groups gain, relative, in so many encounters
-/// each. A drift too small for the steps of one group to show it grows with their number here.
+/// Mean relative energy gain of independent groups of encounters, in units of its standard error. A drift
+/// that is too small to be visible in one group is found with many.
 template <class Law>
 double mean_drift_score(const Law& law, int groups, std::uint64_t events) {
   std::vector<double> drifts;

@@ -23,15 +23,15 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 using Generator = std::mt19937_64;
 using Delay = std::function<double(Generator&)>;
 
-/// How long a flight lasts: 1/|g|^power with g normal, so that the mean does not exist for power >= 1,
-/// as for flights at the velocities of a chain.
+/// Duration of a flight: 1/|g|^power with g normal. Its mean does not exist for power >= 1, as for flights at
+/// the velocities of a chain.
 Delay heavy_tailed(double power) {
   return [power](Generator& generator) {
     return std::pow(std::abs(std::normal_distribution<double>()(generator)), -power);
   };
 }
 
-/// Few values and often 0: many arrivals at equal times.
+/// Durations with few different values, often 0, so that many arrivals have equal times.
 double quantised(Generator& generator) {
   return 0.25 * static_cast<double>(std::uniform_int_distribution<int>(0, 8)(generator));
 }
@@ -86,7 +86,8 @@ std::size_t compare_with_ordered_set(const Schedule& schedule, double rate) {
   return events;
 }
 
-/// The delays do not depend on the rate, so every guess meets the same schedule.
+/// Compares for several guesses of the rate. The delays do not depend on the guess, so the schedule is always
+/// the same.
 void compare_for_every_rate(const Schedule& schedule, double rate) {
   const std::size_t events = compare_with_ordered_set(schedule, rate);
   EXPECT_GT(events, schedule.population / 4);
@@ -96,7 +97,7 @@ void compare_for_every_rate(const Schedule& schedule, double rate) {
     EXPECT_EQ(compare_with_ordered_set(schedule, absurd), events) << "rate " << absurd;
 }
 
-// One particle, few, and a chain; at equal times by the number.
+// One particle, few particles, and the number of a chain. At equal times the lower number comes first.
 TEST(EventQueue, KeepsTheOrderOfArrivals) {
   for (const auto& [schedule, rate] :
        std::vector<std::pair<Schedule, double>>{{{1, 2000, heavy_tailed(1), 3, 100000}, 1},
@@ -110,15 +111,15 @@ TEST(EventQueue, KeepsTheOrderOfArrivals) {
     compare_for_every_rate(schedule, rate);
 }
 
-// The second is short, because in a queue that expects far too few events the lists grow as long as the
-// population.
+// The second population is small, because the lists of a queue that expects far too few events grow as long
+// as the population.
 TEST(EventQueue, KeepsTheOrderOfALargePopulation) {
   for (const double rate : {2e4, 2e10})
     EXPECT_GT(compare_with_ordered_set({20000, 40, heavy_tailed(1), 0.01, 150000}, rate), 150000U);
   compare_for_every_rate({20000, 1, heavy_tailed(1), 0.01, 150000}, 20000);
 }
 
-// Rates that change by orders of magnitude on the way: the width has to follow both ways.
+// The rate changes by orders of magnitude up and down, and the width of the bins has to follow.
 TEST(EventQueue, KeepsTheOrderWhileTheRateChanges) {
   double factor = 1;
   const auto changing = [&factor](Generator& generator) {
@@ -131,8 +132,8 @@ TEST(EventQueue, KeepsTheOrderWhileTheRateChanges) {
   }
 }
 
-// A steady rate, so that the width stays, and flights that outlast the revolutions of all lists: they go
-// back to their list when it is due.
+// At a steady rate the width of the bins stays constant. Some flights last longer than a revolution of all
+// lists, and return to their list until they are due.
 TEST(EventQueue, KeepsTheOrderOfFlightsBeyondTheLists) {
   const auto mixed = [](Generator& generator) {
     if (std::bernoulli_distribution(1e-3)(generator))
@@ -153,13 +154,13 @@ TEST(EventQueue, NeverReturnsArrivalsAtOrAfterTheEnd) {
   EXPECT_EQ(flight.particle, 4U);
   flight.time = end;
   queue.schedule(flight);
-  EXPECT_FALSE(queue.take_before(last, flight));  // strictly before
+  EXPECT_FALSE(queue.take_before(last, flight));  // takes only arrivals strictly before the limit
   ASSERT_TRUE(queue.take_before(end, flight));
   EXPECT_EQ(flight.particle, 1U);
   flight.time = infinity;
   queue.schedule(flight);
   for (const double until : {end, 9.0, 100.0, infinity}) EXPECT_FALSE(queue.take_before(until, flight));
-  EXPECT_EQ(queue.flights()[0].time, end);  // kept
+  EXPECT_EQ(queue.flights()[0].time, end);  // the flight is still in the queue
 }
 
 TEST(EventQueue, IsEmptyWithoutFlights) {
@@ -167,14 +168,14 @@ TEST(EventQueue, IsEmptyWithoutFlights) {
   EXPECT_FALSE(EventQueue({}, 1, 1).take_before(1, flight));
 }
 
-// Revolutions of a fraction of an event per particle: almost every flight waits in a list. The rate is about
-// right, or too low, so that the wheel is rebuilt on the way.
+// In a revolution with less than one event per particle almost every flight waits in a list. The expected
+// rate is about right, or too low, so that the wheel is rebuilt during the run.
 TEST(EventQueue, KeepsTheOrderWhereFlightsOutlastTheRevolution) {
   for (const double rate : {8e4, 8e3})
     EXPECT_GT(compare_with_ordered_set({80000, 40, heavy_tailed(1), 0.01, 300000}, rate), 300000U);
 }
 
-// Every flight that outlasts the revolution takes a new slot; the slots left behind are reused.
+// Every flight that outlasts the revolution takes a new slot; free slots are reused.
 TEST(EventQueue, TakesNoMoreMemoryInALongRun) {
   Generator generator(3);
   const Delay delay = heavy_tailed(1);
@@ -237,7 +238,8 @@ TEST(EventQueue, LetsParticlesEnterAndLeave) {
   }
 }
 
-// From few to 30000 particles: revolutions of many events per particle become revolutions of few.
+// The number of particles grows from few to 30000. Revolutions then contain few events per particle instead
+// of many.
 TEST(EventQueue, LetsThePopulationGrow) {
   for (const double rate : {1., 5000.})
     EXPECT_GT(compare_with_entries_and_exits(5000, 0, heavy_tailed(1), rate, 6), 30000U) << rate;

@@ -36,7 +36,7 @@ double chi_squared_of_cells(const FreeFlight& free_flight, double p) {
 TEST(FreeFlight, CellsAreGeometric) {
   const FreeFlight free_flight(chain_with(1), {3, 0}, chain_with(1).particles());
   EXPECT_GT(gsl_cdf_chisq_Q(chi_squared_of_cells(free_flight, 0.2), 19), 1e-4);
-  // Finds: a scattering probability larger by a twentieth.
+  // Detected mistake: the scattering probability is larger by a twentieth.
   EXPECT_LT(gsl_cdf_chisq_Q(chi_squared_of_cells(free_flight, 0.21), 19), 1e-4);
 }
 

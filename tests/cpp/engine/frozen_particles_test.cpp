@@ -33,8 +33,8 @@ TEST(FrozenParticles, TouchNothing) {
   }
 }
 
-// At sigma = 0 a particle takes over the velocity of the scatterer: the first to reach a scatterer at
-// rest stops there for ever, exactly one per scatterer.
+// At sigma = 0 a particle takes over the velocity of the scatterer. The first particle to reach a scatterer
+// at rest thus stops there for ever, so one particle per scatterer stops.
 TEST(FrozenParticles, AreThoseThatStop) {
   const ClosedChain chain{11, 20, 1, 0};
   const PhasePoint start = closed_chain_start(chain, {}, false, {4, 0});
@@ -46,7 +46,8 @@ TEST(FrozenParticles, AreThoseThatStop) {
   }
   EXPECT_EQ(std::count(stopped.begin(), stopped.end(), true), chain.cells);
 
-  // They stay where they stopped. Finds: the flight and position() disagree on the direction of u = 0.
+  // Stopped particles keep their positions. Detected mistake: the flight and position() use different
+  // directions for u = 0.
   ClosedDynamics dynamics(chain, start, 20, {1, 0});
   NoObserver nobody;
   simulate(dynamics, 20, nobody, nothing);

@@ -18,7 +18,7 @@ constexpr Reservoir bath{220, 900. / 11};
 constexpr double duration = 2, expected_count = 2 * 220;
 constexpr std::uint64_t replicas = 400;
 
-/// One value for each replica: what was injected until `duration`.
+/// Sums of the injected quantities until `duration`, one value per replica.
 struct Injections {
   std::vector<double> count, momentum, energy, fourth_power, slow;
 };
@@ -50,8 +50,9 @@ double z(const std::vector<double>& values, double exact) {
   return std::abs(support::z_score(support::sample(values), exact));
 }
 
-// [eq. 5], [eq. 6]. Finds: the energy that the paper injects, nu T per unit time; momenta of the flux of a
-// Maxwellian gas, |p| exp(-p^2/2T); a rate that is 3 % off.
+// Moments of the injected momenta [eqs. 5 and 6]. Detected mistakes: the injected energy is nu T per unit
+// time, as the paper states; momenta have the distribution |p| exp(-p^2/2T) of the flux of a Maxwellian gas;
+// the rate is 3 % too large.
 TEST(Injector, MomentaAreHalfGaussian) {
   const Injections seen = inject(bath, 7);
   EXPECT_LT(z(seen.count, expected_count), 4);
@@ -65,8 +66,9 @@ TEST(Injector, MomentaAreHalfGaussian) {
   EXPECT_GT(z(inject({1.03 * bath.rate, bath.temperature}, 7).count, expected_count), 4);
 }
 
-// The variance of the count is its mean; its own error is sqrt(2/R) of it. Finds: intervals as regular as
-// the sums of two exponentials, which halve the variance, or their square, which raises it.
+// The variance of a Poisson count equals its mean; the relative error of the variance is sqrt(2/R). Detected
+// mistakes: intervals are sums of two exponential ones, which halves the variance; intervals are squares of
+// exponential ones, which increases it.
 TEST(Injector, CountsArePoisson) {
   const double error = support::sample(inject(bath, 7).count).standard_error;
   const double variance = replicas * error * error;
@@ -81,7 +83,7 @@ TEST(Injector, IntervalsAreExponentialAndIndependent) {
   std::vector<double> interval, square, product_with_last, product_with_momentum;
   double before = 0, last = 0;
   for (int k = 0; k < 100'000; ++k) {
-    const double scaled = bath.rate * (injector.time() - before);  // mean 1
+    const double scaled = bath.rate * (injector.time() - before);  // its mean is 1
     before = injector.time();
     const double momentum = injector.take() / bath.mean_momentum();
     interval.push_back(scaled);

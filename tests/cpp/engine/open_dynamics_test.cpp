@@ -123,7 +123,7 @@ TEST(OpenDynamics, StopsInBetweenChangeNothing) {
   }
 }
 
-/// Sums over a window: marks reached, time spent, energy in and out, collisions.
+/// Sums over a window: crossed marks, time spent, energy entering and leaving, collisions.
 struct InWindow {
   Window window{};
   std::uint64_t marks = 0, collisions = 0;
@@ -148,8 +148,9 @@ struct InWindow {
   }
 };
 
-// The sums agree to the last digit, observed from the start or from the window on. Finds: no notification
-// of pending flights, or of pending exits, or notification of all flights of the relaxation.
+// The sums over the window are equal to the last digit, whether observed from the start or only from the
+// beginning of the window on. Detected mistakes: pending flights are not reported; pending exits are not
+// reported; all flights of the relaxation are reported.
 TEST(OpenDynamics, AnUnobservedRelaxationChangesNothing) {
   for (const double gamma : {infinity, 2., 0.}) {
     for (const double begin : {0., 1.7, 9.}) {
@@ -171,7 +172,8 @@ TEST(OpenDynamics, AnUnobservedRelaxationChangesNothing) {
   }
 }
 
-// At sigma = 0 the first particle that meets a scatterer at rest stops there for ever.
+// At sigma = 0 the first particle that meets a scatterer at rest stops there for ever. These particles are
+// reported although they stopped during the relaxation.
 TEST(OpenDynamics, ReportsThoseThatStoppedDuringTheRelaxation) {
   const OpenChain chain = chain_of(6, infinity, 0);
   OpenDynamics dynamics(chain, empty_start(chain), 30, {5, 0});

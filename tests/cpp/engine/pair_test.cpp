@@ -17,8 +17,8 @@ void expect_same(const Particle& a, const Particle& b, std::uint32_t number) {
   ASSERT_EQ(a.velocity, b.velocity) << number;
 }
 
-/// Every particle and scatterer: the diverged ones are those of the two simulations, which agree in the
-/// others.
+/// Expects the diverged particles and scatterers of the pair to equal those of the two simulations, and all
+/// others to be equal in both simulations.
 void expect_pair(const PairDynamics& pair, double time, const PhasePoint& plain,
                  const PhasePoint& perturbed) {
   std::vector<char> particle_diverged(plain.particles.size()), scatterer_diverged(plain.scatterers.size());

@@ -11,7 +11,7 @@ namespace path_test {
 
 using namespace lorentz;
 
-/// A flight between two of the marks 0...20, or from an opening, or from in between.
+/// A random flight that begins at an opening, at one of the marks 0...20, or between two of them.
 Path random_path(std::mt19937_64& generator) {
   std::uniform_int_distribution<int> mark(0, 20);
   std::uniform_real_distribution<double> uniform;
@@ -49,7 +49,7 @@ TEST(Path, WindowsAddUp) {
     const Path path = random_path(generator);
     std::vector<int> reached(21, 0);
     double duration = 0;
-    // Windows that also begin and end exactly at marks.
+    // The windows include those that begin or end exactly at marks.
     std::vector<double> edges{
         0, path.departure, path.time_at(path.first), path.time_at(path.last), path.arrival, 1e4};
     std::ranges::sort(edges);

@@ -57,7 +57,7 @@ void compare(const ClosedChain& chain, std::size_t events, std::uint64_t seed) {
   SCOPED_TRACE(testing::Message() << "sigma " << chain.sigma << ", " << chain.cells << " cells, "
                                   << chain.particles_per_cell << " particles per cell");
   const PhasePoint start = closed_chain_start(chain, {500, 100}, false, {seed, 0});
-  // The engine detunes sigma by a part in 1e11, which this comparison resolves.
+  // The engine changes sigma by a relative amount of 1e-11 on purpose, which this comparison resolves.
   const double sigma = Elastic(chain.sigma).sigma();
   auto simulator = reference::heap_simulator<Real>(sigma, chain.cell_length, start);
   const Real root_mass = std::sqrt(simulator.scatterer_mass());
@@ -92,8 +92,8 @@ TEST(SimulateAgainstReference, EveryCollision) {
   }
 }
 
-// With one cell every flight ends where it began; with two both neighbours are the same scatterer. One
-// particle and one scatterer exchange their energy back and forth.
+// In a ring of one cell every flight ends at the scatterer where it began; in one of two cells both
+// neighbours are the same scatterer. One particle and one scatterer exchange their energy back and forth.
 TEST(SimulateAgainstReference, SmallestChains) {
   for (const double sigma : sigmas) {
     compare<long double>({1, 2, 1, sigma}, 50, 3);

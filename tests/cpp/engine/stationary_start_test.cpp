@@ -48,14 +48,15 @@ double evenness(const PhasePoint& point, const Pair& pair_of) {
   return sum;
 }
 
-/// Fraction of the density exp(-p^2/2T)/p on p > slowest that is faster than a particle.
+/// Fraction of the density exp(-p^2/2T)/p on p > slowest at momenta above that of a particle.
 double faster(const Particle& particle) {
   const auto above = [](double p) { return gsl_sf_expint_E1(p * p / (2 * measure.temperature)); };
   return above(std::abs(particle.velocity)) / above(measure.slowest);
 }
 
-// Poissonian numbers: mean 2 zeta Lambda, variance as large, no covariance between neighbours. Finds: a
-// mean of 2 z Lambda, and the same number in every cell.
+// The numbers of particles are Poissonian: their mean is 2 zeta Lambda, their variance equals it, and
+// neighbouring cells are uncorrelated. Detected mistakes: the mean is 2 z Lambda; every cell has the same
+// number.
 TEST(StationaryStart, NumbersOfParticlesArePoissonian) {
   const std::vector<double> found = numbers(start());
   const double ratio = measure.slowest * measure.slowest / (2 * measure.temperature);
@@ -73,7 +74,8 @@ TEST(StationaryStart, NumbersOfParticlesArePoissonian) {
   EXPECT_LT(std::abs(products) / std::sqrt(cells), 4);
 }
 
-// Finds: momenta of the flux, p exp(-p^2/2T), without the factor of a particle's time in the cell.
+// Detected mistake: momenta have the density p exp(-p^2/2T) of the flux, without the factor of the time that
+// a particle spends in a cell.
 TEST(StationaryStart, SpeedsFollowTheirDensityIndependentlyOfPositions) {
   const PhasePoint point = start();
   const double length = chain.cells * chain.cell_length;
@@ -89,8 +91,9 @@ TEST(StationaryStart, SpeedsFollowTheirDensityIndependentlyOfPositions) {
                          399));
 }
 
-// Mean and variance of sums over particles (Campbell): of p^2 sign(p) the mean is 0, of p^2 it is 2 zeta T
-// per cell but for the cut. Finds: momenta to the right only.
+// Mean and variance of sums over the particles of a Poisson process (Campbell's theorem). The sum of p^2
+// sign(p) has the mean 0; that of p^2 has the mean 2 zeta T per cell apart from the cut. Detected mistake:
+// all momenta point to the right.
 TEST(StationaryStart, DirectionsAreEven) {
   const PhasePoint point = start();
   double signs = 0, flux = 0, squares = 0;
@@ -104,7 +107,7 @@ TEST(StationaryStart, DirectionsAreEven) {
   EXPECT_LT(std::abs(flux - chain.cells * 2 * zeta * T * std::exp(-cut)) / std::sqrt(squares), 4);
 }
 
-// Finds: U smaller by 10 %.
+// Detected mistake: U is 10 % too small.
 TEST(StationaryStart, ScatterersHaveTheTemperature) {
   double squares = 0;
   const PhasePoint point = start();
@@ -127,7 +130,7 @@ TEST(StationaryStart, DependsOnSeedAndReplicaOnly) {
   }
 }
 
-/// Collisions, and sum of U^2/T after a time, per cell, for several rings of 20 cells.
+/// Number of collisions per cell and sum of U^2/T per cell after a time, for several rings of 20 cells.
 std::pair<std::vector<double>, std::vector<double>> later(double time, double scatterers) {
   const ClosedChain ring{.cells = 20, .cell_length = 0.5, .sigma = -0.4};
   const StationaryMeasure fine{.fugacity = 3, .temperature = 4, .slowest = 1e-3};
@@ -146,8 +149,8 @@ std::pair<std::vector<double>, std::vector<double>> later(double time, double sc
   return {collisions, energies};
 }
 
-// A scatterer meets 2 times the integral of z exp(-p^2/2T) particles per time. Finds: scatterers that start
-// with U smaller by 40 %.
+// The rate of collisions of a scatterer is 2 times the integral of z exp(-p^2/2T). Detected mistake: U of the
+// scatterers is initially 40 % too small.
 TEST(StationaryStart, IsStationary) {
   const double time = 3, rate = 2 * 3 * std::sqrt(std::numbers::pi * 4 / 2);
   const auto [collisions, energies] = later(time, 1);

@@ -56,7 +56,7 @@ double largest_change(const Encounters& seen, auto&& value) {
   return largest;
 }
 
-/// Scores of the mean of products that vanish for independent normal u and U.
+/// Absolute z-scores of the means of products that vanish for independent normal u and U.
 std::vector<double> scores(const std::vector<Velocities>& all) {
   std::vector<std::vector<double>> products(7);
   for (const auto& [u, U] : all) {
@@ -70,7 +70,8 @@ std::vector<double> scores(const std::vector<Velocities>& all) {
   return scores;
 }
 
-// Of every rule. Finds: each of the three properties stated otherwise.
+// Every rule has the three properties that it declares. Detected mistakes: any of the three is declared
+// wrongly.
 TEST(Rules, HaveThePropertiesThatTheyState) {
   for (const RuleProperties& rule : rules::all) {
     for (const double sigma : sigmas) {
@@ -88,7 +89,7 @@ TEST(Rules, HaveThePropertiesThatTheyState) {
   }
 }
 
-// Finds: the energy shared unequally; the direction drawn with unequal probabilities.
+// Detected mistakes: the energy is shared unequally; the two directions have unequal probabilities.
 TEST(Rules, ScoresFindAnotherMeasure) {
   std::vector<Velocities> hotter = encounters(Elastic(0.5), 1).after, biased = hotter;
   for (Velocities& v : hotter) v.u *= 1.02;
@@ -107,7 +108,8 @@ TEST(Rules, AreMadeByName) {
   EXPECT_THROW(make_rule("elastic", 2), std::invalid_argument);
 }
 
-// The elastic collision in speed. Finds: the direction kept; the scatterer's drawn too.
+// The speeds after a collision are those of the elastic rule. Detected mistakes: the direction of the
+// particle is kept; the direction of the scatterer is drawn too.
 TEST(RandomDirection, IsElasticButForTheSignOfTheParticle) {
   const Encounters drawn = encounters(RandomDirection(0.4), 1), elastic = encounters(Elastic(0.4), 1);
   std::vector<double> changed;

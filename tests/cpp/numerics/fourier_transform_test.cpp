@@ -12,7 +12,7 @@ namespace fourier_transform_test {
 using namespace lorentz;
 using Complex = std::complex<double>;
 
-/// The definition, in extended precision.
+/// The Fourier transform by its definition, in extended precision.
 Complex direct(const std::vector<Complex>& f, std::size_t k) {
   std::complex<long double> sum = 0;
   for (std::size_t j = 0; j < f.size(); ++j) {
@@ -30,7 +30,7 @@ std::vector<Complex> noise(std::size_t length, bool real) {
   return f;
 }
 
-/// Every small length, products of all small primes, a square and a large prime.
+/// Test lengths: every small one, products of all small primes, a square and a large prime.
 std::vector<std::size_t> lengths() {
   std::vector<std::size_t> all;
   for (std::size_t length = 1; length <= 36; ++length) all.push_back(length);

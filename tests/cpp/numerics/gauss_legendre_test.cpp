@@ -19,7 +19,7 @@ double worst_error(const GaussRule& rule, int degree) {
   return integrals.cwiseAbs().maxCoeff();
 }
 
-// Finds: the rule with one node less; exactness one degree higher.
+// Detected mistakes: the rule has one node less; it is claimed to be exact for one degree more.
 TEST(GaussLegendre, IsExactUpToItsDegreeAndNoFurther) {
   for (const int order : {1, 2, 3, 5, 14, 20, 28, 40, 79}) {
     EXPECT_LT(worst_error(gauss_legendre(order), 2 * order - 1), 1e-13) << order;

@@ -33,7 +33,7 @@ MatrixXd well_conditioned(Index size, std::uint64_t seed) {
 
 VectorXd ones(Index size) { return VectorXd::Ones(size); }
 
-/// Solution of a x = b by GSL, in which LU decomposition is compiled already.
+/// Solution of a x = b by the LU decomposition of GSL, which needs no compilation here.
 VectorXd solve(const MatrixXd& a, VectorXd b) {
   MatrixXd lu = a.transpose();  // GSL stores rows
   const auto size = static_cast<std::size_t>(b.size());
@@ -58,7 +58,7 @@ MatrixXd cyclic_shift(Index size) {
   return matrix;
 }
 
-// Finds: no orthogonalisation against the last basis vector.
+// Detected mistake: vectors are not orthogonalised against the last basis vector.
 TEST(Gmres, SolvesASystemInAsManyStepsAsItHasDimensions) {
   for (const Index size : {1, 2, 5, 12}) {
     const MatrixXd a = well_conditioned(size, 1);
@@ -77,7 +77,7 @@ TEST(Gmres, TakesOneStepForEveryEigenvalue) {
   EXPECT_LT(residual(a, found.solution, ones(9)), 1e-12);
 }
 
-// Finds: y is returned instead of x = P y.
+// Detected mistake: y is returned instead of x = P y.
 TEST(Gmres, ThePreconditionerChangesTheStepsOnly) {
   const MatrixXd a = well_conditioned(12, 3);
   const VectorXd b = random_matrix(12, 1, 4);
@@ -91,8 +91,8 @@ TEST(Gmres, ThePreconditionerChangesTheStepsOnly) {
   EXPECT_LT((other.solution - exact).norm(), 1e-11 * exact.norm());
 }
 
-// The result minimises the residual over the Krylov space. Finds: the limit off by one; Givens rotations in
-// the wrong direction.
+// The result minimises the residual over the Krylov space. Detected mistakes: the limit of the steps is off
+// by one; Givens rotations have the wrong sign.
 TEST(Gmres, MinimisesTheResidualWithinTheLimit) {
   const MatrixXd a = well_conditioned(20, 6);
   const VectorXd b = random_matrix(20, 1, 7);
@@ -130,7 +130,8 @@ TEST(Gmres, NothingIsTheSolutionForNothing) {
   EXPECT_EQ(found.solution, VectorXd::Zero(3).eval());
 }
 
-// A singular system with a solution is solved; without one, the residual is not reported as small.
+// A singular system that has a solution is solved. If there is no solution, the residual is not reported as
+// small.
 TEST(Gmres, SolvesASingularSystemThatHasASolution) {
   const VectorXd v = random_matrix(6, 1, 10).normalized();
   const MatrixXd q = MatrixXd::Identity(6, 6) - 2 * v * v.transpose();  // a reflection

@@ -42,7 +42,7 @@ TEST(Random, UniformReadsTheWordsOfTheStreamInOrder) {
   }
 }
 
-// Box-Muller formula; the second block shows that each number takes two words.
+// The numbers follow the Box-Muller formula. The second block shows that each number uses two words.
 TEST(Random, GaussianTakesTwoWords) {
   RandomStream gaussians({3, 2}, Purpose::initial_position, 0),
       uniforms({3, 2}, Purpose::initial_position, 0);
@@ -111,7 +111,7 @@ TEST(Random, UniformHasTheMomentsOfTheUniformDistributionAndStaysInside) {
   EXPECT_TRUE(inside);
 }
 
-// Finds: two common errors of the radius in the Box-Muller formula, and the cosine of half the angle.
+// Detected mistakes: two common errors of the radius in the Box-Muller formula; the cosine of half the angle.
 TEST(Random, MomentsRejectWrongGaussians) {
   RandomStream stream({1, 0}, Purpose::initial_position, 0);
   const auto direction = [&] { return std::cos(2 * std::numbers::pi * stream.uniform()); };

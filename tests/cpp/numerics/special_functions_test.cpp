@@ -25,7 +25,7 @@ TEST(ChiSquareQuantile, AgreesWithGsl) {
       EXPECT_NEAR(chi_square_quantile(probability, degrees) / expected, 1, 1e-13)
           << degrees << ' ' << probability;
     }
-  // By SciPy: GSL's iteration does not converge.
+  // Values by SciPy, as the iteration of GSL does not converge here.
   EXPECT_NEAR(chi_square_quantile(0.025, 1e6), 1002773.701467926, 1e-6);
   EXPECT_NEAR(chi_square_quantile(0.95, 1e6), 997674.9632764738, 1e-6);
 }

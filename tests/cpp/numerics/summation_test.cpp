@@ -15,7 +15,7 @@ TEST(CompensatedSum, KeepsWhatRoundingLoses) {
   EXPECT_EQ(sum.value(), 4 + 0x1p-40);
 }
 
-// Finds: a plain sum leaves a rounding error.
+// Detected mistake: a plain sum, which leaves a rounding error.
 TEST(CompensatedSum, IsZeroWithoutItsOnlyTerm) {
   for (const double x : {0.7, 1e300, 1e-300, -3.0}) {
     CompensatedSum sum;

@@ -29,7 +29,7 @@ void write(const std::string& path, const std::string& content) {
   write_atomically(path, std::as_bytes(std::span(content)));
 }
 
-/// Both writing and the check before fail; the message names the file and the remedy.
+/// Expects that writing and the check before it fail with a message that names the file and the remedy.
 void expect_refused(const std::string& path, const std::string& remedy, std::size_t size = 100) {
   for (const bool ask_only : {true, false}) {
     try {
@@ -53,7 +53,7 @@ TEST(AtomicFile, WritesAndReplaces) {
   }
 }
 
-// Files of other names may be the user's own.
+// Files with other names are kept, as they may be the user's own.
 TEST(AtomicFile, RemovesWhatAKilledProcessLeftAnHourAgo) {
   const TemporaryFolder folder;
   const Names others{"file",

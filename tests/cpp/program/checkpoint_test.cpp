@@ -23,7 +23,7 @@ using support::TemporaryFolder;
 
 const std::string identity = "sigma = 0.5\nbuild_id = abc\n";
 
-/// A number and a pair, as in some_replicas().
+/// Tallies of a number and of a pair, as in some_replicas().
 const std::vector<Description> tallies{{"a", "1", "A number"},
                                        {"b", "momentum", "A pair", {{"i", "1", "", {0, 1}}}}};
 const ReplicaFile format{identity, tallies};
@@ -32,7 +32,7 @@ FinishedReplicas some_replicas() {
   return {{0, {{0.1, -0.0, 5e-324}, 3}}, {1, {{1e308, 2, 3}, 0}}, {1ULL << 40, {{-1, 1.0 / 3, 7}, ~0ULL}}};
 }
 
-/// A file of records.
+/// A checkpoint file of the records of replicas.
 struct Checkpoint {
   std::string path;
 
@@ -46,7 +46,7 @@ TEST(Checkpoint, GivesBackWhatWasSaved) {
   const TemporaryFolder folder;
   const Checkpoint checkpoint(folder / "a.h5.checkpoint");
   checkpoint.save({{5, {{1.0, 2.0, 3.0}, 1}}});
-  checkpoint.save(some_replicas());  // replaces the first
+  checkpoint.save(some_replicas());  // replaces the first checkpoint
   const FinishedReplicas loaded = load(checkpoint);
   const FinishedReplicas saved = some_replicas();
   ASSERT_EQ(loaded.size(), saved.size());

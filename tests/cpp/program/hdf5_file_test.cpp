@@ -67,7 +67,7 @@ TEST(Hdf5File, ReadsBackWhatWasWritten) {
   EXPECT_FALSE(file.has_attribute("/parameters", "absent", true));
 }
 
-// The checksums of Python's zlib.crc32 over path and bytes, one dataset after another.
+// The expected values are those of Python's zlib.crc32 over path and bytes, one dataset after another.
 TEST(Hdf5File, DigestsDatasetsInTheOrderOfTheirPaths) {
   const auto digest = [](double value) {
     Hdf5Writer file;
@@ -80,7 +80,7 @@ TEST(Hdf5File, DigestsDatasetsInTheOrderOfTheirPaths) {
   EXPECT_NE(digest(2.0000000000000004), digest(2));
 }
 
-// Checked with the HDF5 library: a number is a 0-d dataset, not an array of one element.
+// The HDF5 library checks that a number is a 0-d dataset, not an array of one element.
 TEST(Hdf5File, GivesDatasetsTheirShape) {
   const TemporaryFolder folder;
   write_atomically(folder / "a.h5", image());

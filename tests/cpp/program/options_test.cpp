@@ -73,8 +73,8 @@ TEST(Options, AcceptTheEndsOfTheirRanges) {
   EXPECT_FALSE(example.options.given("--threads"));
 }
 
-// 0.002877 is so close to the midpoint of two doubles that double rounding, through extended precision, gives
-// the wrong one. A leading zero does not mean octal.
+// 0.002877 is so close to the midpoint of two doubles that rounding first to extended precision and then to
+// double gives the wrong one. A leading zero does not mean octal.
 TEST(Options, ReadNumbersAsTheCompilerDoes) {
   Example example;
   EXPECT_FALSE(
@@ -164,7 +164,8 @@ TEST(Options, RecordWhatDeterminesTheResultSortedByName) {
 TEST(Options, DescribeThemselves) {
   const auto expect_member = [](const std::string& text) {
     Example example;
-    example.parse({"--sigma", "0.25", "--gamma", "7", "--start", "warm"});  // defaults are those declared
+    // The described defaults are the declared ones, not these values.
+    example.parse({"--sigma", "0.25", "--gamma", "7", "--start", "warm"});
     EXPECT_NE(example.options.describe().find(text), std::string::npos) << example.options.describe();
   };
   expect_member(R"([{"name": "sigma", "type": "number", "description": "Mass ratio", "minimum": -1.0, )"

@@ -55,7 +55,7 @@ TEST_F(Parts, MeasureTheirReplicasAlone) {
   EXPECT_EQ(measured, (std::set<std::uint64_t>{4, 5, 6}));
   measured.clear();
   EXPECT_EQ(join_parts(remember, {"--threads", "1"}), 0);
-  EXPECT_EQ(measured.size(), 13U);  // the rest
+  EXPECT_EQ(measured.size(), 13U);  // only the replicas that no part has
   EXPECT_TRUE(joined_is_whole());
 }
 
@@ -82,7 +82,7 @@ TEST_F(Parts, OfOtherOptionsOrReplicasAreKept) {
     return run(with(arguments, {"--output", folder / "a.part"}));
   };
   EXPECT_EQ(measure_into({"--part", "0-3"}), 0);
-  EXPECT_EQ(measure_into({"--part", "0-3"}), 0);  // the same content
+  EXPECT_EQ(measure_into({"--part", "0-3"}), 0);  // the file has the requested content already
   EXPECT_EQ(measure_into({"--part", "0-4"}), 2);
   EXPECT_EQ(measure_into({"--part", "0-3", "--seed", "2"}), 2);
   EXPECT_NE(complaints.find("--overwrite"), std::string::npos) << complaints;

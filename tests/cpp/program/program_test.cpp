@@ -33,8 +33,8 @@ TEST(Program, ErrorsLeaveNothingBehind) {
   EXPECT_EQ(folder.names(), Names{});
 }
 
-// Runs in a separate process, which a signal ends. Neither replica has a heartbeat: the first three are too
-// short, and the fourth is being set up.
+// The program runs in a separate process, which a signal ends. No replica has a heartbeat: the first three
+// are too short, and the fourth is interrupted during its setup.
 TEST(ProgramDeathTest, SignalsEndTheRunWithACheckpoint) {
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
     const TemporaryFolder folder;
@@ -46,7 +46,7 @@ TEST(ProgramDeathTest, SignalsEndTheRunWithACheckpoint) {
       return measure(replica);
     };
     const auto run = [&] {
-      ::signal(SIGHUP, SIG_DFL);  // which nohup has these tests ignore
+      ::signal(SIGHUP, SIG_DFL);  // under nohup these tests would ignore it
       run_program({"--output", folder / "a.h5", "--threads", "1"}, [&] { return study_of(killed); });
     };
     EXPECT_EXIT(run(), testing::ExitedWithCode(128 + number), "");

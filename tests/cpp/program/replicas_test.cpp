@@ -70,7 +70,7 @@ TEST(Replicas, FinishTheLowestIndicesBeforeADeadline) {
   }
 }
 
-// Finds: a tally that is never filled gives 0 in every result.
+// Detected mistake: a tally that is never filled, which would be 0 in every result.
 TEST(Replicas, WithATallyThatIsNeverFilledAreRefused) {
   struct Tallies : TallySchema {
     ScalarTally value = tally("value", "1", "A number");

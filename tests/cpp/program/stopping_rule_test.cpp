@@ -15,9 +15,9 @@ namespace stopping_rule_test {
 using namespace lorentz;
 
 constexpr int seeds = 3000;
-constexpr double significant = 4;  // standard errors
+constexpr double significant = 4;  // significance threshold in standard errors
 
-/// Record of two sums, the ratio of whose means is estimated; the second one is 1 where a mean is estimated.
+/// Record of two sums y and x; the ratio of their means is estimated. x is 1 if a mean is estimated.
 struct Record {
   double y, x;
 };
@@ -59,7 +59,7 @@ Law ratio() {
   return {1, std::sqrt(std::expm1(0.25) + std::expm1(0.0625)), NAN, draw, true};
 }
 
-/// Sums over records, the ratio of means, and its standard error by the delta method.
+/// Sums over records, which give the ratio of means and its standard error by the delta method.
 struct Sample {
   double replicas = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
 
@@ -78,8 +78,8 @@ struct Sample {
 using Looks = std::function<std::uint64_t(std::uint64_t)>;
 using Stop = std::function<bool(std::uint64_t, double)>;
 
-/// Adds records look by look until `stop`, a function of their number and of the error over the target, ends
-/// it.
+/// Adds records from look to look until `stop`, a function of their number and of the error over the target,
+/// is true.
 Sample until(const Law& law, double target, const Looks& next, const Stop& stop, std::mt19937_64& generator) {
   Sample sample;
   for (std::uint64_t look = next(0);; look = next(look)) {
@@ -92,11 +92,11 @@ Sample until(const Law& law, double target, const Looks& next, const Stop& stop,
 /// Statistics of many runs whose target is the error of `ideal` replicas.
 struct Runs {
   double inside[2] = {0, 0};   // parts of the runs within 1 and 2 standard errors of the truth
-  double student[2] = {0, 0};  // the same for normal records
+  double student[2] = {0, 0};  // these fractions for normal records
   double reached = 0;          // part whose true error is within the target
   double bias = 0;             // mean deviation
   double bias_error = 0;
-  double expected_bias = 0;  // by the delta method
+  double expected_bias = 0;  // bias by the delta method
 };
 
 Runs many(const Law& law, double ideal, const Looks& next, const Stop& stop) {
@@ -125,7 +125,8 @@ Runs by_rule(const Law& law, double ideal, std::uint64_t batch) {
   return many(law, ideal, [&](std::uint64_t used) { return rule.next_look(used); }, &StoppingRule::reached);
 }
 
-/// Finds: a run ends as soon as the error is below the target, from the first batch of two or more on.
+/// Mutant that ends a run as soon as the error is below the target, from the first batch with at least two
+/// replicas on.
 Runs at_once(const Law& law, double ideal, std::uint64_t batch) {
   const auto next = [=](std::uint64_t used) { return std::max<std::uint64_t>(used + batch, 2); };
   return many(law, ideal, next, [](std::uint64_t, double excess) { return excess <= 1; });
@@ -162,7 +163,7 @@ TEST(StoppingRule, StoppedRunsCoverLikeStudentsLawWhereRecordsAreNormal) {
   }
 }
 
-// The increase of errors by a target for skewed records is at most that from 32 replicas instead of 64.
+// For skewed records a target increases the true error at most as much as 32 replicas given in advance would.
 TEST(StoppingRule, StoppedRunsOfSkewedRecordsCoverLikeThirtyTwoReplicasGivenInAdvance) {
   for (const Law& law : {exponential(true), exponential(false), lognormal(), ratio()}) {
     const Runs standard = given_in_advance(law, 32);
@@ -195,7 +196,7 @@ TEST(StoppingRule, BiasOfStoppedMeans) {
   EXPECT_LT(mutant.bias - runs.bias, -significant * std::hypot(runs.bias_error, mutant.bias_error));
 }
 
-/// Forecasts at the first look compared with the actual ends; runs that end at that look are excluded.
+/// Predictions at the first look compared with the actual ends. Runs that end at that look are excluded.
 struct Predicted {
   double runs = 0, within = 0, as_likely = 0;
 };
@@ -233,7 +234,7 @@ TEST(StoppingRule, RunsEndWhereTheFirstLookForetells) {
       EXPECT_GT(found.runs, 100);
       EXPECT_GT(excess(found.within, found.runs), -significant)
           << batch << ' ' << ideal << ": " << found.within;
-      EXPECT_LT(excess(found.as_likely, found.runs), -significant);  // finds: no range
+      EXPECT_LT(excess(found.as_likely, found.runs), -significant);  // detected mistake: no range is stated
     }
 }
 

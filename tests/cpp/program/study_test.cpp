@@ -153,7 +153,8 @@ TEST(Study, ReplacesNoResultOfOtherOptions) {
   const TemporaryFolder folder;
   const Arguments a{"--output", folder / "a.h5"};
   EXPECT_EQ(run(a), 0);
-  EXPECT_EQ(run(with(a, {"--threads", "2"})), 0);  // the result is the same
+  // The existing result does not depend on the number of threads.
+  EXPECT_EQ(run(with(a, {"--threads", "2"})), 0);
   const std::string before = content_of(folder / "a.h5");
   expect_refused_run(with(a, {"--seed", "2"}), {"another --seed", "--overwrite"});
   EXPECT_EQ(content_of(folder / "a.h5"), before);
@@ -184,7 +185,7 @@ TEST(Study, StopsAtTheTargetErrorOnABatchBoundary) {
   const Quantity before = study_of(measure).groups[0].estimate(fewer)[0];
   EXPECT_FALSE(reached(count - 8, before.mean[0], before.standard_error[0]));
 
-  EXPECT_EQ(run_with({"--target-error", "10"}), 0);  // never with fewer than 64
+  EXPECT_EQ(run_with({"--target-error", "10"}), 0);  // a run has never fewer than 64 replicas
   EXPECT_EQ(replicas_in(folder / "a.h5"), 64U);
   EXPECT_EQ(run_with({"--target-error", "1e-6", "--time-limit", "1e-9"}), 4);
   EXPECT_EQ(replicas_in(folder / "a.h5"), 2U);
@@ -252,7 +253,7 @@ TEST(Study, UsesTheLowestIndicesAtTheTimeLimitOfAResumedRun) {
   EXPECT_EQ(replicas_in(folder / "a.h5"), 2U);
 }
 
-// Before anything is measured.
+// A run without its target quantity is refused before anything is measured.
 TEST(Study, WithoutItsTargetIsRefused) {
   const TemporaryFolder folder;
   const auto without_target = [] {

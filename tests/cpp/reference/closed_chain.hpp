@@ -97,7 +97,7 @@ class ClosedChainWatch {
 
   const ClosedChain& setting_;
   std::vector<Tagged> particles_;
-  std::vector<double> scatterers_;  // P
+  std::vector<double> scatterers_;  // momenta P
   std::vector<long> counts_;
   long scatterings_ = 0, persistent_ = 0;
 };

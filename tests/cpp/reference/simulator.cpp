@@ -11,7 +11,7 @@
 
 namespace {
 
-/// Declares a simulator, of which run() is executed.
+/// Subcommand whose options are those of a simulator, and which executes its run().
 template <class Simulator>
 class Command {
  public:

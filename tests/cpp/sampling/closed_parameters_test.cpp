@@ -11,7 +11,8 @@ namespace closed_parameters_test {
 using namespace lorentz;
 using support::refused_as;
 
-// Finds: scatterers left out, without their mass, or a mean with zero total momentum.
+// Detected mistakes: the scatterers are left out; their mass is left out; a mean is stated although the total
+// momentum is set to zero.
 TEST(ClosedParameters, MeansOfTheStart) {
   ClosedParameters parameters;  // 220 particles at 500; M = 3
   EXPECT_EQ(parameters.mean_square_momentum(), 220 * 500);
@@ -24,7 +25,8 @@ TEST(ClosedParameters, MeansOfTheStart) {
   EXPECT_FALSE(parameters.mean_energy().has_value());
 }
 
-// Finds: the temperature of the particles in place of the higher one, and the other way round.
+// Detected mistakes: the clock follows from the temperature of the particles instead of the higher one; the
+// thermal flight of a particle follows from the higher temperature instead of that of the particles.
 TEST(ClosedParameters, TimesFollowFromSpeeds) {
   const ClosedParameters parameters{
       .ring = {.cell_length = 2}, .temperature = 4, .scatterer_temperature = 16};
@@ -33,7 +35,8 @@ TEST(ClosedParameters, TimesFollowFromSpeeds) {
   EXPECT_EQ(parameters.thermal_flight(), 1);
 }
 
-// Finds: the observation alone in place of the end; flights_of_one_clock in place of flights_of_a_year.
+// Detected mistakes: only the observation time is limited, not the end of the run; the limit of the thermal
+// flights is flights_of_one_clock instead of flights_of_a_year.
 TEST(ClosedParameters, AreRefusedTogether) {
   ClosedParameters parameters{.temperature = 1, .relaxation_time = 0, .observation_time = 9e14};
   EXPECT_NO_THROW(validate(parameters));

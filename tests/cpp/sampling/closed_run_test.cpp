@@ -34,9 +34,9 @@ Errors finished(const ClosedRun& run) {
   return {events, sums[tallies.energy_drift], sums[tallies.momentum_drift]};
 }
 
-// Particles that are too slow to arrive: nothing happens, and nothing drifts. The clock restarts after 2^32
-// thermal flights of the scatterers, 232 times here. Finds: the clock not restarted; clock_start_ not
-// moved.
+// The particles are too slow to reach a scatterer, so that nothing happens and nothing drifts. The clock
+// restarts every 2^32 thermal flights of the scatterers, here 232 times. Detected mistakes: the clock is not
+// restarted; clock_start_ is not moved.
 TEST(ClosedRun, WithoutScatterings) {
   const ClosedParameters parameters{
       .temperature = 1e-50, .scatterer_temperature = 1, .relaxation_time = 5e11, .observation_time = 5e11};
@@ -55,8 +55,8 @@ TEST(ClosedRun, WithoutScatterings) {
   EXPECT_EQ(errors.momentum, 0);
 }
 
-// Finds: the relaxation observed; a start of 0 energy or momentum in place of that of the chain, which
-// makes the errors 1 and 0.02; events since the relaxation only.
+// Detected mistakes: the relaxation is observed; errors are relative to an initial energy or momentum of 0,
+// which makes them 1 and 0.02; only events after the relaxation are counted.
 TEST(ClosedRun, ObservesAfterTheRelaxationAndConserves) {
   for (const double sigma : {-0.7, 0., 0.5, 0.9}) {
     const ClosedParameters parameters{
@@ -76,7 +76,7 @@ TEST(ClosedRun, ObservesAfterTheRelaxationAndConserves) {
   }
 }
 
-// Momentum is not conserved if directions are drawn; energy is.
+// If directions are drawn, energy is conserved and momentum is not.
 TEST(ClosedRun, ReportsThatNoMomentumIsConserved) {
   const ClosedParameters parameters{.ring = {.scattering = {.cells = 11, .rule = "random-direction"}},
                                     .relaxation_time = 0,
@@ -91,9 +91,9 @@ TEST(ClosedRun, ReportsThatNoMomentumIsConserved) {
   EXPECT_NE(run.energy_control(), 0);
 }
 
-// Over replicas the controls have mean 0, and the variance of a normal square and of a sum of 9 normal
-// squares. Finds: the mean of the particles alone, by which both are off by far as M = 19; the momentum not
-// squared.
+// Over replicas the controls have the mean 0; their variances are those of the square of a normal number and
+// of a sum of 9 such squares. Detected mistakes: the subtracted mean is that of the particles alone, which is
+// far off for M = 19; the momentum is not squared.
 TEST(ClosedRun, ControlsHaveMeanZero) {
   const ClosedParameters parameters{
       .ring = {.scattering = {.cells = 3, .sigma = 0.9}, .particles_per_cell = 2},
@@ -112,7 +112,7 @@ TEST(ClosedRun, ControlsHaveMeanZero) {
   EXPECT_NEAR(support::sample(momenta).standard_error * std::sqrt(2000), std::sqrt(2), 0.2);
 }
 
-// Finds: a control of -1 where the mean is 0 or not known.
+// Detected mistake: the control is -1 if its mean is 0 or unknown.
 TEST(ClosedRun, HasNoControlsWithZeroTotalMomentum) {
   const ClosedParameters parameters{.zero_total_momentum = true};
   const ClosedRun run(parameters, replica);
@@ -120,7 +120,7 @@ TEST(ClosedRun, HasNoControlsWithZeroTotalMomentum) {
   EXPECT_EQ(run.energy_control(), 0);
 }
 
-// Finds: the two exchanged.
+// Detected mistake: energy drift and momentum drift are exchanged.
 TEST(ConservationErrors, AreMeansOverReplicas) {
   const ClosedTallies tallies;
   Records records(tallies.width());

@@ -12,7 +12,8 @@ using namespace lorentz;
 constexpr OpenChain chain{
     .cells = 3, .left = {.rate = 5, .temperature = 2}, .right = {.rate = 0, .temperature = 8}};
 
-// Finds: u in place of |u|; u^2 without the half; both ends in one.
+// Detected mistakes: u is summed in place of |u|; the energy is u^2 instead of u^2/2; both ends are added
+// together.
 TEST(InjectionControls, SumWhatEachReservoirInjects) {
   InjectionControls controls;
   controls.add(End::right, -3);
@@ -23,7 +24,8 @@ TEST(InjectionControls, SumWhatEachReservoirInjects) {
   EXPECT_EQ(found[5], 5);
 }
 
-// Finds: the duration left out; the means of the other reservoir.
+// Detected mistakes: the mean is not multiplied by the duration; the means of the other reservoir are
+// subtracted.
 TEST(InjectionControls, SubtractTheKnownMeans) {
   InjectionControls controls;
   controls.add(End::left, 4);

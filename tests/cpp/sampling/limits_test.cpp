@@ -15,7 +15,8 @@ using support::refusal, support::refused_as;
 
 constexpr Reservoir bath(double temperature) { return {1, temperature}; }
 
-// Finds: an open bound; !(value < low || value > high), which accepts NaN.
+// Detected mistakes: a bound itself is refused; the condition is !(value < low || value > high), which
+// accepts NaN.
 TEST(Limits, AcceptTheirBoundsAndNothingBeyond) {
   const auto check = [](double value) {
     return refusal([&] { require_within(value, 1, 2, "--a, --b", "their product"); });
@@ -30,7 +31,7 @@ TEST(Limits, AcceptTheirBoundsAndNothingBeyond) {
   EXPECT_NE(check(std::numeric_limits<double>::quiet_NaN()), "");
 }
 
-// Finds: one reservoir only.
+// Detected mistake: only one of the reservoirs is checked.
 TEST(Limits, OfTemperaturesWhoseFourthPowersOfMomentaAreStored) {
   const auto check = [](double left, double right) {
     return refusal([&] { require_fourth_powers(bath(left), bath(right)); });
@@ -41,7 +42,8 @@ TEST(Limits, OfTemperaturesWhoseFourthPowersOfMomentaAreStored) {
   EXPECT_NE(check(1e-141, 1), "");
 }
 
-// Finds: one reservoir only; the rate or the window only; another power.
+// Detected mistakes: only one of the reservoirs is checked; only the rate or only the window is checked;
+// another power of the temperature is checked.
 TEST(Limits, OfCurrents) {
   const auto check = [](Reservoir left, Reservoir right, double duration, int power) {
     return refusal([&] { require_finite_currents({.left = left, .right = right}, duration, power); });
@@ -82,10 +84,10 @@ TEST(Limits, NameTheOptionsThatLeadBeyondThem) {
   EXPECT_NO_THROW(require_representable(extent));
   extent.end_time = 1.01e10;
   EXPECT_TRUE(refused("--until: the number of thermal flights of one particle", extent));
-  extent.hottest = 0.25;  // half as fast
+  extent.hottest = 0.25;  // particles of half the speed
   EXPECT_NO_THROW(require_representable(extent));
 
-  // 2e299 * 50 flights * particles.
+  // The sum of all energies is 2e299 * 50 flights * particles.
   extent = {2e299, 2e149, 50 * 2e149 / std::sqrt(2e299), 1e2, 1e10, "--hot", "--until"};
   EXPECT_NO_THROW(require_representable(extent));
   extent.particles = 1e4;
@@ -98,7 +100,7 @@ TEST(Limits, OfTheSizeOfARecord) {
             "--cells, --bins: a replica would keep 2e+08 values, more than 1e8. Choose fewer of either.");
 }
 
-// Finds: the product in 32 bits, which is 0 for 65536 times 65536.
+// Detected mistake: the product is calculated in 32 bits, where 65536 times 65536 is 0.
 TEST(Limits, OfTheNumberOfParticles) {
   const auto check = [](std::uint32_t cells, std::uint32_t particles_per_cell) {
     return refusal([&] {

@@ -10,7 +10,7 @@ namespace momentum_bins_test {
 
 using namespace lorentz;
 
-// Finds: the edges on the axis; bins from 0 on.
+// Detected mistakes: the axis has the edges instead of the middles of the bins; bins begin at 0.
 TEST(MomentumBins, LieAboutZero) {
   const MomentumBinParameters parameters{.count = 4, .max = 2};
   const Axis axis = momentum_axis(parameters.bins());
@@ -20,7 +20,7 @@ TEST(MomentumBins, LieAboutZero) {
   EXPECT_EQ(parameters.bins().edge(2), 0);
 }
 
-// Finds: the last edge in place of the width; no lower or no upper limit.
+// Detected mistakes: the last edge is limited in place of the width; there is no lower or no upper limit.
 TEST(MomentumBins, HaveEdgesThatAreNumbers) {
   const auto check = [](double width) {
     return support::refusal([&] { validate(MomentumBinParameters{.count = 100'000, .max = 5e4 * width}); });

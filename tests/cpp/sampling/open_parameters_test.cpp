@@ -9,7 +9,7 @@ namespace open_parameters_test {
 using namespace lorentz;
 using support::refused_as;
 
-// Finds: empty and warm exchanged.
+// Detected mistake: the starts empty and warm are exchanged.
 TEST(OpenParameters, Starts) {
   OpenParameters parameters{.scattering = {.cells = 5}};
   EXPECT_GT(parameters.start_point(10, {1, 0}).particles.size(), 10U);
@@ -19,7 +19,7 @@ TEST(OpenParameters, Starts) {
   EXPECT_EQ(empty.scatterers, std::vector<double>(5, 0));
 }
 
-// Finds: cold and hot exchanged; the left reservoir for both.
+// Detected mistakes: the starts cold and hot are exchanged; both use the left reservoir.
 TEST(OpenParameters, StartsFromEquilibriumWithOneReservoir) {
   const auto temperature = [](const OpenParameters& parameters) {
     double sum = 0;
@@ -27,7 +27,7 @@ TEST(OpenParameters, StartsFromEquilibriumWithOneReservoir) {
     return sum / parameters.scattering.cells;
   };
   OpenParameters parameters{.scattering = {.cells = 20'000}, .cell_length = 1e-4};
-  constexpr double error = 0.01;  // sqrt(2/cells), relative
+  constexpr double error = 0.01;  // relative standard error, sqrt(2/cells)
   for (const bool mirrored : {false, true}) {
     parameters.left.temperature = mirrored ? 900 : 100;
     parameters.right.temperature = mirrored ? 100 : 900;
@@ -46,22 +46,23 @@ StationaryParameters stationary(Scaled relaxation_time, Scaled observation_time)
   return parameters;
 }
 
-// Finds: the observation counted from 0.
+// Detected mistake: the observation is counted from 0 instead of the end of the relaxation.
 TEST(OpenParameters, WindowFollowsTheRelaxation) {
   const Window window = stationary({{0, 2, 0}}, {{3, 0, 0}}).window();
   EXPECT_EQ(window.begin, 10);
   EXPECT_EQ(window.end, 13);
 }
 
-// Finds: a stay as long as the run; the hotter reservoir alone.
+// Detected mistakes: every particle is assumed to stay for the whole run; only the hotter reservoir is
+// checked.
 TEST(OpenParameters, AreRefusedTogether) {
   const auto refused = [](const std::string& beginning, const OpenParameters& parameters, double end) {
     return refused_as(beginning, [&] { validate(parameters, end, "--times"); });
   };
   EXPECT_NO_THROW(validate(OpenParameters{}, 1000, "--times"));
 
-  // 1e8 particles per unit time stay for 50 L/sqrt(T) = 5.5 on a chain of length 1, for 100 on one of
-  // length 30.
+  // 1e8 particles per unit time stay for a time 50 L/sqrt(T), which is 5.5 on a chain of length 1 and longer
+  // than the run of 100 on one of length 30.
   OpenParameters parameters{.left = {1e8, 900. / 11}};
   EXPECT_NO_THROW(validate(parameters, 100, "--times"));
   parameters.cell_length = 1;
@@ -75,7 +76,7 @@ TEST(OpenParameters, AreRefusedTogether) {
       refused("--temperature-left, --temperature-right: the highest temperature", {.right = {1, 1e301}}, 1));
 }
 
-// Finds: the relaxation in place of the end.
+// Detected mistake: the relaxation time is compared in place of the end of the run.
 TEST(OpenParameters, WindowsAreNotTooShort) {
   EXPECT_NO_THROW(validate(stationary({{1e5}}, {{1e-4}})));
   EXPECT_TRUE(refused_as("--relaxation-time, --observation-time: the end of the run over the time",

@@ -20,7 +20,7 @@ constexpr std::size_t cells = 4;
 constexpr std::uint64_t replicas = 300;
 const Window window{2, 12};
 
-/// By quantity, the values of all replicas: temperatures of the scatterers, currents through the bonds.
+/// Values of all replicas by quantity: temperatures of the scatterers, then currents through the bonds.
 using Values = std::vector<std::vector<double>>;
 
 OpenParameters parameters(const std::string& rule, std::optional<double> gamma) {
@@ -73,7 +73,7 @@ double largest_score(const Values& a, const Values& b) {
   return largest;
 }
 
-// Finds: the other rule; another gamma; one direction for all collisions of a cell.
+// Detected mistakes: another collision rule; another gamma; one drawn direction for all collisions of a cell.
 TEST(OpenRule, HasTheTemperaturesAndCurrentsOfTheReference) {
   for (const std::optional<double> gamma : {std::optional<double>{}, std::optional(2.)}) {
     const Values drawn = of_reference(true, gamma.value_or(cells)),

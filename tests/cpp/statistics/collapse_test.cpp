@@ -11,7 +11,7 @@ namespace collapse_test {
 
 using namespace lorentz;
 
-/// Profiles y = t^-xi f(x/t^xi) of an asymmetric f, with Gaussian noise.
+/// Profiles y = t^-xi f(x/t^xi) of an asymmetric function f, with Gaussian noise.
 std::vector<Profile> scaling_profiles(double xi, double noise, std::uint64_t seed) {
   RandomStream random({seed, 0}, Purpose::initial_position, 0);
   std::vector<Profile> profiles;

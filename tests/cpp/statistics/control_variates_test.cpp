@@ -28,7 +28,7 @@ Records noisy(std::size_t size, double noise, std::uint64_t seed) {
   return records;
 }
 
-/// Coefficients c of the least |A c - y|^2 for a row-major A with three columns.
+/// Coefficients c that minimise |A c - y|^2 for a row-major A with three columns.
 std::array<double, 3> least_squares(const std::vector<double>& design, const std::vector<double>& y) {
   std::array<double, 3> c{};
   std::array<double, 9> covariance{};
@@ -143,7 +143,8 @@ TEST(ControlVariates, AreUsedOnlyIfTheyHelp) {
   EXPECT_TRUE(*reduce_variance(noisy(30, 0.5, 1), {support::on_last(noisy(30, 0.5, 1), 2)}).control_variates);
 }
 
-/// A column that the controls determine would become a constant with an error of 0.
+/// A column that is a linear function of the controls stays unchanged; regression would make it a constant
+/// with an error of 0.
 TEST(ControlVariates, LeaveColumnsThatTheyDetermine) {
   const Records source = noisy(30, 0.5, 1);
   Records records(4);  // measured, determined, two controls

@@ -23,8 +23,8 @@ TEST(Fit, FindsExactLinesAndPowers) {
   EXPECT_NEAR(fit_power(x, power, 2, 5), -2.0 / 3, 1e-13);
 }
 
-// For points off a line, the slope is cov(x, y)/var(x). Finds: the line through the first and the last
-// point.
+// For points that are not on a line the slope is cov(x, y)/var(x). Detected mistake: the line through the
+// first and the last point.
 TEST(Fit, WeighsAllPointsEqually) {
   const std::vector<double> x = {0, 1, 2, 3}, y = {0, 2, 1, 1};
   const Line line = fit_line(x, y);
@@ -32,7 +32,8 @@ TEST(Fit, WeighsAllPointsEqually) {
   EXPECT_NEAR(line.intercept, 0.7, 1e-15);
 }
 
-// The range includes both of its ends and nothing beyond. Finds: one end excluded; all points used.
+// The range of the fit includes both of its ends and nothing beyond. Detected mistakes: an end is excluded;
+// all points are used.
 TEST(Fit, PowersUseTheirRangeOnly) {
   const std::vector<double> x = {1, 2, 4, 8}, y = {1000, 1, 16, 0};
   EXPECT_NEAR(fit_power(x, y, 2, 4), 4, 1e-13);

@@ -24,8 +24,9 @@ Records records() {
   return result;
 }
 
-// The error of a mean is s/sqrt(n); that of a ratio is written out with every replica left out.
-// Finds: the mean of ratios in place of the ratio of means; an error of the records in place of the mean.
+// The error of a mean is s/sqrt(n); that of a ratio is calculated here from the ratios without one replica
+// each. Detected mistakes: the mean of ratios in place of the ratio of means; the error of a record in place
+// of that of the mean.
 TEST(Group, JackknifeTheMeanRecord) {
   const Tallies tallies;
   Group group;
@@ -47,7 +48,7 @@ TEST(Group, JackknifeTheMeanRecord) {
   EXPECT_NEAR(results[1].standard_error[0], std::sqrt(2. / 3 * squares), 1e-14);
 }
 
-// Finds: 0 as error of an empty bin; NaN for a number that is 0.
+// Detected mistakes: an empty bin has the error 0; a number that is 0 has the error NaN.
 TEST(Group, AnElementThatIsZeroEverywhereHasNoError) {
   const Tallies tallies;
   Group group;
@@ -60,7 +61,7 @@ TEST(Group, AnElementThatIsZeroEverywhereHasNoError) {
   EXPECT_EQ(results[1].standard_error, std::vector<double>{0});
 }
 
-// Finds: the formula chosen for every mean.
+// Detected mistake: the formula is chosen anew for every mean of the jackknife.
 TEST(Group, ChoosesACommonFormulaOnce) {
   const Tallies tallies;
   int chosen = 0;
@@ -75,7 +76,7 @@ TEST(Group, ChoosesACommonFormulaOnce) {
   EXPECT_EQ(chosen, 1);
 }
 
-// Finds: a jackknife of the statistic.
+// Detected mistake: the errors of the statistic are replaced by those of a jackknife.
 TEST(Group, HasStatisticsWithTheirOwnErrors) {
   Group group;
   group.statistics({{"one", "1", "One"}, {"pair", "1", "Two", {numbered_axis("place", "Where", 2)}}},
@@ -88,7 +89,7 @@ TEST(Group, HasStatisticsWithTheirOwnErrors) {
   EXPECT_EQ(results[1].count, (std::vector<std::uint64_t>{3, 3}));
 }
 
-// Finds: the records as they were; control variates reported as used in every case.
+// Detected mistakes: uncorrected records are used; control variates are always reported as used.
 TEST(Group, OfCorrectedRecords) {
   const Tallies tallies;
   const auto negative = [](const Records& given) {
@@ -109,7 +110,8 @@ TEST(Group, OfCorrectedRecords) {
   }
 }
 
-// Finds: only the total is compared, so that one value too many and one too few shift names silently.
+// Detected mistake: only the total number of values is compared, so that one value too many and one too few
+// assign values to wrong names without a message.
 TEST(Group, OfAnotherSizeThanTheirAxesAreRefused) {
   const Tallies tallies;
   Group group;

@@ -18,16 +18,16 @@ TEST(Bins, HaveAnEdgeAtZero) {
   for (const double outside : {3.0, -3.0, 1e300, -1e300}) EXPECT_GE(bins[outside], 6U) << outside;
 }
 
-/// The double `steps` steps above x.
+/// The double that is `steps` representable numbers above x.
 double neighbour(double x, int steps) {
   for (; steps > 0; --steps) x = std::nextafter(x, 1e300);
   for (; steps < 0; ++steps) x = std::nextafter(x, -1e300);
   return x;
 }
 
-// The bin number is nondecreasing in steps of one and changes within two units in the last place of every
-// edge; the two halves are mirror images. Finds: adding half the number of bins before truncation, which
-// rounds -1e-17 to 0.
+// In steps of one double the bin number never decreases. It changes within two units in the last place of
+// every edge, and both halves are mirror images. Detected mistake: half the number of bins is added before
+// truncation, which rounds -1e-17 to 0.
 TEST(Bins, ChangeAtTheEdges) {
   for (const double max : {3., 60., 0.7, 1e-150, 1e150}) {
     const Bins bins(100, max);
@@ -60,7 +60,7 @@ TEST(Bins, DivideTheRangeEvenly) {
   EXPECT_EQ(bins.middles(), (std::vector<double>{-1.25, -0.75, -0.25, 0.25, 0.75, 1.25}));
 }
 
-// Finds: values outside are counted in the last bin; weights are replaced by 1.
+// Detected mistakes: values outside the range count in the last bin; weights are replaced by 1.
 TEST(Histogram, SumsWeightsAndLeavesOutWhatLiesOutside) {
   Histogram histogram(Bins(4, 2));
   for (const double value : {-2.5, -1.5, -0.5, 0.5, 0.5, 2., 7.}) histogram.add(value);

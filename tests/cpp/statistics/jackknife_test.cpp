@@ -133,9 +133,10 @@ TEST(Jackknife, GivesTheErrorOfARatio) {
 }
 
 TEST(Jackknife, WrongErrorsAreImplausible) {
-  // Finds: the standard deviation of the leave-one-out values without the factor R-1 for their correlation.
+  // Detected mistake: the standard deviation of the leave-one-out values without the factor R-1 for their
+  // correlation.
   const auto without_factor = [](const Records& r) { return jackknife_error(r) / std::sqrt(replicas - 1.0); };
-  // Finds: numerator and denominator treated as independent.
+  // Detected mistake: numerator and denominator are treated as independent.
   const auto uncorrelated = [](const Records& r) {
     const Estimate means = jackknife_of(r, identity);
     return ratio(means.mean)[0] *

@@ -22,8 +22,8 @@ TEST(LogGrid, HasEqualFactorsAndFindsIntervals) {
   }
 }
 
-// A point belongs exactly to the interval above it. Finds: cells of the table twice as wide, so that some
-// contain two points; a point counted in the interval below.
+// A point belongs exactly to the interval above it. Detected mistakes: cells of the look-up table are twice
+// as wide, so that some contain two points; a point counts in the interval below it.
 TEST(LogGrid, FindsIntervalsNextToPointsAndBeyondTheEnds) {
   for (const std::size_t per_decade : {1, 8, 10, 37}) {
     for (const double first : {0.01, 3., 1e-200, 1e200}) {

@@ -15,10 +15,10 @@ using namespace lorentz;
 constexpr int cells = 121, centre = cells / 2;
 const std::vector<double> times{1, 2, 4};
 constexpr double positions[] = {20, 25, 35};
-constexpr double heights[] = {8, 4, 2};  // 8/t
+constexpr double heights[] = {8, 4, 2};  // equal to 8/t
 
-/// Gaussian peaks, whose logarithm the fit meets exactly, at equal distances on both sides, and an odd part:
-/// `odd` at the distance 3 on the right, minus that on the left.
+/// Gaussian peaks at equal distances on both sides, for which the fit of the logarithm is exact, plus an odd
+/// part: `odd` at the distance 3 on the right, minus `odd` on the left.
 std::vector<double> profiles(double factor = 1, double odd = 0) {
   std::vector<double> values;
   for (std::size_t k = 0; k < times.size(); ++k)
@@ -41,12 +41,13 @@ PeakWindows windows_of(const Records& records) {
   return peak_windows(records, Tally{0, records.width()}, times.size());
 }
 
-/// Peak of a mean record with the profiles only. The record must outlive it.
+/// Moving peak of a mean record that has the profiles only. The record must outlive it.
 MovingPeak peak_of(const std::vector<double>& mean, const PeakWindows& windows) {
   return {mean, times, windows};
 }
 
-// Finds: the profile not folded; times exchanged; a slope with its sign; a width of t^1/2.
+// Detected mistakes: the two sides are not averaged; times are exchanged; an exponent has the wrong sign; the
+// width grows as t^1/2.
 TEST(MovingPeak, FollowsGaussianPeaks) {
   const std::vector<double> mean = profiles();
   const PeakWindows windows = windows_of(records_of({profiles(0.9), profiles(1.1)}));
@@ -65,8 +66,8 @@ TEST(MovingPeak, FollowsGaussianPeaks) {
   EXPECT_NEAR(peak.collapse(), 1, 0.02);  // the width grows as t, the height falls as 1/t
 }
 
-// Ends by hand. Finds: neighbouring times; ends that occur twice where times are sparse; a short octave
-// left at the end; equal parts of t.
+// The ends of the octaves are calculated by hand. Detected mistakes: octaves end at neighbouring times; an
+// end occurs twice where times are sparse; a short octave remains at the end; t is divided into equal parts.
 TEST(MovingPeak, OctavesDivideTheTimesEvenly) {
   using Times = std::vector<double>;
   EXPECT_EQ(octaves({0.016, 0.02, 0.025, 0.032, 0.04, 0.05, 0.063, 0.08, 0.1, 0.12}),
@@ -79,8 +80,9 @@ TEST(MovingPeak, OctavesDivideTheTimesEvenly) {
   EXPECT_EQ(octaves({1}), (Times{1}));
 }
 
-// Heights 8, 4 and 1 at the times 1, 2 and 4: exponents 1 and 2, which drift by 1/ln 2. Finds: the same
-// sign as d ln peak; a difference of exponents instead of a slope; a fit over all times.
+// Heights of 8, 4 and 1 at the times 1, 2 and 4 give the exponents 1 and 2, which drift by 1/ln 2. Detected
+// mistakes: the sign is that of d ln peak; the drift is a difference of exponents instead of a slope; one
+// exponent is fitted to all times.
 TEST(MovingPeak, ExponentsOfOctavesAndTheirDrift) {
   std::vector<double> mean = profiles();
   for (double& value : std::span(mean).last(cells)) value /= 2;
@@ -92,7 +94,8 @@ TEST(MovingPeak, ExponentsOfOctavesAndTheirDrift) {
   EXPECT_NEAR(peak.exponent_drift(), 1 / std::numbers::ln2, 3e-3);
 }
 
-// Finds: the even part; the left side minus the right one; a share of one side.
+// Detected mistakes: the even part is returned; the right side is subtracted from the left one; the energy of
+// the centre includes one side only.
 TEST(MovingPeak, OddPartAndCentre) {
   const std::vector<double> mean = profiles(1, 0.5);
   const MovingPeak peak = peak_of(mean, PeakWindows(times.size()));
@@ -106,8 +109,8 @@ TEST(MovingPeak, OddPartAndCentre) {
   EXPECT_NEAR(peak.centre_shares(10)[2], share / 10, 1e-12);
 }
 
-// A peak that has not left the centre at the first time: what derives from it is NaN, the rest uses the other
-// times. Finds: a height of 0; a fit that includes it; NaN for all.
+// The peak has not left the centre at the first time. What depends on this time is NaN; all else uses the
+// other times. Detected mistakes: the height is 0; the fit includes this time; all values are NaN.
 TEST(MovingPeak, IsNoneBeforeThePeakHasLeftTheCentre) {
   std::vector<double> mean = profiles();
   for (int cell = 0; cell < cells; ++cell) mean[cell] = std::exp(-0.02 * (cell - centre) * (cell - centre));
@@ -121,13 +124,13 @@ TEST(MovingPeak, IsNoneBeforeThePeakHasLeftTheCentre) {
   EXPECT_TRUE(std::isnan(peak.exponents_from()[0]));
   EXPECT_TRUE(std::isnan(peak.exponents_by_octave()[0]));
   EXPECT_NEAR(peak.exponents_by_octave()[1], 1, 1e-3);
-  EXPECT_TRUE(std::isnan(peak.exponent_drift()));  // of one octave
+  EXPECT_TRUE(std::isnan(peak.exponent_drift()));  // one octave has no drift
   EXPECT_NEAR(peak.speeds()[1], 5, 1e-3);
   EXPECT_NEAR(peak.exponent(), 1, 1e-3);
 }
 
-// The mean has a peak, but without the second replica the profile rises to the far side: no error could be
-// had. Finds: windows of the mean alone.
+// The mean has a peak, but without the second replica the profile rises up to the far side, so that the
+// jackknife gives no error. Detected mistake: only the mean determines the windows.
 TEST(PeakWindows, HoldThePeakWhicheverReplicaIsLeftOut) {
   std::vector<double> none(times.size() * cells);
   for (std::size_t i = 0; i < none.size(); ++i)

@@ -41,7 +41,7 @@ struct Shape {
   }
 };
 
-/// Remainder of a pulse at its centre.
+/// Rest of a pulse at its centre.
 double centre(double x) { return 0.15 * std::exp(-0.5 * x * x); }
 
 double mean_of_cell(const Density& density, double x) {
@@ -57,7 +57,7 @@ Shape gaussian(double place, double width) {
   return {"Gaussian", [=](double x) { return mean_of_cell(density, x); }};
 }
 
-/// sech^2, which has longer tails than a Gaussian.
+/// Peak of the shape sech^2, which has longer tails than a Gaussian.
 Shape soliton(double place, double width) {
   const auto density = [=](double x) {
     return std::pow(std::cosh((x - place) / (0.8 * width)), -2) + centre(x);
@@ -88,7 +88,7 @@ void expect_within(const Shape& shape, double width, double height_part, double 
       << shape.name << ' ' << width << ' ' << guess;
 }
 
-// Biases stated in the documentation of fit_peak, relative to the height and the width.
+// The biases, relative to the height and the width, are those stated in the documentation of fit_peak.
 TEST(Peak, BiasIsWhatIsStated) {
   for (const double width : {1.0, 1.5, 2.5, 4.0, 7.0}) {
     for (const double shift : {0.0, 0.25, 0.5, 0.75}) {
@@ -148,7 +148,7 @@ TEST(Peak, NoiseAddsNothingToFirstOrder) {
   EXPECT_GT(support::sample(noisy.highest).mean - exact.height, 4 * quadratic);
 }
 
-// The weights vanish at the ends of the window, so that the fit depends continuously on the window.
+// The weights vanish at the ends of the window, so that the fit is a continuous function of the window.
 TEST(Peak, DoesNotJumpWithTheWindow) {
   const std::vector<double> profile = free_flight(4).cells();
   const PeakWindow window = *peak_window(profile);

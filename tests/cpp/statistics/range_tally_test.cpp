@@ -11,7 +11,7 @@ namespace range_tally_test {
 
 using namespace lorentz;
 
-// Finds: single elements missing from the sums.
+// Detected mistake: single elements are missing from the sums.
 TEST(RangeTally, IsTheSumOverElements) {
   std::mt19937_64 generator(3);
   std::uniform_real_distribution<double> uniform;

@@ -17,7 +17,7 @@ struct Tallies : TallySchema {
   ScalarTally last = tally("last", "time", "Another number");
 };
 
-// Finds: the width before the tally is added; the size of the first axis alone.
+// Detected mistakes: the width excludes the last tally; the size of a tally is that of its first axis alone.
 TEST(TallySchema, LaysTalliesSideBySide) {
   const Tallies tallies;
   EXPECT_EQ(tallies.width(), 8U);
@@ -38,7 +38,7 @@ TEST(TallySchema, KeepsDescriptionsInOrder) {
   EXPECT_TRUE(described[2].axes.empty());
 }
 
-// Finds: a record that is not zero at first; a span that begins at the first tally.
+// Detected mistakes: a new record is not zero; the span of a tally begins at the first tally.
 TEST(TallySums, HoldsEveryTallyAtItsPlace) {
   const Tallies tallies;
   TallySums sums(tallies);
@@ -54,7 +54,7 @@ TEST(TallySums, HoldsEveryTallyAtItsPlace) {
   EXPECT_TRUE(std::ranges::equal(view[tallies.table], sums[tallies.table]));
 }
 
-// Finds: fewer values, or more, copied silently.
+// Detected mistake: an array with fewer or more values is copied without a message.
 TEST(TallySums, RefusesArraysOfAnotherSize) {
   const Tallies tallies;
   TallySums sums(tallies);

@@ -10,10 +10,10 @@ using namespace lorentz;
 
 TEST(TimeIntegral, DividesAmongBlocks) {
   TimeIntegral integral(Blocks(10, 14, 4));
-  integral.advance(5, 3);      // before the window
-  integral.advance(2, 10.5);   // only from 10 on
-  integral.advance(4, 12.25);  // over three blocks
-  integral.advance(1, 99);     // beyond the end
+  integral.advance(5, 3);      // ends before the window
+  integral.advance(2, 10.5);   // counts from 10 on
+  integral.advance(4, 12.25);  // extends over three blocks
+  integral.advance(1, 99);     // ends after the window
   EXPECT_EQ(integral.sums(), (std::vector<double>{3, 4, 1.75, 1}));
 }
 

@@ -24,7 +24,7 @@ inline std::vector<lorentz::Collision> collisions(const lorentz::ClosedChain& ch
   return recorder.collisions;
 }
 
-/// Expects all numbers to be equal.
+/// Expects both lists of collisions to be equal in all numbers.
 inline void expect_same(const std::vector<lorentz::Collision>& a, const std::vector<lorentz::Collision>& b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t k = 0; k < a.size(); ++k) {

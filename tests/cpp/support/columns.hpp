@@ -6,7 +6,7 @@
 
 namespace support {
 
-/// Columns first, ..., first + count - 1.
+/// The columns first, ..., first + count - 1.
 inline lorentz::Columns columns(std::size_t first, std::size_t count) {
   lorentz::Columns result(count);
   std::iota(result.begin(), result.end(), first);

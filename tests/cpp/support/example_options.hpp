@@ -48,7 +48,7 @@ struct Example {
     options.integer("--threads", threads, {1, 4096}, "Threads", Options::Role::runtime);
   }
 
-  /// Returns what is printed instead of a run.
+  /// Parses the arguments. Returns the text that is printed instead of a run, as for --help.
   std::optional<std::string> parse(const Arguments& arguments) {
     std::vector<const char*> pointers = {"example"};
     for (const std::string& argument : arguments) pointers.push_back(argument.c_str());

@@ -7,7 +7,7 @@
 
 namespace support {
 
-/// Two-sided, as a too small chi^2 is implausible too.
+/// Two-sided test of chi^2: a value that is too small is implausible too.
 inline testing::AssertionResult plausible(double chi_squared, double degrees_of_freedom) {
   const double below = gsl_cdf_chisq_P(chi_squared, degrees_of_freedom);
   const double above = gsl_cdf_chisq_Q(chi_squared, degrees_of_freedom);

@@ -78,7 +78,7 @@ inline Arguments with(Arguments arguments, const Arguments& more) {
   return arguments;
 }
 
-/// Measurement of which nothing may be made.
+/// Measurement that must not be executed.
 inline double never(const Replica&) { throw std::logic_error("measured"); }
 
 /// The run is refused in one line with all parts, and measures nothing.

@@ -11,7 +11,8 @@ namespace blocking_test {
 
 using namespace lorentz;
 
-/// Block means of a first-order autoregressive process of variance 1 with a given correlation of neighbours.
+/// Block means of a first-order autoregressive process of variance 1. correlation: that of neighbouring
+/// steps.
 Records process(double correlation, std::size_t replicas, std::size_t blocks, std::size_t steps,
                 unsigned seed) {
   std::mt19937_64 generator(seed);
@@ -53,7 +54,7 @@ TEST(Blocking, FindsBlocksThatAreTooShort) {
   EXPECT_FALSE(result.converged());
 }
 
-/// Rate of false alarms: a process with sufficiently long blocks is found not converged.
+/// A process with sufficiently long blocks is seldom reported as not converged.
 TEST(Blocking, SeldomRaisesAFalseAlarm) {
   int alarms = 0;
   for (unsigned seed = 0; seed < 400; ++seed)

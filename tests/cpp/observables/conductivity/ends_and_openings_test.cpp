@@ -8,12 +8,13 @@ namespace ends_and_openings_test {
 
 using namespace lorentz;
 
-/// A scatterer is hit: U before and after.
+/// Collision of a scatterer, with U before and after it.
 Collision hit(std::uint32_t scatterer, double time, double before, double after) {
   return {time, 0, scatterer, 0, 0, before, after};
 }
 
-/// Without injection, so that nothing is subtracted from the controls; eight blocks of length 1.
+/// The expected injections are 0, so that nothing is subtracted from the controls. The window has eight
+/// blocks of length 1.
 const OpenChain chain{.cells = 3, .left = {0, 1}, .right = {0, 1}};
 const Window window{2, 10};
 
@@ -23,8 +24,9 @@ std::vector<double> recorded(const EndsAndOpenings& observer, const BlockTallies
   return {sums[tally].begin(), sums[tally].end()};
 }
 
-// Finds: an energy of u^2, or without the sign; a crossing that counts whole; exits left out; blocks from 0
-// on.
+// Detected mistakes: the energy is u^2 instead of u^2/2; the energy current has no sign; a crossing of one
+// opening counts fully instead of half; exits are not counted; blocks begin at time 0 instead of the
+// beginning of the window.
 TEST(EndsAndOpenings, Currents) {
   const BlockTallies tallies;
   EndsAndOpenings observer(chain, window);
@@ -45,7 +47,8 @@ TEST(EndsAndOpenings, Currents) {
   EXPECT_EQ(std::vector(injection.end() - 6, injection.end()), (std::vector<double>{0, 0, 0, 1, 4, 8}));
 }
 
-// Finds: the momentum after the collision; the middle scatterer in place of the last.
+// Detected mistakes: the momentum after the collision is used for the time before it; the middle scatterer is
+// used in place of the last one.
 TEST(EndsAndOpenings, Temperatures) {
   const BlockTallies tallies;
   EndsAndOpenings observer(chain, window);
@@ -56,13 +59,14 @@ TEST(EndsAndOpenings, Temperatures) {
             (std::vector<double>{4, 9, 4, 9, 10, 9, 16, 9, 16, 9, 16, 9, 16, 9, 16, 9}));
 }
 
-// Two flights, one through the first cell to the last scatterer, one that reaches the first one before the
-// window. Finds: arrivals at the end of the flight only; without the window.
+// One flight passes the first scatterer and reaches the last one; another reaches the first one before the
+// window. Detected mistakes: only the arrival at the end of a flight counts; arrivals before the window
+// count.
 TEST(EndsAndOpenings, ArrivalsAndScatteringControl) {
   const BlockTallies tallies;
   OpenChain rare = chain;
-  rare.gamma = 1.5;  // half of those that arrive are scattered
-  rare.sigma = 0;    // and exchange momenta
+  rare.gamma = 1.5;  // half of the arriving particles are scattered
+  rare.sigma = 0;    // scattering exchanges the momenta
   EndsAndOpenings observer(rare, window);
   observer.on_flight({.departure = 3,
                       .arrival = 5.5,
@@ -81,8 +85,8 @@ TEST(EndsAndOpenings, ArrivalsAndScatteringControl) {
   observer.finish({1, 0, 3}, 10);
   EXPECT_EQ(recorded(observer, tallies, tallies.arrivals), (std::vector<double>{1, 1}));
   EXPECT_EQ(recorded(observer, tallies, tallies.arriving_energy), (std::vector<double>{4, 4}));
-  // It passed the first scatterer at 3.5: -1/2 (4 - 1); it was scattered by the last one at 5.5: +1/2 (4 -
-  // 9).
+  // The particle passed the first scatterer at 3.5, which gives -1/2 (4 - 1). The last scatterer scattered it
+  // at 5.5, which gives +1/2 (4 - 9).
   EXPECT_EQ(recorded(observer, tallies, tallies.scattering),
             (std::vector<double>{0, 0, -1.5, 0, 0, 0, 0, -2.5, 0, 0, 0, 0, 0, 0, 0, 0}));
 }

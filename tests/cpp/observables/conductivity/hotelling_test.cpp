@@ -29,7 +29,7 @@ Records drifting(std::size_t size, double drift, std::uint64_t seed) {
   return records;
 }
 
-/// Number of 2000 p-values below the level.
+/// Number of p-values below the level in 2000 trials.
 template <class PValue>
 int rejected(double level, double drift, const PValue& p_value) {
   int count = 0;
@@ -44,7 +44,7 @@ double reduced(const Records& records) {
   return zero_mean_p_value(*regress_out(records, support::on_last(records, 2)), support::columns(0, 3), 2);
 }
 
-/// Whether a count of 2000 trials is within four standard deviations of the level.
+/// Whether a count in 2000 trials is within four standard deviations of 2000 times the level.
 bool has_size(int count, double level) {
   return std::abs(count - 2000 * level) < 4 * std::sqrt(2000 * level * (1 - level));
 }
@@ -54,7 +54,8 @@ TEST(Hotelling, RejectsAsOftenAsItsLevelSays) {
     EXPECT_TRUE(has_size(rejected(level, 0, plain), level));
     EXPECT_TRUE(has_size(rejected(level, 0, reduced), level));
   }
-  // Finds: the limit of many records, chi^2 with 3 degrees of freedom, gives 0.01 where F gives 0.035.
+  // Detected mistake: chi^2 with 3 degrees of freedom, the limit of many records, gives 0.01 where F gives
+  // 0.035.
   EXPECT_FALSE(has_size(rejected(0.035, 0, plain), 0.01));
 }
 

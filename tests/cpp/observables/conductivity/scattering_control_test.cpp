@@ -13,7 +13,7 @@ namespace scattering_control_test {
 using namespace lorentz;
 
 struct Watched {
-  double control[2];  // of both halves of the window
+  double control[2];  // control variates of both halves of the window
   double energy;      // mean U^2
 };
 
@@ -22,9 +22,9 @@ struct Arrival {
   bool scattered;
 };
 
-/// Particles arrive as a Poisson process, u is normal, and one in eight is scattered. Each arrival is
-/// registered when the one before it takes place. assumed_sigma: sigma of the control. late: mutant that is
-/// given the momentum after a collision instead of that before.
+/// A scatterer under a Poisson process of arriving particles. u is normal, and one arrival in eight scatters.
+/// Each arrival is registered at the time of the one before it. assumed_sigma: sigma in the control variate.
+/// late: a mutant that uses the momentum after a collision instead of that before.
 Watched watch(double sigma, double assumed_sigma, bool late, std::mt19937_64& generator) {
   const double c = std::sqrt(1 - sigma * sigma);
   const Blocks blocks(10, 60, 2);
@@ -67,7 +67,7 @@ Found found(double sigma, double assumed_sigma, bool late) {
     energies.push_back(watched.energy);
   }
   const support::Sample control = support::sample(controls), energy = support::sample(energies);
-  double covariance = 0;  // of the two means
+  double covariance = 0;  // covariance of the two means
   for (std::size_t i = 0; i < controls.size(); ++i)
     covariance += (controls[i] - control.mean) * (energies[i] - energy.mean) / (samples * (samples - 1.));
   const double correlation = covariance / (control.standard_error * energy.standard_error);
@@ -76,8 +76,8 @@ Found found(double sigma, double assumed_sigma, bool late) {
       correlation * correlation};
 }
 
-// Finds: the momentum after the collision, which depends on s and gives a nonzero mean; the wrong sign of
-// sigma, which reduces the explained variance only.
+// Detected mistakes: the momentum after the collision is used, which depends on the collision and gives a
+// nonzero mean; sigma has the wrong sign, which only reduces the explained variance.
 TEST(ScatteringControl, HasMeanZeroAndExplainsTheNoise) {
   for (const double sigma : {0.5, -0.3, 0.9}) {
     const Found right = found(sigma, sigma, false), late = found(sigma, sigma, true),

@@ -14,7 +14,8 @@ namespace {
 
 using namespace lorentz;
 
-// At several times, in the same order of cells. Finds: cells around the scatterers.
+// Momentum and energy of every cell equal those of the reference simulator at several times. Detected
+// mistake: a cell is centred at a scatterer instead of extending from one scatterer to the next.
 TEST(CellFields, AreThoseOfTheReference) {
   for (const double sigma : {-0.6, 0.0, 0.5, 0.9}) {
     ClosedParameters parameters;
@@ -51,7 +52,8 @@ TEST(CellFields, AreThoseOfTheReference) {
   }
 }
 
-/// Products of fields of a cell in the stationary start, means over the cells of every replica.
+/// Means over the cells of products of the fields of a cell in the stationary initial state, one value per
+/// replica.
 struct Moments {
   std::vector<double> momentum, heat, with_energy, neighbours;
 };
@@ -82,9 +84,10 @@ Moments moments(double zeta, double theta, double temperature) {
   return found;
 }
 
-// In the stationary state g has the variance T (2 zeta + M), E_s - E_p/(2 zeta) the variance T^2/2 +
-// T^2/(4 zeta) and no covariance with the energy (docs/mode_coupling.md); cells are independent. The cut is
-// too small to be seen. Finds: another fugacity, another theta.
+// In the stationary state the momentum g has the variance T (2 zeta + M). The heat field E_s - E_p/(2 zeta)
+// has the variance T^2/2 + T^2/(4 zeta) and is uncorrelated with the energy (docs/mode_coupling.md). Cells
+// are independent. The effect of the cut at small momenta is below the statistical error. Detected mistakes:
+// another fugacity; another factor theta of E_p.
 TEST(CellFields, OfTheStartHaveTheExactMoments) {
   const double zeta = 1.6, T = 2.5, M = 3;
   const auto z = [](const std::vector<double>& values, double exact) {

@@ -11,7 +11,7 @@ namespace ring_correlation_test {
 
 using namespace lorentz;
 
-/// A snapshot without symmetry.
+/// Snapshot of a field without symmetry.
 std::vector<double> snapshot(std::size_t cells, std::size_t j) {
   std::vector<double> field;
   for (std::size_t i = 0; i < cells; ++i)
@@ -20,7 +20,7 @@ std::vector<double> snapshot(std::size_t cells, std::size_t j) {
   return field;
 }
 
-/// The definition: mean over cells and snapshots, over both signs of r.
+/// Correlation by its definition: mean over cells, snapshots and both signs of r.
 double direct(std::size_t cells, std::size_t snapshots, std::size_t lag, std::size_t r) {
   double sum = 0, count = 0;
   for (std::size_t j = 0; j + lag < snapshots; ++j) {
@@ -31,8 +31,8 @@ double direct(std::size_t cells, std::size_t snapshots, std::size_t lag, std::si
   return sum / count;
 }
 
-// Finds: the last wave number of even rings left out; lags counted from the first snapshot; products of one
-// side.
+// Detected mistakes: the last wave number of even rings is left out; lags are counted from the first
+// snapshot; only one sign of r is included.
 TEST(RingCorrelation, IsTheMeanOverCellsAndSnapshots) {
   const std::vector<std::size_t> lags{1, 2, 5};
   for (const std::size_t cells : {1UL, 2UL, 7UL, 8UL, 15UL, 22UL}) {

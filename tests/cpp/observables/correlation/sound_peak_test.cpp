@@ -10,7 +10,8 @@ namespace {
 
 using namespace lorentz;
 
-// Finds: the last cell of an even ring, which belongs to both sides, counted twice; both sides.
+// Detected mistakes: the last cell of an even ring, which belongs to both sides, counts twice; the sum over
+// both sides is not halved.
 TEST(SideMoment, IsHalfTheSumOverBothSides) {
   const std::vector<double> odd{1, 2, 4, 8, 16}, even{1, 2, 4, 8};
   EXPECT_EQ(side_moment(odd, 0, 0, 9), 15.5);
@@ -27,7 +28,7 @@ std::vector<double> gaussian(double position, double deviation) {
   return profile;
 }
 
-// The bias that is stated in the header, also if the width is expected wrongly.
+// The bias is that stated in the header, also if the expected width is wrong.
 TEST(HalfHeightWidth, OfGaussianPeaks) {
   const double half = std::sqrt(2 * std::log(2.0));
   for (const double deviation : {8.0, 20.0})
@@ -38,8 +39,10 @@ TEST(HalfHeightWidth, OfGaussianPeaks) {
 }
 
 TEST(HalfHeightWidth, IsUndefinedWithoutFlanks) {
-  EXPECT_TRUE(std::isnan(half_height_width(gaussian(90, 2), 90, 7, 2)));    // two cells
-  EXPECT_TRUE(std::isnan(half_height_width(gaussian(150, 9), 90, 7, 20)));  // rises on one side
+  // The range of the fit has two cells only.
+  EXPECT_TRUE(std::isnan(half_height_width(gaussian(90, 2), 90, 7, 2)));
+  // On one side the profile rises away from the given position.
+  EXPECT_TRUE(std::isnan(half_height_width(gaussian(150, 9), 90, 7, 20)));
 }
 
 }  // namespace

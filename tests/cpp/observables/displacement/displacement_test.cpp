@@ -27,7 +27,8 @@ struct Walk {
   void on_flight(const Departure& departure) { cells[departure.particle] += departure.cells; }
 };
 
-/// Mean square displacement of the particles in `end_time` for every replica, as in `displacement`.
+/// Mean square displacement of all particles during `end_time`, one value per replica, calculated as in the
+/// program displacement.
 std::vector<double> engine() {
   std::vector<double> values;
   for (std::uint64_t replica = 0; replica < replicas; ++replica) {
@@ -46,8 +47,8 @@ std::vector<double> engine() {
   return values;
 }
 
-/// The same from the reference simulator, by summation of the unwrapped path over events. unsigned_flights:
-/// mutant that counts every flight as one to the right.
+/// Mean square displacement by the reference simulator, which adds up the unwrapped path over events.
+/// unsigned_flights: a mutant that counts every flight as one to the right.
 std::vector<double> reference_simulator(bool unsigned_flights = false) {
   std::vector<double> values;
   for (std::uint64_t replica = 0; replica < replicas; ++replica) {

@@ -21,7 +21,7 @@ void nothing(double) {}
 
 double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
-/// Energy in the middle cell of the start: four particles and a scatterer at T = 2 energy.
+/// Initial energy of the middle cell: four particles and a scatterer at T = 2 small.energy.
 double energy_of_middle() {
   const double temperature = 2 * small.energy;
   const PhasePoint start = closed_chain_start(small.ring.chain(), {temperature, temperature}, false, key);
@@ -31,8 +31,8 @@ double energy_of_middle() {
   return energy;
 }
 
-// Finds: the pulse a cell farther; the scatterer left out; the energy per cell in place of per degree of
-// freedom.
+// Detected mistakes: the pulse is in the neighbouring cell; the scatterer is not heated; the pulse energy is
+// taken per cell instead of per degree of freedom.
 TEST(PulseRun, RaisesTheEnergyOfTheMiddleToThatOfThePulse) {
   const PulseRun run(small, key, nothing);
   const std::vector<double> difference = run.energy_difference();
@@ -42,7 +42,8 @@ TEST(PulseRun, RaisesTheEnergyOfTheMiddleToThatOfThePulse) {
   EXPECT_NEAR(sum(difference), run.injected_energy(), 1e-9);
 }
 
-// Finds: the energy without the pulse added; the sum of magnitudes.
+// Detected mistakes: the energies with and without the pulse are added instead of subtracted; the magnitudes
+// of the differences are summed.
 TEST(PulseRun, ConservesTheEnergyOfThePulse) {
   PulseRun run(small, key, nothing);
   for (const double time : small.times) {
@@ -50,13 +51,14 @@ TEST(PulseRun, ConservesTheEnergyOfThePulse) {
     std::vector<double> difference = run.energy_difference();
     EXPECT_LT(run.conservation_error(difference), 1e-13);
     EXPECT_LT(difference[4], 0.9 * run.injected_energy()) << "the pulse has spread";
-    difference[2] += 0.01 * run.injected_energy();  // an error is found
+    difference[2] += 0.01 * run.injected_energy();  // an energy error of 1 % must be reported
     EXPECT_GT(run.conservation_error(difference), 1e-3);
   }
   EXPECT_GT(run.events(), 10U);
 }
 
-// Finds: separate trajectories with random numbers of their own.
+// Both ways give equal energy differences. Detected mistake: the separate trajectories of a pair use
+// different random numbers.
 TEST(PulseRun, IsTheSameWithSeparateTrajectories) {
   for (const std::optional<double> gamma : {std::optional<double>{}, std::optional(2.)}) {
     PulseParameters parameters = small;

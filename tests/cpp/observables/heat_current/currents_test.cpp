@@ -21,8 +21,8 @@ struct Sums {
   std::vector<double> heat = std::vector<double>(count, 0), number = heat;
 };
 
-/// The same integrals from the reference simulator: every flight adds its overlap with a block. overlap:
-/// false is a mutant that counts a flight in the block in which it ends.
+/// Integrated currents by the reference simulator, to which every flight adds its overlap with a block.
+/// overlap: false selects a mutant that counts a flight in the block in which it ends.
 Sums by_flights(const ClosedParameters& parameters, const Blocks& blocks, const StreamKey& key,
                 bool overlap) {
   const ClosedChain chain = parameters.chain();
@@ -59,7 +59,7 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
   return largest;
 }
 
-// Block by block, not on average. Blocks end before the run does.
+// The currents agree in every block, not only on average. The last block ends before the run does.
 TEST(Currents, AreThoseOfTheReferenceInEveryBlock) {
   for (const double sigma : {-0.6, 0.0, 0.5, 0.9}) {
     ClosedParameters parameters;

@@ -22,9 +22,10 @@ Values sums(const BondCrossings& observer, const BondTallies& tallies, Tally tal
   return values;
 }
 
-// One flight to the right over two bonds in the bin [0, 2), one to the left over the first bond in [-4, -2),
-// one that no bin holds. Finds: bonds counted from the scatterers on; halves exchanged; bins before bonds;
-// p^3 for p^4.
+// One flight to the right crosses two bonds in the bin [0, 2); one to the left crosses the first bond in [-4,
+// -2); the momentum of a third one is outside of all bins. Detected mistakes: bonds are counted from the
+// scatterers on; the halves p < 0 and p > 0 are exchanged; arrays have the bins as first dimension; p^3 is
+// summed in place of p^4.
 TEST(BondCrossings, ByMomentumAndDirection) {
   const BondTallies tallies(2, bins);
   BondCrossings observer(chain, window, bins);
@@ -45,7 +46,7 @@ TEST(BondCrossings, ByMomentumAndDirection) {
   EXPECT_EQ(sums(observer, tallies, tallies.sums[2]), (Values{39.0625, 0, 0, 1, 1, 625}));
 }
 
-// Finds: flights as a whole, which count the bond 0 reached at 1 and the bond 1 reached at 10.
+// Detected mistake: flights count as a whole, which includes bond 0, reached at 1, and bond 1, reached at 10.
 TEST(BondCrossings, WithinTheWindow) {
   const BondTallies tallies(2, bins);
   BondCrossings observer(chain, window, bins);
@@ -56,7 +57,8 @@ TEST(BondCrossings, WithinTheWindow) {
   EXPECT_EQ(sums(observer, tallies, tallies.sums[0]), (Values{0, 0, 0, 0, 1, 0}));
 }
 
-// Finds: the rate of the other reservoir; the edges with their sign; the whole injection in every bin.
+// Detected mistakes: the rate of the other reservoir is used; the edges of a bin enter with their sign; every
+// bin has the whole injection.
 TEST(BondCrossings, ExpectedInjections) {
   double sum = 0;
   const Bins wide(40, 16);
@@ -69,7 +71,8 @@ TEST(BondCrossings, ExpectedInjections) {
   EXPECT_NEAR(expected_injections(chain, window, bins, 2), 24 * std::erf(2 / std::sqrt(2 * 2.)), 1e-12);
 }
 
-// Finds: what came in not counted, or with the expected number of all bins.
+// Detected mistakes: injected particles are not counted; the expected number of all bins is subtracted from
+// each bin.
 TEST(BondCrossings, InjectionsMinusTheirMean) {
   const BondTallies tallies(2, bins);
   BondCrossings observer(chain, window, bins);

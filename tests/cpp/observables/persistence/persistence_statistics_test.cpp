@@ -21,9 +21,9 @@ constexpr double end_time = 40;
 constexpr std::uint64_t replicas = 40;
 constexpr std::size_t quantities = 3;
 
-/// Means over the collisions of one replica: the fraction with p' p > 0 and the energies of the particle and
-/// the scatterer before the collision, divided by the mean initial energy of a particle, whose variation
-/// between replicas dominates theirs.
+/// Means over the collisions of one replica: the fraction with p' p > 0, and the energies of the particle and
+/// of the scatterer before the collision. Both are divided by the mean initial energy of a particle, which
+/// contributes most to their variance between replicas.
 class Encounters {
  public:
   explicit Encounters(const PhasePoint& start) {
@@ -50,7 +50,8 @@ class Encounters {
 
 using Samples = std::array<support::Sample, quantities>;
 
-/// Mean of every quantity with its standard error over the replicas; encounters(replica) measures one.
+/// Mean of every quantity over the replicas with its standard error. encounters(replica) measures one
+/// replica.
 template <class Measure>
 Samples over_replicas(const Measure& encounters) {
   std::array<std::vector<double>, quantities> values;

@@ -8,12 +8,13 @@ namespace cell_profile_test {
 
 using namespace lorentz;
 
-/// A scatterer is hit: U before and after.
+/// Collision of a scatterer, with U before and after it.
 Collision hit(std::uint32_t scatterer, double time, double before, double after) {
   return {time, 0, scatterer, 0, 0, before, after};
 }
 
-/// Without injection; a window of length 8, so that sums come back as eighths.
+/// The expected injections are 0. The window has the length 8, so that means over it are exact binary
+/// fractions.
 const OpenChain chain{.cells = 2, .left = {0, 1}, .right = {0, 1}};
 const Window window{2, 10};
 const Bins bins(4, 4);
@@ -22,7 +23,7 @@ struct CellProfileTallies : testing::Test {
   CellTallies tallies{2, bins};
   CellProfile observer{chain, window, bins};
 
-  /// Of the whole window.
+  /// Sums of a tally over the whole window.
   std::vector<double> sums(Tally tally) const {
     TallySums sums(tallies);
     observer.record(tallies, sums);
@@ -34,9 +35,11 @@ struct CellProfileTallies : testing::Test {
 
 using Values = std::vector<double>;
 
-// In through the left opening, past the first scatterer, to the second one: two bonds, two arrivals, two
-// units of time in the first cell and one in the second. Then out again from the first scatterer. Finds:
-// behind a bond the scatterer on the other side; half cells on one side of a bond only; directions exchanged.
+// The first flight enters through the left opening, passes the first scatterer and reaches the second one:
+// two bonds, two arrivals, two units of time in the first cell and one in the second. The second flight
+// leaves from the first scatterer through the left opening. Detected mistakes: a crossing is assigned to the
+// scatterer on the other side of the bond; half cells count on one side of a bond only; the directions are
+// exchanged.
 TEST_F(CellProfileTallies, FlightsWithinTheWindow) {
   observer.on_flight(
       {.departure = 3, .arrival = 6, .velocity = 3, .from = 0, .first = 0, .last = 3, .time_per_place = 1});
@@ -54,11 +57,11 @@ TEST_F(CellProfileTallies, FlightsWithinTheWindow) {
   EXPECT_EQ(sums(tallies.density), (Values{2.5, 1}));
 }
 
-// Finds: the first branch for these too, which counts what lies before the window; residence of the whole
-// flight.
+// Flights that begin before the window or end after it. Detected mistakes: they are treated as flights within
+// the window, which counts what is before the window; the residence time of the whole flight counts.
 TEST_F(CellProfileTallies, FlightsAtTheEndsOfTheWindow) {
-  // At the first scatterer at 1.5, at the bond at 2.5, at the second scatterer at 3.5; then from it to the
-  // left, at the bond at 10.
+  // The first flight is at the first scatterer at 1.5, at the bond at 2.5 and at the second scatterer at 3.5.
+  // The second flight leaves from there to the left and is at the bond at 10.
   observer.on_flight({.departure = 0.5,
                       .arrival = 3.5,
                       .velocity = 1,
@@ -73,7 +76,8 @@ TEST_F(CellProfileTallies, FlightsAtTheEndsOfTheWindow) {
   EXPECT_EQ(sums(tallies.density), (Values{0.5, 1 + 1}));
 }
 
-// Finds: the momentum after the collision; the histogram of one end for both.
+// Detected mistakes: the momentum after the collision is used for the time before it; both ends share the
+// histogram of one.
 TEST_F(CellProfileTallies, Scatterers) {
   observer.on_collision(hit(0, 4, 1, -3));
   observer.finish({-3, 0.5}, 10);
@@ -81,7 +85,7 @@ TEST_F(CellProfileTallies, Scatterers) {
   EXPECT_EQ(sums(tallies.end_momentum), (Values{6, 0, 2, 0, 0, 0, 8, 0}));
 }
 
-// Finds: the right reservoir's as the left one's.
+// Detected mistake: injections of the right reservoir are added to those of the left one.
 TEST_F(CellProfileTallies, Injections) {
   observer.on_injection(End::right, 5, -2);
   EXPECT_EQ(sums(tallies.injection), (Values{0, 0, 0, 8, 16, 16}));

@@ -8,7 +8,8 @@ namespace profile_test {
 
 using namespace lorentz;
 
-// Finds: the mean or the line added; the line through part of the cells.
+// Detected mistakes: the mean or the line is added instead of subtracted; the line is fitted to part of the
+// cells.
 TEST(Profile, MinusItsMeanOrItsLine) {
   EXPECT_EQ(average({1, 2, 6}), 3);
   EXPECT_EQ(minus_mean({1, 2, 6}), (Values{-2, -1, 3}));
@@ -19,7 +20,7 @@ TEST(Profile, MinusItsMeanOrItsLine) {
   EXPECT_NEAR(bent[1], -1, 1e-14);
 }
 
-// Finds: a line of slope 0 through one cell.
+// Detected mistake: the line through one cell has the slope 0.
 TEST(Profile, NoLineThroughOneCell) {
   EXPECT_TRUE(std::isnan(line_through({1, 2, 3}, 1, 1).slope));
   const Line line = line_through({9, 2, 4, 9}, 1, 2);
@@ -27,9 +28,9 @@ TEST(Profile, NoLineThroughOneCell) {
   EXPECT_NEAR(line.intercept, 0, 1e-14);
 }
 
-// The middle half of 8 cells is 2 ... 5, where the density is 10 + i, with the mean 13.5; the ends would hold
-// 10 and
-// 17. Finds: a line through all cells; the slope per cell; the mean of all; the excess over the mean.
+// The middle half of 8 cells has the indices i = 2 ... 5 and the density 10 + i, with the mean 13.5. On its
+// line both ends would have the densities 10 and 17. Detected mistakes: the line is fitted to all cells; the
+// slope is per cell; it is divided by the mean of all cells; the excess is relative to the mean.
 TEST(DensityProfile, SlopeOfTheMiddleAndExcessOfTheEnds) {
   const DensityProfile profile(Values{20, 0, 12, 13, 14, 15, 99, 34});
   EXPECT_NEAR(profile.slope(), 8 / 13.5, 1e-13);
@@ -37,7 +38,7 @@ TEST(DensityProfile, SlopeOfTheMiddleAndExcessOfTheEnds) {
   EXPECT_NEAR(profile.excess()[1], 34 / 17. - 1, 1e-13);
 }
 
-// Particles in the first cell only. Finds: 5/0 as an infinity.
+// All particles are in the first cell. Detected mistake: the excess 5/0 is infinite.
 TEST(DensityProfile, IsNoneWithoutParticlesInTheMiddle) {
   const DensityProfile profile(Values{5, 0, 0, 0, 0, 0, 0, 0});
   EXPECT_TRUE(std::isnan(profile.slope()));

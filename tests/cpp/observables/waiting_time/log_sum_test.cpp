@@ -10,7 +10,8 @@ namespace log_sum_test {
 
 using namespace lorentz;
 
-// Finds: the product is not reset to 1, or its logarithm is lost, when it leaves the range.
+// Detected mistakes: when the product leaves the range of a double, it is not reset to 1, or its logarithm is
+// not added.
 TEST(LogSum, IsTheSumOfLogarithms) {
   RandomStream random({1, 0}, Purpose::initial_position, 0);
   for (const double scale : {1e-300, 1e-3, 1., 50., 1e300}) {
