@@ -72,7 +72,7 @@ setup:  ## System packages, and Python packages in .venv
 setup-dev:
 	$(LOCKED) bash workflow/environment/setup.sh dev
 installed:
-	test -e .venv/complete || $(LOCKED) bash workflow/environment/setup.sh
+	test -x .venv/bin/python && test -e .venv/complete || $(LOCKED) bash workflow/environment/setup.sh
 build: setup  ## The programs, in build/bin
 	$(LOCKED) bash workflow/environment/build.sh all
 audit: installed  ## Check every result and figure against sources, parameters, build and packages

@@ -11,7 +11,7 @@ from pathlib import Path
 import h5py
 import pytest
 
-from tests.workflow.conftest import ROOT, Clone, replace
+from tests.workflow.conftest import ROOT, Clone, replace, share_build
 from tests.workflow.test_makefile import HOSTILE, names
 
 TOOLS = sorted(
@@ -79,6 +79,7 @@ def linked(clean: Clone, tmp_path: Path) -> Clone:
     (folder / ".venv").symlink_to(clean.folder / ".venv")
     for name in ("build/bin", "build/id", "data/smoke/fig03"):
         shutil.copytree(clean.folder / name, folder / name)
+    share_build(Clone(folder))
     yield Clone(folder)
     clean.git("worktree", "remove", "--force", str(folder))
 
@@ -144,6 +145,7 @@ def test_the_remedies_of_damaged_products_help(kept: Clone) -> None:
 
 
 def test_the_remedy_of_missing_programs_helps(kept: Clone) -> None:
+    share_build(kept)
     kept.make("build")
     missing = [kept.folder / "build" / name for name in ("bin/ageing", "id/ageing.json")]
     for path in missing:

@@ -46,6 +46,7 @@ def faults(tab: Page, messages: list[str], path: Path) -> list[str]:
     return [*messages, *(f"wide equation: {text}" for text in tab.evaluate(EQUATIONS))]
 
 
+@pytest.mark.long
 def test_every_page(site: Path, tab: Page) -> None:
     """Detected mistakes: an unescaped <template> in a docstring; a missing script; a table or a signature that is wider than the page."""
     pages = [

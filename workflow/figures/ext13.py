@@ -5,6 +5,7 @@ amplitude of its correlation is compared with that which the measured sound peak
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -99,7 +100,7 @@ def amplitudes(rings: Sequence[Result], peaks: Sequence[Result]) -> pd.DataFrame
     rows = []
     for ring in rings:
         first, last = ring.parameters["fit-from"], last_time(ring)
-        gas = chain(ring, np.sqrt(first * last))
+        gas = replace(chain(ring, np.sqrt(first * last)), temperature=1.0, cell_length=1.0)  # as the fit
         fitted = np.array([float(ring["amplitude"].mean), float(ring["amplitude"].error)])
         row = {"zeta": gas.zeta, "mass": gas.mass, "fit_from": first, "fit_to": last}
         row |= dict(
@@ -122,21 +123,20 @@ def amplitudes(rings: Sequence[Result], peaks: Sequence[Result]) -> pd.DataFrame
 
 
 def square_of_peak(result: Result, index: int, gas: Chain) -> tuple[float, float]:
-    """t^(2/3) times the integral of the square of the sound peak of unit area, and its error. Errors of
+    """t^(2/3) times the integral of the square of the sound peak of unit area, and its error, in the units of T and λ. Errors of
     neighbouring cells are correlated, so the relative error of the peak's height is used."""
-    time = float(result["peak"].axes["time"][index])
+    temperature, length = result.parameters["temperature"], result.parameters["cell-length"]
+    time = float(result["peak"].axes["time"][index]) * np.sqrt(temperature) / length
     correlation, peak = result["momentum_correlation"], result["peak"]
     middle = correlation.mean.shape[1] // 2
-    unit = (gas.self_coupling * time) ** (2 / 3)
-    offset = (np.arange(middle) * gas.cell_length - gas.sound_speed * time) / unit
+    offset = (np.arange(middle) - gas.sound_speed * time) / (gas.self_coupling * time) ** (2 / 3)
     near = (offset > -REACH) & (offset < REACH)
     right, left = correlation.mean[index, middle : 2 * middle], correlation.mean[index, middle:0:-1]
     noise = correlation.error[index, middle : 2 * middle] ** 2
     # The mean of a square exceeds the square of the mean by the variance. Averaging both sides does not reduce it: they are equal, as they
     # come from the same pairs of cells.
-    squares = (0.5 * (right + left)) ** 2 - noise
-    per_area = (gas.peak_area * gas.cell_length) ** 2
-    square = time ** (2 / 3) * float(np.sum(squares[near])) / per_area / gas.cell_length
+    squares = ((0.5 * (right + left)) ** 2 - noise) / (temperature * gas.peak_area) ** 2
+    square = time ** (2 / 3) * float(np.sum(squares[near]))
     return square, abs(square) * float(peak.error[index] / peak.mean[index])
 
 
@@ -169,23 +169,20 @@ def draw(results: Sequence[Result]) -> Drawn:
     best = compared.loc[compared.amplitude_ratio_error.idxmin()]
     gaussian = compared.dropna(subset="gaussian_ratio") if "gaussian_ratio" in compared else compared[:0]
     fluctuations = (
-        f" Over that of Gaussian fluctuations with the measured sound peaks: {ratios(gaussian, 'gaussian_ratio')}."
-        if len(gaussian)
-        else ""
+        f" Over that of Gaussian sound: {ratios(gaussian, 'gaussian_ratio')}." if len(gaussian) else ""
     )
     caption = f"""
         Heat Q that passes in a time t in rings in equilibrium, {parameters(heat, "cell-length", "temperature")}, {replicas(heat)}; ζ: flux of
         slow particles. (a) Mean square per cell and time. Lines: fluctuating hydrodynamics, nothing fitted, without normal
-        diffusion. Random directions do not conserve momentum. (b) Exponents over octaves;
-        dashed: 4/3 of the theory, and diffusion. In the last octave: {", ".join(exponents)}. Amplitudes fitted with a normal part, from t =
-        {number(best.fit_from)} on, over the predicted ones: {ratios(compared, "amplitude_ratio")}.{fluctuations}"""
+        diffusion. (b) Exponents over octaves; dashed: theory, diffusion. Last octaves: {", ".join(exponents)}. Amplitudes fitted with a normal part, from t =
+        {number(best.fit_from)} on, over the predicted: {ratios(compared, "amplitude_ratio")}.{fluctuations}"""
     return figure, pd.concat([table, compared]), caption
 
 
 def ratios(table: pd.DataFrame, name: str) -> str:
     values = map(with_error, table[name], table[f"{name}_error"])
     return ", ".join(
-        f"{value} ({number(zeta)}, {number(mass)})"
+        f"{value} ({number(zeta)}; {number(mass)})"
         for value, zeta, mass in zip(values, table.zeta, table.mass, strict=True)
     )
 

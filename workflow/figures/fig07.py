@@ -57,10 +57,10 @@ def caption(random: pd.DataFrame, results: Sequence[Result], window: tuple[float
     options = [name for name in (*CHAIN, *GAS, "relaxation-time") if name != "cells"]
     return f"""
         Spreading of a tagged particle in closed chains of N cells, {parameters(results, *options)}, {replicas(results)}.
-        (a) Mean square displacement with random total momentum, as in the paper, and with zero total momentum; lines: centre of
-        mass of the former; dashed: t and t². (b) Local exponents. In the shaded window, t = {number(window[0])} to {number(window[1])}, α is
-        {alpha[0][1]} in the paper's {alpha[0][0]} cells, slightly below two. This is drift of the centre of mass, {with_error(100 * last.fraction, 100 * last.fraction_error)} %
-        of ⟨x²⟩ at the end, whose velocity falls as the root of N grows: {f"α is {larger}" if larger else ""}{f", and {without[0]} with zero total momentum" if without else ""}. {ERRORS}"""
+        (a) Mean square displacement; lines: centre of mass; dashed: t and t². (b) Local exponents. Fitted for t =
+        {number(window[0])} to {number(window[1])} (shaded), α is {alpha[0][1]} in the paper's {alpha[0][0]} cells with random total momentum,
+        slightly below two. This is drift of the centre of mass, {with_error(100 * last.fraction, 100 * last.fraction_error)} % of ⟨x²⟩ at
+        the end, whose velocity falls as N grows: {f"α is {larger}" if larger else ""}{f", and {without[0]} with zero total momentum" if without else ""}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:

@@ -58,7 +58,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         row |= result.columns("kappa", "kappa_particle", "kappa_plain", "kappa_printed", "energy_current")
         row["usable"] = result.sound
         rows.append(row)
-    table = pd.DataFrame(rows).sort_values("cells", ignore_index=True)
+    table = pd.DataFrame(rows).sort_values("cells", kind="stable", ignore_index=True)
     columns = ["between", "exponent_to_next", "exponent_to_next_error"]
     table[columns] = np.nan  # stays NaN if fewer than two sizes are usable
     for _, part in table[table.usable].groupby(SERIES):
@@ -98,12 +98,12 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
         return str(values.iloc[index]) if len(values) else "an unknown value"
 
     return f"""
-        Heat conductivity κ = −J_U N/(T_N − T_1) of open chains against the number of cells N, {parameters(weak, "cell-length", "sigma")},
-        {baths(weak[0])}, {replicas(results)}. Triangles, diamonds: T_R/T_L = {number(table.drive.max())} (ext. 9). (a) κ; dashed
-        grey: the paper's powers of N, blue: mean field, the kinetic equation of N scatterers. (b) Local exponents between neighbouring
-        sizes. For γ = 1 the exponent tends to {text_at(-1, rare)}. For γ = N no single power holds: from {text_at(0, often)} at the
-        smallest sizes the exponent rises above 1/2 and falls to {text_at(-1, often)} at the largest; {text_at(-1, strong)} at stronger drive.
-        With random directions, which do not conserve momentum, κ tends to a constant: {listed(random)}. {ERRORS}"""
+        Heat conductivity κ = −J_U N/(T_N − T_1) of open chains of N cells, {parameters(weak, "cell-length", "sigma")},
+        {baths(weak[0])}, {replicas(results)}. Triangles, diamonds: T_R/T_L = {number(table.drive.max())}. (a) κ; grey: the paper's
+        powers of N, blue: mean field (kinetic equation of N scatterers). (b) Exponents between neighbouring
+        sizes: for γ = 1 in the end {text_at(-1, rare)}; for γ = N no single power, {text_at(0, often)} at first, above 1/2 later and
+        {text_at(-1, often)} in the end, {text_at(-1, strong)} at the stronger drive. Diamonds: random directions do not conserve
+        momentum, and κ tends to a constant, {listed(random)}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
