@@ -189,7 +189,7 @@ def fitted(record: Record) -> dict[str, float]:
     errors = jackknife_error(without_one)
     names = ("stable_width_ratio", "stable_area_ratio", "stable_order")
     return {
-        key: float(value)
+        key: float(f"{value:.4g}")  # further digits depend on the rounding of the profile
         for name, *pair in zip(names, law, errors, strict=True)
         for key, value in zip((name, f"{name}_error"), pair, strict=True)
     }

@@ -22,7 +22,7 @@ from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
 BELOW = 0.7  # ratio of a guide to the lowest point
-SERIES = ["rule", "gamma", "spacing", "drive"]  # columns that identify a curve
+SERIES = ["rule", "gamma", "fixed_spacing", "drive"]  # columns that identify a curve
 GUIDES = {"N": (1 / 3, r"$N^{1/3}$", "1/3"), 1: (1, "$N$", "1")}  # the paper's exponents by gamma
 STRONG = style.points("^", style.ORANGE, "white")
 RANDOM = [
@@ -54,7 +54,11 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     rows = []
     for result in results:
         row = {name: result.parameters[name] for name in ("rule", "gamma", "cells")}
-        row |= {"spacing": style.spacing(result)[1], "drive": drive(result)}
+        row |= {
+            "spacing": style.spacing(result)[1],
+            "fixed_spacing": "dense" in result.run,
+            "drive": drive(result),
+        }
         row |= result.columns("kappa", "kappa_particle", "kappa_plain", "kappa_printed", "energy_current")
         row["usable"] = result.sound
         rows.append(row)
@@ -89,8 +93,8 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     )
     strong = texts[own & (slopes.drive > table.drive.min())]
     random = [
-        f"{with_error(*last[['kappa', 'kappa_error']])} at N = {last.cells} (λ = {spacing})"
-        for spacing, part in table[table.rule != "elastic"].groupby("spacing", sort=False)
+        f"{with_error(*last[['kappa', 'kappa_error']])} at N = {last.cells} (λ = {last.spacing})"
+        for _, part in table[table.rule != "elastic"].groupby("fixed_spacing")
         for last in [part.iloc[-1]]
     ]
 
@@ -128,9 +132,9 @@ def draw(results: Sequence[Result]) -> Drawn:
     draw_points(strong, STRONG, rf"$\gamma = N$, $T_R/T_L = {table.drive.max():g}$")
     look = {"color": style.BY_GAMMA["N"][1], "linestyle": "dashed", "label": r"$\gamma = N$, mean field"}
     left.plot(theory.cells, theory.mean_field_kappa, **look)
-    control = table[table.rule != "elastic"].groupby("spacing", sort=False)
-    for (spacing, part), look in zip(control, RANDOM, strict=False):
-        draw_points(part, look, rf"$\gamma = N$, random directions, $\lambda = {spacing}$")
+    control = table[table.rule != "elastic"].groupby("fixed_spacing")
+    for (_, part), look in zip(control, RANDOM, strict=False):
+        draw_points(part, look, rf"$\gamma = N$, random directions, $\lambda = {part.spacing.iloc[0]}$")
     style.guide_at(right, 0, "0")
     style.cross_out(left, table.cells, table.kappa, ~table.usable)
     left.set(xscale="log", yscale="log", xlabel="number of cells $N$")
