@@ -301,7 +301,7 @@ def draw(results: Sequence[Result]) -> Drawn:
     )
     caption = f"""
         Peaks in rings in equilibrium, {parameters(results, "cell-length")}, T = {number(first.temperature)}, {replicas(results)}; black: mode coupling, nothing
-        fitted (docs: mode coupling). (a) Covariance C_g of the momenta of two cells, ζ = {number(first.zeta)}, M = {number(first.mass)}. (b) Covariance C_h of
+        fitted. (a) Covariance C_g of the momenta of two cells, ζ = {number(first.zeta)}, M = {number(first.mass)}. (b) Covariance C_h of
         E_s − E_p/2ζ, energies of scatterer and particles, ζ = {number(heat[-1].gas.zeta)}, M = {number(heat[-1].gas.mass)}. Stable laws fitted inside the
         sound peaks have the order {orders} (theory {number(HEAT_ORDER)}, diffusion {number(GAUSSIAN)}), {widths} of the width and {areas} of the area predicted; errors from
         {len(heat[-1].results)} runs. (c) Height of the sound peaks; at the last times their areas are {at_end(table, "peak_area")} of the theory. {ERRORS}"""

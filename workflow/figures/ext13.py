@@ -78,7 +78,12 @@ def label(gas: pd.Series) -> str:
 def last_octave(part: pd.DataFrame) -> str:
     """Exponent of a gas over the last octave."""
     last = part.dropna(subset="middle").iloc[-1]
-    return f"{with_error(last.local_exponent, last.local_exponent_error)} ({label(last)})"
+    gas = (
+        "random directions"
+        if last.rule == "random-direction"
+        else f"{number(last.zeta)}; {number(last.mass)}"
+    )
+    return f"{with_error(last.local_exponent, last.local_exponent_error)} ({gas})"
 
 
 def longest_rings(results: Sequence[Result]) -> list[Result]:
@@ -174,7 +179,7 @@ def draw(results: Sequence[Result]) -> Drawn:
     caption = f"""
         Heat Q that passes in a time t in rings in equilibrium, {parameters(heat, "cell-length", "temperature")}, {replicas(heat)}; ζ: flux of
         slow particles. (a) Mean square per cell and time. Lines: fluctuating hydrodynamics, nothing fitted, without normal
-        diffusion. (b) Exponents over octaves; dashed: theory, diffusion. Last octaves: {", ".join(exponents)}. Amplitudes fitted with a normal part, from t =
+        diffusion. (b) Exponents over octaves; dashed: theory, diffusion. Last octaves (ζ; M): {", ".join(exponents)}. Amplitudes fitted with a normal part, from t =
         {number(best.fit_from)} on, over the predicted: {ratios(compared, "amplitude_ratio")}.{fluctuations}"""
     return figure, pd.concat([table, compared]), caption
 

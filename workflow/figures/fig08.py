@@ -104,10 +104,10 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     return f"""
         Heat conductivity κ = −J_U N/(T_N − T_1) of open chains of N cells, {parameters(weak, "cell-length", "sigma")},
         {baths(weak[0])}, {replicas(results)}. Triangles, diamonds: T_R/T_L = {number(table.drive.max())}. (a) κ; grey: the paper's
-        powers of N, blue: mean field (kinetic equation of N scatterers). (b) Exponents between neighbouring
+        powers of N, blue: mean field. (b) Exponents between neighbouring
         sizes: for γ = 1 in the end {text_at(-1, rare)}; for γ = N no single power, {text_at(0, often)} at first, above 1/2 later and
-        {text_at(-1, often)} in the end, {text_at(-1, strong)} at the stronger drive. Diamonds: random directions do not conserve
-        momentum, and κ tends to a constant, {listed(random)}. {ERRORS}"""
+        {text_at(-1, often)} in the end, {text_at(-1, strong)} at the stronger drive. Diamonds: without conserved momentum (random
+        directions) κ tends to a constant, {listed(random)}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
