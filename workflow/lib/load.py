@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 FORMAT = "lorentz-gas"
 FORMAT_VERSION = 3
 NOT_REACHED = "not reached"
+NOT_TESTED = "stationarity not tested"
 VALUES = (
     "mean",
     "standard_error",
@@ -151,7 +152,7 @@ class Result:
             )
         of_a_stationary_state = {"nu-left", "relaxation-time"} <= self.parameters.keys()
         if of_a_stationary_state and np.isnan(self._drift_p_value):
-            reasons.append("stationarity not tested")
+            reasons.append(NOT_TESTED)
         elif of_a_stationary_state and self["stationary"].mean != 1:
             reasons.append("not stationary")
         return reasons
