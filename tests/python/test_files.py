@@ -30,5 +30,5 @@ def test_a_failure_leaves_the_previous_files(tmp_path: Path, monkeypatch: pytest
 @pytest.mark.parametrize("text", ["title: a", "title: [", ""])
 def test_a_damaged_citation(tmp_path: Path, text: str) -> None:
     (tmp_path / CITATION).write_text(text)
-    with pytest.raises(ConfigurationError, match=rf"^{CITATION}"):
+    with pytest.raises(ConfigurationError, match=rf"{CITATION}"):
         citation(tmp_path)

@@ -8,9 +8,9 @@ import pytest
 from scipy.integrate import quad
 
 from tests.python.conftest import ROOT, Measure, Program
-from workflow.figures.ext13 import amplitude, last_octave, tabulate
+from workflow.figures.ext13 import amplitudes, last_octave, longest_rings, tabulate
 from workflow.lib.load import Quantity, Result
-from workflow.lib.mode_coupling import Chain, logarithm_at
+from workflow.lib.mode_coupling import SQUARE_INTEGRAL, Chain, logarithm_at
 
 T, LENGTH, FUGACITY = 4.0, 0.5, 3.0
 ZETA = FUGACITY * LENGTH
@@ -161,6 +161,49 @@ def test_every_time_is_from_the_ring_with_the_smallest_error() -> None:
     np.testing.assert_allclose(sound.middle, [2**0.5, 8**0.5, 32**0.5, np.nan])
     assert sound.predicted.isna().tolist() == [True, False, False, False]
     assert random.predicted.isna().all()
-    assert last_octave(sound) == "1.300(26) (ζ = 0.8, M = 1/3)"
+    assert last_octave(sound) == "1.300(26) (0.8; 1/3)"
     theory = Chain(0.8, 1 / 3, slow_logarithm=logarithm_at(4)).heat_amplitude
-    assert f" over t = 2 to 8 gives {0.4 / theory:.3f}(" in amplitude(results)
+    (row,) = amplitudes(longest_rings(results[:2]), []).to_dict("records")
+    assert (row["fit_from"], row["fit_to"]) == (2, 8)
+    assert row["amplitude_ratio"] == pytest.approx(0.4 / theory)
+
+
+def test_the_ratio_to_gaussian_sound() -> None:
+    """The sound peak has the profile of f_KPZ, its area and speed, in units that are not those of T and λ; noise is subtracted."""
+    temperature, length, time = 2.0, 0.5, 100.0
+    heat = ring(
+        [100, 400],
+        0.01,
+        **{"temperature": temperature, "cell-length": length, "fugacity": 1.6, "fit-from": 100.0},
+    )
+    unit = Chain(0.8, 1 / 3, slow_logarithm=logarithm_at(200 * temperature**0.5 / length))
+    scaled = time * temperature**0.5 / length
+    cells = 2001
+    distance = np.abs(np.arange(cells) - cells // 2)
+    peak = temperature * unit.sound_peak(distance, scaled)
+    noise = 0.01 * peak.max()
+    axes = {"time": np.array([time]), "cell": np.arange(cells)}
+    units = {"time": "time", "cell": "1"}
+    quantities = {
+        "momentum_correlation": Quantity(
+            np.sqrt(peak**2 + noise**2)[None],
+            np.full((1, cells), noise),
+            None,
+            None,
+            axes,
+            "1",
+            units,
+            {},
+            None,
+        ),
+        "peak": Quantity(
+            np.array([1.0]), np.array([0.01]), None, None, {"time": np.array([time])}, "1", units, {}, None
+        ),
+    }
+    sound = Result(ROOT, heat.parameters, {}, quantities)
+    (row,) = amplitudes([heat], [sound]).to_dict("records")
+    gaussian = float(unit.gaussian_heat_correlation(SQUARE_INTEGRAL * unit.self_coupling ** (-2 / 3)))
+    assert row["gaussian_ratio"] == pytest.approx(0.4 / gaussian, rel=2e-3)
+    assert row["gaussian_ratio_error"] == pytest.approx(
+        row["gaussian_ratio"] * np.hypot(0.01, 0.01), rel=1e-6
+    )

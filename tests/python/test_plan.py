@@ -112,7 +112,7 @@ def test_an_error_replaces_replicas() -> None:
         ("best", "best is not a quality; choose one of"),
         ("smoke_seed=07", "SEED=07 is invalid"),
         ("smoke_seed=1_seed=2", "seed=2 is given more than once"),
-        ("smoke_seed=-1", "SEED=-1 is invalid; allowed: a whole number, at least 0"),
+        ("smoke_seed=-1", "SEED=-1 is invalid; allowed: a whole number from 0 to 10^18 - 1"),
         ("smoke_replicas=0", "REPLICAS=0 is invalid"),
         ("smoke_error=0", "ERROR=0 is invalid; allowed: a number greater than 0"),
         ("smoke_error=x", "ERROR=x is invalid"),

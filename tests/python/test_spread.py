@@ -19,7 +19,7 @@ FACTORS = {"particle_count": 2e-3}  # factor of all times by program
 OTHERS = 5e-3  # factor for the other programs
 IN_PLACE = {  # options that replace those of the plan, by program
     "energy_pulse": {"pairs-per-replica": 1, "relaxation-time": 0},
-    "correlation": {"cells": 101, "observation-time": 64, "times": "4,8,16"},
+    "correlation": {"cells": 101, "observation-time": 256, "times": "4,8,16"},
     "heat_current": {"cells": 20, "observation-time": 8, "times": "1,2,4", "fit-from": 1},
 }
 
@@ -40,11 +40,14 @@ NUMBERS = {
 
 
 def middle_runs() -> dict[str, Run]:
-    """By panel and series: the run in the middle of the list of replicated runs."""
+    """By panel and series: the run in the middle of the list of replicated runs. Of runs that differ in the seed alone, the first."""
     by_series: dict[str, list[Run]] = {}
+    known = set()
     for panel in load_plan("standard").values():
         for run in panel.runs:
-            if run.replicated:
+            without_seed = (panel.name, run.program, str(sorted((run.options | {"seed": 0}).items())))
+            if run.replicated and without_seed not in known:
+                known.add(without_seed)
                 by_series.setdefault(f"{panel.name}-{run.series}", []).append(run)
     return {name: runs[len(runs) // 2] for name, runs in by_series.items()}
 
