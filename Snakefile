@@ -4,7 +4,6 @@ and their record <panel>.<identity>.json
 What determines a product is in its name. A missing name is made; neither time stamps nor Snakemake's own records decide.
 """
 
-import json
 import os
 import shlex
 import signal
@@ -13,7 +12,7 @@ from pathlib import Path
 
 from workflow.cluster.cost import PARTS, seconds_of_run
 from workflow.lib.configuration import ConfigurationError
-from workflow.lib.figure_metadata import panel_identity
+from workflow.lib.figure_metadata import panel_identity, read_panel
 from workflow.lib.files import refuse_another_folder
 from workflow.lib.identity import IDENTITY
 from workflow.lib.plan import Quality, build_id, data_of, drawing_command, load_plan, panel_named, with_used

@@ -2,6 +2,7 @@
 
 import json
 import re
+import shlex
 import shutil
 import zipfile
 from collections.abc import Callable
@@ -145,9 +146,9 @@ def test_what_is_not_in_the_plan_is_named_and_what_the_user_named_is_not_removed
         printed = audit(kept, *arguments)
         assert f"obsolete: {former}: no plan names it; make prune QUALITY=smoke removes it" in printed
         assert "0 broken, 0 not checked, 1 obsolete" in printed
-    printed = kept.module("provenance.status", "--quality", "smoke", "--panel", "fig03")
+    printed = kept.module("provenance.status", "--quality", "smoke", "--panel", "fig03", "--panel", "fig05")
     (remedy,) = re.findall("make (prune .*) removes them", printed)
-    assert former in kept.make(*remedy.split()).stdout
+    assert former in kept.make(*shlex.split(remedy)).stdout
     assert "obsolete" not in audit(kept)
     assert all((kept.folder / path).exists() for path in own)
 

@@ -55,9 +55,10 @@ def obsolete(quality: str, panels: Sequence[str] = ()) -> list[Path]:
             continue
         if parts[3] or parts[2] in runs:
             obsolete_files.add(file)
+    stems = {*plans().get(quality, ()), REPORT}  # a quality without a folder of figures is not in plans()
     for record in (ROOT / "figures" / quality).glob("*.json"):
         parts = OF_A_PANEL.fullmatch(record.name)
-        if not parts or parts[1] in {*load_plan(quality), REPORT} or (panels and parts[1] not in panels):
+        if not parts or parts[1] in stems or (panels and parts[1] not in panels):
             continue
         with suppress(MetadataError, OSError):
             files = [record.with_name(name) for name in read_panel(record)["files"]]

@@ -1,6 +1,7 @@
 """Prints the state of every panel (fresh, stale with the reason, or missing), its largest error and its CPU seconds."""
 
 import math
+import shlex
 import sys
 
 from rich.console import Console
@@ -51,12 +52,10 @@ def main() -> None:
     Console(width=None if sys.stdout.isatty() else WIDE).print(table)
     print(LEGEND)
     if obsolete := faults(products, options.panel or []):
-        of = " ".join(
-            [Quality.of(options.quality).arguments, *(f"PANEL={name}" for name in options.panel or [])]
-        )
+        only = shlex.quote("PANEL=" + " ".join(options.panel)) + " " if options.panel else ""
         print(
             f"Obsolete: {len(obsolete)} results or figures of other options, builds or sources, to which going back costs no "
-            f"simulation; make prune {of} removes them"
+            f"simulation; make prune {only}{Quality.of(options.quality).arguments} removes them"
         )
 
 

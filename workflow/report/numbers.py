@@ -103,7 +103,7 @@ def kappa_0_expected(data: Data) -> str:
     """Exponent of κ_0 in the last octave, predicted from the heat that passes in a ring before sound leaves the chain (ext. 11)."""
     chains = stationary_at_fixed_spacing(data)
     rings = data.of("ext13", rule="elastic", sigma=chains[0].parameters["sigma"])
-    table, _ = ext11.with_theory(ext11.tabulate(chains), chains, ext11.rings(rings))
+    table, _ = ext11.response(chains, rings)
     last = table.iloc[-2:]
     return with_error(
         *(

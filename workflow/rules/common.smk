@@ -25,10 +25,8 @@ def valid(record):
 def without_foreign_parents(record):
     """The path of a record, which is removed if a result that it names has changed since, so that both are made again."""
     if record.exists():
-        parents = json.loads(record.read_text("utf-8"))["parents"]["data"]
-        if any(
-            Path(path).exists() and file_hash(Path(path)) != one["sha256"] for path, one in parents.items()
-        ):
+        parents = read_panel(record)["parents"].data.items()
+        if any(Path(path).exists() and file_hash(Path(path)) != one["sha256"] for path, one in parents):
             record.unlink()
     return record
 
