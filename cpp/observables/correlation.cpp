@@ -89,12 +89,12 @@ std::vector<double> centred(std::vector<double> profile) {
 void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& run, TallySums& sums) {
   const ClosedChain chain = parameters.chain();
   const double interval = parameters.times.front(), cells = chain.cells;
-  const auto intervals = static_cast<std::size_t>(parameters.observation_time / interval * (1 + 1e-9));
   const std::vector<std::size_t> lags = lorentz::lags(parameters.times);
   RingCorrelation momentum(chain.cells, lags), heat(chain.cells, lags);
   const double total = run.chain().invariants().momentum;
   CellFields particles(run.chain().phase_point(0), chain);
-  for (std::size_t j = 0; j <= std::max(intervals, lags.back()); ++j) {  // the last time may be rounded
+  const std::size_t intervals = parameters.intervals(lags);
+  for (std::size_t j = 0; j <= intervals; ++j) {
     run.observe(particles, std::min(static_cast<double>(j) * interval, parameters.end_time()));
     const std::vector<double> scatterers = run.chain().scatterers();
     momentum.add(momenta(particles, scatterers, parameters.root_mass()));
@@ -210,9 +210,6 @@ void require_consistent(const Parameters& parameters) {
         "--rule, --sigma: momentum is not conserved, and there is no sound. Choose --rule elastic, and "
         "--sigma below 1.");
   require_within(parameters.temperature, 1e-100, 1e100, "--temperature", "the unit of energy");
-  require_within(parameters.zeta(), 1e-30, 1e9, "--fugacity, --cell-length", "their product");
-  require_within(times.front() * std::sqrt(parameters.temperature) / parameters.ring.cell_length, 1e-30, 1e15,
-                 "--times", "the first in units of a thermal flight");
   const double least = std::max(7.0, std::ceil(2 * Range(parameters, times.back()).end));
   require_before_sound_returns(parameters, least);
   // Of every snapshot, the transforms of two fields are kept until the longest lag.

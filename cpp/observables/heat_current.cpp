@@ -37,8 +37,7 @@ struct Parameters : EquilibriumParameters {
   /// Q_n per time and total momentum, 2 zeta/(2 zeta + M) [eq. M31]; 0 where momentum is not conserved.
   double carried_by_momentum() const {
     if (!conserves_momentum()) return 0;
-    const double sigma = ring.scattering.sigma, in_particles = 2 * zeta();
-    return in_particles / (in_particles + (1 + sigma) / (1 - sigma));
+    return 2 * zeta() / (2 * zeta() + scatterer_mass());
   }
 };
 
@@ -74,8 +73,7 @@ std::vector<double> sums_of(const std::vector<double>& x) {
 void observe(const Parameters& parameters, const Tallies& tallies, const std::vector<std::size_t>& windows,
              ClosedRun& run, TallySums& sums) {
   const double interval = parameters.times.front(), cells = parameters.chain().cells;
-  const auto whole = static_cast<std::size_t>(parameters.observation_time / interval * (1 + 1e-9));
-  const std::size_t intervals = std::max(whole, windows.back());  // the last time may be rounded
+  const std::size_t intervals = parameters.intervals(windows);
   const Blocks blocks(0, static_cast<double>(intervals) * interval, intervals);
   const double carried = parameters.carried_by_momentum();
   const double drift = carried > 0 ? carried * run.chain().invariants().momentum * blocks.length() : 0;
@@ -145,9 +143,6 @@ void require_consistent(const Parameters& parameters) {
   const double T = parameters.temperature, length = parameters.ring.cell_length;
   require_within(T * length, 1e-100, 1e100, "--temperature, --cell-length",
                  "the unit of heat, their product");
-  require_within(times.front() * std::sqrt(T) / length, 1e-30, 1e15, "--times",
-                 "the first in units of a thermal flight");
-  require_within(parameters.zeta(), 1e-30, 1e9, "--fugacity, --cell-length", "their product");
   if (parameters.conserves_momentum())
     require_before_sound_returns(parameters,
                                  std::ceil(2 * Sound::of(parameters).reach(times.back()) / length));

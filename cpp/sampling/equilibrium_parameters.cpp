@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "program/errors.hpp"
+#include "sampling/limits.hpp"
 
 namespace lorentz {
 
@@ -15,6 +18,11 @@ EquilibriumParameters::EquilibriumParameters(std::vector<double> default_times)
   fugacity = 1;
   relaxation_time = 0;
   observation_time = 256;
+}
+
+std::size_t EquilibriumParameters::intervals(const std::vector<std::size_t>& lags) const {
+  const auto whole = static_cast<std::size_t>(observation_time / times.front() * (1 + 1e-9));
+  return std::max(whole, lags.back());  // the last time may be rounded
 }
 
 void declare(Options& options, EquilibriumParameters& parameters, const std::string& use) {
@@ -34,6 +42,10 @@ void validate(const EquilibriumParameters& parameters) {
   validate(static_cast<const ClosedParameters&>(parameters));
   if (parameters.times.back() > parameters.observation_time)
     throw UsageError("--times goes beyond --observation-time. Choose a longer one, or earlier times.");
+  const double T = parameters.temperature, length = parameters.ring.cell_length;
+  require_within(parameters.zeta(), 1e-30, 1e9, "--fugacity, --cell-length", "their product");
+  require_within(parameters.times.front() * std::sqrt(T) / length, 1e-30, 1e15, "--times",
+                 "the first in units of a thermal flight");
 }
 
 void require_before_sound_returns(const EquilibriumParameters& parameters, double least) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -16,13 +17,17 @@ struct EquilibriumParameters : ClosedParameters {
   explicit EquilibriumParameters(std::vector<double> default_times);
 
   double zeta() const { return fugacity.value() * ring.cell_length; }
+  double scatterer_mass() const { return (1 + ring.scattering.sigma) / (1 - ring.scattering.sigma); }
+
+  /// Number of intervals of a record, each as long as the first of `times`; lags(times) are `lags`.
+  std::size_t intervals(const std::vector<std::size_t>& lags) const;
 };
 
 /// Declares --cells, --sigma, --rule, --cell-length, --temperature, --fugacity, --observation-time and
 /// --times. use: of the times, for the help.
 void declare(Options& options, EquilibriumParameters& parameters, const std::string& use);
 
-/// Throws UsageError if options that are valid one by one exclude each other.
+/// Throws UsageError if options that are valid one by one exclude each other, or units are not representable.
 void validate(const EquilibriumParameters& parameters);
 
 /// Sound in the stationary state of a closed chain, for infinitely many slow particles [eqs. M11, M12, M17].
@@ -31,10 +36,10 @@ struct Sound {
   double speed;          // c, a length over a time
   double self_coupling;  // lambda_s, length^(3/2)/time
 
-  static Sound of(const ClosedParameters& parameters) {
+  static Sound of(const EquilibriumParameters& parameters) {
     const double z = parameters.fugacity.value(), spacing = parameters.ring.cell_length;
-    const double sigma = parameters.ring.scattering.sigma, mass = (1 + sigma) / (1 - sigma);
-    const double a = z + 0.5 / spacing, rho = 2 * z + mass / spacing, T = parameters.temperature;
+    const double a = z + 0.5 / spacing, rho = 2 * z + parameters.scatterer_mass() / spacing;
+    const double T = parameters.temperature;
     return {2 * z * std::sqrt(T / (a * rho)), (z / a + 2 * z / rho) * std::sqrt(T / rho)};
   }
 
