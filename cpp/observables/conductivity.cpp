@@ -44,10 +44,9 @@ std::string reason_without_kappa(const OpenChain& chain) {
   if (chain.left.temperature == chain.right.temperature)
     return "the reservoirs have one temperature; choose another --temperature-left or --temperature-right";
   if (chain.gamma == 0) return "no particle is scattered; choose a --gamma above 0";
-  const bool elastic = chain.rule == Elastic::properties.name;
-  if (std::abs(chain.sigma) == 1 && (elastic || chain.rule == RandomDirection::properties.name))
+  if (std::abs(chain.sigma) == 1)
     return "scatterers of mass 0 or infinity exchange no energy; choose a --sigma between -1 and 1";
-  if (chain.sigma == 0 && elastic)
+  if (chain.sigma == 0 && rule_properties(chain.rule).conserves_momentum)
     return "equal masses only exchange momenta, so that no gradient of temperature forms; choose another "
            "--sigma";
   return chain.cells == 1 ? "a single cell has no difference of temperature; choose more --cells" : "";
