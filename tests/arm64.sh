@@ -13,7 +13,9 @@ command -v debootstrap qemu-aarch64 >/dev/null || { apt-get update; $install deb
 if [ "$(cat $root/complete 2>&1)" != "$packages" ]; then
   rm -rf $root
   mkdir -p $root
-  debootstrap --variant=minbase bookworm $root
+  link=$(mktemp -d) && ln -s "$PWD/$root" "$link/root"  # debootstrap fails in a path with a space
+  debootstrap --variant=minbase bookworm "$link/root"
+  rm -r "$link"
   chroot $root dpkg --add-architecture arm64
   chroot $root apt-get update
   chroot $root $install $packages

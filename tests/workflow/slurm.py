@@ -101,13 +101,15 @@ class Cluster:
         self._end("slurmctld")
 
     def stop(self) -> None:
-        """Ends jobs, which a failed test may have left, then the daemons that can end them."""
         with contextlib.suppress(subprocess.SubprocessError, AssertionError):
-            self.command("scancel", "--user=root")
-            soon(lambda: not self.command("squeue", "--noheader", "--states=RUNNING,COMPLETING"))
+            self.cancel_jobs()  # while the daemons run that can end them
         INSTALLED.unlink(missing_ok=True)
         for name in [*self._daemons][::-1]:
             self._end(name)
+
+    def cancel_jobs(self) -> None:
+        self.command("scancel", "--user=root")
+        soon(lambda: not self.command("squeue", "--noheader", "--states=PENDING,RUNNING,COMPLETING"))
 
     def command(self, *words: str) -> str:
         """Output of a command of Slurm; empty if it fails, for instance without a controller."""

@@ -32,8 +32,10 @@ def cluster() -> Iterator[slurm.Cluster]:
 
 
 @contextlib.contextmanager
-def on_cluster(clone: Clone, *config: str, option: str = "--keep-going") -> Iterator[subprocess.Popen[str]]:
-    """Snakemake in its own session, which is killed at the end."""
+def on_cluster(
+    cluster: slurm.Cluster, clone: Clone, *config: str, option: str = "--keep-going"
+) -> Iterator[subprocess.Popen[str]]:
+    """Snakemake in its own session. At the end it is killed and its jobs are cancelled, also where a test has failed."""
     profile = ("--workflow-profile", "profiles/slurm", *PATIENCE.split(), option)
     with subprocess.Popen(
         [".venv/bin/snakemake", "panel", "--nolock", *profile, "--config", *config],
@@ -49,6 +51,7 @@ def on_cluster(clone: Clone, *config: str, option: str = "--keep-going") -> Iter
         finally:
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(making.pid, signal.SIGKILL)
+            cluster.cancel_jobs()
 
 
 def products(clone: Clone, quality: str) -> dict[Path, bytes]:
@@ -64,7 +67,7 @@ def test_parts_and_batches_give_the_same_bytes(cluster: slurm.Cluster, kept: Clo
         for path in (kept.folder / f"data/smoke/{panel}").iterdir():
             path.unlink()
         submitted = len(cluster.command("squeue", "--noheader", "--states=all").splitlines())
-        with on_cluster(kept, "quality=smoke", f"panel={panel}", f"batch={batch}") as making:
+        with on_cluster(cluster, kept, "quality=smoke", f"panel={panel}", f"batch={batch}") as making:
             shown, _ = making.communicate(timeout=900)
         assert making.returncode == 0, shown
         assert len(cluster.command("squeue", "--noheader", "--states=all").splitlines()) - submitted == jobs
@@ -88,13 +91,13 @@ def processes(clone: Clone, program: str) -> list[int]:
 def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, kept: Clone) -> None:
     """Jobs end by Ctrl-C, scancel, kill -9 or their time limit, while the controller does not run, and while the node is drained."""
     program = "particle_count"
-    with on_cluster(kept, *LONG, "batch=0.1") as making:
+    with on_cluster(cluster, kept, *LONG, "batch=0.1") as making:
         soon(lambda: processes(kept, program), seconds=600)
         os.killpg(making.pid, signal.SIGINT)
         shown, _ = making.communicate(timeout=120)
     assert "The same command resumes." in shown
     soon(lambda: not processes(kept, program))
-    with on_cluster(kept, *LONG, "batch=0.1") as making:
+    with on_cluster(cluster, kept, *LONG, "batch=0.1") as making:
         (cancelled, *_) = soon(cluster.jobs, seconds=600)
         soon(lambda: processes(kept, program))
         cluster.command("scancel", cancelled)
@@ -121,9 +124,9 @@ def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, kept: Clone) -> Non
 
 def test_a_part_resumes_from_its_checkpoint(cluster: slurm.Cluster, kept: Clone) -> None:
     shutil.rmtree(kept.folder / "build/logs/standard", ignore_errors=True)
-    with on_cluster(kept, *LONG, "batch=1", option="--forceall") as making:
+    with on_cluster(cluster, kept, *LONG, "batch=1", option="--forceall") as making:
         (log,) = soon(
-            lambda: [*kept.folder.glob("build/logs/standard/fig01/unit-chain.*/*.log")], seconds=600
+            lambda: [*kept.folder.glob("build/logs/standard/fig01/unit-chain.*/*_0-63.log")], seconds=600
         )
         soon(lambda: len(reports(log)) > 1, seconds=600)
         cluster.command("scancel", *cluster.jobs())
