@@ -38,7 +38,7 @@ def claim(name: str, world: World, *readings: Answer, quality: str = "paper", **
 
 
 def named(values: Mapping[str, Any]) -> Callable[..., Any]:
-    """Function of a quantity that gives each run the value of its name."""
+    """Truth of a quantity that is looked up by the name of the run."""
     return lambda run, *_: values[run.name]
 
 

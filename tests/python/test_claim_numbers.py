@@ -117,7 +117,7 @@ def changed(known: Known, path: str) -> Known:
 
 @pytest.mark.parametrize("name", CASES)
 def test_degrees_of_freedom_are_those_of_the_run_with_the_fewest_replicas(name: str) -> None:
-    """The runs of a number are those whose means change it. The error of the heat peak follows from the spread over eight runs."""
+    """A number depends on those runs whose change changes it. Exception: the heat peak, whose error is the spread over eight runs."""
     known = data(CASES[name])
     plain = numbers(name, known)
     fewest = np.full(len(plain), np.inf)

@@ -13,7 +13,7 @@ from tests.python.conftest import Program, command_line
 
 
 def limited(folder: Path, limits: dict[int, int], options: dict, name: str) -> subprocess.CompletedProcess:
-    """Runs a program with limits of its resources, with the default actions of the signals that are sent beyond them."""
+    """Runs a program under limits of its resources. The signals that the system sends where one is exceeded have their default action."""
 
     def limit() -> None:
         for kind, size in limits.items():

@@ -106,7 +106,7 @@ def test_what_has_been_edited_is_not_packed(packed: Clone, kept: Clone) -> None:
 
 @pytest.fixture(scope="module")
 def http_cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A cache of the validator that holds only the context."""
+    """HTTP cache with the context of RO-Crate, so that the validator needs no network."""
     path = tmp_path_factory.mktemp("http") / "cache"
     content = json.dumps({"@context": RO_CRATE["@context"] | TERMS_OF_1_1}).encode()
     raw = HTTPResponse(BytesIO(content), {"Content-Type": "application/ld+json"}, 200, preload_content=False)

@@ -8,12 +8,13 @@ import re
 from collections.abc import Callable
 
 NUMBER = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
-TERM = re.compile(rf"([+-]?{NUMBER})(?:(N)(?:\^(2))?)?")
+POWER = r"(?:(N)(?:\^(2))?)?"
+TERM = re.compile(rf"([+-]?{NUMBER}){POWER}")
 
 
 def pattern(number: str = NUMBER) -> str:
     """Regular expression of a sum of terms with such numbers."""
-    term = rf"{number}(N(\^2)?)?"
+    term = rf"{number}{POWER}"
     return rf"{term}(\+{term})*"
 
 

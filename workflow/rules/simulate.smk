@@ -1,8 +1,8 @@
 """One run of a program: data/<quality>/<panel>/<run>.<identity>.h5.
 
 Exit status 4: stopped before the target error; the result and the figure are marked. --resume continues from the checkpoint of an
-interrupted program. Snakemake removes an empty folder of outputs when it is terminated, and the checkpoint would be lost: PATH.tmp is
-there until the result is.
+interrupted program. A Snakemake that is terminated removes empty folders of outputs, and with them a checkpoint that is written
+there later. PATH.tmp keeps the folder from being empty until the result exists.
 """
 
 

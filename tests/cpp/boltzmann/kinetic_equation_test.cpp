@@ -137,7 +137,7 @@ TEST(CollisionOperator, NeedsEveryFactor) {
   const VectorXd g = density(solution.scatterer_density(middle, positive));
   const VectorXd balanced = equation.scatterer(ordered);
   EXPECT_LT(distance(g, balanced), 2e-9);
-  // One factor only: the density of U after one collision of a scatterer at rest.
+  // Mistake: a density with one factor in place of two, that of U after one collision of a scatterer at rest.
   VectorXd once(p.size());
   const double c = std::sqrt(0.75), number = equation.line().weights().dot(ordered);
   for (Index i = 0; i < p.size(); ++i) once[i] = equation.line().value(ordered, p[i] / c) / (c * number);

@@ -65,9 +65,9 @@ Shape soliton(double place, double width) {
   return {"sech^2", [=](double x) { return mean_of_cell(density, x); }};
 }
 
-/// Energy of freely flying particles from one cell with Gaussian momenta, minus that at a tenth of the
-/// temperature: with width^2 = temperature t^2 the density x^2 exp(-x^2/(2 width^2)), averaged twice over a
-/// cell, the initial one and the one measured.
+/// Energy of freely flying particles that start in one cell with Gaussian momenta, minus that at a tenth of
+/// the temperature. The density is proportional to x^2 exp(-x^2/(2 width^2)), width^2 = temperature t^2. It
+/// is averaged over two cells: the positions of the start, and those of the measurement.
 Shape free_flight(double width) {
   const auto one = [](double x, double s) { return x * x / (s * s * s) * std::exp(-0.5 * x * x / (s * s)); };
   const auto density = [=](double x) {
