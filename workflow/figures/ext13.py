@@ -166,7 +166,7 @@ def draw(results: Sequence[Result]) -> Drawn:
         xscale="log", yscale="log", xlabel="time $t$", ylabel=rf"$\langle Q^2 \rangle/Nt$ ({style.UNITS})"
     )
     style.label_within_decades(left.yaxis)
-    left.legend(loc="lower right")
+    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=3)
     right.set(xscale="log", xlabel="time $t$", ylabel=r"$d\ln\langle Q^2 \rangle/d\ln t$")
     style.guide_at(right, 4 / 3, "4/3")
     style.guide_at(right, 1, "1")
