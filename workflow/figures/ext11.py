@@ -263,7 +263,7 @@ def draw(results: Sequence[Result]) -> Drawn:
     caption = (
         f"Linear response at γ = N, {parameters(open_chains, 'sigma')}, from differences of temperature and of pressure "
         f"({parameters(open_chains, *BATHS)}), {replicas(open_chains)}. (a) L_nn/N, coefficient of the particle current; "
-        "constant, as momentum is conserved. (b) Heat conductivity without particle current. Lines: a ring of the same gas in "
+        "nearly constant, as momentum is conserved. (b) Heat conductivity without particle current. Lines: a ring of the same gas in "
         "equilibrium up to the time τN/c, in which sound leaves the chain; nothing else is fitted. At λ = "
         f"{spacing[DENSE]} τ = {with_error(tau.value, tau.error)} for all N (χ² = {tau.chi_square:.1f} for {tau.freedom}); with it, "
         f"measured over predicted at λ = 1/N: {listed(map(with_error, ratio, error))}. (c) Local exponents."
