@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from tests.python.conftest import ROOT
+from tests.python.test_mutants import Tree
 from workflow.provenance.build_id import built, include_closure
 
 SCRIPT = ROOT / "workflow/provenance/build_id.py"
@@ -114,19 +115,11 @@ def test_another_compiler_or_a_failure_starts_a_new_configuration(tmp_path: Path
 def test_a_copy_depends_on_its_own_sources(tmp_path: Path) -> None:
     """Detected mistake: ccache gives a copy the list of dependencies of the original, whose path has a space."""
     for name in ("an original", "copy"):
-        folder = tmp_path / name
-        for part in ("cpp", "tests/cpp", "workflow/provenance"):
-            shutil.copytree(ROOT / part, folder / part)
-        build = ["cmake", "-S", "cpp", "-B", "build", "-G", "Ninja", f"-DCOMPILER_CACHE={tmp_path / 'cache'}"]
-        subprocess.run(build, cwd=folder, check=True, capture_output=True)
-        subprocess.run(["ninja", "-C", "build", "libnumerics.a"], cwd=folder, check=True, capture_output=True)
-    source = tmp_path / "copy/cpp/numerics/gmres.cpp"
+        tree = Tree(tmp_path / name, tmp_path / "cache")
+        tree.run("ninja", "-C", "build", "libnumerics.a")
+    source = tree.folder / "cpp/numerics/gmres.cpp"
     source.write_text("#error changed\n" + source.read_text())
-    again = subprocess.run(
-        ["ninja", "-C", "build", "libnumerics.a"], cwd=folder, check=False, capture_output=True
-    )
-    assert again.returncode != 0
-    assert b"#error changed" in again.stdout
+    assert "#error changed" in tree.run("ninja", "-C", "build", "libnumerics.a", status=1).stdout
 
 
 def test_every_source_that_programs_link_is_in_a_closure() -> None:

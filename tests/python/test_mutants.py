@@ -29,13 +29,13 @@ def head(patch: Path) -> re.Match[str]:
 class Tree:
     """A copy of the C++ sources with a build of the tests that the patches name."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, cache: Path = ROOT / "build/ccache") -> None:
         self.folder = folder
         for name in ("cpp", "tests/cpp", "workflow/provenance"):
             shutil.copytree(ROOT / name, folder / name)
         tests = ";".join(sorted({head(patch)["source"] for patch in PATCHES}))
-        cache = f"-DCOMPILER_CACHE={ROOT / 'build/ccache'}"
-        self.run("cmake", "-S", "cpp", "-B", "build", "-G", "Ninja", cache, f"-DTESTS={tests}")
+        options = (f"-DCOMPILER_CACHE={cache}", f"-DTESTS={tests}")
+        self.run("cmake", "-S", "cpp", "-B", "build", "-G", "Ninja", *options)
 
     def run(self, *command: str, status: int | None = 0) -> subprocess.CompletedProcess[str]:
         done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=False)

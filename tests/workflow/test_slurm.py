@@ -35,7 +35,8 @@ def cluster() -> Iterator[slurm.Cluster]:
 def on_cluster(
     cluster: slurm.Cluster, clone: Clone, *config: str, option: str = "--keep-going"
 ) -> Iterator[subprocess.Popen[str]]:
-    """Snakemake in its own session. At the end it is killed and its jobs are cancelled, also where a test has failed."""
+    """Snakemake in its own session, which is killed at the end."""
+    cluster.cancel_jobs()  # those that a failed test has left
     profile = ("--workflow-profile", "profiles/slurm", *PATIENCE.split(), option)
     with subprocess.Popen(
         [".venv/bin/snakemake", "panel", "--nolock", *profile, "--config", *config],
@@ -51,7 +52,6 @@ def on_cluster(
         finally:
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(making.pid, signal.SIGKILL)
-            cluster.cancel_jobs()
 
 
 def products(clone: Clone, quality: str) -> dict[Path, bytes]:

@@ -17,12 +17,13 @@ from workflow.lib.configuration import (
 )
 from workflow.lib.identity import identity, seed_of
 from workflow.lib.nearest import nearest
-from workflow.lib.polynomial import NUMBER
 from workflow.provenance.build_id import built
 
 QUALITIES = ("smoke", "standard", "paper", "deep")
 STOPPING = ("target-error", "target-absolute")  # options that add replicas to a run
 BATCH = 16  # replicas between two checks of a target error
+# Without +, as the text is part of the name of a folder and of a pattern of names.
+NUMBER = r"[0-9]+\.?[0-9]*|[0-9]*\.?[0-9]+|[0-9]+\.?[0-9]*[eE]-?[0-9]+"
 EFFORTS: dict[str, tuple[str, Any, str]] = {  # pattern, type and description of the allowed values
     "seed": ("0|[1-9][0-9]{0,17}", int, "a whole number from 0 to 10^18 - 1"),
     "replicas": ("[1-9][0-9]{0,17}", int, "a whole number, at least 1"),
