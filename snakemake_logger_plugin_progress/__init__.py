@@ -40,6 +40,7 @@ TARGETS = (
     "tradeoff",
     "total",
 )  # not jobs, though counted with them
+INTERRUPTED = ("interrupted after", "KeyboardInterrupt")  # in the log of a program and of a script
 STOPPING = ("Terminating processes on user request", "Will exit after finishing", "Cancelling snakemake")
 
 
@@ -64,7 +65,10 @@ class LogHandler(LogHandlerBase):
         self._running: dict[int, Record] = {}  # JOB_INFO by number
         self._finished: set[str] = set()
         self._failed: dict[str, None] = {}  # ordered
-        self._stopped = False
+        self._interrupted: set[str] = (
+            set()
+        )  # jobs ended by a signal: by Ctrl-C or by the cluster, which restarts them
+        self._stopped = False  # by Ctrl-C
         self._cores = 0  # 0 on a cluster, where the remaining time depends on the queue
         self._costs: dict[str, float] = {}  # estimated CPU seconds by panel/run, 0 if unknown
         self._unknown = 0  # runs of unknown cost
@@ -105,6 +109,7 @@ class LogHandler(LogHandlerBase):
         if job.rule_name == "simulate":
             del self._waiting[:1]
         self._failed.pop(name_of(job), None)  # a retry
+        self._interrupted.discard(name_of(job))
         self._running[job.jobid] = job
 
     def _estimate(self) -> None:
@@ -140,9 +145,11 @@ class LogHandler(LogHandlerBase):
                 self._console.print(f"{name}: {', '.join([value, *doubts])}, {self._state}")
 
     def _fail(self, job: Record, logs: list[str]) -> None:
-        # After Ctrl-C the programs exit before Snakemake reports that it stops.
-        self._stopped = self._stopped or any("interrupted" in line for line in last_lines(logs[0]))
-        if not self._stopped:
+        if any(mark in line for line in last_lines(logs[0]) for mark in INTERRUPTED):
+            self._interrupted.add(name_of(job))
+            # Without a cluster the signal is Ctrl-C, of which Snakemake reports later.
+            self._stopped = self._stopped or bool(self._cores)
+        elif not self._stopped:
             self._failed[name_of(job)] = None
             log = next(filter(last_lines, logs), logs[0])
             ending = "ends with:" if last_lines(log) else "is empty: the job was killed, or did not start"
@@ -154,7 +161,9 @@ class LogHandler(LogHandlerBase):
         self._stopped = self._stopped or text.startswith(STOPPING)
         if self._stopped:
             ignore_interrupts()
-        follows = self._stopped or self._failed or "CalledProcessError" in text  # JOB_ERROR comes next
+        follows = (
+            self._stopped or self._failed or self._interrupted or "CalledProcessError" in text
+        )  # JOB_ERROR comes next
         if text.startswith("Nothing to be done") or (level >= logging.ERROR and not follows):
             self._console.print(text)
 
@@ -171,9 +180,10 @@ class LogHandler(LogHandlerBase):
                 self._console.print(
                     f"Failed: {', '.join(self._failed)}; {done}. Fix the cause; the same command {advice}."
                 )
-            elif self._stopped:
+            elif self._stopped or self._interrupted:
                 self._console.print(f"Stopped: {done}. The same command {advice}.")
-        self._early, self._failed, self._stopped = [], {}, False  # Python closes all handlers again at exit
+        # Python closes all handlers again at exit.
+        self._early, self._failed, self._interrupted, self._stopped = [], {}, set(), False
         super().close()
 
     @property

@@ -104,7 +104,7 @@ def test_another_compiler_or_a_failure_starts_a_new_configuration(tmp_path: Path
 
     usual = compiler()
     clang = compiler("clang++")
-    assert clang == "Clang" or ("is Clang 14" in clang and "make build CXX=g++" in clang)
+    assert clang == "Clang" or (re.search(r"is Clang \d+", clang) and "make build CXX=g++" in clang)
     assert compiler() == usual
     assert "the compiler CXX=no-such-compiler is not installed; install it" in compiler("no-such-compiler")
     assert "compiler identification is unknown" in compiler("true")

@@ -131,6 +131,34 @@ def test_a_retry_has_not_failed(handler: LogHandler, capsys: Captured) -> None:
     assert capsys.readouterr().out == ""
 
 
+@pytest.mark.parametrize(
+    ("restarted", "last"),
+    [
+        (False, "Stopped: 2 of 3 done. The same command resumes."),
+        (True, "fig05: rendered from 2 runs, 3 of 3 done"),
+    ],
+)
+def test_a_job_that_a_cluster_interrupts_has_not_stopped_the_others(
+    handler: LogHandler, capsys: Captured, tmp_path: Path, restarted: bool, last: str
+) -> None:
+    """A job at its time limit is restarted; a later failure of another one is shown."""
+    handler._cores = 0
+    (tmp_path / "a.log").write_text("interrupted after 4 replicas; --resume continues")
+    start(handler, 0, "a", str(tmp_path / "a.log"))
+    emit(handler, LogEvent.JOB_ERROR, jobid=0, log=[str(tmp_path / "a.log")])
+    start(handler, 1, "b")
+    emit(handler, LogEvent.JOB_ERROR, jobid=1, log=["none.log"])
+    assert capsys.readouterr().out.startswith("fig05/b failed after")
+    start(handler, 1, "b")
+    start(handler, 2)
+    if restarted:
+        start(handler, 0, "a")
+        finish(handler, 0)
+    finish(handler, 1, 2)
+    handler.close()
+    assert capsys.readouterr().out.splitlines()[-1] == last
+
+
 def test_other_errors_are_shown(handler: LogHandler, capsys: Captured) -> None:
     emit(handler, LogEvent.ERROR, "MissingInputException", logging.ERROR)
     emit(handler, None, "Nothing to be done (all requested files are present and up to date).")

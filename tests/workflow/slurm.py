@@ -118,9 +118,9 @@ class Cluster:
         )
         return done.stdout if done.returncode == 0 else ""
 
-    def jobs(self) -> list[str]:
-        """Numbers of the running jobs."""
-        return self.command("squeue", "--noheader", "--states=RUNNING", "--format=%i").split()
+    def jobs(self, states: str = "RUNNING") -> list[str]:
+        """Numbers of the jobs in these states."""
+        return self.command("squeue", "--noheader", f"--states={states}", "--format=%i").split()
 
     def _run(self, name: str, *arguments: str, user: str | None = None) -> None:
         with (self._folder / f"{name}.out").open("a") as log:

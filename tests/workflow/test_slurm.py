@@ -38,8 +38,9 @@ def on_cluster(
     """Snakemake in its own session, which is killed at the end."""
     cluster.cancel_jobs()  # those that a failed test has left
     profile = ("--workflow-profile", "profiles/slurm", *PATIENCE.split(), option)
+    interruptible = ("env", "--default-signal=INT")  # also where the tests run in the background of a shell
     with subprocess.Popen(
-        [".venv/bin/snakemake", "panel", "--nolock", *profile, "--config", *config],
+        [*interruptible, ".venv/bin/snakemake", "panel", "--nolock", *profile, "--config", *config],
         cwd=clone.folder,
         env={"PATH": os.defpath, "HOME": "/"},
         stdout=subprocess.PIPE,
@@ -101,6 +102,7 @@ def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, kept: Clone) -> Non
         (cancelled, *_) = soon(cluster.jobs, seconds=600)
         soon(lambda: processes(kept, program))
         cluster.command("scancel", cancelled)
+        soon(lambda: cancelled not in cluster.jobs("RUNNING,COMPLETING"))
         os.kill(soon(lambda: processes(kept, program), seconds=600)[0], signal.SIGKILL)
         cluster.stop_controller()
         time.sleep(5)

@@ -89,7 +89,7 @@ def draw(results: Sequence[Result]) -> Drawn:
         below.errorbar(front.time, ratio, front.front_error / half_cell, **FRONT)
         below.axhline(1, **style.GUIDE)
         given = style.spacing(result)[1]
-        name = rf"$\lambda = {given}$" + "\n(claims)" * (given == JUDGED)
+        name = rf"$\lambda = {given}$" + "\n(judged)" * (given == JUDGED)
         above.text(0.04, 0.94, name, transform=above.transAxes, va="top")
         above.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel=r"$|p|\,n_t(p)$", xlim=(-40, 40))
         number_bins(above, result)

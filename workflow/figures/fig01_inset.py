@@ -59,7 +59,7 @@ def draw_number(axes: Axes, table: pd.DataFrame, result: Result) -> None:
     if straight(result):
         axes.plot(table.time, table.number_fitted, color=style.BLACK, zorder=3, label=r"$a + b\,\ln t$")
     given = style.spacing(result)[1]
-    title = rf"$\lambda = {given}$" + " (claims)" * (given == JUDGED)
+    title = rf"$\lambda = {given}$" + " (judged)" * (given == JUDGED)
     filled = table.cell_length.iloc[0] < 1
     axes.legend(title=title, alignment="left", loc="lower right" if filled else "upper left")
     axes.set(xscale="log", ylabel="particles inside $n(t)$", ylim=(0, None))
