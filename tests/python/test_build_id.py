@@ -113,10 +113,12 @@ def test_another_compiler_or_a_failure_starts_a_new_configuration(tmp_path: Path
 
 @pytest.mark.skipif(not shutil.which("ccache"), reason="ccache is not installed")
 def test_a_copy_depends_on_its_own_sources(tmp_path: Path) -> None:
-    """Detected mistake: ccache gives a copy the list of dependencies of the original, whose path has a space."""
+    """The copy takes object files of the original, whose path has a space, from ccache, but not its list of dependencies."""
     for name in ("an original", "copy"):
         tree = Tree(tmp_path / name, tmp_path / "cache")
         tree.run("ninja", "-C", "build", "libnumerics.a")
+    used = tree.run("env", f"CCACHE_DIR={tmp_path / 'cache'}", "ccache", "--print-stats").stdout
+    assert re.search(r"direct_cache_hit\t[1-9]", used)
     source = tree.folder / "cpp/numerics/gmres.cpp"
     source.write_text("#error changed\n" + source.read_text())
     assert "#error changed" in tree.run("ninja", "-C", "build", "libnumerics.a", status=1).stdout

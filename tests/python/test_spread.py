@@ -9,6 +9,8 @@ from workflow.config.describe import with_option
 from workflow.lib.plan import Run, load_plan
 from workflow.tradeoff.measure import call, shortened
 
+pytestmark = pytest.mark.long  # four minutes
+
 SEEDS = 32
 MOST_REPLICAS = 64
 FIRST_TIMES = 3  # number of times of a pulse; later peaks are below the noise of one pair per replica
