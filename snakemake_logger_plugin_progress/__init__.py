@@ -64,7 +64,7 @@ class LogHandler(LogHandlerBase):
         self._paper = self._extensions = 0  # panels that are not rendered yet
         self._running: dict[int, Record] = {}  # JOB_INFO by number
         self._finished: set[str] = set()
-        self._failed: dict[str, None] = {}  # ordered
+        self._failed: dict[str, str] = {}  # with what is printed at the end
         self._interrupted: set[str] = (
             set()
         )  # jobs ended by a signal: by Ctrl-C or by the cluster, which restarts them
@@ -150,11 +150,13 @@ class LogHandler(LogHandlerBase):
             # Without a cluster the signal is Ctrl-C, of which Snakemake reports later.
             self._stopped = self._stopped or bool(self._cores)
         elif not self._stopped:
-            self._failed[name_of(job)] = None
             log = next(filter(last_lines, logs), logs[0])
-            ending = "ends with:" if last_lines(log) else "is empty: the job was killed, or did not start"
-            heading = f"{name_of(job)} failed after {clock(elapsed(job))}. {log} {ending}"
-            self._console.print("\n  ".join([heading, *last_lines(log)]))
+            heading = f"{name_of(job)} failed after {clock(elapsed(job))}. {log}"
+            if last_lines(log):
+                self._console.print("\n  ".join([f"{heading} ends with:", *last_lines(log)]))
+                self._failed[name_of(job)] = ""
+            else:  # perhaps by Ctrl-C, of which Snakemake reports later
+                self._failed[name_of(job)] = f"{heading} is empty: the job was killed, or did not start"
 
     def _message(self, text: str, level: int) -> None:
         """Prints errors, except those that follow from a failed job or from Ctrl-C."""
@@ -175,7 +177,11 @@ class LogHandler(LogHandlerBase):
         done = f"{len(self._finished)} of {self._total} done"
         forced = re.search(r" (--forceall|-F)\b", self._command)
         advice = "starts again; without FRESH=yes it resumes" if forced else "resumes"
+        if self._stopped:
+            self._failed = {name: end for name, end in self._failed.items() if not end}
         with suppress(OSError):
+            for end in filter(None, self._failed.values()):
+                self._console.print(end)
             if self._failed:
                 self._console.print(
                     f"Failed: {', '.join(self._failed)}; {done}. Fix the cause; the same command {advice}."

@@ -147,7 +147,8 @@ def test_a_job_that_a_cluster_interrupts_has_not_stopped_the_others(
     start(handler, 0, "a", str(tmp_path / "a.log"))
     emit(handler, LogEvent.JOB_ERROR, jobid=0, log=[str(tmp_path / "a.log")])
     start(handler, 1, "b")
-    emit(handler, LogEvent.JOB_ERROR, jobid=1, log=["none.log"])
+    (tmp_path / "b.log").write_text("disk full")
+    emit(handler, LogEvent.JOB_ERROR, jobid=1, log=[str(tmp_path / "b.log")])
     assert capsys.readouterr().out.startswith("fig05/b failed after")
     start(handler, 1, "b")
     start(handler, 2)
@@ -177,7 +178,10 @@ def test_other_errors_are_shown(handler: LogHandler, capsys: Captured) -> None:
     ],
 )
 def test_ctrl_c(capsys: Captured, command: str, advice: str) -> None:
+    """Jobs also exit before Snakemake reports it: with or without a line in their log."""
     handler = begun(handler_of(), command)
+    start(handler, 0, "b")
+    emit(handler, LogEvent.JOB_ERROR, jobid=0, log=["none.log"])
     start(handler, 1, "a")
     interrupt(handler)
     handler.close()

@@ -73,7 +73,11 @@ def draw(results: Sequence[Result]) -> Drawn:
         shifts = (-length, 0.0, length) if result is ring else (0.0,)
         lines = world_lines(axes, table[table.chain == result.parameters["chain"]], shifts, energies)
         axes.set_xticks(np.arange(0, cells + 1, 2) * spacing)
-        axes.set(xlim=(0, length), ylim=(0, result.parameters["observation-time"]), xlabel="position $x$  (grey: scatterers)")
+        axes.set(
+            xlim=(0, length),
+            ylim=(0, result.parameters["observation-time"]),
+            xlabel="position $x$  (grey: scatterers)",
+        )
         axes.tick_params(top=False, right=False)
     panels[0].set(title="(a) closed chain: a ring", ylabel=f"time $t$  ({style.UNITS})")
     for end in ("left", "right"):
