@@ -65,9 +65,8 @@ class LogHandler(LogHandlerBase):
         self._running: dict[int, Record] = {}  # JOB_INFO by number
         self._finished: set[str] = set()
         self._failed: dict[str, str] = {}  # with what is printed at the end
-        self._interrupted: set[str] = (
-            set()
-        )  # jobs ended by a signal: by Ctrl-C or by the cluster, which restarts them
+        # Jobs ended by a signal: by Ctrl-C, or by the cluster, which restarts them.
+        self._interrupted: set[str] = set()
         self._stopped = False  # by Ctrl-C
         self._cores = 0  # 0 on a cluster, where the remaining time depends on the queue
         self._costs: dict[str, float] = {}  # estimated CPU seconds by panel/run, 0 if unknown
@@ -150,10 +149,10 @@ class LogHandler(LogHandlerBase):
             # Without a cluster the signal is Ctrl-C, of which Snakemake reports later.
             self._stopped = self._stopped or bool(self._cores)
         elif not self._stopped:
-            log = next(filter(last_lines, logs), logs[0])
+            log, lines = next(((log, lines) for log in logs if (lines := last_lines(log))), (logs[0], []))
             heading = f"{name_of(job)} failed after {clock(elapsed(job))}. {log}"
-            if last_lines(log):
-                self._console.print("\n  ".join([f"{heading} ends with:", *last_lines(log)]))
+            if lines:
+                self._console.print("\n  ".join([f"{heading} ends with:", *lines]))
                 self._failed[name_of(job)] = ""
             else:  # perhaps by Ctrl-C, of which Snakemake reports later
                 self._failed[name_of(job)] = f"{heading} is empty: the job was killed, or did not start"
@@ -163,9 +162,8 @@ class LogHandler(LogHandlerBase):
         self._stopped = self._stopped or text.startswith(STOPPING)
         if self._stopped:
             ignore_interrupts()
-        follows = (
-            self._stopped or self._failed or self._interrupted or "CalledProcessError" in text
-        )  # JOB_ERROR comes next
+        # JOB_ERROR comes after CalledProcessError.
+        follows = self._stopped or self._failed or self._interrupted or "CalledProcessError" in text
         if text.startswith("Nothing to be done") or (level >= logging.ERROR and not follows):
             self._console.print(text)
 

@@ -218,7 +218,7 @@ def test_heat_is_a_random_medium_in_which_sound_hardly_spreads(
     """The medium by the static covariance of n and e at T = λ = 1, in ln z and ln T; the speed by its difference at uniform pressure."""
     chain, step = Chain(zeta, mass, slow_logarithm=5.0), 1e-4
     # Poisson particles and scatterers. The same matrix has the derivatives by ln z and ln T.
-    covariance = np.array([[10 * zeta, zeta], [zeta, zeta + 0.5]])
+    covariance = np.array([[2 * zeta * chain.slow_logarithm, zeta], [zeta, zeta + 0.5]])
     in_logarithms = np.linalg.inv(covariance)
     of_pressure = in_logarithms @ [1, 1]
     medium = in_logarithms[0, 0] - of_pressure[0] ** 2 / of_pressure.sum()
