@@ -292,6 +292,13 @@ std::optional<std::string> Options::parse(int argc, const char* const* argv, con
       refuse(fmt::format("{}: '{}' cannot be used: it must be {}", option.name, values.front(),
                          option.admissible));
   }
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i], name = word.substr(0, word.find('='));
+    const auto option = std::ranges::find(options_, name, &Option::name);
+    if (option == options_.end() || option->role != Role::result) continue;
+    words_ += (words_.empty() ? "" : " ") + word;
+    if (name == word && option->type != "flag") words_ += ' ' + std::string(argv[++i]);
+  }
   return {};
 }
 

@@ -92,6 +92,10 @@ class Options {
   /// ends; none otherwise. Throws UsageError.
   std::optional<std::string> parse(int argc, const char* const* argv, const std::string& version);
 
+  /// Words of the command line for options that determine the result, as they were given, separated by
+  /// spaces: a part of the result's identity (workflow/identity.py).
+  const std::string& words() const { return words_; }
+
   /// Values of all options that determine the result, sorted by name.
   std::vector<Parameter> parameters() const;
 
@@ -102,7 +106,7 @@ class Options {
   void add(const std::string& name, const std::string& units, const std::string& help, Role role,
            Option option);
 
-  std::string program_;
+  std::string program_, words_;
   std::unique_ptr<CLI::App> app_;
   std::vector<Option> options_;
 };

@@ -120,6 +120,7 @@ ExitStatus Program::write(const Outcome& outcome) const {
       {"format", std::string("lorentz-gas")},
       {"format_version", std::int64_t{3}},
       {"program", options_.program()},
+      {"words", options_.words()},
       {"source_hash", std::string(build_info.source_hash)},
       {"build_id", std::string(build_info.build_id)},
       {"compiler", std::string(build_info.compiler)},
