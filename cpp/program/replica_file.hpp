@@ -25,7 +25,7 @@ using FinishedReplicas = std::map<std::uint64_t, FinishedReplica>;
 struct ReplicaFile {
   static constexpr auto part_suffix = ".part";
 
-  std::string identity;  // everything that the tallies depend on: parameters and build id
+  std::string identity;  // everything that the tallies depend on: parameters and sources
   std::vector<Description> tallies;
 
   std::vector<std::byte> content(const FinishedReplicas& finished) const;

@@ -114,7 +114,7 @@ void StudyProgram::require_consistent() {
 void StudyProgram::prepare() {
   for (const Parameter& each : options().parameters())
     format_.identity += fmt::format("{} = {}\n", each.name, as_text(each.value));
-  format_.identity += fmt::format("build_id = {}\n", build_info.build_id);
+  format_.identity += fmt::format("source_hash = {}\n", build_info.source_hash);
   format_.tallies = study_.tallies.tallies();
   checkpoint_ = program_.output() + ".checkpoint";
   const bool overwrite = options().given("--overwrite");

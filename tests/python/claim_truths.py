@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from tests.python.test_claim_verdicts import COLD, HOT, World, gaussian, rare
-from workflow.lib.plan import Run
+from workflow.plan import Run
 
 # Expected numbers of a reading: values, or pairs of value and systematic error. Without a pair the systematic error is 0.
 Answer = Sequence[float | tuple[float, float]]

@@ -9,7 +9,7 @@ import numpy as np
 from tests.python.claim_truths import EXACT, Answer, claim, named
 from tests.python.known_results import plan
 from tests.python.test_claim_verdicts import drop_per_cell, heat_peak, law, linear_response, pulse, rare
-from workflow.lib.plan import Run
+from workflow.plan import Run
 
 
 def of_runs(panel: str, value: Callable[[Run], float], chosen: Callable[[Run], bool]) -> list[float]:

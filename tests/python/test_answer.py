@@ -14,9 +14,9 @@ from tests.python.test_claim_verdicts import drop_per_cell, linear_response
 from workflow.claims.growth import saturation
 from workflow.claims.judge import Judgement, judge_all, read_claims
 from workflow.claims.verdict import Band, Number, Outcome, Reading
-from workflow.lib.configuration import ConfigurationError
+from workflow.configuration import ConfigurationError
 from workflow.lib.load import Quantity
-from workflow.lib.plan import QUALITIES, Run, load_plan
+from workflow.plan import QUALITIES, Run, load_plan
 from workflow.report import numbers
 from workflow.report.questions import FILE, VERDICTS, answers, read_questions
 

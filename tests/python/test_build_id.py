@@ -9,10 +9,10 @@ import sys
 from pathlib import Path
 
 import pytest
+from workflow.provenance.build_id import built, include_closure
 
 from tests.python.conftest import ROOT
 from tests.python.test_mutants import Tree
-from workflow.provenance.build_id import built, include_closure
 
 SCRIPT = ROOT / "workflow/provenance/build_id.py"
 

@@ -13,7 +13,7 @@ from tests.python.test_claim_verdicts import damped, kappas
 from workflow.claims.data import MissingError
 from workflow.claims.judge import FUNCTIONS
 from workflow.lib.load import Quantity
-from workflow.lib.plan import Run
+from workflow.plan import Run
 
 
 def caveat(name: str) -> str:

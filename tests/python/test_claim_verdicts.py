@@ -16,8 +16,8 @@ from tests.python.conftest import ROOT
 from tests.python.known_results import Known, Truth, truth
 from workflow.claims.judge import Judgement, judge, read_claims
 from workflow.claims.verdict import Outcome
-from workflow.figures.ext03 import stable_densities
-from workflow.lib.plan import Run
+from workflow.lib.peaks import stable_densities
+from workflow.plan import Run
 
 LEVEL = 0.1
 TRIALS = 250

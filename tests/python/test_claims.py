@@ -12,8 +12,8 @@ from tests.python.conftest import ROOT
 from workflow.claims import judge
 from workflow.claims.data import Data, Evidence, MissingError, combination, ratio
 from workflow.claims.verdict import Band, Number, Outcome
-from workflow.lib.configuration import ConfigurationError
-from workflow.lib.plan import data_of, load_plan
+from workflow.configuration import ConfigurationError
+from workflow.plan import data_of, load_plan
 from workflow.report import numbers
 
 CLAIMS = judge.read_claims(ROOT)

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from workflow.lib.configuration import FOLDER, ConfigurationError, arguments, read
-from workflow.lib.plan import load_plan, panel_named
-from workflow.lib.polynomial import at_size
+from workflow.configuration import FOLDER, ConfigurationError, arguments, read
+from workflow.plan import load_plan, panel_named
+from workflow.polynomial import at_size
 
 
 @pytest.fixture

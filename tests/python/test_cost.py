@@ -8,7 +8,6 @@ from datetime import timedelta
 from pathlib import Path
 
 import pytest
-
 from workflow.cluster import cost
 from workflow.cluster.batches import OVERHEAD, divide, seconds_of_batches
 from workflow.cluster.cost import (
@@ -19,7 +18,8 @@ from workflow.cluster.cost import (
     seconds_of_run,
     wall,
 )
-from workflow.lib.plan import QUALITIES, Panel, Run, load_plan
+
+from workflow.plan import QUALITIES, Panel, Run, load_plan
 
 TOLERANCE = 1.5  # allowed ratio of an estimated to a measured time, over sizes, replicas and windows
 # CPU seconds of whole runs of quality standard, on the machine of the table.

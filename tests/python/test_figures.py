@@ -11,18 +11,19 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import pytest
+from workflow.lib.closure import sources_of
+from workflow.lib.figure_metadata import MetadataError, Parents, embedded, read_panel
+from workflow.lib.record import is_whole, record_path, records_of, write_with_record
 
 from tests.python.conftest import ROOT, command_line
-from workflow.figures.fig05 import law, tabulate
+from workflow.figures.fig05 import tabulate
+from workflow.files import file_hash
 from workflow.lib import closure
-from workflow.lib.closure import sources_of
+from workflow.lib.closed import persistence_law
 from workflow.lib.columns import as_csv
-from workflow.lib.figure_metadata import MetadataError, Parents, embedded, read_panel
-from workflow.lib.files import file_hash
 from workflow.lib.load import load
-from workflow.lib.plan import load_plan
-from workflow.lib.record import is_whole, record_path, records_of, write_with_record
 from workflow.lib.save import Text, save
+from workflow.plan import load_plan
 
 KINDS = ("pdf", "png", "svg", "csv")
 SCRIPT = "workflow/figures/fig05.py"
@@ -84,7 +85,7 @@ def test_table_has_the_numbers_of_the_results(panel: Path, runs: list[Path]) -> 
 
 
 def test_law_at_its_limits(runs: list[Path]) -> None:
-    np.testing.assert_array_equal(law(np.array([-1.0, 0.0, 1.0])), [1.0, 0.5, 0.0])
+    np.testing.assert_array_equal(persistence_law(np.array([-1.0, 0.0, 1.0])), [1.0, 0.5, 0.0])
     table = tabulate([load(run) for run in runs])
     # Equal temperatures give the law itself [eq. 10]. Particles hotter than the scatterers are reversed more
     # often if they are lighter [eq. 11].

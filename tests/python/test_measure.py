@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from workflow import measure as module
-from workflow.lib import plan
-from workflow.lib.files import ROOT
+from workflow import plan
+from workflow.identity import ROOT
 from workflow.lib.load import load
 from workflow.measure import MeasureError, measure
 

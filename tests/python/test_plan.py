@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.lib import plan
-from workflow.lib.configuration import EFFORT, FOLDER, ConfigurationError
-from workflow.lib.identity import identity
-from workflow.lib.plan import BATCH, QUALITIES, Quality, Run, data_path, load_plan
+from workflow import plan
+from workflow.configuration import EFFORT, FOLDER, ConfigurationError
+from workflow.identity import identity
+from workflow.plan import BATCH, QUALITIES, Quality, Run, data_path, load_plan
 
 
 @pytest.fixture

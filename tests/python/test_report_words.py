@@ -6,7 +6,7 @@ import pytest
 
 from workflow.claims.verdict import Band, Number, Reading
 from workflow.lib.fit import with_error
-from workflow.lib.plan import Quality
+from workflow.plan import Quality
 from workflow.report import words
 from workflow.report.strip import WIDTH, strip_of
 

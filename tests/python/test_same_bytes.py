@@ -9,9 +9,9 @@ import h5py
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.lib.configuration import arguments
-from workflow.lib.plan import Run, load_plan
-from workflow.lib.polynomial import at_size
+from workflow.configuration import arguments
+from workflow.plan import Run, load_plan
+from workflow.polynomial import at_size
 
 # Processor features by which the C library selects its functions at run time.
 WITHOUT = ",".join(

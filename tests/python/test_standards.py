@@ -7,7 +7,7 @@ import pytest
 from ruamel.yaml import YAML
 
 from tests.python.conftest import ROOT
-from workflow.lib.plan import load_plan
+from workflow.plan import load_plan
 
 CODECHECK = YAML(typ="safe").load((ROOT / "codecheck.yml").read_text())
 CODEMETA = json.loads((ROOT / "codemeta.json").read_text())

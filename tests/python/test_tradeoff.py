@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from workflow.config.describe import with_option
-from workflow.lib.plan import load_plan
+from workflow.plan import load_plan
 from workflow.tradeoff import accuracy, bench, bias, efficiency, measure, rounding, tradeoff
 from workflow.tradeoff.efficiency import Estimate
 

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-
-from workflow.lib.identity import IDENTITY
 from workflow.lib.record import records_of
+
+from workflow.identity import IDENTITY
 
 ROOT = Path(__file__).parents[2]
 MADE = ("data/smoke", "figures/smoke", "build/bin", "build/id")

@@ -9,7 +9,7 @@ import pytest
 
 from tests.workflow.conftest import ROOT, Clone, clone_into, copy_made, share_build
 from workflow.lib.load import load
-from workflow.lib.plan import data_path, load_plan
+from workflow.plan import data_path, load_plan
 
 
 def names(text: str) -> list[str]:
@@ -91,7 +91,7 @@ def test_an_environment_has_no_path_of_its_folder(moved: Clone) -> None:
         capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert found.stdout == ""
-    where = (".venv/bin/python", "-P", "-c", "from workflow.lib.files import ROOT; print(ROOT)")
+    where = (".venv/bin/python", "-P", "-c", "from workflow.files import ROOT; print(ROOT)")
     assert moved.run(*where).stdout.strip() == str(moved.folder)
 
 

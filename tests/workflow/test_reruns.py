@@ -6,10 +6,10 @@ import shutil
 from collections.abc import Callable
 
 import pytest
+from workflow.lib.closure import sources_of
 
 from tests.workflow.conftest import Clone, Edit, append, delete, delete_result, files_below, replace
-from workflow.lib.closure import sources_of
-from workflow.lib.plan import Panel, load_plan, with_used
+from workflow.plan import Panel, load_plan, with_used
 
 PLAN = load_plan("smoke")
 Jobs = set[str]

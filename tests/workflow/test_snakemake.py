@@ -1,7 +1,7 @@
 """A bare snakemake gives the products of make, and its options work as documented."""
 
 from tests.workflow.conftest import Clone, delete, delete_result
-from workflow.lib.plan import load_plan
+from workflow.plan import load_plan
 
 PLAN = load_plan("smoke")
 

@@ -9,7 +9,7 @@ import pytest
 
 from tests.workflow.conftest import ROOT, Clone, share_build
 from workflow.lib.load import load
-from workflow.lib.plan import FOLDER, load_plan
+from workflow.plan import FOLDER, load_plan
 
 TEXT = (ROOT / "docs/tutorial.md").read_text()
 PANEL, _, REST = TEXT.partition("## An observable of your own")

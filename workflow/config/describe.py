@@ -10,8 +10,9 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from workflow.lib import polynomial
-from workflow.lib.files import ROOT, write_together
+from workflow import polynomial
+from workflow.files import write_together
+from workflow.identity import ROOT
 from workflow.lib.units import SCHEMA
 
 FORMAT = ROOT / "docs/format.md"

@@ -7,10 +7,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from workflow.figures.ext09 import LOOKS, by_spacing, spacings, tabulate
-from workflow.figures.fig08 import drive
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, goodness, parameters, replicas
+from workflow.lib.conductivity import LOOKS, by_spacing, drive, spacings, tabulate
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import mean_of
 from workflow.lib.growth import local_exponents

@@ -16,20 +16,12 @@ from workflow.lib.caption import number, parameters, replicas
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import mean_of, with_error
 from workflow.lib.load import Result
-from workflow.lib.mode_coupling import Chain, logarithm_at
+from workflow.lib.mode_coupling import Chain
+from workflow.lib.rings import LOOKS, chain
 
-LOOKS = [("o", style.BLUE), ("s", style.VERMILLION), ("^", style.ORANGE), ("v", style.SKY)]
 RANDOM = style.points("D", style.GREEN, "white")
 REACH = 4  # largest distance from the centre of a sound peak that counts, in widths
 GAS = ["rule", "zeta", "mass"]  # columns that identify a gas
-
-
-def chain(result: Result, time: float = np.inf) -> Chain:
-    """The gas of a ring, with only those slow particles that move within a time."""
-    temperature, length, sigma = (result.parameters[name] for name in ("temperature", "cell-length", "sigma"))
-    slow = logarithm_at(time, temperature, length) if np.isfinite(time) else np.inf
-    zeta = result.parameters["fugacity"] * length
-    return Chain(zeta, (1 + sigma) / (1 - sigma), temperature, length, slow)
 
 
 def predicted(result: Result, time: float) -> float:

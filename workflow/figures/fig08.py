@@ -13,9 +13,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from workflow.figures.ext09 import gas
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, number, parameters, replicas
+from workflow.lib.conductivity import drive, gas
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.growth import local_exponents
@@ -28,12 +28,6 @@ STRONG = style.points("^", style.ORANGE, "white")
 RANDOM = [
     style.points("D", style.GREEN, face) for face in ("white", None)
 ]  # random directions, at the spacing 1/N and at a fixed one
-
-
-def drive(result: Result) -> float:
-    """Ratio of the baths' temperatures."""
-    left, right = result.ends("temperature")
-    return round(right / left, 2)
 
 
 def mean_field(results: Sequence[Result]) -> pd.DataFrame:

@@ -13,7 +13,7 @@ import json
 import re
 from functools import cache
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 SCHEMA = Path(__file__).parents[1] / "config/schema.json"
 
@@ -58,12 +58,18 @@ def parse(text: str) -> Units:
 
 
 @cache
+def declared() -> dict[str, dict[str, Any]]:
+    """JSON Schema of each option of each program that determines its results."""
+    programs: dict[str, dict[str, Any]] = json.loads(SCHEMA.read_text())["programs"]
+    return programs
+
+
+@cache
 def option_units() -> dict[str, str]:
     """Declared units of the options of the programs; all others are dimensionless."""
-    programs = json.loads(SCHEMA.read_text())["programs"]
     return {
         name: option["units"]
-        for options in programs.values()
+        for options in declared().values()
         for name, option in options.items()
         if "units" in option
     }

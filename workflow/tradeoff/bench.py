@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from workflow.lib.plan import Run
-from workflow.lib.program import PROGRAMS
+from workflow.plan import Run
+from workflow.program import PROGRAMS
 from workflow.tradeoff.measure import execute, planned
 
 RUNS = ("ext07/energy", "fig05/paper_sigma=0.5", "fig07/all", "fig06/all_sigma=0.5",

@@ -1,7 +1,4 @@
-"""Loads paper.yaml and quality/*.yaml and validates them against the declared options of the programs.
-
-schema.json, written by `make describe`, has a JSON Schema of every option of every program.
-"""
+"""Loads paper.yaml and quality/*.yaml and validates them against the declared options of the programs."""
 
 import json
 from collections.abc import Iterator
@@ -15,25 +12,21 @@ from ruamel.yaml import YAML
 from ruamel.yaml.error import MarkedYAMLError, YAMLError
 from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
 
-from workflow.lib.files import ROOT, in_one_line
+from workflow.files import in_one_line
+from workflow.identity import ROOT
 from workflow.lib.nearest import nearest
-from workflow.lib.units import SCHEMA
+from workflow.lib.units import declared
 
 Options = dict[str, Any]  # by name without leading dashes: a number, text, or a bool for a flag
 Schema = dict[str, Any]
 Keys = tuple[Any, ...]  # path in nested mappings and lists
 
-FOLDER = SCHEMA.parent
-EFFORT = (
-    "cells",
-    "observation-time",
-    "pairs-per-replica",
-    "replicas",
-    "target-absolute",
-    "target-error",
-)
-ALSO_PHYSICS = ("cells", "observation-time", "target-error")  # given in paper.yaml, too
+FOLDER = ROOT / "workflow/config"
+ERROR = "error"  # relative error, in place of a number of replicas
+EFFORT = ("cells", "observation-time", "pairs-per-replica", "replicas", ERROR)
+ALSO_PHYSICS = ("cells", "observation-time")  # given in paper.yaml, too
 SCALE: Schema = {"type": "number", "exclusiveMinimum": 0, "allowed": "a number greater than 0"}
+FRACTION = {**SCALE, "exclusiveMaximum": 1, "allowed": "a number greater than 0 and less than 1"}
 OF_SERIES: Schema = {
     "program": True,
     "replicated": {"type": "boolean", "allowed": "true or false"},
@@ -108,7 +101,7 @@ def _shown(path: Path) -> str:
 
 def load_configuration(quality: str, folder: Path = FOLDER) -> tuple[Document, Document]:
     """Validated `paper.yaml` and `quality/<quality>.yaml`. Raises ConfigurationError."""
-    programs: dict[str, Schema] = json.loads(SCHEMA.read_text())["programs"]
+    programs: dict[str, Schema] = declared()
     paper, efforts = read(folder, "paper.yaml"), read(folder, f"quality/{quality}.yaml")
     paper.check(_panels(programs))
     paper.check(_physics(paper.content, programs))
@@ -124,11 +117,12 @@ def programs_of(panel: dict[str, Any]) -> dict[str, str]:
 
 
 def arguments(options: Options) -> list[str]:
-    """Command-line arguments of the options."""
+    """Command-line arguments of the options, in one order and with one text for equal numbers."""
     words = []
-    for name, value in options.items():
+    for name, value in sorted(options.items()):
         if value is not False:
-            words += [f"--{name}"] if value is True else [f"--{name}", str(value)]
+            number = int(value) if isinstance(value, float) and value.is_integer() else value
+            words += [f"--{name}"] if value is True else [f"--{name}", str(number)]
     return words
 
 
@@ -166,15 +160,17 @@ def _physics(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
 
 
 def _efforts(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
-    """Schema of quality/*.yaml: the effort of every series. 0 replicas omit a series."""
+    """Schema of quality/*.yaml: the effort of all replicated series of a panel, and that of single series."""
     physics = {name for options in programs.values() for name in options if name not in EFFORT}
     elsewhere = dict.fromkeys(physics, "belongs into paper.yaml")
     series = {name: _options(name, options, elsewhere) for name, options in programs.items()}
-    panels = {
-        name: _object({key: series[program] for key, program in programs_of(panel).items()})
-        for name, panel in paper["panels"].items()
-    }
-    default = {"type": "object", "allOf": [series[name] for name in programs if "replicas" in programs[name]]}
+    every = {name: schema for one in series.values() for name, schema in one["properties"].items()}
+    panels = {}
+    for name, panel in paper["panels"].items():
+        of_series = {key: series[program] for key, program in programs_of(panel).items()}
+        omit = {"type": "array", "items": {"enum": [*of_series]}, "uniqueItems": True}
+        panels[name] = _object({**every, "omit": omit, **of_series})
+    default = _object({name: every[name] for name in ("replicas", ERROR)})
     return _object({"default": default, "panels": _object(panels)}) | {"required": ["default"]}
 
 
@@ -182,7 +178,7 @@ def _options(program: str, options: Schema, elsewhere: dict[str, str]) -> Schema
     """Schema of the options of a program, each with a value or a list of distinct values."""
     several = {"minItems": 1, "uniqueItems": True}
     if "replicas" in options:
-        options = options | {"replicas": options["replicas"] | {"minimum": 0}}
+        options = options | {ERROR: FRACTION}
     schemas = {
         name: {"if": {"type": "array"}, "then": {"items": option} | several, "else": option}
         for name, option in options.items()

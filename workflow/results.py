@@ -1,13 +1,13 @@
 """Results of a panel: `load_panel("fig05", quality="standard")["paper_sigma=0.5"]["mu"]`."""
 
-from workflow.lib.files import ROOT
+from workflow.identity import ROOT
 from workflow.lib.load import FormatError, Result, load
-from workflow.lib.plan import Quality, data_path, load_plan, panel_named
+from workflow.plan import Quality, data_path, load_plan, panel_named
 
 
 def load_panel(panel: str, quality: str = "standard") -> dict[str, Result]:
-    """The results of a panel's own runs by their names, those of the present configuration and build. Raises FormatError,
-    ConfigurationError, BuildError, OSError."""
+    """The results of a panel's own runs by their names, those of the present configuration and sources. Raises FormatError,
+    ConfigurationError, OSError."""
     planned = panel_named(load_plan(quality), panel)
     try:
         return {run.name: load(ROOT / data_path(quality, panel, run)) for run in planned.runs}

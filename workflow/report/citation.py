@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Any
 
-from workflow.lib.configuration import ConfigurationError, read
+from workflow.configuration import ConfigurationError, read
 
 CITATION = "CITATION.cff"
 NEEDED = ("title", "version", "license", "authors")

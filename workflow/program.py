@@ -6,23 +6,29 @@ import subprocess
 import sys
 from pathlib import Path
 
-from workflow.lib.configuration import Options, arguments
-from workflow.lib.files import ROOT
-from workflow.lib.plan import Run
+from workflow.configuration import Options, arguments
+from workflow.identity import ROOT
+from workflow.plan import Run
 
 PROGRAMS = ROOT / "build/bin"
 WRITTEN = (0, 4)  # exit statuses with a result; 4: stopped before the target error, and marked
+REPLICAS_PER_THREAD, MOST_THREADS = 16, 16
 
 
 class ProgramError(ValueError):
     """A program has refused its options, or has failed."""
 
 
-def command_line(run: Run, programs: Path | str = "build/bin", limit: float | None = None) -> list[str]:
-    """Command of a run as a list of words, without the option --output. limit: seconds after which no replica starts."""
-    conduct = ["--threads", "1", "--resume"] if run.replicated else []
-    conduct += [] if limit is None or not run.replicated else ["--time-limit", f"{limit:.0f}"]
-    return [f"{programs}/{run.program}", *arguments(run.options), *conduct]
+def threads_of(run: Run) -> int:
+    """Threads among which the replicas of a run are divided without waste."""
+    replicas = int(run.options.get("replicas", 1)) if run.replicated else 1
+    return max(1, min(MOST_THREADS, replicas // REPLICAS_PER_THREAD))
+
+
+def command_line(run: Run, threads: int = 1) -> list[str]:
+    """Command of a run as a list of words, without the option --output."""
+    conduct = ["--threads", str(threads), "--resume"] if run.replicated else []
+    return [f"build/bin/{run.program}", *arguments(run.options), *conduct]
 
 
 def execute(
