@@ -13,6 +13,7 @@ from pathlib import Path
 
 from workflow.configuration import ConfigurationError
 from workflow.environment import clean
+from workflow.files import in_one_line
 from workflow.identity import IDENTITY
 from workflow.plan import (
     BuildError,
@@ -37,11 +38,13 @@ try:
     if workflow.is_main_process:
         for program in {run.program for name in PANELS or PLAN for run in PLAN[name].runs}:
             require_built(program)
+    DATA = {name: data_of(PLAN, name, QUALITY) for name in PLAN}
+    STEMS = {name: stem_of(PLAN, name, QUALITY) for name in PLAN}
+    REPORT = report_stem(PLAN, QUALITY)
 except (ConfigurationError, BuildError) as error:
     sys.exit(str(error))
-DATA = {name: data_of(PLAN, name, QUALITY) for name in PLAN}
-STEMS = {name: stem_of(PLAN, name, QUALITY) for name in PLAN}
-REPORT = report_stem(PLAN, QUALITY)
+except OSError as error:  # a panel without a script
+    sys.exit(in_one_line(error))
 KINDS = [".pdf", ".png", ".svg", ".csv", ".json"]
 
 if workflow.is_main_process and not workflow.dryrun:

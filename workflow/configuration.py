@@ -16,6 +16,7 @@ from workflow.files import in_one_line
 from workflow.identity import ROOT
 from workflow.lib.nearest import nearest
 from workflow.lib.units import declared
+from workflow.polynomial import pattern
 
 Options = dict[str, Any]  # by name without leading dashes: a number, text, or a bool for a flag
 Schema = dict[str, Any]
@@ -181,10 +182,16 @@ def _options(program: str, options: Schema, elsewhere: dict[str, str]) -> Schema
         options = options | {ERROR: FRACTION}
     schemas = {
         name: {"if": {"type": "array"}, "then": {"items": option} | several, "else": option}
-        for name, option in options.items()
+        for name, option in ((name, _of_size(name, option)) for name, option in options.items())
         if name not in elsewhere
     }
     return _object(schemas) | {"title": program, "elsewhere": elsewhere}
+
+
+def _of_size(name: str, option: Schema) -> Schema:
+    """Schema of an option in the configuration, where times may be polynomials in N, which the plan evaluates."""
+    polynomial = {"type": "string", "pattern": f"^{pattern()}$"}
+    return {"if": polynomial, "then": True, "else": option} if name.endswith("-time") else option
 
 
 def _object(properties: Schema) -> Schema:
