@@ -72,6 +72,7 @@ class Run:
     program: str
     options: Options
     replicated: bool = True  # False for a deterministic program
+    series: str = ""  # key in the configuration; the name also has the listed values
 
     @property
     def words(self) -> str:
@@ -249,7 +250,7 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Q
             given = {**options, **chosen}
             given = {key: evaluated(value, given.get("cells")) for key, value in given.items()}
             completed = quality.complete(name, run, given, scale) if replicated else given
-            runs.append(Run(run, program, completed, replicated))
+            runs.append(Run(run, program, completed, replicated, series))
     uses, by_series = tuple(panel.get("uses", ())), tuple(item for item in replaced.items() if item[1])
     return Panel(name, panel.get("script", name), tuple(runs), uses, by_series)
 

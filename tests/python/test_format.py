@@ -184,7 +184,7 @@ def in_length(file: h5py.File) -> None:
         (without("results/exponent_spread"), "quantities: 'exponent_spread' is a required property"),
         (in_length, "quantities/exponent: '1' was expected"),
         (lambda file: file.move("results/density/tau", "results/density/t"), "'1/time [tau in time]' was"),
-        (attribute("provenance", "build_id", "0" * 63), "build_id/value: '"),
+        (attribute("provenance", "source_hash", "0" * 63), "source_hash/value: '"),
         (attribute("provenance", "host", "here"), "'host' was unexpected"),
         (lambda file: file["provenance"].attrs.__delitem__("streams"), "'streams' is a required property"),
         (attribute("provenance", "target_error", 0.0), "reached, though achieved_error"),

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import ROOT, Program, command_line
+from workflow.identity import source_hash
 from workflow.lib.load import load, results_digest
 
 NOT_PARAMETERS = {"threads", "progress", "describe", "output", "resume", "checkpoint-interval", "time-limit", "part", "join",
@@ -147,6 +148,5 @@ def test_progress_lines(persistence: Program) -> None:
 
 
 def test_version_and_help(persistence: Program) -> None:
-    identity = json.loads((ROOT / "build/id/persistence.json").read_text())
-    assert identity["build_id"] in persistence(version=True).stdout
+    assert source_hash("persistence") in persistence(version=True).stdout
     assert "--sigma" in persistence(help=True).stdout
