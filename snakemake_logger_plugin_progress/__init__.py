@@ -5,6 +5,7 @@ printed instead with --dry-run, --verbose, --printshellcmds and --debug-dag.
 """
 
 import logging
+import signal
 import time
 from contextlib import suppress
 from datetime import timedelta
@@ -18,7 +19,6 @@ from rich.text import Text
 from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 
-LAST = 12  # printed lines of the log of a failed job
 INTERRUPTED = ("interrupted after", "KeyboardInterrupt")  # in the log of a program and of a script
 STOPPING = ("Terminating processes on user request", "Will exit after finishing", "Cancelling snakemake")
 
@@ -33,14 +33,13 @@ class LogHandler(LogHandlerBase):
         return not (output.dryrun or output.verbose or output.debug_dag or output.printshellcmds)
 
     def __post_init__(self) -> None:
-        console = Console(highlight=False, markup=False, emoji=False, soft_wrap=True)
-        self._print = console.print
         self._begin = time.monotonic()
         self._done = self._total = 0  # jobs
         self._running: dict[int, Any] = {}  # events JOB_INFO by number
-        self._failed: dict[str, Any] = {}  # events JOB_INFO by name
+        self._failed: list[str] = []
         self._stopped = False  # by Ctrl-C
-        self._live = Live(console=console, get_renderable=self._screen, transient=True)
+        self._console = Console(highlight=False, markup=False, emoji=False, soft_wrap=True)
+        self._live = Live(console=self._console, get_renderable=self._screen, transient=True)
 
     def emit(self, record: Any) -> None:
         if self.writes_to_stream:
@@ -50,11 +49,11 @@ class LogHandler(LogHandlerBase):
     def _show(self, record: Any, event: LogEvent | None) -> None:
         if event == LogEvent.RUN_INFO:
             self._total = record.stats["total"]
-            if self._live.console.is_terminal:
+            if self._console.is_terminal:
                 self._live.start()
         elif event == LogEvent.JOB_INFO:
             self._running[record.jobid] = record
-            self._failed.pop(name_of(record), None)  # a retry
+            self._failed = [name for name in self._failed if name != name_of(record)]  # a retry
         elif event == LogEvent.JOB_FINISHED and record.job_id in self._running:
             self._finish(self._running.pop(record.job_id))
         elif event == LogEvent.JOB_ERROR and record.jobid in self._running:
@@ -64,29 +63,35 @@ class LogHandler(LogHandlerBase):
             self._stopped = self._stopped or text.startswith(STOPPING)
             follows = self._stopped or self._failed or "CalledProcessError" in text  # from an event JOB_ERROR
             if text.startswith("Nothing to be done") or (record.levelno >= logging.ERROR and not follows):
-                self._print(text)
+                self._console.print(text)
 
     def _finish(self, job: Any) -> None:
+        from workflow.lib.load import NOT_TESTED, load  # noqa: PLC0415  0.5 s
+
         self._done += 1
-        for path in job.output:
-            if path.endswith(".h5") and (found := doubts(path)):
-                self._print(f"{name_of(job)}: {', '.join(found)}; {self._state()}")
+        results = [load(path) for path in job.output if path.endswith(".h5")]
+        found = [doubt for result in results for doubt in result.doubts if doubt != NOT_TESTED]
         if "panel" in job.wildcards and "run" not in job.wildcards:
-            self._print(f"{name_of(job)}: rendered; {self._state()}")
+            found.append("rendered")
+        if found:
+            self._console.print(f"{name_of(job)}: {', '.join(found)}; {self._state()}")
 
     def _fail(self, job: Any) -> None:
         lines = last_lines(job) or ["(empty: the job was killed, or did not start)"]
         if not self._stopped and not any(mark in line for line in lines for mark in INTERRUPTED):
-            self._failed[name_of(job)] = job
-            self._print("\n  ".join([f"{name_of(job)} failed. The end of {', '.join(job.log)}:", *lines]))
+            self._failed.append(name_of(job))
+            heading = f"{name_of(job)} failed. The end of {', '.join(job.log)}:"
+            self._console.print("\n  ".join([heading, *lines]))
 
     def close(self) -> None:
+        if self._stopped:
+            signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second Ctrl-C would end in a traceback
         self._live.stop()
-        with suppress(OSError):
-            if self._stopped or self._failed:
-                end = f"Failed: {', '.join(self._failed)}" if self._failed else "Stopped"
-                self._print(f"{end}; {self._state()}. Finished results are kept.")
-        self._stopped, self._failed = False, {}  # Python closes all handlers again at exit
+        if self._stopped or self._failed:
+            end = f"Failed: {', '.join(self._failed)}" if self._failed else "Stopped"
+            with suppress(OSError):
+                self._console.print(f"{end}; {self._state()}. Finished results are kept.")
+        self._stopped, self._failed = False, []  # Python closes all handlers again at exit
         super().close()
 
     def _state(self) -> str:
@@ -100,21 +105,12 @@ class LogHandler(LogHandlerBase):
 
 def name_of(job: Any) -> str:
     """`panel/run` or `panel`, or the rule of another product."""
-    return "/".join(job.wildcards.get(key, "") for key in ("panel", "run")).strip("/") or str(job.rule_name)
+    names = [job.wildcards[key] for key in ("panel", "run") if key in job.wildcards]
+    return "/".join(names) or str(job.rule_name)
 
 
 def last_lines(job: Any) -> list[str]:
-    """Last lines of the log of a job; empty if it is missing."""
-    with suppress(OSError):
-        return [line for log in job.log for line in Path(log).read_text(errors="replace").splitlines()][
-            -LAST:
-        ]
+    """At most 12 lines; none if the log is missing."""
+    with suppress(OSError, IndexError):
+        return Path(job.log[0]).read_text(errors="replace").splitlines()[-12:]
     return []
-
-
-def doubts(path: str) -> list[str]:
-    """Reasons to doubt a result, without those that all results of its program have."""
-    from workflow.lib.load import NOT_TESTED, load  # noqa: PLC0415  0.5 s
-
-    result = load(path)
-    return [doubt for doubt in result.doubts if doubt != NOT_TESTED or "stationary" in result.quantities]

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from tests.python.claim_truths_closed import heat_peak as stable_peak
 from tests.python.claim_truths_closed import of_peaks
 from tests.python.known_results import Known, truth
-from tests.python.test_claim_verdicts import heat_peak as stable_peak
 from workflow.claims.data import MissingError
 from workflow.claims.pulse import heat_peak
 from workflow.lib.mode_coupling import levy

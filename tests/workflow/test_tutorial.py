@@ -47,7 +47,6 @@ def test_a_panel_of_your_own(own: Clone) -> None:
     assert alone.converged == "reached"
     assert alone.provenance["achieved_error"] <= 0.02
     assert re.search(r"^stationary \[0\. 0\. 1\.\]$", printed, re.MULTILINE)
-    own.run(".venv/bin/python", "-m", "pytest", "-q", "tests/python/test_standards.py", "-k", "manifest")
 
 
 def test_an_observable_of_your_own(own: Clone) -> None:
