@@ -8,7 +8,8 @@
 ///
 /// elsewhere A = 0. J_n keeps a part proportional to the total momentum, which is subtracted
 /// exactly [eq. M31]. The totals of a ring fluctuate: at fixed totals <Q^2> would be smaller by a part of
-/// order t^2/N. Sound must not travel around the ring within the longest time.
+/// order t^2/N. Sound must not travel around the ring within the longest time. Without conserved momentum it
+/// decays, but after many collisions, unless the direction of a particle is drawn in each.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -16,6 +17,7 @@
 #include <numeric>
 #include <span>
 
+#include "model/rules.hpp"
 #include "observables/heat_current/currents.hpp"
 #include "program/errors.hpp"
 #include "sampling/closed_run.hpp"
@@ -143,7 +145,7 @@ void require_consistent(const Parameters& parameters) {
   const double T = parameters.temperature, length = parameters.ring.cell_length;
   require_within(T * length, 1e-100, 1e100, "--temperature, --cell-length",
                  "the unit of heat, their product");
-  if (parameters.conserves_momentum())
+  if (!draws_direction(parameters.ring.scattering.rule.name))
     require_before_sound_returns(parameters,
                                  std::ceil(2 * Sound::of(parameters).reach(times.back()) / length));
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/rules.hpp"
+#include "model/rules/elastic.hpp"
 #include "program/errors.hpp"
 #include "sampling/limits.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 void require_stationary(const ClosedParameters& parameters) {
   const ClosedChain chain = parameters.chain();
   const StationaryMeasure measure = parameters.stationary_measure();
-  const RuleProperties& rule = rule_properties(chain.rule);
+  const RuleProperties& rule = parameters.ring.scattering.rule.properties();
   if (rule.invariant != InvariantMeasure::maxwellian)
     throw UsageError(fmt::format(
         "--rule {}: its stationary state, in which a run starts, is not known. Choose another rule.",
@@ -37,7 +37,7 @@ void require_stationary(const ClosedParameters& parameters) {
 ClosedChain ClosedParameters::chain() const { return ring.chain(); }
 
 bool ClosedParameters::conserves_momentum() const {
-  return rule_properties(ring.scattering.rule).conserves_momentum && ring.scattering.sigma < 1;
+  return ring.scattering.rule.properties().conserves_momentum && ring.scattering.sigma < 1;
 }
 
 StationaryMeasure ClosedParameters::stationary_measure() const {
@@ -79,14 +79,14 @@ void declare(Options& options, ClosedParameters& parameters) {
 }
 
 void validate(const ClosedParameters& parameters) {
-  require_probability(parameters.ring.scattering.gamma, parameters.ring.scattering.cells);
+  validate(parameters.ring.scattering);
   if (parameters.fugacity) return require_stationary(parameters);
-  if (parameters.zero_total_momentum && !rule_properties(parameters.ring.scattering.rule).conserves_momentum)
+  if (parameters.zero_total_momentum && !parameters.ring.scattering.rule.properties().conserves_momentum)
     throw UsageError(
         fmt::format("--zero-total-momentum: the rule {} does not conserve momentum, so that it does not "
                     "remain zero. Leave "
                     "it out, or choose another --rule.",
-                    parameters.ring.scattering.rule));
+                    parameters.ring.scattering.rule.name));
   require_possible(parameters.chain(), parameters.hottest(), parameters.end_time(), flights_of_a_year,
                    "--temperature, --scatterer-temperature", "--relaxation-time plus --observation-time");
 }

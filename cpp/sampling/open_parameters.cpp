@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "engine/open_start.hpp"
-#include "model/rules.hpp"
 #include "sampling/limits.hpp"
 
 namespace lorentz {
@@ -16,7 +15,7 @@ OpenChain OpenParameters::chain() const {
           .gamma = scattering.mean_scatterings(),
           .left = left,
           .right = right,
-          .rule = rule_properties(scattering.rule).name};
+          .rule = scattering.rule.choice()};
 }
 
 PhasePoint OpenParameters::start_point(double age, const StreamKey& key) const {
@@ -50,7 +49,7 @@ void declare(Options& options, StationaryParameters& parameters) {
 }
 
 void validate(const OpenParameters& parameters, double end, const std::string& times) {
-  require_probability(parameters.scattering.gamma, parameters.scattering.cells);
+  validate(parameters.scattering);
   constexpr double most_particles = 1e9;
   const OpenChain chain = parameters.chain();
   const auto [cold, hot] = std::minmax(chain.left.temperature, chain.right.temperature);

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 
 from workflow.identity import ROOT, drawing_sources, named_identity, panel_identity
 from workflow.lib import style
+from workflow.lib.caption import with_rules
 from workflow.lib.columns import as_csv, inherited
 from workflow.lib.load import FormatError, Result, load
 from workflow.lib.save import Parents, Text, save
@@ -44,7 +45,7 @@ def require_elastic(results: Sequence[Result], theory: str) -> None:
 def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str) -> None:
     """Renders the panel that the command line names."""
     parser = argparse.ArgumentParser(description="Renders a panel from its results.")
-    parser.add_argument("--data", type=Path, nargs="+", required=True, help="result files of the panel")
+    parser.add_argument("--data", type=Path, nargs="*", default=[], help="result files of the panel")
     parser.add_argument("--output", type=Path, required=True, help="FOLDER/QUALITY/PANEL, without suffix")
     options = parser.parse_args()
     script = Path(sys.argv[0]).resolve()
@@ -64,7 +65,7 @@ def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str
         saved = as_csv(table, inherited(results) | errors | units)
     except (FormatError, OSError, TheoryError, UnitsError) as error:
         sys.exit(str(error))
-    text = Text(title if isinstance(title, str) else title(results), " ".join(caption.split()))
+    text = Text(title if isinstance(title, str) else title(results), with_rules(" ".join(caption.split()), results))
     save(figure, saved, options.output, text, Parents(name, options.data, sources))
 
 
