@@ -168,7 +168,7 @@ def load_plan(name: str, folder: Path = FOLDER) -> dict[str, Panel]:
     effort = efforts.content
     panels = {name: _panel(name, panel, effort, quality) for name, panel in paper.content["panels"].items()}
     for panel in panels.values():
-        if not panel.runs and not panel.uses:
+        if "series" in paper.content["panels"][panel.name] and not panel.runs and not panel.uses:
             text = f"no runs at quality {name}, and no panel whose runs it uses"
             raise ConfigurationError(paper.complaint(("panels", panel.name), text))
         for number, used in enumerate(panel.uses):

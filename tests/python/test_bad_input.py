@@ -38,7 +38,6 @@ BAD: dict[str, list[tuple[dict[str, object], str]]] = {
         ({"observation-time": 1e100, "cell-length": 1e100}, "displacement at the first time"),
     ],
     "ageing": [({"decades": 1, "fit-decades": 1.5}, "--fit-decades")],
-    "trajectories": [({"observation-time": 1e6, "cells": 100}, "more than 100000 flights, too many to plot")],
     "energy_pulse": [
         ({"times": "0.02,0.01"}, "ascend"),
         ({"times": "0.02,x"}, "'0.02,x'"),

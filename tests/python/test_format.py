@@ -115,7 +115,7 @@ def test_files_have_the_format_and_the_same_bytes_for_any_threads(
     program: Program, tmp_path: Path, name: str
 ) -> None:
     def content(threads: int) -> bytes:
-        of_replicas = {} if name in ("boltzmann", "trajectories") else {"threads": threads}
+        of_replicas = {} if name == "boltzmann" else {"threads": threads}
         done = program(name, **of_replicas)
         assert done.returncode == 0, done.stderr
         return (tmp_path / "out.h5").read_bytes()
