@@ -45,7 +45,8 @@ format: setup-dev  ## Format every source in place
 describe: build  ## Options and quantities of the programs: schema of the configuration, docs/format.*
 	$(DEV)/python -m workflow.config.describe
 bench: setup-dev build  ## Cost of an event
-	$(DEV)/python -m workflow.tradeoff.bench
+	bash workflow/environment/build.sh benchmarks
+	build/bin/benchmarks
 tradeoff: setup-dev build  ## Accuracy against time, and rounding: figures/tradeoff
 	$(DEV)/python -m workflow.tradeoff.tradeoff
 docs: setup-dev  ## The documentation as a static site, build/docs/index.html

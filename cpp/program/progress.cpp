@@ -60,9 +60,11 @@ std::string with_error(double mean, double error) {
   // Two digits, also where rounding carries: 0.0996 has the digits 10, not 100.
   int decimals = 1 - static_cast<int>(std::floor(elementary::log10(error / scale)));
   if (std::round(error / scale * elementary::pow(10, decimals)) >= 100) --decimals;
+  const double unit = elementary::pow(10, decimals), rounded = std::round(error / scale * unit) / unit;
   decimals = std::max(decimals, 0);
-  const double digits = std::round(error / scale * elementary::pow(10, decimals));
-  return fmt::format("{:.{}f}({:.0f}){}", mean / scale, decimals, digits,
+  const std::string shown =
+      rounded < 1 ? fmt::format("{:.0f}", rounded * unit) : fmt::format("{:.{}f}", rounded, decimals);
+  return fmt::format("{:.{}f}({}){}", mean / scale, decimals, shown,
                      plain ? "" : fmt::format("e{}", exponent));
 }
 

@@ -30,7 +30,7 @@ class Progress {
   bool bar_drawn_ = false;
 };
 
-/// "0.3208(45)": a mean with the last two digits of its standard error.
+/// "0.3208(45)", "262.9(3.5)": a mean with two digits of its standard error.
 std::string with_error(double mean, double error);
 
 }  // namespace lorentz
