@@ -29,7 +29,9 @@ class MeasureError(ValueError):
 
 def measure(program: str, **options: object) -> "xarray.DataTree":
     """Runs a program and returns its result as from Result.to_xarray(). Options are those of the command line, with underscores for dashes and
-    True for a flag; also threads. A list of values of an option gives every quantity its dimension.
+    True for a flag; also threads. A list of values of an option gives every quantity its dimension; of options whose value is
+    itself a list, as times, a list of numbers is one value, and a list of texts as "1,2,4" gives the dimension. `result["doubts"]` has the
+    reasons to doubt each result.
 
     The seed follows from program and options, so that two calls with different options have independent errors; `seed=1` in several
     calls shares their random numbers. A result of these options and sources in data/measured is not measured again. An interrupted
@@ -52,7 +54,7 @@ def measure(program: str, **options: object) -> "xarray.DataTree":
             where = "".join(f" at {name} = {value}" for name, value in point.items())
             warnings.warn(f"{program}{where}: {', '.join(result.doubts)}", stacklevel=2)
     trees = [result.to_xarray() for result in results]
-    return _combined(trees, listed) if listed else trees[0]
+    return _combined(trees, listed)
 
 
 def _checked(program: str, options: Mapping[str, object], known: Mapping[str, Any]) -> dict[str, Any]:
@@ -73,6 +75,10 @@ def _checked(program: str, options: Mapping[str, object], known: Mapping[str, An
         if isinstance(value, Set | Iterator) or getattr(value, "ndim", 1) > 1:
             raise MeasureError(f"{name} is a {type(value).__name__} without one order; give a list")
         given[name] = [*value]
+        of_numbers = given[name] and not any(isinstance(each, str) for each in given[name])
+        if of_numbers and "," in known.get(name, {}).get("pattern", ""):  # one value is a list
+            given[name] = ",".join(map(str, given[name]))
+            continue
         if len({*given[name]}) < max(1, len(given[name])):
             raise MeasureError(f"{name} has no value, or one twice; give a list of different values")
     return given

@@ -106,6 +106,7 @@ def test_lists_give_a_dimension_each() -> None:
     assert np.isfinite(profile).values.tolist() == [True, True, False, False]
     assert tree["converged"].values.tolist() == [["no target"] * 2] * 2
     assert "cells" not in tree.attrs
+    assert alone["doubts"].values.tolist() == ["stationarity not tested"] * 2
     assert tree.attrs["gamma"] == "N"
 
 
@@ -120,8 +121,14 @@ def test_lists_keep_their_order_and_mix_types() -> None:
     assert measure("boltzmann", cells=[2, 4])["energy_current"]["mean"].shape == (2,)
 
 
-def test_a_program_without_replicas() -> None:
-    assert measure("trajectories", cells=4, chain="closed", observation_time=1).children
+def test_a_list_of_times_is_one_value() -> None:
+    options = {"cells": 4, "replicas": 4}
+    tree = measure("particle_count", **options, times=[1, 2.5, 4])
+    assert tree["plateau"].coords["time"].values.tolist() == [1, 2.5, 4]
+    assert "times" not in tree["log_slope"].dims
+    both = measure("particle_count", **options, times=["1,2.5,4", "1,2"])["log_slope"]
+    assert dict(both.sizes) == {"times": 2}
+    assert float(both["mean"][0]) == float(tree["log_slope"]["mean"])
 
 
 def running(folder: Path) -> list[int]:
@@ -192,7 +199,7 @@ def test_points_have_independent_errors() -> None:
 def test_doubts_are_warned_of() -> None:
     options = {"start": "empty", "relaxation_time": 0, "observation_time": 5, "cells": 64, "replicas": 32}
     with pytest.warns(UserWarning, match="conductivity: not stationary"):
-        assert measure("conductivity", **options).attrs["doubts"] == "not stationary"
+        assert measure("conductivity", **options)["doubts"].item() == "not stationary"
     with pytest.warns(UserWarning, match="stationarity not tested"):
         measure("conductivity", **options | {"replicas": 1})
     with pytest.warns(UserWarning, match="steady_profile: stationarity not tested"):

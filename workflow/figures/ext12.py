@@ -103,7 +103,7 @@ def agreement(starts: pd.DataFrame, quantity: str) -> str:
     rows = starts[starts.quantity == quantity]
     slots = rows.drop_duplicates(["gas", "cells"])
     largest = 100 * rows.deviation.abs().max()
-    return f"{largest:.1f} % ({goodness(slots.chi_square.sum(), int(slots.freedom.sum()))})"
+    return f"{largest:.1f} % ({goodness(slots.chi_square.sum(skipna=False), int(slots.freedom.sum()))})"
 
 
 def caption(starts: pd.DataFrame, results: Sequence[Result]) -> str:

@@ -152,4 +152,4 @@ def largest_distance(measured: np.ndarray, error: np.ndarray, exact: np.ndarray)
     total = exact.sum()
     distance = np.cumsum(measured - exact) / total
     at = int(np.abs(distance).argmax())
-    return float(np.abs(distance[at])), float(np.sqrt(np.nansum(error[: at + 1] ** 2)) / total)
+    return float(np.abs(distance[at])), float(np.sqrt(np.sum(error[: at + 1] ** 2)) / total)
