@@ -47,7 +47,7 @@ except OSError as error:  # a panel without a script
     sys.exit(in_one_line(error))
 KINDS = [".pdf", ".png", ".svg", ".csv", ".json"]
 
-if workflow.is_main_process and not workflow.dryrun:
+if workflow.is_main_process and not workflow.output_settings.dryrun:
     os.makedirs("build", exist_ok=True)
     LOCK = os.open("build/lock", os.O_RDWR | os.O_CREAT)  # held until this process ends
     try:

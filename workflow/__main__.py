@@ -33,6 +33,7 @@ TARGETS: dict[str, tuple[str, ...]] = {  # with their options
 NEEDED = {"panel": "PANEL=fig05", "provenance": "FILE=figures/standard/fig05.pdf"}
 FLAGS = ("FRESH", "DRY", "FULL")
 OF_MAKE = ("CXX",)  # options of make build
+DEFAULTS = {"QUALITY": "standard", "SAMPLE": "0.1"}
 SNAKEMAKE = ("figures", "panel", "report", "gallery")
 DONE = {
     "figures": "The figures are in figures/{quality}. Next: make report {given}",
@@ -64,7 +65,7 @@ def parse(target: str, words: list[str]) -> argparse.Namespace:
     if target not in TARGETS:
         raise UsageError(f"{target} is not a target; {nearest(target, TARGETS)}")
     allowed, every = TARGETS[target], {name for names in TARGETS.values() for name in names}
-    given = dict.fromkeys(every, "") | {"QUALITY": "standard", "SAMPLE": "0.1"}
+    given = dict.fromkeys(every, "") | DEFAULTS
     for word in words:
         name, equals, value = word.partition("=")
         if name in OF_MAKE:
@@ -97,9 +98,9 @@ def prepare(options: argparse.Namespace) -> None:
 
 def snakemake(target: str, options: argparse.Namespace) -> int:
     """Makes a target of the Snakefile. Raises UsageError."""
+    words = profile_words(options.profile or "default")
     from snakemake.cli import main as run  # noqa: PLC0415
 
-    words = profile_words(options.profile or "default")
     words += ["--forceall"] if options.fresh else []
     words += ["--dry-run"] if options.dry else []
     words += ["--jobs" if options.profile else "--cores", options.jobs] if options.jobs else []

@@ -85,7 +85,7 @@ class Project:
 
     def products(self) -> dict[str, bytes]:
         """Results and figures, without records, which have the commit."""
-        files = self.files("data", "figures", "build/figures")
+        files = self.files("data/smoke", "figures/smoke", "build/figures/smoke")
         return {path: content for path, content in files.items() if not path.endswith((".json", ".log"))}
 
     def one(self, pattern: str) -> Path:

@@ -34,8 +34,8 @@ Described = dict[str, dict[str, Any]]  # descriptions by program
 
 
 def built(programs: Path = ROOT / "build/bin") -> list[str]:
-    """Names of the programs that CMake builds into this folder: those with a build id beside it."""
-    return sorted(path.stem for path in (programs.parent / "id").glob("[!.]*.json"))
+    """Names of the programs that CMake builds into this folder."""
+    return sorted(path.stem for path in (programs.parent / "build_info").glob("*.cpp"))
 
 
 def with_option(name: str) -> list[str]:
