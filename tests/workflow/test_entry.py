@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.workflow.conftest import ROOT, Project
+from tests.workflow.conftest import ROOT, Project, without_installation
 from workflow.__main__ import words_of_make
 from workflow.environment import FIXED, clean
 
@@ -53,9 +53,7 @@ def test_words_of_make() -> None:
 
 def test_make_passes_its_options(project: Project) -> None:
     """Also those with spaces and quotes; the variables of the caller's shell are no options."""
-    stub = "#!/bin/sh\nexit 0\n"
-    for script in ("setup.sh", "build.sh"):
-        (project.folder / "workflow/environment" / script).write_text(stub)
+    without_installation(project)
     make = ("make", "panel", "QUALITY=smoke")
     printed = project.run(*make, "PANEL=mu it's", status=2, ERROR="0.1", PYTHONPATH="/nonexistent").stdout
     assert printed.splitlines()[0] == "it's is not a panel; choose one of mu, energy"
