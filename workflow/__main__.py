@@ -25,10 +25,9 @@ TARGETS: dict[str, tuple[str, ...]] = {  # with their options
     "audit": ("PANEL", *EFFORT),
     "status": ("PANEL", *EFFORT),
     "verify": ("PANEL", "SAMPLE", *EFFORT),
-    "compare": ("PANEL", "FRESH", *EFFORT),
     "provenance": ("FILE", "FULL"),
-    "crate": ("PANEL", *EFFORT),
-    "prune": ("DRY", *EFFORT),
+    "deposit": EFFORT,
+    "prune": ("DRY", "QUALITY"),
 }
 NEEDED = {"panel": "PANEL=fig05", "provenance": "FILE=figures/standard/fig05.pdf"}
 FLAGS = ("FRESH", "DRY", "FULL")
@@ -145,19 +144,22 @@ def profile_words(name: str) -> list[str]:
 def run(target: str, options: argparse.Namespace) -> int:
     """Raises UsageError, ConfigurationError, OSError."""
     if target not in SNAKEMAKE:
-        return int(importlib.import_module(f"workflow.provenance.{target}").main(options) or 0)
+        options.render = target == "audit"
+        module = "audit" if target == "status" else target
+        return int(importlib.import_module(f"workflow.provenance.{module}").main(options) or 0)
     compared = (
         target in ("figures", "panel")
         and not options.dry
         and (options.seed or options.replicas or options.fresh)
     )
     if compared:
-        compare = importlib.import_module("workflow.provenance.compare")
-        compare.keep(options)
+        verify = importlib.import_module("workflow.provenance.verify")
+        if options.fresh:
+            verify.keep(options)
     if (status := snakemake(target, options)) or options.dry:
         return status
     print(DONE[target].format(quality=options.quality, given=options.given, panels=" ".join(options.panels)))
-    return int(compare.main(options) or 0) if compared else 0
+    return int(verify.compare(options)) if compared else 0
 
 
 def main() -> int:

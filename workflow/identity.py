@@ -27,7 +27,7 @@ TOKEN = re.compile(
     r"""|//[^\n]*|/\*.*?\*/""",
     re.DOTALL,
 )
-STATEMENT = re.compile(rb"panel ([\w-]+), quality ([\w=.-]+), identity ([0-9a-f]+)")
+STATEMENT = re.compile(rf"panel ([\w-]+), quality ([\w=.-]+), identity ({IDENTITY})".encode())
 
 
 def identity(*parts: object) -> str:

@@ -6,10 +6,11 @@ line with panel, quality and identity.
 
 import io
 import json
+import platform
 import subprocess
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
+from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,7 @@ from workflow.identity import ROOT, sha256, statement
 from workflow.lib.style import FONTS
 
 CREATOR = "lorentz-gas"
+PACKAGES = ("matplotlib", "numpy", "scipy", "pandas", "pillow", "fonttools")
 
 
 @dataclass(frozen=True)
@@ -66,10 +68,20 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
     ).encode()
     hashes = {str(path): sha256(path.read_bytes()) for path in parents.results} | dict(parents.sources)
     record = {"panel": panel, "quality": quality, "identity": parents.identity, **asdict(text)}
-    record |= {"commit": commit(), "python": f"{sys.version_info.major}.{sys.version_info.minor}"}
+    record |= {"commit": commit(), "environment": environment()}
     record |= {"parents": hashes, "files": {kind: sha256(content) for kind, content in contents.items()}}
-    contents["json"] = (json.dumps(record, indent=1, ensure_ascii=False) + "\n").encode()
+    contents["json"] = as_text(record).encode()
     write_together({stem.with_name(f"{stem.name}.{kind}"): content for kind, content in contents.items()})
+
+
+def as_text(record: dict[str, Any]) -> str:
+    return json.dumps(record, indent=1, ensure_ascii=False) + "\n"
+
+
+def environment() -> str:
+    """What the bytes of a picture depend on besides its parents: Python, kind of processor, and versions of packages."""
+    versions = ", ".join(f"{name} {metadata.version(name)}" for name in PACKAGES)
+    return f"Python {platform.python_version()} on {platform.machine()}, {versions}"
 
 
 def commit() -> str:
