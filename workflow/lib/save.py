@@ -6,23 +6,21 @@ line with panel, quality and identity.
 
 import io
 import json
-import platform
 import subprocess
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
-from importlib import metadata
 from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
+from workflow.environment import renderer
 from workflow.files import write_together
 from workflow.identity import ROOT, sha256, statement
 from workflow.lib.style import FONTS
 
 CREATOR = "lorentz-gas"
-PACKAGES = ("matplotlib", "numpy", "scipy", "pandas", "pillow", "fonttools")
 
 
 @dataclass(frozen=True)
@@ -68,7 +66,7 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
     ).encode()
     hashes = {str(path): sha256(path.read_bytes()) for path in parents.results} | dict(parents.sources)
     record = {"panel": panel, "quality": quality, "identity": parents.identity, **asdict(text)}
-    record |= {"commit": commit(), "environment": environment()}
+    record |= {"commit": commit(), "renderer": renderer()}
     record |= {"parents": hashes, "files": {kind: sha256(content) for kind, content in contents.items()}}
     contents["json"] = as_text(record).encode()
     write_together({stem.with_name(f"{stem.name}.{kind}"): content for kind, content in contents.items()})
@@ -76,12 +74,6 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
 
 def as_text(record: dict[str, Any]) -> str:
     return json.dumps(record, indent=1, ensure_ascii=False) + "\n"
-
-
-def environment() -> str:
-    """What the bytes of a picture depend on besides its parents: Python, kind of processor, and versions of packages."""
-    versions = ", ".join(f"{name} {metadata.version(name)}" for name in PACKAGES)
-    return f"Python {platform.python_version()} on {platform.machine()}, {versions}"
 
 
 def commit() -> str:

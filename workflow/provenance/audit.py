@@ -14,10 +14,10 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import NamedTuple
 
+from workflow.environment import renderer
 from workflow.files import in_one_line
 from workflow.identity import DIGITS, drawing_sources, named_identity, sha256, source_hash, stated
 from workflow.lib.load import FormatError, load
-from workflow.lib.save import environment
 from workflow.plan import Panel, Quality, Run, data_of, drawing_command, load_plan, runs_of, stem_of
 from workflow.publish import SHOWN, copies, read_record
 
@@ -77,7 +77,7 @@ class Picture:
         self.script, self.shown = plan[name].script, f"{SHOWN}/{quality}/{name}"
         self.data, self.stem = data_of(plan, name, quality), stem_of(plan, name, quality)
         self.record = read_record(f"{self.stem}.json")
-        self.again = Path("build/audit", quality, name)
+        self.statement = (name, quality, named_identity(self.stem))
 
     def is_made(self) -> bool:
         """Whether there is a file of it, also of a former one."""
@@ -93,9 +93,8 @@ class Picture:
                     return Fault("missing", path, "it was removed")
                 content = Path(path).read_bytes()
                 if sha256(content) != digest:
-                    former = (stated(content) or self.record["identity"])[-1] != self.record["identity"]
-                    reason = f"it differs from its hash in {self.stem}.json; remove it"
-                    return Fault("stale" if former else "edited", path, reason)
+                    state = "edited" if stated(content) in (None, self.statement) else "stale"
+                    return Fault(state, path, f"it differs from its hash in {self.stem}.json; remove it")
         return self._fault_of_rendering() if render else None
 
     def _fault_without_record(self) -> Fault:
@@ -112,13 +111,15 @@ class Picture:
         return Fault("stale", f"{self.shown}.pdf", f"changed: {', '.join(changed)}")
 
     def _fault_of_rendering(self) -> Fault | None:
-        command = drawing_command(self.script, str(self.again), self.data)
+        name, quality, _ = self.statement
+        rendered = Path("build/audit", quality, name)
+        command = drawing_command(self.script, str(rendered), self.data)
         done = subprocess.run(command, shell=True, capture_output=True, text=True, check=False)
         if done.returncode:
             return Fault("not checked", f"{self.shown}.pdf", f"rendering fails: {done.stderr.strip()[-200:]}")
-        for copy, again in copies(self.again).items():
+        for copy, again in copies(rendered).items():
             if copy.read_bytes() != again.read_bytes():
-                if (former := self.record["environment"]) != (here := environment()):
+                if (former := self.record["renderer"]) != (here := renderer()):
                     return Fault("not checked", str(copy), f"rendered with {former}, this is {here}")
                 return Fault("edited", str(copy), f"rendering it again gives other bytes: compare {again}")
             again.unlink()

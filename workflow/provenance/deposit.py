@@ -45,11 +45,11 @@ def pack(archive: Path, paths: Iterable[str]) -> None:
 def main(options: argparse.Namespace) -> None:
     """Exits if a product does not hold or a source is not in the commit."""
     quality, plan = options.quality, load_plan(options.quality)
+    if new := git("ls-files", "--others", "--exclude-standard", "cpp", "workflow"):
+        sys.exit(f"{new[0]} is not tracked, and would be missing in the deposit: git add it, or move it away")
     if faults := check(plan, [*plan], quality, render=False):
         remedy = f"run make figures {Quality.of(quality).arguments}"
         sys.exit(f"{faults[0].path} is {faults[0].state}: {faults[0].reason}; {remedy}")
-    if new := git("ls-files", "--others", "--exclude-standard", "cpp", "workflow"):
-        sys.exit(f"{new[0]} is not tracked, and would be missing in the deposit: git add it, or move it away")
     paths = {*git("ls-files"), *runs_of(plan, plan, quality)}
     for stem in map(Path, [*(stem_of(plan, name, quality) for name in plan), report_stem(plan, quality)]):
         paths |= {*map(str, [*stem.parent.glob(f"{stem.name}.*"), *copies(stem)])}

@@ -67,7 +67,7 @@ def explain_figure(content: bytes, full: bool) -> int:
     print(
         f"{'edited' if edited else 'unmodified'}, identity {identity}, commit {record['commit'] or 'unknown'}"
     )
-    print(record["environment"])
+    print(record["renderer"])
     for path in (path for path in parents if full or not path.endswith(".h5")):
         same = Path(path).exists() and content_hash(path) == parents[path]
         print(f"{path}, {'the same' if same else 'another'} here", f"sha256 {parents[path]}" if full else "")

@@ -15,7 +15,7 @@ from workflow.plan import plans_of, report_stem, runs_of, stem_of
 from workflow.publish import SHOWN, STORE
 
 GIVEN = re.compile(
-    rf"(.+\.{IDENTITY})\.(h5|log|pdf|png|svg|csv|json|html)(\.checkpoint|\.refused)?(\.\w+\.tmp)?"
+    rf"(.+\.{IDENTITY})\.(h5|log|cost\.json|pdf|png|svg|csv|json|html)(\.checkpoint|\.refused)?(\.\w+\.tmp)?"
 )
 
 
