@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "numerics/elementary.hpp"
 #include "numerics/gauss_legendre.hpp"
 
 namespace lorentz {
@@ -31,7 +30,7 @@ VectorXd legendre_integrals(int order, double point) {
 /// normalised by j_0 = sin(z)/z and j_0 - z j_1 = cos(z) (DLMF 10.51, 10.74).
 void spherical_bessel(double z, VectorXd& values) {
   const auto size = static_cast<int>(values.size());
-  const double sine = elementary::sin(z), cosine = elementary::cos(z);
+  const double sine = std::sin(z), cosine = std::cos(z);
   if (z >= size) {
     values[0] = sine / z;
     if (size > 1) values[1] = (values[0] - cosine) / z;
@@ -117,8 +116,7 @@ FourierIntegrals Panels::fourier(const VectorXd& k) const {
         (n % 2 == 0 ? even_terms : odd_terms)(n, row) = (n % 4 < 2 ? 2 : -2) * bessel[n];
     }
     const Eigen::ArrayXd phase = k.array() * middle(panel);
-    const Eigen::ArrayXd cosine = half_width(panel) * phase.unaryExpr(&elementary::cos),
-                         sine = half_width(panel) * phase.unaryExpr(&elementary::sin);
+    const Eigen::ArrayXd cosine = half_width(panel) * phase.cos(), sine = half_width(panel) * phase.sin();
     const Eigen::ArrayXXd real = (even_terms.transpose() * legendre_).array();
     const Eigen::ArrayXXd imaginary = (odd_terms.transpose() * legendre_).array();
     result.cosine.middleCols(first(panel), order_) = real.colwise() * cosine - imaginary.colwise() * sine;
@@ -132,19 +130,18 @@ FourierIntegrals Panels::fourier(const VectorXd& k) const {
       if (k[row] * half_width(panel) > smallest_phase) continue;
       const Eigen::ArrayXd phase = k[row] * nodes_.segment(first(panel), order_).array();
       const Eigen::ArrayXd weights = weights_.segment(first(panel), order_).array();
-      result.cosine.row(row).segment(first(panel), order_) = weights * phase.unaryExpr(&elementary::cos);
+      result.cosine.row(row).segment(first(panel), order_) = weights * phase.cos();
       result.cosine_minus_one.row(row).segment(first(panel), order_) =
-          -2 * weights * (0.5 * phase).unaryExpr(&elementary::sin).square();
-      result.sine.row(row).segment(first(panel), order_) = weights * phase.unaryExpr(&elementary::sin);
+          -2 * weights * (0.5 * phase).sin().square();
+      result.sine.row(row).segment(first(panel), order_) = weights * phase.sin();
     }
   return result;
 }
 
 std::vector<double> graded_breaks(double smallest, double largest, double ratio) {
   std::vector<double> breaks{0};
-  const int steps =
-      std::max(1, static_cast<int>(std::ceil(elementary::log(largest / smallest) / elementary::log(ratio))));
-  for (int step = steps; step >= 0; --step) breaks.push_back(largest * elementary::pow(ratio, -step));
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::log(largest / smallest) / std::log(ratio))));
+  for (int step = steps; step >= 0; --step) breaks.push_back(largest * std::pow(ratio, -step));
   return breaks;
 }
 

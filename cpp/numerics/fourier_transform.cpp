@@ -1,10 +1,9 @@
 #include "numerics/fourier_transform.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
-
-#include "numerics/elementary.hpp"
 
 namespace lorentz {
 namespace {
@@ -42,7 +41,7 @@ std::vector<Complex> roots_of_unity(std::size_t n, std::size_t count) {
     const double turns =
         (static_cast<double>(8 * k) - static_cast<double>(octant * n)) / static_cast<double>(n);
     const double angle = turns * (std::numbers::pi / 4);
-    const double c = elementary::cos(angle), s = elementary::sin(angle);
+    const double c = std::cos(angle), s = std::sin(angle);
     switch (octant / 2 % 4) {
       case 0:
         roots.emplace_back(c, -s);

@@ -1,9 +1,8 @@
 #include "numerics/gauss_legendre.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
-
-#include "numerics/elementary.hpp"
 
 namespace lorentz {
 
@@ -19,7 +18,7 @@ Eigen::VectorXd legendre_polynomials(int degree, double point) {
 GaussRule gauss_legendre(int order) {
   GaussRule rule{Eigen::VectorXd(order), Eigen::VectorXd(order)};
   for (Eigen::Index i = 0; i < order; ++i) {
-    double x = -elementary::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) / (order + 0.5));
+    double x = -std::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) / (order + 0.5));
     double slope = 0;                       // derivative of P_order at x
     for (int step = 0; step < 5; ++step) {  // Newton's method, quadratic from an error below 0.01
       const Eigen::VectorXd values = legendre_polynomials(order, x);

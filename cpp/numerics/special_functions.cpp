@@ -5,8 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "numerics/elementary.hpp"
-
 namespace lorentz {
 namespace {
 
@@ -32,7 +30,7 @@ double continued_fraction(double first, const Terms& terms) {
 /// ln Gamma(x) minus Stirling's formula (x - 1/2) ln x - x + ln(2 pi)/2, for x > 0.
 double stirling_error(double x) {
   double error = 0;
-  for (; x < 16; ++x) error += (x + 0.5) * elementary::log1p(1 / x) - 1;
+  for (; x < 16; ++x) error += (x + 0.5) * std::log1p(1 / x) - 1;
   const double y = 1 / (x * x);
   return error + (1. / 12 + y * (-1. / 360 + y * (1. / 1260 + y * (-1. / 1680 + y * (1. / 1188))))) / x;
 }
@@ -40,7 +38,7 @@ double stirling_error(double x) {
 /// Density at ln x of a gamma variable of shape a: x^a exp(-x) / Gamma(a).
 double gamma_density(double a, double x) {
   const double deviation = x / a - 1;
-  return elementary::exp(-a * (deviation - elementary::log1p(deviation)) - stirling_error(a)) *
+  return std::exp(-a * (deviation - std::log1p(deviation)) - stirling_error(a)) *
          std::sqrt(a / (2 * std::numbers::pi));
 }
 
@@ -58,9 +56,9 @@ double gamma_tail(double a, double x) {
 /// Regularised incomplete beta function I_x(a, b) where the fraction converges, x <= (a + 1)/(a + b + 2).
 double beta_fraction(double a, double b, double x) {
   const double whole = a + b;
-  const double logarithm = a * elementary::log(x * whole / a) + b * elementary::log((1 - x) * whole / b) +
+  const double logarithm = a * std::log(x * whole / a) + b * std::log((1 - x) * whole / b) +
                            stirling_error(whole) - stirling_error(a) - stirling_error(b);
-  const double front = elementary::exp(logarithm) * std::sqrt(b / (2 * std::numbers::pi * a * whole));
+  const double front = std::exp(logarithm) * std::sqrt(b / (2 * std::numbers::pi * a * whole));
   return front / continued_fraction(1, [=](int n) {
            const double m = n / 2;
            const double even = m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m));
@@ -73,14 +71,13 @@ double beta_fraction(double a, double b, double x) {
 
 double exponential_integral(double x) {
   if (x > 1)
-    return elementary::exp(-x) /
-           continued_fraction(x + 1, [=](double n) { return Term{-n * n, x + 2 * n + 1}; });
+    return std::exp(-x) / continued_fraction(x + 1, [=](double n) { return Term{-n * n, x + 2 * n + 1}; });
   double term = -1, sum = 0;
   for (double n = 1; std::abs(term) > epsilon * std::abs(sum); ++n) {
     term *= -x / n;
     sum += term / n;
   }
-  return sum - elementary::log(x) - std::numbers::egamma;
+  return sum - std::log(x) - std::numbers::egamma;
 }
 
 double chi_square_quantile(double probability_above, double degrees_of_freedom) {

@@ -1,9 +1,8 @@
 #include "statistics/fit.hpp"
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
-
-#include "numerics/elementary.hpp"
 
 namespace lorentz {
 
@@ -29,8 +28,8 @@ double fit_power(std::span<const double> x, std::span<const double> y, double fr
   std::vector<double> log_x, log_y;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (x[i] < from || x[i] > to) continue;
-    log_x.push_back(elementary::log(x[i]));
-    log_y.push_back(elementary::log(y[i]));
+    log_x.push_back(std::log(x[i]));
+    log_y.push_back(std::log(y[i]));
   }
   return fit_line(log_x, log_y).slope;
 }
@@ -39,7 +38,7 @@ double fit_logarithm(std::span<const double> x, std::span<const double> y, doubl
   std::vector<double> log_x, part;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (x[i] < from || x[i] > to) continue;
-    log_x.push_back(elementary::log(x[i]));
+    log_x.push_back(std::log(x[i]));
     part.push_back(y[i]);
   }
   return fit_line(log_x, part).slope;
@@ -50,7 +49,7 @@ double fit_logarithmic_power(std::span<const double> x, std::span<const double> 
   std::vector<double> logarithm, ratio;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (x[i] < from) continue;
-    logarithm.push_back(elementary::log(x[i] / scale));
+    logarithm.push_back(std::log(x[i] / scale));
     ratio.push_back(y[i] / x[i]);
   }
   return fit_power(logarithm, ratio, logarithm.front(), logarithm.back());
@@ -59,9 +58,8 @@ double fit_logarithmic_power(std::span<const double> x, std::span<const double> 
 std::vector<double> local_exponents(std::span<const double> x, std::span<const double> y) {
   std::vector<double> exponents;
   for (std::size_t i = 0; i + 1 < x.size(); ++i)
-    exponents.push_back(y[i] > 0 && y[i + 1] > 0
-                            ? elementary::log(y[i + 1] / y[i]) / elementary::log(x[i + 1] / x[i])
-                            : std::numeric_limits<double>::quiet_NaN());
+    exponents.push_back(y[i] > 0 && y[i + 1] > 0 ? std::log(y[i + 1] / y[i]) / std::log(x[i + 1] / x[i])
+                                                 : std::numeric_limits<double>::quiet_NaN());
   return exponents;
 }
 

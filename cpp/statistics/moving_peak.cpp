@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "numerics/elementary.hpp"
 #include "statistics/fit.hpp"
 #include "statistics/group.hpp"
 
@@ -48,7 +47,7 @@ double spread(std::span<const Profile> profiles, double low, double high, double
   const double last = profiles.back().time;
   std::array<double, points> sum{}, squares{};
   for (const Profile& profile : profiles) {
-    const double stretch = elementary::pow(profile.time / last, xi);
+    const double stretch = std::pow(profile.time / last, xi);
     for (std::size_t i = 0; i < points; ++i) {
       const double s = low + (high - low) * static_cast<double>(i) / (points - 1);
       const double y = stretch * value_at(profile, s * stretch);
@@ -126,13 +125,13 @@ PeakWindows peak_windows(const Records& records, Tally profiles, std::size_t tim
 }
 
 std::vector<double> octaves(const std::vector<double>& times) {
-  const double first = elementary::log(times.front()), span = elementary::log(times.back()) - first;
+  const double first = std::log(times.front()), span = std::log(times.back()) - first;
   const double parts = std::max(1.0, std::round(span / std::numbers::ln2));
   std::vector<double> ends{times.front()};
   for (int k = 1; k <= parts; ++k) {
     const double wanted = first + k * span / parts;
-    const double nearest = *std::ranges::min_element(
-        times, {}, [&](double time) { return std::abs(elementary::log(time) - wanted); });
+    const double nearest =
+        *std::ranges::min_element(times, {}, [&](double time) { return std::abs(std::log(time) - wanted); });
     if (nearest > ends.back()) ends.push_back(nearest);
   }
   return ends;
