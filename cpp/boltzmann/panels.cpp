@@ -1,10 +1,13 @@
 #include "boltzmann/panels.hpp"
 
+#include <gsl/gsl_integration.h>
+#include <gsl/gsl_sf_legendre.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "numerics/gauss_legendre.hpp"
+#include "numerics/gsl.hpp"
 
 namespace lorentz {
 namespace {
@@ -14,6 +17,13 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double smallest_phase = 0.5;  // k times half the width of a panel: below, the Gauss rule is used
+
+/// Values of P_0, ..., P_degree at a point, which is clamped to [-1, 1].
+VectorXd legendre_polynomials(int degree, double point) {
+  VectorXd values(degree + 1);
+  gsl_sf_legendre_Pl_array(degree, std::clamp(point, -1.0, 1.0), values.data());
+  return values;
+}
 
 /// Integrals of P_0, ..., P_(order-1) from -1 to a point: (P_(n+1) - P_(n-1)) / (2n+1).
 VectorXd legendre_integrals(int order, double point) {
@@ -59,15 +69,18 @@ Panels::Panels(std::vector<double> breaks, int order)
       nodes_(static_cast<Index>(count()) * order),
       weights_(nodes_.size()),
       legendre_(order, order) {
-  const GaussRule rule = gauss_legendre(order);
+  const GslObject<gsl_integration_fixed_workspace, gsl_integration_fixed_alloc, gsl_integration_fixed_free>
+      rule(gsl_integration_fixed_legendre, static_cast<std::size_t>(order), -1, 1, 0, 0);
+  const Eigen::Map<const VectorXd> rule_nodes(gsl_integration_fixed_nodes(rule.get()), order);
+  const Eigen::Map<const VectorXd> rule_weights(gsl_integration_fixed_weights(rule.get()), order);
   for (std::size_t panel = 0; panel < count(); ++panel) {
-    nodes_.segment(first(panel), order) = middle(panel) + half_width(panel) * rule.nodes.array();
-    weights_.segment(first(panel), order) = half_width(panel) * rule.weights;
+    nodes_.segment(first(panel), order) = middle(panel) + half_width(panel) * rule_nodes.array();
+    weights_.segment(first(panel), order) = half_width(panel) * rule_weights;
   }
   for (Index i = 0; i < order; ++i)
     for (Index n = 0; n < order; ++n)
-      legendre_(n, i) = (static_cast<double>(n) + 0.5) * rule.weights[i] *
-                        legendre_polynomials(order - 1, rule.nodes[i])[n];
+      legendre_(n, i) = (static_cast<double>(n) + 0.5) * rule_weights[i] *
+                        legendre_polynomials(order - 1, rule_nodes[i])[n];
 }
 
 std::size_t Panels::panel(double point) const {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "boltzmann/gmres.hpp"
 #include "boltzmann/hydrodynamic_preconditioner.hpp"
-#include "numerics/gmres.hpp"
 
 namespace lorentz {
 namespace {

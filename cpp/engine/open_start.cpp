@@ -1,10 +1,11 @@
 #include "engine/open_start.hpp"
 
+#include <gsl/gsl_sf_expint.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "numerics/random.hpp"
-#include "numerics/special_functions.hpp"
 
 namespace lorentz {
 namespace {
@@ -44,7 +45,7 @@ class Stream {
   /// Integrals of sqrt(2/pi) exp(-v^2/2) over max(v, slow_), below slow_ and above.
   double slow_part() const { return std::erf(slow_ / std::numbers::sqrt2) / slow_; }
   double fast_part() const {
-    return slow_ < fastest ? exponential_integral(0.5 * slow_ * slow_) / std::sqrt(2 * std::numbers::pi) : 0;
+    return slow_ < fastest ? gsl_sf_expint_E1(0.5 * slow_ * slow_) / std::sqrt(2 * std::numbers::pi) : 0;
   }
 
   double rate_, thermal_, slow_;

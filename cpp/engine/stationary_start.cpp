@@ -1,8 +1,8 @@
 #include "engine/stationary_start.hpp"
 
-#include <cmath>
+#include <gsl/gsl_sf_expint.h>
 
-#include "numerics/special_functions.hpp"
+#include <cmath>
 
 namespace lorentz {
 
@@ -34,7 +34,7 @@ PhasePoint stationary_start(const ClosedChain& chain, const StationaryMeasure& m
 
 double mean_number(const ClosedChain& chain, const StationaryMeasure& measure) {
   const double relative = measure.slowest / std::sqrt(measure.temperature);
-  return measure.fugacity * chain.cell_length * exponential_integral(0.5 * relative * relative);
+  return measure.fugacity * chain.cell_length * gsl_sf_expint_E1(0.5 * relative * relative);
 }
 
 }  // namespace lorentz

@@ -1,3 +1,4 @@
+#include <gsl/gsl_errno.h>
 #include <sleef.h>
 
 // The elementary functions of the C library, with results that are bitwise the same on every processor. The C
@@ -36,3 +37,7 @@ double erfc(double x) { return Sleef_cinz_erfcd1_u15purec(x); }
 double pow(double base, double exponent) { return Sleef_cinz_powd1_u10purec(base, exponent); }
 double hypot(double x, double y) { return Sleef_cinz_hypotd1_u05purec(x, y); }
 }
+
+// By default GSL aborts the program on an error, which an underflow is as well. Without its handler it
+// returns NaN, or 0 on underflow.
+[[maybe_unused]] static const auto handler = gsl_set_error_handler_off();
