@@ -1,5 +1,14 @@
 # Compiler flags and definitions that can change a result. They are part of the identity of every result (workflow/identity.py).
+# Contraction and fast-math would change results, and the instruction set of the build machine would restrict the programs to it.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
 set(NUMERIC_FLAGS -O3 -ffp-contract=off)
+# Elementary functions are those of numerics/elementary.cpp. Compilers would evaluate log(0.3), and replace pow(x, 2) by x * x.
+foreach(name exp exp2 exp10 expm1 log log2 log10 log1p sin cos sincos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh
+             cbrt erf erfc pow hypot)
+  list(APPEND NUMERIC_FLAGS -fno-builtin-${name})
+endforeach()
 # Philox does not need intrinsics. Eigen's order of summation would depend on the vector instructions of the processor and, in blocks
 # of matrix products, on the sizes of its caches.
 set(NUMERIC_DEFINITIONS R123_USE_SSE=0 EIGEN_DONT_VECTORIZE EIGEN_NO_CPUID EIGEN_DEFAULT_L1_CACHE_SIZE=32768

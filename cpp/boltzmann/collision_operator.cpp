@@ -3,8 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "numerics/elementary.hpp"
-
 namespace lorentz {
 namespace {
 
@@ -21,8 +19,8 @@ double c_squared(double sigma) { return (1 - sigma) * (1 + sigma); }
 
 /// Base-2 logarithm of the number of factors of the product.
 int doublings(double sigma) {
-  const double factors = elementary::log(last_scale) / elementary::log(std::abs(sigma));
-  return std::max(1, static_cast<int>(std::ceil(elementary::log(factors) / std::numbers::ln2)));
+  const double factors = std::log(last_scale) / std::log(std::abs(sigma));
+  return std::max(1, static_cast<int>(std::ceil(std::log(factors) / std::numbers::ln2)));
 }
 
 /// Matrix from the values of a function at the nodes k to its values at scale k, for functions that vanish at
@@ -47,20 +45,20 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> scaling(const Panels& panels, doubl
 /// q_n(k) - 1 of the equilibrium in closed form, q_n = product over j < n of exp(-T (c^2 sigma^j k)^2/2), n =
 /// 2^doubling.
 VectorXcd equilibrium_product(double sigma, double temperature, int doubling, const Eigen::ArrayXd& k) {
-  const double last = elementary::pow(sigma * sigma, std::ldexp(1, doubling));
+  const double last = std::pow(sigma * sigma, std::ldexp(1, doubling));
   const double variance = temperature * c_squared(sigma) * (1 - last);
-  return (-0.5 * variance * k.square()).unaryExpr(&elementary::expm1).cast<std::complex<double>>();
+  return (-0.5 * variance * k.square()).expm1().cast<std::complex<double>>();
 }
 
 }  // namespace
 
 Eigen::ArrayXd normal_density(const Eigen::ArrayXd& z, double scale) {
-  return (-0.5 * z.square()).unaryExpr(&elementary::exp) / (scale * std::sqrt(2 * std::numbers::pi));
+  return (-0.5 * z.square()).exp() / (scale * std::sqrt(2 * std::numbers::pi));
 }
 
 VectorXd injected_flux(const Reservoir& bath, const VectorXd& p) {
   const double height = bath.rate * std::sqrt(2 / (std::numbers::pi * bath.temperature));
-  return height * (-p.array().square() / (2 * bath.temperature)).unaryExpr(&elementary::exp);
+  return height * (-p.array().square() / (2 * bath.temperature)).exp();
 }
 
 CollisionOperator::CollisionOperator(double sigma, const Reservoir& equilibrium, const Panels& momenta,
@@ -74,15 +72,14 @@ CollisionOperator::CollisionOperator(double sigma, const Reservoir& equilibrium,
   const Eigen::ArrayXd k = wave_numbers.nodes().array();
   const double temperature = equilibrium.temperature;
   for (int n = 0; n < doublings(sigma); ++n) {
-    const double scale = elementary::pow(std::abs(sigma), std::ldexp(1, n));
+    const double scale = std::pow(std::abs(sigma), std::ldexp(1, n));
     scalings_.push_back(scaling(wave_numbers, scale));
     equilibrium_doublings_.push_back({equilibrium_product(sigma, temperature, n, k),
                                       equilibrium_product(sigma, temperature, n, scale * k)});
   }
   equilibrium_product_ = equilibrium_product(sigma, temperature, doublings(sigma), k);
-  reflected_equilibrium_ =
-      (2 * equilibrium.rate * (-0.5 * sigma * sigma * temperature * k.square()).unaryExpr(&elementary::exp))
-          .cast<std::complex<double>>();
+  reflected_equilibrium_ = (2 * equilibrium.rate * (-0.5 * sigma * sigma * temperature * k.square()).exp())
+                               .cast<std::complex<double>>();
 }
 
 RowVectorXd CollisionOperator::number(const Flux& flux) const {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/elementary.hpp"
-
 namespace lorentz {
 namespace {
 
@@ -20,8 +18,7 @@ constexpr Index modes_at_site = 6;  // even
 double eigenvalue(double sigma, Index order) {
   const auto n = static_cast<int>(order);
   if (n == 0) return 1;
-  return elementary::pow(-sigma, n) +
-         elementary::pow((1 - sigma) * (1 + sigma), n) / (1 - elementary::pow(sigma, n));
+  return std::pow(-sigma, n) + std::pow((1 - sigma) * (1 + sigma), n) / (1 - std::pow(sigma, n));
 }
 
 double sign(Index n) { return n % 2 == 0 ? 1 : -1; }

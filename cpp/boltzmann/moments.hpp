@@ -1,10 +1,10 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "boltzmann/collision_operator.hpp"
 #include "model/reservoir.hpp"
-#include "numerics/elementary.hpp"
 
 namespace lorentz {
 
@@ -24,7 +24,7 @@ class HalfMoments {
 
  private:
   Eigen::RowVectorXd weights(int n) const {
-    const auto power = [n](double p) { return elementary::pow(p, n); };
+    const auto power = [n](double p) { return std::pow(p, n); };
     return momenta_.weights().cwiseProduct(momenta_.nodes().unaryExpr(power)).transpose();
   }
 

@@ -1,11 +1,13 @@
 #include "boltzmann/panels.hpp"
 
+#include <gsl/gsl_integration.h>
+#include <gsl/gsl_sf_legendre.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "numerics/elementary.hpp"
-#include "numerics/gauss_legendre.hpp"
+#include "numerics/gsl.hpp"
 
 namespace lorentz {
 namespace {
@@ -15,6 +17,13 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double smallest_phase = 0.5;  // k times half the width of a panel: below, the Gauss rule is used
+
+/// Values of P_0, ..., P_degree at a point, which is clamped to [-1, 1].
+VectorXd legendre_polynomials(int degree, double point) {
+  VectorXd values(degree + 1);
+  gsl_sf_legendre_Pl_array(degree, std::clamp(point, -1.0, 1.0), values.data());
+  return values;
+}
 
 /// Integrals of P_0, ..., P_(order-1) from -1 to a point: (P_(n+1) - P_(n-1)) / (2n+1).
 VectorXd legendre_integrals(int order, double point) {
@@ -31,7 +40,7 @@ VectorXd legendre_integrals(int order, double point) {
 /// normalised by j_0 = sin(z)/z and j_0 - z j_1 = cos(z) (DLMF 10.51, 10.74).
 void spherical_bessel(double z, VectorXd& values) {
   const auto size = static_cast<int>(values.size());
-  const double sine = elementary::sin(z), cosine = elementary::cos(z);
+  const double sine = std::sin(z), cosine = std::cos(z);
   if (z >= size) {
     values[0] = sine / z;
     if (size > 1) values[1] = (values[0] - cosine) / z;
@@ -60,15 +69,18 @@ Panels::Panels(std::vector<double> breaks, int order)
       nodes_(static_cast<Index>(count()) * order),
       weights_(nodes_.size()),
       legendre_(order, order) {
-  const GaussRule rule = gauss_legendre(order);
+  const GslObject<gsl_integration_fixed_workspace, gsl_integration_fixed_alloc, gsl_integration_fixed_free>
+      rule(gsl_integration_fixed_legendre, static_cast<std::size_t>(order), -1, 1, 0, 0);
+  const Eigen::Map<const VectorXd> rule_nodes(gsl_integration_fixed_nodes(rule.get()), order);
+  const Eigen::Map<const VectorXd> rule_weights(gsl_integration_fixed_weights(rule.get()), order);
   for (std::size_t panel = 0; panel < count(); ++panel) {
-    nodes_.segment(first(panel), order) = middle(panel) + half_width(panel) * rule.nodes.array();
-    weights_.segment(first(panel), order) = half_width(panel) * rule.weights;
+    nodes_.segment(first(panel), order) = middle(panel) + half_width(panel) * rule_nodes.array();
+    weights_.segment(first(panel), order) = half_width(panel) * rule_weights;
   }
   for (Index i = 0; i < order; ++i)
     for (Index n = 0; n < order; ++n)
-      legendre_(n, i) = (static_cast<double>(n) + 0.5) * rule.weights[i] *
-                        legendre_polynomials(order - 1, rule.nodes[i])[n];
+      legendre_(n, i) = (static_cast<double>(n) + 0.5) * rule_weights[i] *
+                        legendre_polynomials(order - 1, rule_nodes[i])[n];
 }
 
 std::size_t Panels::panel(double point) const {
@@ -117,8 +129,7 @@ FourierIntegrals Panels::fourier(const VectorXd& k) const {
         (n % 2 == 0 ? even_terms : odd_terms)(n, row) = (n % 4 < 2 ? 2 : -2) * bessel[n];
     }
     const Eigen::ArrayXd phase = k.array() * middle(panel);
-    const Eigen::ArrayXd cosine = half_width(panel) * phase.unaryExpr(&elementary::cos),
-                         sine = half_width(panel) * phase.unaryExpr(&elementary::sin);
+    const Eigen::ArrayXd cosine = half_width(panel) * phase.cos(), sine = half_width(panel) * phase.sin();
     const Eigen::ArrayXXd real = (even_terms.transpose() * legendre_).array();
     const Eigen::ArrayXXd imaginary = (odd_terms.transpose() * legendre_).array();
     result.cosine.middleCols(first(panel), order_) = real.colwise() * cosine - imaginary.colwise() * sine;
@@ -132,19 +143,18 @@ FourierIntegrals Panels::fourier(const VectorXd& k) const {
       if (k[row] * half_width(panel) > smallest_phase) continue;
       const Eigen::ArrayXd phase = k[row] * nodes_.segment(first(panel), order_).array();
       const Eigen::ArrayXd weights = weights_.segment(first(panel), order_).array();
-      result.cosine.row(row).segment(first(panel), order_) = weights * phase.unaryExpr(&elementary::cos);
+      result.cosine.row(row).segment(first(panel), order_) = weights * phase.cos();
       result.cosine_minus_one.row(row).segment(first(panel), order_) =
-          -2 * weights * (0.5 * phase).unaryExpr(&elementary::sin).square();
-      result.sine.row(row).segment(first(panel), order_) = weights * phase.unaryExpr(&elementary::sin);
+          -2 * weights * (0.5 * phase).sin().square();
+      result.sine.row(row).segment(first(panel), order_) = weights * phase.sin();
     }
   return result;
 }
 
 std::vector<double> graded_breaks(double smallest, double largest, double ratio) {
   std::vector<double> breaks{0};
-  const int steps =
-      std::max(1, static_cast<int>(std::ceil(elementary::log(largest / smallest) / elementary::log(ratio))));
-  for (int step = steps; step >= 0; --step) breaks.push_back(largest * elementary::pow(ratio, -step));
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::log(largest / smallest) / std::log(ratio))));
+  for (int step = steps; step >= 0; --step) breaks.push_back(largest * std::pow(ratio, -step));
   return breaks;
 }
 

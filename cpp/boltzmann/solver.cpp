@@ -5,9 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "boltzmann/gmres.hpp"
 #include "boltzmann/hydrodynamic_preconditioner.hpp"
-#include "numerics/elementary.hpp"
-#include "numerics/gmres.hpp"
 
 namespace lorentz {
 namespace {
@@ -77,7 +76,7 @@ Reservoir mean(const Reservoir& left, const Reservoir& right) {
 }  // namespace
 
 Resolution Resolution::level(int level, double gamma) {
-  const double factor = elementary::pow(std::numbers::sqrt2, level);
+  const double factor = std::pow(std::numbers::sqrt2, level);
   const double layers = std::sqrt(gamma);  // sqrt(gamma) Gauss nodes resolve boundary layers of width 1/gamma
   return {static_cast<int>(std::lround(14 * factor)), static_cast<int>(std::ceil((5 + 3 * layers) * factor))};
 }

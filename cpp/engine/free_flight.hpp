@@ -6,7 +6,6 @@
 #include <cstdint>
 
 #include "model/closed_chain.hpp"
-#include "numerics/elementary.hpp"
 #include "numerics/random.hpp"
 
 namespace lorentz {
@@ -18,10 +17,10 @@ namespace lorentz {
 /// Reference: Devroye, Non-Uniform Random Variate Generation (Springer 1986), section X.2.
 class GeometricCells {
  public:
-  explicit GeometricCells(double q) : log_pass_probability_(elementary::log1p(-std::min(1.0, q))) {}
+  explicit GeometricCells(double q) : log_pass_probability_(std::log1p(-std::min(1.0, q))) {}
 
   std::int64_t operator()(double uniform_number) const {
-    const double passed = elementary::log(uniform_number) / log_pass_probability_;
+    const double passed = std::log(uniform_number) / log_pass_probability_;
     constexpr double most = 0x1p53;
     return 1 + static_cast<std::int64_t>(passed < most ? passed : most);
   }

@@ -1,11 +1,11 @@
 #include "engine/open_start.hpp"
 
+#include <gsl/gsl_sf_expint.h>
+
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/elementary.hpp"
 #include "numerics/random.hpp"
-#include "numerics/special_functions.hpp"
 
 namespace lorentz {
 namespace {
@@ -29,11 +29,9 @@ class Stream {
   double draw_speed(RandomStream& stream) const {
     const bool slow = stream.uniform() * (slow_part() + fast_part()) < slow_part();
     for (;;) {
-      const double v =
-          slow ? slow_candidate(stream) : slow_ * elementary::pow(fastest / slow_, stream.uniform());
+      const double v = slow ? slow_candidate(stream) : slow_ * std::pow(fastest / slow_, stream.uniform());
       const bool gaussian_already = slow && slow_ > 1;
-      if (gaussian_already ? v < slow_ : stream.uniform() < elementary::exp(-0.5 * v * v))
-        return thermal_ * v;
+      if (gaussian_already ? v < slow_ : stream.uniform() < std::exp(-0.5 * v * v)) return thermal_ * v;
     }
   }
 
@@ -45,9 +43,9 @@ class Stream {
   }
 
   /// Integrals of sqrt(2/pi) exp(-v^2/2) over max(v, slow_), below slow_ and above.
-  double slow_part() const { return elementary::erf(slow_ / std::numbers::sqrt2) / slow_; }
+  double slow_part() const { return std::erf(slow_ / std::numbers::sqrt2) / slow_; }
   double fast_part() const {
-    return slow_ < fastest ? exponential_integral(0.5 * slow_ * slow_) / std::sqrt(2 * std::numbers::pi) : 0;
+    return slow_ < fastest ? gsl_sf_expint_E1(0.5 * slow_ * slow_) / std::sqrt(2 * std::numbers::pi) : 0;
   }
 
   double rate_, thermal_, slow_;

@@ -1,8 +1,8 @@
 #include "engine/stationary_start.hpp"
 
-#include <cmath>
+#include <gsl/gsl_sf_expint.h>
 
-#include "numerics/special_functions.hpp"
+#include <cmath>
 
 namespace lorentz {
 
@@ -13,16 +13,16 @@ PhasePoint stationary_start(const ClosedChain& chain, const StationaryMeasure& m
   RandomStream particle_momentum(key, Purpose::initial_particle_momentum, 0);
   RandomStream scatterer_momentum(key, Purpose::initial_scatterer_momentum, 0);
   const double length = chain.cells * chain.cell_length, thermal_speed = std::sqrt(measure.temperature);
-  const double faster = elementary::exp(-0.5);  // integral of the envelope above sqrt(T)
-  const double all = faster + elementary::log(thermal_speed / measure.slowest);
+  const double faster = std::exp(-0.5);  // integral of the envelope above sqrt(T)
+  const double all = faster + std::log(thermal_speed / measure.slowest);
 
   PhasePoint start;
   const double density = 2 * measure.fugacity * length;
   for (double points = number.exponential(); points < density * all; points += number.exponential()) {
     const double above = points / density;  // integral of the envelope over greater speeds
     const bool tail = above < faster;
-    const double speed = tail ? std::sqrt(-2 * elementary::log(above)) : elementary::exp(faster - above);
-    const double accepted = tail ? 1 / (speed * speed) : elementary::exp(-0.5 * speed * speed);
+    const double speed = tail ? std::sqrt(-2 * std::log(above)) : std::exp(faster - above);
+    const double accepted = tail ? 1 / (speed * speed) : std::exp(-0.5 * speed * speed);
     const double drawn = particle_momentum.uniform(), sign = particle_momentum.uniform() - 0.5;
     if (drawn < accepted)
       start.particles.push_back({position.uniform() * length, std::copysign(thermal_speed * speed, sign)});
@@ -34,7 +34,7 @@ PhasePoint stationary_start(const ClosedChain& chain, const StationaryMeasure& m
 
 double mean_number(const ClosedChain& chain, const StationaryMeasure& measure) {
   const double relative = measure.slowest / std::sqrt(measure.temperature);
-  return measure.fugacity * chain.cell_length * exponential_integral(0.5 * relative * relative);
+  return measure.fugacity * chain.cell_length * gsl_sf_expint_E1(0.5 * relative * relative);
 }
 
 }  // namespace lorentz

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "numerics/elementary.hpp"
-
 namespace lorentz {
 
 /// Heat bath that injects particles at one end of an open chain, as a Poisson process in time with
@@ -21,7 +19,7 @@ struct Reservoir {
   /// Probability that |p| of an injected particle lies in [low, high].
   double probability(double low, double high) const {
     const double scale = 1 / std::sqrt(2 * temperature);
-    return elementary::erfc(low * scale) - elementary::erfc(high * scale);
+    return std::erfc(low * scale) - std::erfc(high * scale);
   }
 };
 

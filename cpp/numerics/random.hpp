@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <numbers>
 
-#include "numerics/elementary.hpp"
 #include "numerics/stream_key.hpp"
 
 namespace lorentz {
@@ -53,14 +52,14 @@ class RandomStream {
 
   /// Exponential, pdf exp(-x) for x > 0, by inversion of a uniform number. The largest value is 53 ln 2 =
   /// 36.7.
-  double exponential() { return -elementary::log(uniform()); }
+  double exponential() { return -std::log(uniform()); }
 
   /// Standard normal, pdf exp(-x^2/2)/sqrt(2 pi), by the Box-Muller transform (Ann. Math. Stat. 29, 610
   /// (1958)) of two uniform numbers, of which only the cosine is used. The largest modulus is sqrt(106 ln 2)
   /// = 8.6.
   double gaussian() {
-    const double radius = std::sqrt(-2 * elementary::log(uniform()));
-    return radius * elementary::cos(2 * std::numbers::pi * uniform());
+    const double radius = std::sqrt(-2 * std::log(uniform()));
+    return radius * std::cos(2 * std::numbers::pi * uniform());
   }
 
  private:

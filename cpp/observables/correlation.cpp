@@ -48,7 +48,7 @@ struct Parameters : EquilibriumParameters {
   double momentum_variance() const {
     const StationaryMeasure measure = stationary_measure();
     const double cut = 0.5 * measure.slowest * measure.slowest / temperature;
-    return temperature * (2 * zeta() * elementary::exp(-cut) + root_mass() * root_mass());
+    return temperature * (2 * zeta() * std::exp(-cut) + root_mass() * root_mass());
   }
 };
 
@@ -179,7 +179,7 @@ Group sound_peak(const Parameters& parameters, const Tallies& tallies) {
   std::vector<double> half_widths;  // in cells [eq. M18]
   for (const double time : times) {
     constexpr double of_f_kpz = 0.880466;  // where f_KPZ is half of its maximum
-    const double unit = elementary::pow(Sound::of(parameters).self_coupling * time, 2. / 3);
+    const double unit = std::pow(Sound::of(parameters).self_coupling * time, 2. / 3);
     half_widths.push_back(of_f_kpz * unit / parameters.ring.cell_length);
   }
   std::vector<Description> descriptions = MovingPeak::descriptions(tallies.time, "momentum^2");

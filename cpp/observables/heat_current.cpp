@@ -98,7 +98,7 @@ struct Growth {
     std::vector<double> x, y, weight;
     for (std::size_t k = 0; k < times.size(); ++k) {
       if (times[k] < from) continue;
-      x.push_back(elementary::pow(times[k], 1. / 3));
+      x.push_back(std::pow(times[k], 1. / 3));
       y.push_back(heat[k] / times[k]);
       weight.push_back(1 / (y.back() * y.back() * times[k]));
     }

@@ -39,7 +39,7 @@ struct Reading {
   /// |p| n_t(p), summed over both signs of p, on logarithmic bins at all times [eq. 24].
   std::vector<double> speed_density() const {
     const std::vector<double> edges = grid.speeds.points();
-    return mean_of(tallies.by_speed, elementary::log(edges[1] / edges[0]))(mean);
+    return mean_of(tallies.by_speed, std::log(edges[1] / edges[0]))(mean);
   }
 
   /// Slopes d n / d ln t between neighbouring times [eq. 25].
@@ -48,7 +48,7 @@ struct Reading {
     std::vector<double> slopes;
     for (std::size_t k = 0; k + 1 < number.size(); ++k)
       slopes.push_back((number[k + 1] - number[k]) /
-                       elementary::log(grid.number_times[k + 1] / grid.number_times[k]));
+                       std::log(grid.number_times[k + 1] / grid.number_times[k]));
     return slopes;
   }
 

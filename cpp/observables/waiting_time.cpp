@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/elementary.hpp"
 #include "observables/waiting_time/log_sum.hpp"
 #include "sampling/closed_run.hpp"
 #include "statistics/log_grid.hpp"
@@ -85,7 +84,7 @@ std::vector<double> exponents(std::span<const double> counts, std::span<const do
   for (std::size_t bin = counts.size(); bin-- > 0;) {
     count += counts[bin];
     log_sum += log_sums[bin];
-    result[bin] = -(1 + count / (log_sum - count * elementary::log(edges[bin])));
+    result[bin] = -(1 + count / (log_sum - count * std::log(edges[bin])));
   }
   return result;
 }

@@ -8,8 +8,6 @@
 #include <cstdio>
 #include <utility>
 
-#include "numerics/elementary.hpp"
-
 namespace lorentz {
 namespace {
 
@@ -54,13 +52,13 @@ void Progress::warn(const std::string& line) {
 std::string with_error(double mean, double error) {
   if (!(error > 0) || !std::isfinite(mean) || !std::isfinite(error)) return fmt::format("{:.8g}", mean);
   const double largest = std::max(std::abs(mean), error);
-  const int exponent = static_cast<int>(std::floor(elementary::log10(largest)));
+  const int exponent = static_cast<int>(std::floor(std::log10(largest)));
   const bool plain = exponent >= -4 && exponent < 6;  // as for {:g}
-  const double scale = plain ? 1 : elementary::pow(10, exponent);
+  const double scale = plain ? 1 : std::pow(10, exponent);
   // Two digits, also where rounding carries: 0.0996 has the digits 10, not 100.
-  int decimals = 1 - static_cast<int>(std::floor(elementary::log10(error / scale)));
-  if (std::round(error / scale * elementary::pow(10, decimals)) >= 100) --decimals;
-  const double unit = elementary::pow(10, decimals), rounded = std::round(error / scale * unit) / unit;
+  int decimals = 1 - static_cast<int>(std::floor(std::log10(error / scale)));
+  if (std::round(error / scale * std::pow(10, decimals)) >= 100) --decimals;
+  const double unit = std::pow(10, decimals), rounded = std::round(error / scale * unit) / unit;
   decimals = std::max(decimals, 0);
   const std::string shown =
       rounded < 1 ? fmt::format("{:.0f}", rounded * unit) : fmt::format("{:.{}f}", rounded, decimals);

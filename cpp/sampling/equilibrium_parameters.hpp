@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "numerics/elementary.hpp"
 #include "sampling/closed_parameters.hpp"
 
 namespace lorentz {
@@ -46,7 +45,7 @@ struct Sound {
   /// Distance that a peak has covered after a time, plus its root-mean-square width [eq. M18].
   double reach(double time) const {
     const double second_moment = 0.510523;  // of f_KPZ
-    return speed * time + std::sqrt(second_moment) * elementary::pow(self_coupling * time, 2. / 3);
+    return speed * time + std::sqrt(second_moment) * std::pow(self_coupling * time, 2. / 3);
   }
 };
 

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
-#include "numerics/elementary.hpp"
 #include "program/errors.hpp"
 #include "program/options.hpp"
 #include "statistics/log_grid.hpp"
@@ -16,9 +16,7 @@ struct LogTimeParameters {
   double decades = 6;
   double fit_decades = 1;
 
-  LogGrid grid(double last) const {
-    return {last * elementary::pow(10, -decades), decades, points_per_decade};
-  }
+  LogGrid grid(double last) const { return {last * std::pow(10, -decades), decades, points_per_decade}; }
 
   std::vector<double> times(double last) const {
     std::vector<double> points = grid(last).points();
@@ -27,7 +25,7 @@ struct LogTimeParameters {
   }
 
   /// First time of the fit, slightly below a grid point, so that rounding does not exclude that point.
-  double fit_from(double last) const { return last * elementary::pow(10, -fit_decades) * (1 - 1e-9); }
+  double fit_from(double last) const { return last * std::pow(10, -fit_decades) * (1 - 1e-9); }
 };
 
 /// Declares --decades and --fit-decades.

@@ -1,9 +1,8 @@
 #include "statistics/control_variates.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "numerics/summation.hpp"
@@ -38,14 +37,11 @@ MatrixXd standardised(const Records& records, const Columns& columns) {
 }
 
 PseudoInverse pseudo_inverse(const MatrixXd& x) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> products(x.transpose() * x);
-  const ArrayXd values = products.eigenvalues();
-  const double smallest =
-      values.maxCoeff() * static_cast<double>(x.cols()) * std::numeric_limits<double>::epsilon();
-  const ArrayXd inverse = (values > smallest).select(1 / values, 0);
-  const MatrixXd& vectors = products.eigenvectors();
-  return {vectors * inverse.matrix().asDiagonal() * (vectors.transpose() * x.transpose()),
-          (values > smallest).count()};
+  // Of the transpose, because Eigen solves for an identity matrix with as many rows as the matrix.
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> factors;
+  factors.setThreshold(1e-8);
+  factors.compute(x.transpose());
+  return {factors.pseudoInverse().transpose(), factors.rank()};
 }
 
 std::optional<Records> regress_out(const Records& records, const Regression& regression) {

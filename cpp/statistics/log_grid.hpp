@@ -8,16 +8,14 @@
 #include <limits>
 #include <vector>
 
-#include "numerics/elementary.hpp"
-
 namespace lorentz {
 
 /// Points in geometric progression from `first` upwards.
 class LogGrid {
  public:
   LogGrid(double first, double decades, std::size_t points_per_decade)
-      : log_first_(elementary::log(first)),
-        steps_per_unit_(static_cast<double>(points_per_decade) / elementary::log(10.0)),
+      : log_first_(std::log(first)),
+        steps_per_unit_(static_cast<double>(points_per_decade) / std::log(10.0)),
         steps_(static_cast<std::size_t>(std::llround(decades * static_cast<double>(points_per_decade)))) {
     make_table();
   }
@@ -56,7 +54,7 @@ class LogGrid {
 
   /// Fills the table with the widest cells that contain at most one point each.
   void make_table() {
-    const double factor = elementary::exp(1 / steps_per_unit_);
+    const double factor = std::exp(1 / steps_per_unit_);
     for (double width = 1; 1 + width >= factor; width /= 2) --ignored_bits_;
     const std::vector<double> edges = points();
     first_ = cell_of(edges.front());
@@ -70,7 +68,7 @@ class LogGrid {
     }
   }
 
-  double point(double step) const { return elementary::exp(log_first_ + step / steps_per_unit_); }
+  double point(double step) const { return std::exp(log_first_ + step / steps_per_unit_); }
 
   double log_first_, steps_per_unit_;
   std::size_t steps_;

@@ -1,5 +1,8 @@
 #include "statistics/moving_peak.hpp"
 
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_min.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "numerics/elementary.hpp"
+#include "numerics/gsl.hpp"
 #include "statistics/fit.hpp"
 #include "statistics/group.hpp"
 
@@ -48,7 +51,7 @@ double spread(std::span<const Profile> profiles, double low, double high, double
   const double last = profiles.back().time;
   std::array<double, points> sum{}, squares{};
   for (const Profile& profile : profiles) {
-    const double stretch = elementary::pow(profile.time / last, xi);
+    const double stretch = std::pow(profile.time / last, xi);
     for (std::size_t i = 0; i < points; ++i) {
       const double s = low + (high - low) * static_cast<double>(i) / (points - 1);
       const double y = stretch * value_at(profile, s * stretch);
@@ -65,23 +68,19 @@ double spread(std::span<const Profile> profiles, double low, double high, double
   return differences / size;
 }
 
-/// Minimum of a function that is unimodal on [a, b], by golden-section search, to 1e-5.
+/// Minimum of a function between `low` and `high`, to 1e-6, where it is least at `middle` of these three. NaN
+/// if it is not.
 template <class Function>
-double bottom(const Function& cost, double a, double b) {
-  const double golden = (std::sqrt(5.0) - 1) / 2;
-  double c = b - golden * (b - a), d = a + golden * (b - a), at_c = cost(c), at_d = cost(d);
-  while (b - a > 1e-5) {
-    if (at_c < at_d) {
-      b = std::exchange(d, c);
-      at_d = at_c;
-      at_c = cost(c = b - golden * (b - a));
-    } else {
-      a = std::exchange(c, d);
-      at_c = at_d;
-      at_d = cost(d = a + golden * (b - a));
-    }
-  }
-  return 0.5 * (a + b);
+double minimum(const Function& cost, double low, double middle, double high) {
+  const auto call = [](double x, void* function) { return (*static_cast<const Function*>(function))(x); };
+  gsl_function function{call, const_cast<Function*>(&cost)};
+  const GslObject<gsl_min_fminimizer, gsl_min_fminimizer_alloc, gsl_min_fminimizer_free> search(
+      gsl_min_fminimizer_quad_golden);
+  gsl_min_fminimizer* const state = search.get();
+  if (gsl_min_fminimizer_set(state, &function, middle, low, high) != GSL_SUCCESS) return none;
+  while (gsl_min_test_interval(state->x_lower, state->x_upper, 1e-6, 0) == GSL_CONTINUE)
+    if (gsl_min_fminimizer_iterate(state) != GSL_SUCCESS) return none;
+  return state->x_minimum;
 }
 
 Axis middles(const std::vector<double>& times) {
@@ -94,7 +93,7 @@ Axis middles(const std::vector<double>& times) {
 
 double collapse_exponent(std::span<const Profile> profiles, double low, double high) {
   if (profiles.size() < 2) throw std::invalid_argument("a collapse needs two profiles");
-  // A scan brackets the minimum, because golden-section search needs a unimodal function.
+  // A scan brackets the lowest minimum.
   constexpr int steps = 28;
   const auto cost = [&](double xi) { return spread(profiles, low, high, xi); };
   double best = smallest, least = cost(smallest);
@@ -105,7 +104,7 @@ double collapse_exponent(std::span<const Profile> profiles, double low, double h
     least = here;
   }
   const double step = (largest - smallest) / steps;
-  return bottom(cost, best - step, best + step);
+  return minimum(cost, best - step, best, best + step);
 }
 
 PeakWindows peak_windows(const Records& records, Tally profiles, std::size_t times) {
@@ -126,13 +125,13 @@ PeakWindows peak_windows(const Records& records, Tally profiles, std::size_t tim
 }
 
 std::vector<double> octaves(const std::vector<double>& times) {
-  const double first = elementary::log(times.front()), span = elementary::log(times.back()) - first;
+  const double first = std::log(times.front()), span = std::log(times.back()) - first;
   const double parts = std::max(1.0, std::round(span / std::numbers::ln2));
   std::vector<double> ends{times.front()};
   for (int k = 1; k <= parts; ++k) {
     const double wanted = first + k * span / parts;
-    const double nearest = *std::ranges::min_element(
-        times, {}, [&](double time) { return std::abs(elementary::log(time) - wanted); });
+    const double nearest =
+        *std::ranges::min_element(times, {}, [&](double time) { return std::abs(std::log(time) - wanted); });
     if (nearest > ends.back()) ends.push_back(nearest);
   }
   return ends;

@@ -6,8 +6,6 @@
 #include <limits>
 #include <unsupported/Eigen/NonLinearOptimization>
 
-#include "numerics/elementary.hpp"
-
 namespace lorentz {
 namespace {
 
@@ -42,7 +40,7 @@ struct ExpCubic {
   static int inputs() { return 4; }
   int values() const { return static_cast<int>(y.size()); }
   Eigen::VectorXd weighted(const Eigen::VectorXd& c) const {
-    return (powers * c).unaryExpr(&elementary::exp).cwiseProduct(root_weight);
+    return (powers * c).array().exp().matrix().cwiseProduct(root_weight);
   }
   int operator()(const Eigen::VectorXd& c, Eigen::VectorXd& residuals) const {
     residuals = weighted(c) - y.cwiseProduct(root_weight);
@@ -109,7 +107,7 @@ Peak fit_peak(const std::vector<double>& profile, const PeakWindow& window) {
       window.half_width;
   ExpCubic fit{{size, 4}, (1 - u.square()).max(0).sqrt(), y / scale};
   fit.powers << Eigen::ArrayXd::Ones(size), u, u.square(), u.cube();
-  Eigen::VectorXd c = Eigen::Vector4d(0, 0, elementary::log(part_of_maximum), 0);
+  Eigen::VectorXd c = Eigen::Vector4d(0, 0, std::log(part_of_maximum), 0);
   Eigen::LevenbergMarquardt solver(fit);
   solver.parameters.ftol = solver.parameters.xtol = 1e-12;  // well below the differences of jackknife samples
   solver.minimize(c);
@@ -118,7 +116,7 @@ Peak fit_peak(const std::vector<double>& profile, const PeakWindow& window) {
   const double root = std::sqrt(c[2] * c[2] - 3 * c[1] * c[3]);
   const double top = c[1] / (root - c[2]);
   if (!(std::abs(top) < 1)) return {none, none};
-  const double height = elementary::exp(c[0] + top * (c[1] + top * (c[2] + top * c[3])));
+  const double height = std::exp(c[0] + top * (c[1] + top * (c[2] + top * c[3])));
   return {window.middle + window.half_width * top, scale * height};
 }
 

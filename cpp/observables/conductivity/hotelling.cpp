@@ -1,8 +1,9 @@
 #include "observables/conductivity/hotelling.hpp"
 
+#include <gsl/gsl_cdf.h>
+
 #include <limits>
 
-#include "numerics/special_functions.hpp"
 #include "statistics/control_variates.hpp"
 
 namespace lorentz {
@@ -18,8 +19,8 @@ double zero_mean_p_value(const Records& records, const Columns& columns, std::si
   if (rank == 0 || records_left <= rank) return none;
   // The inverse of the covariance is rows - 1 times the product of the pseudo-inverse and its transpose.
   const double t_squared = rows * (rows - 1) * (x.colwise().mean() * inverse.matrix).squaredNorm();
-  return f_distribution_tail(t_squared * (records_left - rank) / (rank * (records_left - 1)), rank,
-                             records_left - rank);
+  return gsl_cdf_fdist_Q(t_squared * (records_left - rank) / (rank * (records_left - 1)), rank,
+                         records_left - rank);
 }
 
 }  // namespace lorentz

@@ -9,18 +9,23 @@ namespace lorentz {
 RingCorrelation::RingCorrelation(std::size_t cells, std::vector<std::size_t> lags)
     : cells_(cells),
       lags_(std::move(lags)),
-      spectra_(lags_.size(), {std::vector<double>(cells / 2 + 1, 0)}),
-      transform_(cells) {}
+      spectra_(lags_.size(), {std::vector<double>(cells, 0)}),
+      table_(cells),
+      workspace_(cells) {}
+
+std::vector<double> RingCorrelation::transform(std::vector<double> field) const {
+  gsl_fft_real_transform(field.data(), 1, cells_, table_.get(), workspace_.get());
+  return field;
+}
 
 void RingCorrelation::add(const std::vector<double>& field) {
-  transforms_.push_front(transform_(field));
+  transforms_.push_front(transform(field));
   if (transforms_.size() > lags_.back() + 1) transforms_.pop_back();
-  const std::vector<std::complex<double>>& now = transforms_.front();
+  const std::vector<double>& now = transforms_.front();
   for (std::size_t k = 0; k < lags_.size() && lags_[k] < transforms_.size(); ++k) {
-    const std::vector<std::complex<double>>& before = transforms_[lags_[k]];
+    const std::vector<double>& before = transforms_[lags_[k]];
     auto& [sum, count] = spectra_[k];
-    for (std::size_t i = 0; i < sum.size(); ++i)
-      sum[i] += now[i].real() * before[i].real() + now[i].imag() * before[i].imag();
+    for (std::size_t i = 0; i < cells_; ++i) sum[i] += now[i] * before[i];
     ++count;
   }
 }
@@ -28,14 +33,21 @@ void RingCorrelation::add(const std::vector<double>& field) {
 std::vector<double> RingCorrelation::at(std::size_t k) const {
   const auto& [sum, count] = spectra_[k];
   if (count == 0) throw std::logic_error("no snapshot is as late as the lag");
-  // The spectrum is real and even, so its inverse transform is its transform over the number of cells.
+  // Sum of the products of the real and of the imaginary parts at a wave number, of which 0 and, for an even
+  // number of cells, the last one have no imaginary part. The spectrum is real and even, so its inverse
+  // transform is its transform over the number of cells.
+  const auto at_wave_number = [&](std::size_t q) {
+    return q == 0 ? sum[0] : sum[2 * q - 1] + (2 * q < cells_ ? sum[2 * q] : 0);
+  };
   std::vector<double> spectrum;
-  for (std::size_t i = 0; i < cells_; ++i) spectrum.push_back(sum[std::min(i, cells_ - i)]);
-  const std::vector<std::complex<double>> transform = transform_(spectrum);
+  for (std::size_t i = 0; i < cells_; ++i) spectrum.push_back(at_wave_number(std::min(i, cells_ - i)));
+  const std::vector<double> real = transform(std::move(spectrum));
   const double scale = 1 / (count * static_cast<double>(cells_) * static_cast<double>(cells_));
   std::vector<double> profile;
-  for (std::size_t r = 0; r < cells_; ++r)
-    profile.push_back(scale * transform[std::min(r, cells_ - r)].real());
+  for (std::size_t r = 0; r < cells_; ++r) {
+    const std::size_t q = std::min(r, cells_ - r);
+    profile.push_back(scale * real[q == 0 ? 0 : 2 * q - 1]);
+  }
   return profile;
 }
 

@@ -1,11 +1,12 @@
 #pragma once
 
-#include <complex>
+#include <gsl/gsl_fft_real.h>
+
 #include <cstddef>
 #include <deque>
 #include <vector>
 
-#include "numerics/fourier_transform.hpp"
+#include "numerics/gsl.hpp"
 
 namespace lorentz {
 
@@ -13,8 +14,8 @@ namespace lorentz {
 ///
 ///   C(r, m) = mean over cells i and snapshots j of a_i(j) a_{i+r}(j+m),
 ///
-/// symmetrised in r. Sums over cells are products of Fourier transforms, whose length is best a product of
-/// small primes (numerics/fourier_transform.hpp).
+/// symmetrised in r. Sums over cells are products of Fourier transforms. A prime factor p of the number of
+/// cells costs as much as p/2 factors of 2.
 class RingCorrelation {
  public:
   /// lags: the m, ascending.
@@ -28,17 +29,24 @@ class RingCorrelation {
   std::vector<double> at(std::size_t k) const;
 
  private:
-  /// Sum of the products of two transforms at the wave numbers 0 ... cells/2, and their number.
+  /// Sum of the products of two transforms, element by element, and their number.
   struct Spectrum {
     std::vector<double> sum;
     double count = 0;
   };
+  using Table = GslObject<gsl_fft_real_wavetable, gsl_fft_real_wavetable_alloc, gsl_fft_real_wavetable_free>;
+  using Workspace =
+      GslObject<gsl_fft_real_workspace, gsl_fft_real_workspace_alloc, gsl_fft_real_workspace_free>;
+
+  /// Fourier transform of a field, in GSL's order: F(0), Re F(1), Im F(1), Re F(2), ...
+  std::vector<double> transform(std::vector<double> field) const;
 
   std::size_t cells_;
   std::vector<std::size_t> lags_;
-  std::vector<Spectrum> spectra_;                             // by lag
-  std::deque<std::vector<std::complex<double>>> transforms_;  // of the last snapshots, latest first
-  RealFourierTransform transform_;
+  std::vector<Spectrum> spectra_;               // by lag
+  std::deque<std::vector<double>> transforms_;  // of the last snapshots, latest first
+  Table table_;
+  Workspace workspace_;
 };
 
 }  // namespace lorentz

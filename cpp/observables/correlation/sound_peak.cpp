@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <limits>
 
-#include "numerics/elementary.hpp"
 #include "statistics/fit.hpp"
 
 namespace lorentz {
@@ -13,7 +12,7 @@ double side_moment(std::span<const double> profile, int power, double first, dou
   double sum = 0;
   for (std::size_t cell = 0; cell < profile.size(); ++cell) {
     const double distance = std::abs(static_cast<double>(cell) - static_cast<double>(profile.size() / 2));
-    if (distance >= first && distance < last) sum += 0.5 * elementary::pow(distance, power) * profile[cell];
+    if (distance >= first && distance < last) sum += 0.5 * std::pow(distance, power) * profile[cell];
   }
   return sum;
 }

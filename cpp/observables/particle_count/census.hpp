@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "engine/path.hpp"
-#include "numerics/elementary.hpp"
 #include "sampling/momentum_bins.hpp"
 #include "statistics/histogram.hpp"
 #include "statistics/log_grid.hpp"
@@ -32,9 +31,9 @@ struct CensusGrid {
       : times(snapshot_times),
         bins(linear),
         speeds(0.1 * length_of_cell / times.back(),
-               std::max(1., elementary::log10(10 * bins.edge(bins.count()) * times.back() / length_of_cell)),
+               std::max(1., std::log10(10 * bins.edge(bins.count()) * times.back() / length_of_cell)),
                points_per_decade),
-        number_grid(times.back() * elementary::pow(10, -decades_of_time), decades_of_time, points_per_decade),
+        number_grid(times.back() * std::pow(10, -decades_of_time), decades_of_time, points_per_decade),
         number_times(number_grid.points()),
         cell_length(length_of_cell) {
     number_times.back() = times.back();

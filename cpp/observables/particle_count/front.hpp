@@ -1,11 +1,10 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
 #include <vector>
-
-#include "numerics/elementary.hpp"
 
 namespace lorentz {
 
@@ -25,7 +24,7 @@ inline double rise_through(const std::vector<double>& x, std::span<const double>
   for (std::size_t i = 0; i + 1 < x.size(); ++i) {
     if (y[i] > level || y[i + 1] <= level) continue;
     const double part = (level - y[i]) / (y[i + 1] - y[i]);
-    return x[i] * elementary::pow(x[i + 1] / x[i], part);
+    return x[i] * std::pow(x[i + 1] / x[i], part);
   }
   return std::numeric_limits<double>::quiet_NaN();
 }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "numerics/elementary.hpp"
-
 namespace lorentz {
 
 /// Sum of the logarithms of positive numbers, computed from products, so that few logarithms are evaluated.
@@ -12,12 +10,12 @@ class LogSum {
     if (product > 0x1p-1000 && product < 0x1p1000) [[likely]] {
       product_ = product;
     } else {
-      sum_ += elementary::log(product_) + elementary::log(number);
+      sum_ += std::log(product_) + std::log(number);
       product_ = 1;
     }
   }
 
-  double sum() const { return sum_ + elementary::log(product_); }
+  double sum() const { return sum_ + std::log(product_); }
 
  private:
   double product_ = 1;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "boltzmann/gmres.hpp"
 #include "boltzmann/sites.hpp"
-#include "numerics/gmres.hpp"
 
 namespace hydrodynamic_preconditioner_test {
 

@@ -27,7 +27,7 @@ Records records() {
 // The error of a mean is s/sqrt(n); that of a ratio is calculated here from the ratios without one replica
 // each. Detected mistakes: the mean of ratios in place of the ratio of means; the error of a record in place
 // of that of the mean.
-TEST(Group, JackknifeTheMeanRecord) {
+TEST(Group, JackknifesFormulasOfTheMeanRecord) {
   const Tallies tallies;
   Group group;
   group.quantity("mean", "time", "A mean", [=](TallyMeans mean) { return mean[tallies.a]; });
@@ -49,7 +49,7 @@ TEST(Group, JackknifeTheMeanRecord) {
 }
 
 // Detected mistakes: an empty bin has the error 0; a number that is 0 has the error NaN.
-TEST(Group, AnElementThatIsZeroEverywhereHasNoError) {
+TEST(Group, HasNoErrorOfAnEmptyBin) {
   const Tallies tallies;
   Group group;
   group.quantity("pair", {tallies.place}, "1", "Two", mean_of(tallies.pair));
@@ -62,7 +62,7 @@ TEST(Group, AnElementThatIsZeroEverywhereHasNoError) {
 }
 
 // Detected mistake: the formula is chosen anew for every mean of the jackknife.
-TEST(Group, ChoosesACommonFormulaOnce) {
+TEST(Group, ChoosesAFormulaOncePerEstimate) {
   const Tallies tallies;
   int chosen = 0;
   Group group;
@@ -90,7 +90,7 @@ TEST(Group, HasStatisticsWithTheirOwnErrors) {
 }
 
 // Detected mistakes: uncorrected records are used; control variates are always reported as used.
-TEST(Group, OfCorrectedRecords) {
+TEST(Group, EstimatesFromPreparedRecords) {
   const Tallies tallies;
   const auto negative = [](const Records& given) {
     Records result(given.width());
@@ -112,7 +112,7 @@ TEST(Group, OfCorrectedRecords) {
 
 // Detected mistake: only the total number of values is compared, so that one value too many and one too few
 // assign values to wrong names without a message.
-TEST(Group, OfAnotherSizeThanTheirAxesAreRefused) {
+TEST(Group, RefusesFormulasOfAnotherSizeThanTheirAxes) {
   const Tallies tallies;
   Group group;
   group.quantity("long", {tallies.place}, "1", "Three values for two places",

@@ -8,6 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "numerics/random.hpp"
+#include "support/sample.hpp"
+
 namespace moving_peak_test {
 
 using namespace lorentz;
@@ -68,7 +71,7 @@ TEST(MovingPeak, FollowsGaussianPeaks) {
 
 // The ends of the octaves are calculated by hand. Detected mistakes: octaves end at neighbouring times; an
 // end occurs twice where times are sparse; a short octave remains at the end; t is divided into equal parts.
-TEST(MovingPeak, OctavesDivideTheTimesEvenly) {
+TEST(Octaves, DivideTheTimesEvenly) {
   using Times = std::vector<double>;
   EXPECT_EQ(octaves({0.016, 0.02, 0.025, 0.032, 0.04, 0.05, 0.063, 0.08, 0.1, 0.12}),
             (Times{0.016, 0.032, 0.063, 0.12}));
@@ -111,7 +114,7 @@ TEST(MovingPeak, OddPartAndCentre) {
 
 // The peak has not left the centre at the first time. What depends on this time is NaN; all else uses the
 // other times. Detected mistakes: the height is 0; the fit includes this time; all values are NaN.
-TEST(MovingPeak, IsNoneBeforeThePeakHasLeftTheCentre) {
+TEST(MovingPeak, IsNaNBeforeThePeakHasLeftTheCentre) {
   std::vector<double> mean = profiles();
   for (int cell = 0; cell < cells; ++cell) mean[cell] = std::exp(-0.02 * (cell - centre) * (cell - centre));
   const PeakWindows windows = windows_of(records_of({mean, mean}));
@@ -131,7 +134,7 @@ TEST(MovingPeak, IsNoneBeforeThePeakHasLeftTheCentre) {
 
 // The mean has a peak, but without the second replica the profile rises up to the far side, so that the
 // jackknife gives no error. Detected mistake: only the mean determines the windows.
-TEST(PeakWindows, HoldThePeakWhicheverReplicaIsLeftOut) {
+TEST(PeakWindows, HaveAPeakInEveryLeaveOneOutMean) {
   std::vector<double> none(times.size() * cells);
   for (std::size_t i = 0; i < none.size(); ++i)
     none[i] = 1e-3 * std::exp(0.02 * std::abs(static_cast<int>(i) % cells - centre));
@@ -139,6 +142,38 @@ TEST(PeakWindows, HoldThePeakWhicheverReplicaIsLeftOut) {
   for (const auto& window : windows) EXPECT_FALSE(window);
   for (const auto& window : windows_of(records_of({profiles(1), profiles(3)}))) EXPECT_TRUE(window);
   for (const auto& window : windows_of(records_of({profiles()}))) EXPECT_TRUE(window);
+}
+
+/// Profiles y = t^-xi f(x/t^xi) of an asymmetric function f, with Gaussian noise.
+std::vector<Profile> scaling_profiles(double xi, double noise, std::uint64_t seed) {
+  RandomStream random({seed, 0}, Purpose::initial_position, 0);
+  std::vector<Profile> profiles;
+  for (const double time : {1.0, 2.0, 4.0, 8.0}) {
+    Profile profile{time, {}, {}};
+    for (int cell = -60; cell <= 60; ++cell) {
+      const double s = cell / std::pow(time, xi) / 6;
+      profile.x.push_back(cell);
+      profile.y.push_back(std::exp(-s * s + 0.3 * s) / std::pow(time, xi) + noise * random.gaussian());
+    }
+    profiles.push_back(profile);
+  }
+  return profiles;
+}
+
+TEST(CollapseExponent, IsThatOfScalingProfiles) {
+  for (const double xi : {0.5, 0.6, 2.0 / 3, 1.0})
+    EXPECT_NEAR(collapse_exponent(scaling_profiles(xi, 0, 1), -15, 15), xi, 0.01);
+  // No minimum between 0.1 and 1.5: the profiles narrow.
+  EXPECT_TRUE(std::isnan(collapse_exponent(scaling_profiles(-0.3, 0, 1), -15, 15)));
+}
+
+TEST(CollapseExponent, IsUnbiasedUnderNoise) {
+  std::vector<double> found;
+  for (std::uint64_t seed = 0; seed < 100; ++seed)
+    found.push_back(collapse_exponent(scaling_profiles(0.6, 0.01, seed), -15, 15));
+  const double exact = collapse_exponent(scaling_profiles(0.6, 0, 1), -15, 15);
+  EXPECT_LT(std::abs(support::z_score(support::sample(found), exact)), 4);
+  EXPECT_GT(std::abs(support::z_score(support::sample(found), exact + 0.01)), 4);
 }
 
 }  // namespace moving_peak_test

@@ -18,7 +18,7 @@ struct Tallies : TallySchema {
 };
 
 // Detected mistakes: the width excludes the last tally; the size of a tally is that of its first axis alone.
-TEST(TallySchema, LaysTalliesSideBySide) {
+TEST(TallySchema, KeepsTalliesInOrder) {
   const Tallies tallies;
   EXPECT_EQ(tallies.width(), 8U);
   EXPECT_EQ(tallies.number.column, 0U);
@@ -26,10 +26,8 @@ TEST(TallySchema, LaysTalliesSideBySide) {
   EXPECT_EQ(tallies.table.size, 6U);
   EXPECT_EQ(tallies.last.column, 7U);
   EXPECT_EQ(columns_of({tallies.last, tallies.table}), (Columns{7, 1, 2, 3, 4, 5, 6}));
-}
 
-TEST(TallySchema, KeepsDescriptionsInOrder) {
-  const std::vector<Description> described = Tallies().tallies();
+  const std::vector<Description> described = tallies.tallies();
   ASSERT_EQ(described.size(), 3U);
   EXPECT_EQ(described[1].name, "table");
   EXPECT_EQ(described[1].units, "energy");
@@ -39,7 +37,7 @@ TEST(TallySchema, KeepsDescriptionsInOrder) {
 }
 
 // Detected mistakes: a new record is not zero; the span of a tally begins at the first tally.
-TEST(TallySums, HoldsEveryTallyAtItsPlace) {
+TEST(TallySums, AreReadAndWrittenByTheirHandles) {
   const Tallies tallies;
   TallySums sums(tallies);
   EXPECT_EQ(sums.values(), std::vector<double>(8, 0));
@@ -55,13 +53,14 @@ TEST(TallySums, HoldsEveryTallyAtItsPlace) {
 }
 
 // Detected mistake: an array with fewer or more values is copied without a message.
-TEST(TallySums, RefusesArraysOfAnotherSize) {
+TEST(TallySums, RefuseArraysOfAnotherSize) {
   const Tallies tallies;
   TallySums sums(tallies);
   sums.set(tallies.table, std::vector<double>{1, 2, 3, 4, 5, 6});
   EXPECT_EQ(sums.values(), (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 0}));
   EXPECT_THROW(sums.set(tallies.table, std::vector<double>(5)), std::out_of_range);
   EXPECT_THROW(sums.set(tallies.table, std::vector<double>(7)), std::out_of_range);
+  EXPECT_THROW(Records(2).append(std::vector<double>(1)), std::invalid_argument);
 }
 
 }  // namespace tally_test

@@ -1,4 +1,4 @@
-#include "numerics/gmres.hpp"
+#include "boltzmann/gmres.hpp"
 
 #include <Eigen/Jacobi>
 #include <vector>
