@@ -24,21 +24,21 @@ void print_error(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 Progress::Progress(std::string program) : program_(std::move(program)) {}
 
-void Progress::show(double done, double wanted, double resumed) {
+void Progress::show(double done, std::uint64_t wanted, double resumed) {
   using Seconds = std::chrono::duration<double>;
   const Clock::time_point now = Clock::now();
   const bool bar = style == "bar" || (style == "auto" && ::isatty(STDERR_FILENO));
   if (style == "none" || now - last_shown_ < Seconds(bar ? 0.1 : 10)) return;
   last_shown_ = now;
-  const double fresh = done - resumed;
-  const std::string remaining =
-      fresh > 0 ? as_time(Seconds(now - start_).count() * (wanted - done) / fresh) + " left"
-                : std::string("time left unknown");
-  if (!bar) return warn(fmt::format("{:.1f} of {:.0f} replicas, {}", done, wanted, remaining));
+  const double fresh = done - resumed, all = static_cast<double>(wanted);
+  const std::string state = fmt::format(
+      "{:.1f} of {}, {}", done, counted(wanted),
+      fresh > 0 ? as_time(Seconds(now - start_).count() * (all - done) / fresh) + " left" : "time left unknown");
+  if (!bar) return warn(state);
   constexpr int width = 30;
-  const int filled = std::clamp(static_cast<int>(width * done / wanted), 0, width);
-  print_error(fmt::format("\r{} [{:#<{}}{:.<{}}] {:.1f}/{:.0f} replicas, {}\x1b[K", program_, "", filled, "",
-                          width - filled, done, wanted, remaining));
+  const int filled = std::clamp(static_cast<int>(width * done / all), 0, width);
+  print_error(
+      fmt::format("\r{} [{:#<{}}{:.<{}}] {}\x1b[K", program_, "", filled, "", width - filled, state));
   bar_drawn_ = true;
 }
 
@@ -49,6 +49,10 @@ void Progress::say(const std::string& line) {
 void Progress::warn(const std::string& line) {
   if (std::exchange(bar_drawn_, false)) print_error("\r\x1b[K");
   print_error(fmt::format("{}: {}\n", program_, line));
+}
+
+std::string counted(std::uint64_t replicas) {
+  return fmt::format("{} replica{}", replicas, replicas == 1 ? "" : "s");
 }
 
 std::string with_error(double mean, double error) {

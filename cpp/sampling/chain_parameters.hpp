@@ -22,13 +22,20 @@ struct ScatteringParameters {
 };
 
 /// Declares --cells, --sigma, --gamma and --rule.
-void declare(Options& options, ScatteringParameters& parameters, Range<double> gamma_range);
+void declare(Options& options, ScatteringParameters& parameters, Range gamma_range);
 
 /// Declares --rule.
 void declare_rule(Options& options, std::string& rule);
 
 /// Throws UsageError if particles would have to scatter more than once per cell; gamma none: N.
 void require_probability(std::optional<double> gamma, std::uint32_t cells);
+
+/// Throws UsageError if a replica would have more than 1e9 particles, which `options` determine.
+void require_memory(double particles, const std::string& options);
+
+/// Throws UsageError unless a clock that runs until `end` resolves 1e-6 of a time. `options` determine the
+/// two.
+void require_resolved(double time, double end, const std::string& options);
 
 /// Declares --nu-left, --nu-right, --temperature-left and --temperature-right.
 void declare(Options& options, Reservoir& left, Reservoir& right);
