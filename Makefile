@@ -102,13 +102,11 @@ format: setup-dev  ## Format every source in place
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 .venv/bin/clang-format -i
 	.venv/bin/ruff check --quiet --fix . && .venv/bin/ruff format --quiet .
 	.venv/bin/snakefmt --no-format-shell --line-length 110 Snakefile workflow/rules
-describe: build  ## Options and quantities of the programs: schema of the configuration, docs/format.*
-	$(PYTHON) workflow.config.describe
 bench: setup-dev build  ## Cost of an event
 	$(PYTHON) workflow.tradeoff.bench
 tradeoff: setup-dev build  ## Accuracy against time, and rounding: figures/tradeoff
 	$(SNAKEMAKE) tradeoff $(BRIEF)
-docs: setup-dev  ## The documentation as a static site, build/docs/index.html
+docs: setup-dev build  ## The documentation as a static site, build/docs/index.html
 	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --strict 2> >(grep -v '^INFO' >&2)
 	doxygen docs/site/Doxyfile
 	cp .venv/lib/python*/site-packages/mathjax/static/mathjax/es5/tex-svg.js build/docs/mathjax.js
@@ -117,4 +115,4 @@ clean:  ## Remove programs, logs and caches; make distclean: also results, figur
 distclean: clean
 	rm -rf data/*/ figures/*/ .snakemake .venv
 .PHONY: help figures panel report gallery setup setup-dev installed build audit verify provenance status cost crate prune test test-long \
-  check format describe bench tradeoff docs clean distclean
+  check format bench tradeoff docs clean distclean

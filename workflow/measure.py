@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
+from workflow.lib import described
 from workflow.lib.configuration import Options
 from workflow.lib.files import ROOT
 from workflow.lib.identity import seed_of
@@ -15,16 +16,12 @@ from workflow.lib.load import Result, load
 from workflow.lib.nearest import nearest
 from workflow.lib.plan import Run, build_id
 from workflow.lib.program import ProgramError, execute
-from workflow.lib.units import SCHEMA
 
 if TYPE_CHECKING:
     import xarray
 
 FOLDER = ROOT / "data/measured"
-CONDUCT = (
-    "threads",
-    "time-limit",
-)  # options of the execution; of these only time-limit can change the result, if it stops the run
+CONDUCT = ("threads",)  # options of the execution, on which no result depends
 
 
 class MeasureError(ValueError):
@@ -33,14 +30,14 @@ class MeasureError(ValueError):
 
 def measure(program: str, **options: object) -> "xarray.DataTree":
     """Runs a program and returns its result as from Result.to_xarray(). Options are those of the command line, with underscores for dashes and
-    True for a flag; also threads and time_limit. A list of values of an option gives every quantity its dimension.
+    True for a flag; also threads. A list of values of an option gives every quantity its dimension.
 
     The seed follows from program and options, so that two calls with different options have independent errors; `seed=1` in several
     calls shares their random numbers. A result of these options and this build in data/measured is not measured again. An interrupted
     call writes a checkpoint, from which the next one continues. Warns if a run was not stationary or missed its target error.
 
     Raises MeasureError; BuildError if the program is missing or older than its sources."""
-    known = json.loads(SCHEMA.read_text("utf-8"))["programs"]
+    known = described.options()
     if program not in known:
         raise MeasureError(f"{program} is not a program; {nearest(program, known)}")
     given = _checked(program, options, known[program])

@@ -112,8 +112,8 @@ class Options {
   const std::string& program() const { return program_; }
   const std::vector<Option>& all() const { return options_; }
 
-  /// Reads the command line. Returns the text of --help, which ends with the footer, or of --version if one is
-  /// given, after which the program ends; none otherwise. Throws UsageError.
+  /// Reads the command line. Returns the text of --help, which ends with the footer, or of --version if one
+  /// is given, after which the program ends; none otherwise. Throws UsageError.
   std::optional<std::string> parse(int argc, const char* const* argv, const std::string& version,
                                    const std::function<std::string()>& footer);
 

@@ -44,7 +44,8 @@ std::string listed(const std::vector<Description>& quantities) {
   for (const Description& what : quantities) {
     std::vector<std::string> axes;
     for (const Axis& axis : what.axes) axes.push_back(axis.name);
-    const std::string label = axes.empty() ? what.name : fmt::format("{} [{}]", what.name, fmt::join(axes, ", "));
+    const std::string label =
+        axes.empty() ? what.name : fmt::format("{} [{}]", what.name, fmt::join(axes, ", "));
     lines += fmt::format("  {:<33} {} [{}]\n", label, what.description, what.units);
   }
   return lines;
@@ -146,8 +147,7 @@ int Program::run(int argc, char** argv, const std::function<std::vector<Descript
     ::signal(number, [](int received) { ::_exit(static_cast<int>(ExitStatus::interrupted) + received); });
   const std::string version =
       fmt::format("{} {} (build {})", options_.program(), build_info.version, build_info.build_id);
-  std::optional<std::string> text =
-      options_.parse(argc, argv, version, [&] { return listed(quantities()); });
+  std::optional<std::string> text = options_.parse(argc, argv, version, [&] { return listed(quantities()); });
   const std::vector<Description> described = text ? std::vector<Description>() : quantities();
   if (describe_) text = describe(options_, description_, described);
   if (text) {
@@ -162,8 +162,9 @@ int Program::run(int argc, char** argv, const std::function<std::vector<Descript
 } catch (const UsageError& error) {
   return fail(ExitStatus::usage, fmt::format("error: {}", error.what()));
 } catch (const std::bad_alloc&) {
-  return fail(ExitStatus::usage,
-              "error: there is not enough memory. Choose a smaller system, fewer bins, --replicas or --threads.");
+  return fail(
+      ExitStatus::usage,
+      "error: there is not enough memory. Choose a smaller system, fewer bins, --replicas or --threads.");
 } catch (const NumericalError& error) {
   return fail(ExitStatus::numerical_failure, fmt::format("numerical failure: {}", error.what()));
 } catch (const std::exception& error) {

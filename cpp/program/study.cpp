@@ -122,13 +122,13 @@ ExitStatus StudyProgram::compute() try {
     in_threads(std::min(threads, wanted), [&] { measure(wanted); });
     Outcome outcome;
     in_threads(1, [&] { outcome = estimate(wanted); });
-    report(outcome, wanted);
-    const double excess = outcome.achieved_error / target_error_;
-    if (std::isfinite(excess)) needed_ = rule.expected_end(wanted, excess);
     const bool constant = quantity_named(outcome.results, study_.target).standard_error.front() == 0;
-    if (outcome.convergence == Convergence::not_reached && target_error_ > 0 && !constant &&
-        wanted + replicas_ <= most_replicas)
-      continue;
+    const bool last = outcome.convergence != Convergence::not_reached || target_error_ == 0 || constant ||
+                      wanted + replicas_ > most_replicas;
+    const double excess = outcome.achieved_error / target_error_;
+    if (!last && std::isfinite(excess)) needed_ = rule.expected_end(wanted, excess);
+    report(outcome, wanted);
+    if (!last) continue;
     if (study_.remarks)
       for (const std::string& remark : study_.remarks(outcome.results)) program_.progress().say(remark);
     const ExitStatus status = program_.write(outcome);
@@ -255,6 +255,7 @@ void StudyProgram::report(const Outcome& outcome, std::uint64_t replicas) {
       fmt::format("{}: {} = {}", counted(replicas), study_.target, with_error(quantity.mean.front(), error));
   if (outcome.convergence == Convergence::not_reached) line += ", not reached";
   if (target_error_ > 0 && error == 0) line += ": all replicas agree, so that the error is not known";
+  if (needed_ > replicas) line += fmt::format("; about {} are needed", needed_);
   program_.progress().say(line);
   // Errors are uncertain by 1/sqrt(2(R-1)) for normal records, and more for skewed ones.
   constexpr std::uint64_t enough = 32;

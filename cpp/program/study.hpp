@@ -64,9 +64,9 @@ class StudyProgram {
   // until the StoppingRule is met.
   static constexpr std::uint64_t most_replicas = 1'000'000;  // with a target error, but at least one batch
   std::uint64_t replicas_ = 16, seed_ = 1;
-  std::optional<std::uint32_t> threads_{};     // none: one for each processor
-  double target_error_ = 0;                    // 0: none
-  double target_scale_ = 0;                    // 0: the target quantity's mean
+  std::optional<std::uint32_t> threads_{};  // none: one for each processor
+  double target_error_ = 0;                 // 0: none
+  double target_scale_ = 0;                 // 0: the target quantity's mean
   double checkpoint_interval_ = 60;
   bool resume_ = false;
 

@@ -40,9 +40,9 @@ void require_probability(std::optional<double> gamma, std::uint32_t cells) {
 void require_memory(double particles, const std::string& options) {
   constexpr double most = 1e9;
   if (particles > most)
-    throw UsageError(fmt::format(
-        "{}: a replica would have {:.2g} particles, more than {:g}. Choose a smaller system.", options,
-        particles, most));
+    throw UsageError(
+        fmt::format("{}: a replica would have {:.2g} particles, more than {:g}. Choose a smaller system.",
+                    options, particles, most));
 }
 
 void require_resolved(double time, double end, const std::string& options) {

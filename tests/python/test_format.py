@@ -14,7 +14,7 @@ import pytest
 from jsonschema import Draft202012Validator, FormatChecker
 
 from tests.python.conftest import ROOT, Program, command_line
-from workflow.config.describe import built, signature
+from workflow.lib.described import built, signature
 from workflow.lib.load import NOT_REACHED
 from workflow.lib.units import UnitsError, parse
 

@@ -197,7 +197,7 @@ def test_mistakes_in_a_panel_of_ones_own_name_the_step(kept: Clone) -> None:
     printed = kept.snakemake("figures", status=1)
     assert "no figure was written: end the script with run(draw, title)" in printed
     replace("workflow/config/paper.yaml", "program: conductivity", "program: own_program")(kept)
-    assert "run make describe" in kept.snakemake("figures", status=1)
+    assert "run make build" in kept.snakemake("figures", status=1)
 
 
 def test_a_link_to_a_missing_folder_is_named(kept: Clone) -> None:

@@ -1,7 +1,4 @@
-"""Loads paper.yaml and quality/*.yaml and validates them against the declared options of the programs.
-
-schema.json, written by `make describe`, has a JSON Schema of every option of every program.
-"""
+"""Loads paper.yaml and quality/*.yaml and validates them against the options that the programs declare."""
 
 import json
 from collections.abc import Iterator
@@ -15,33 +12,30 @@ from ruamel.yaml import YAML
 from ruamel.yaml.error import MarkedYAMLError, YAMLError
 from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
 
+from workflow.lib import described, polynomial
 from workflow.lib.files import ROOT, in_one_line
 from workflow.lib.nearest import nearest
-from workflow.lib.units import SCHEMA
 
 Options = dict[str, Any]  # by name without leading dashes: a number, text, or a bool for a flag
 Schema = dict[str, Any]
 Keys = tuple[Any, ...]  # path in nested mappings and lists
 
-FOLDER = SCHEMA.parent
+FOLDER = ROOT / "workflow/config"
 EFFORT = (
     "cells",
     "observation-time",
     "pairs-per-replica",
     "replicas",
-    "target-absolute",
     "target-error",
 )
 ALSO_PHYSICS = ("cells", "observation-time", "target-error")  # given in paper.yaml, too
-SCALE: Schema = {"type": "number", "exclusiveMinimum": 0, "allowed": "a number greater than 0"}
 OF_SERIES: Schema = {
     "program": True,
     "replicated": {"type": "boolean", "allowed": "true or false"},
-    "target-scale": SCALE,  # size of a target quantity that can be 0, to which ERROR refers then
 }
 NAME: Schema = {"type": "string", "pattern": "^[A-Za-z0-9_-]+$", "allowed": "letters, digits, _ and -"}
 NAMED: Schema = {"type": "object", "propertyNames": NAME, "minProperties": 1}
-NEW = " (after a change of the programs: run make describe)"
+NEW = " (after a change of the programs: run make build)"
 SAFE = YAML(typ="safe", pure=True)
 
 
@@ -108,7 +102,7 @@ def _shown(path: Path) -> str:
 
 def load_configuration(quality: str, folder: Path = FOLDER) -> tuple[Document, Document]:
     """Validated `paper.yaml` and `quality/<quality>.yaml`. Raises ConfigurationError."""
-    programs: dict[str, Schema] = json.loads(SCHEMA.read_text())["programs"]
+    programs = described.options()
     paper, efforts = read(folder, "paper.yaml"), read(folder, f"quality/{quality}.yaml")
     paper.check(_panels(programs))
     paper.check(_physics(paper.content, programs))
@@ -183,12 +177,22 @@ def _options(program: str, options: Schema, elsewhere: dict[str, str]) -> Schema
     several = {"minItems": 1, "uniqueItems": True}
     if "replicas" in options:
         options = options | {"replicas": options["replicas"] | {"minimum": 0}}
+    if "cells" in options:
+        options = {name: _with_polynomial(option) for name, option in options.items()}
     schemas = {
         name: {"if": {"type": "array"}, "then": {"items": option} | several, "else": option}
         for name, option in options.items()
         if name not in elsewhere
     }
     return _object(schemas) | {"title": program, "elsewhere": elsewhere}
+
+
+def _with_polynomial(option: Schema) -> Schema:
+    """A time may be a polynomial in the number of cells, which the plan evaluates."""
+    if option.get("units") != "time" or option["type"] != "number":
+        return option
+    pattern = {"type": ["number", "string"], "pattern": f"^({polynomial.pattern()})$"}
+    return option | pattern | {"allowed": f"{option['allowed']}, or a polynomial such as 50+0.001N^2"}
 
 
 def _object(properties: Schema) -> Schema:

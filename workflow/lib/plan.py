@@ -8,6 +8,7 @@ from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
 
+from workflow.lib import polynomial
 from workflow.lib.configuration import (
     FOLDER,
     ConfigurationError,
@@ -20,7 +21,6 @@ from workflow.lib.nearest import nearest
 from workflow.provenance.build_id import built
 
 QUALITIES = ("smoke", "standard", "paper", "deep")
-STOPPING = ("target-error", "target-absolute")  # options that add replicas to a run
 BATCH = 16  # replicas between two checks of a target error
 # Without +, as the text is part of the name of a folder and of a pattern of names.
 NUMBER = r"[0-9]+\.?[0-9]*|[0-9]*\.?[0-9]+|[0-9]+\.?[0-9]*[eE]-?[0-9]+"
@@ -114,18 +114,14 @@ class Quality:
         given = {"QUALITY": self.base, **{key.upper(): getattr(self, key) for key in EFFORTS}}
         return " ".join(f"{name}={value}" for name, value in given.items() if value is not None)
 
-    def complete(self, panel: str, run: str, options: Options, scale: float | None = None) -> Options:
-        """Adds to the options of a replicated run its seed and, if given, the number of replicas or the target error. scale: size of
-        a target quantity that can be 0."""
+    def complete(self, panel: str, run: str, options: Options) -> Options:
+        """Adds to the options of a replicated run its seed and, if given, the number of replicas or the target error."""
         if self.replicas is not None or self.error is not None:
-            options = {key: value for key, value in options.items() if key not in STOPPING}
+            options = {key: value for key, value in options.items() if key != "target-error"}
         if self.replicas is not None:
             options["replicas"] = self.replicas
         if self.error is not None:
-            target = (
-                {"target-error": self.error} if scale is None else {"target-absolute": self.error * scale}
-            )
-            options |= {"replicas": BATCH, **target}
+            options |= {"replicas": BATCH, "target-error": self.error}
         names = f"{panel}/{run}" if self.seed is None else f"{panel}/{run}/{self.seed}"
         return options | {"seed": seed_of(names)}
 
@@ -180,7 +176,7 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Q
     for series, program in programs_of(panel).items():
         own = dict(panel["series"][series])
         own.pop("program", None)
-        replicated, scale = own.pop("replicated", True), own.pop("target-scale", None)
+        replicated = own.pop("replicated", True)
         default = efforts["default"] if replicated else {}
         effort = efforts.get("panels", {}).get(name, {}).get(series, {})
         options = {**panel.get("common", {}), **own, **default, **effort}
@@ -191,9 +187,11 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Q
             chosen = dict(zip(listed, values, strict=True))
             run = "_".join([series, *(f"{key}={_in_name(value)}" for key, value in chosen.items())])
             given = {**options, **chosen}
-            completed = quality.complete(name, run, given, scale) if replicated else given
+            if "cells" in given:
+                given = {key: polynomial.evaluated(value, given["cells"]) for key, value in given.items()}
+            completed = quality.complete(name, run, given) if replicated else given
             bound = (quality.hours, quality.error) if replicated else (None, None)
-            runs.append(Run(run, program, completed, replicated, series, *bound, scale))
+            runs.append(Run(run, program, completed, replicated, series, *bound, given.get("target-scale")))
     return Panel(name, panel.get("script", name), tuple(runs), tuple(panel.get("uses", ())))
 
 

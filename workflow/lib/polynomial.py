@@ -1,7 +1,4 @@
-"""Grammar of option values that depend on the number of cells: a sum of numbers, each alone or followed by N or N^2, as 50+0.001N^2.
-
-cpp/program/options.cpp reads the same grammar.
-"""
+"""Option values that depend on the number of cells: a sum of numbers, each alone or followed by N or N^2, as 50+0.001N^2."""
 
 import math
 import re
@@ -22,6 +19,12 @@ def at_size(value: object, size: float) -> float:
     """Value at N = size; nan for other text."""
     terms = [TERM.fullmatch(term) for term in _terms(value)]
     return sum(float(term[1]) * size ** int(term[3] or bool(term[2])) if term else math.nan for term in terms)
+
+
+def evaluated(value: object, size: int) -> object:
+    """A polynomial as a number of twelve digits, at N = size; any other value as it is."""
+    number = at_size(value, size) if isinstance(value, str) and "N" in value else math.nan
+    return value if math.isnan(number) else float(f"{number:.12g}")
 
 
 def scaled(value: object, change: Callable[[float], float]) -> str:

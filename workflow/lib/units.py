@@ -9,13 +9,11 @@ With m = k_B = 1 a momentum is a length over a time, and energy and temperature 
 the model.
 """
 
-import json
 import re
 from functools import cache
-from pathlib import Path
 from typing import NamedTuple
 
-SCHEMA = Path(__file__).parents[1] / "config/schema.json"
+from workflow.lib.described import options
 
 
 class UnitsError(ValueError):
@@ -60,12 +58,11 @@ def parse(text: str) -> Units:
 @cache
 def option_units() -> dict[str, str]:
     """Declared units of the options of the programs; all others are dimensionless."""
-    programs = json.loads(SCHEMA.read_text())["programs"]
     return {
         name: option["units"]
-        for options in programs.values()
-        for name, option in options.items()
-        if "units" in option
+        for declared in options().values()
+        for name, option in declared.items()
+        if option.get("units", "1") != "1"
     }
 
 

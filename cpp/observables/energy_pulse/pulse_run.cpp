@@ -130,7 +130,8 @@ void validate(const PulseParameters& parameters) {
   const double hottest = std::max({2 * parameters.energy, 2 * parameters.pulse_energy, of_scatterers});
   const ClosedChain chain = parameters.ring.chain();
   require_memory(1.0 * chain.cells * chain.particles_per_cell, "--cells, --particles-per-cell");
-  require_resolved(chain.cell_length / std::sqrt(hottest), parameters.relaxation_time + parameters.times.back(),
+  require_resolved(chain.cell_length / std::sqrt(hottest),
+                   parameters.relaxation_time + parameters.times.back(),
                    "--cell-length, --relaxation-time, --times");
   if (parameters.pulse_cells > chain.cells)
     throw UsageError("--pulse-cells exceeds --cells. Choose a smaller pulse.");
