@@ -21,8 +21,8 @@ struct Range {
   double high = std::numeric_limits<double>::infinity();
 };
 
-/// Magnitudes of every option with units. Sums and powers of such numbers, up to the square of the fourth
-/// power of a displacement, are representable with full precision.
+/// Magnitudes of every option with units. All that programs compute from such numbers is representable with
+/// full precision, up to fourth powers of displacements.
 inline constexpr Range positive{1e-30, 1e30}, non_negative{0, 1e30};
 
 using AttributeValue = std::variant<bool, std::int64_t, std::uint64_t, double, std::string>;

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <future>
 #include <limits>
+#include <new>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
@@ -86,9 +87,19 @@ std::vector<Description> StudyProgram::quantities() const {
   return all;
 }
 
+/// Throws std::bad_alloc if the records, their copy for the estimate, and one corrected by control variates
+/// exceed the memory of the machine: the system would kill the program late and without a message.
+void StudyProgram::require_memory() const {
+  const auto replicas = static_cast<double>(replicas_), width = static_cast<double>(study_.tallies.width());
+  const double pages = static_cast<double>(::sysconf(_SC_PHYS_PAGES));
+  if (3 * sizeof(double) * replicas * width > pages * static_cast<double>(::sysconf(_SC_PAGESIZE)))
+    throw std::bad_alloc();
+}
+
 /// Loads the replicas of the checkpoint. Throws UsageError if there is one that neither --resume nor
 /// --overwrite refers to.
 void StudyProgram::prepare() {
+  require_memory();
   checkpoint_ = {.path = program_.output() + ".checkpoint", .tallies = study_.tallies.tallies()};
   for (const Parameter& each : options().parameters())
     checkpoint_.identity += fmt::format("{} = {}\n", each.name, as_text(each.value));

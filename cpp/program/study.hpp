@@ -48,6 +48,7 @@ class StudyProgram {
 
  private:
   std::vector<Description> quantities() const;
+  void require_memory() const;
   void prepare();
   ExitStatus compute();
   void in_threads(std::uint64_t number, const std::function<void()>& task);

@@ -46,7 +46,7 @@ void require_memory(double particles, const std::string& options) {
 }
 
 void require_resolved(double time, double end, const std::string& options) {
-  constexpr double most = 1e10;
+  constexpr double most = 1e12;
   if (!(end / time <= most))
     throw UsageError(
         fmt::format("{}: the run is {:.2g} times as long as the shortest time that it must resolve, more "

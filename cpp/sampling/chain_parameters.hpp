@@ -33,7 +33,7 @@ void require_probability(std::optional<double> gamma, std::uint32_t cells);
 /// Throws UsageError if a replica would have more than 1e9 particles, which `options` determine.
 void require_memory(double particles, const std::string& options);
 
-/// Throws UsageError unless a clock that runs until `end` resolves 1e-6 of a time. `options` determine the
+/// Throws UsageError unless a clock that runs until `end` resolves 1e-4 of a time. `options` determine the
 /// two.
 void require_resolved(double time, double end, const std::string& options);
 

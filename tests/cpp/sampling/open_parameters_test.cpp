@@ -67,10 +67,10 @@ TEST(OpenParameters, LimitTheNumberOfParticles) {
 // run.
 TEST(OpenParameters, RequireAClockThatResolvesFlightsAndWindow) {
   OpenParameters parameters{.cell_length = 1, .left = {1, 1}, .right = {1, 100}};
-  EXPECT_NO_THROW(validate(parameters, 1e9, "--times"));
-  EXPECT_TRUE(refused_as("--cell-length, --times", [&] { validate(parameters, 1.1e9, "--times"); }));
-  EXPECT_NO_THROW(validate(stationary(1e5, 1.1e-5)));
-  EXPECT_TRUE(refused_as("--relaxation-time, --observation-time", [] { validate(stationary(1e5, 0.9e-5)); }));
+  EXPECT_NO_THROW(validate(parameters, 1e11, "--times"));
+  EXPECT_TRUE(refused_as("--cell-length, --times", [&] { validate(parameters, 1.1e11, "--times"); }));
+  EXPECT_NO_THROW(validate(stationary(1e5, 1.1e-7)));
+  EXPECT_TRUE(refused_as("--relaxation-time, --observation-time", [] { validate(stationary(1e5, 0.9e-7)); }));
 }
 
 }  // namespace open_parameters_test
