@@ -1,43 +1,67 @@
-"""Every figure of the paper: programs write data/<quality>/<panel>/<run>.<identity>.h5, scripts render figures/<quality>/<panel>.*
-and their record <panel>.<identity>.json
+"""Every figure of the paper: programs write data/<quality>/<panel>/<run>.<identity>.h5, scripts render build/figures/<quality>/
+<panel>.<identity>.*, and these are copied to figures/<quality>/<panel>.*
 
 What determines a product is in its name. A missing name is made; neither time stamps nor Snakemake's own records decide.
 """
 
+import fcntl
 import os
 import shlex
 import signal
 import sys
 from pathlib import Path
 
-from workflow.cluster.cost import PARTS, seconds_of_run
-from workflow.lib.configuration import ConfigurationError
-from workflow.lib.figure_metadata import panel_identity, read_panel
-from workflow.lib.files import refuse_another_folder
-from workflow.lib.identity import IDENTITY
-from workflow.lib.plan import Quality, build_id, data_of, drawing_command, load_plan, panel_named, with_used
-from workflow.lib.program import command_line
-from workflow.lib.record import is_whole, record_path
-from workflow.provenance.build_id import BuildError
+from workflow.configuration import ConfigurationError
+from workflow.environment import clean
+from workflow.files import in_one_line
+from workflow.identity import IDENTITY
+from workflow.plan import (
+    BuildError,
+    Quality,
+    data_of,
+    drawing_command,
+    load_plan,
+    panel_named,
+    report_stem,
+    require_built,
+    stem_of,
+)
+from workflow.program import command_line, threads_of
+from workflow.publish import STORE
 
-refuse_another_folder()  # by a link .venv
-for name in ("data", "figures"):
-    if Path(name).is_symlink() and not Path(name).exists():
-        sys.exit(
-            f"{name} is a link to {os.readlink(name)}, which is missing: create that folder, or remove the link"
-        )
-shell.prefix("source workflow/environment/variables.sh; ")  # a bare `snakemake` gives the same bytes as make
+clean()
 QUALITY = config.get("quality", "standard")
 try:
     EFFORT = Quality.of(QUALITY)
     PLAN = load_plan(QUALITY)
     PANELS = [panel_named(PLAN, name).name for name in str(config.get("panel", "")).split()]
+    if workflow.is_main_process:
+        for program in {run.program for name in PANELS or PLAN for run in PLAN[name].runs}:
+            require_built(program)
     DATA = {name: data_of(PLAN, name, QUALITY) for name in PLAN}
+    STEMS = {name: stem_of(PLAN, name, QUALITY) for name in PLAN}
+    REPORT = report_stem(PLAN, QUALITY)
 except (ConfigurationError, BuildError) as error:
     sys.exit(str(error))
+except OSError as error:  # a panel without a script
+    sys.exit(in_one_line(error))
+KINDS = [".pdf", ".png", ".svg", ".csv", ".json"]
+
+if workflow.is_main_process and not workflow.dryrun:
+    os.makedirs("build", exist_ok=True)
+    LOCK = os.open("build/lock", os.O_RDWR | os.O_CREAT)  # held until this process ends
+    try:
+        fcntl.flock(LOCK, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        sys.exit("Another command is making products in this folder: wait for it to finish, or stop it.")
 
 
-include: "workflow/rules/common.smk"
+def products_of(*panels):
+    """Results too: Snakemake does not remake a missing result whose figure is there."""
+    files = [f"{STEMS[name]}{kind}" for name in panels for kind in KINDS]
+    return [
+        ancient(path) for path in dict.fromkeys([*(path for name in panels for path in DATA[name]), *files])
+    ]
 
 
 wildcard_constraints:
@@ -47,32 +71,39 @@ wildcard_constraints:
     identity=IDENTITY,
 
 
-if workflow.is_main_process and not workflow.dryrun:
-    redrawn = [name for name in PANELS or PLAN if not without_foreign_parents(valid(RECORDS[name])).exists()]
-    for path in {path for name in redrawn for path in DATA[name]}:
-        set_aside(path)
+localrules:
+    figures,
+    panel,
+    draw,
+    report,
+    report_page,
+    gallery,
 
 
 onstart:
+    # An interrupted SEED, REPLICAS or ERROR is a plan from its start, whose results `make prune` keeps.
+    os.makedirs(f"figures/{QUALITY}", exist_ok=True)
     # Snakemake's own handler waits for a lock that the interrupted code may hold.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
 
 
+# Without outputs these rules are always executed: they copy what is missing or edited in figures/<quality>.
 rule figures:
     input:
-        [path for panel in PLAN for path in products_of(panel)],
+        products_of(*PLAN),
+    params:
+        stems=[STEMS[name] for name in PLAN],
+    shell:
+        ".venv/bin/python -m workflow.publish {params.stems:q}"
 
 
-rule panel:
+use rule figures as panel with:
     input:
-        [path for panel in PANELS for path in products_of(panel)],
+        products_of(*PANELS),
+    params:
+        stems=[STEMS[name] for name in PANELS],
 
 
 include: "workflow/rules/simulate.smk"
 include: "workflow/rules/draw.smk"
-include: "workflow/rules/products.smk"
-
-
-if "batch" in config:
-
-    include: "workflow/rules/cluster.smk"
+include: "workflow/rules/report.smk"

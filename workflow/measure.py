@@ -8,20 +8,19 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
-from workflow.lib import described
-from workflow.lib.configuration import Options
-from workflow.lib.files import ROOT
-from workflow.lib.identity import seed_of
+from workflow.configuration import Options
+from workflow.identity import ROOT, code_hashes
+from workflow.lib.described import declared
 from workflow.lib.load import Result, load
 from workflow.lib.nearest import nearest
-from workflow.lib.plan import Run, build_id
-from workflow.lib.program import ProgramError, execute
+from workflow.plan import Run, require_built, seed_of
+from workflow.program import ProgramError, execute
 
 if TYPE_CHECKING:
     import xarray
 
 FOLDER = ROOT / "data/measured"
-CONDUCT = ("threads",)  # options of the execution, on which no result depends
+CONDUCT = ("threads",)  # options of the execution
 
 
 class MeasureError(ValueError):
@@ -30,18 +29,21 @@ class MeasureError(ValueError):
 
 def measure(program: str, **options: object) -> "xarray.DataTree":
     """Runs a program and returns its result as from Result.to_xarray(). Options are those of the command line, with underscores for dashes and
-    True for a flag; also threads. A list of values of an option gives every quantity its dimension.
+    True for a flag; also threads. A list of values of an option gives every quantity its dimension; of options whose value is
+    itself a list, as times, a list of numbers is one value, and a list of texts as "1,2,4" gives the dimension. `result["doubts"]` has the
+    reasons to doubt each result.
 
     The seed follows from program and options, so that two calls with different options have independent errors; `seed=1` in several
-    calls shares their random numbers. A result of these options and this build in data/measured is not measured again. An interrupted
+    calls shares their random numbers. A result of these options and sources in data/measured is not measured again. An interrupted
     call writes a checkpoint, from which the next one continues. Warns if a run was not stationary or missed its target error.
 
     Raises MeasureError; BuildError if the program is missing or older than its sources."""
-    known = described.options()
+    known = declared()
     if program not in known:
         raise MeasureError(f"{program} is not a program; {nearest(program, known)}")
     given = _checked(program, options, known[program])
-    build_id.cache_clear()  # the program may have been compiled again in this session
+    code_hashes.cache_clear()  # the sources may have changed in this session
+    require_built(program)
     listed = {name: value for name, value in given.items() if isinstance(value, list)}
     points = [
         _plain(dict(zip(listed, values, strict=True))) for values in itertools.product(*listed.values())
@@ -52,7 +54,7 @@ def measure(program: str, **options: object) -> "xarray.DataTree":
             where = "".join(f" at {name} = {value}" for name, value in point.items())
             warnings.warn(f"{program}{where}: {', '.join(result.doubts)}", stacklevel=2)
     trees = [result.to_xarray() for result in results]
-    return _combined(trees, listed) if listed else trees[0]
+    return _combined(trees, listed)
 
 
 def _checked(program: str, options: Mapping[str, object], known: Mapping[str, Any]) -> dict[str, Any]:
@@ -73,6 +75,10 @@ def _checked(program: str, options: Mapping[str, object], known: Mapping[str, An
         if isinstance(value, Set | Iterator) or getattr(value, "ndim", 1) > 1:
             raise MeasureError(f"{name} is a {type(value).__name__} without one order; give a list")
         given[name] = [*value]
+        of_numbers = given[name] and not any(isinstance(each, str) for each in given[name])
+        if of_numbers and "," in known.get(name, {}).get("pattern", ""):  # one value is a list
+            given[name] = ",".join(map(str, given[name]))
+            continue
         if len({*given[name]}) < max(1, len(given[name])):
             raise MeasureError(f"{name} has no value, or one twice; give a list of different values")
     return given

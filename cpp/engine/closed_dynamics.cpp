@@ -47,7 +47,7 @@ PhasePoint ClosedDynamics::phase_point(double time) const {
 Invariants ClosedDynamics::invariants() const {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const double root_mass = masses(rule_).root_mass();
-  const RuleProperties& conserved = rule_properties(chain_.rule);
+  const RuleProperties& conserved = rule_properties(chain_.rule.name);
   Invariants sum;
   for (const Flight& flight : queue_.flights()) {
     sum.energy += 0.5 * flight.velocity * flight.velocity;

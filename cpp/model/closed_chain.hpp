@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <string_view>
 
 #include "model/rules/elastic.hpp"
 
@@ -16,7 +15,7 @@ struct ClosedChain {
   double cell_length = 1;
   double sigma = 0.5;                                      // (M-m)/(M+m)
   double gamma = std::numeric_limits<double>::infinity();  // mean number of scatterings in N cells
-  std::string_view rule = Elastic::properties.name;        // of collisions
+  RuleChoice rule{Elastic::properties.name};               // of collisions
 
   std::uint32_t particles() const { return cells * particles_per_cell; }
   bool deterministic() const { return gamma >= cells; }  // a particle scatters at every scatterer

@@ -1,8 +1,12 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "numerics/random.hpp"
 
@@ -17,6 +21,14 @@ enum class InvariantMeasure : std::uint8_t {
   unknown,
 };
 
+/// A number on which a rule depends besides sigma: the option --RULE-NAME of every program with --rule.
+struct RuleOption {
+  std::string_view name;
+  std::string_view units;        // "1" for a pure number
+  std::string_view description;  // for --help
+  double low, high;              // range
+};
+
 /// What the programs need to know of a collision rule.
 struct RuleProperties {
   std::string_view name;         // of --rule
@@ -25,6 +37,13 @@ struct RuleProperties {
   bool conserves_momentum;       // p + P, for sigma < 1
   InvariantMeasure invariant;
   bool kinetic_equation;  // whether the program boltzmann solves its kinetic equation
+  std::span<const RuleOption> options{};  // arguments of its constructor, after sigma
+};
+
+/// A rule by name, with the values of its options in their order.
+struct RuleChoice {
+  std::string_view name;
+  std::vector<double> options{};
 };
 
 /// rule(u, w, cell) changes the velocity u of a particle and the scaled velocity w of the scatterer of a cell
@@ -40,12 +59,22 @@ template <class Rule>
 concept RandomRule = requires(const Rule& rule, double& u, double& w, std::uint32_t cell,
                               RandomStream& random) { rule(u, w, cell, random); };
 
-/// A rule derives from Elastic, which has the masses and the scale of w, and is listed in model/rules.hpp. It
-/// is constructed from sigma.
+/// The rule with this sigma and these values of its options. Throws std::invalid_argument unless -1 <= sigma
+/// <= 1.
 template <class Rule>
-concept CollisionRule = std::derived_from<Rule, Elastic> && std::constructible_from<Rule, double> &&
-                        std::same_as<decltype(Rule::properties), const RuleProperties> &&
-                        (DeterministicRule<Rule> || RandomRule<Rule>);
+Rule rule_from(double sigma, std::span<const double> options) {
+  return [&]<std::size_t... index>(std::index_sequence<index...>) {
+    return Rule(sigma, options[index]...);
+  }(std::make_index_sequence<Rule::properties.options.size()>());
+}
+
+/// A rule derives from Elastic, which has the masses and the scale of w, and is listed in model/rules.hpp. It
+/// is constructed from sigma and the values of its options.
+template <class Rule>
+concept CollisionRule =
+    std::derived_from<Rule, Elastic> && std::same_as<decltype(Rule::properties), const RuleProperties> &&
+    requires(double sigma, std::span<const double> options) { rule_from<Rule>(sigma, options); } &&
+    (DeterministicRule<Rule> || RandomRule<Rule>);
 
 /// A rule that draws the direction of the particle independently of everything else. In a closed chain, that
 /// of the first flight is drawn too.

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <string_view>
 
 #include "model/reservoir.hpp"
 #include "model/rules/elastic.hpp"
@@ -20,7 +19,7 @@ struct OpenChain {
   double sigma = 0.5;                                      // (M-m)/(M+m)
   double gamma = std::numeric_limits<double>::infinity();  // mean number of scatterings in N cells
   Reservoir left = default_left, right = default_right;
-  std::string_view rule = Elastic::properties.name;  // of collisions
+  RuleChoice rule{Elastic::properties.name};  // of collisions
 
   bool deterministic() const { return gamma >= cells; }  // a particle scatters at every scatterer
   std::int64_t right_opening() const { return 2 * std::int64_t{cells}; }

@@ -9,11 +9,12 @@
 
 #include "model/rules/elastic.hpp"
 #include "model/rules/random_direction.hpp"
+#include "model/rules/reversal.hpp"
 
 namespace lorentz {
 
 /// The rules of --rule. The first is the default.
-using Rules = std::variant<Elastic, RandomDirection>;
+using Rules = std::variant<Elastic, RandomDirection, Reversal>;
 
 namespace rules {
 
@@ -42,15 +43,25 @@ inline const RuleProperties& rule_properties(std::string_view name) {
   throw std::invalid_argument("no collision rule is named " + std::string(name));
 }
 
-/// The rule of this name. Throws std::invalid_argument if there is none, or unless -1 <= sigma <= 1.
+/// The chosen rule. Throws std::invalid_argument if there is none of this name, if it has another number of
+/// options, or unless -1 <= sigma <= 1.
 template <std::size_t index = 0>
-Rules make_rule(std::string_view name, double sigma) {
+Rules make_rule(const RuleChoice& choice, double sigma) {
   if constexpr (index < std::variant_size_v<Rules>) {
-    if (rules::all[index].name != name) return make_rule<index + 1>(name, sigma);
-    return std::variant_alternative_t<index, Rules>(sigma);
+    if (rules::all[index].name != choice.name) return make_rule<index + 1>(choice, sigma);
+    if (rules::all[index].options.size() != choice.options.size())
+      throw std::invalid_argument(std::string(choice.name) + " has another number of options");
+    return rule_from<std::variant_alternative_t<index, Rules>>(sigma, choice.options);
   } else {
-    throw std::invalid_argument("no collision rule is named " + std::string(name));
+    throw std::invalid_argument("no collision rule is named " + std::string(choice.name));
   }
+}
+
+/// Whether the rule of this name draws the direction of the particle.
+inline bool draws_direction(std::string_view name) {
+  return []<class... Each>(std::type_identity<std::variant<Each...>>, std::string_view wanted) {
+    return ((Each::properties.name == wanted && DrawsDirection<Each>) || ...);
+  }(std::type_identity<Rules>(), name);
 }
 
 /// The part with the masses and the scale of w, which every rule has.

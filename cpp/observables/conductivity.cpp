@@ -46,7 +46,7 @@ std::string reason_without_kappa(const OpenChain& chain) {
   if (chain.gamma == 0) return "no particle is scattered; choose a --gamma above 0";
   if (std::abs(chain.sigma) == 1)
     return "scatterers of mass 0 or infinity exchange no energy; choose a --sigma between -1 and 1";
-  if (chain.sigma == 0 && rule_properties(chain.rule).conserves_momentum)
+  if (chain.sigma == 0 && rule_properties(chain.rule.name).conserves_momentum)
     return "equal masses only exchange momenta, so that no gradient of temperature forms; choose another "
            "--sigma";
   return chain.cells == 1 ? "a single cell has no difference of temperature; choose more --cells" : "";

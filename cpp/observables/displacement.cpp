@@ -17,7 +17,6 @@
 #include <cmath>
 #include <functional>
 
-#include "model/rules.hpp"
 #include "observables/displacement/tagged_particles.hpp"
 #include "sampling/closed_run.hpp"
 #include "sampling/log_times.hpp"
@@ -34,7 +33,7 @@ struct Parameters : ClosedParameters {
   Parameters() { observation_time = 1000; }
   std::vector<double> times() const { return log_times.times(observation_time); }
   bool drifts() const {
-    return mean_square_momentum() > 0 && rule_properties(ring.scattering.rule).conserves_momentum;
+    return mean_square_momentum() > 0 && ring.scattering.rule.properties().conserves_momentum;
   }
 };
 

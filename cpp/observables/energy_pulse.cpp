@@ -4,10 +4,15 @@
 ///
 /// The ring is folded about its centre by mirror symmetry [eq. 45] before the moving peak is fitted
 /// (statistics/peak.hpp). At times without a peak, as before it leaves the centre, all quantities of the peak
-/// are NaN, and fits use the other times. At gamma = 1 the result is compared with free flight [eq. 47].
+/// are NaN, and fits use the other times. The same holds from the time on at which the two sides of the pulse
+/// meet opposite to it, as a later peak may have gone around the ring. At gamma = 1 the result is compared
+/// with free flight [eq. 47].
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -58,6 +63,22 @@ std::uint64_t average_pairs(const PulseParameters& parameters, const Tallies& ta
   return events;
 }
 
+/// At every time, 1 from the first one on at which the two sides of the pulse overlap where they meet: in the
+/// mean over replicas the energy opposite to the pulse, over the largest energy of a cell, exceeds 2 %.
+std::vector<double> ring_closed(const Records& records, const Tallies& tallies) {
+  const std::vector<double> mean = records.mean();
+  const std::size_t cells = tallies.cell.values.size();
+  std::vector<double> closed;
+  for (std::size_t k = 0; k < tallies.time.values.size(); ++k) {
+    const auto difference = TallyMeans(mean)[tallies.energy_difference.row(k)];
+    const double opposite =
+        (difference[0] + difference[1] + difference[cells - 2] + difference[cells - 1]) / 4;
+    const bool before = k > 0 && closed[k - 1] == 1;
+    closed.push_back(before || opposite > 0.02 * std::ranges::max(difference) ? 1 : 0);
+  }
+  return closed;
+}
+
 Group spreading(const Tallies& tallies) {
   const std::vector<double> times = tallies.time.values;
   const Axis distance =
@@ -70,6 +91,12 @@ Group spreading(const Tallies& tallies) {
   group.quantity("sum_error", "1",
                  "Largest |sum over cells - injected energy| / total energy, mean over pairs",
                  [=](TallyMeans mean) { return mean[tallies.sum_error]; });
+  group.statistics(
+      {{"ring_closed", "1", "1: both sides of the pulse have met opposite to it", {tallies.time}}},
+      [=](const Records& records) {
+        return Estimate{ring_closed(records, tallies),
+                        std::vector(times.size(), std::numeric_limits<double>::quiet_NaN())};
+      });
   std::vector<Description> of_peak = MovingPeak::descriptions(tallies.time, "energy");
   of_peak.push_back(
       {"centre_share", "1", "Part of the injected energy in the central five cells", {tallies.time}});
@@ -78,7 +105,11 @@ Group spreading(const Tallies& tallies) {
                      "Half of right minus left side: 0 by mirror symmetry",
                      {tallies.time, distance}});
   group.quantities(of_peak, [=](const Records& records) {
-    return [=, windows = peak_windows(records, tallies.energy_difference, times.size())](TallyMeans mean) {
+    PeakWindows windows = peak_windows(records, tallies.energy_difference, times.size());
+    const std::vector<double> closed = ring_closed(records, tallies);
+    for (std::size_t k = 0; k < times.size(); ++k)
+      if (closed[k] == 1) windows[k].reset();
+    return [=](TallyMeans mean) {
       const MovingPeak peak(mean[tallies.energy_difference], times, windows);
       std::vector<double> values = peak.values();
       for (const auto& each : {peak.centre_shares(mean[tallies.injected_energy]), peak.odd_parts()})
@@ -89,13 +120,24 @@ Group spreading(const Tallies& tallies) {
   return group;
 }
 
+std::vector<std::string> remarks(const std::vector<double>& times, const Results& results) {
+  const std::vector<double>& closed = quantity_named(results, "ring_closed").mean;
+  const auto first = std::ranges::find(closed, 1.0) - closed.begin();
+  if (first == std::ssize(closed)) return {};
+  return {fmt::format(
+      "the pulse has gone around half the ring at the time {}: there is no peak from then on; choose more "
+      "--cells, or earlier --times",
+      times[static_cast<std::size_t>(first)])};
+}
+
 Study energy_pulse(const PulseParameters& parameters) {
   validate(parameters);
   const Tallies tallies(parameters);
   return {.tallies = tallies,
           .sample = std::bind_front(average_pairs, parameters, tallies),
           .groups = {spreading(tallies)},
-          .target = "damping_exponent"};
+          .target = "damping_exponent",
+          .remarks = std::bind_front(remarks, parameters.times)};
 }
 
 /// Keeps freed memory in the process for the next pair. By default glibc returns it to the system, and

@@ -8,7 +8,8 @@
 ///
 /// elsewhere A = 0. J_n keeps a part proportional to the total momentum, which is subtracted
 /// exactly [eq. M31]. The totals of a ring fluctuate: at fixed totals <Q^2> would be smaller by a part of
-/// order t^2/N. Sound must not travel around the ring within the longest time.
+/// order t^2/N. Sound must not travel around the ring within the longest time. Without conserved momentum it
+/// decays, but after many collisions, unless the direction of a particle is drawn in each.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -16,6 +17,7 @@
 #include <numeric>
 #include <span>
 
+#include "model/rules.hpp"
 #include "observables/heat_current/currents.hpp"
 #include "program/errors.hpp"
 #include "sampling/closed_run.hpp"
@@ -138,7 +140,7 @@ void require_consistent(const Parameters& parameters) {
   const std::vector<double>& times = parameters.times;
   if (std::ranges::count_if(times, [&](double time) { return time >= parameters.fit_from; }) < 2)
     throw UsageError("--fit-from leaves fewer than two times to fit. Choose an earlier one, or add times.");
-  if (parameters.conserves_momentum())
+  if (!draws_direction(parameters.ring.scattering.rule.name))
     require_before_sound_returns(
         parameters, std::ceil(2 * Sound::of(parameters).reach(times.back()) / parameters.ring.cell_length));
 }

@@ -3,11 +3,10 @@
 namespace lorentz {
 
 /// Provenance of an executable, defined in a source file that the build generates for each executable
-/// (workflow/provenance/build_id.py). It contains no path, host or time, so that equal builds have equal ids.
+/// (workflow/identity.py). It contains no path, host or time, so that equal builds write equal results.
 struct BuildInfo {
   const char* version;
-  const char* source_hash;  // sha256 over the include closure
-  const char* build_id;     // sha256 over source hash, compiler, flags and libraries
+  const char* source_hash;  // sha256 over all sources that can change a result, and over the flags
   const char* compiler;
   const char* flags;
   const char* libraries;

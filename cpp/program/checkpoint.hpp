@@ -22,13 +22,13 @@ using FinishedReplicas = std::map<std::uint64_t, FinishedReplica>;
 /// The finished replicas of a run in an HDF5 file, with a digest as that of a result.
 struct Checkpoint {
   std::string path;
-  std::string identity{};  // everything that the tallies depend on: parameters and build id
+  std::string identity{};  // everything that the tallies depend on: parameters and sources
   std::vector<Description> tallies;
 
   /// Throws UsageError if the file cannot be written.
   void save(const FinishedReplicas& finished) const;
 
-  /// None if the file is of other options or another build. Throws UsageError if it cannot be read or is
+  /// None if the file is of other options or sources. Throws UsageError if it cannot be read or is
   /// damaged.
   std::optional<FinishedReplicas> load() const;
 };

@@ -115,7 +115,7 @@ std::string Option::allowed() const {
 
 Options::Options(std::string program, const std::string& description)
     : program_(std::move(program)), app_(std::make_unique<CLI::App>(description, program_)) {
-  app_->set_version_flag("--version", std::string{}, "Print version and build id, then exit");
+  app_->set_version_flag("--version", std::string{}, "Print version and hash of the sources, then exit");
   app_->get_formatter()->column_width(36);
   app_->allow_extras();  // parse() refuses them, with the name that is nearest
 }

@@ -89,7 +89,7 @@ double Program::elapsed() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
-/// Throws UsageError if there is an output and it is no result of these options and this build.
+/// Throws UsageError if there is an output and it is no result of these options and sources.
 void Program::require_replaceable() const {
   std::error_code unknown;
   if (overwrite_ || !std::filesystem::exists(output_, unknown)) return;
@@ -99,8 +99,8 @@ void Program::require_replaceable() const {
           "'{}' exists and is {}. Choose another --output, or replace it with --overwrite.", output_, what));
   };
   const Hdf5Reader file(output_);
-  require(file.has_attribute("/provenance", "build_id", std::string(build_info.build_id)),
-          "not a result of this build of the program");
+  require(file.has_attribute("/provenance", "source_hash", std::string(build_info.source_hash)),
+          "not a result of these sources of the program");
   for (const auto& [name, value] : options_.parameters())
     require(file.has_attribute("/parameters", name, value), "a result with another --" + name);
 }
@@ -118,7 +118,6 @@ ExitStatus Program::write(const Outcome& outcome) const {
       {"program", options_.program()},
       {"words", options_.words()},
       {"source_hash", std::string(build_info.source_hash)},
-      {"build_id", std::string(build_info.build_id)},
       {"compiler", std::string(build_info.compiler)},
       {"flags", std::string(build_info.flags)},
       {"libraries", std::string(build_info.libraries)},
@@ -146,7 +145,7 @@ int Program::run(int argc, char** argv, const std::function<std::vector<Descript
   for (const int number : {SIGINT, SIGTERM})
     ::signal(number, [](int received) { ::_exit(static_cast<int>(ExitStatus::interrupted) + received); });
   const std::string version =
-      fmt::format("{} {} (build {})", options_.program(), build_info.version, build_info.build_id);
+      fmt::format("{} {} (sources {})", options_.program(), build_info.version, build_info.source_hash);
   std::optional<std::string> text = options_.parse(argc, argv, version, [&] { return listed(quantities()); });
   const std::vector<Description> described = text ? std::vector<Description>() : quantities();
   if (describe_) text = describe(options_, description_, described);

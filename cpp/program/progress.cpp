@@ -67,7 +67,7 @@ std::string with_error(double mean, double error) {
     return fmt::format("{}e{}", with_error(mean / unit, error / unit), exponent);
   }
   const int decimals = std::max(0, 1 - decimal_exponent(error));
-  std::string digits = fmt::format("{:.{}f}", error, decimals);
+  std::string digits = fmt::format("{:.{}f}", std::stod(fmt::format("{:.1e}", error)), decimals);
   if (error < 1) digits.erase(0, digits.find_first_of("123456789"));
   return fmt::format("{:.{}f}({})", mean, decimals, digits);
 }

@@ -31,7 +31,7 @@ class Progress {
   bool bar_drawn_ = false;
 };
 
-/// "0.3208(45)", "745.0(8.2)": a mean with its standard error, of which two digits are given.
+/// "0.3208(45)", "262.9(3.5)": a mean with two digits of its standard error.
 std::string with_error(double mean, double error);
 
 /// "1 replica", "2 replicas".

@@ -103,16 +103,16 @@ void StudyProgram::prepare() {
   checkpoint_ = {.path = program_.output() + ".checkpoint", .tallies = study_.tallies.tallies()};
   for (const Parameter& each : options().parameters())
     checkpoint_.identity += fmt::format("{} = {}\n", each.name, as_text(each.value));
-  checkpoint_.identity += fmt::format("build_id = {}\n", build_info.build_id);
+  checkpoint_.identity += fmt::format("source_hash = {}\n", build_info.source_hash);
   const bool overwrite = options().given("--overwrite");
   if (std::error_code unknown;
       (resume_ || !overwrite) && std::filesystem::is_regular_file(checkpoint_.path, unknown)) {
     std::optional<FinishedReplicas> saved = checkpoint_.load();
     if (!saved && !overwrite)
-      throw UsageError(fmt::format(
-          "'{}' is of other options or another build. Choose another --output, or discard it with "
-          "--overwrite.",
-          checkpoint_.path));
+      throw UsageError(
+          fmt::format("'{}' is of other options or sources. Choose another --output, or discard it with "
+                      "--overwrite.",
+                      checkpoint_.path));
     if (saved && !resume_)
       throw UsageError(
           fmt::format("'{}' has {} of this run. Continue with --resume, or discard them with --overwrite.",

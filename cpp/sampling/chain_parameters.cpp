@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -9,6 +10,25 @@
 #include "program/errors.hpp"
 
 namespace lorentz {
+
+namespace {
+
+/// Name of an option of a rule on the command line.
+std::string flag(const RuleProperties& rule, const RuleOption& option) {
+  return fmt::format("--{}-{}", rule.name, option.name);
+}
+
+}  // namespace
+
+const RuleProperties& RuleParameters::properties() const { return rule_properties(name); }
+
+RuleChoice RuleParameters::choice() const {
+  const RuleProperties& rule = properties();
+  RuleChoice choice{rule.name};
+  for (const RuleOption& option : rule.options)
+    choice.options.push_back(std::ranges::find(options, flag(rule, option), &Value::option)->value.value());
+  return choice;
+}
 
 double ScatteringParameters::mean_scatterings() const {
   return gamma.value_or(std::numeric_limits<double>::infinity());
@@ -19,16 +39,38 @@ void declare(Options& options, ScatteringParameters& parameters, Range gamma_ran
   options.real("--sigma", parameters.sigma, {-1, 1}, "1", "Mass ratio (M-m)/(M+m)");
   options.real_or_word("--gamma", parameters.gamma, gamma_range, "N", "1",
                        "Mean number of scatterings in N cells; N: every scatterer scatters");
-  declare_rule(options, parameters.rule);
+  declare(options, parameters.rule);
 }
 
-void declare_rule(Options& options, std::string& rule) {
+void declare(Options& options, RuleParameters& parameters) {
   std::vector<std::string> names, descriptions;
   for (const RuleProperties& each : rules::all) {
     names.emplace_back(each.name);
     descriptions.push_back(fmt::format("{}: {}", each.name, each.description));
   }
-  options.choice("--rule", rule, names, fmt::format("Collision. {}", fmt::join(descriptions, "; ")));
+  options.choice("--rule", parameters.name, names,
+                 fmt::format("Collision. {}", fmt::join(descriptions, "; ")));
+  for (const RuleProperties& rule : rules::all)
+    for (const RuleOption& option : rule.options) parameters.options.push_back({flag(rule, option), {}});
+  auto at = parameters.options.begin();
+  for (const RuleProperties& rule : rules::all) {
+    for (const RuleOption& option : rule.options) {
+      auto& [name, value] = *at++;
+      options.real_or_word(name, value, {option.low, option.high}, "none", std::string(option.units),
+                           fmt::format("{}; required by --rule {}", option.description, rule.name));
+    }
+  }
+}
+
+void validate(const RuleParameters& parameters) {
+  for (const auto& [name, value] : parameters.options) {
+    const bool own = name.starts_with(fmt::format("--{}-", parameters.name));
+    if (own && !value)
+      throw UsageError(fmt::format("--rule {}: {} is missing. Give it a number.", parameters.name, name));
+    if (!own && value)
+      throw UsageError(fmt::format("{} has no effect with --rule {}. Leave it out, or choose another --rule.",
+                                   name, parameters.name));
+  }
 }
 
 void require_probability(std::optional<double> gamma, std::uint32_t cells) {
@@ -54,6 +96,11 @@ void require_resolved(double time, double end, const std::string& options) {
                     options, end / time, most));
 }
 
+void validate(const ScatteringParameters& parameters) {
+  require_probability(parameters.gamma, parameters.cells);
+  validate(parameters.rule);
+}
+
 void declare(Options& options, Reservoir& left, Reservoir& right) {
   options.real("--nu-left", left.rate, non_negative, "1/time",
                "Particles injected at the left per unit time");
@@ -71,7 +118,7 @@ ClosedChain ClosedChainParameters::chain() const {
           .cell_length = cell_length,
           .sigma = scattering.sigma,
           .gamma = scattering.mean_scatterings(),
-          .rule = rule_properties(scattering.rule).name};
+          .rule = scattering.rule.choice()};
 }
 
 void declare(Options& options, ClosedChainParameters& parameters) {

@@ -3,20 +3,35 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "model/closed_chain.hpp"
+#include "model/collision_rule.hpp"
 #include "model/reservoir.hpp"
 #include "model/rules/elastic.hpp"
 #include "program/options.hpp"
 
 namespace lorentz {
 
+/// A collision rule, and the options of all rules.
+struct RuleParameters {
+  struct Value {
+    std::string option;           // of the command line
+    std::optional<double> value;  // none: not given
+  };
+  std::string name{Elastic::properties.name};
+  std::vector<Value> options{};
+
+  const RuleProperties& properties() const;
+  RuleChoice choice() const;
+};
+
 /// Parameters that closed and open chains have in common.
 struct ScatteringParameters {
   std::uint32_t cells = 0;
   double sigma = 0.5;             // (M-m)/(M+m)
   std::optional<double> gamma{};  // mean number of scatterings in N cells; none: N, every scatterer scatters
-  std::string rule{Elastic::properties.name};  // of collisions
+  RuleParameters rule{};          // of collisions
 
   double mean_scatterings() const;  // gamma of the model: infinite for N
 };
@@ -24,8 +39,11 @@ struct ScatteringParameters {
 /// Declares --cells, --sigma, --gamma and --rule.
 void declare(Options& options, ScatteringParameters& parameters, Range gamma_range);
 
-/// Declares --rule.
-void declare_rule(Options& options, std::string& rule);
+/// Declares --rule and the options of all rules.
+void declare(Options& options, RuleParameters& parameters);
+
+/// Throws UsageError unless the options of the rule, and of no other rule, are given.
+void validate(const RuleParameters& parameters);
 
 /// Throws UsageError if particles would have to scatter more than once per cell; gamma none: N.
 void require_probability(std::optional<double> gamma, std::uint32_t cells);
@@ -36,6 +54,9 @@ void require_memory(double particles, const std::string& options);
 /// Throws UsageError unless a clock that runs until `end` resolves 1e-4 of a time. `options` determine the
 /// two.
 void require_resolved(double time, double end, const std::string& options);
+
+/// Throws UsageError if options that are valid one by one exclude each other.
+void validate(const ScatteringParameters& parameters);
 
 /// Declares --nu-left, --nu-right, --temperature-left and --temperature-right.
 void declare(Options& options, Reservoir& left, Reservoir& right);

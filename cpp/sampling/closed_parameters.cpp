@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/rules.hpp"
+#include "model/rules/elastic.hpp"
 #include "program/errors.hpp"
 
 namespace lorentz {
 ClosedChain ClosedParameters::chain() const { return ring.chain(); }
 
 bool ClosedParameters::conserves_momentum() const {
-  return rule_properties(ring.scattering.rule).conserves_momentum && ring.scattering.sigma < 1;
+  return ring.scattering.rule.properties().conserves_momentum && ring.scattering.sigma < 1;
 }
 
 StationaryMeasure ClosedParameters::stationary_measure() const {
@@ -54,9 +54,9 @@ void declare(Options& options, ClosedParameters& parameters) {
 }
 
 void validate(const ClosedParameters& parameters) {
+  validate(parameters.ring.scattering);
   const ClosedChain chain = parameters.chain();
-  const RuleProperties& rule = rule_properties(chain.rule);
-  require_probability(parameters.ring.scattering.gamma, chain.cells);
+  const RuleProperties& rule = parameters.ring.scattering.rule.properties();
   if (!parameters.fugacity)
     require_memory(1.0 * chain.cells * chain.particles_per_cell, "--cells, --particles-per-cell");
   else if (rule.invariant == InvariantMeasure::maxwellian)

@@ -27,7 +27,7 @@ std::size_t EquilibriumParameters::intervals(const std::vector<std::size_t>& lag
 void declare(Options& options, EquilibriumParameters& parameters, const std::string& use) {
   options.integer("--cells", parameters.ring.scattering.cells, {1, 100'000'000}, "Number of cells N");
   options.real("--sigma", parameters.ring.scattering.sigma, {-1, 1}, "1", "Mass ratio (M-m)/(M+m)");
-  declare_rule(options, parameters.ring.scattering.rule);
+  declare(options, parameters.ring.scattering.rule);
   options.real("--cell-length", parameters.ring.cell_length, positive, "length",
                "Distance between scatterers");
   options.real("--temperature", parameters.temperature, positive, "temperature", "Temperature");

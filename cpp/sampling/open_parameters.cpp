@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "engine/open_start.hpp"
-#include "model/rules.hpp"
 
 namespace lorentz {
 
@@ -15,7 +14,7 @@ OpenChain OpenParameters::chain() const {
           .gamma = scattering.mean_scatterings(),
           .left = left,
           .right = right,
-          .rule = rule_properties(scattering.rule).name};
+          .rule = scattering.rule.choice()};
 }
 
 PhasePoint OpenParameters::start_point(double age, const StreamKey& key) const {
@@ -44,7 +43,7 @@ void declare(Options& options, StationaryParameters& parameters) {
 }
 
 void validate(const OpenParameters& parameters, double end, const std::string& times) {
-  require_probability(parameters.scattering.gamma, parameters.scattering.cells);
+  validate(parameters.scattering);
   const OpenChain chain = parameters.chain();
   const auto [cold, hot] = std::minmax(chain.left.temperature, chain.right.temperature);
   require_resolved(chain.cell_length / std::sqrt(hot), end, "--cell-length, " + times);

@@ -3,6 +3,6 @@
 namespace lorentz {
 
 /// Replaces the source file that the build generates for each executable.
-const BuildInfo build_info{"0.0.0", "source", "build", "compiler", "flags", "libraries"};
+const BuildInfo build_info{"0.0.0", "source", "compiler", "flags", "libraries"};
 
 }  // namespace lorentz

@@ -9,8 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from tests.python.test_claim_verdicts import COLD, HOT, World, gaussian, rare
-from workflow.lib.plan import Run
+from tests.python.known_results import Truth
+from workflow.plan import Run
+
+COLD, HOT = 900 / 11, 1100 / 9  # temperatures of the baths
+# Exact results: by panel, the true values of the quantities on which the claim depends.
+World = Mapping[str, Truth]
 
 # Expected numbers of a reading: values, or pairs of value and systematic error. Without a pair the systematic error is 0.
 Answer = Sequence[float | tuple[float, float]]
@@ -27,6 +31,16 @@ class Case:
     alternative: Answer = ()
     errors: Mapping[str, float] = field(default_factory=dict)
     quality: str = "paper"
+
+
+def rare(run: Run) -> bool:
+    """Whether the run has gamma = 1, where scattering is rare."""
+    return bool(run.options["gamma"] == 1)
+
+
+def gaussian(temperature: float, factor: float) -> Any:
+    """Gaussian momentum distribution of a temperature, whose integral is `factor`."""
+    return lambda _run, _place, p: factor * np.exp(-(p**2) / 2 / temperature) / np.sqrt(2 * np.pi * temperature)  # fmt: skip
 
 
 CASES: dict[str, Case] = {}

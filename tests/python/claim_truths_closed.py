@@ -2,14 +2,79 @@
 
 import math
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import numpy as np
 
-from tests.python.claim_truths import EXACT, Answer, claim, named
-from tests.python.known_results import plan
-from tests.python.test_claim_verdicts import drop_per_cell, heat_peak, law, linear_response, pulse, rare
-from workflow.lib.plan import Run
+from tests.python.claim_truths import EXACT, Answer, World, claim, named, rare
+from tests.python.known_results import Truth, plan
+from workflow.figures.ext03 import stable_densities
+from workflow.plan import Run
+
+
+def law(run: Run) -> float:
+    """Law of the persistence, arccos(sigma)/pi."""
+    return float(np.arccos(run.options["sigma"]) / np.pi)
+
+
+def drop_per_cell(run: Run) -> float:
+    """Temperature drop per cell, from the left bath to the right one."""
+    return float(run.options["temperature-left"] - run.options["temperature-right"]) / run.options["cells"]
+
+
+def linear_response(kappa_0: Callable[[int], float]) -> Truth:
+    """Currents between baths with a small difference of temperature or pressure. kappa_0: conductivity at J_n = 0 as a function of N.
+    The thinning gas has another coefficient L_un."""
+
+    def current(name: str) -> Callable[[Run], float]:
+        def of_run(run: Run) -> float:
+            o, cells = run.options, run.options["cells"]
+            left, right = ((o[f"temperature-{end}"], o[f"nu-{end}"]) for end in ("left", "right"))
+            heat = 1 / right[0] - 1 / left[0]
+            drift = math.log(left[1] / right[1] * math.sqrt(right[0] / left[0]))
+            nn, un = 3 * cells, 70 * cells * (5 if o["cell-length"] == "1/N" else 1)
+            uu = 1e4 * kappa_0(cells) + un**2 / nn
+            row = (uu, un) if name == "energy_current" else (un, nn)
+            return float((row[0] * heat + row[1] * drift) / cells)
+
+        return of_run
+
+    names = ("energy_current", "particle_current")
+    return {name: current(name) for name in names} | {"current_correlation": 0.0}
+
+
+def pulse(panel: str, **given: Any) -> World:
+    """Pulse of a panel in a ring that has not closed, with the given quantities and defaults for all others."""
+    shape = {
+        "peak": 1,
+        "peak_raw": 1,
+        "peak_position": 10,
+        "energy_difference": lambda _run, _t, x: (x > 1) & (x < x.max() - 1),
+    }
+    return {panel: {**shape, "peak_speed": 300, "odd_part": 0, **given}}
+
+
+def heat_peak(order: float, narrow: float | None = None) -> Callable[..., np.ndarray]:
+    """Heat peak: a stable law about the central cell, about 7 cells wide at t = 256. Earlier peaks have the order `narrow`. The area differs
+    between runs. Runs that are meant for sound have a constant profile."""
+
+    def profile(run: Run, t: np.ndarray, _cell: np.ndarray) -> np.ndarray:
+        if not run.series.startswith("heat"):
+            return np.ones_like(t)
+        area = 0.1 + 0.01 * int(run.name.partition("-")[2])
+        return area * stable_peaks(run.options["times"], run.options["cells"], order, narrow or order)
+
+    return profile
+
+
+@cache
+def stable_peaks(times: str, cells: int, order: float, narrow: float) -> np.ndarray:
+    """Profiles of heat_peak() of unit area [time, cell]."""
+    t, cell = np.meshgrid(np.array(times.split(","), float), np.arange(cells), indexing="ij")
+    width = 0.25 * t**0.6
+    densities = stable_densities().ev(abs(cell - cells // 2) / width, np.where(t < 200, narrow, order))
+    return np.asarray(densities / width)
 
 
 def of_runs(panel: str, value: Callable[[Run], float], chosen: Callable[[Run], bool]) -> list[float]:

@@ -25,7 +25,6 @@ SMALL: dict[str, dict[str, object]] = {
     "steady_profile": OPEN,
     "momentum_flux": OPEN,
     "particle_count": {"cells": 5, "times": "2,5,10", "replicas": 4},
-    "trajectories": {},
     "boltzmann": {},
 }
 

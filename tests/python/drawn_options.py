@@ -4,7 +4,10 @@ import numpy as np
 from hypothesis import strategies as st
 
 LIMITS = [1 - 10.0**-k for k in range(1, 17)]
-RULES = [{"rule": "random-direction"}]  # rules other than the default
+RULES = [
+    {"rule": "random-direction"},
+    {"rule": "reversal", "reversal-probability": 0.1},
+]  # rules other than the default
 SIGMAS = st.sampled_from([0.0, 1.0, -1.0, 5e-324, *LIMITS, *(-x for x in LIMITS)]) | st.floats(-1, 1)
 # log10 of the number of flights: runs that end soon, and runs that no machine could finish.
 FLIGHTS = st.floats(-3, 2) | st.floats(-300, -20) | st.floats(16, 300)
@@ -134,13 +137,6 @@ def counted(draw: st.DrawFn) -> dict[str, object]:
 
 
 @st.composite
-def pictured(draw: st.DrawFn) -> dict[str, object]:
-    options = draw(closed() | opened())
-    options.pop("start", None)
-    return options | {"chain": "open" if "nu-left" in options else "closed"}
-
-
-@st.composite
 def kinetic(draw: st.DrawFn) -> dict[str, object]:
     temperature = draw(st.floats(-292, 292))
     rate = draw(st.floats(-100, 99))
@@ -172,6 +168,5 @@ PROGRAMS = {
     "momentum_flux": binned(),
     "conductivity": opened(),
     "particle_count": counted(),
-    "trajectories": pictured(),
     "boltzmann": kinetic(),
 }

@@ -12,7 +12,7 @@ import numpy as np
 from tests.python.conftest import ROOT
 from workflow.claims.data import Data, MissingError
 from workflow.lib.load import Quantity, Result
-from workflow.lib.plan import Panel, Run, data_path, load_plan
+from workflow.plan import Panel, Run, data_path, load_plan
 
 # Quantities on which claims depend, by program, with their axes (docs/format.md).
 QUANTITIES: dict[str, dict[str, tuple[str, ...]]] = {

@@ -3,20 +3,20 @@
 import re
 import string
 from collections.abc import Sequence
-from typing import Any
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from tests.python.claim_truths_closed import drop_per_cell, linear_response
 from tests.python.conftest import ROOT
 from tests.python.known_results import QUANTITIES, Known, truth, uneven
-from tests.python.test_claim_verdicts import drop_per_cell, linear_response
 from workflow.claims.growth import saturation
 from workflow.claims.judge import Judgement, judge_all, read_claims
 from workflow.claims.verdict import Band, Number, Outcome, Reading
-from workflow.lib.configuration import ConfigurationError
+from workflow.configuration import ConfigurationError
 from workflow.lib.load import Quantity
-from workflow.lib.plan import QUALITIES, Run, load_plan
+from workflow.plan import Run, load_plan
 from workflow.report import numbers
 from workflow.report.questions import FILE, VERDICTS, answers, read_questions
 
@@ -46,63 +46,26 @@ def test_questions_name_claims_panels_and_numbers() -> None:
             assert all(callable(getattr(numbers, name)) for name in names - {"number", "label", "quality"})
 
 
-def front_rows() -> list[str]:
-    """Rows of the table in README.md, without links."""
-    table = (ROOT / "README.md").read_text("utf-8").split("<!-- questions, by make gallery -->")[1]
-    rows = re.findall(r"^\| .*\?.* \|$", table.partition("<!-- end")[0], re.MULTILINE)
-    return [re.sub(r" \(\[.*?\)\) \|$|<[^>]*>", "", row) for row in rows]
-
-
-def test_a_row_has_at_most_40_words_and_three_measured_values() -> None:
-    rows = front_rows()
-    assert len(rows) == len(read_questions())
-    for row in rows:
-        assert len([word for word in row.split() if re.search(r"\w", word)]) <= 40, row
-        assert len(re.findall(r"\d\([\d.]+\)", row)) <= 3, row
-
-
-def test_every_contradicted_claim_has_a_row() -> None:
-    gallery = (ROOT / "docs/gallery/README.md").read_text("utf-8")
-    contradicted = re.findall(r"^\| \[(C\d+)\].*✗ contradicted \|$", gallery, re.MULTILINE)
-    assert {*contradicted} <= {question["claim"] for question in read_questions()}
-    assert contradicted
-
-
-@pytest.mark.parametrize("verdict", VERDICTS)
-def test_a_missing_sentence_is_an_error(tmp_path: Any, verdict: str) -> None:
+def test_a_missing_sentence_is_an_error(tmp_path: Path) -> None:
     text = (FOLDER / FILE).read_text()
-    (tmp_path / FILE).write_text(re.sub(f"^  {verdict}:", "  unused:", text, count=1, flags=re.MULTILINE))
-    with pytest.raises(
-        ConfigurationError,
-        match=f"'Is heat transport superdiffusive at fixed density.' has no sentence for {verdict}: add it",
-    ):
+    (tmp_path / FILE).write_text(text.replace("  reproduced:", "  unused:", 1))
+    with pytest.raises(ConfigurationError, match="no sentence for reproduced"):
         read_questions(tmp_path)
 
 
-@pytest.mark.parametrize(
-    ("verdict", "begin"),
-    [
-        ("reproduced", "Yes: the exponent is 0.5000(10)."),
-        ("contradicted", "No: the exponent is 0.5000(10)."),
-        ("undecided at this precision", "Undecided at quality paper (found: 0.5000(10))."),
-        ("not testable", "Not measured at quality paper."),
-    ],
-)
-def test_the_verdict_selects_the_sentence(verdict: str, begin: str) -> None:
+@pytest.mark.parametrize("verdict", VERDICTS)
+def test_the_verdict_selects_the_sentence_and_the_number_is_that_of_the_reading(verdict: str) -> None:
+    """A number without results has the reason instead."""
     rows = answers(judgements(verdict), Known({}))
-    linear, cube_root = (
-        next(row for row in rows if row["claim"] == claim and row["panels"][0] == "fig08")
-        for claim in ("C23", "C24")
-    )
-    assert (linear["outcome"], linear["answer"], linear["summary"]) == (verdict, begin, "")
+    for row in rows:
+        assert row["outcome"] == (verdict if "number" not in row else "not testable")
+        assert ("0.5000(10)" in row["answer"]) == ("{number}" in row[row["outcome"]])
     if verdict == "contradicted":
-        assert "not measured (data/paper/fig08/" in cube_root["answer"]
-    if verdict in ("undecided at this precision", "not testable"):
-        assert cube_root["summary"] == f"{cube_root['question']} {cube_root['answer']}"
+        assert any("not measured (data/paper/fig08/" in row["answer"] for row in rows)
 
 
-def heat(exponent: float, error: float, monkeypatch: pytest.MonkeyPatch) -> str:
-    """Answer on heat transport if the longest ring has this exponent in its last octave and 0.01 more before. Others have another one."""
+def heat(exponent: float, error: float, monkeypatch: pytest.MonkeyPatch) -> tuple[str, str]:
+    """Verdict and answer on heat transport if the longest ring has this exponent in its last octave and 0.01 more before. Others have another one."""
     monkeypatch.setitem(
         QUANTITIES, "heat_current", {"heat_variance": ("time",), "local_exponent": ("middle",)}
     )
@@ -117,23 +80,23 @@ def heat(exponent: float, error: float, monkeypatch: pytest.MonkeyPatch) -> str:
         return np.select([middle == middle[-1], middle == middle[-2]], [decisive, decisive + 0.01], 0.7)
 
     world = {"ext13": truth({"heat_variance": 1, "local_exponent": local_exponent}, error)}
-    return str(answers(judgements("reproduced"), Known(world))[0]["answer"])
+    row = answers(judgements("reproduced"), Known(world))[0]
+    return row["outcome"], row["answer"]
 
 
 def test_heat_transport_is_superdiffusive_if_the_longest_times_show_it(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    yes = heat(4 / 3, 0.01, monkeypatch)
-    assert yes.startswith("Yes: ")
-    assert "β = 1.333(13) ± 0.01 syst at the longest times, at least 0.7000(70) in every gas" in yes
-    assert "Without conserved momentum (random directions), β tends to 1, diffusion: 1.000(10)." in yes
-    assert heat(0.9, 0.01, monkeypatch).startswith("No: ")
-    assert heat(4 / 3, 0.1, monkeypatch).startswith("Undecided at quality paper")
+    outcome, answer = heat(4 / 3, 0.01, monkeypatch)
+    assert outcome == "reproduced"
+    assert re.findall(r"\d\.\d+\(\d+\)", answer) == ["1.333(13)", "0.7000(70)", "1.000(10)"]
+    assert heat(0.9, 0.01, monkeypatch)[0] == "contradicted"
+    assert heat(4 / 3, 0.1, monkeypatch)[0] == "undecided at this precision"
 
 
 # The results are arbitrary, some conductivities negative.
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
-@pytest.mark.parametrize("quality", QUALITIES)
+@pytest.mark.parametrize("quality", ["smoke", "deep"])
 def test_every_quality_has_answers(quality: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """The report can be written if a quality omits series. Detected mistake: a number requires the dilute chains of ext09."""
 

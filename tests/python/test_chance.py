@@ -22,6 +22,7 @@ class Chain:
     sigma: float = 0.5
     gamma: float | str = "N"
     rule: str = "elastic"
+    reversal_probability: float | str = "none"
     cells: int = 6
     particles_per_cell: int = 1
     temperature: float = 500
@@ -52,6 +53,11 @@ def reference(chain: Chain) -> dict[str, np.ndarray]:
     gamma = chain.cells if chain.gamma == "N" else chain.gamma
     times = chain.observation_time * 10 ** np.arange(-DECADES, 0.01, EVERY / POINTS_PER_DECADE)
     options = asdict(chain) | {"gamma": gamma, "times": ",".join(map(str, times)), "seed": 1}
+    reversal = {"random-direction": (0.5, 0), "elastic": (0, 0)}
+    rule, probability = options.pop("rule"), options.pop("reversal_probability")
+    options |= dict(
+        zip(("particle_reversal", "scatterer_reversal"), reversal.get(rule, (0, probability)), strict=True)
+    )
     bins = {"first_edge": waiting_time_edges(chain)[0], "bins_per_decade": BINS_PER_DECADE, "bins": BINS}
     rows = simulate("closed_chain", **options, **bins)[0].astype(float)
     moments, scatterings, persistent, waits = np.split(rows, 4 * len(times) + np.arange(3), axis=1)
@@ -121,6 +127,7 @@ def agree(z: dict[str, np.ndarray]) -> bool:
 CHAINS = [
     *(Chain(sigma, gamma) for gamma in ("N", 3, 1, 0.3) for sigma in (0.5, -0.4)),
     *(Chain(sigma, gamma, rule="random-direction") for gamma in ("N", 1) for sigma in (0.5, -0.4)),
+    *(Chain(sigma, gamma, "reversal", 0.3) for gamma in ("N", 1) for sigma in (0.5, -0.4)),
     # The paper's chain.
     Chain(
         rule="random-direction",
@@ -139,11 +146,16 @@ def test_closed_chain_against_the_reference_simulator(measure: Measure, chain: C
     assert agree(z), z
 
 
-@pytest.mark.parametrize("chain", [Chain(gamma=1), Chain(gamma=1, rule="random-direction")], ids=str)
+REVERSAL = Chain(gamma=1, rule="reversal", reversal_probability=0.3)
+
+
+@pytest.mark.parametrize(
+    "chain", [Chain(gamma=1), Chain(gamma=1, rule="random-direction"), REVERSAL], ids=str
+)
 def test_another_chain_does_not_agree(measure: Measure, chain: Chain) -> None:
     measurements = measured(measure, chain)
     assert agree(scores(measurements, chain))
-    another_rule = "random-direction" if chain.rule == "elastic" else "elastic"
     for mutant in ({"sigma": 0.44}, {"gamma": 1.1}, {"temperature": 450}, {"relaxation_time": 1}):
         assert not agree(scores(measurements, replace(chain, **mutant))), mutant
-    assert not agree(scores(measurements, replace(chain, rule=another_rule)))
+    another_rule = replace(REVERSAL, rule="elastic") if chain == REVERSAL else REVERSAL
+    assert not agree(scores(measurements, another_rule))

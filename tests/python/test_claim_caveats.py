@@ -1,4 +1,4 @@
-"""Labels and caveats of claims, and claims for which there are too few results."""
+"""Numbers in the labels and caveats of claims, and claims for which there are too few results."""
 
 import math
 from dataclasses import replace
@@ -9,11 +9,10 @@ import pytest
 from tests.python.claim_truths import CASES, finite
 from tests.python.known_results import Fill, Known, quantity, truth, uneven
 from tests.python.test_claim_numbers import data
-from tests.python.test_claim_verdicts import damped, kappas
 from workflow.claims.data import MissingError
 from workflow.claims.judge import FUNCTIONS
 from workflow.lib.load import Quantity
-from workflow.lib.plan import Run
+from workflow.plan import Run
 
 
 def caveat(name: str) -> str:
@@ -79,17 +78,6 @@ def test_what_another_shape_misses_is_a_systematic_error() -> None:
     assert evidence.literal[0].systematic == pytest.approx(5e-5, rel=0.3)
 
 
-def test_labels_state_what_differs() -> None:
-    labels = [number.label for number in FUNCTIONS["C18"](data(CASES["C18"])).alternative]
-    assert {label.rpartition(", n = ")[2] for label in labels} == {
-        "20, t_r = 10",
-        "20, t_r = 1000",
-        "80, t_r = 10",
-    }
-    halves = [number.label.partition("1/N, ")[2] for number in FUNCTIONS["C24"](data(CASES["C24"])).literal]
-    assert halves == ["N = 16 to 256", "N = 256 to 2048"]  # the middle size in both
-
-
 def test_a_decade_from_1_on_counts_though_rounding_puts_it_below() -> None:
     def fill(run: Run) -> dict[str, Quantity]:
         slope = uneven(run)["decade_slope"]
@@ -133,41 +121,8 @@ def test_what_is_missing_is_stated() -> None:
     with pytest.raises(MissingError, match="ext11"):
         FUNCTIONS["C24"](Known(data(CASES["C24"]).fills | {"ext11": truth(one_size, 0.01)}))
     with pytest.raises(MissingError):
-        FUNCTIONS["C24"](Known({"fig08": truth(dict(kappas(1, 1)["fig08"]) | {"stationary": 0}, 0.1)}))
+        FUNCTIONS["C24"](Known({"fig08": truth(dict(CASES["C24"].world["fig08"]) | {"stationary": 0}, 0.1)}))
     with pytest.raises(MissingError, match="too few times"):
         FUNCTIONS["C26"](Known({"fig09b": with_peaks("peak_position", slice(2)), "ext14": uneven}))
     with pytest.raises(MissingError, match="too few times"):
         FUNCTIONS["C35"](Known({"fig09a": with_peaks("peak_speed", slice(1)), "ext14": uneven}))
-
-
-@pytest.mark.parametrize(
-    ("drift", "begin"),
-    [
-        (0.02, "A power of t describes"),
-        (-0.05, "No power of t describes"),
-        (math.nan, "A power of t describes"),
-    ],
-)
-def test_whether_a_power_describes_the_height_is_stated(drift: float, begin: str) -> None:
-    def stated(**given: float) -> str:
-        rest = truth(damped("fig09b", 1)["fig09b"] | given, 0.001)
-
-        def fill(run: Run) -> dict[str, Quantity]:
-            change = quantity(run, "damping_drift", np.array(drift), np.array(0.01))
-            return {**rest(run), "damping_drift": change}
-
-        return FUNCTIONS["C28"](Known({"fig09b": fill})).caveat
-
-    assert stated().startswith(f"{begin} the height from the Gaussian start: its exponent ")
-    assert ("over too few octaves" in stated()) == math.isnan(drift)
-    assert "as the ring has closed" in stated(energy_difference=1)
-
-
-@pytest.mark.parametrize("known", [0, 1, 2, 5])
-def test_speeds_that_are_stated(known: int) -> None:
-    """The caveat states the speeds at the first and at the last time with a moving peak."""
-    results = Known({"fig09a": with_peaks("peak_speed", slice(2, 2 + known))})
-    middle = results.one("fig09a", "rest")["peak_speed"].axes["middle"]
-    ends = [f"{500 - k}.00(10) at t = {middle[2 + k]:.3g}" for k in (0, known - 1)]
-    expected = f"Speed of the peaks: {', '.join(ends)}." if known else "No moving peak was found."
-    assert FUNCTIONS["C25"](results).caveat == expected

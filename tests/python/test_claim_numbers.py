@@ -2,7 +2,7 @@
 
 Exact results give the known numbers and systematic errors. Noisy results, drawn TRIALS times with the standard errors that they
 state, give numbers that scatter about them as their own errors predict: chi-square over the trials and their mean, both at the
-p-value LEVEL. An error wrong by a factor of 1.5 is found in at least 95 of 100 numbers, by a factor of two in all.
+p-value LEVEL. An error that is wrong by a factor of two is found in all numbers.
 """
 
 from dataclasses import replace
@@ -11,15 +11,15 @@ import numpy as np
 import pytest
 from scipy.stats import chi2, norm
 
-import tests.python.claim_truths_closed  # noqa: F401  # adds its cases
 from tests.python.claim_truths import CASES, Case
+from tests.python.claim_truths_closed import sound
 from tests.python.known_results import Known, truth
+from workflow.claims import pulse
 from workflow.claims.judge import FUNCTIONS
-from workflow.claims.pulse import heat_peak
 from workflow.claims.verdict import Number
 from workflow.lib.load import Quantity
 
-TRIALS, LEVEL = 200, 1e-5
+TRIALS, LEVEL = 100, 1e-5
 READINGS = ("literal", "intended", "alternative")
 # Numbers whose errors are upper bounds: part of the label, and largest factor by which the error may be too large.
 BOUNDS = {"Kolmogorov's distance": 1.5, "1 - |deviation at p": 1.1}
@@ -59,25 +59,37 @@ def test_exact_results_give_the_known_numbers(name: str) -> None:
 def outside(z: np.ndarray, freedom: np.ndarray, widest: np.ndarray) -> np.ndarray:
     """Whether the scores [trial, number] contradict Student's t with these degrees of freedom, by their variance or by their mean.
     widest: largest factor by which an error may be too large."""
-    total, stretch = np.sum(z**2, axis=0), freedom / (freedom - 2)
-    low, high = chi2.ppf(LEVEL, TRIALS) / widest**2, chi2.isf(LEVEL, TRIALS) * stretch
+    trials, total, stretch = len(z), np.sum(z**2, axis=0), freedom / (freedom - 2)
+    low, high = chi2.ppf(LEVEL, trials) / widest**2, chi2.isf(LEVEL, trials) * stretch
     return (
-        (total < low) | (total > high) | (abs(z.mean(axis=0)) * TRIALS**0.5 > norm.isf(LEVEL / 2) * stretch)
+        (total < low) | (total > high) | (abs(z.mean(axis=0)) * trials**0.5 > norm.isf(LEVEL / 2) * stretch)
     )
 
 
 def test_the_order_of_the_heat_peak_scatters_as_its_error_predicts() -> None:
-    """The peak is tested alone, as most of the error in C30 is that of the conductivity."""
+    """The error is the spread over eight runs."""
     case, random = CASES["C30"], np.random.default_rng(6)
-    draws = [heat_peak(data(case, random))[0] for _ in range(TRIALS)]
-    z = np.array([[(one.value - 1.7) / one.error] for one in draws])
+    orders = [pulse.heat_peak(data(case, random))[0] for _ in range(TRIALS // 2)]
+    z = np.array([[(one.value - 1.7) / one.error] for one in orders])
     assert not outside(z, np.array([7.0]), np.ones(1)).any()
     assert outside(2 * z, np.array([7.0]), np.ones(1)).all()
 
 
+def cheaper(name: str, monkeypatch: pytest.MonkeyPatch) -> Case:
+    """A claim in its world. In C30 the order of the heat peak, which is tested above, is exact and is not fitted again."""
+    case = CASES[name]
+    if name != "C30":
+        return case
+    order, sentence = pulse.heat_peak(data(case))
+    monkeypatch.setattr(pulse, "heat_peak", lambda _: (replace(order, error=0.0), sentence))
+    return replace(case, world=case.world | {"ext03": sound})
+
+
 @pytest.mark.parametrize("name", CASES)
-def test_noisy_results_scatter_about_them_as_the_errors_predict(name: str) -> None:
-    case, random = CASES[name], np.random.default_rng(5)
+def test_noisy_results_scatter_about_them_as_the_errors_predict(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    case, random = cheaper(name, monkeypatch), np.random.default_rng(5)
     draws = [numbers(name, data(case, random)) for _ in range(TRIALS)]
     known = answers(case)[:, 0]
     measured = [k for k, label in enumerate(draws[0]) if label.error]
@@ -88,15 +100,11 @@ def test_noisy_results_scatter_about_them_as_the_errors_predict(name: str) -> No
     z = (trials[..., 0] - known[measured]) / trials[..., 1]
     labels = [draws[0][k].label for k in measured]
     freedom = np.array([min(draws[0][k].freedom, 1e6) for k in measured])
-    freedom[["heat peak" in label for label in labels]] = (
-        31  # degrees of freedom of κ_0, which has most of the error
-    )
     widest = np.array([next((w for text, w in BOUNDS.items() if text in label), 1) for label in labels])
     wrong = outside(z, freedom, widest)
     assert not wrong.any(), [labels[k] for k in np.flatnonzero(wrong)]
-    for factor, power in ((1.5, 0.95), (2, 1)):
-        assert np.mean(outside(z * factor, freedom, np.ones(1))) >= power
-        assert np.mean(outside(z / factor / widest, freedom, np.ones(1))) >= power
+    assert outside(z * 2, freedom, np.ones(1)).all()
+    assert outside(z / 2 / widest, freedom, np.ones(1)).all()
 
 
 def changed(known: Known, path: str) -> Known:
@@ -116,9 +124,11 @@ def changed(known: Known, path: str) -> Known:
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_degrees_of_freedom_are_those_of_the_run_with_the_fewest_replicas(name: str) -> None:
+def test_degrees_of_freedom_are_those_of_the_run_with_the_fewest_replicas(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A number depends on those runs whose change changes it. Exception: the heat peak, whose error is the spread over eight runs."""
-    known = data(CASES[name])
+    known = data(cheaper(name, monkeypatch))
     plain = numbers(name, known)
     fewest = np.full(len(plain), np.inf)
     for path in list(known.used):

@@ -13,6 +13,7 @@ UNEQUAL = {"nu_left": 30, "nu_right": 10, "temperature_left": 100, "temperature_
 EQUAL = {"nu_left": 200, "nu_right": 200, "temperature_left": 100, "temperature_right": 100}
 SAME_PRESSURE = {"nu_left": 200, "nu_right": 100, "temperature_left": 50, "temperature_right": 200}
 RANDOM = {"rule": "random-direction"}
+REVERSAL = {"rule": "reversal", "reversal_probability": 0.1}
 
 
 def score(quantity: Quantity, expected: float | np.ndarray) -> float:
@@ -21,13 +22,17 @@ def score(quantity: Quantity, expected: float | np.ndarray) -> float:
 
 
 @pytest.mark.parametrize(("cells", "gamma"), [(1, "N"), (5, "N"), (5, 2), (12, 3)])
-def test_currents_of_independent_walkers(measure: Measure, cells: int, gamma: float | str) -> None:
-    """Scatterers without mass keep the speed. A scatterer reflects with the probability r = q/2, and a row of N transmits
-    1/(1 + N r/(1 - r)). Slow particles, which are still inside, carry little energy. Detected mistake:
-    the chain has three more scatterers."""
-    chain = {"cells": cells, "gamma": gamma, "sigma": -1, "relaxation_time": 50, "observation_time": 400}
-    result = measure("conductivity", **chain, **UNEQUAL, **RANDOM, replicas=200)
-    reflected = 0.5 if gamma == "N" else float(gamma) / cells / 2
+@pytest.mark.parametrize("walker", [(RANDOM | {"sigma": -1}, 0.5), (REVERSAL | {"sigma": 0}, 0.1)])
+def test_currents_of_independent_walkers(
+    measure: Measure, walker: tuple[dict[str, object], float], cells: int, gamma: float | str
+) -> None:
+    """Scatterers without mass keep the speed of a particle; those of equal mass keep a momentum until the next collision. So momenta
+    walk: a scatterer reflects with the probability r = q/2, or q times that of the reversal, and a row of N transmits 1/(1 + N r/(1 - r)).
+    Slow particles, which are still inside, carry little energy. Detected mistake: the chain has three more scatterers."""
+    rule, reflection = walker
+    chain = {"cells": cells, "gamma": gamma, "relaxation_time": 50, "observation_time": 400}
+    result = measure("conductivity", **chain, **UNEQUAL, **rule, replicas=200)
+    reflected = reflection * (1 if gamma == "N" else float(gamma) / cells)
 
     def current(scatterers: int) -> float:
         injected = (30 * 100 - 10 * 400) / 2
@@ -38,14 +43,31 @@ def test_currents_of_independent_walkers(measure: Measure, cells: int, gamma: fl
     assert score(result["energy_current"], current(cells + 3)) > 6
 
 
+@pytest.mark.parametrize("gamma", ["N", 2])
+@pytest.mark.parametrize(
+    ("name", "quantity"),
+    [("displacement", "variance_plain"), ("energy_pulse", "energy_difference"), ("momentum_flux", "flux")],
+)
+def test_without_reversal_the_rule_is_elastic(
+    measure: Measure, name: str, quantity: str, gamma: float | str
+) -> None:
+    """Bit for bit. Detected mistake: one reversal in a hundred collisions."""
+    elastic = measure(name, (0, 4), gamma=gamma)[quantity].mean
+    never, seldom = (
+        measure(name, (0, 4), gamma=gamma, rule="reversal", reversal_probability=p)[quantity].mean
+        for p in (0, 0.01)
+    )
+    assert np.array_equal(elastic, never)
+    assert not np.array_equal(elastic, seldom)
+
+
 @pytest.mark.parametrize("gamma", ["N", 3])
-def test_equilibrium_with_random_directions(measure: Measure, gamma: float | str) -> None:
+@pytest.mark.parametrize("rule", [RANDOM, REVERSAL])
+def test_equilibrium_of_every_rule(measure: Measure, rule: dict[str, object], gamma: float | str) -> None:
     """Temperatures of scatterers and particles are those of the baths, and no current flows [eq. 8]. Detected mistake: temperatures
     that are 2 % too high."""
     times = {"relaxation_time": 20, "observation_time": 100}
-    result = measure(
-        "steady_profile", cells=8, gamma=gamma, sigma=0.3, **times, **EQUAL, **RANDOM, replicas=64
-    )
+    result = measure("steady_profile", cells=8, gamma=gamma, sigma=0.3, **times, **EQUAL, **rule, replicas=64)
     for name in ("temperature_scatterer", "temperature_particle"):
         assert score(result[name], 100) < 4, name
         assert score(result[name], 102) > 6, name
@@ -76,7 +98,16 @@ def test_every_program_has_rules(program: Program) -> None:
         refused = program(name, rule="inelastic")
         assert refused.returncode == 2
         assert "--rule" in refused.stderr
-        assert "elastic, random-direction" in refused.stderr
+        assert "elastic, random-direction, reversal" in refused.stderr
+        for wrong in (
+            {"rule": "reversal"},
+            {"reversal_probability": 0.1},
+            {"rule": "reversal", "reversal_probability": 1.5},
+        ):
+            refused = program(name, **wrong)
+            assert refused.returncode == 2
+            assert refused.stderr.count("\n") == 1
+            assert "--reversal-probability" in refused.stderr
 
 
 @pytest.mark.parametrize(

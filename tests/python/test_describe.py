@@ -3,18 +3,18 @@
 import pytest
 from jsonschema import Draft202012Validator
 
-from workflow.lib.described import described, options, with_option
+from workflow.lib.described import declared, described, with_option
 
 
 @pytest.mark.parametrize("program", described())
 def test_the_schema_of_every_option_is_valid_and_accepts_the_default(program: str) -> None:
-    declared = described()[program]
-    assert declared["program"] == program
-    Draft202012Validator.check_schema(declared["options"])
-    defaults = {name: schema["default"] for name, schema in declared["options"]["properties"].items()}
-    assert Draft202012Validator(declared["options"]).is_valid(defaults)
-    assert not Draft202012Validator(declared["options"]).is_valid({"other": 1})
-    assert all(schema["allowed"] for schema in declared["options"]["properties"].values())
+    stated = described()[program]
+    assert stated["program"] == program
+    Draft202012Validator.check_schema(stated["options"])
+    defaults = {name: schema["default"] for name, schema in stated["options"]["properties"].items()}
+    assert Draft202012Validator(stated["options"]).is_valid(defaults)
+    assert not Draft202012Validator(stated["options"]).is_valid({"other": 1})
+    assert all(schema["allowed"] for schema in stated["options"]["properties"].values())
 
 
 @pytest.mark.parametrize(
@@ -32,12 +32,12 @@ def test_the_schema_of_every_option_is_valid_and_accepts_the_default(program: st
     ],
 )
 def test_values_of_an_option(program: str, name: str, accepted: list[object], refused: list[object]) -> None:
-    validator = Draft202012Validator(options()[program][name])
+    validator = Draft202012Validator(declared()[program][name])
     assert [value for value in accepted if not validator.is_valid(value)] == []
     assert [value for value in refused if validator.is_valid(value)] == []
 
 
 def test_options_that_determine_no_result_are_left_out() -> None:
     assert "threads" in described()["ageing"]["options"]["properties"]
-    assert "threads" not in options()["ageing"]
-    assert set(described()) - set(with_option("replicas")) == {"boltzmann", "trajectories"}
+    assert "threads" not in declared()["ageing"]
+    assert set(described()) - set(with_option("replicas")) == {"boltzmann"}

@@ -5,7 +5,7 @@ import numpy as np
 from tests.python.known_results import Known, axes, quantity, uneven
 from workflow.figures.ext14 import draw
 from workflow.lib.load import Quantity
-from workflow.lib.plan import Run
+from workflow.plan import Run
 
 
 def test_laws_are_horizontal_and_the_runs_are_those_of_one_start() -> None:

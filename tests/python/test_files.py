@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from workflow.lib.citation import CITATION, citation
-from workflow.lib.configuration import ConfigurationError
-from workflow.lib.files import in_one_line, write_together
+from workflow.configuration import ConfigurationError
+from workflow.files import in_one_line, write_together
+from workflow.report.citation import CITATION, citation
 
 
 def test_a_failure_leaves_the_previous_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
+from tests.python.claim_truths_closed import heat_peak as stable_peak
 from tests.python.claim_truths_closed import of_peaks
 from tests.python.known_results import Known, truth
-from tests.python.test_claim_verdicts import heat_peak as stable_peak
 from workflow.claims.data import MissingError
 from workflow.claims.pulse import heat_peak
-from workflow.figures.ext03 import stable_densities
 from workflow.lib.mode_coupling import levy
-from workflow.lib.plan import Run
+from workflow.lib.peaks import stable_densities
+from workflow.plan import Run
 
 
 @pytest.mark.parametrize("order", [1, 1.234, 5 / 3, 2, 2.51, 3])

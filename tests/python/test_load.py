@@ -9,17 +9,18 @@ import h5py
 import numpy as np
 import pytest
 
+from workflow.identity import result_identity
 from workflow.lib.load import (
     FORMAT,
     FORMAT_VERSION,
     FormatError,
     Quantity,
     load,
-    load_provenance,
     load_statements,
     results_digest,
 )
 
+BUILT = {"program": "ageing", "words": "--cells 4 --sigma 0.5", "source_hash": "0123"}
 TIME, CELL = np.array([1.0, 2.0, 4.0]), np.array([0.5, 1.5, 2.5])
 MEAN = np.arange(9.0).reshape(3, 3)  # square, so that lengths do not identify the dimensions
 
@@ -28,7 +29,8 @@ def write(path: Path, axes: Mapping[str, np.ndarray], values: Mapping[str, np.nd
     """A file with one quantity, `energy`, whose dimensions are the axes in their order."""
     with h5py.File(path, "w") as file:
         file.create_group("parameters")
-        file.create_group("provenance").attrs.update({"format": FORMAT, "format_version": FORMAT_VERSION})
+        stated = {"format": FORMAT, "format_version": FORMAT_VERSION, **BUILT}
+        file.create_group("provenance").attrs.update(stated)
         group = file.create_group("results/energy")
         for name, array in {**axes, **values}.items():
             group[name] = array
@@ -137,7 +139,7 @@ def attribute(name: str, value: object) -> Callable[[Path], object]:
 )
 def test_what_is_no_result(path: Path, change: Callable[[Path], object], words: str) -> None:
     change(path)
-    for read in (load, load_provenance, load_statements):
+    for read in (load, load_statements):
         with pytest.raises(FormatError) as error:
             read(path)
         assert str(error.value).startswith(f"{path}{words}")
@@ -168,3 +170,14 @@ def test_the_digest_of_results_by_hand_and_of_any_change(path: Path) -> None:
         FormatError, match="edited or damaged: its values differ from those written; remove it"
     ):
         load(path)
+
+
+@pytest.mark.parametrize("name", BUILT)
+def test_a_name_of_another_result_is_refused(path: Path, name: str) -> None:
+    """Detected mistakes: another program, option or source; any name without an identity is accepted."""
+    right = path.rename(path.with_name(f"all.{result_identity(*BUILT.values())}.h5"))
+    assert load(right).path == right
+    attribute(name, "other")(right)
+    with pytest.raises(FormatError, match="its content is that of another result"):
+        load(right)
+    assert load(right.rename(path)).path == path

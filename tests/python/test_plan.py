@@ -1,15 +1,18 @@
 """The expansion of the configuration to runs: names, seeds, options, and effort by quality."""
 
 import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.lib import plan
-from workflow.lib.configuration import EFFORT, FOLDER, ConfigurationError
-from workflow.lib.identity import identity
-from workflow.lib.plan import BATCH, QUALITIES, Quality, Run, data_path, load_plan
+from workflow import plan
+from workflow.configuration import EFFORT, FOLDER, ConfigurationError
+from workflow.lib.load import load
+from workflow.plan import BATCH, QUALITIES, Quality, Run, data_path, load_plan
+from workflow.polynomial import evaluated
+from workflow.program import command_line
 
 
 @pytest.fixture
@@ -53,18 +56,52 @@ def test_seeds_stay_as_they_are() -> None:
     assert changed.options == run.options | {"replicas": 5, "seed": 3127557821}
 
 
-def test_replicas_of_the_user_replace_a_target_error() -> None:
-    options = {"replicas": 32, "target-error": 0.1, "target-absolute": 0.1, "sigma": 0}
-    completed = Quality.of("smoke_replicas=5").complete("fig05", "paper", options)
-    assert {key: completed[key] for key in completed if key != "seed"} == {"replicas": 5, "sigma": 0}
+def test_the_effort_of_the_user_replaces_that_of_the_quality() -> None:
+    for given in ({"replicas": 32}, {"error": 0.1}):
+        completed = Quality.of("smoke_replicas=5").complete("fig05", "paper", given | {"sigma": 0}, None)
+        assert {key: completed[key] for key in completed if key != "seed"} == {"replicas": 5, "sigma": 0}
     assert Quality.of("smoke_seed=7_replicas=5").arguments == "QUALITY=smoke SEED=7 REPLICAS=5"
+    quality = Quality.of("smoke_seed=7_error=0.005")
+    assert quality.arguments == "QUALITY=smoke SEED=7 ERROR=0.005"
+    completed = quality.complete("fig05", "paper", {"replicas": 500, "sigma": 0}, None)
+    assert completed["target-error"] == 0.005
+    assert completed["replicas"] == BATCH
 
 
-def test_a_series_without_replicas_is_left_out(folder: Path) -> None:
-    edit(folder / "quality/smoke.yaml", "    dense: {replicas: 2}", "    dense: {replicas: 0}")
-    names = [run.name for run in load_plan("smoke", folder)["fig05"].runs]
-    assert names
-    assert all(name.startswith("paper") for name in names)
+def test_a_target_that_can_be_zero_has_a_scale() -> None:
+    assert Quality.of("smoke_error=0.005").complete("a", "b", {}, 200)["target-scale"] == 200
+    runs = load_plan("smoke_error=0.01")["ext13"].runs
+    assert [run.name for run in runs if "target-scale" in run.options] == ["random"]
+
+
+EFFORT_OF_FIG05 = "  fig05: {replicas: 8, dense: {replicas: 2}}"
+
+
+@pytest.mark.parametrize(
+    ("effort", "replicas", "errors"),
+    [
+        ("", {4}, set()),
+        ("  fig05: {replicas: 8}", {8}, set()),
+        ("  fig05: {replicas: 8, dense: {replicas: 2}}", {8, 2}, set()),
+        ("  fig05: {error: 0.1}", {BATCH}, {0.1}),
+        ("  fig05: {error: 0.1, dense: {replicas: 2}}", {BATCH, 2}, {0.1}),
+        ("  fig05: {replicas: 8, dense: {error: 0.2}}", {BATCH, 8}, {0.2}),
+        ("  fig05: {omit: [dense]}", {4}, set()),
+    ],
+)
+def test_effort_of_quality_panel_and_series(
+    folder: Path, effort: str, replicas: set[int], errors: set[float]
+) -> None:
+    edit(folder / "quality/smoke.yaml", EFFORT_OF_FIG05, effort)
+    runs = load_plan("smoke", folder)["fig05"].runs
+    assert {run.options["replicas"] for run in runs} == replicas
+    assert {run.options["target-error"] for run in runs if "target-error" in run.options} == errors
+    assert any(run.name.startswith("dense") for run in runs) == ("omit" not in effort)
+
+
+def test_what_a_quality_replaces_is_known() -> None:
+    assert dict(load_plan("smoke")["fig08"].replaced)["rare"] == ("cells",)
+    assert load_plan("smoke")["fig05"].replaced == ()
 
 
 def test_a_run_has_no_slash_in_its_name(folder: Path) -> None:
@@ -78,6 +115,7 @@ def test_quality_changes_effort_only() -> None:
     for name, panel in plans[0].items():
         for run in panel.runs:
             same = [match for plan in plans for match in plan[name].runs if match.name == run.name]
+            same = [match for match in same if match.options.get("cells") == run.options.get("cells")]
             physics = [
                 {key: value for key, value in match.options.items() if key not in EFFORT} for match in same
             ]
@@ -90,35 +128,23 @@ def test_fig05_covers_the_range_and_its_limits() -> None:
     assert len([sigma for sigma in sigmas if -0.99 <= sigma <= 0.99]) >= 19
 
 
-def test_an_error_replaces_replicas() -> None:
-    quality = Quality.of("smoke_seed=7_error=0.005_hours=2")
-    assert quality.arguments == "QUALITY=smoke SEED=7 ERROR=0.005 HOURS=2.0"
-    completed = quality.complete("fig05", "paper", {"replicas": 500, "sigma": 0})
-    assert {key: completed[key] for key in completed if key != "seed"} == {
-        "replicas": BATCH,
-        "target-error": 0.005,
-        "sigma": 0,
-    }
-    assert quality.complete("fig05", "paper", {}, 200)["target-absolute"] == 1
-    runs = load_plan("smoke_error=0.01")["ext13"].runs
-    assert {run.series: "target-absolute" in run.options for run in runs} == {
-        run.series: run.series == "random" for run in runs
-    }
-
-
 @pytest.mark.parametrize(
     ("name", "message"),
     [
         ("best", "best is not a quality; choose one of"),
         ("smoke_seed=07", "SEED=07 is invalid"),
         ("smoke_seed=1_seed=2", "seed=2 is given more than once"),
-        ("smoke_seed=-1", "SEED=-1 is invalid; allowed: a whole number from 0 to 10^18 - 1"),
+        ("smoke_seed=-1", "SEED=-1 is invalid; give a whole number from 0 to 10^18 - 1"),
         ("smoke_replicas=0", "REPLICAS=0 is invalid"),
-        ("smoke_error=0", "ERROR=0 is invalid; allowed: a number greater than 0"),
+        ("smoke_error=0", "ERROR=0 is invalid; give a number greater than 0 and less than 1"),
+        ("smoke_error=1.5", "ERROR=1.5 is invalid"),
+        (
+            "smoke_error=2%",
+            "ERROR=2% is invalid; give a number greater than 0 and less than 1, as 0.02 for 2 %",
+        ),
         ("smoke_error=x", "ERROR=x is invalid"),
         ("smoke_erorr=1", "erorr=1 is no effort; did you mean error?"),
-        ("smoke_error=1_replicas=2", "ERROR and REPLICAS both determine"),
-        ("smoke_hours=1", "HOURS bounds the time to reach an error"),
+        ("smoke_error=0.1_replicas=2", "ERROR and REPLICAS both determine"),
     ],
 )
 def test_invalid_efforts(name: str, message: str) -> None:
@@ -129,20 +155,35 @@ def test_invalid_efforts(name: str, message: str) -> None:
 
 def test_what_determines_a_result_is_in_its_name(monkeypatch: pytest.MonkeyPatch) -> None:
     run = Run("a", "persistence", {"sigma": 0.5, "cells": 8, "seed": 1})
-    same = Run("b", "persistence", {"cells": 8.0, "seed": 1, "sigma": 0.5})
+    same = Run("b", "persistence", {"cells": 8.0, "seed": 1, "sigma": 0.5, "separate": False})
     different = [
         Run("a", "persistence", {"sigma": 0.5, "cells": 8, "seed": 2}),
         Run("a", "persistence", {"sigma": 0.5, "cells": 8}),
         Run("a", "ageing", run.options),
-        Run("a", "persistence", run.options, hours=2),
     ]
+    assert run.words == same.words == "--cells 8 --seed 1 --sigma 0.5"
     assert run.identity == same.identity
-    monkeypatch.setattr(plan, "build_id", lambda program: "another")
+    monkeypatch.setattr(plan, "source_hash", lambda program: "another")
     names = {variant.identity for variant in (run, *different, Run("a", "persistence", run.options))}
     assert len(names) == 2 + len(different)
     assert data_path("standard_seed=7", "fig05", run) == f"data/standard/fig05/a.{run.identity}.h5"
 
 
-def test_booleans_and_numbers_differ() -> None:
-    assert len({identity({"a": one}) for one in (True, False, 1, "1", 1.5)}) == 5
-    assert identity(1) == identity(1.0)
+def test_a_program_states_the_words_of_the_plan(tmp_path: Path) -> None:
+    """Otherwise no result would be accepted."""
+    options = {"cells": 4, "sigma": -0.5, "zero-total-momentum": True, "times": "1,2", "decades": 1.0}
+    options = {key: value for key, value in options.items() if key != "times"}
+    run = Run("a", "displacement", options | {"relaxation-time": 0.1, "observation-time": 5, "replicas": 2})
+    path = tmp_path / f"a.{run.identity}.h5"
+    subprocess.run([*command_line(run), "--output", path], cwd=ROOT, check=True, capture_output=True)
+    assert load(path).provenance["words"] == run.words
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [(7, 7), ("5e1", "5e1"), ("0.05N", 0.5), ("400+0.02N^2", 402), ("1e-3N^2+2N+1", 21.1), ("N", "N"),
+     ("1/N", "1/N"), ("2N^3", "2N^3"), ("-1N", "-1N"), ("0.1N", 1), ("0.015N", 0.15), (True, True)],
+)  # fmt: skip
+def test_a_polynomial_is_evaluated_at_the_number_of_cells(text: object, value: object) -> None:
+    assert evaluated(text, 10) == value
+    assert type(evaluated(text, 10)) is type(value)

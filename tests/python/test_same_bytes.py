@@ -9,9 +9,8 @@ import h5py
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.lib.configuration import arguments
-from workflow.lib.plan import Run, load_plan
-from workflow.lib.polynomial import at_size
+from workflow.configuration import arguments
+from workflow.plan import Run, load_plan
 
 # Processor features by which the C library selects its functions at run time.
 WITHOUT = ",".join(
@@ -38,11 +37,10 @@ NOT_COMPUTING = ("libhdf5", "libfmt", "libz", "libstdc++", "libgcc_s", "libc", "
 def shortened(run: Run) -> Run:
     """A run with its options and sizes, but few replicas and short times. Times of peaks stay."""
     options = dict(run.options)
-    size = options.get("cells")
     is_open = "nu-left" in options
     for name in ("relaxation-time", "observation-time"):
         if name in options:
-            options[name] = at_size(options[name], float(size)) / (1000 if is_open else 200)
+            options[name] /= 1000 if is_open else 200
     times = [float(time) for time in str(options.get("times", 0)).split(",")]
     if "observation-time" in options:
         options["observation-time"] = max(times[-1], options["observation-time"])

@@ -6,7 +6,7 @@ import pytest
 from scipy.stats import chi2, f
 
 from workflow.lib.described import with_option
-from workflow.lib.plan import Run, load_plan
+from workflow.plan import Run, load_plan
 from workflow.tradeoff.measure import call, shortened
 
 pytestmark = pytest.mark.long  # four minutes

@@ -105,8 +105,6 @@ CASES = {
     "momentum_flux, rare": ("momentum_flux", OPEN | {"gamma": 1, "start": "empty"}),
     "particle_count": ("particle_count", FILLING),
     "particle_count, rare": ("particle_count", FILLING | {"gamma": 1}),
-    "trajectories": ("trajectories", {"gamma": 2}),
-    "trajectories, open": ("trajectories", {"chain": "open"}),
     "boltzmann": ("boltzmann", {}),
     "boltzmann, cells": ("boltzmann", {"cells": 4, "gamma": "N"}),
 }

@@ -12,7 +12,7 @@ import h5py
 import pytest
 
 from tests.workflow.conftest import ROOT, Clone, Edit, append, copy, delete, delete_result, replace
-from workflow.lib.files import file_hash
+from workflow.files import file_hash
 
 RUN = "fig03/paper"
 FIGURE = "figures/smoke/fig03"

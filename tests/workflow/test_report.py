@@ -14,11 +14,11 @@ from axe_playwright_python.sync_playwright import Axe
 from PIL import Image
 from playwright.sync_api import Browser, sync_playwright
 from playwright.sync_api import Page as Tab
+from workflow.lib.figure_metadata import embedded, read_panel
 
 from tests.workflow.conftest import ROOT, Clone, files_below, replace
 from workflow.claims.judge import read_claims
-from workflow.lib.figure_metadata import embedded, read_panel
-from workflow.lib.plan import load_plan
+from workflow.plan import load_plan
 from workflow.report.gallery import gallery
 from workflow.report.questions import read_questions
 from workflow.report.sources import ReportError

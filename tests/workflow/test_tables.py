@@ -10,15 +10,15 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import pandas as pd
 import pytest
+from workflow.lib.figure_metadata import read_panel
 
 from tests.python.scale import ROUNDING, SCALES, agree
 from tests.workflow.conftest import Clone
 from workflow.lib import style
 from workflow.lib.columns import BY_ROW, UNITS_LINE, as_csv
-from workflow.lib.figure_metadata import read_panel
 from workflow.lib.load import NOT_REACHED, load
-from workflow.lib.plan import data_of, load_plan
 from workflow.lib.units import UnitsError
+from workflow.plan import data_of, load_plan
 
 PLAN = load_plan("smoke")
 

@@ -8,9 +8,8 @@ import numpy as np
 
 from workflow.claims.data import Claim, Data, Evidence, number, ratio, where_made
 from workflow.claims.verdict import Number, with_systematic
-from workflow.figures.fig05 import law
-from workflow.figures.fig07 import ROUNDING
 from workflow.lib.caption import scientific
+from workflow.lib.closed import ROUNDING, persistence_law
 from workflow.lib.load import Result
 
 
@@ -40,7 +39,9 @@ def persistence(data: Data) -> Evidence:
 
 def _from_law(result: Result) -> Number:
     sigma = result.parameters["sigma"]
-    return number(result, "mu", label=f"μ - arccos(σ)/π, σ = {sigma:g}").over(1, float(law(sigma)))
+    return number(result, "mu", label=f"μ - arccos(σ)/π, σ = {sigma:g}").over(
+        1, float(persistence_law(sigma))
+    )
 
 
 def waiting_half(data: Data) -> Evidence:

@@ -10,7 +10,7 @@ import numpy as np
 from workflow.claims.verdict import Number, with_systematic
 from workflow.lib.fit import PowerLaw, fit_power
 from workflow.lib.load import FormatError, Index, Result, load
-from workflow.lib.plan import Run, data_path, load_plan
+from workflow.plan import Run, data_path, load_plan
 
 
 class MissingError(LookupError):

@@ -20,9 +20,18 @@ from workflow.claims.data import (
     where_made,
 )
 from workflow.claims.verdict import Number, with_systematic
-from workflow.figures import ext10, fig03_inset, fig04
 from workflow.lib.caption import goodness, scientific
 from workflow.lib.fit import PowerLaw, fit_multiple, rejected, with_error
+from workflow.lib.fluxes import (
+    amplitudes,
+    at,
+    at_ends,
+    deviations,
+    end_scatterers,
+    extrapolation_error,
+    largest_distance,
+    outgoing_flux,
+)
 from workflow.lib.load import Result
 
 # Nearly four thermal momenta of the hotter bath; beyond, a bin holds less than 1e-4 of the particles.
@@ -47,9 +56,9 @@ def equilibrium(data: Data) -> Evidence:
             label = f"⟨P²⟩/MT - 1 at x = {half}, γ = {gamma}"
             scatterer = number(profile, "temperature_scatterer", end, label)
             numbers += [square.over(temperature, 1), kurtosis.over(3, 1), scatterer.over(temperature, 1)]
-        for result, curve, name in ((flux, ext10.outgoing_flux, "F"), (profile, ext10.end_scatterers, "g")):
+        for result, curve, name in ((flux, outgoing_flux, "F"), (profile, end_scatterers, "g")):
             label = f"Kolmogorov's distance of {name}, γ = {gamma}"
-            numbers.append(Number(label, *ext10.largest_distance(*curve(result)[1:]), freedom(result)))
+            numbers.append(Number(label, *largest_distance(*curve(result)[1:]), freedom(result)))
     return Evidence(numbers)
 
 
@@ -94,7 +103,7 @@ def gaussian_only_if(data: Data) -> Evidence:
 
 def _deviations(data: Data) -> tuple[pd.DataFrame, float]:
     """Deviation of the finite chains from the continuum by N and bin, and the degrees of freedom of its errors."""
-    return fig03_inset.tabulate(data.of("fig03_inset")), freedom(*data.of("fig03_inset", "momentum_flux"))
+    return deviations(data.of("fig03_inset")), freedom(*data.of("fig03_inset", "momentum_flux"))
 
 
 def _bins(table: pd.DataFrame, degrees: float) -> list[Number]:
@@ -195,14 +204,14 @@ def deviations_vanish(data: Data) -> Evidence:
 
 
 def decay(data: Data, skipped: int = 0) -> tuple[Number, PowerLaw]:
-    """Exponent of the amplitude of the deviation against N (see fig03_inset.amplitudes), and the fitted law. skipped: number of the
+    """Exponent of the amplitude of the deviation against N (see amplitudes), and the fitted law. skipped: number of the
     smallest sizes that are left out."""
     table, _ = _deviations(data)
     results = by_size(data.of("fig03_inset", "momentum_flux"))[skipped:]
-    rows = fig03_inset.amplitudes(table).iloc[skipped:]
-    amplitudes = [Number("", row.amplitude, row.error) for row in rows.itertuples()]
+    rows = amplitudes(table).iloc[skipped:]
+    sizes = [Number("", row.amplitude, row.error) for row in rows.itertuples()]
     label = f"d ln |F_N - F| / d ln N, N = {rows.cells.min()} to {rows.cells.max()}"
-    return power(results, [*rows.cells], amplitudes, label)
+    return power(results, [*rows.cells], sizes, label)
 
 
 def deviations_central(data: Data) -> Evidence:
@@ -236,7 +245,7 @@ def _from_kinetic(data: Data, panel: str, run: str, equation: str, chain: str = 
     flux, kinetic = simulated["flux"], data.one(panel, equation)["flux"]
     last, scale = len(flux.mean) - 1, float(kinetic.mean.max())
     return [
-        number(simulated, "flux", (bond, k), f"deviation over max F{chain}, {name}, p = {p:g}").over(scale, fig04.at(kinetic, bond / last)[k] / scale)
+        number(simulated, "flux", (bond, k), f"deviation over max F{chain}, {name}, p = {p:g}").over(scale, at(kinetic, bond / last)[k] / scale)
         for bond, name in ((1, "x = 1/N"), (last, "x = 1"))
         for k, p in enumerate(flux.axes["momentum"])
         if abs(p) < REACH
@@ -256,7 +265,7 @@ def jump_from_rates_only(data: Data) -> Evidence:
     extrapolated by lines through two bins on either side; the error of this extrapolation in mean field bounds the systematic error."""
     equal, kinetic = (data.one("fig04b", run) for run in ("equal", "mean-field-equal"))
     scale = float(equal["flux"].mean.max())
-    missed = fig04.extrapolation_error(fig04.tabulate([equal, kinetic])) / scale
+    missed = extrapolation_error(at_ends([equal, kinetic])) / scale
     jumps = [
         number(equal, "jump", bond, f"jump over max F at ν_L = ν_R, {name}").over(scale)
         for bond, name in ((1, "x = 1/N"), (-1, "x = 1"))

@@ -18,10 +18,11 @@ from workflow.claims.data import (
     power,
 )
 from workflow.claims.verdict import Number, with_systematic
-from workflow.figures import ext09, ext13
-from workflow.figures.ext11 import tabulate
+from workflow.lib.conductivity import drop_per_cell
 from workflow.lib.fit import PowerLaw, fit_power, with_error
 from workflow.lib.load import Result
+from workflow.lib.response import tabulate
+from workflow.lib.rings import chain
 from workflow.lib.style import spacing
 
 T = TypeVar("T")
@@ -50,7 +51,7 @@ def _by_particles(run: Result) -> Number:
 
 def _by_baths(run: Result) -> Number:
     """kappa with the temperatures of the baths in place of T_1 and T_N."""
-    return number(run, "energy_current").over(ext09.drop_per_cell(run))
+    return number(run, "energy_current").over(drop_per_cell(run))
 
 
 def exponent(
@@ -154,7 +155,7 @@ def last_octave(ring: Result) -> Number:
 
 
 def gas_name(ring: Result) -> str:
-    gas = ext13.chain(ring)
+    gas = chain(ring)
     return f"ζ = {gas.zeta:g}, M = {gas.mass:.2g}"
 
 

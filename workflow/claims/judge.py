@@ -9,7 +9,7 @@ import pandas as pd
 from workflow.claims import closed, filling, fluxes, growth, profiles, pulse
 from workflow.claims.data import Claim, Data, Evidence, MissingError
 from workflow.claims.verdict import Band, Outcome, Reading, combined, level_of_each
-from workflow.lib.configuration import ConfigurationError
+from workflow.configuration import ConfigurationError
 from workflow.lib.load import NOT_REACHED
 
 CLAIMS_FILE = "data/claims.csv"

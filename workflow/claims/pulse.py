@@ -12,12 +12,13 @@ import numpy as np
 from workflow.claims.data import Claim, Data, Evidence, MissingError, combination, number, where_made
 from workflow.claims.growth import equilibrium, exponent, largest_sizes, sizes, without_particle_current
 from workflow.claims.verdict import Number, with_systematic
-from workflow.figures import ext03, ext13
-from workflow.figures.fig09 import gaussian_start, ring_closed, start
 from workflow.lib import style
 from workflow.lib.caption import goodness, listed
 from workflow.lib.fit import rejected, with_error
 from workflow.lib.load import Quantity, Result
+from workflow.lib.peaks import ORDERS, Record, heat_width, jackknife_error, stable_laws
+from workflow.lib.pulse import gaussian_start, ring_closed, start
+from workflow.lib.rings import chain
 
 PAPERS_START = "paper's start"
 HEAT = "heat"  # runs of ext. 3 for the heat peak
@@ -183,16 +184,16 @@ def heat_peak(data: Data) -> tuple[Number, str]:
     runs = [run for run in data.of("ext03", "correlation") if run.run.startswith(HEAT)]
     if len(runs) < 2:
         raise MissingError("ext03 has fewer than two runs of the heat peak")
-    gas = ext13.chain(runs[0])
+    gas = chain(runs[0])
     times, widths, by_time = [], [], []
     for k, time in enumerate(map(float, runs[0]["heat_correlation"].axes["time"])):
-        record = ext03.Record(runs, k, time, gas, ext13.chain(runs[0], time))
-        width = ext03.heat_width(record) / gas.cell_length
+        record = Record(runs, k, time, gas, chain(runs[0], time))
+        width = heat_width(record) / gas.cell_length
         if width < WIDE:
             continue
-        law, without_one = ext03.stable_laws(record)
+        law, without_one = stable_laws(record)
         orders = np.append(law[-1], without_one[:, -1])
-        low, high = ext03.ORDERS
+        low, high = ORDERS
         if low + AT_BOUND < orders.min() and orders.max() < high - AT_BOUND:
             times.append(time)
             widths.append(width)
@@ -200,8 +201,8 @@ def heat_peak(data: Data) -> tuple[Number, str]:
     if not by_time:
         raise MissingError("the profiles determine no order of the heat peak at this quality")
     full, without = np.array(by_time)[:, 0], np.array(by_time)[:, 1:]
-    errors = ext03.jackknife_error(without.T)
-    error = float(ext03.jackknife_error(without[:PRECISE].mean(axis=0)))
+    errors = jackknife_error(without.T)
+    error = float(jackknife_error(without[:PRECISE].mean(axis=0)))
     order = Number("order of the heat peak", float(full[:PRECISE].mean()), error, len(runs) - 1)
     later = [float(full[1:PRECISE].mean())] if len(full) > 1 else []
     crossing = [width / gas.sound_speed_in_cells for width in widths]

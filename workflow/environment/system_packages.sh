@@ -25,14 +25,14 @@ benchmark/benchmark.h  libbenchmark-dev    google-benchmark-devel google-benchma
 clang++                clang               clang             llvm
 doxygen                doxygen             doxygen           doxygen
 ccache                 ccache              ccache            ccache
+chromium               chromium            chromium          chromium
 '
 [ "${1-}" != dev ] || needed+=$for_developers
-includes=(${CONDA_PREFIX:+-I$CONDA_PREFIX/include -I$CONDA_PREFIX/include/eigen3}
-  -I/usr/include/hdf5/serial -I/usr/include/eigen3 -I/opt/homebrew/include -I/opt/homebrew/include/eigen3)
+includes='-I/usr/include/hdf5/serial -I/usr/include/eigen3 -I/opt/homebrew/include -I/opt/homebrew/include/eigen3'
 
 missing_headers() {
   awk '$1 ~ /\.h|Eigen/ {printf "#if !__has_include(<%s>)\n%s\n#endif\n", $1, $1}' <<<"$needed" |
-    "$compiler" -E -P "${includes[@]}" -x c++ - 2>/dev/null || awk '$1 ~ /\.h|Eigen/ {print $1}' <<<"$needed"
+    "$compiler" -E -P $includes -x c++ - 2>/dev/null || awk '$1 ~ /\.h|Eigen/ {print $1}' <<<"$needed"
 }
 
 headers=$(missing_headers)

@@ -12,24 +12,29 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, number, parameters, replicas
+from workflow.lib.caption import ERRORS, RULES, number, parameters, replicas, rule
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
-PAPER, ZERO, RANDOM = "random total momentum, as in the paper", "zero total momentum", "random directions"
+PAPER, ZERO, RANDOM = (
+    "random total momentum, as in the paper",
+    "zero total momentum",
+    RULES["random-direction"],
+)
 LOOKS: dict[str, style.Look] = {
     PAPER: style.points("o", style.BLUE),
     ZERO: style.points("s", style.VERMILLION, "white"),
     RANDOM: style.points("D", style.GREEN, "white"),
 }
+OTHER = style.points("P", style.BLACK, "white")  # a rule that the figure does not expect
 LABELS = ("sigma", "particles-per-cell", "relaxation-time", "zero-total-momentum", "rule")
 APART = 0.1  # distance of a kind from the middle of its slot, in units of the slot
 
 
 def kind(result: Result) -> str:
-    if result.parameters["rule"] == "random-direction":
-        return RANDOM
+    if rule(result) != "elastic":
+        return rule(result)
     return ZERO if result.parameters["zero-total-momentum"] else PAPER
 
 
@@ -56,7 +61,7 @@ def draw_slopes(axes: Axes, table: pd.DataFrame) -> None:
     few = table[table.particles_per_cell == table.particles_per_cell.min()]
     for name, part in few[few.relaxation_time == few.relaxation_time.max()].groupby("kind"):
         every = part.iloc[::3]
-        look = LOOKS[name] | {"linestyle": "-", "label": name}
+        look = LOOKS.get(name, OTHER) | {"linestyle": "-", "label": name}
         axes.errorbar(every.time, every.slope, every.slope_error, **look)
     axes.set(xscale="log", xlabel="time $t$")
 
@@ -64,11 +69,10 @@ def draw_slopes(axes: Axes, table: pd.DataFrame) -> None:
 def draw_exponents(axes: Axes, runs: pd.DataFrame) -> None:
     """Plots alpha without drift, with one slot per number of particles and relaxation time."""
     slots = sorted(set(zip(runs.particles_per_cell, runs.relaxation_time, strict=True)))
-    for name, shift in ((ZERO, -APART), (RANDOM, APART)):
-        part = runs[runs.kind == name]
+    for name, part in runs[runs.kind != PAPER].groupby("kind"):
         pairs = zip(part.particles_per_cell, part.relaxation_time, strict=True)
-        x = [slots.index(pair) + shift for pair in pairs]
-        axes.errorbar(x, part.alpha, part.alpha_error, **LOOKS[name])
+        x = [slots.index(pair) + (-APART if name == ZERO else APART) for pair in pairs]
+        axes.errorbar(x, part.alpha, part.alpha_error, **LOOKS.get(name, OTHER))
     names = [f"$n = {n}$\n$t_r = {relaxed:g}$" for n, relaxed in slots]
     axes.set_xticks(range(len(slots)), names)
     axes.tick_params(axis="x", length=0)

@@ -12,15 +12,14 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 
-from workflow.figures.ext09 import LOOKS, by_spacing, spacings, tabulate
-from workflow.figures.ext11 import response
-from workflow.figures.fig08 import drive
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, parameters, replicas
+from workflow.lib.conductivity import LOOKS, by_spacing, drive, spacings, tabulate
 from workflow.lib.figure import Drawn, require_elastic, run
 from workflow.lib.fit import with_error
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
+from workflow.lib.response import response
 
 BESIDE = (
     1.07  # ratio of the abscissas of points of equal N at neighbouring spacings, so that they do not overlap

@@ -5,7 +5,6 @@ that N goes to infinity in the thermodynamic limit.
 """
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -16,15 +15,11 @@ from matplotlib.typing import LineStyleType
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, parameters, replicas
+from workflow.lib.conductivity import LOOKS, by_spacing, spacings, tabulate
 from workflow.lib.figure import Drawn, run
 from workflow.lib.growth import POWER, Growth, fits, widest
 from workflow.lib.load import Result
 
-LOOKS = {
-    "thinning": ("o", style.BLACK),
-    "dilute": ("s", style.VERMILLION),
-    "dense": ("^", style.BLUE),
-}  # marker and colour by gas
 THINNING = "thinning"  # the gas that has no thermodynamic limit
 LEVEL = 0.01  # p-value below which a law is rejected
 CUBE_ROOT = "N^(1/3)"
@@ -37,41 +32,6 @@ LAWS = {
 }
 LINES: dict[str, LineStyleType] = {CUBE_ROOT: "solid", "logarithm": "dashed", "constant": "dotted"}
 ABOVE = 14  # height in points of the axis of N above panel (b)
-
-
-def gas(result: Result) -> str:
-    """Name of the gas: the first part of the name of the run."""
-    return result.run.partition("_")[0].partition("-")[0]
-
-
-def spacings(results: Sequence[Result]) -> dict[str, str]:
-    """Spacing of every gas, as in the configuration."""
-    return {gas(result): style.spacing(result)[1] for result in results}
-
-
-def by_spacing(table: pd.DataFrame, spacing: Mapping[str, str]) -> pd.DataFrame:
-    """The published table, with the spacing in place of the name of the gas."""
-    return table.assign(gas=table.gas.map(spacing)).rename(columns={"gas": "spacing"})
-
-
-def drop_per_cell(result: Result) -> float:
-    """Drop of the temperature per cell, from the left bath to the right one."""
-    left, right = result.ends("temperature")
-    return (left - right) / int(result.parameters["cells"])
-
-
-def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per run, sorted by N. kappa_baths has the temperatures of the baths in place of T_1 and T_N."""
-    rows = []
-    for result in results:
-        row: dict[str, Any] = {"gas": gas(result), "cells": int(result.parameters["cells"])}
-        row |= result.columns("kappa", "kappa_particle", "energy_current", "particle_current")
-        per_current = 1 / drop_per_cell(result)
-        row["kappa_baths"] = per_current * row["energy_current"]
-        row["kappa_baths_error"] = abs(per_current) * row["energy_current_error"]
-        row["usable"] = result.sound
-        rows.append(row)
-    return pd.DataFrame(rows).sort_values("cells", ignore_index=True)
 
 
 def laws(part: pd.DataFrame) -> pd.DataFrame:

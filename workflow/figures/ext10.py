@@ -11,53 +11,15 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from scipy.special import erf
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, WINDOW, baths, number, parameters, replicas
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
+from workflow.lib.fluxes import Curve, end_scatterers, largest_distance, outgoing_flux
 from workflow.lib.load import Result
 
 SEEN = 1e-3  # probability of the rarest bins that are shown
-
-Curve = tuple[
-    np.ndarray, np.ndarray, np.ndarray, np.ndarray
-]  # momenta, measured values, their errors, exact values
-
-
-def gaussian(momentum: np.ndarray, temperature: float) -> np.ndarray:
-    """Probability density, averaged over equal bins about the given momenta."""
-    half = 0.5 * (momentum[1] - momentum[0])
-    below = [erf((momentum + sign * half) / np.sqrt(2 * temperature)) for sign in (-1, 1)]
-    return 0.5 * (below[1] - below[0]) / (2 * half)
-
-
-def outgoing_flux(result: Result) -> Curve:
-    """Momenta, F_N of the particles that leave (p < 0 at the left end, p > 0 at the right one), its error, the exact F."""
-    flux, parameters = result["flux"], result.parameters
-    momentum = flux.axes["momentum"]
-    left = momentum < 0
-    values = [np.where(left, array[0], array[-1]) for array in (flux.mean, flux.error)]
-    exact = 2 * parameters["nu-left"] * gaussian(momentum, parameters["temperature-left"])
-    return momentum, *values, exact
-
-
-def end_scatterers(result: Result) -> Curve:
-    """Momenta, g of both end scatterers together, its error, the exact g."""
-    density = result["scatterer_density"]
-    momentum = density.axes["momentum"]
-    error = np.hypot(*density.error) / 2
-    exact = gaussian(momentum, result.parameters["temperature-left"])
-    return momentum, density.mean.mean(axis=0), error, exact
-
-
-def largest_distance(measured: np.ndarray, error: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
-    """Kolmogorov-Smirnov distance of two histograms: the largest difference of their cumulative sums, with the error of the sum there."""
-    total = exact.sum()
-    distance = np.cumsum(measured - exact) / total
-    at = int(np.abs(distance).argmax())
-    return float(np.abs(distance[at])), float(np.sqrt(np.nansum(error[: at + 1] ** 2)) / total)
 
 
 def plot(axes: Axes, result: Result, curve: Curve, units: str, shift: float) -> pd.DataFrame:

@@ -7,214 +7,22 @@ up to this time:
 κ_0 = (√T/λ) ½ d(<Q²>/N)/dt, <Q²> measured in the units of T and λ [mode_coupling.md, eq. M33].
 """
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from typing import NamedTuple
+from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 
-from workflow.figures.ext09 import LOOKS, by_spacing, gas, spacings
-from workflow.figures.ext13 import chain
 from workflow.lib import style
 from workflow.lib.caption import BATHS, listed, parameters, replicas
+from workflow.lib.conductivity import LOOKS, by_spacing, spacings
 from workflow.lib.figure import Drawn, require_elastic, run
-from workflow.lib.fit import mean_of, with_error
+from workflow.lib.fit import with_error
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
+from workflow.lib.response import DENSE, response
 
-DRAWN = 4000  # samples of the currents, which determine the errors to 1 %
 TOP = 1.15  # upper end of the axis over the largest value
-DENSE = "dense"  # name of the gas at a fixed spacing
-COEFFICIENTS = ("L_uu", "L_un", "L_nu", "L_nn")
-
-
-class Mean(NamedTuple):
-    value: float
-    error: float
-    chi_square: float
-    freedom: int
-
-
-@dataclass(frozen=True)
-class Response:
-    """Currents of a run and the forces that drive them."""
-
-    cells: int
-    forces: np.ndarray  # X_u, X_n
-    currents: np.ndarray  # J_u, J_n
-    covariance: np.ndarray
-    temperature: float  # geometric mean of the temperatures of the baths
-    sound: bool
-
-    @classmethod
-    def of(cls, result: Result) -> "Response":
-        rates, temperatures = (np.array(result.ends(name)) for name in ("nu", "temperature"))
-        potentials = np.log(rates / np.sqrt(temperatures))
-        quantities = [result[name] for name in ("energy_current", "particle_current")]
-        errors = np.array([float(quantity.error) for quantity in quantities])
-        correlation = float(result["current_correlation"].mean)
-        return cls(
-            int(result.parameters["cells"]),
-            np.array([np.diff(1 / temperatures)[0], -np.diff(potentials)[0]]),
-            np.array([float(quantity.mean) for quantity in quantities]),
-            np.outer(errors, errors) * np.array([[1, correlation], [correlation, 1]]),
-            float(np.sqrt(np.prod(temperatures))),
-            result.sound,
-        )
-
-    def drawn(self, random: np.random.Generator) -> np.ndarray:
-        """Samples [sample, current] from the normal distribution of the currents. The random numbers do not depend on the units."""
-        errors = np.sqrt(np.diag(self.covariance))
-        product = np.prod(errors)
-        correlation = self.covariance[0, 1] / product if product else 0.0
-        first, second = random.standard_normal((2, DRAWN))
-        both = np.stack([first, correlation * first + np.sqrt(1 - correlation**2) * second], axis=1)
-        return self.currents + errors * both
-
-
-def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
-    """Matrix L from two runs, and kappa = -J_u N/(T_R - T_L) of the first. temperature: run with a temperature difference at equal
-    pressure; pressure: run with a pressure difference at equal temperature. Errors are standard deviations over samples of the currents."""
-    runs = (temperature, pressure)
-    inverse = np.linalg.inv(np.stack([run.forces for run in runs], axis=1)) * temperature.cells
-    currents = np.stack([run.currents for run in runs], axis=1)
-    random = np.random.default_rng(0)
-    drawn = np.stack([run.drawn(random) for run in runs], axis=2)
-    matrix, spread = currents @ inverse, drawn @ inverse
-    row: dict[str, float] = {"usable": all(run.sound for run in runs)}
-    for index, name in enumerate(COEFFICIENTS):
-        element = divmod(index, 2)
-        row[name], row[f"{name}_error"] = matrix[element], spread[:, *element].std()
-
-    def heat(matrices: np.ndarray) -> np.ndarray:
-        convected = matrices[..., 0, 1] * matrices[..., 1, 0] / matrices[..., 1, 1]
-        return (matrices[..., 0, 0] - convected) / pressure.temperature**2
-
-    row["kappa_0"], row["kappa_0_error"] = float(heat(matrix)), float(heat(spread).std())
-    per_current = temperature.cells / (temperature.forces[0] * temperature.temperature**2)
-    row["kappa"] = per_current * temperature.currents[0]
-    row["kappa_error"] = abs(per_current) * np.sqrt(temperature.covariance[0, 0])
-    asymmetry = spread[:, 0, 1] - spread[:, 1, 0]
-    row["asymmetry"], row["asymmetry_error"] = matrix[0, 1] - matrix[1, 0], asymmetry.std()
-    return row
-
-
-def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per gas and size."""
-    runs: dict[tuple[str, int], dict[bool, Response]] = {}
-    for result in results:
-        response = Response.of(result)
-        runs.setdefault((gas(result), response.cells), {})[bool(response.forces[0])] = response
-    rows = [
-        {"gas": name, "cells": cells} | onsager(pair[True], pair[False])
-        for (name, cells), pair in runs.items()
-    ]
-    return pd.DataFrame(rows).sort_values("cells", ignore_index=True)
-
-
-@dataclass(frozen=True)
-class Ring:
-    """½ d(<Q²>/N)/dt of a gas in equilibrium, with T and λ as units, as a power law between the given times."""
-
-    sound_speed: float
-    time: np.ndarray
-    growth: np.ndarray
-    relative_error: np.ndarray
-
-    @classmethod
-    def of(cls, results: Sequence[Result]) -> "Ring":
-        """Combines rings of one gas. Each time is taken from the ring with the smallest error."""
-        rows: list[tuple[float, ...]] = []
-        rate = np.sqrt(results[0].parameters["temperature"]) / results[0].parameters["cell-length"]
-        unit = results[0].parameters["temperature"] * results[0].parameters["cell-length"]
-        for result in results:
-            heat, exponent = result["heat_variance"], result["local_exponent"]
-            given = (("time", rate * heat.axes["time"]), ("heat", heat.mean / unit**2))
-            at = {name: np.log(values) for name, values in given}
-            middle = rate * exponent.axes["middle"]
-            value = np.exp(np.interp(np.log(middle), at["time"], at["heat"]))
-            relative = np.hypot((heat.error / heat.mean)[1:], exponent.error / exponent.mean)
-            rows += zip(middle, 0.5 * value * exponent.mean / middle, relative, strict=True)
-        columns = ["time", "growth", "relative_error"]
-        table = pd.DataFrame(rows, columns=columns).sort_values("relative_error").drop_duplicates("time")
-        speed = chain(results[0]).sound_speed_in_cells / rate
-        return cls(speed, *table.sort_values("time")[columns].to_numpy().T)
-
-    def conductivity(self, time: float) -> tuple[float, float]:
-        """κ_0 λ/√T if sound leaves after this time, and its error."""
-        growth, error = (
-            np.interp(np.log(time), np.log(self.time), values)
-            for values in (np.log(self.growth), self.relative_error)
-        )
-        return float(np.exp(growth)), float(np.exp(growth) * error)
-
-    def departure(self, conductivity: float, error: float) -> tuple[float, float]:
-        """Time after which sound leaves, from κ_0 λ/√T, and its error."""
-        increasing = np.maximum.accumulate(np.log(self.growth))
-        time = float(np.exp(np.interp(np.log(conductivity), increasing, np.log(self.time))))
-        exponent = np.gradient(np.log(self.growth), np.log(self.time)).mean()
-        _, own = self.conductivity(time)
-        return time, float(time / exponent * np.hypot(error, own) / conductivity)
-
-
-def rings(results: Sequence[Result]) -> dict[float, Ring]:
-    """Rings of one mass, combined by gas, by their ζ."""
-    of_zeta: dict[float, list[Result]] = {}
-    for result in results:
-        of_zeta.setdefault(chain(result).zeta, []).append(result)
-    return {zeta: Ring.of(of_gas) for zeta, of_gas in of_zeta.items()}
-
-
-def fugacity(result: Result) -> float:
-    """ζ of the gas that the baths of an open chain would keep in equilibrium, from their flux at p = 0 [eq. 5]."""
-    rate, temperature = (float(np.sqrt(np.prod(result.ends(name)))) for name in ("nu", "temperature"))
-    return rate * np.sqrt(2 / (np.pi * temperature)) * style.spacing(result)[0]
-
-
-def nearest_of(value: float, given: Iterable[float]) -> float:
-    """The given value with the smallest relative distance from `value`, as ζ of the rings of ext. 13 is rounded to 1.6."""
-    return min(given, key=lambda candidate: abs(candidate / value - 1))
-
-
-def with_theory(
-    table: pd.DataFrame, open_chains: Sequence[Result], by_zeta: dict[float, Ring]
-) -> tuple[pd.DataFrame, Mean]:
-    """Adds to the table τ of every size at the fixed spacing, and κ_0 predicted with the mean of τ. Returns the table and this mean.
-    by_zeta: rings by ζ."""
-    ring_of, unit = {}, {}
-    for result in open_chains:
-        key = gas(result), int(result.parameters["cells"])
-        ring_of[key] = by_zeta[nearest_of(fugacity(result), by_zeta)]
-        unit[key] = np.sqrt(np.sqrt(np.prod(result.ends("temperature")))) / style.spacing(result)[0]
-    keys = [*zip(table.gas, table.cells, strict=True)]
-    for k, (name, cells) in enumerate(keys):
-        if name != DENSE:
-            continue
-        ring, scale = ring_of[name, cells], unit[name, cells]
-        time = ring.departure(table.kappa_0[k] / scale, table.kappa_0_error[k] / scale)
-        table.loc[k, ["tau", "tau_error"]] = np.array(time) * ring.sound_speed / cells
-    fixed = table.dropna(subset="tau")
-    tau = Mean(*mean_of(fixed.tau, fixed.tau_error), len(fixed) - 1)
-    for k, (name, cells) in enumerate(keys):
-        ring = ring_of[name, cells]
-        value = ring.conductivity(tau.value * cells / ring.sound_speed)
-        table.loc[k, ["predicted", "predicted_error"]] = np.array(value) * unit[name, cells]
-    return table, tau
-
-
-def response(open_chains: Sequence[Result], results: Sequence[Result]) -> tuple[pd.DataFrame, Mean]:
-    """Table of the open chains with the prediction, and the mean of τ. The prediction uses the rings with the mass of the open chains."""
-    mass = open_chains[0].parameters["sigma"]
-    closed = [
-        result
-        for result in results
-        if result.provenance["program"] == "heat_current"
-        and result.parameters["rule"] == "elastic"
-        and result.parameters["sigma"] == mass
-    ]
-    return with_theory(tabulate(open_chains), open_chains, rings(closed))
 
 
 def crossed(table: pd.DataFrame) -> str:

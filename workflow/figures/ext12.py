@@ -7,10 +7,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from workflow.figures.ext09 import LOOKS, by_spacing, spacings, tabulate
-from workflow.figures.fig08 import drive
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, goodness, parameters, replicas
+from workflow.lib.conductivity import LOOKS, by_spacing, drive, spacings, tabulate
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import mean_of
 from workflow.lib.growth import local_exponents
@@ -104,7 +103,7 @@ def agreement(starts: pd.DataFrame, quantity: str) -> str:
     rows = starts[starts.quantity == quantity]
     slots = rows.drop_duplicates(["gas", "cells"])
     largest = 100 * rows.deviation.abs().max()
-    return f"{largest:.1f} % ({goodness(slots.chi_square.sum(), int(slots.freedom.sum()))})"
+    return f"{largest:.1f} % ({goodness(slots.chi_square.sum(skipna=False), int(slots.freedom.sum()))})"
 
 
 def caption(starts: pd.DataFrame, results: Sequence[Result]) -> str:

@@ -12,24 +12,16 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import number, parameters, replicas
+from workflow.lib.caption import RULES, number, parameters, replicas, rule
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import mean_of, with_error
 from workflow.lib.load import Result
-from workflow.lib.mode_coupling import Chain, logarithm_at
+from workflow.lib.mode_coupling import Chain
+from workflow.lib.rings import LOOKS, chain
 
-LOOKS = [("o", style.BLUE), ("s", style.VERMILLION), ("^", style.ORANGE), ("v", style.SKY)]
-RANDOM = style.points("D", style.GREEN, "white")
+RANDOM = RULES["random-direction"], style.points("D", style.GREEN, "white")
 REACH = 4  # largest distance from the centre of a sound peak that counts, in widths
 GAS = ["rule", "zeta", "mass"]  # columns that identify a gas
-
-
-def chain(result: Result, time: float = np.inf) -> Chain:
-    """The gas of a ring, with only those slow particles that move within a time."""
-    temperature, length, sigma = (result.parameters[name] for name in ("temperature", "cell-length", "sigma"))
-    slow = logarithm_at(time, temperature, length) if np.isfinite(time) else np.inf
-    zeta = result.parameters["fugacity"] * length
-    return Chain(zeta, (1 + sigma) / (1 - sigma), temperature, length, slow)
 
 
 def predicted(result: Result, time: float) -> float:
@@ -45,7 +37,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     rows = []
     for result in results:
         heat, exponent, gas = result["heat_variance"], result["local_exponent"], chain(result)
-        of_gas = (result.parameters["rule"], gas.zeta, gas.mass)
+        of_gas = (rule(result), gas.zeta, gas.mass)
         octaves = {
             "middle": exponent.axes["middle"],
             "local_exponent": exponent.mean,
@@ -71,18 +63,14 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 
 def label(gas: pd.Series) -> str:
-    random = ", random directions" if gas.rule == "random-direction" else ""
-    return f"ζ = {number(gas.zeta)}, M = {number(gas.mass)}{random}"
+    another = "" if gas.rule == "elastic" else f", {gas.rule}"
+    return f"ζ = {number(gas.zeta)}, M = {number(gas.mass)}{another}"
 
 
 def last_octave(part: pd.DataFrame) -> str:
     """Exponent of a gas over the last octave."""
     last = part.dropna(subset="middle").iloc[-1]
-    gas = (
-        "random directions"
-        if last.rule == "random-direction"
-        else f"{number(last.zeta)}; {number(last.mass)}"
-    )
+    gas = f"{number(last.zeta)}; {number(last.mass)}" if last.rule == "elastic" else last.rule
     return f"{with_error(last.local_exponent, last.local_exponent_error)} ({gas})"
 
 
@@ -156,7 +144,7 @@ def draw(results: Sequence[Result]) -> Drawn:
     looks, exponents = iter(LOOKS), []
     for _, part in table.groupby(GAS, sort=False):
         gas = part.iloc[0]
-        look = RANDOM if gas.rule == "random-direction" else style.points(*next(looks))
+        look = RANDOM[1] if gas.rule == RANDOM[0] else style.points(*next(looks))
         error = part.heat_variance_error / part.time
         left.errorbar(part.time, part.heat_variance / part.time, error, label=label(gas), **look)
         left.plot(part.time, part.predicted / part.time, color=look["color"])

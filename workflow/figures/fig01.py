@@ -16,7 +16,6 @@ from workflow.lib.caption import ERRORS, baths, listed, number, parameters, repl
 from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
 
-JUDGED = "1/N"  # the distance by which claims are judged: that of the paper's other open chains
 FRONT = style.points("o", style.BLACK, "white")
 
 
@@ -59,17 +58,12 @@ def number_bins(axes: Axes, result: Result) -> None:
     axes.secondary_xaxis("top", functions=scales).set_xlabel("bin number")
 
 
-def by_spacing(results: Sequence[Result]) -> list[Result]:
-    """In ascending order, so that 1/N, the spacing of the paper's other chains, is first."""
-    return sorted(results, key=lambda result: style.spacing(result)[0])
-
-
 def caption(results: Sequence[Result]) -> str:
     exponents = listed(style.with_error(result["front_exponent"]) for result in results)
     return f"""
         Particles n_t(p) with momentum p in a chain that is empty at t = 0, times |p|; {parameters(results, "cells", "sigma", "gamma")},
         {baths(results[0])}, {replicas(results)}. The paper does not state the distance λ of the scatterers: columns; claims are
-        judged at λ = {JUDGED}. Top: bins of width {number(bin_width(results[0]))}, too wide for the front; upper axis: bin number, the paper's abscissa. Middle: logarithmic bins, both signs of p; circles: front p_0(t), where the density falls to half its
+        judged at λ = {style.JUDGED}. Top: bins of width {number(bin_width(results[0]))}, too wide for the front; upper axis: bin number, the paper's abscissa. Middle: logarithmic bins, both signs of p; circles: front p_0(t), where the density falls to half its
         height. Bottom: p_0 over λ/2t. The front falls as t^a with a = {exponents} in the columns, not logarithmically.
         {ERRORS}"""
 
@@ -77,7 +71,7 @@ def caption(results: Sequence[Result]) -> str:
 def draw(results: Sequence[Result]) -> Drawn:
     size = (3 * style.COLUMN, 2.3 * style.HEIGHT)
     figure, rows = plt.subplots(3, len(results), figsize=size, sharex="row", height_ratios=[2, 2, 1])
-    results = by_spacing(results)
+    results = style.in_order_of_spacing(results)
     tables = [tabulate(result) for result in results]
     for (above, middle, below), result, table in zip(rows.T, results, tables, strict=True):
         plot_times(above, table[table.bins == "momentum"])
@@ -89,7 +83,7 @@ def draw(results: Sequence[Result]) -> Drawn:
         below.errorbar(front.time, ratio, front.front_error / half_cell, **FRONT)
         below.axhline(1, **style.GUIDE)
         given = style.spacing(result)[1]
-        name = rf"$\lambda = {given}$" + "\n(judged)" * (given == JUDGED)
+        name = rf"$\lambda = {given}$" + "\n(judged)" * (given == style.JUDGED)
         above.text(0.04, 0.94, name, transform=above.transAxes, va="top")
         above.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel=r"$|p|\,n_t(p)$", xlim=(-40, 40))
         number_bins(above, result)

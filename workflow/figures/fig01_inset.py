@@ -12,7 +12,6 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from workflow.figures.fig01 import JUDGED, by_spacing
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, parameters, replicas
 from workflow.lib.figure import Drawn, run
@@ -59,7 +58,7 @@ def draw_number(axes: Axes, table: pd.DataFrame, result: Result) -> None:
     if straight(result):
         axes.plot(table.time, table.number_fitted, color=style.BLACK, zorder=3, label=r"$a + b\,\ln t$")
     given = style.spacing(result)[1]
-    title = rf"$\lambda = {given}$" + " (judged)" * (given == JUDGED)
+    title = rf"$\lambda = {given}$" + " (judged)" * (given == style.JUDGED)
     filled = table.cell_length.iloc[0] < 1
     axes.legend(title=title, alignment="left", loc="lower right" if filled else "upper left")
     axes.set(xscale="log", ylabel="particles inside $n(t)$", ylim=(0, None))
@@ -80,14 +79,14 @@ def caption(results: Sequence[Result]) -> str:
         Number n(t) of particles in a chain that is empty at t = 0; {parameters(results, "cells", "sigma", "gamma")},
         {baths(results[0])}, {replicas(results)}. Above: n(t); line: a + b ln t, fitted in the shaded window,
         where no curvature is resolved. Below: dn/d ln t (circles) and height of |p| n_t(p) above the front, both signs
-        (squares). They agree once the chain is filled, at the largest λ not yet. At λ = {JUDGED}, slope {slope} and height {height} at the end,
+        (squares). They agree once the chain is filled, at the largest λ not yet. At λ = {style.JUDGED}, slope {slope} and height {height} at the end,
         logarithmic growth as in the paper. Early growth breaks off when the fronts from both ends have crossed the chain. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
     size = (3 * style.COLUMN, 1.5 * style.HEIGHT)
     figure, rows = plt.subplots(2, len(results), sharex="col", figsize=size, height_ratios=[2, 1])
-    results = by_spacing(results)
+    results = style.in_order_of_spacing(results)
     tables = [tabulate(result) for result in results]
     for (above, below), result, table in zip(rows.T, results, tables, strict=True):
         draw_number(above, table, result)

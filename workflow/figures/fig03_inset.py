@@ -15,61 +15,13 @@ from workflow.lib import style
 from workflow.lib.caption import ERRORS, WINDOW, baths, number, parameters, replicas
 from workflow.lib.figure import Drawn, require_elastic, run
 from workflow.lib.fit import with_error
+from workflow.lib.fluxes import MEAN_FIELD, SIMULATION, amplitudes, deviations
 from workflow.lib.load import Result
 
 SHOWN = 45  # largest momentum that is plotted
 LOWEST, HIGHEST = 6e-4, 0.08  # range of the deviations that are plotted
 LIMITS = [(1e-3, "0.1 %"), (1e-4, "0.01 %")]  # upper bounds of the deviation in the paper
-SIMULATION, MEAN_FIELD = "simulation", "mean field"
 MARKERS = ["o", "s", "^", "D"]  # one for each N
-
-
-def outgoing(values: np.ndarray, momentum: np.ndarray) -> np.ndarray:
-    """Values by momentum for the outgoing particles: from the first position if p < 0, from the last one if p > 0."""
-    return np.where(momentum < 0, values[0], values[-1])
-
-
-def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per kind, N and bin: deviation from the continuum, in units of the largest F."""
-    (continuum,) = (result for result in results if result.parameters["cells"] == "continuum")
-    flux = continuum["flux"]
-    momentum = flux.axes["momentum"]
-    exact = outgoing(flux.mean, momentum)
-    largest = flux.mean.max()
-    tables = []
-    for result in results:
-        if result is continuum:
-            continue
-        chain_flux = result["flux"]
-        simulated = chain_flux.standard_error is not None
-        table = pd.DataFrame({"momentum": momentum})
-        table["deviation"] = (outgoing(chain_flux.mean, momentum) - exact) / largest
-        table["error"] = outgoing(chain_flux.error, momentum) / largest if simulated else 0.0
-        table.insert(0, "kind", SIMULATION if simulated else MEAN_FIELD)
-        table.insert(1, "cells", int(result.parameters["cells"]))
-        tables.append(table)
-    # In the normalisation that the paper prints, F of a chain without correlations integrates to 1.
-    table = pd.concat(tables, ignore_index=True)
-    return table.assign(absolute_as_printed=table.deviation * largest / style.both_rates(continuum))
-
-
-def amplitudes(table: pd.DataFrame, kind: str = SIMULATION) -> pd.DataFrame:
-    """One row per N: amplitude of the deviation, and its error for independent bins.
-
-    The deviation is projected on its mean-field shape in the shortest chain; the amplitude is the largest value of this part. Unlike the
-    largest of noisy bins it has no bias."""
-    mean_field = table[table.kind == MEAN_FIELD]
-    shape = mean_field[mean_field.cells == mean_field.cells.min()].deviation.to_numpy()
-    scale = np.abs(shape).max() / (shape @ shape)
-    rows = [
-        {
-            "cells": cells,
-            "amplitude": scale * float(shape @ part.deviation),
-            "error": scale * float(np.sqrt(np.sum((shape * part.error) ** 2))),
-        }
-        for cells, part in table[table.kind == kind].groupby("cells")
-    ]
-    return pd.DataFrame(rows)
 
 
 def at_centre(table: pd.DataFrame) -> pd.Series:
@@ -142,7 +94,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
 
 def draw(results: Sequence[Result]) -> Drawn:
     require_elastic(results, "the kinetic equation")
-    table = tabulate(results)
+    table = deviations(results)
     size = (1.1 * style.COLUMN, 1.8 * style.HEIGHT)
     figure, panels = plt.subplot_mosaic([["left", "right"], ["decay", "decay"]], figsize=size)
     draw_end(panels["left"], table, -1, "left end, $x = 0$")

@@ -5,10 +5,8 @@ both ends if gamma = N. Mean field is the kinetic equation: that of the continuu
 """
 
 from collections.abc import Sequence
-from itertools import product
 
 import matplotlib.pyplot as plt
-import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
@@ -16,55 +14,12 @@ from workflow.lib import style
 from workflow.lib.caption import CHAIN, ERRORS, WINDOW, baths, listed, number, parameters, replicas
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
-from workflow.lib.load import Quantity, Result
+from workflow.lib.fluxes import ENDS, at_ends, halves, measured
+from workflow.lib.load import Result
 
 EQUAL = "\n$\\nu_L = \\nu_R$"
 FEW = 0.5  # if a jump is below this fraction of the largest, the axis includes 0
 NEAR = 12  # largest |p| in the panel of the jump
-
-# Bonds behind the first and behind the last scatterer: index, colour, line style and marker.
-ENDS = {"x = 1/N": (1, style.BLUE, "solid", "o"), "x = 1": (-1, style.VERMILLION, (0, (4, 1.5)), "s")}
-
-
-def measured(results: Sequence[Result]) -> list[Result]:
-    return [result for result in results if result.provenance["program"] == "momentum_flux"]
-
-
-def uncorrelated(results: Sequence[Result], like: Result) -> Result | None:
-    """The solution of the kinetic equation for the chain of `like`; None if there is none."""
-    for result in results:
-        same = style.gamma(result) == style.gamma(like) and result.ends("nu") == like.ends("nu")
-        same &= result.parameters["rule"] == like.parameters["rule"]
-        if same and result.provenance["program"] == "boltzmann":
-            return result
-    return None
-
-
-def at(quantity: Quantity, x: float) -> np.ndarray:
-    """Values of a solution of the kinetic equation at the grid point nearest to x."""
-    return quantity.mean[np.abs(quantity.axes["x"] - x).argmin()]
-
-
-def tabulate(results: Sequence[Result]) -> pd.DataFrame:
-    """One row per chain, end and bin."""
-    parts = []
-    for result, (end, (bond, *_)) in product(measured(results), ENDS.items()):
-        flux, jump, expected = result["flux"], result["jump"], uncorrelated(results, result)
-        part = pd.DataFrame({"x": end, "momentum": flux.axes["momentum"], "flux": flux.mean[bond]})
-        part["flux_error"] = flux.error[bond]
-        part["jump"], part["jump_error"] = jump.mean[bond], jump.error[bond]
-        if expected:
-            where = flux.axes["bond"][bond] / flux.axes["bond"][-1]
-            part["kinetic"], part["kinetic_jump"] = at(expected["flux"], where), at(expected["jump"], where)
-        part["nu_left"], part["nu_right"] = result.ends("nu")
-        part.insert(0, "gamma", style.gamma(result))
-        parts.append(part)
-    return pd.concat(parts, ignore_index=True)
-
-
-def halves(part: pd.DataFrame) -> list[pd.DataFrame]:
-    """The rows with p < 0 and those with p > 0, which are plotted as separate curves as F jumps at p = 0."""
-    return [part[part.momentum < 0], part[part.momentum > 0]]
 
 
 def draw_distribution(axes: Axes, table: pd.DataFrame, reach: float) -> None:
@@ -138,20 +93,6 @@ def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
     axes.set_xlim(low, high + 0.45 * (high - low))  # space for the numbers
 
 
-def extrapolation_error(table: pd.DataFrame) -> float:
-    """Largest error, over chains and ends, that the extrapolation of bins to p = 0 makes in mean field.
-
-    A measured jump is the difference of the lines through two bins on either side of p = 0. Here the lines are applied to the bins of
-    the kinetic equation, and the result is compared with the exact jump."""
-    solved = table.dropna(subset="kinetic").sort_values("momentum")
-    errors = []
-    for _, part in solved.groupby(["gamma", "nu_left", "x"]):
-        before, after = (half.kinetic.to_numpy() for half in halves(part))
-        extrapolated = 1.5 * (after[0] - before[-1]) - 0.5 * (after[1] - before[-2])
-        errors.append(abs(extrapolated - part.kinetic_jump.iloc[0]))
-    return float(max(errors))
-
-
 def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]) -> str:
     runs = [result for result in measured(results) if style.gamma(result) == main.gamma.iloc[0]]
     chain = next(result for result in runs if len(set(result.ends("nu"))) > 1)
@@ -172,7 +113,7 @@ def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]
 
 
 def draw(results: Sequence[Result]) -> Drawn:
-    table = tabulate(results)
+    table = at_ends(results)
     main = table[table.gamma == table.gamma.iloc[-1]]
     unequal = main[main.nu_left != main.nu_right]
     figure, panels = plt.subplot_mosaic(
@@ -194,7 +135,7 @@ def draw(results: Sequence[Result]) -> Drawn:
 
 
 def title(results: Sequence[Result]) -> str:
-    return f"Momentum distribution of the particles at both ends, γ = {tabulate(results).gamma.iloc[-1]}"
+    return f"Momentum distribution of the particles at both ends, γ = {at_ends(results).gamma.iloc[-1]}"
 
 
 if __name__ == "__main__":

@@ -7,16 +7,12 @@ import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, listed, number, parameters, replicas
+from workflow.lib.closed import persistence_law
 from workflow.lib.figure import Drawn, require_elastic, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import NOT_REACHED, Result
 
 MARKS = [style.points("o", style.BLUE), style.points("s", style.VERMILLION, "white")]
-
-
-def law(sigma: np.ndarray) -> np.ndarray:
-    """Persistence for independent Gaussian momenta of particle and scatterer at one temperature."""
-    return np.arccos(sigma) / np.pi
 
 
 def law_at_local_energies(table: pd.DataFrame) -> pd.Series:
@@ -42,7 +38,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         for result in results
     ]
     table = pd.DataFrame(rows).sort_values(["particles_per_cell", "sigma"], ignore_index=True)
-    table.insert(4, "law", law(table.sigma))
+    table.insert(4, "law", persistence_law(table.sigma))
     table.insert(5, "deviation", table.mu - table.law)
     table["law_at_local_energies"] = law_at_local_energies(table)
     return table
@@ -71,7 +67,7 @@ def draw(results: Sequence[Result]) -> Drawn:
     table = tabulate(results)
     figure, (above, below) = style.stacked(2.2, 1, height=1.4)
     sigma = np.sin(np.linspace(-np.pi / 2, np.pi / 2, 401))
-    above.plot(sigma, law(sigma), color=style.BLACK, label=r"$\arccos(\sigma)/\pi$", zorder=1)
+    above.plot(sigma, persistence_law(sigma), color=style.BLACK, label=r"$\arccos(\sigma)/\pi$", zorder=1)
     below.axhline(0, color=style.BLACK, zorder=1)
     for (particles, series), mark in zip(table.groupby("particles_per_cell"), MARKS, strict=True):
         label = f"$n = {particles}$"

@@ -14,7 +14,6 @@ from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
 
-ROUNDING = 1e-9  # relative rounding error of times on a logarithmic grid
 GUIDED = 100  # last time over the first time of the guides
 APART = 3  # factor between a guide and the last point
 

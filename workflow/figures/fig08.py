@@ -7,15 +7,16 @@ of N scatterers. Points whose window is not stationary, or whose run stopped bef
 """
 
 from collections.abc import Sequence
+from itertools import cycle
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from workflow.figures.ext09 import gas
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, baths, listed, number, parameters, replicas
+from workflow.lib.caption import ERRORS, RULES, baths, listed, number, parameters, replicas, rule
+from workflow.lib.conductivity import drive, gas
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.growth import local_exponents
@@ -25,15 +26,12 @@ BELOW = 0.7  # ratio of a guide to the lowest point
 SERIES = ["rule", "gamma", "fixed_spacing", "drive"]  # columns that identify a curve
 GUIDES = {"N": (1 / 3, r"$N^{1/3}$", "1/3"), 1: (1, "$N$", "1")}  # the paper's exponents by gamma
 STRONG = style.points("^", style.ORANGE, "white")
-RANDOM = [
-    style.points("D", style.GREEN, face) for face in ("white", None)
-]  # random directions, at the spacing 1/N and at a fixed one
-
-
-def drive(result: Result) -> float:
-    """Ratio of the baths' temperatures."""
-    left, right = result.ends("temperature")
-    return round(right / left, 2)
+RANDOM = RULES["random-direction"]
+CONTROLS = [
+    style.points(marker, color, face)
+    for marker, color in (("D", style.GREEN), ("P", style.BLACK))
+    for face in ("white", None)
+]  # of other rules, at the spacing 1/N and at a fixed one; random directions are first
 
 
 def mean_field(results: Sequence[Result]) -> pd.DataFrame:
@@ -53,7 +51,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     size in common."""
     rows = []
     for result in results:
-        row = {name: result.parameters[name] for name in ("rule", "gamma", "cells")}
+        row = {"rule": rule(result)} | {name: result.parameters[name] for name in ("gamma", "cells")}
         row |= {
             "spacing": style.spacing(result)[1],
             "fixed_spacing": "dense" in result.run,
@@ -94,7 +92,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     strong = texts[own & (slopes.drive > table.drive.min())]
     random = [
         f"{with_error(*last[['kappa', 'kappa_error']])} at N = {last.cells} (λ = {last.spacing})"
-        for _, part in table[table.rule != "elastic"].groupby("fixed_spacing")
+        for _, part in table[table.rule == RANDOM].groupby("fixed_spacing")
         for last in [part.iloc[-1]]
     ]
 
@@ -132,9 +130,9 @@ def draw(results: Sequence[Result]) -> Drawn:
     draw_points(strong, STRONG, rf"$\gamma = N$, $T_R/T_L = {table.drive.max():g}$")
     look = {"color": style.BY_GAMMA["N"][1], "linestyle": "dashed", "label": r"$\gamma = N$, mean field"}
     left.plot(theory.cells, theory.mean_field_kappa, **look)
-    control = table[table.rule != "elastic"].groupby("fixed_spacing")
-    for (_, part), look in zip(control, RANDOM, strict=False):
-        draw_points(part, look, rf"$\gamma = N$, random directions, $\lambda = {part.spacing.iloc[0]}$")
+    control = table[table.rule != "elastic"].groupby(["rule", "fixed_spacing"])
+    for ((name, _), part), look in zip(control, cycle(CONTROLS), strict=False):
+        draw_points(part, look, rf"$\gamma = N$, {name}, $\lambda = {part.spacing.iloc[0]}$")
     style.guide_at(right, 0, "0")
     style.cross_out(left, table.cells, table.kappa, ~table.usable)
     left.set(xscale="log", yscale="log", xlabel="number of cells $N$")

@@ -10,12 +10,12 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from workflow.figures.fig09 import STARTS, draw_marked, look_of, paper_first, pulse, ring_closed, start
 from workflow.lib import style
 from workflow.lib.caption import listed, number, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
+from workflow.lib.pulse import STARTS, draw_marked, look_of, paper_first, pulse, ring_closed, start
 
 SLOPES = {"N": (-2 / 3, r"$t^{-2/3}$", "2/3"), 1: (-1, r"$t^{-1}$", "1")}  # the paper's guides
 SPAN = 0.12  # smallest range of exponents shown on either side of the paper's

@@ -1,5 +1,9 @@
-"""World lines of the particles of a short ring and of a short chain between two baths."""
+"""World lines of the particles of a short ring and of a short chain between two baths, by a simulation of its own: a heap of arrivals.
 
+A few flights: at higher temperatures, longer times or larger chains the lines cover each other.
+"""
+
+import heapq
 from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
@@ -10,22 +14,68 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import LinearSegmentedColormap, PowerNorm
 
 from workflow.lib import style
-from workflow.lib.caption import number, parameters
+from workflow.lib.caption import listed, number
 from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
 
 # The part of the perceptually uniform map plasma that is visible on white: low energies are dark, high ones bright.
 COLOURS = LinearSegmentedColormap.from_list("energy", plt.get_cmap("plasma")(np.linspace(0, 0.88, 256)))
-COLUMNS = ("particle", "start_time", "end_time", "start_position", "end_position", "momentum")
-BATH = 0.75  # width of a bath, in cells
+BATH = 0.75  # width of a bath
+CELLS, SIGMA = 8, 0.5  # of length 1; every particle scatters at every scatterer
+MASS = (1 + SIGMA) / (1 - SIGMA)
+PER_CELL, TEMPERATURE = 2, 1  # of the ring
+RATES, TEMPERATURES = (0.7, 1.4), (4, 1)  # of the baths
+RELAXATION, TIME = 14, 8  # before the picture, and in it
+
+Flight = tuple[
+    float, int, float, float, float, float
+]  # end, particle, start, positions at start and end, momentum
 
 
-def flights(result: Result) -> pd.DataFrame:
-    """One row per flight of a run, with the energy of the particle."""
-    table = pd.DataFrame({name: result[name].mean for name in COLUMNS})
+def begin(particle: int, time: float, x: float, p: float, ring: bool) -> Flight:
+    """Flight to the next scatterer, at (cell + 1/2), or to the opening of a row."""
+    target = np.floor(x + 0.5) + 0.5 if p > 0 else np.ceil(x - 0.5) - 0.5
+    target = target if ring else np.clip(target, 0, CELLS)
+    return time + (target - x) / p, particle, time, x, float(target), p
+
+
+def flights(ring: bool, seed: int) -> pd.DataFrame:
+    """Flights in the window of time of the picture, one per row. Particles and scatterers of a ring start at its temperature; a row is
+    empty, with scatterers at rest, and baths inject half-Gaussian momenta at exponential intervals [model.md, eqs. 1 and 5]."""
+    random, end = np.random.default_rng(seed), RELAXATION + TIME
+    momenta = np.zeros(CELLS)
+    starts: list[tuple[float, float, float]] = []  # time, position, momentum
+    if ring:
+        momenta = np.sqrt(MASS * TEMPERATURE) * random.standard_normal(CELLS)
+        for x in random.uniform(0, CELLS, CELLS * PER_CELL):
+            starts.append((0, x, np.sqrt(TEMPERATURE) * random.standard_normal()))
+    else:
+        for x, sign, rate, temperature in zip((0, CELLS), (1, -1), RATES, TEMPERATURES, strict=True):
+            for time in np.cumsum(random.exponential(1 / rate, size=int(4 * rate * end))):
+                starts.append((time, x, sign * np.sqrt(temperature) * abs(random.standard_normal())))
+    pending = [begin(particle, *start, ring) for particle, start in enumerate(sorted(starts))]
+    heapq.heapify(pending)
+    flown = []
+    while pending and pending[0][0] < end:
+        flown.append(heapq.heappop(pending))
+        time, particle, _, _, x, p = flown[-1]
+        if not ring and x in (0, CELLS):
+            continue
+        x %= CELLS
+        cell = int(x)
+        p, momenta[cell] = (1 - SIGMA) * momenta[cell] - SIGMA * p, (1 + SIGMA) * p + SIGMA * momenta[cell]
+        heapq.heappush(pending, begin(particle, time, x, p, ring))
+    columns = ["end_time", "particle", "start_time", "start_position", "end_position", "momentum"]
+    table = pd.DataFrame(flown + pending, columns=columns)
+    table = table[(table.end_time > RELAXATION) & (table.start_time < end)]
+    for name, side in (("start", np.maximum), ("end", np.minimum)):  # cut at the ends of the window
+        time = side(table[f"{name}_time"], RELAXATION if name == "start" else end)
+        table[f"{name}_position"] += table.momentum * (time - table[f"{name}_time"])
+        table[f"{name}_time"] = time
+    table[["start_time", "end_time"]] -= RELAXATION
     table["energy"] = table.momentum**2 / 2
-    table.insert(0, "chain", result.parameters["chain"])
-    return table
+    table.insert(0, "chain", "closed" if ring else "open")
+    return table.sort_values(["start_time", "particle"])
 
 
 def world_lines(
@@ -43,57 +93,51 @@ def world_lines(
     return drawn
 
 
-def baths(axes: Axes, result: Result, length: float, energies: PowerNorm) -> None:
+def baths(axes: Axes, energies: PowerNorm) -> None:
     """Plots each bath as a band beside the chain. Its colour is that of a particle whose energy equals the temperature."""
-    temperatures = result.ends("temperature")
-    for side, temperature, begin in zip("LR", temperatures, (-BATH, length), strict=True):
-        axes.axvspan(begin, begin + BATH, color=COLOURS(energies(temperature)), linewidth=0, zorder=3)
-        kind = "hot" if temperature == max(temperatures) else "cold"
+    for side, temperature, left in zip("LR", TEMPERATURES, (-BATH, CELLS), strict=True):
+        axes.axvspan(left, left + BATH, color=COLOURS(energies(temperature)), linewidth=0, zorder=3)
+        kind = "hot" if temperature == max(TEMPERATURES) else "cold"
         axes.text(
-            begin + BATH / 2, 0.5, f"{kind} bath, $T_{side} = {number(temperature)}$",
+            left + BATH / 2, 0.5, f"{kind} bath, $T_{side} = {number(temperature)}$",
             color="black" if kind == "hot" else "white", transform=axes.get_xaxis_transform(), rotation=90,
             ha="center", va="center", zorder=4,
         )  # fmt: skip
-    axes.set_xlim(-BATH, length + BATH)
+    axes.set_xlim(-BATH, CELLS + BATH)
 
 
-def draw(results: Sequence[Result]) -> Drawn:
-    by_chain = {str(result.parameters["chain"]): result for result in results}
-    ring, row = by_chain["closed"], by_chain["open"]
-    table = pd.concat([flights(ring), flights(row)], ignore_index=True)
+def draw(_: Sequence[Result]) -> Drawn:
+    closed, row = flights(ring=True, seed=1), flights(ring=False, seed=1)
+    table = pd.concat([closed, row], ignore_index=True)
     energies = PowerNorm(0.45, 0, table.energy.quantile(0.95))
-    cells, spacing = int(ring.parameters["cells"]), float(ring.parameters["cell-length"])
-    length = cells * spacing
-    size, widths = (2 * style.COLUMN, 0.95 * style.COLUMN), (length, length + 2 * BATH)
+    size, widths = (2 * style.COLUMN, 0.95 * style.COLUMN), (CELLS, CELLS + 2 * BATH)
     figure, panels = plt.subplots(1, 2, figsize=size, sharey=True, width_ratios=widths)
-    for axes, result in zip(panels, (ring, row), strict=True):
-        scatterers = (np.arange(cells) + 0.5) * spacing
+    for axes, part, shifts in zip(panels, (closed, row), ((-CELLS, 0, CELLS), (0,)), strict=True):
         along = axes.get_xaxis_transform()
-        axes.vlines(scatterers, 0, 1, transform=along, color="0.8", linewidth=0.7, zorder=0)
-        shifts = (-length, 0.0, length) if result is ring else (0.0,)
-        lines = world_lines(axes, table[table.chain == result.parameters["chain"]], shifts, energies)
-        axes.set_xticks(np.arange(0, cells + 1, 2) * spacing)
-        axes.set(
-            xlim=(0, length),
-            ylim=(0, result.parameters["observation-time"]),
-            xlabel="position $x$  (grey: scatterers)",
-        )
+        axes.vlines(np.arange(CELLS) + 0.5, 0, 1, transform=along, color="0.8", linewidth=0.7, zorder=0)
+        lines = world_lines(axes, part, shifts, energies)
+        axes.set_xticks(np.arange(0, CELLS + 1, 2))
+        axes.set(xlim=(0, CELLS), ylim=(0, TIME), xlabel="position $x$  (grey: scatterers)")
         axes.tick_params(top=False, right=False)
     panels[0].set(title="(a) closed chain: a ring", ylabel=f"time $t$  ({style.UNITS})")
     for end in ("left", "right"):
         panels[0].spines[end].set_linestyle((0, (5, 4)))
     panels[1].set(title="(b) open chain between two baths")
-    baths(panels[1], row, length, energies)
+    baths(panels[1], energies)
     label = "energy of the particle, $p^2/2m$"
     figure.colorbar(lines, ax=panels, label=label, extend="max", aspect=30, pad=0.01)
     caption = f"""The model: world lines of particles in (a) a closed and (b) an open chain of
-        {parameters(results, "cells", "sigma", "gamma")}. A particle flies freely, past all others, to the next scatterer (grey),
+        N = {CELLS} cells, σ = {number(SIGMA)}, γ = N. A particle flies freely, past all others, to the next scatterer (grey),
         which stays in place, and the two exchange energy and momentum. So energy passes from particle to particle through the
         scatterers. The colour is the energy of the particle. (a) A ring: the dashed ends are joined;
-        {parameters([ring], "particles-per-cell")}. (b) Each bath injects particles at its rate,
-        {parameters([row], "nu-left", "nu-right")}, and absorbs those that reach it; its colour is its temperature as an energy."""
+        n = {PER_CELL} per cell. (b) Each bath injects particles at its rate, ν = {listed(map(number, RATES))}, and absorbs those that
+        reach it; its colour is its temperature as an energy."""
     return figure, table, caption
 
 
 if __name__ == "__main__":
-    run(draw, "World lines of particles in a closed and in an open chain", energy="energy")
+    units = dict.fromkeys(("start_time", "end_time"), "time") | dict.fromkeys(
+        ("start_position", "end_position"), "length"
+    )
+    own = {"particle": "1", "momentum": "momentum", "energy": "energy"}
+    run(draw, "World lines of particles in a closed and in an open chain", **units, **own)

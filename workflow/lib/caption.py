@@ -30,6 +30,7 @@ GAS = ("particles-per-cell", "temperature")
 BATHS = ("nu-left", "nu-right", "temperature-left", "temperature-right")
 WINDOW = ("relaxation-time", "observation-time")
 
+RULES = {"random-direction": "random directions"}  # in words, where the name of --rule is no phrase
 BASE = 10
 SMALLEST_P = -6  # power of ten; smaller p-values are printed as a bound
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -65,6 +66,25 @@ def parameters(results: Sequence[Result], *names: str) -> str:
     return ", ".join(texts)
 
 
+def rule(result: Result) -> str:
+    """The collision rule with the values of its options, which are named after it: `elastic`, `random directions`, `reversal (0.03)`."""
+    name = str(result.parameters["rule"])
+    own = [
+        value
+        for option, value in result.parameters.items()
+        if option.startswith(f"{name}-") and value != "none"
+    ]
+    values = f" ({', '.join(map(number, own))})" if own else ""
+    return RULES.get(name, name) + values
+
+
+def with_rules(caption: str, results: Sequence[Result]) -> str:
+    """The caption, with a sentence on the collision rules that it does not name. Elastic collisions, the paper's, need no name."""
+    rules = dict.fromkeys(rule(result) for result in results if "rule" in result.parameters)
+    missing = [name for name in rules if name != "elastic" and name not in caption]
+    return f"{caption} Collision rule: {listed(missing)}." if missing else caption
+
+
 def baths(result: Result) -> str:
     """baths ν = 220 and 180, T = 81.82 and 122.2, left and right; equal values are given once."""
     both = [listed(dict.fromkeys(map(number, result.ends(name)))) for name in ("nu", "temperature")]
@@ -94,7 +114,9 @@ def power_of_ten(power: int) -> str:
 
 
 def goodness(chi_square: float, freedom: int) -> str:
-    """Text with chi^2, its degrees of freedom and its p-value."""
+    """Text with chi^2, its degrees of freedom and its p-value, or that errors are unknown, as with one replica."""
+    if np.isnan(chi_square):
+        return "errors unknown"
     if freedom < 1:
         return "no degree of freedom to test it"
     p = p_value(chi_square, freedom)

@@ -14,7 +14,8 @@ def described() -> dict[str, dict[str, Any]]:
     return {path.stem: json.loads(path.read_text("utf-8")) for path in sorted(FOLDER.glob("[!.]*.json"))}
 
 
-def options() -> dict[str, dict[str, dict[str, Any]]]:
+@cache
+def declared() -> dict[str, dict[str, dict[str, Any]]]:
     """JSON Schema of every option that determines a result, by program and name."""
     return {
         name: {
@@ -28,4 +29,4 @@ def options() -> dict[str, dict[str, dict[str, Any]]]:
 
 def with_option(name: str) -> list[str]:
     """The programs that declare this option."""
-    return [program for program, declared in options().items() if name in declared]
+    return [program for program, options in declared().items() if name in options]

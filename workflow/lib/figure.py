@@ -13,19 +13,17 @@ from pathlib import Path
 import pandas as pd
 from matplotlib.figure import Figure
 
+from workflow.identity import ROOT, drawing_sources, named_identity, panel_identity
 from workflow.lib import style
-from workflow.lib.closure import FilesRead
+from workflow.lib.caption import with_rules
 from workflow.lib.columns import as_csv, inherited
-from workflow.lib.figure_metadata import Parents
-from workflow.lib.files import ROOT, refuse_another_folder
 from workflow.lib.load import FormatError, Result, load
-from workflow.lib.save import Text, save
+from workflow.lib.save import Parents, Text, save
 from workflow.lib.units import UnitsError
 
 Drawn = tuple[
     Figure, pd.DataFrame, str
 ]  # figure, table of the plotted numbers, caption as one paragraph of plain text
-READ = FilesRead()  # created at the first import of a script, so that all later reads are recorded
 
 Draw = Callable[[Sequence[Result]], Drawn]
 
@@ -47,26 +45,42 @@ def require_elastic(results: Sequence[Result], theory: str) -> None:
 def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str) -> None:
     """Renders the panel that the command line names."""
     parser = argparse.ArgumentParser(description="Renders a panel from its results.")
-    parser.add_argument("--data", type=Path, nargs="+", required=True, help="result files of the panel")
-    parser.add_argument("--output", type=Path, required=True, help="figures/QUALITY/PANEL, without suffix")
+    parser.add_argument("--data", type=Path, nargs="*", default=[], help="result files of the panel")
+    parser.add_argument("--output", type=Path, required=True, help="FOLDER/QUALITY/PANEL, without suffix")
     options = parser.parse_args()
     script = Path(sys.argv[0]).resolve()
-    refuse_another_folder()
-    if not script.is_relative_to(ROOT):
-        sys.exit(f"{script} is not in {ROOT}: move it into workflow/figures")
+    if script.parent != ROOT / "workflow/figures":
+        sys.exit(f"{script} is not in {ROOT}/workflow/figures: move it there")
+    if others := [name for name in sys.modules if name.startswith("workflow.figures.")]:
+        sys.exit(f"{script.name} imports the script {others[0]}: move what they share to workflow/lib")
+    sources = drawing_sources(script.stem)
+    name = panel_identity(options.output.name.partition(".")[0], map(str, options.data), sources)
+    if named_identity(options.output) not in (name, ""):
+        sys.exit(f"{script.name}, workflow/lib or uv.lock was edited meanwhile: repeat the command")
     try:
-        results = [load(path) for path in options.data]
+        results = read(options.data, set_aside=bool(named_identity(options.output)))
         style.apply()
         figure, table, caption = draw(results)
-        errors = {f"{name}_error": text for name, text in units.items()}
+        errors = {f"{column}_error": text for column, text in units.items()}
         saved = as_csv(table, inherited(results) | errors | units)
     except (FormatError, OSError, TheoryError, UnitsError) as error:
         sys.exit(str(error))
-    parents = Parents.of(str(script.relative_to(ROOT)), options.output, results)
-    if unknown := READ.beside(parents.sources):
-        sys.exit(
-            f"{script.name} reads {unknown[0]}, and no literal in its modules names that file, so that a change of it would not be "
-            "noticed: write the name as one literal, relative to the module's folder"
-        )
-    name = title if isinstance(title, str) else title(results)
-    save(figure, saved, options.output, Text(name, " ".join(caption.split())), parents)
+    text = Text(title if isinstance(title, str) else title(results), with_rules(" ".join(caption.split()), results))
+    save(figure, saved, options.output, text, Parents(name, options.data, sources))
+
+
+def read(paths: Sequence[Path], set_aside: bool) -> list[Result]:
+    """Loads results. Raises FormatError for all that are refused. set_aside: also renames these, so that the same command makes them
+    again."""
+    results, refused = [], []
+    for path in paths:
+        try:
+            results.append(load(path))
+        except FormatError as error:
+            refused.append(str(error))
+            if set_aside and path.exists():
+                path.rename(f"{path}.refused")
+                refused[-1] += f"; renamed to {path.name}.refused: the same command makes it again"
+    if refused:
+        raise FormatError("\n".join(refused))
+    return results

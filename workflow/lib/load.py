@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 import pandas as pd
 
-from workflow.lib.identity import IDENTITY
+from workflow.identity import IDENTITY, named_identity, result_identity
 from workflow.lib.nearest import nearest
 from workflow.lib.units import parse
 
@@ -169,20 +169,20 @@ class Result:
 
 
 def load(path: Path | str) -> Result:
-    """Reads a result file. Raises FormatError, also if its values were edited, and OSError if the file is unreadable."""
+    """Reads a result file. Raises FormatError, also if its values were edited or its name is that of another result, and OSError if the
+    file is unreadable."""
     with _opened(path) as (file, provenance):
+        own = result_identity(*(provenance[name] for name in ("program", "words", "source_hash")))
+        if (named_identity(path) or own) != own:
+            raise FormatError(
+                "its content is that of another result: of other options or sources, copied or exchanged"
+            )
         if provenance["results_digest"] != results_digest(file["results"]):
             raise FormatError(
                 "edited or damaged: its values differ from those written; remove it and make it again"
             )
         quantities = {name: _quantity(group) for name, group in file["results"].items()}
         return Result(Path(path), _attributes(file["parameters"]), provenance, quantities)
-
-
-def load_provenance(path: Path | str) -> dict[str, Any]:
-    """Reads only the provenance of a result file. Raises FormatError, OSError."""
-    with _opened(path) as (_, provenance):
-        return provenance
 
 
 def load_statements(path: Path | str) -> tuple[dict[str, Any], dict[str, Any], bool]:

@@ -1,9 +1,14 @@
-"""Writes a panel: PDF, PNG, SVG, the plotted numbers as CSV, and its record `<panel>.<identity>.json`.
+"""Writes a panel: PDF, PNG, SVG, the plotted numbers as CSV, and their record as JSON.
 
-Equal inputs give equal bytes, except for the commit in the record: no file has a time, host, user or absolute path.
+Equal inputs give equal bytes, except for the commit in the record: no file has a time, host, user or absolute path. Each file has a
+line with panel, quality and identity.
 """
 
 import io
+import json
+import subprocess
+import sys
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -11,8 +16,8 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
-from workflow.lib.figure_metadata import IDENTITY_LINE, Parents, commit
-from workflow.lib.record import write_with_record
+from workflow.files import write_together
+from workflow.identity import ROOT, sha256, statement
 from workflow.lib.style import FONTS
 
 CREATOR = "lorentz-gas"
@@ -24,20 +29,28 @@ class Text:
     caption: str  # text without line breaks
 
 
+@dataclass(frozen=True)
+class Parents:
+    identity: str  # of the panel
+    results: Sequence[Path]
+    sources: Mapping[str, str]  # hashes by path
+
+
 def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -> None:
-    """Writes stem.pdf, .png, .svg, .csv and then their record, all or none. table: text from columns.as_csv()."""
-    described = parents.as_json()
+    """Writes stem.pdf, .png, .svg, .csv and .json, all or none. table: text from columns.as_csv()."""
+    panel, quality = stem.name.partition(".")[0], stem.parent.name
+    line = statement(panel, quality, parents.identity)
     pictures: dict[str, dict[str, Any]] = {
         "pdf": {
             "Title": text.title,
             "Creator": CREATOR,
             "Producer": CREATOR,
-            "Subject": described,
+            "Subject": line,
             "Keywords": text.caption,
             "CreationDate": None,
         },
-        "png": {"Title": text.title, "Software": CREATOR, "Description": described, "Comment": text.caption},
-        "svg": {"Title": text.title, "Creator": CREATOR, "Description": described, "Date": None},
+        "png": {"Title": text.title, "Software": CREATOR, "Description": line, "Comment": text.caption},
+        "svg": {"Title": text.title, "Creator": CREATOR, "Description": line, "Date": None},
     }
     contents = {}
     if layout := figure.get_layout_engine():
@@ -48,11 +61,24 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
         for kind, metadata in pictures.items():
             contents[kind] = _picture(figure, kind, metadata)
     units, numbers = table.split("\n", maxsplit=1)
-    head = [f"# {text.title}", units, f"# caption: {text.caption}", IDENTITY_LINE + parents.identity]
-    contents["csv"] = "\n".join([*head, numbers]).encode()
-    record = {"panel": stem.name, "quality": stem.parent.name, **asdict(text), **commit()}
-    files = {stem.with_suffix(f".{kind}"): content for kind, content in contents.items()}
-    write_with_record(stem, parents.identity, files, record | {"parents": vars(parents)})
+    contents["csv"] = "\n".join(
+        [f"# {text.title}", units, f"# caption: {text.caption}", f"# {line}", numbers]
+    ).encode()
+    hashes = {str(path): sha256(path.read_bytes()) for path in parents.results} | dict(parents.sources)
+    record = {"panel": panel, "quality": quality, "identity": parents.identity, **asdict(text)}
+    record |= {"commit": commit(), "python": f"{sys.version_info.major}.{sys.version_info.minor}"}
+    record |= {"parents": hashes, "files": {kind: sha256(content) for kind, content in contents.items()}}
+    contents["json"] = (json.dumps(record, indent=1, ensure_ascii=False) + "\n").encode()
+    write_together({stem.with_name(f"{stem.name}.{kind}"): content for kind, content in contents.items()})
+
+
+def commit() -> str:
+    """Commit of the repository, with -dirty if tracked files have changed; empty without a repository."""
+    command = ["git", "--git-dir=.git", "describe", "--always", "--dirty", "--abbrev=40", "--exclude=*"]
+    try:
+        return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False).stdout.strip()
+    except OSError:  # no git
+        return ""
 
 
 def _picture(figure: Figure, kind: str, metadata: dict[str, Any]) -> bytes:

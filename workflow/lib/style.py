@@ -1,5 +1,6 @@
 """Style of the figures: sizes, fonts, and colours that are distinct in grey and for colour-blind readers."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from string import ascii_lowercase
 from typing import Any
@@ -187,3 +188,11 @@ def spacing(result: Result) -> tuple[float, str]:
     if given == "1/N":
         return 1 / int(result.parameters["cells"]), "1/N"
     return float(given), f"{given:g}"
+
+
+JUDGED = "1/N"  # the distance by which claims are judged: that of the paper's other open chains
+
+
+def in_order_of_spacing(results: Sequence[Result]) -> list[Result]:
+    """In ascending order, so that 1/N, the spacing of the paper's other chains, is first."""
+    return sorted(results, key=lambda result: spacing(result)[0])

@@ -13,7 +13,7 @@ import re
 from functools import cache
 from typing import NamedTuple
 
-from workflow.lib.described import options
+from workflow.lib.described import declared
 
 
 class UnitsError(ValueError):
@@ -60,8 +60,8 @@ def option_units() -> dict[str, str]:
     """Declared units of the options of the programs; all others are dimensionless."""
     return {
         name: option["units"]
-        for declared in options().values()
-        for name, option in declared.items()
+        for options in declared().values()
+        for name, option in options.items()
         if option.get("units", "1") != "1"
     }
 

@@ -3,27 +3,26 @@
 Exit status: 1 if a result differs by more than its errors.
 """
 
+import argparse
 import shutil
-import sys
-from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 from scipy.special import stdtr
 
-from workflow.lib.command import command
-from workflow.lib.files import ROOT, file_hash
+from workflow.identity import ROOT
 from workflow.lib.load import Quantity, load
-from workflow.lib.plan import Panel, Quality, data_path, load_plan
+from workflow.plan import Panel, Quality, data_path, load_plan, with_used
 
 BEFORE = Path("build/before")
 SIGNIFICANCE = 1e-4  # p-value of the largest deviation in a result
 COMPUTED = 1e6  # degrees of freedom assumed for a discretisation error
 
 
-def keep(quality: str, panels: Sequence[Panel]) -> None:
+def keep(options: argparse.Namespace) -> None:
     """Copies the results that a rerun replaces. An interrupted rerun keeps those from before its first start."""
-    for path in (data_path(quality, panel.name, run) for panel in panels for run in panel.runs):
+    panels = panels_of(options, load_plan(options.quality))
+    for path in (data_path(options.quality, panel.name, run) for panel in panels for run in panel.runs):
         kept = ROOT / BEFORE / path
         if (ROOT / path).is_file() and not kept.exists():
             kept.parent.mkdir(parents=True, exist_ok=True)
@@ -51,36 +50,33 @@ def _tails(a: Quantity, b: Quantity) -> np.ndarray:
     return np.asarray(2 * stdtr(2 * (replicas[usable] - 1.0), -difference[usable] / error[usable]))
 
 
-def main() -> None:
-    keeping = {"action": "store_true", "help": "keep the present results for the comparison after the rerun"}
-    options, _, panels = command(__doc__, keep=keeping)
-    if options.keep:
-        keep(options.quality, panels)
-        return
+def main(options: argparse.Namespace) -> int:
     quality = Quality.of(options.quality)
-    base = load_plan(quality.base)
+    plan, base = load_plan(quality.name), load_plan(quality.base)
     again = quality.name == quality.base  # a rerun from scratch
     against = BEFORE / "data" / quality.base if again else Path("data") / quality.base
     values: dict[str, float] = {}
-    for panel in panels:
+    for panel in panels_of(options, plan):
         for run in panel.runs:
             path = data_path(quality.name, panel.name, run)
             reference = data_path(quality.base, panel.name, base[panel.name].run(run.name))
             reference = str(BEFORE / reference) if again else reference
             if (ROOT / reference).is_file():
-                same = file_hash(ROOT / path) == file_hash(ROOT / reference)
+                same = (ROOT / path).read_bytes() == (ROOT / reference).read_bytes()
                 values[path] = 1.0 if same else p_value(ROOT / path, ROOT / reference)
     if not values:
         print(f"No results in {against} to compare with: make them first, then repeat this command")
-        return
+        return 0
     differing = {path: p for path, p in values.items() if p <= SIGNIFICANCE}
     agree, smallest = len(values) - len(differing), min(values.values())
     print(f"{agree} of {len(values)} results agree with those in {against}, smallest p = {smallest:.2g}")
     for path, p in differing.items():
         print(f"  {path}: p = {p:.2g}")
     shutil.rmtree(ROOT / BEFORE / "data" / quality.base, ignore_errors=True)
-    sys.exit(1 if differing else 0)
+    return int(bool(differing))
 
 
-if __name__ == "__main__":
-    main()
+def panels_of(options: argparse.Namespace, plan: dict[str, Panel]) -> list[Panel]:
+    """The requested panels after those whose results they plot."""
+    names = options.panels or plan
+    return [*{panel.name: panel for name in names for panel in with_used(plan, name)}.values()]

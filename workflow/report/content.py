@@ -10,18 +10,17 @@ from typing import Any
 from workflow.claims.data import Data
 from workflow.claims.judge import READINGS, Judgement
 from workflow.claims.verdict import Outcome
+from workflow.configuration import read
+from workflow.identity import content_hash
 from workflow.lib import style
-from workflow.lib.citation import citation
-from workflow.lib.closure import hashes_of
-from workflow.lib.configuration import read
-from workflow.lib.plan import Panel, Quality
+from workflow.plan import REPORT_SOURCES, Panel, Quality
 from workflow.report import numbers, words
+from workflow.report.citation import citation
 from workflow.report.questions import answers
 from workflow.report.sources import Products
 from workflow.report.strip import strip_of
 
 HERE = Path(__file__).parent
-SCRIPT = "workflow/report/write.py"
 WIDE = 1.3  # columns of a journal; a wider panel takes the full width of the page
 
 
@@ -45,8 +44,9 @@ def content(quality: str, root: Path) -> dict[str, Any]:
         "citation": citation(root),
     }
     for path in data.used:
-        products.file(path)
-    return context | {"parents": {"products": products.used, "sources": hashes_of(SCRIPT)}}
+        products.read(path)
+    sources = {path: content_hash(path) for path in REPORT_SOURCES}
+    return context | {"parents": {"products": products.used, "sources": sources}}
 
 
 def claim(judgement: Judgement) -> dict[str, Any]:
@@ -79,8 +79,8 @@ def claim(judgement: Judgement) -> dict[str, Any]:
 def panel(panel: Panel, products: Products) -> dict[str, Any]:
     """Title, caption, picture and parents of a panel for the templates. Raises ReportError."""
     record = products.record(panel.name)
-    files = [products.file(f"figures/{products.quality}/{name}") for name in record["files"]]
-    svg = next(file.read_text() for file in files if file.suffix == ".svg")
+    stem = products.stem(panel.name)
+    svg = products.read(f"{stem}.svg").decode()
     width = re.search(r'<svg [^>]*width="([0-9.]+)pt"', svg)
     return {
         "name": panel.name,
@@ -88,8 +88,8 @@ def panel(panel: Panel, products: Products) -> dict[str, Any]:
         "caption": record["caption"],
         "wide": bool(width and float(width[1]) / 72 > WIDE * style.COLUMN),
         "picture": base64.b64encode(svg.encode()).decode(),
-        "parents": record["parents"].inputs(),
-        "record": products.path_of_record(panel.name),
+        "parents": record["parents"],
+        "stem": products.root / stem,
     }
 
 

@@ -1,5 +1,6 @@
 """Writes docs/gallery (pictures, tables, verdicts) and the marked parts of README.md and docs/index.md, from the products of one quality."""
 
+import argparse
 import io
 import sys
 from collections.abc import Mapping
@@ -9,19 +10,14 @@ from typing import Any
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
-from workflow.lib.command import product_command
-from workflow.lib.configuration import ConfigurationError
-from workflow.lib.files import ROOT, write_together
-from workflow.lib.record import write_with_record
+from workflow.configuration import ConfigurationError
+from workflow.files import write_together
+from workflow.identity import ROOT
 from workflow.report.content import content
 from workflow.report.sources import ReportError
 from workflow.report.templates import rendered
 
-README = (
-    f"{'README'}.md"  # written, not read for its content: a literal with its path would count as a source
-)
-GALLERY = "docs/gallery"
-INDEX = str(Path(GALLERY).with_name("index.md"))  # front page of the documentation
+README, INDEX, GALLERY = "README.md", "docs/index.md", "docs/gallery"
 # Pages with marked parts, each of which has a template: the relative path from page to gallery, and the names of the parts.
 FRONT = {
     README: (f"{GALLERY}/", ("answer", "questions", "panels")),
@@ -59,26 +55,25 @@ def with_parts(name: str, page: str, context: Mapping[str, Any]) -> str:
     return page
 
 
-def gallery(quality: str, identity: str, root: Path = ROOT) -> None:
+def gallery(quality: str, root: Path = ROOT) -> None:
     """Writes the gallery and the marked parts of the front pages. Raises ReportError."""
     context, folder = content(quality, root), root / GALLERY
     front = {root / name: with_parts(name, (root / name).read_text(), context).encode() for name in FRONT}
     files = {folder / README: rendered("gallery.md", **context).encode()}
     for name, panel in context["panels"].items():
-        stem = root / "figures" / quality / name
-        files[folder / f"{name}.png"] = small(stem.with_suffix(".png"))
-        files[folder / f"{name}.csv"] = stem.with_suffix(".csv").read_bytes()
-        files[folder / f"{name}.json"] = panel["record"].read_bytes()
+        files[folder / f"{name}.png"] = small(Path(f"{panel['stem']}.png"))
+        for kind in ("csv", "json"):
+            files[folder / f"{name}.{kind}"] = Path(f"{panel['stem']}.{kind}").read_bytes()
     for claim in context["claims"]:
         files[folder / "claims" / f"{claim['id']}.svg"] = rendered("strip.svg", claim=claim).encode()
-    write_together(front)
-    write_with_record(folder / "gallery", identity, files, {"quality": quality})
+    write_together(files | front)
 
 
 def main() -> None:
-    options = product_command(__doc__)
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--quality", required=True)
     try:
-        gallery(options.quality, options.identity)
+        gallery(parser.parse_args().quality)
     except (ConfigurationError, ReportError) as error:
         sys.exit(f"make gallery: {error}")
 

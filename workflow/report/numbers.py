@@ -18,11 +18,12 @@ from workflow.claims.growth import (
     without_particle_current,
 )
 from workflow.claims.verdict import Number
-from workflow.figures import ext11, ext13
 from workflow.lib import caption
 from workflow.lib.fit import with_error
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
+from workflow.lib.response import response
+from workflow.lib.rings import chain
 
 
 def kappa_of_small_chains(data: Data) -> Number:
@@ -83,7 +84,7 @@ def _exponent(ring: Result) -> Number:
 
 
 def _gas_and_time(ring: Result) -> str:
-    gas, middle = ext13.chain(ring), ring["local_exponent"].axes["middle"][-1]
+    gas, middle = chain(ring), ring["local_exponent"].axes["middle"][-1]
     return f"ζ = {caption.number(gas.zeta)}, M = {caption.number(gas.mass)}, t = {middle:.0f}"
 
 
@@ -103,7 +104,7 @@ def kappa_0_expected(data: Data) -> str:
     """Exponent of κ_0 in the last octave, predicted from the heat that passes in a ring before sound leaves the chain (ext. 11)."""
     chains = stationary_at_fixed_spacing(data)
     rings = data.of("ext13", rule="elastic", sigma=chains[0].parameters["sigma"])
-    table, _ = ext11.response(chains, rings)
+    table, _ = response(chains, rings)
     last = table.iloc[-2:]
     return with_error(
         *(

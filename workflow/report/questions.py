@@ -8,7 +8,7 @@ from typing import Any
 from workflow.claims.data import Data, MissingError
 from workflow.claims.judge import Judgement
 from workflow.claims.verdict import Band, Outcome, Reading, level_of_each
-from workflow.lib.configuration import ConfigurationError, read
+from workflow.configuration import ConfigurationError, read
 from workflow.report import numbers, words
 
 FILE = "questions.yaml"

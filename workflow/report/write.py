@@ -1,22 +1,25 @@
-"""Writes `figures/<quality>/report.html` from the products of one quality. Equal inputs give equal bytes."""
+"""Writes the report from the products of one quality. Equal inputs give equal bytes."""
 
+import argparse
 import sys
+from pathlib import Path
 
-from workflow.lib.command import product_command
-from workflow.lib.configuration import ConfigurationError
-from workflow.lib.files import ROOT
-from workflow.lib.record import write_with_record
+from workflow.configuration import ConfigurationError
+from workflow.files import write_together
+from workflow.identity import ROOT
 from workflow.report.content import content
 from workflow.report.sources import ReportError
 from workflow.report.templates import rendered
 
 
 def main() -> None:
-    options = product_command(__doc__)
-    stem = ROOT / "figures" / options.quality / "report"
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--quality", required=True)
+    parser.add_argument("--output", type=Path, required=True)
+    options = parser.parse_args()
     try:
         page = rendered("report.html", **content(options.quality, ROOT))
-        write_with_record(stem, options.identity, {stem.with_suffix(".html"): page.encode()}, {})
+        write_together({options.output: page.encode()})
     except (ReportError, ConfigurationError) as error:
         sys.exit(f"make report: {error}")
 

@@ -9,11 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from workflow.lib.plan import Run
-from workflow.lib.polynomial import at_size
+from workflow.plan import Run
 from workflow.tradeoff.measure import Done, execute, planned, simulate
 
-WINDOW = 1 / 8  # fraction of the observation time, as the reference simulator is slow
 Row = dict[str, object]
 
 
@@ -46,19 +44,21 @@ def compared(method: str, quantity: str, plain: Estimate, better: Estimate) -> R
     return row | {"z": z.max(), "values": len(z)}
 
 
-def conductivity(run: Run, cells: int, replicas: tuple[int, int]) -> Iterator[Row]:
-    """Gains for the conductivity, from an empty start. replicas: of the reference simulator and of the program."""
+def conductivity(
+    run: Run, cells: int, times: tuple[float, float], replicas: tuple[int, int]
+) -> Iterator[Row]:
+    """Gains for the conductivity, from an empty start. times: relaxation, and a short window, as the reference simulator is slow;
+    replicas: of the reference simulator and of the program."""
     options, label = run.options, f"N = {cells}, gamma = {run.options['gamma']}"
-    relaxation = at_size(options["relaxation-time"], cells)
-    observation = WINDOW * at_size(options["observation-time"], cells)
+    relaxation, observation = times
     changes = {"start": "empty", "relaxation-time": relaxation, "observation-time": observation}
     done = execute(run, cells=cells, replicas=replicas[1], **changes)
     gamma = cells if options["gamma"] == "N" else options["gamma"]
     baths = {name: options[name] for name in ("nu-left", "nu-right", "temperature-left", "temperature-right")}
     chain = {"cells": cells, "cell_length": 1 / cells, "sigma": options["sigma"], "gamma": gamma, **baths}
-    times = {"relaxation_time": relaxation, "observation_time": observation}
+    durations = {"relaxation_time": relaxation, "observation_time": observation}
     effort = {"momentum_bins": 2, "momentum_max": 1, "replicas": replicas[0], "seed": 1}  # bins are not used
-    rows, seconds = simulate("open_chain", **chain, **times, **effort)
+    rows, seconds = simulate("open_chain", **chain, **durations, **effort)
     # Five values per cell and the particle currents of N + 1 bonds precede the energy currents.
     plain = averaged(rows.astype(float)[:, [6 * cells + 1, 7 * cells + 1]].mean(axis=1), seconds)
     engine, both = stored(done, "energy_current_plain"), stored(done, "energy_current")
@@ -95,8 +95,8 @@ def pulse(run: Run, replicas: tuple[int, int]) -> Iterator[Row]:
 
 
 def measure() -> pd.DataFrame:
-    rows = [*conductivity(planned("fig08", "deterministic_cells=4"), 256, (32, 100))]
-    rows += conductivity(planned("fig08", "rare_cells=32"), 64, (32, 100))
+    rows = [*conductivity(planned("fig08", "deterministic_cells=4"), 256, (12.8, 25), (32, 100))]
+    rows += conductivity(planned("fig08", "rare_cells=32"), 64, (3.2, 80), (32, 100))
     rows += spreading("fig07_inset", "all_sigma=0.45", "<x^2>, random total momentum")
     rows += spreading("ext07", "spreading_relaxation-time=10", "<x^2>, no total momentum")
     return pd.DataFrame([*rows, *pulse(planned("fig09a", "gaussian"), (50, 60))])

@@ -10,12 +10,11 @@ from pathlib import Path
 
 import numpy as np
 
-from workflow.lib import polynomial
-from workflow.lib.configuration import arguments
+from workflow.configuration import arguments
 from workflow.lib.load import Result, load
-from workflow.lib.plan import Run, load_plan
-from workflow.lib.program import PROGRAMS
-from workflow.lib.program import execute as execute_program
+from workflow.plan import Run, load_plan
+from workflow.program import PROGRAMS
+from workflow.program import execute as execute_program
 
 QUALITY = "smoke"  # fewest pairs per replica and largest target errors
 
@@ -33,8 +32,8 @@ def planned(panel: str, run: str) -> Run:
 
 
 def shortened(times: float | str, fraction: float) -> str:
-    """Scales a time, each time of a list, or every term of a polynomial in N."""
-    return polynomial.scaled(times, lambda number: fraction * number)
+    """Scales a time, or each time of a list."""
+    return ",".join(f"{fraction * float(time):.6g}" for time in str(times).split(","))
 
 
 def call(program: str, **options: object) -> Done:

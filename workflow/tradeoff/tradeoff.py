@@ -8,10 +8,10 @@ import io
 import subprocess
 from pathlib import Path
 
+from workflow.files import write_together
+from workflow.identity import ROOT
 from workflow.lib import style
 from workflow.lib.columns import as_csv
-from workflow.lib.files import ROOT
-from workflow.lib.record import write_with_record
 from workflow.tradeoff import accuracy, bias, efficiency, rounding
 
 FOLDER = ROOT / "figures/tradeoff"
@@ -44,15 +44,12 @@ def make(name: str) -> dict[Path, bytes]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--only", choices=TABLES, metavar="NAME", help=f"one of {', '.join(TABLES)}")
-    parser.add_argument("--quality", help="has no effect: the tables have efforts of their own")
-    parser.add_argument("--identity", help="identity in the name of the record of all tables")
     options = parser.parse_args()
     subprocess.run(["bash", "workflow/environment/build.sh", "reference_simulator"], check=True)
     if options.only:
         make(options.only)
     else:
-        files = {path: content for name in TABLES for path, content in make(name).items()}
-        write_with_record(FOLDER / "tradeoff", options.identity, files, {})
+        write_together({path: content for name in TABLES for path, content in make(name).items()})
 
 
 if __name__ == "__main__":

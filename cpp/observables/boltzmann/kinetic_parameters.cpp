@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/rules.hpp"
 #include "program/errors.hpp"
 #include "sampling/chain_parameters.hpp"
 
@@ -49,7 +48,7 @@ void declare(Options& options, KineticParameters& parameters) {
                        "Mean number of scatterings on the way through; N: one at each of --cells");
   options.integer_or_word("--cells", parameters.cells, {1, 300}, "continuum",
                           "Number of scatterers of a mean-field chain");
-  declare_rule(options, parameters.rule);
+  declare(options, parameters.rule);
   declare(options, parameters.left, parameters.right);
   options.ascending_list("--positions", parameters.positions, {0, 1}, "1",
                          "Positions of the continuum's output, over the length of the chain");
@@ -62,10 +61,11 @@ void declare(Options& options, KineticParameters& parameters) {
 
 void validate(const KineticParameters& parameters, bool positions_given) {
   validate(parameters.bins);
-  if (!rule_properties(parameters.rule).kinetic_equation)
+  validate(parameters.rule);
+  if (!parameters.rule.properties().kinetic_equation)
     throw UsageError(fmt::format(
         "--rule {}: its kinetic equation is not solved here. Choose --rule {}, or simulate the chain.",
-        parameters.rule, Elastic::properties.name));
+        parameters.rule.name, Elastic::properties.name));
   if (!parameters.cells && !parameters.gamma)
     throw UsageError(
         "--gamma N is given without --cells: the continuum has no number of cells. Give --cells, or gamma as "

@@ -7,8 +7,8 @@
 
 #include "boltzmann/fields.hpp"
 #include "model/reservoir.hpp"
-#include "model/rules/elastic.hpp"
 #include "program/options.hpp"
+#include "sampling/chain_parameters.hpp"
 #include "sampling/momentum_bins.hpp"
 
 namespace lorentz {
@@ -18,7 +18,7 @@ struct KineticParameters {
   double sigma = 0.5;
   std::optional<double> gamma = 1;       // none: N, one scattering at each of the cells
   std::optional<std::uint32_t> cells{};  // none: continuum
-  std::string rule{Elastic::properties.name};
+  RuleParameters rule{};
   Reservoir left = default_left, right = default_right;
   std::vector<double> positions{0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1};
   MomentumBinParameters bins;

@@ -10,7 +10,7 @@ namespace lorentz {
 
 bool Blocking::converged() const {
   const std::size_t last = error.size() - 1;
-  return last > 0 && std::abs(error[last] - error[last - 1]) <= 3 * uncertainty[last];
+  return last > 0 && error[last] - error[last - 1] <= 3 * uncertainty[last];
 }
 
 Blocking blocking(const Records& blocks) {

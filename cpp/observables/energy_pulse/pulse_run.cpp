@@ -125,7 +125,7 @@ void declare(Options& options, PulseParameters& parameters) {
 }
 
 void validate(const PulseParameters& parameters) {
-  require_probability(parameters.ring.scattering.gamma, parameters.ring.scattering.cells);
+  validate(parameters.ring.scattering);
   const double of_scatterers = parameters.scatterer_temperature.value_or(0);
   const double hottest = std::max({2 * parameters.energy, 2 * parameters.pulse_energy, of_scatterers});
   const ClosedChain chain = parameters.ring.chain();

@@ -31,15 +31,6 @@ TEST(Simulate, DoesNotDependOnStopsInBetween) {
   expect_same(recorder.collisions, whole);
 }
 
-TEST(Simulate, TimesNeverDecreaseAndStayBeforeTheEnd) {
-  const ClosedChain chain{7, 10, 0.1, -0.3};
-  const std::vector<Collision> all = collisions(chain, closed_chain_start(chain, {}, false, {2, 0}), 5);
-  ASSERT_GT(all.size(), 1000U);
-  for (std::size_t k = 1; k < all.size(); ++k) ASSERT_GE(all[k].time, all[k - 1].time);
-  EXPECT_GT(all.front().time, 0);
-  EXPECT_LT(all.back().time, 5);
-}
-
 // Two particles that are mirror images reach the scatterer at 1.5 at the same time, 0.25. The particle with
 // the lower number scatters first, and the other one meets the scatterer in its new state.
 TEST(Simulate, SimultaneousArrivalsGoInTheOrderOfTheParticles) {

@@ -139,17 +139,6 @@ TEST(Conservation, ScoreFindsALinearDrift) {
   EXPECT_NEAR(static_cast<double>(mutant.total() / part.total()), 10, tolerance);
 }
 
-// Detected mistake: the form of the engine at M = 4 m with 1+sigma = 8/5 rounded to the nearest double.
-TEST(Conservation, ScoreFindsTheResonanceOfAFractionOfFive) {
-  const auto resonant = [](double& u, double& scatterer) {
-    constexpr double heavy = 1.6, light = 2 - heavy;
-    const double relative = scatterer / 2 - u;
-    u += heavy * relative;
-    scatterer -= 2 * light * relative;
-  };
-  EXPECT_GT(std::abs(encounters(resonant, ten_million).as_walks_of_particles()), 10);
-}
-
 /// Mean relative energy gain of independent groups of encounters, in units of its standard error. A drift
 /// that is too small to be visible in one group is found with many.
 template <class Law>

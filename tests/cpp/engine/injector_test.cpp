@@ -104,10 +104,4 @@ TEST(Injector, NothingComesAtRateZero) {
             std::numeric_limits<double>::infinity());
 }
 
-TEST(Injector, BothEndsDrawNumbersOfTheirOwn) {
-  Injector left(bath, {1, 0}, Purpose::injection_left), right(bath, {1, 0}, Purpose::injection_right);
-  EXPECT_NE(left.time(), right.time());
-  EXPECT_NE(left.take(), right.take());
-}
-
 }  // namespace injector_test

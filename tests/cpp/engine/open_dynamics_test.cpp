@@ -13,6 +13,7 @@
 #include "engine/open_start.hpp"
 #include "engine/relaxation.hpp"
 #include "support/collisions.hpp"
+#include "support/rules.hpp"
 
 namespace open_dynamics_test {
 
@@ -59,7 +60,7 @@ TEST(OpenDynamics, EnergyIsWhatEnteredAndHasNotLeft) {
     for (const double gamma : {infinity, 1., 3., 0.}) {
       for (const double sigma : {-1., -0.9, 0., 0.5, 0.999, 1.}) {
         OpenChain chain = chain_of(8, gamma, sigma);
-        chain.rule = rule.name;
+        chain.rule = support::example(rule);
         OpenDynamics dynamics(chain, empty_start(chain), 20, {3, 0});
         Everything seen;
         simulate(dynamics, 20, seen, support::nothing);

@@ -41,6 +41,13 @@ void expect_pair(const PairDynamics& pair, double time, const PhasePoint& plain,
     }
 }
 
+/// A state at which particles have taken random numbers before.
+PhasePoint start_of(const ClosedChain& chain) {
+  PhasePoint point = closed_chain_start(chain, {500, 500}, false, {1, 0});
+  for (Particle& particle : point.particles) particle.draws = 5;
+  return point;
+}
+
 PhasePoint kicked(PhasePoint point) {
   for (std::size_t i = 200; i < 220; ++i) point.particles[i].velocity *= 3;
   point.scatterers[10] *= 3;
@@ -51,7 +58,7 @@ class Pair : public testing::TestWithParam<ClosedChain> {};
 
 TEST_P(Pair, IsTwoSimulationsBitForBit) {
   const ClosedChain chain = GetParam();
-  const PhasePoint start = closed_chain_start(chain, {500, 500}, false, {1, 0});
+  const PhasePoint start = start_of(chain);
   constexpr double end = 1;
   for (const bool share : {true, false}) {
     ClosedDynamics plain(chain, start, end, {5, 7}), perturbed(chain, kicked(start), end, {5, 7});
@@ -69,7 +76,7 @@ TEST_P(Pair, IsTwoSimulationsBitForBit) {
 
 TEST_P(Pair, SharesWhatIsTheSame) {
   const ClosedChain chain = GetParam();
-  const PhasePoint start = closed_chain_start(chain, {500, 500}, false, {1, 0});
+  const PhasePoint start = start_of(chain);
   const auto diverged = [&](const PhasePoint& perturbed, bool share) {
     PairDynamics pair(chain, start, perturbed, 0.02, {5, 7}, share);
     pair.run(0.02, support::nothing);
@@ -86,7 +93,8 @@ TEST_P(Pair, SharesWhatIsTheSame) {
 INSTANTIATE_TEST_SUITE_P(Chains, Pair,
                          testing::Values(ClosedChain{21, 20, 1, 0.5}, ClosedChain{21, 20, 0.5, -0.9},
                                          ClosedChain{21, 20, 1, 0.5, 1.0}, ClosedChain{21, 20, 1, 0, 3.0},
-                                         ClosedChain{.cells = 21, .rule = "random-direction"},
-                                         ClosedChain{.cells = 21, .gamma = 3, .rule = "random-direction"}));
+                                         ClosedChain{.cells = 21, .rule = {"random-direction"}},
+                                         ClosedChain{.cells = 21, .gamma = 3, .rule = {"random-direction"}},
+                                         ClosedChain{.cells = 21, .rule = {"reversal", {0.3}}}));
 
 }  // namespace pair_test

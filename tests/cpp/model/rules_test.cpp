@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "support/rules.hpp"
 #include "support/sample.hpp"
 
 namespace rules_test {
@@ -75,7 +76,7 @@ std::vector<double> scores(const std::vector<Velocities>& all) {
 TEST(Rules, HaveThePropertiesThatTheyState) {
   for (const RuleProperties& rule : rules::all) {
     for (const double sigma : sigmas) {
-      const Rules any = make_rule(rule.name, sigma);
+      const Rules any = make_rule(support::example(rule), sigma);
       const double root_mass = masses(any).root_mass();
       const Encounters seen = encounters(any, 1);
       const double energy = largest_change(seen, [](const Velocities& v) { return v.u * v.u + v.U * v.U; });
@@ -100,25 +101,41 @@ TEST(Rules, ScoresFindAnotherMeasure) {
 }
 
 TEST(Rules, AreMadeByName) {
-  EXPECT_TRUE(std::holds_alternative<Elastic>(make_rule("elastic", 0.5)));
-  EXPECT_TRUE(std::holds_alternative<RandomDirection>(make_rule("random-direction", 0.5)));
+  EXPECT_TRUE(std::holds_alternative<Elastic>(make_rule({"elastic"}, 0.5)));
+  EXPECT_TRUE(std::holds_alternative<Reversal>(make_rule({"reversal", {0.1}}, 0.5)));
   EXPECT_EQ(rule_properties("random-direction").name, RandomDirection::properties.name);
-  EXPECT_THROW(make_rule("inelastic", 0.5), std::invalid_argument);
+  EXPECT_THROW(make_rule({"inelastic"}, 0.5), std::invalid_argument);
+  EXPECT_THROW(make_rule({"reversal"}, 0.5), std::invalid_argument);
   EXPECT_THROW(rule_properties("inelastic"), std::invalid_argument);
-  EXPECT_THROW(make_rule("elastic", 2), std::invalid_argument);
+  EXPECT_THROW(make_rule({"elastic"}, 2), std::invalid_argument);
 }
 
-// The speeds after a collision are those of the elastic rule. Detected mistakes: the direction of the
-// particle is kept; the direction of the scatterer is drawn too.
-TEST(RandomDirection, IsElasticButForTheSignOfTheParticle) {
-  const Encounters drawn = encounters(RandomDirection(0.4), 1), elastic = encounters(Elastic(0.4), 1);
-  std::vector<double> changed;
+/// Frequency of the collisions with value(velocities) of opposite sign after two rules, and of equal
+/// magnitude.
+support::Sample reversals(const Encounters& one, const Encounters& other, auto&& value) {
+  std::vector<double> reversed;
   for (std::size_t k = 0; k < collisions; ++k) {
-    ASSERT_EQ(std::abs(drawn.after[k].u), std::abs(elastic.after[k].u));
-    ASSERT_EQ(drawn.after[k].U, elastic.after[k].U);
-    changed.push_back(drawn.after[k].u == elastic.after[k].u ? 0 : 1);
+    const double a = value(one.after[k]), b = value(other.after[k]);
+    EXPECT_EQ(std::abs(a), std::abs(b)) << k;
+    reversed.push_back(a == b ? 0 : 1);
   }
-  EXPECT_LT(std::abs(support::z_score(support::sample(changed), 0.5)), 4);
+  return support::sample(reversed);
+}
+
+// The speeds after a collision are those of the elastic rule, bit for bit. Detected mistakes: the sign of the
+// particle is kept, or that of the scatterer is drawn too, in one rule; vice versa in the other one; the
+// complement of the probability is used.
+TEST(Rules, AreElasticButForASign) {
+  const auto particle = [](const Velocities& v) { return v.u; };
+  const auto scatterer = [](const Velocities& v) { return v.U; };
+  const Encounters elastic = encounters(Elastic(0.4), 1), drawn = encounters(RandomDirection(0.4), 1);
+  EXPECT_LT(std::abs(support::z_score(reversals(drawn, elastic, particle), 0.5)), 4);
+  EXPECT_EQ(reversals(drawn, elastic, scatterer).mean, 0);
+  const Encounters reversed = encounters(Reversal(0.4, 0.03), 1);
+  EXPECT_LT(std::abs(support::z_score(reversals(reversed, elastic, scatterer), 0.03)), 4);
+  EXPECT_EQ(reversals(reversed, elastic, particle).mean, 0);
+  EXPECT_EQ(reversals(encounters(Reversal(0.4, 0), 1), elastic, scatterer).mean, 0);
+  EXPECT_EQ(reversals(encounters(Reversal(0.4, 1), 1), elastic, scatterer).mean, 1);
 }
 
 }  // namespace rules_test

@@ -23,7 +23,7 @@ using support::content_of;
 struct CheckpointTest : testing::Test {
   support::TemporaryFolder folder;
   Checkpoint checkpoint{folder / "a.h5.checkpoint",
-                        "sigma = 0.5\nbuild_id = abc\n",
+                        "sigma = 0.5\nsource_hash = abc\n",
                         {{"a", "1", "A number"}, {"b", "momentum", "A pair", {{"i", "1", "", {0, 1}}}}}};
   FinishedReplicas saved{
       {0, {{0.1, -0.0, 5e-324}, 3}}, {1, {{1e308, 2, 3}, 0}}, {1ULL << 40, {{-1, 1.0 / 3, 7}, ~0ULL}}};
@@ -51,7 +51,7 @@ TEST_F(CheckpointTest, LoadsWhatWasSaved) {
 TEST_F(CheckpointTest, OfAnotherRunHasNoReplicas) {
   checkpoint.save(saved);
   const std::string identity = checkpoint.identity;
-  for (const std::string& other : {std::string("sigma = 0.4\nbuild_id = abc\n"), identity + " ",
+  for (const std::string& other : {std::string("sigma = 0.4\nsource_hash = abc\n"), identity + " ",
                                    identity.substr(0, identity.size() - 1), std::string()}) {
     checkpoint.identity = other;
     EXPECT_FALSE(checkpoint.load()) << other;

@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <limits>
 #include <random>
-#include <string>
 #include <vector>
 
+#include "reference/arguments.hpp"
 #include "reference/heap_simulator.hpp"
 
 namespace reference {
@@ -21,17 +21,19 @@ namespace reference {
 /// The chain runs until every such waiting time has ended or exceeds the last bin. No time exceeds the
 /// observation.
 struct ClosedChain {
-  std::size_t cells, particles_per_cell;
-  double sigma, gamma, temperature, relaxation, observation;
-  std::string rule;  // elastic, or random-direction: signs of momenta after a collision are drawn
-  double first_edge, bins_per_decade;
-  std::size_t bins;
-  std::vector<double> times;
-  int replicas;
-  std::uint64_t seed;
+  Arguments of;
+  std::size_t cells = of.count("cells"), particles_per_cell = of.count("particles-per-cell"),
+              bins = of.count("bins");
+  double sigma = of.number("sigma"), gamma = of.number("gamma"), temperature = of.number("temperature"),
+         relaxation = of.number("relaxation-time"), observation = of.number("observation-time"),
+         first_edge = of.number("first-edge"), bins_per_decade = of.number("bins-per-decade");
+  std::vector<double> times = of.list("times");
 
   double last_edge() const { return first_edge * std::pow(10, static_cast<double>(bins) / bins_per_decade); }
-  void run() const;
+  void run() const {
+    for (std::size_t replica = 0; replica < of.count("replicas"); ++replica)
+      run_replica(of.count("seed") * 1000003 + replica);
+  }
   void run_replica(std::uint64_t generator_seed) const;
 };
 
@@ -113,7 +115,7 @@ inline void ClosedChain::run_replica(std::uint64_t generator_seed) const {
   }
   HeapSimulator<double> chain(sigma, 1, positions, momenta, std::vector<double>(cells, 0));
   chain.scatter_with(gamma / static_cast<double>(cells), generator());
-  if (rule == "random-direction") chain.draw_directions(generator());
+  chain.reverse(of.number("particle-reversal"), of.number("scatterer-reversal"), generator());
 
   ClosedChainWatch watch(*this, momenta);
   const auto run_until = [&](double time) {
@@ -127,11 +129,6 @@ inline void ClosedChain::run_replica(std::uint64_t generator_seed) const {
   }
   run_until(relaxation + observation + last_edge());
   watch.print_counts();
-}
-
-inline void ClosedChain::run() const {
-  for (int replica = 0; replica < replicas; ++replica)
-    run_replica(seed * 1000003 + static_cast<std::uint64_t>(replica));
 }
 
 }  // namespace reference

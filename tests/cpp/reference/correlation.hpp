@@ -6,22 +6,10 @@
 #include <random>
 #include <vector>
 
+#include "reference/arguments.hpp"
 #include "reference/heap_simulator.hpp"
 
 namespace reference {
-
-/// Correlations of a closed chain in the stationary state by the reference simulator, with independent random
-/// numbers and initial states and no code shared with the engine or the program correlation. Prints one line
-/// per replica: for the momentum and for E_s - E_p/(2 zeta) of a cell, and for every distance r = 0, 1, ...
-/// on the ring, the mean over cells of a_i(0) a_{i+r}(lag). Cells extend from one scatterer to the next.
-struct Correlation {
-  std::size_t cells;
-  double zeta, sigma, temperature, slowest, lag;
-  int replicas;
-  std::uint64_t seed;
-
-  void run() const;
-};
 
 struct Fields {
   std::vector<double> momentum, heat;
@@ -46,15 +34,22 @@ inline void print(const std::vector<double>& before, const std::vector<double>& 
   }
 }
 
-inline void Correlation::run() const {
-  std::mt19937_64 generator(seed);
+/// Correlations of a closed chain in the stationary state by the reference simulator, with independent random
+/// numbers and initial states and no code shared with the engine or the program correlation. Prints one line
+/// per replica: for the momentum and for E_s - E_p/(2 zeta) of a cell, and for every distance r = 0, 1, ...
+/// on the ring, the mean over cells of a_i(0) a_{i+r}(lag). Cells extend from one scatterer to the next.
+inline void run_correlation(const Arguments& of) {
+  const std::size_t cells = of.count("cells");
+  const double zeta = of.number("fugacity"), sigma = of.number("sigma"),
+               temperature = of.number("temperature"), slowest = of.number("slowest"), lag = of.number("lag");
+  std::mt19937_64 generator(of.count("seed"));
   std::normal_distribution<> gaussian;
   std::uniform_real_distribution<> uniform;
   const double fastest = 9 * std::sqrt(temperature);
   // Particles of the density 2 zeta/|p| per cell, kept with the probability exp(-p^2/2T).
   const double range = std::log(fastest / slowest);
   std::poisson_distribution<> of_envelope(2 * zeta * range * static_cast<double>(cells));
-  for (int replica = 0; replica < replicas; ++replica) {
+  for (std::size_t replica = 0; replica < of.count("replicas"); ++replica) {
     std::vector<double> x, p, P;
     for (int left = of_envelope(generator); left > 0; --left) {
       const double speed = slowest * std::exp(range * uniform(generator));

@@ -44,9 +44,10 @@ class HeapSimulator {
     generator_.seed(seed);
   }
 
-  /// Draws the direction of a particle after every collision, each with probability 1/2.
-  void draw_directions(std::uint64_t seed) {
-    directions_drawn_ = true;
+  /// After every collision reverses the momentum of the particle, of the scatterer, with these probabilities.
+  void reverse(double of_particle, double of_scatterer, std::uint64_t seed) {
+    particle_reversed_ = std::bernoulli_distribution(of_particle);
+    scatterer_reversed_ = std::bernoulli_distribution(of_scatterer);
     coin_.seed(seed);
   }
 
@@ -94,7 +95,8 @@ class HeapSimulator {
                  -sigma_ * p + (1 - sigma_) * P,
                  P,
                  (1 + sigma_) * p + sigma_ * P};
-        if (directions_drawn_ && std::bernoulli_distribution(0.5)(coin_)) event.p_after = -event.p_after;
+        if (particle_reversed_(coin_)) event.p_after = -event.p_after;
+        if (scatterer_reversed_(coin_)) event.P_after = -event.P_after;
         P = event.P_after;
         next.p = event.p_after;
       }
@@ -124,7 +126,7 @@ class HeapSimulator {
   std::priority_queue<Pending> pending_;
   double probability_ = 1;
   std::mt19937_64 generator_;
-  bool directions_drawn_ = false;
+  std::bernoulli_distribution particle_reversed_{0}, scatterer_reversed_{0};
   std::mt19937_64 coin_;
 };
 

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <cstdint>
-
+#include "reference/arguments.hpp"
 #include "reference/open_heap_simulator.hpp"
 
 namespace reference {
@@ -11,18 +10,24 @@ namespace reference {
 /// arrivals to the right and to the left per unit time; per bond the particle current and the energy current;
 /// per bond and bin the flux per unit momentum; then for the particles inside at the end of the window their
 /// number and their number per bin.
-struct OpenChain {
-  OpenHeapParameters parameters;
-  int replicas;
-  std::uint64_t seed;
-
-  void run() const {
-    for (int replica = 0; replica < replicas; ++replica) {
-      OpenHeapSimulator simulator(parameters, seed * 1000003 + static_cast<std::uint64_t>(replica));
-      simulator.run(parameters.relaxation + parameters.observation);
-      simulator.print();
-    }
+inline void run_open_chain(const Arguments& of) {
+  const OpenHeapParameters parameters{of.count("cells"),
+                                      of.number("cell-length"),
+                                      of.number("sigma"),
+                                      of.number("gamma"),
+                                      of.number("nu-left"),
+                                      of.number("nu-right"),
+                                      of.number("temperature-left"),
+                                      of.number("temperature-right"),
+                                      of.number("relaxation-time"),
+                                      of.number("observation-time"),
+                                      of.count("momentum-bins"),
+                                      of.number("momentum-max")};
+  for (std::size_t replica = 0; replica < of.count("replicas"); ++replica) {
+    OpenHeapSimulator simulator(parameters, of.count("seed") * 1000003 + replica);
+    simulator.run(parameters.relaxation + parameters.observation);
+    simulator.print();
   }
-};
+}
 
 }  // namespace reference

@@ -40,9 +40,10 @@ class OpenHeapSimulator {
     next_injection(false, 0);
   }
 
-  /// Draws the direction of a particle after every collision, each with probability 1/2.
-  void draw_directions(std::uint64_t seed) {
-    directions_drawn_ = true;
+  /// After every collision reverses the momentum of the particle, of the scatterer, with these probabilities.
+  void reverse(double of_particle, double of_scatterer, std::uint64_t seed) {
+    particle_reversed_ = std::bernoulli_distribution(of_particle);
+    scatterer_reversed_ = std::bernoulli_distribution(of_scatterer);
     coin_.seed(seed);
   }
 
@@ -150,7 +151,8 @@ class OpenHeapSimulator {
     const double sigma = parameters_.sigma, p = event.p;
     event.p = -sigma * p + (1 - sigma) * P_[cell];
     P_[cell] = (1 + sigma) * p + sigma * P_[cell];
-    if (directions_drawn_ && std::bernoulli_distribution(0.5)(coin_)) event.p = -event.p;
+    if (particle_reversed_(coin_)) event.p = -event.p;
+    if (scatterer_reversed_(coin_)) P_[cell] = -P_[cell];
     return true;
   }
 
@@ -170,7 +172,7 @@ class OpenHeapSimulator {
 
   OpenHeapParameters parameters_;
   std::mt19937_64 generator_, coin_;
-  bool directions_drawn_ = false;
+  std::bernoulli_distribution particle_reversed_{0}, scatterer_reversed_{0};
   std::priority_queue<Event> events_;
   std::vector<double> P_, changed_;
   std::vector<int> occupied_;

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <cstdio>
 #include <random>
-#include <string>
 #include <vector>
 
+#include "reference/arguments.hpp"
 #include "reference/heap_simulator.hpp"
 
 namespace reference {
@@ -17,15 +17,14 @@ namespace reference {
 /// ... Both trajectories start from the same state or, to measure the variance reduction by that, from
 /// independent ones.
 struct Pulse {
-  std::size_t cells, particles_per_cell;
-  double sigma, gamma, energy, pulse_energy;
-  int pairs, replicas;
-  std::uint64_t seed;
-  std::string start;  // shared or independent
-  std::vector<double> times;
+  Arguments of;
+  std::size_t cells = of.count("cells"), particles_per_cell = of.count("particles-per-cell");
+  double sigma = of.number("sigma"), gamma = of.number("gamma"), energy = of.number("energy"),
+         pulse_energy = of.number("pulse-energy");
+  bool shared = of.text("start") == "shared";  // else independent
+  std::vector<double> times = of.list("times");
 
   void run() const;
-
   double root_mass() const { return std::sqrt((1 + sigma) / (1 - sigma)); }
 };
 
@@ -63,7 +62,7 @@ inline PulseStart with_pulse(const Pulse& pulse, PulseStart start) {
 /// Adds the energy differences of one pair to the sums.
 inline void add_pair(const Pulse& pulse, std::mt19937_64& generator, std::vector<double>& sums) {
   const PulseStart start = draw_start(pulse, generator);
-  const PulseStart pulsed = with_pulse(pulse, pulse.start == "shared" ? start : draw_start(pulse, generator));
+  const PulseStart pulsed = with_pulse(pulse, pulse.shared ? start : draw_start(pulse, generator));
   HeapSimulator<double> plain(pulse.sigma, 1, start.x, start.p, start.P),
       perturbed(pulse.sigma, 1, pulsed.x, pulsed.p, pulsed.P);
   const double probability = pulse.gamma / static_cast<double>(pulse.cells);
@@ -83,10 +82,11 @@ inline void add_pair(const Pulse& pulse, std::mt19937_64& generator, std::vector
 }
 
 inline void Pulse::run() const {
-  std::mt19937_64 generator(seed);
-  for (int replica = 0; replica < replicas; ++replica) {
+  std::mt19937_64 generator(of.count("seed"));
+  const double pairs = of.number("pairs-per-replica");
+  for (std::size_t replica = 0; replica < of.count("replicas"); ++replica) {
     std::vector<double> sums(times.size() * cells, 0);
-    for (int pair = 0; pair < pairs; ++pair) add_pair(*this, generator, sums);
+    for (double pair = 0; pair < pairs; ++pair) add_pair(*this, generator, sums);
     for (const double sum : sums) std::printf("%.17g ", sum / pairs);
     std::printf("\n");
   }

@@ -78,7 +78,7 @@ TEST(ClosedRun, ObservesAfterTheRelaxationAndConserves) {
 
 // If directions are drawn, energy is conserved and momentum is not.
 TEST(ClosedRun, ReportsThatNoMomentumIsConserved) {
-  const ClosedParameters parameters{.ring = {.scattering = {.cells = 11, .rule = "random-direction"}},
+  const ClosedParameters parameters{.ring = {.scattering = {.cells = 11, .rule = {"random-direction"}}},
                                     .relaxation_time = 0,
                                     .observation_time = 1};
   ClosedRun run(parameters, replica);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "observables/steady_profile/cell_profile.hpp"
@@ -23,7 +22,7 @@ const Window window{2, 12};
 /// Values of all replicas by quantity: temperatures of the scatterers, then currents through the bonds.
 using Values = std::vector<std::vector<double>>;
 
-OpenParameters parameters(const std::string& rule, std::optional<double> gamma) {
+OpenParameters parameters(const RuleParameters& rule, std::optional<double> gamma) {
   return {.scattering = {.cells = cells, .sigma = 0.3, .gamma = gamma, .rule = rule},
           .left = {20, 50},
           .right = {10, 200},
@@ -50,12 +49,12 @@ Values measured(const OpenParameters& chain) {
   return values;
 }
 
-Values of_reference(bool directions_drawn, double gamma) {
+Values of_reference(double particle_reversal, double scatterer_reversal, double gamma) {
   Values values(cells + 2 * (cells + 1));
   for (std::uint64_t index = 0; index < replicas; ++index) {
     reference::OpenHeapSimulator simulator(
         {cells, 0.25, 0.3, gamma, 20, 10, 50, 200, window.begin, window.end - window.begin, 2, 1}, index);
-    if (directions_drawn) simulator.draw_directions(1000 + index);
+    simulator.reverse(particle_reversal, scatterer_reversal, 1000 + index);
     simulator.run(window.end);
     std::size_t k = 0;
     for (std::size_t cell = 0; cell < cells; ++cell) values[k++].push_back(simulator.temperature(cell));
@@ -75,15 +74,19 @@ double largest_score(const Values& a, const Values& b) {
 
 // Detected mistakes: another collision rule; another gamma; one drawn direction for all collisions of a cell.
 TEST(OpenRule, HasTheTemperaturesAndCurrentsOfTheReference) {
+  const RuleParameters elastic, random{"random-direction"},
+      reversal{"reversal", {{"--reversal-probability", 0.3}}};
   for (const std::optional<double> gamma : {std::optional<double>{}, std::optional(2.)}) {
-    const Values drawn = of_reference(true, gamma.value_or(cells)),
-                 kept = of_reference(false, gamma.value_or(cells));
-    const Values elastic = measured(parameters("elastic", gamma)),
-                 random = measured(parameters("random-direction", gamma));
-    EXPECT_LT(largest_score(random, drawn), 4);
-    EXPECT_LT(largest_score(elastic, kept), 4);
-    EXPECT_GT(largest_score(elastic, drawn), 6);
-    EXPECT_GT(largest_score(measured(parameters("random-direction", 3)), drawn), 6);
+    const double mean = gamma.value_or(cells);
+    const Values kept = of_reference(0, 0, mean), drawn = of_reference(0.5, 0, mean),
+                 reversed = of_reference(0, 0.3, mean);
+    EXPECT_LT(largest_score(measured(parameters(elastic, gamma)), kept), 4);
+    EXPECT_LT(largest_score(measured(parameters(random, gamma)), drawn), 4);
+    EXPECT_LT(largest_score(measured(parameters(reversal, gamma)), reversed), 4);
+    EXPECT_GT(largest_score(kept, drawn), 6);
+    EXPECT_GT(largest_score(kept, reversed), 6);
+    EXPECT_GT(largest_score(of_reference(0, 0.25, mean), reversed), 4);
+    EXPECT_GT(largest_score(measured(parameters(random, 3)), drawn), 6);
   }
 }
 

@@ -60,13 +60,15 @@ TEST(Bins, DivideTheRangeEvenly) {
   EXPECT_EQ(bins.middles(), (std::vector<double>{-1.25, -0.75, -0.25, 0.25, 0.75, 1.25}));
 }
 
-// Detected mistakes: values outside the range count in the last bin; weights are replaced by 1.
-TEST(Histogram, SumsWeightsAndLeavesOutWhatLiesOutside) {
+// Detected mistakes: values outside the range count in the last bin, or not in the total; weights are replaced
+// by 1.
+TEST(Histogram, SumsWeightsInTheBinsAndInAll) {
   Histogram histogram(Bins(4, 2));
   for (const double value : {-2.5, -1.5, -0.5, 0.5, 0.5, 2., 7.}) histogram.add(value);
   histogram.add(1.5, 0.25);
   histogram.add(-0.5, -3);
   EXPECT_EQ(histogram.weights(), (std::vector<double>{1, -2, 2, 0.25}));
+  EXPECT_EQ(histogram.total(), 4.25);
 }
 
 }  // namespace histogram_test

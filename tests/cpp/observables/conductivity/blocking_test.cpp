@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace blocking_test {
@@ -52,6 +53,26 @@ TEST(Blocking, FindsBlocksThatAreTooShort) {
   const Blocking result = blocking(process(0.98, 400, 8, 2, 3));
   EXPECT_GT(result.error.back(), 2 * result.error.front());
   EXPECT_FALSE(result.converged());
+}
+
+// The sum of the blocks telescopes, so that the error of n joined blocks is 1/n of that of one, not
+// 1/sqrt(n).
+TEST(Blocking, AcceptsAnErrorThatFalls) {
+  std::mt19937_64 generator(4);
+  std::normal_distribution<double> normal;
+  Records records(8);
+  for (int replica = 0; replica < 100; ++replica) {
+    std::vector<double> differences(8);
+    double before = normal(generator);
+    for (double& difference : differences) {
+      const double now = normal(generator);
+      difference = now - std::exchange(before, now);
+    }
+    records.append(differences);
+  }
+  const Blocking result = blocking(records);
+  EXPECT_LT(result.error.back(), 0.5 * result.error.front());
+  EXPECT_TRUE(result.converged());
 }
 
 /// A process with sufficiently long blocks is seldom reported as not converged.

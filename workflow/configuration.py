@@ -1,0 +1,228 @@
+"""Loads paper.yaml and quality/*.yaml and validates them against the declared options of the programs."""
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from jsonschema import Draft202012Validator, ValidationError
+from ruamel.yaml import YAML
+from ruamel.yaml.error import MarkedYAMLError, YAMLError
+from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
+
+from workflow.files import in_one_line
+from workflow.identity import ROOT
+from workflow.lib.described import declared
+from workflow.lib.nearest import nearest
+from workflow.polynomial import pattern
+
+Options = dict[str, Any]  # by name without leading dashes: a number, text, or a bool for a flag
+Schema = dict[str, Any]
+Keys = tuple[Any, ...]  # path in nested mappings and lists
+
+FOLDER = ROOT / "workflow/config"
+ERROR = "error"  # relative error, in place of a number of replicas
+EFFORT = ("cells", "observation-time", "pairs-per-replica", "replicas", ERROR)
+ALSO_PHYSICS = ("cells", "observation-time")  # given in paper.yaml, too
+SCALE: Schema = {"type": "number", "exclusiveMinimum": 0, "allowed": "a number greater than 0"}
+FRACTION = {**SCALE, "exclusiveMaximum": 1, "allowed": "a number greater than 0 and less than 1"}
+OF_SERIES: Schema = {
+    "program": True,
+    "replicated": {"type": "boolean", "allowed": "true or false"},
+    "target-scale": SCALE,  # size of a target quantity that can be 0, to which ERROR refers then
+}
+NAME: Schema = {"type": "string", "pattern": "^[A-Za-z0-9_-]+$", "allowed": "letters, digits, _ and -"}
+NAMED: Schema = {"type": "object", "propertyNames": NAME, "minProperties": 1}
+NEW = " (after a change of the programs: run make build)"
+SAFE = YAML(typ="safe", pure=True)
+
+
+class ConfigurationError(ValueError):
+    """One line per error: file, line, column, key, problem and allowed values."""
+
+
+@dataclass(frozen=True)
+class Document:
+    """A YAML file."""
+
+    name: str
+    text: str
+    content: Any
+
+    def check(self, schema: Schema) -> None:
+        """Validates the content. Raises ConfigurationError."""
+        complaints: dict[tuple[int, int], str] = {}  # a shared mapping is reported once
+        for error in Draft202012Validator(schema).iter_errors(self.content):
+            for keys, problem in _problems(error):
+                complaints.setdefault(self._position(keys), self.complaint(keys, problem))
+        if complaints:
+            raise ConfigurationError("\n".join(complaints[position] for position in sorted(complaints)))
+
+    def complaint(self, keys: Keys, problem: str) -> str:
+        line, column = self._position(keys)
+        return f"{self.name}:{line}:{column}: {'.'.join(map(str, keys)) or 'the file'}: {problem}"
+
+    @cached_property
+    def _root(self) -> Any:
+        return SAFE.compose(self.text)
+
+    def _position(self, keys: Keys) -> tuple[int, int]:
+        """Line and column of a key or an item; of a merged key, in the mapping that defines it."""
+        node, position = self._root, (1, 1)
+        for key in keys:
+            if member := _member(node, key):
+                mark, node = member
+                position = mark.line + 1, mark.column + 1
+        return position
+
+
+def read(folder: Path, name: str) -> Document:
+    """Reads a YAML 1.2 file. Raises ConfigurationError, also for duplicate keys."""
+    try:
+        text = (folder / name).read_text("utf-8")
+        return Document(_shown(folder / name), text, SAFE.load(text))
+    except OSError as error:
+        raise ConfigurationError(in_one_line(error)) from error
+    except MarkedYAMLError as error:
+        mark, problem = error.problem_mark, str(error.problem)
+        problem = "a tab; indent with spaces" if "'\\t'" in problem else problem
+        raise ConfigurationError(
+            f"{_shown(folder / name)}:{mark.line + 1}:{mark.column + 1}: {problem}"
+        ) from error
+    except (YAMLError, UnicodeDecodeError) as error:
+        raise ConfigurationError(f"{_shown(folder / name)}: {' '.join(str(error).split())}") from error
+
+
+def _shown(path: Path) -> str:
+    """A path of the project relative to its folder."""
+    return str(path.relative_to(ROOT) if path.is_relative_to(ROOT) else path)
+
+
+def load_configuration(quality: str, folder: Path = FOLDER) -> tuple[Document, Document]:
+    """Validated `paper.yaml` and `quality/<quality>.yaml`. Raises ConfigurationError."""
+    programs: dict[str, Schema] = declared()
+    paper, efforts = read(folder, "paper.yaml"), read(folder, f"quality/{quality}.yaml")
+    paper.check(_panels(programs))
+    paper.check(_physics(paper.content, programs))
+    efforts.check(_efforts(paper.content, programs))
+    return paper, efforts
+
+
+def programs_of(panel: dict[str, Any]) -> dict[str, str]:
+    """Program of each series."""
+    return {
+        series: own.get("program", panel.get("program")) for series, own in panel.get("series", {}).items()
+    }
+
+
+def arguments(options: Options) -> list[str]:
+    """Command-line arguments of the options, in one order and with one text for equal numbers."""
+    words = []
+    for name, value in sorted(options.items()):
+        if value is not False:
+            number = int(value) if isinstance(value, float) and value.is_integer() else value
+            words += [f"--{name}"] if value is True else [f"--{name}", str(number)]
+    return words
+
+
+def _panels(programs: dict[str, Schema]) -> Schema:
+    """Schema of the structure of paper.yaml, without options."""
+    program = {"enum": [*programs]}
+    series = {"type": "object", "properties": OF_SERIES | {"program": program}}
+    panel = _object(
+        {
+            "program": program,
+            "script": NAME,
+            "uses": {"type": "array", "items": {"type": "string"}, "minItems": 1, "uniqueItems": True},
+            "common": {"type": "object"},
+            "series": NAMED | {"additionalProperties": series},
+        }
+    )
+    panel["if"] = {"not": {"required": ["program"]}}
+    panel["then"] = {"properties": {"series": {"additionalProperties": {"required": ["program"]}}}}
+    return _object({"panels": NAMED | {"additionalProperties": panel}}) | {"required": ["panels"]}
+
+
+def _physics(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
+    """Schema of the options in paper.yaml: all but effort."""
+    elsewhere = {name: "belongs into quality/*.yaml" for name in EFFORT if name not in ALSO_PHYSICS}
+    elsewhere["seed"] = "follows from the names of panel and run; `make panel SEED=7` chooses another"
+    common = {name: _options(name, options, elsewhere) for name, options in programs.items()}
+    series = {name: own | {"properties": OF_SERIES | own["properties"]} for name, own in common.items()}
+    panels = {}
+    for name, panel in paper["panels"].items():
+        used = programs_of(panel)
+        by_series = {"properties": {key: series[program] for key, program in used.items()}}
+        every = {"allOf": [True, *(common[program] for program in sorted({*used.values()}))]}
+        panels[name] = {"properties": {"common": every, "series": by_series}}
+    return {"properties": {"panels": {"properties": panels}}}
+
+
+def _efforts(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
+    """Schema of quality/*.yaml: the effort of all replicated series of a panel, and that of single series."""
+    physics = {name for options in programs.values() for name in options if name not in EFFORT}
+    elsewhere = dict.fromkeys(physics, "belongs into paper.yaml")
+    series = {name: _options(name, options, elsewhere) for name, options in programs.items()}
+    every = {name: schema for one in series.values() for name, schema in one["properties"].items()}
+    panels = {}
+    for name, panel in paper["panels"].items():
+        of_series = {key: series[program] for key, program in programs_of(panel).items()}
+        omit = {"type": "array", "items": {"enum": [*of_series]}, "uniqueItems": True}
+        panels[name] = _object({**every, "omit": omit, **of_series})
+    default = _object({name: every[name] for name in ("replicas", ERROR)})
+    return _object({"default": default, "panels": _object(panels)}) | {"required": ["default"]}
+
+
+def _options(program: str, options: Schema, elsewhere: dict[str, str]) -> Schema:
+    """Schema of the options of a program, each with a value or a list of distinct values."""
+    several = {"minItems": 1, "uniqueItems": True}
+    if "replicas" in options:
+        options = options | {ERROR: FRACTION}
+    schemas = {
+        name: {"if": {"type": "array"}, "then": {"items": option} | several, "else": option}
+        for name, option in ((name, _of_size(name, option)) for name, option in options.items())
+        if name not in elsewhere
+    }
+    return _object(schemas) | {"title": program, "elsewhere": elsewhere}
+
+
+def _of_size(name: str, option: Schema) -> Schema:
+    """Schema of an option in the configuration, where times may be polynomials in N, which the plan evaluates."""
+    polynomial = {"type": "string", "pattern": f"^{pattern()}$"}
+    return {"if": polynomial, "then": True, "else": option} if name.endswith("-time") else option
+
+
+def _object(properties: Schema) -> Schema:
+    return {"type": "object", "properties": properties, "additionalProperties": False}
+
+
+def _problems(error: ValidationError) -> Iterator[tuple[Keys, str]]:
+    """Path and description of each problem that a validation error reports."""
+    keys, schema = tuple(error.absolute_path), error.schema
+    assert isinstance(schema, dict)
+    value = json.dumps(error.instance, default=str)
+    if error.validator == "additionalProperties" and isinstance(error.instance, dict):
+        for name in error.instance.keys() - schema["properties"].keys():
+            unknown = f"{schema['title']} has no such option" if "title" in schema else "unknown key"
+            remedy = nearest(str(name), schema["properties"]) + (NEW if "title" in schema else "")
+            yield (*keys, name), schema.get("elsewhere", {}).get(name, f"{unknown}; {remedy}")
+    elif error.validator == "enum":
+        yield keys, f"{value} is unknown; {nearest(str(error.instance), schema['enum'])}{NEW}"
+    elif "allowed" in schema:
+        yield keys, f"{value} is invalid; allowed: {schema['allowed']}"
+    else:
+        yield keys, error.message
+
+
+def _member(node: Node | None, key: Any) -> tuple[Any, Node] | None:
+    """Start and node of a member of a mapping, merged mappings included, or of a sequence."""
+    if not isinstance(node, MappingNode):
+        return (node.value[key].start_mark, node.value[key]) if isinstance(node, SequenceNode) else None
+    members = {name.value: (name.start_mark, value) for name, value in node.value}
+    if str(key) in members or "<<" not in members:
+        return members.get(str(key))
+    merged = members["<<"][1]
+    parts = merged.value if isinstance(merged, SequenceNode) else [merged]
+    return next(filter(None, (_member(part, key) for part in parts)), None)

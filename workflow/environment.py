@@ -1,0 +1,26 @@
+"""Environment of Snakemake and its jobs: variables of the caller's shell change no result, however Snakemake is started."""
+
+import os
+from pathlib import Path
+
+KEPT = (Path(__file__).parent / "environment/kept").read_text().split()
+FIXED = {
+    "LC_ALL": "C.UTF-8",
+    "TZ": "UTC",
+    "SOURCE_DATE_EPOCH": "1230768000",  # in the pictures of matplotlib
+    "PYTHONHASHSEED": "0",
+    "PYTHONSAFEPATH": "1",
+    "PYTHONNOUSERSITE": "1",
+    "OMP_NUM_THREADS": "1",
+    "OPENBLAS_NUM_THREADS": "1",
+    "MPLBACKEND": "Agg",
+    "MPLCONFIGDIR": str(Path(".cache/matplotlib").absolute()),
+}
+
+
+def clean() -> None:
+    """Removes all variables that are not listed in environment/kept; those of Slurm remain."""
+    kept = {name: text for name, text in os.environ.items() if name in KEPT or name.startswith("SLURM_")}
+    os.environ.clear()
+    # Snakemake needs a name, and the user of a container may have none.
+    os.environ.update({"USER": f"user-{os.getuid()}"} | kept | FIXED)

@@ -1,0 +1,260 @@
+"""Plan of the configuration: the panels, their runs, and the names of their products."""
+
+import hashlib
+import itertools
+import re
+import shlex
+from dataclasses import dataclass
+from functools import cache, cached_property
+from pathlib import Path
+from typing import Any
+
+from workflow.configuration import (
+    EFFORT,
+    FOLDER,
+    ConfigurationError,
+    Options,
+    arguments,
+    load_configuration,
+    programs_of,
+)
+from workflow.identity import (
+    DRAWING,
+    ROOT,
+    content_hash,
+    drawing_sources,
+    identity,
+    panel_identity,
+    result_identity,
+    source_hash,
+)
+from workflow.lib.nearest import nearest
+from workflow.polynomial import evaluated
+from workflow.publish import STORE
+
+QUALITIES = ("smoke", "standard", "paper", "deep")
+REPORT_SOURCES = (
+    "workflow/claims",
+    "workflow/report",
+    "workflow/plan.py",
+    "data/claims.csv",
+    "CITATION.cff",
+    *DRAWING,
+)
+BATCH = 16  # replicas between two checks of a target error
+# Without +, as the text is part of the name of a folder and of a pattern of names.
+NUMBER = r"[0-9]+\.?[0-9]*|[0-9]*\.?[0-9]+|[0-9]+\.?[0-9]*[eE]-?[0-9]+"
+EFFORTS: dict[str, tuple[str, Any, str]] = {  # pattern, type and description of the allowed values
+    "seed": ("0|[1-9][0-9]{0,17}", int, "a whole number from 0 to 10^18 - 1"),
+    "replicas": ("[1-9][0-9]{0,17}", int, "a whole number, at least 1"),
+    "error": (NUMBER, float, "a number greater than 0 and less than 1, as 0.02 for 2 %"),
+}
+
+
+class BuildError(ValueError):
+    """A program is missing or older than its sources."""
+
+
+def require_built(program: str) -> None:
+    """Raises BuildError. A program contains the hash of its sources, so that no time stamp is needed."""
+    path = ROOT / "build/bin" / program
+    if not path.is_file():
+        raise BuildError(f"build/bin/{program} is missing: run make build")
+    if source_hash(program).encode() not in path.read_bytes():
+        raise BuildError(f"build/bin/{program} is not built from the present sources: run make build")
+
+
+@dataclass(frozen=True)
+class Run:
+    """One execution of a program, with a name that is unique within its panel."""
+
+    name: str
+    program: str
+    options: Options
+    replicated: bool = True  # False for a deterministic program
+    series: str = ""  # key in the configuration; the name also has the listed values
+
+    @property
+    def words(self) -> str:
+        """Options as on the command line, as the program states them in its result."""
+        return " ".join(arguments(self.options))
+
+    @cached_property
+    def identity(self) -> str:
+        """Hash of all that determines the result. Raises OSError."""
+        return result_identity(self.program, self.words, source_hash(self.program))
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A figure: its own runs, and the names of other panels whose runs it also plots. replaced: by series, the options of
+    paper.yaml that the quality replaces."""
+
+    name: str
+    script: str
+    runs: tuple[Run, ...]
+    uses: tuple[str, ...] = ()
+    replaced: tuple[tuple[str, tuple[str, ...]], ...] = ()
+
+    def run(self, name: str) -> Run:
+        return next(run for run in self.runs if run.name == name)
+
+
+@dataclass(frozen=True)
+class Quality:
+    """A quality with the effort of the command line, by the name of its folder of figures: `standard`, or
+    `standard_seed=7_replicas=200`."""
+
+    name: str
+    base: str
+    seed: int | None = None
+    replicas: int | None = None
+    error: float | None = None  # relative standard error of the target quantity of every run
+
+    @classmethod
+    def of(cls, name: str) -> "Quality":
+        """Parses the name of the folder. Raises ConfigurationError."""
+        base, *given = name.split("_")
+        if base not in QUALITIES:
+            raise ConfigurationError(f"{base} is not a quality; choose one of {', '.join(QUALITIES)}")
+        values: dict[str, Any] = {}
+        for key, _, text in (word.partition("=") for word in given):
+            if key not in EFFORTS:
+                raise ConfigurationError(f"{key}={text} is no effort; {nearest(key, EFFORTS)}")
+            if key in values:
+                raise ConfigurationError(f"{key}={text} is given more than once; give it once")
+            pattern, number, allowed = EFFORTS[key]
+            if not re.fullmatch(pattern, text) or (number is float and not 0 < float(text) < 1):
+                raise ConfigurationError(f"{key.upper()}={text} is invalid; give {allowed}")
+            values[key] = number(text)
+        if "error" in values and "replicas" in values:
+            raise ConfigurationError(
+                "ERROR and REPLICAS both determine the number of replicas; give one of them"
+            )
+        return cls(name, base, **values)
+
+    @property
+    def arguments(self) -> str:
+        """Arguments of make that select this quality and effort."""
+        given = {"QUALITY": self.base, **{key.upper(): getattr(self, key) for key in EFFORTS}}
+        return " ".join(f"{name}={value}" for name, value in given.items() if value is not None)
+
+    def complete(self, panel: str, run: str, options: Options, scale: float | None) -> Options:
+        """Options of a replicated run with its effort as options of the program, and its seed. scale: size of a target quantity that
+        can be 0, to which an error refers then."""
+        own = {key: value for key, value in options.items() if key not in ("replicas", "error")}
+        replicas, error = options.get("replicas"), options.get("error")
+        if self.replicas is not None or self.error is not None:
+            replicas, error = self.replicas, self.error
+        if error is None:
+            own["replicas"] = replicas
+        else:
+            own |= {"replicas": BATCH, "target-error": error}
+            own |= {} if scale is None else {"target-scale": scale}
+        names = f"{panel}/{run}" if self.seed is None else f"{panel}/{run}/{self.seed}"
+        return own | {"seed": seed_of(names)}
+
+
+def seed_of(text: str) -> int:
+    """Seed from a hash of names, which gives every run its own reproducible random streams."""
+    return int.from_bytes(hashlib.sha256(text.encode()).digest()[:4], "big")
+
+
+@cache
+def load_plan(name: str, folder: Path = FOLDER) -> dict[str, Panel]:
+    """All panels of a quality, by name. Raises ConfigurationError."""
+    quality = Quality.of(name)
+    paper, efforts = load_configuration(quality.base, folder)
+    effort = efforts.content
+    panels = {name: _panel(name, panel, effort, quality) for name, panel in paper.content["panels"].items()}
+    for panel in panels.values():
+        if "series" in paper.content["panels"][panel.name] and not panel.runs and not panel.uses:
+            text = f"no runs at quality {name}, and no panel whose runs it uses"
+            raise ConfigurationError(paper.complaint(("panels", panel.name), text))
+        for number, used in enumerate(panel.uses):
+            if used not in panels or not panels[used].runs:
+                text = f"{used} has no runs; {nearest(used, {*panels} - {panel.name, used})}"
+                raise ConfigurationError(paper.complaint(("panels", panel.name, "uses", number), text))
+    return panels
+
+
+def panel_named(plan: dict[str, Panel], name: str) -> Panel:
+    """The panel of this name. Raises ConfigurationError with the most similar name."""
+    if name in plan:
+        return plan[name]
+    raise ConfigurationError(f"{name} is not a panel; {nearest(name, plan)}")
+
+
+def with_used(plan: dict[str, Panel], name: str) -> list[Panel]:
+    """Panels whose runs a panel plots: those in `uses`, then itself."""
+    return [plan[used] for used in (*plan[name].uses, name)]
+
+
+def data_path(quality: str, panel: str, run: Run) -> str:
+    """Path of a result. Raises OSError."""
+    return f"data/{quality.partition('_')[0]}/{panel}/{run.name}.{run.identity}.h5"
+
+
+def data_of(plan: dict[str, Panel], name: str, quality: str) -> list[str]:
+    """Paths of the results that a panel plots. Raises OSError."""
+    return [data_path(quality, panel.name, run) for panel in with_used(plan, name) for run in panel.runs]
+
+
+def stem_of(plan: dict[str, Panel], name: str, quality: str) -> str:
+    """Path of the files of a panel in the store, without suffix. Raises OSError."""
+    present = panel_identity(name, data_of(plan, name, quality), drawing_sources(plan[name].script))
+    return f"{STORE}/{quality}/{name}.{present}"
+
+
+def report_stem(plan: dict[str, Panel], quality: str) -> str:
+    """Path of the report in the store, without suffix. Raises OSError."""
+    sources = {path: content_hash(path) for path in REPORT_SOURCES}
+    return f"{STORE}/{quality}/report.{identity([stem_of(plan, name, quality) for name in plan], sources)}"
+
+
+def drawing_command(script: str, stem: str, data: list[str]) -> str:
+    """Shell command that renders a panel to stem.*"""
+    words = [".venv/bin/python", "-m", f"workflow.figures.{script}", "--output", stem, "--data", *data]
+    return shlex.join(words)
+
+
+def _merged(*efforts: dict[str, Any]) -> dict[str, Any]:
+    """Later efforts replace earlier ones; of replicas and error the last one given counts."""
+    merged: dict[str, Any] = {}
+    for effort in efforts:
+        if {"replicas", "error"} & effort.keys():
+            merged = {key: value for key, value in merged.items() if key not in ("replicas", "error")}
+        merged |= effort
+    return merged
+
+
+def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Quality) -> Panel:
+    runs, replaced = [], {}
+    effort_of = efforts.get("panels", {}).get(name, {})
+    of_all = {key: value for key, value in effort_of.items() if key in EFFORT}
+    for series, program in programs_of(panel).items():
+        if series in effort_of.get("omit", ()):
+            continue
+        own = dict(panel["series"][series])
+        own.pop("program", None)
+        replicated, scale = own.pop("replicated", True), own.pop("target-scale", None)
+        general = (efforts["default"], of_all) if replicated else ()
+        effort = _merged(*general, effort_of.get(series, {}))
+        physics = {**panel.get("common", {}), **own}
+        options = {**physics, **effort}
+        replaced[series] = tuple(key for key in effort if key in physics)
+        listed = [key for key, value in options.items() if isinstance(value, list)]
+        for values in itertools.product(*(options[key] for key in listed)):
+            chosen = dict(zip(listed, values, strict=True))
+            run = "_".join([series, *(f"{key}={_in_name(value)}" for key, value in chosen.items())])
+            given = {**options, **chosen}
+            given = {key: evaluated(value, given.get("cells")) for key, value in given.items()}
+            completed = quality.complete(name, run, given, scale) if replicated else given
+            runs.append(Run(run, program, completed, replicated, series))
+    uses, by_series = tuple(panel.get("uses", ())), tuple(item for item in replaced.items() if item[1])
+    return Panel(name, panel.get("script", name), tuple(runs), uses, by_series)
+
+
+def _in_name(value: object) -> str:
+    """Value as part of a file name: 1perN for 1/N."""
+    return str(value).replace("/", "per")

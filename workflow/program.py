@@ -1,0 +1,65 @@
+"""Runs the programs of build/bin."""
+
+import shutil
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+from workflow.configuration import Options, arguments
+from workflow.identity import ROOT
+from workflow.plan import Run
+
+PROGRAMS = ROOT / "build/bin"
+WRITTEN = (0, 4)  # exit statuses with a result; 4: stopped before the target error, and marked
+REPLICAS_PER_THREAD, MOST_THREADS = 16, 16
+
+
+class ProgramError(ValueError):
+    """A program has refused its options, or has failed."""
+
+
+def threads_of(run: Run) -> int:
+    """Threads among which the replicas of a run are divided without waste."""
+    replicas = int(run.options.get("replicas", 1)) if run.replicated else 1
+    return max(1, min(MOST_THREADS, replicas // REPLICAS_PER_THREAD))
+
+
+def command_line(run: Run, threads: int = 1) -> list[str]:
+    """Command of a run as a list of words, without the option --output."""
+    conduct = ["--threads", str(threads), "--resume"] if run.replicated else []
+    return [f"build/bin/{run.program}", *arguments(run.options), *conduct]
+
+
+def execute(
+    program: str, options: Options, output: Path, *more: str, programs: Path = PROGRAMS, relay: bool = False
+) -> str:
+    """Executes a program, which writes its result to `output`, and returns its messages. relay: also print them at once. Raises ProgramError
+    with the messages; KeyboardInterrupt, after the program has written its checkpoint."""
+    command: list[str | Path] = [programs / program, *arguments(options), *more, "--output", output]
+    if shutil.which(
+        "setpriv"
+    ):  # Linux only: if this process dies, the program writes its checkpoint and exits
+        command = ["setpriv", "--pdeathsig", "TERM", *command]
+    lines: list[str] = []
+    # In a session of its own the program does not receive the Ctrl-C of the terminal, only the one signal sent below.
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True) as running:
+        assert running.stderr
+        try:
+            for line in running.stderr:
+                lines.append(line)
+                if relay and ": error: " not in line:
+                    print(line, end="", file=sys.stderr)
+        except KeyboardInterrupt:
+            running.send_signal(signal.SIGINT)
+            print(running.stderr.read(), end="", file=sys.stderr)
+            running.wait()
+            raise
+    if running.returncode < 0:
+        name = signal.Signals(-running.returncode).name
+        raise ProgramError(
+            f"{program} was killed by {name}; run it again: it continues at its last checkpoint"
+        )
+    if running.returncode not in WRITTEN:
+        raise ProgramError("".join(lines).strip())
+    return "".join(lines)

@@ -1,0 +1,34 @@
+"""Copies rendered files from the store, build/figures/QUALITY/NAME.IDENTITY.*, to figures/QUALITY/NAME.* where they differ."""
+
+import sys
+from pathlib import Path
+
+from workflow.files import in_one_line, write_together
+
+STORE, SHOWN = "build/figures", "figures"
+KINDS = ("pdf", "png", "svg", "csv", "html")
+
+
+def copies(stem: Path) -> dict[Path, Path]:
+    """Paths of the copies of a product, with their originals. stem: STORE/QUALITY/NAME.IDENTITY."""
+    folder = Path(SHOWN) / stem.parent.name
+    originals = [stem.with_name(f"{stem.name}.{kind}") for kind in KINDS]
+    return {folder / f"{stem.stem}{path.suffix}": path for path in originals if path.exists()}
+
+
+def publish(stem: Path) -> None:
+    """Raises OSError."""
+    contents = {copy: original.read_bytes() for copy, original in copies(stem).items()}
+    write_together({path: content for path, content in contents.items() if not _has(path, content)})
+
+
+def _has(path: Path, content: bytes) -> bool:
+    return path.is_file() and path.read_bytes() == content
+
+
+if __name__ == "__main__":
+    try:
+        for name in sys.argv[1:]:
+            publish(Path(name))
+    except OSError as error:
+        sys.exit(in_one_line(error))
