@@ -4,7 +4,6 @@
 What determines a product is in its name. A missing name is made; neither time stamps nor Snakemake's own records decide.
 """
 
-import fcntl
 import os
 import shlex
 import signal
@@ -13,7 +12,7 @@ from pathlib import Path
 
 from workflow.configuration import ConfigurationError
 from workflow.environment import clean
-from workflow.files import in_one_line
+from workflow.files import in_one_line, lock_products
 from workflow.identity import IDENTITY
 from workflow.plan import (
     BuildError,
@@ -24,6 +23,7 @@ from workflow.plan import (
     panel_named,
     report_stem,
     require_built,
+    runs_of,
     stem_of,
 )
 from workflow.program import command_line, threads_of
@@ -35,25 +35,20 @@ try:
     EFFORT = Quality.of(QUALITY)
     PLAN = load_plan(QUALITY)
     PANELS = [panel_named(PLAN, name).name for name in str(config.get("panel", "")).split()]
-    if workflow.is_main_process:
-        for program in {run.program for name in PANELS or PLAN for run in PLAN[name].runs}:
-            require_built(program)
     DATA = {name: data_of(PLAN, name, QUALITY) for name in PLAN}
     STEMS = {name: stem_of(PLAN, name, QUALITY) for name in PLAN}
     REPORT = report_stem(PLAN, QUALITY)
+    if workflow.is_main_process:
+        runs = runs_of(PLAN, PANELS or PLAN, QUALITY).items()
+        for program in {run.program for path, run in runs if not os.path.exists(path)}:
+            require_built(program)
+        if not workflow.output_settings.dryrun:
+            lock_products()
 except (ConfigurationError, BuildError) as error:
     sys.exit(str(error))
-except OSError as error:  # a panel without a script
+except OSError as error:  # a panel without a script, or another command
     sys.exit(in_one_line(error))
 KINDS = [".pdf", ".png", ".svg", ".csv", ".json"]
-
-if workflow.is_main_process and not workflow.dryrun:
-    os.makedirs("build", exist_ok=True)
-    LOCK = os.open("build/lock", os.O_RDWR | os.O_CREAT)  # held until this process ends
-    try:
-        fcntl.flock(LOCK, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        sys.exit("Another command is making products in this folder: wait for it to finish, or stop it.")
 
 
 def products_of(*panels):

@@ -25,14 +25,14 @@ TARGETS: dict[str, tuple[str, ...]] = {  # with their options
     "audit": ("PANEL", *EFFORT),
     "status": ("PANEL", *EFFORT),
     "verify": ("PANEL", "SAMPLE", *EFFORT),
-    "compare": ("PANEL", "FRESH", *EFFORT),
     "provenance": ("FILE", "FULL"),
-    "crate": ("PANEL", *EFFORT),
-    "prune": ("DRY", *EFFORT),
+    "deposit": EFFORT,
+    "prune": ("DRY", "QUALITY"),
 }
 NEEDED = {"panel": "PANEL=fig05", "provenance": "FILE=figures/standard/fig05.pdf"}
 FLAGS = ("FRESH", "DRY", "FULL")
 OF_MAKE = ("CXX",)  # options of make build
+DEFAULTS = {"QUALITY": "standard", "SAMPLE": "0.1"}
 SNAKEMAKE = ("figures", "panel", "report", "gallery")
 DONE = {
     "figures": "The figures are in figures/{quality}. Next: make report {given}",
@@ -64,7 +64,7 @@ def parse(target: str, words: list[str]) -> argparse.Namespace:
     if target not in TARGETS:
         raise UsageError(f"{target} is not a target; {nearest(target, TARGETS)}")
     allowed, every = TARGETS[target], {name for names in TARGETS.values() for name in names}
-    given = dict.fromkeys(every, "") | {"QUALITY": "standard", "SAMPLE": "0.1"}
+    given = dict.fromkeys(every, "") | DEFAULTS
     for word in words:
         name, equals, value = word.partition("=")
         if name in OF_MAKE:
@@ -97,9 +97,9 @@ def prepare(options: argparse.Namespace) -> None:
 
 def snakemake(target: str, options: argparse.Namespace) -> int:
     """Makes a target of the Snakefile. Raises UsageError."""
+    words = profile_words(options.profile or "default")
     from snakemake.cli import main as run  # noqa: PLC0415
 
-    words = profile_words(options.profile or "default")
     words += ["--forceall"] if options.fresh else []
     words += ["--dry-run"] if options.dry else []
     words += ["--jobs" if options.profile else "--cores", options.jobs] if options.jobs else []
@@ -144,19 +144,22 @@ def profile_words(name: str) -> list[str]:
 def run(target: str, options: argparse.Namespace) -> int:
     """Raises UsageError, ConfigurationError, OSError."""
     if target not in SNAKEMAKE:
-        return int(importlib.import_module(f"workflow.provenance.{target}").main(options) or 0)
+        options.render = target == "audit"
+        module = "audit" if target == "status" else target
+        return int(importlib.import_module(f"workflow.provenance.{module}").main(options) or 0)
     compared = (
         target in ("figures", "panel")
         and not options.dry
         and (options.seed or options.replicas or options.fresh)
     )
     if compared:
-        compare = importlib.import_module("workflow.provenance.compare")
-        compare.keep(options)
+        verify = importlib.import_module("workflow.provenance.verify")
+        if options.fresh:
+            verify.keep(options)
     if (status := snakemake(target, options)) or options.dry:
         return status
     print(DONE[target].format(quality=options.quality, given=options.given, panels=" ".join(options.panels)))
-    return int(compare.main(options) or 0) if compared else 0
+    return int(verify.compare(options)) if compared else 0
 
 
 def main() -> int:

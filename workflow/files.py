@@ -1,5 +1,6 @@
-"""Atomic writing, and errors of the system in one line."""
+"""Atomic writing, the lock of the products, and errors of the system in one line."""
 
+import fcntl
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -17,6 +18,18 @@ def write_together(contents: Mapping[Path, bytes]) -> None:
     finally:
         for file in files.values():
             file.unlink(missing_ok=True)
+
+
+def lock_products() -> None:
+    """Keeps other commands from making or removing products until this process ends. Raises OSError."""
+    Path("build").mkdir(exist_ok=True)
+    file = os.open("build/lock", os.O_RDWR | os.O_CREAT)
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as error:
+        raise BlockingIOError(
+            "Another command is making products in this folder: wait for it to finish, or stop it."
+        ) from error
 
 
 def in_one_line(error: OSError) -> str:

@@ -1,7 +1,7 @@
 """Identities: the name of a result or figure contains a hash of all that determines it.
 
 CMake runs this module with the system's Python (3.8 or later, standard library only) to write the hash of its sources into every
-program: `identity.py CPP FOLDER` writes FOLDER/PROGRAM.cpp from FOLDER/template, if it changes.
+program: `identity.py CPP FOLDER` writes FOLDER/PROGRAM.cpp from FOLDER/template, if it changes, and FOLDER/sources.d.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ TOKEN = re.compile(
     r"""|//[^\n]*|/\*.*?\*/""",
     re.DOTALL,
 )
-STATEMENT = re.compile(rb"panel ([\w-]+), quality ([\w=.-]+), identity ([0-9a-f]+)")
+STATEMENT = re.compile(rf"panel ([\w-]+), quality ([\w=.-]+), identity ({IDENTITY})".encode())
 
 
 def identity(*parts: object) -> str:
@@ -113,12 +113,14 @@ def content_hash(path: str, root: Path = ROOT) -> str:
 def main(cpp: Path, folder: Path) -> None:
     template = (folder / "template").read_text("utf-8")
     for observable in (cpp / "observables").glob("*.cpp"):
-        path, text = (
-            folder / observable.name,
-            template.replace("SOURCE_HASH", source_hash(observable.stem, cpp)),
-        )
+        text = template.replace("SOURCE_HASH", source_hash(observable.stem, cpp))
+        path = folder / observable.name
         if not path.is_file() or path.read_text("utf-8") != text:
             path.write_text(text, "utf-8")
+    sources = [str(cpp / path).replace(" ", "\\ ") for path in code_hashes(cpp)]
+    (folder / "sources").write_text("\n".join(sources), "utf-8")
+    target = str(folder / "sources").replace(" ", "\\ ")
+    (folder / "sources.d").write_text(f"{target}: {' '.join(sources)}\n", "utf-8")
 
 
 if __name__ == "__main__":

@@ -4,6 +4,8 @@ import hashlib
 import itertools
 import re
 import shlex
+from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
@@ -30,7 +32,7 @@ from workflow.identity import (
 )
 from workflow.lib.nearest import nearest
 from workflow.polynomial import evaluated
-from workflow.publish import STORE
+from workflow.publish import SHOWN, STORE
 
 QUALITIES = ("smoke", "standard", "paper", "deep")
 REPORT_SOURCES = (
@@ -178,6 +180,15 @@ def load_plan(name: str, folder: Path = FOLDER) -> dict[str, Panel]:
     return panels
 
 
+def plans_of(base: str) -> dict[str, dict[str, Panel]]:
+    """Plans of a quality and of its efforts, SEED, REPLICAS or ERROR, which have a folder of figures. Raises ConfigurationError."""
+    names = [base]
+    for folder in (ROOT / SHOWN).glob(f"{base}_*"):
+        with suppress(ConfigurationError):  # a folder of the user
+            names.append(Quality.of(folder.name).name)
+    return {name: load_plan(name) for name in names}
+
+
 def panel_named(plan: dict[str, Panel], name: str) -> Panel:
     """The panel of this name. Raises ConfigurationError with the most similar name."""
     if name in plan:
@@ -195,9 +206,15 @@ def data_path(quality: str, panel: str, run: Run) -> str:
     return f"data/{quality.partition('_')[0]}/{panel}/{run.name}.{run.identity}.h5"
 
 
+def runs_of(plan: dict[str, Panel], names: Iterable[str], quality: str) -> dict[str, Run]:
+    """Runs that these panels plot, by the paths of their results. Raises OSError."""
+    panels = (panel for name in names for panel in with_used(plan, name))
+    return {data_path(quality, panel.name, run): run for panel in panels for run in panel.runs}
+
+
 def data_of(plan: dict[str, Panel], name: str, quality: str) -> list[str]:
     """Paths of the results that a panel plots. Raises OSError."""
-    return [data_path(quality, panel.name, run) for panel in with_used(plan, name) for run in panel.runs]
+    return [*runs_of(plan, [name], quality)]
 
 
 def stem_of(plan: dict[str, Panel], name: str, quality: str) -> str:

@@ -1,7 +1,10 @@
 """Copies rendered files from the store, build/figures/QUALITY/NAME.IDENTITY.*, to figures/QUALITY/NAME.* where they differ."""
 
+import json
 import sys
+from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 from workflow.files import in_one_line, write_together
 
@@ -14,6 +17,13 @@ def copies(stem: Path) -> dict[Path, Path]:
     folder = Path(SHOWN) / stem.parent.name
     originals = [stem.with_name(f"{stem.name}.{kind}") for kind in KINDS]
     return {folder / f"{stem.stem}{path.suffix}": path for path in originals if path.exists()}
+
+
+def read_record(path: Path | str) -> dict[str, Any]:
+    """Record of a panel; empty if it is missing or damaged."""
+    with suppress(OSError, ValueError):
+        return dict(json.loads(Path(path).read_text("utf-8")))
+    return {}
 
 
 def publish(stem: Path) -> None:

@@ -4,6 +4,8 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
+import h5py
+import numpy as np
 import pytest
 
 from workflow.lib.load import Result, load
@@ -30,6 +32,7 @@ SMALL: dict[str, dict[str, object]] = {
 
 Program = Callable[..., subprocess.CompletedProcess]
 Measure = Callable[..., Result]
+OverSeeds = Callable[..., dict[str, np.ndarray]]
 
 
 def command_line(program: str, options: dict) -> list[str]:
@@ -65,6 +68,26 @@ def program(tmp_path: Path) -> Program:
 @pytest.fixture
 def persistence(program: Program) -> Program:
     return partial(program, "persistence")
+
+
+@pytest.fixture
+def over_seeds(program: Program, tmp_path: Path) -> OverSeeds:
+    """Function that runs a program once with each of a number of seeds. Returns means and standard errors of each named quantity as
+    arrays [seed, ...]. It reads nothing else, as loading a whole result takes as long as a small run."""
+
+    def run(name: str, seeds: int, *quantities: str, **options: object) -> dict[str, np.ndarray]:
+        found: dict[str, list] = {quantity: [] for quantity in quantities}
+        for seed in range(seeds):
+            done = program(name, seed=seed, **options)
+            assert done.returncode in (0, 4), done.stderr  # 4: the target quantity has no error
+            with h5py.File(tmp_path / "out.h5") as file:
+                for quantity, pairs in found.items():
+                    pairs.append(
+                        [file[f"results/{quantity}/{kind}"][()] for kind in ("mean", "standard_error")]
+                    )
+        return {quantity: np.moveaxis(np.array(pairs), 1, 0) for quantity, pairs in found.items()}
+
+    return run
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import chi2, norm
 
-from tests.python.conftest import Measure
+from tests.python.conftest import Measure, OverSeeds
 from workflow.lib.load import Quantity
 from workflow.tradeoff.measure import simulate
 
@@ -46,9 +46,7 @@ def agree(z: np.ndarray) -> bool:
     return bool(np.abs(z).max() < norm.isf(1e-4 / 2 / len(z)))
 
 
-@pytest.mark.parametrize(
-    ("cells", "gamma"), [*((1, "N"), (2, "N"), (8, "N"), (32, "N"), (2, 1), (16, 1), (8, 4), (16, 4))]
-)
+@pytest.mark.parametrize(("cells", "gamma"), [(1, "N"), (8, "N"), (2, 1), (8, 4)])
 def test_against_the_reference_simulator(measure: Measure, cells: int, gamma: str | float) -> None:
     expected = reference(cells, cells if gamma == "N" else gamma, 5, 15)
     options = {"cells": cells, "gamma": gamma, "start": "empty", "replicas": 150, "seed": 5}
@@ -67,20 +65,21 @@ def test_against_the_reference_simulator(measure: Measure, cells: int, gamma: st
     for name in ("flux", "flux_plain"):
         assert agree(scores(flux[name], expected["flux"])), name
 
-    def conductivity_scores(**changed: object) -> np.ndarray:
-        result = measure("conductivity", **options | changed)
-        found = {}
-        for current in ("energy_current", "particle_current"):
-            found[current] = expected[current][:, [0, -1]].mean(axis=1)
-        found["temperature_first"] = expected["temperature_scatterer"][:, 0]
-        found["temperature_last"] = expected["temperature_scatterer"][:, -1]
-        return np.array([scores(result[name + suffix], sample[:, None])[0]
-                         for name, sample in found.items() for suffix in ("", "_plain")])  # fmt: skip
+    found = {name: expected[name][:, [0, -1]].mean(axis=1) for name in ("energy_current", "particle_current")}
+    found["temperature_first"] = expected["temperature_scatterer"][:, 0]
+    found["temperature_last"] = expected["temperature_scatterer"][:, -1]
 
-    assert np.abs(conductivity_scores()).max() < 4
+    def largest_score(**changed: object) -> float:
+        result = measure("conductivity", **options | changed)
+        z = [scores(result[name + suffix], sample[:, None])[0]
+             for name, sample in found.items() for suffix in ("", "_plain")]  # fmt: skip
+        return float(np.abs(z).max())
+
+    assert largest_score() < 4
     # Detected mistakes: the baths are exchanged; one bath is slightly hotter.
-    assert np.abs(conductivity_scores(temperature_left=1100 / 9, temperature_right=900 / 11)).max() > 4
-    assert np.abs(conductivity_scores(temperature_right=145)).max() > 4
+    if cells == 8:
+        assert largest_score(temperature_left=1100 / 9, temperature_right=900 / 11) > 4
+        assert largest_score(temperature_right=145) > 4
 
 
 def test_number_of_particles_against_the_reference_simulator(measure: Measure) -> None:
@@ -155,24 +154,18 @@ def test_equilibrium(measure: Measure, gamma: str | int) -> None:
 
 
 @pytest.mark.parametrize(
-    ("gamma", "cells", "target"), [("N", 8, "energy_current"), (1, 32, "temperature_first")]
+    ("gamma", "cells", "target"), [("N", 4, "energy_current"), (1, 8, "temperature_first")]
 )
 def test_reduced_and_plain_estimates_over_seeds(
-    measure: Measure, gamma: str | int, cells: int, target: str
+    over_seeds: OverSeeds, gamma: str | int, cells: int, target: str
 ) -> None:
     """Estimates with and without control variates agree, the former have smaller errors, and both errors predict the spread
     over 50 seeds."""
     seeds, replicas = 50, 40
     options = {"gamma": gamma, "cells": cells, "replicas": replicas}
     options |= {"relaxation_time": 5, "observation_time": 12}
-    estimates = []
-    for seed in range(seeds):
-        result = measure("conductivity", **options, seed=seed)
-        names = (target, f"{target}_plain", "kappa")
-        estimates.append([(result[name].mean, result[name].standard_error) for name in names])
-    (reduced, error), (plain, plain_error), (kappa, kappa_error) = np.moveaxis(
-        np.array(estimates, dtype=float), 0, -1
-    )
+    estimates = over_seeds("conductivity", seeds, target, f"{target}_plain", "kappa", **options)
+    (reduced, error), (plain, plain_error), (kappa, kappa_error) = estimates.values()
     difference = reduced - plain
     assert abs(difference.mean()) < 4 * difference.std(ddof=1) / np.sqrt(seeds)
     assert np.mean(plain_error**2) > 8 * np.mean(error**2)

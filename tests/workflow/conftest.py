@@ -43,7 +43,7 @@ def draw(results):
 if __name__ == "__main__":
     run(draw, "A panel")
 '''
-EFFORT = "default: {replicas: 4}\n"
+EFFORT = "default: {replicas: 4}\npanels:\n  energy: {replicas: 4}\n"
 JOB = re.compile(rf"^\s*output: \S*?([^/\s]+(?:/[^/\s]+)?)\.{IDENTITY}\.(h5|pdf)", re.MULTILINE)
 Done = subprocess.CompletedProcess[str]
 
@@ -85,7 +85,7 @@ class Project:
 
     def products(self) -> dict[str, bytes]:
         """Results and figures, without records, which have the commit."""
-        files = self.files("data", "figures", "build/figures")
+        files = self.files("data/smoke", "figures/smoke", "build/figures/smoke")
         return {path: content for path, content in files.items() if not path.endswith((".json", ".log"))}
 
     def one(self, pattern: str) -> Path:
@@ -127,12 +127,24 @@ def new_project(folder: Path) -> Project:
     (folder / "build/bin").mkdir(parents=True)
     for program in ("persistence", "ageing"):
         (folder / "build/bin" / program).symlink_to(ROOT / "build/bin" / program)
+    share_packages(folder)
+    return Project(folder)
+
+
+def share_packages(folder: Path) -> None:
+    """An environment with the interpreter and the packages of this one, that imports the modules of the folder."""
     (folder / ".venv/bin").mkdir(parents=True)
     (folder / ".venv/bin/python").symlink_to(Path(sys.executable).resolve())
     (folder / ".venv/lib").symlink_to(ROOT / ".venv/lib")
     for name in ("pyvenv.cfg", "bin/snakemake"):
         shutil.copy(ROOT / ".venv" / name, folder / ".venv" / name)
-    return Project(folder)
+
+
+def without_installation(project: Project) -> Project:
+    """Of make's recipes, those that install and compile do nothing."""
+    for script in ("setup.sh", "build.sh"):
+        (project.folder / "workflow/environment" / script).write_text("exit 0\n")
+    return project
 
 
 @pytest.fixture(scope="session")

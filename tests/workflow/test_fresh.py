@@ -63,7 +63,7 @@ CHANGES: dict[str, tuple[Edit, set[str]]] = {
         text(PAPER, "cells: 4, particles-per-cell: 4, r", "particles-per-cell: 4, cells: 4, r"),
         set(),
     ),
-    "number of replicas": (append(SMOKE, "panels: {mu: {replicas: 5}}\n"), {
+    "number of replicas": (append(SMOKE, "  mu: {replicas: 5}\n"), {
         "mu/all_sigma=-0.5", "mu/all_sigma=0.5", "mu", "energy",
     }),
     "script": (append("workflow/figures/mu.py", "# x\n"), {"mu"}),

@@ -10,15 +10,13 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import pandas as pd
 import pytest
-from workflow.lib.figure_metadata import read_panel
 
 from tests.python.scale import ROUNDING, SCALES, agree
-from tests.workflow.conftest import Clone
 from workflow.lib import style
 from workflow.lib.columns import BY_ROW, UNITS_LINE, as_csv
 from workflow.lib.load import NOT_REACHED, load
 from workflow.lib.units import UnitsError
-from workflow.plan import data_of, load_plan
+from workflow.plan import data_of, load_plan, stem_of
 
 PLAN = load_plan("smoke")
 
@@ -60,24 +58,23 @@ def scales(folder: Path, panel: str, name: str, text: str) -> bool:
 
 
 @pytest.mark.parametrize("panel", PLAN)
-def test_every_column_scales_as_its_units(clean: Clone, panel: str) -> None:
-    plain, *in_other_units = tables(clean.folder, panel)
-    units = stated(clean.folder / f"figures/smoke/{panel}.csv")
+def test_every_column_scales_as_its_units(smoke: Path, panel: str) -> None:
+    plain, *in_other_units = tables(smoke, panel)
+    units = stated(smoke / f"figures/smoke/{panel}.csv")
     for converted in in_other_units:
         labels = [name for name in plain if name not in units and name != OPTION_AS_GIVEN]
         pd.testing.assert_frame_equal(plain[labels], converted[labels])
     for name, text in units.items():
-        assert scales(clean.folder, panel, name, text), name
+        assert scales(smoke, panel, name, text), name
         mutant = "1" if text != "1" else "energy"
         seen = plain[name].abs().max() > 0
-        assert scales(clean.folder, panel, name, mutant) != seen, name
+        assert scales(smoke, panel, name, mutant) != seen, name
 
 
 @pytest.mark.parametrize("panel", PLAN)
-def test_every_panel_is_drawn_from_runs_that_missed_their_targets(clean: Clone, panel: str) -> None:
-    """Runs that HOURS has stopped miss their target errors."""
+def test_every_panel_is_drawn_from_runs_that_missed_their_targets(smoke: Path, panel: str) -> None:
     draw = importlib.import_module(f"workflow.figures.{PLAN[panel].script}").draw
-    results = [load(clean.folder / path) for path in data_of(PLAN, panel, "smoke")]
+    results = [load(smoke / path) for path in data_of(PLAN, panel, "smoke")]
     missed = [
         replace(result, provenance=result.provenance | {"converged": NOT_REACHED}) for result in results
     ]
@@ -89,8 +86,8 @@ def test_every_panel_is_drawn_from_runs_that_missed_their_targets(clean: Clone, 
 
 
 @pytest.mark.parametrize("panel", PLAN)
-def test_every_panel_has_a_caption(clean: Clone, panel: str) -> None:
-    caption = read_panel(clean.folder / clean.record(panel))["caption"]
+def test_every_panel_has_a_caption(smoke: Path, panel: str) -> None:
+    caption = json.loads((smoke / f"{stem_of(PLAN, panel, 'smoke')}.json").read_text())["caption"]
     assert len(caption) >= 200
     assert len(caption.split()) <= 120
     assert caption == " ".join(caption.split())

@@ -3,19 +3,23 @@
 set -euo pipefail
 build=${BUILD:-build}
 mkdir -p "$build"
-# ninja compares times. A source whose content differs from that of the last build is newer than it, also if it was copied or restored
-# with an old time.
-sums() { find cpp tests/cpp -type f -exec cksum {} + | sort; }
-if [ -f "$build/sums" ]; then sums | comm -13 "$build/sums" - | while read -r _ _ file; do touch "$file"; done; fi
-sums >"$build/sums"
-
 compiler=$(command -v "${CXX:-c++}") || { echo "the compiler CXX=${CXX:-c++} is not installed; install it or choose another" >&2; exit 1; }
 # CMake keeps the compiler and the folder of its first configuration.
 inputs="$PWD $compiler $("$compiler" --version | head -n 1)"
-if [ ! -f "$build/build.ninja" ] || [ "$(cat "$build/configured" 2>/dev/null)" != "$inputs" ]; then
-  rm -rf "$build/CMakeCache.txt" "$build/CMakeFiles" "$build/build.ninja"
-  cmake -S cpp --preset release -B "$build" -DCMAKE_CXX_COMPILER="$compiler" >"$build/cmake.log" 2>&1 || { cat "$build/cmake.log" >&2; exit 1; }
+forget() { rm -rf "$build/CMakeCache.txt" "$build/CMakeFiles" "$build/sums"; }
+[ "$(cat "$build/configured" 2>/dev/null)" = "$inputs" ] || forget
+find cpp tests/cpp -type f -exec cksum {} + | sort >"$build/sums.new"
+if ! cmp -s "$build/sums" "$build/sums.new"; then
+  # ninja compares times. A source whose content differs from that of the last build is newer than it, also if it was copied or restored
+  # with an old time; and hashes of the sources change with added and removed ones.
+  if [ -f "$build/sums" ]; then
+    comm -13 "$build/sums" "$build/sums.new" | while read -r _ _ file; do touch "$file"; done
+  fi
+  cmake -S cpp --preset release -B "$build" -DCMAKE_CXX_COMPILER="$compiler" >"$build/cmake.log" 2>&1 ||
+    { forget; cat "$build/cmake.log" >&2; exit 1; }
+  touch "$build/build_info/template"
   echo "$inputs" >"$build/configured"
+  mv "$build/sums.new" "$build/sums"
 fi
 if ! ninja -C "$build" -n "$@" | grep -q 'no work to do'; then
   if [ -t 1 ]; then quiet=; else quiet=--quiet; fi

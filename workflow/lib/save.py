@@ -7,7 +7,6 @@ line with panel, quality and identity.
 import io
 import json
 import subprocess
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -16,6 +15,7 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
+from workflow.environment import renderer
 from workflow.files import write_together
 from workflow.identity import ROOT, sha256, statement
 from workflow.lib.style import FONTS
@@ -66,10 +66,14 @@ def save(figure: Figure, table: str, stem: Path, text: Text, parents: Parents) -
     ).encode()
     hashes = {str(path): sha256(path.read_bytes()) for path in parents.results} | dict(parents.sources)
     record = {"panel": panel, "quality": quality, "identity": parents.identity, **asdict(text)}
-    record |= {"commit": commit(), "python": f"{sys.version_info.major}.{sys.version_info.minor}"}
+    record |= {"commit": commit(), "renderer": renderer()}
     record |= {"parents": hashes, "files": {kind: sha256(content) for kind, content in contents.items()}}
-    contents["json"] = (json.dumps(record, indent=1, ensure_ascii=False) + "\n").encode()
+    contents["json"] = as_text(record).encode()
     write_together({stem.with_name(f"{stem.name}.{kind}"): content for kind, content in contents.items()})
+
+
+def as_text(record: dict[str, Any]) -> str:
+    return json.dumps(record, indent=1, ensure_ascii=False) + "\n"
 
 
 def commit() -> str:

@@ -12,7 +12,9 @@ from PIL.PngImagePlugin import PngInfo
 
 from workflow.configuration import ConfigurationError
 from workflow.files import write_together
-from workflow.identity import ROOT
+from workflow.identity import ROOT, sha256
+from workflow.lib.save import as_text
+from workflow.publish import read_record
 from workflow.report.content import content
 from workflow.report.sources import ReportError
 from workflow.report.templates import rendered
@@ -61,9 +63,11 @@ def gallery(quality: str, root: Path = ROOT) -> None:
     front = {root / name: with_parts(name, (root / name).read_text(), context).encode() for name in FRONT}
     files = {folder / README: rendered("gallery.md", **context).encode()}
     for name, panel in context["panels"].items():
-        files[folder / f"{name}.png"] = small(Path(f"{panel['stem']}.png"))
-        for kind in ("csv", "json"):
-            files[folder / f"{name}.{kind}"] = Path(f"{panel['stem']}.{kind}").read_bytes()
+        picture = files[folder / f"{name}.png"] = small(Path(f"{panel['stem']}.png"))
+        files[folder / f"{name}.csv"] = Path(f"{panel['stem']}.csv").read_bytes()
+        record = read_record(f"{panel['stem']}.json")
+        record["files"]["gallery"] = sha256(picture)
+        files[folder / f"{name}.json"] = as_text(record).encode()
     for claim in context["claims"]:
         files[folder / "claims" / f"{claim['id']}.svg"] = rendered("strip.svg", claim=claim).encode()
     write_together(files | front)

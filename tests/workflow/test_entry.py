@@ -1,0 +1,94 @@
+"""The entry: mistyped options get one line and exit status 2, and make passes its options."""
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tests.workflow.conftest import ROOT, Project, without_installation
+from workflow.__main__ import words_of_make
+from workflow.environment import FIXED, clean
+
+
+@pytest.mark.parametrize(
+    ("words", "line"),
+    [
+        ("figure", "figure is not a target; did you mean figures?"),
+        ("figures QUALTY=smoke", "QUALTY is not an option; did you mean QUALITY?"),
+        ("panel PANLE=fig05", "PANLE is not an option; did you mean PANEL?"),
+        ("panel", "PANEL is missing; try make panel PANEL=fig05"),
+        ("provenance", "FILE is missing; try make provenance FILE=figures/standard/fig05.pdf"),
+        ("panel PANEL=fig5", "fig5 is not a panel; did you mean fig05?"),
+        ("figures PANEL=fig03", "PANEL has no effect on figures"),
+        ("figures FRESH=0", "FRESH=0 is invalid; give yes, or leave it out"),
+        ("figures JOBS=0", "JOBS=0 is invalid; give a whole number, at least 1"),
+        ("figures JOBS=1'", "JOBS=1' is invalid"),
+        ("figures PROFILE=slrm", "slrm is not a profile; did you mean slurm?"),
+        ("figures QUALITY=fast", "fast is not a quality; choose one of smoke, standard, paper, deep"),
+        ("figures REPLICAS=-1", "REPLICAS=-1 is invalid; give a whole number, at least 1"),
+        ("figures ERROR=2%", "ERROR=2% is invalid; give a number greater than 0 and less than 1, as 0.02 for 2 %"),
+        ("figures ERROR=1.5", "ERROR=1.5 is invalid"),
+        ("figures PROFILE=slurm", "sbatch is not in PATH"),
+    ],
+)  # fmt: skip
+def test_a_mistyped_option_gets_a_line(tmp_path: Path, words: str, line: str) -> None:
+    environment = {"PATH": str(tmp_path), "HOME": str(tmp_path)}
+    command = [ROOT / ".venv/bin/python", "-m", "workflow", *words.split()]
+    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stderr.startswith(line)
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_words_of_make() -> None:
+    assert words_of_make("") == []
+    assert words_of_make("kw -j2 --jobserver-auth=3,4 -- PANEL=a\\ b QUALITY=smoke") == [
+        "PANEL=a b",
+        "QUALITY=smoke",
+    ]
+    assert words_of_make('-- FILE=it\'s\\ "x"') == ['FILE=it\'s "x"']
+
+
+def test_make_passes_its_options(project: Project) -> None:
+    """Also those with spaces and quotes; the variables of the caller's shell are no options."""
+    without_installation(project)
+    make = ("make", "panel", "QUALITY=smoke")
+    printed = project.run(*make, "PANEL=mu it's", status=2, ERROR="0.1", PYTHONPATH="/nonexistent").stdout
+    assert printed.splitlines()[0] == "it's is not a panel; choose one of mu, energy"
+    assert (
+        project.run(*make, "PANEL=mu energy").stdout == "In figures/smoke: mu energy.pdf and .png .svg .csv\n"
+    )
+
+
+def test_missing_system_packages_are_named_for_those_without_rights(tmp_path: Path) -> None:
+    for tool in ("bash", "cat", "mktemp", "awk", "grep"):  # no compiler, cmake or ninja
+        (tmp_path / tool).symlink_to(shutil.which(tool) or "")
+    (tmp_path / "id").write_text("#!/bin/bash\necho 1000\n")
+    (tmp_path / "id").chmod(0o755)
+    done = subprocess.run(
+        ["/bin/bash", ROOT / "workflow/environment/system_packages.sh"],
+        env={"PATH": str(tmp_path)}, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 1
+    line = next(line for line in done.stderr.splitlines() if "sudo apt-get install" in line)
+    assert {"g++", "cmake", "ninja-build", "libhdf5-dev"} <= {*line.split()}
+
+
+def test_the_environment_has_listed_variables_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in [*os.environ]:
+        monkeypatch.delenv(name)
+    given = {
+        "PATH": "/bin",
+        "SLURM_JOB_ID": "1",
+        "https_proxy": "p",
+        "PYTHONPATH": "x",
+        "TZ": "Asia/Kathmandu",
+    }
+    for name, value in given.items():
+        monkeypatch.setenv(name, value)
+    clean()
+    kept = {name: given[name] for name in ("PATH", "SLURM_JOB_ID", "https_proxy")}
+    # A container's user may have no name.
+    assert dict(os.environ) == kept | FIXED | {"USER": f"user-{os.getuid()}"}

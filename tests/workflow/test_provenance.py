@@ -1,0 +1,262 @@
+"""Audit, status, provenance, comparison, verify, prune and deposit of the small project."""
+
+import hashlib
+import json
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import h5py
+import pytest
+
+from tests.workflow.conftest import ROOT, Project
+from workflow.lib.load import load, results_digest
+from workflow.provenance.verify import SIGNIFICANCE, largest_difference
+
+Edit = Callable[[Project], object]
+MU, OTHER_MU = "data/smoke/mu/all_sigma=0.5.*.h5", "data/smoke/mu/all_sigma=-0.5.*.h5"
+FEW, AGEING = "data/smoke/energy/few.*.h5", "data/smoke/energy/ageing.*.h5"
+RECORD, TABLE = "build/figures/smoke/mu.*.json", "build/figures/smoke/mu.*.csv"
+
+
+def edit_value(project: Project) -> None:
+    with h5py.File(project.one(MU), "r+") as file:
+        file["results/mu/mean"][...] *= 1.001
+
+
+def exchange(project: Project) -> None:
+    shutil.copy(project.one(AGEING), project.one(FEW))
+
+
+def remove(pattern: str) -> Edit:
+    return lambda project: [path.unlink() for path in project.folder.glob(pattern)]
+
+
+def write(path: str) -> Edit:
+    return lambda project: (project.folder / path).write_text("mine")
+
+
+def substitute(path: str, old: str, new: str) -> Edit:
+    return lambda project: project.edit(path, lambda before: before.replace(old, new, 1))
+
+
+def change_record(**changes: object) -> Edit:
+    def edit(project: Project) -> None:
+        path = project.one(RECORD)
+        path.write_text(json.dumps(json.loads(path.read_text()) | changes))
+
+    return edit
+
+
+def change_all_tables(project: Project) -> None:
+    """In the store, in the copy, and its hash in the record."""
+    content = project.one(TABLE).read_bytes() + b"9\n"
+    for path in (project.one(TABLE), project.folder / "figures/smoke/mu.csv"):
+        path.write_bytes(content)
+    files = json.loads(project.one(RECORD).read_text())["files"]
+    change_record(files=files | {"csv": hashlib.sha256(content).hexdigest()})(project)
+
+
+def commit(project: Project) -> None:
+    shutil.copy(ROOT / ".gitignore", project.folder)
+    author = ("-c", "user.name=Nobody", "-c", "user.email=nobody@example.org")
+    for words in (("init",), ("add", "--all"), (*author, "commit", "--message", "all")):
+        project.run("git", *words)
+
+
+# Edits; the command and its exit status; state, path (before the edits) and a part of the reason of every product that it names.
+STATES: dict[str, tuple[list[Edit], str, int, list[tuple[str, str, str]]]] = {
+    "a panel that has only lent its runs, and files of the user": (
+        [
+            remove("figures/smoke/mu.*"),
+            remove("build/figures/smoke/mu.*"),
+            write("data/smoke/mu/mine.h5"),
+            write("figures/smoke/mine.pdf"),
+        ],
+        "audit", 0, [],
+    ),
+    "results": (
+        [edit_value, remove(OTHER_MU), exchange], "status", 1,
+        [
+            ("edited", MU, "differ from those written"),
+            ("missing", OTHER_MU, ""),
+            ("edited", FEW, "that of another result"),
+        ],
+    ),
+    "copies": (
+        [write("figures/smoke/mu.csv"), remove("figures/smoke/energy.svg")], "status", 1,
+        [("edited", "figures/smoke/mu.csv", "differs from its hash"), ("missing", "figures/smoke/energy.svg", "")],
+    ),
+    "sources and options": (
+        [
+            substitute("cpp/observables/persistence.cpp", "#include", "int x;\n#include"),
+            substitute("workflow/config/paper.yaml", "particles-per-cell: 2", "particles-per-cell: 3"),
+            substitute("workflow/figures/mu.py", "A test", "Another"),
+        ],
+        "status", 1,
+        [
+            ("stale", OTHER_MU, "and 1 more: sources of persistence"),
+            ("stale", FEW, "--particles-per-cell 2, planned is --particles-per-cell 3"),
+            ("stale", "figures/smoke/mu.pdf", "workflow/figures/mu.py, results"),
+            ("stale", "figures/smoke/energy.pdf", "results"),
+        ],
+    ),
+    "a number in all files": (
+        [change_all_tables], "audit PANEL=mu", 1, [("edited", "figures/smoke/mu.csv", "compare build/audit/smoke/mu.csv")],
+    ),
+    "another renderer": (
+        [change_all_tables, change_record(renderer="Python 2")], "audit PANEL=mu", 3,
+        [("not checked", "figures/smoke/mu.csv", "rendered with Python 2, this is Python 3")],
+    ),
+    "no figures": ([remove("figures/smoke/*"), remove("build/figures/smoke/*")], "status", 3, []),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", STATES)
+def test_states(project: Project, case: str) -> None:
+    edits, command, status, named = STATES[case]
+    paths = [str(project.one(path).relative_to(project.folder)) for _, path, _ in named]
+    for edit in edits:
+        edit(project)
+    printed = project.entry(*command.split(), status=status)
+    lines = [
+        line
+        for line in printed.splitlines()
+        if line.startswith(("edited", "missing", "stale", "not checked"))
+    ]
+    assert len(lines) == len(named), printed
+    for (state, _, reason), path in zip(named, paths, strict=True):
+        assert any(line.startswith(f"{state}: {path}") and reason in line for line in lines), printed
+
+
+def provenance(project: Project, file: Path, status: int = 0) -> str:
+    return project.run(
+        ".venv/bin/python", "-m", "workflow", "provenance", f"FILE={file}", status=status
+    ).stdout
+
+
+def test_where_a_copy_of_a_figure_comes_from(project: Project, tmp_path: Path) -> None:
+    seeds = [load(project.one(path)).parameters["seed"] for path in (MU, OTHER_MU)]
+    for kind in ("pdf", "png", "svg", "csv"):
+        copy = Path(shutil.copy(project.folder / f"figures/smoke/mu.{kind}", tmp_path / f"my talk.{kind}"))
+        printed = provenance(project, copy)
+        assert printed.startswith("panel mu, quality smoke: make panel PANEL=mu QUALITY=smoke\n")
+        assert all(f"--seed {seed}" in printed for seed in seeds)
+    copy.write_bytes(copy.read_bytes() + b"\n")
+    substitute("workflow/lib/fit.py", '"""\n', '"""\n# mine\n')(project)
+    printed = provenance(project, copy, status=1)
+    assert "edited, identity" in printed
+    assert "workflow/lib, another here" in printed
+    remove(RECORD)(project)
+    assert "panel mu, quality smoke" in provenance(project, copy, status=3)
+
+
+def test_where_a_copy_of_a_result_comes_from(project: Project, tmp_path: Path) -> None:
+    copy = Path(shutil.copy(project.one(MU), tmp_path / "mine.h5"))
+    printed = provenance(project, copy)
+    assert "panel mu, quality smoke: make panel PANEL=mu QUALITY=smoke" in printed
+    assert load(copy).provenance["words"] in printed
+    edit_value(project)
+    assert "edited" in provenance(project, project.one(MU), status=1)
+    copy.write_text("text")
+    assert "states no panel" in provenance(project, copy, status=1)
+
+
+def test_a_rerun_is_compared_also_over_an_edited_result(project: Project) -> None:
+    before = project.products()
+    assert "2 of 2 results agree with the former: equal bytes" in project.entry(
+        "panel", "PANEL=mu", "FRESH=yes"
+    )
+    edit_value(project)
+    assert "Not compared" in project.entry("panel", "PANEL=mu", "FRESH=yes")
+    assert project.products() == before
+
+
+def test_other_replicas_are_compared_and_kept_beside(project: Project) -> None:
+    before = {*project.files("data", "figures", "build/figures")}
+    independent, shared = (project.entry("panel", "PANEL=mu", word) for word in ("SEED=7", "REPLICAS=8"))
+    for printed in (independent, shared):
+        assert "2 of 2 results agree with the former: largest difference" in printed
+    assert ("shared" in independent, "shared" in shared) == (False, True)
+    commit(project)
+    assert "2 panels with 4 results: all hold" in project.entry("status")
+    shutil.rmtree(project.folder / "build/figures/smoke_seed=7")  # as after an interruption
+    shutil.rmtree(project.folder / "figures/smoke_replicas=8")  # its results are not planned any more
+    project.entry("prune")
+    beside = {*project.files("data", "figures", "build/figures")} - before
+    assert sum(path.endswith(".h5") for path in beside) == 2
+    assert all(path.startswith(("data/smoke/mu/", "figures/smoke_seed=7/")) for path in beside)
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_difference_of_eight_standard_errors_is_found(project: Project, seed: int) -> None:
+    """Of 64 replicas from 128 that contain them (equal seed), and from others."""
+    results = []
+    for number, replicas in ((1, 64), (seed, 128)):
+        path = project.folder / f"{number}_{replicas}.h5"
+        options = f"--cells 4 --particles-per-cell 4 --seed {number} --replicas {replicas} --sigma 0.5"
+        project.run("build/bin/persistence", *options.split(), "--observation-time", "5", "--output", path)
+        results.append(load(path))
+    few, many = results
+    assert largest_difference(few, many)[0] > SIGNIFICANCE
+    mu = few["mu"]
+    shifted = replace(few, quantities=few.quantities | {"mu": replace(mu, mean=mu.mean + 8 * mu.error)})
+    p, _, quantity = largest_difference(shifted, many)
+    assert (p < SIGNIFICANCE, quantity) == (True, "mu")
+
+
+def test_verify_reruns_with_fresh_programs(project: Project) -> None:
+    fresh = 'mkdir -p "$BUILD/bin"; cp build/bin/* "$BUILD/bin"\n'  # compiles nothing
+    (project.folder / "workflow/environment/build.sh").write_text(fresh)
+    assert project.entry("verify", "SAMPLE=1").count("equal bytes") == 4
+    edit_value(project)
+    with h5py.File(project.one(MU), "r+") as file:  # as of another program
+        file["provenance"].attrs["results_digest"] = results_digest(file["results"])
+    assert "standard errors (mu)" in project.entry("verify", "PANEL=mu", status=1)
+
+
+def test_prune_removes_what_no_plan_names_and_no_file_of_the_user(project: Project) -> None:
+    own = {
+        "data/smoke/mu/mine.h5",
+        "figures/smoke/mu.copy.png",
+        "figures/smoke/mine.csv",
+        "build/figures/smoke/mine.csv",
+    }
+    former = {
+        "data/smoke/former/a.0123456789ab.h5",
+        "build/figures/smoke/former.0123456789ab.pdf",
+        "figures/smoke/former.csv",
+    }
+    kept = own | {*project.files("data", "figures", "build/figures")}
+    (project.folder / "data/smoke/former").mkdir()
+    for path in own | former:
+        (project.folder / path).write_text("# panel former, quality smoke, identity 0123456789ab\n")
+    assert all(path in project.entry("prune", "DRY=yes") for path in former)
+    assert {*project.files("data", "figures", "build/figures")} == kept | former
+    project.entry("prune")
+    assert {*project.files("data", "figures", "build/figures")} == kept
+
+
+def test_a_deposit_renders_elsewhere_without_simulation(project: Project, tmp_path: Path) -> None:
+    """There is no program where it is unpacked."""
+    commit(project)
+    write("notes.txt")(project)
+    project.entry("deposit")
+    archive = project.folder / "build/deposit/lorentz-gas-smoke.zip"
+    subprocess.run([sys.executable, "-m", "zipfile", "-e", archive, tmp_path], check=True)
+    there = Project(tmp_path / "lorentz-gas-smoke")
+    subprocess.run(["sha256sum", "--check", "--quiet", "SHA256SUMS"], cwd=there.folder, check=True)
+    assert not (there.folder / "notes.txt").exists()
+    shutil.copytree(project.folder / ".venv", there.folder / ".venv", symlinks=True)
+    assert there.stale() == set()
+    shutil.rmtree(there.folder / "build")
+    there.entry("figures")
+    assert there.products() == project.products()
+    write("workflow/figures/mine.py")(project)
+    assert "workflow/figures/mine.py is not tracked" in project.entry("deposit", status=1)
+    remove("workflow/figures/mine.py")(project)
+    write("figures/smoke/mu.csv")(project)
+    assert "figures/smoke/mu.csv is edited" in project.entry("deposit", status=1)

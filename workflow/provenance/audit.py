@@ -1,0 +1,155 @@
+"""Checks results and figures against the present options, sources and packages (`make audit`; `make status` renders nothing).
+
+Results and figures have to be unmodified and to have the names of what determines them now; a figure that is rendered again has to
+have equal bytes. A panel without figure files is not made: some of its results may exist, as other panels plot them.
+
+Exit status: 0, 1 if something is stale, edited or missing, 3 if something could not be checked or nothing is made.
+"""
+
+import argparse
+import os
+import subprocess
+from collections import Counter, defaultdict
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import NamedTuple
+
+from workflow.environment import renderer
+from workflow.files import in_one_line
+from workflow.identity import DIGITS, drawing_sources, named_identity, sha256, source_hash, stated
+from workflow.lib.load import FormatError, load
+from workflow.plan import Panel, Quality, Run, data_of, drawing_command, load_plan, runs_of, stem_of
+from workflow.publish import SHOWN, copies, read_record
+
+
+class Fault(NamedTuple):
+    state: str  # stale, edited, missing or not checked
+    path: str
+    reason: str
+
+
+def siblings(path: str) -> list[Path]:
+    """Files that differ from a path at most in the identity, the newest first."""
+    pattern = Path(path).name.replace(named_identity(path), DIGITS * "[0-9a-f]")
+    return sorted(Path(path).parent.glob(pattern), key=os.path.getmtime, reverse=True)
+
+
+def options_of(words: str) -> list[str]:
+    """Options, each with its value, from the words of a command line."""
+    return [f"--{option.strip()}" for option in words.split("--")[1:]]
+
+
+def fault_of_result(path: str, run: Run) -> Fault | None:
+    """Fault of the result of a run. path: the planned one."""
+    try:
+        load(path)
+    except OSError as error:
+        return Fault("not checked", path, in_one_line(error))
+    except FormatError as error:
+        if Path(path).exists():
+            return Fault("edited", path, str(error).removeprefix(path).strip(": "))
+        former = [(changes(run, sibling), str(sibling)) for sibling in siblings(path)]
+        if not former:
+            return Fault("missing", path, "it was removed")
+        differing, nearest = min(former, key=lambda pair: len(pair[0]))
+        return Fault("stale", nearest, ", ".join(differing))
+    return None
+
+
+def changes(run: Run, sibling: Path) -> list[str]:
+    """Options and sources of a run that differ from those of a former result."""
+    try:
+        former = load(sibling).provenance
+    except (FormatError, OSError) as error:
+        return [str(error)]
+    was, now = options_of(former["words"]), options_of(run.words)
+    differing = [f"it has {option}" for option in was if option not in now]
+    differing += [f"planned is {option}" for option in now if option not in was]
+    if former["source_hash"] != source_hash(run.program):
+        differing.append(f"sources of {run.program} have changed")
+    return differing
+
+
+class Picture:
+    """Figure of a panel: in the store, under its present identity, and the copy that is shown."""
+
+    def __init__(self, plan: dict[str, Panel], name: str, quality: str) -> None:
+        self.script, self.shown = plan[name].script, f"{SHOWN}/{quality}/{name}"
+        self.data, self.stem = data_of(plan, name, quality), stem_of(plan, name, quality)
+        self.record = read_record(f"{self.stem}.json")
+        self.statement = (name, quality, named_identity(self.stem))
+
+    def is_made(self) -> bool:
+        """Whether there is a file of it, also of a former one."""
+        return Path(f"{self.shown}.pdf").exists() or bool(siblings(f"{self.stem}.json"))
+
+    def fault(self, render: bool) -> Fault | None:
+        """render: also render in build/audit, where files stay that differ."""
+        if not self.record:
+            return self._fault_without_record()
+        for kind, digest in self.record["files"].items():
+            for path in (f"{self.stem}.{kind}", f"{self.shown}.{kind}"):
+                if not Path(path).exists():
+                    return Fault("missing", path, "it was removed")
+                content = Path(path).read_bytes()
+                if sha256(content) != digest:
+                    state = "edited" if stated(content) in (None, self.statement) else "stale"
+                    return Fault(state, path, f"it differs from its hash in {self.stem}.json; remove it")
+        return self._fault_of_rendering() if render else None
+
+    def _fault_without_record(self) -> Fault:
+        record = f"{self.stem}.json"
+        if Path(record).exists():
+            return Fault("edited", record, "it is damaged; remove it")
+        former = next((known["parents"] for path in siblings(record) if (known := read_record(path))), None)
+        if former is None:
+            return Fault("missing", record, "it was removed")
+        changed = [
+            path for path, digest in drawing_sources(self.script).items() if former.get(path) != digest
+        ]
+        changed += ["results"] * ({path for path in former if path.endswith(".h5")} != {*self.data})
+        return Fault("stale", f"{self.shown}.pdf", f"changed: {', '.join(changed)}")
+
+    def _fault_of_rendering(self) -> Fault | None:
+        name, quality, _ = self.statement
+        rendered = Path("build/audit", quality, name)
+        command = drawing_command(self.script, str(rendered), self.data)
+        done = subprocess.run(command, shell=True, capture_output=True, text=True, check=False)
+        if done.returncode:
+            return Fault("not checked", f"{self.shown}.pdf", f"rendering fails: {done.stderr.strip()[-200:]}")
+        for copy, again in copies(rendered).items():
+            if copy.read_bytes() != again.read_bytes():
+                if (former := self.record["renderer"]) != (here := renderer()):
+                    return Fault("not checked", str(copy), f"rendered with {former}, this is {here}")
+                return Fault("edited", str(copy), f"rendering it again gives other bytes: compare {again}")
+            again.unlink()
+        return None
+
+
+def check(plan: dict[str, Panel], names: list[str], quality: str, render: bool) -> list[Fault]:
+    """Faults of the figures of panels and of the results that they plot. A figure whose results do not hold is not rendered."""
+    runs, pictures = runs_of(plan, names, quality), [Picture(plan, name, quality) for name in names]
+    results = {path: fault for path, run in runs.items() if (fault := fault_of_result(path, run))}
+    with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as threads:
+        usable = [render and not {*results} & {*picture.data} for picture in pictures]
+        figures = threads.map(Picture.fault, pictures, usable)
+    return [*results.values(), *filter(None, figures)]
+
+
+def main(options: argparse.Namespace) -> int:
+    quality, plan = options.quality, load_plan(options.quality)
+    names = options.panels or [*plan]
+    made = [name for name in names if Picture(plan, name, quality).is_made()]
+    faults, alike = check(plan, made, quality, options.render), defaultdict(list)
+    for fault in faults:
+        alike[fault.state, fault.reason, os.path.dirname(fault.path)].append(fault.path)
+    for (state, reason, _), (first, *more) in alike.items():
+        print(f"{state}: {first}{f' and {len(more)} more' if more else ''}: {reason}")
+    if rest := [name for name in names if name not in made]:
+        print(f"Not made at quality {quality}: {', '.join(rest)}")
+    states = Counter(fault.state for fault in faults)
+    listed = ", ".join(f"{number} {state}" for state, number in states.items())
+    print(f"{len(made)} panels with {len(runs_of(plan, made, quality))} results: {listed or 'all hold'}")
+    if broken := states.keys() - {"not checked"}:
+        print(f"make figures {Quality.of(quality).arguments} makes what is stale or missing")
+    return 1 if broken else 3 if states or not made else 0

@@ -1,0 +1,58 @@
+"""Packs the tracked files, results and figures of a quality as build/deposit/lorentz-gas-QUALITY.zip, with SHA256SUMS.
+
+Its metadata are CITATION.cff and codemeta.json. Unpacked elsewhere, `make figures` finds results and figures under the names that it
+gives them, which depend neither on the folder nor on the compiler. Equal inputs give equal bytes.
+"""
+
+import argparse
+import os
+import subprocess
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+
+from workflow.identity import sha256
+from workflow.plan import Quality, load_plan, report_stem, runs_of, stem_of
+from workflow.provenance.audit import check
+from workflow.publish import copies
+
+
+def git(*words: str) -> list[str]:
+    """Lines of git on the repository of this folder, not of one around it. Exits if git fails."""
+    command = ["git", "--git-dir=.git", "--work-tree=.", "-c", "core.quotePath=off", *words]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode:
+        sys.exit(f"Only tracked files are packed, and git fails: {done.stderr.strip()}")
+    return done.stdout.splitlines()
+
+
+def pack(archive: Path, paths: Iterable[str]) -> None:
+    """Writes files into an archive, whole or not at all. Raises OSError."""
+    hashes, temporary = "", archive.with_suffix(".tmp")
+    temporary.parent.mkdir(parents=True, exist_ok=True)
+    with ZipFile(temporary, "w", ZIP_DEFLATED) as packed:
+        for path in sorted(paths):
+            content = Path(path).read_bytes()
+            hashes += f"{sha256(content)}  {path}\n"
+            entry = ZipInfo(f"{archive.stem}/{path}")  # its default time is constant
+            entry.external_attr = (0o755 if os.access(path, os.X_OK) else 0o644) << 16
+            packed.writestr(entry, content, ZIP_DEFLATED)
+        packed.writestr(ZipInfo(f"{archive.stem}/SHA256SUMS"), hashes)
+    temporary.replace(archive)
+
+
+def main(options: argparse.Namespace) -> None:
+    """Exits if a product does not hold or a source is not in the commit."""
+    quality, plan = options.quality, load_plan(options.quality)
+    if new := git("ls-files", "--others", "--exclude-standard", "cpp", "workflow"):
+        sys.exit(f"{new[0]} is not tracked, and would be missing in the deposit: git add it, or move it away")
+    if faults := check(plan, [*plan], quality, render=False):
+        remedy = f"run make figures {Quality.of(quality).arguments}"
+        sys.exit(f"{faults[0].path} is {faults[0].state}: {faults[0].reason}; {remedy}")
+    paths = {*git("ls-files"), *runs_of(plan, plan, quality)}
+    for stem in map(Path, [*(stem_of(plan, name, quality) for name in plan), report_stem(plan, quality)]):
+        paths |= {*map(str, [*stem.parent.glob(f"{stem.name}.*"), *copies(stem)])}
+    archive = Path(f"build/deposit/lorentz-gas-{quality}.zip")
+    pack(archive, paths)
+    print(f"The deposit is {archive}")

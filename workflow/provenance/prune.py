@@ -1,0 +1,52 @@
+"""Removes the results and figures of a quality that no plan names; DRY=yes lists them.
+
+Only files whose names this project gives are removed: NAME.IDENTITY.* in data and in the store, and figures of former panels.
+"""
+
+import argparse
+import re
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+
+from workflow.files import lock_products
+from workflow.identity import IDENTITY, stated
+from workflow.plan import plans_of, report_stem, runs_of, stem_of
+from workflow.publish import SHOWN, STORE
+
+GIVEN = re.compile(
+    rf"(.+\.{IDENTITY})\.(h5|log|cost\.json|pdf|png|svg|csv|json|html)(\.checkpoint|\.refused)?(\.\w+\.tmp)?"
+)
+
+
+def obsolete(base: str) -> Iterator[Path]:
+    """Files of a quality and its efforts that no plan names. Raises ConfigurationError, OSError."""
+    planned: set[str] = set()
+    for quality, plan in plans_of(base).items():
+        planned |= {path.removesuffix(".h5") for path in runs_of(plan, plan, quality)}
+        planned |= {report_stem(plan, quality), *(stem_of(plan, name, quality) for name in plan)}
+        for copy in Path(SHOWN, quality).glob("*.*"):
+            if copy.stem not in plan and (stated(copy.read_bytes()) or ())[:2] == (copy.stem, quality):
+                yield copy
+    for path in [
+        *Path("data", base).glob("*/*"),
+        *Path(STORE).glob(f"{base}/*"),
+        *Path(STORE).glob(f"{base}_*/*"),
+    ]:
+        given = GIVEN.fullmatch(str(path))
+        if given and (given[1] not in planned or given[3] == ".refused"):
+            yield path
+
+
+def main(options: argparse.Namespace) -> None:
+    if not options.dry:
+        lock_products()
+    files = sorted(obsolete(options.quality))
+    size = sum(path.stat().st_size for path in files) / 1e6
+    for path in files:
+        print(path)
+        if not options.dry:
+            path.unlink()
+            with suppress(OSError):  # the folder is not empty
+                path.parent.rmdir()
+    print(f"{'To remove' if options.dry else 'Removed'}: {len(files)} files, {size:.1f} MB")
