@@ -42,14 +42,12 @@ format: setup-dev  ## Format every source in place
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 $(DEV)/clang-format -i
 	$(DEV)/ruff check --quiet --fix . && $(DEV)/ruff format --quiet .
 	$(DEV)/snakefmt --no-format-shell --line-length 110 Snakefile workflow/rules
-describe: build  ## Options and quantities of the programs: schema of the configuration, docs/format.*
-	$(DEV)/python -m workflow.config.describe
 bench: setup-dev build  ## Cost of an event
 	bash workflow/environment/build.sh benchmarks
 	build/bin/benchmarks
 tradeoff: setup-dev build  ## Accuracy against time, and rounding: figures/tradeoff
 	$(DEV)/python -m workflow.tradeoff.tradeoff
-docs: setup-dev  ## The documentation as a static site, build/docs/index.html
+docs: setup-dev build  ## The documentation as a static site, build/docs/index.html
 	NO_MKDOCS_2_WARNING=1 $(DEV)/mkdocs build --strict --quiet
 	doxygen docs/site/Doxyfile
 	cp .venv/lib/python*/site-packages/mathjax/static/mathjax/es5/tex-svg.js build/docs/mathjax.js
@@ -58,4 +56,4 @@ clean:  ## Remove programs, figures in the store, logs and caches; make distclea
 distclean: clean
 	rm -rf data/*/ figures/*/ .snakemake .venv
 .PHONY: help figures panel report gallery audit status verify provenance deposit prune setup setup-dev build test test-long check format \
-  describe bench tradeoff docs clean distclean
+  bench tradeoff docs clean distclean

@@ -14,8 +14,8 @@ from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
 
 from workflow.files import in_one_line
 from workflow.identity import ROOT
+from workflow.lib.described import declared
 from workflow.lib.nearest import nearest
-from workflow.lib.units import declared
 from workflow.polynomial import pattern
 
 Options = dict[str, Any]  # by name without leading dashes: a number, text, or a bool for a flag
@@ -35,7 +35,7 @@ OF_SERIES: Schema = {
 }
 NAME: Schema = {"type": "string", "pattern": "^[A-Za-z0-9_-]+$", "allowed": "letters, digits, _ and -"}
 NAMED: Schema = {"type": "object", "propertyNames": NAME, "minProperties": 1}
-NEW = " (after a change of the programs: run make describe)"
+NEW = " (after a change of the programs: run make build)"
 SAFE = YAML(typ="safe", pure=True)
 
 

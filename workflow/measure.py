@@ -10,9 +10,9 @@ import pandas as pd
 
 from workflow.configuration import Options
 from workflow.identity import ROOT, code_hashes
+from workflow.lib.described import declared
 from workflow.lib.load import Result, load
 from workflow.lib.nearest import nearest
-from workflow.lib.units import declared
 from workflow.plan import Run, require_built, seed_of
 from workflow.program import ProgramError, execute
 

@@ -151,8 +151,8 @@ class Quality:
         if error is None:
             own["replicas"] = replicas
         else:
-            target = {"target-error": error} if scale is None else {"target-absolute": error * scale}
-            own |= {"replicas": BATCH, **target}
+            own |= {"replicas": BATCH, "target-error": error}
+            own |= {} if scale is None else {"target-scale": scale}
         names = f"{panel}/{run}" if self.seed is None else f"{panel}/{run}/{self.seed}"
         return own | {"seed": seed_of(names)}
 

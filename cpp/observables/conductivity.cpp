@@ -184,8 +184,8 @@ Study conductivity(const StationaryParameters& parameters) {
 int main(int argc, char** argv) {
   StudyProgram program("conductivity", "Heat conductivity of an open chain");
   StationaryParameters parameters;
-  parameters.relaxation_time = {{0, 0.05, 0}};
-  parameters.observation_time = {{400, 0, 0}};
+  parameters.relaxation_time = 50;
+  parameters.observation_time = 400;
   declare(program.options(), parameters);
   return program.run(argc, argv, [&] { return conductivity(parameters); });
 }

@@ -32,7 +32,6 @@
 #include "sampling/closed_run.hpp"
 #include "sampling/equilibrium_parameters.hpp"
 #include "sampling/lags.hpp"
-#include "sampling/limits.hpp"
 #include "statistics/moving_peak.hpp"
 
 namespace {
@@ -201,7 +200,6 @@ Group sound_peak(const Parameters& parameters, const Tallies& tallies) {
 
 /// Throws UsageError.
 void require_consistent(const Parameters& parameters) {
-  const double cells = parameters.chain().cells;
   const std::vector<double>& times = parameters.times;
   if (times.size() < 2)
     throw UsageError("--times has one time: the damping exponent needs two. Add another.");
@@ -209,11 +207,8 @@ void require_consistent(const Parameters& parameters) {
     throw UsageError(
         "--rule, --sigma: momentum is not conserved, and there is no sound. Choose --rule elastic, and "
         "--sigma below 1.");
-  require_within(parameters.temperature, 1e-100, 1e100, "--temperature", "the unit of energy");
   const double least = std::max(7.0, std::ceil(2 * Range(parameters, times.back()).end));
   require_before_sound_returns(parameters, least);
-  // Of every snapshot, the transforms of two fields are kept until the longest lag.
-  require_record_size(2.0 * cells * static_cast<double>(lags(times).back() + 1), "--cells, --times");
 }
 
 Study correlation(const Parameters& parameters) {

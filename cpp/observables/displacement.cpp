@@ -19,7 +19,6 @@
 
 #include "observables/displacement/tagged_particles.hpp"
 #include "sampling/closed_run.hpp"
-#include "sampling/limits.hpp"
 #include "sampling/log_times.hpp"
 #include "statistics/control_variates.hpp"
 #include "statistics/fit.hpp"
@@ -119,23 +118,11 @@ std::vector<Group> spreading(const Parameters& parameters, const Tallies& tallie
   return {group, plain};
 }
 
-/// Throws UsageError unless the fourth powers of the displacements at the first and the last time are
-/// representable, and the clock resolves the first time.
-void require_resolved(const Parameters& parameters) {
-  const double speed = std::sqrt(parameters.temperature), first_time = parameters.times().front();
-  const std::string names = "--temperature, --observation-time, --decades";
-  require_within(first_time * speed, 1e-70, 1e70, names, "the displacement at the first time");
-  require_within(parameters.observation_time * speed, 1e-70, 1e70, names,
-                 "the displacement at the last time");
-  require_within(parameters.ring.cell_length, 1e-70, 1e70, "--cell-length", "the length of a cell");
-  require_within(std::min(parameters.end_time(), parameters.longest_clock()) / first_time, 0, 1e12,
-                 "--relaxation-time, --observation-time, --decades", "the clock over the first time");
-}
-
 Study displacement(const Parameters& parameters) {
   validate(parameters);
   validate(parameters.log_times);
-  require_resolved(parameters);
+  require_resolved(parameters.times().front(), std::min(parameters.end_time(), parameters.longest_clock()),
+                   "--relaxation-time, --observation-time, --decades");
   const Tallies tallies(parameters.times());
   return closed_study(parameters, tallies, std::bind_front(observe, parameters, tallies),
                       spreading(parameters, tallies), "alpha");

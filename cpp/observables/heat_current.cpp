@@ -23,7 +23,6 @@
 #include "sampling/closed_run.hpp"
 #include "sampling/equilibrium_parameters.hpp"
 #include "sampling/lags.hpp"
-#include "sampling/limits.hpp"
 #include "statistics/fit.hpp"
 #include "statistics/moving_peak.hpp"
 
@@ -141,13 +140,9 @@ void require_consistent(const Parameters& parameters) {
   const std::vector<double>& times = parameters.times;
   if (std::ranges::count_if(times, [&](double time) { return time >= parameters.fit_from; }) < 2)
     throw UsageError("--fit-from leaves fewer than two times to fit. Choose an earlier one, or add times.");
-  require_record_size(parameters.observation_time / times.front(), "--observation-time, --times");
-  const double T = parameters.temperature, length = parameters.ring.cell_length;
-  require_within(T * length, 1e-100, 1e100, "--temperature, --cell-length",
-                 "the unit of heat, their product");
   if (!draws_direction(parameters.ring.scattering.rule.name))
-    require_before_sound_returns(parameters,
-                                 std::ceil(2 * Sound::of(parameters).reach(times.back()) / length));
+    require_before_sound_returns(
+        parameters, std::ceil(2 * Sound::of(parameters).reach(times.back()) / parameters.ring.cell_length));
 }
 
 Study heat_current(const Parameters& parameters) {

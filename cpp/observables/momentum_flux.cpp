@@ -11,7 +11,6 @@
 #include <numeric>
 
 #include "observables/momentum_flux/bond_crossings.hpp"
-#include "sampling/limits.hpp"
 #include "sampling/momentum_bins.hpp"
 #include "sampling/open_run.hpp"
 #include "statistics/control_variates.hpp"
@@ -123,12 +122,9 @@ std::vector<Group> flux_and_shape(const BondTallies& tallies, double bin_width,
 Study momentum_flux(const Parameters& parameters) {
   validate(parameters);
   validate(parameters.bins);
-  require_fourth_powers(parameters.left, parameters.right);
   const OpenChain chain = parameters.chain();
   const Window window = parameters.window();
-  require_finite_currents(chain, window.end - window.begin, 2);
   const Bins bins = parameters.bins.bins();
-  require_record_size((chain.cells + 1.0) * static_cast<double>(bins.count()), "--cells, --momentum-bins");
   const BondTallies tallies(chain.cells, bins);
   return open_study(
       parameters, window, tallies, [=] { return BondCrossings(chain, window, bins); },

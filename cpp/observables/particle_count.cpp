@@ -9,7 +9,6 @@
 
 #include "observables/particle_count/census.hpp"
 #include "observables/particle_count/front.hpp"
-#include "sampling/limits.hpp"
 #include "sampling/open_run.hpp"
 #include "statistics/fit.hpp"
 
@@ -128,9 +127,6 @@ Study particle_count(const Parameters& parameters) {
         "--times spans less than a factor of two: a slope in ln t would be undetermined. Add later times.");
   validate(parameters, parameters.times.back(), "--times");
   const OpenChain chain = parameters.chain();
-  require_within(parameters.bins.max * parameters.times.back() / chain.cell_length, 0, 1e300,
-                 "--momentum-max, --times, --cell-length",
-                 "the number of cells that the fastest particle passes");
   const CensusGrid grid(parameters.times, parameters.bins.bins(), chain.cell_length);
   const CensusTallies tallies(grid);
   const double thermal = std::sqrt(std::min(chain.left.temperature, chain.right.temperature));

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -25,32 +24,12 @@ void refuse(const std::string& path, const char* why, const char* remedy) {
   throw UsageError(fmt::format("'{}' cannot be written: {}. {}.", path, why, remedy));
 }
 
-/// Whether a name is NAME.XXXXXXXX.tmp with hexadecimal digits.
-bool is_temporary(const std::string& temporary, const std::string& name) {
-  constexpr std::size_t digits = 8;
-  const std::size_t first = name.size() + 1;
-  return temporary.starts_with(name + '.') &&
-         temporary.find_first_not_of("0123456789abcdef", first) == first + digits &&
-         temporary.substr(first + digits) == ".tmp";
-}
-
-/// Removes the temporary files of a path that no process writes any more: none takes an hour to be written.
-void remove_leftovers(const fs::path& path) {
-  std::error_code gone;  // removed by another process
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  for (const auto& entry : fs::directory_iterator(folder, gone))
-    if (is_temporary(entry.path().filename(), path.filename()) &&
-        entry.last_write_time(gone) < fs::file_time_type::clock::now() - std::chrono::hours(1))
-      fs::remove(entry.path(), gone);
-}
-
 /// Writes a temporary file to the disk and returns its name.
 std::string write_beside(const std::string& path, std::span<const std::byte> content) {
   std::error_code unknown;
   if (const fs::file_status status = fs::status(path, unknown);
       fs::exists(status) && !fs::is_regular_file(status))
     refuse(path, "it exists and is not a regular file", "Name a file that may be replaced");
-  remove_leftovers(path);
   const std::string temporary = fmt::format("{}.{:08x}.tmp", path, std::random_device{}());
   std::FILE* const file = std::fopen(temporary.c_str(), "wbx");
   if (!file) refuse(path, std::strerror(errno), "Name a file in an existing folder that you may write");

@@ -8,8 +8,7 @@
 namespace lorentz {
 
 /// Writes a file atomically: under a temporary name in the same folder, flushed to the disk, then renamed.
-/// The names of two processes differ. Removes temporary files of this path that are older than an hour, which
-/// killed processes have left. Throws UsageError, and leaves the file as it was, if the folder is not
+/// The names of two processes differ. Throws UsageError, and leaves the file as it was, if the folder is not
 /// writable or the disk is full.
 void write_atomically(const std::string& path, std::span<const std::byte> content);
 

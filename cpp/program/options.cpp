@@ -4,135 +4,73 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <numeric>
 #include <utility>
 
 #include "program/errors.hpp"
-#include "program/missing_in_libcxx.hpp"
 
 namespace lorentz {
-
-/// One option. Options::add() fills in name, help and role.
-struct Option {
-  std::string type;
-  std::function<bool(const std::string&)> read;  // sets the value; false if the text is not admissible
-  std::function<AttributeValue()> value;
-  std::string admissible = {};  // "a number at least 0"; empty for any text
-  std::string limits = {};      // further members of describe(): "minimum", "word", "units", ...
-  std::string name = {}, help = {};
-  Options::Role role = Options::Role::result;
-};
-
 namespace {
 
-std::string json_of(const AttributeValue& value) {
-  if (const auto* text = std::get_if<std::string>(&value)) return '"' + *text + '"';
-  const std::string number = as_text(value);
-  const bool whole = std::holds_alternative<double>(value) && number.find_first_of(".e") == std::string::npos;
-  return whole ? number + ".0" : number;
+/// Reads a decimal number, rounded to nearest. libc++ 16 to 19 lack std::from_chars of a double; std::strtod
+/// also reads spaces, nan, infinity and hexadecimal numbers.
+bool read(const std::string& text, const Option& option, double& value) {
+  if (text.find_first_not_of("0123456789.+-eE") != std::string::npos) return false;
+  char* end = nullptr;
+  value = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0' && std::isfinite(value) && value >= option.range.low &&
+         value <= option.range.high;
 }
 
-/// Whole numbers in one width.
-template <class Number>
-using Recorded = std::conditional_t<std::is_integral_v<Number>, std::uint64_t, double>;
-
-/// The members of describe() that state a range.
-template <class Number>
-std::string limits(const Range<Number>& range) {
-  const auto member = [](const char* name, Number value) {
-    return fmt::format(R"(, "{}": {})", name, json_of(Recorded<Number>{value}));
-  };
-  return member(range.open_below ? "exclusive_minimum" : "minimum", range.low) +
-         (range.bounded_above() ? member("maximum", range.high) : "");
-}
-
-template <class Number>
-std::string interval(const Range<Number>& range) {
-  if (range.bounded_above()) return fmt::format("in [{}, {}]", range.low, range.high);
-  return fmt::format("{} {}", range.open_below ? "greater than" : "at least", range.low);
-}
-
-template <class Number>
-std::string number_in(const Range<Number>& range) {
-  return (std::is_integral_v<Number> ? "a whole number " : "a number ") + interval(range);
-}
-
-/// Sets the value to a decimal number, rounded to nearest; false if the text is not one in the range.
-template <class Number>
-bool read_number(const std::string& text, const Range<Number>& range, Number& value) {
-  const char* begin = text.data() + (text.starts_with('+') && !text.starts_with("+-") ? 1 : 0);
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = from_chars(begin, end, value);
-  return error == std::errc{} && stop == end && range.contains(value);
-}
-
-constexpr std::array<const char*, 3> powers{"", "N", "N^2"};
-
-/// Sets the value to a sum of terms: a coefficient in the range, and a power of N.
-bool read_polynomial(const std::string& text, const Range<double>& range, Scaled& value) {
-  value = {};
-  const char* at = text.data();
+template <std::unsigned_integral Whole>
+  requires(!std::same_as<Whole, bool>)
+bool read(const std::string& text, const Option& option, Whole& value) {
   const char* const end = text.data() + text.size();
-  for (;; ++at) {
-    double coefficient = 0;
-    const auto [stop, error] = from_chars(at, end, coefficient);
-    at = std::find(stop, end, '+');
-    const auto* const power = std::ranges::find(powers, std::string(stop, at));
-    if (error != std::errc{} || !range.contains(coefficient) || power == powers.end()) return false;
-    value.coefficients[static_cast<std::size_t>(power - powers.begin())] += coefficient;
-    if (at == end) return true;
-  }
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  const auto number = static_cast<double>(value);
+  return error == std::errc{} && stop == end && number >= option.range.low && number <= option.range.high;
 }
 
-/// A number where it is constant, else the terms that are not 0.
-AttributeValue polynomial(const Scaled& value) {
-  if (value.coefficients[1] == 0 && value.coefficients[2] == 0) return value.coefficients[0];
-  std::vector<std::string> terms;
-  for (std::size_t power = 0; power < powers.size(); ++power)
-    if (value.coefficients[power] != 0)
-      terms.push_back(fmt::format("{}{}", value.coefficients[power], powers[power]));
-  return fmt::format("{}", fmt::join(terms, "+"));
+template <class Number>
+bool read(const std::string& text, const Option& option, std::optional<Number>& value) {
+  if (text != option.words.front()) return read(text, option, value.emplace());
+  value.reset();
+  return true;
 }
 
-/// Sets the values to numbers separated by commas; false if they are not ascending and in the range.
-bool read_list(const std::string& text, const Range<double>& range, std::vector<double>& values) {
+bool read(const std::string& text, const Option& option, std::vector<double>& values) {
   values.clear();
   for (std::size_t begin = 0, end = 0; end != text.size(); begin = end + 1) {
     end = std::min(text.find(',', begin), text.size());
-    double value = 0;
-    if (!read_number(text.substr(begin, end - begin), range, value)) return false;
-    values.push_back(value);
+    if (!read(text.substr(begin, end - begin), option, values.emplace_back())) return false;
   }
   return !values.empty() && std::ranges::adjacent_find(values, std::greater_equal()) == values.end();
 }
 
-template <class Number>
-Option number(Number& value, Range<Number> range) {
-  return {.type = std::is_integral_v<Number> ? "integer" : "number",
-          .read = [&value, range](const std::string& text) { return read_number(text, range, value); },
-          .value = [&value] { return AttributeValue(Recorded<Number>{value}); },
-          .admissible = number_in(range),
-          .limits = limits(range)};
+bool read(const std::string& text, const Option&, bool& value) {
+  value = text == "true";
+  return value || text == "false";
 }
 
-/// The number is recorded as floating point, also where it is whole.
-template <class Number>
-Option number_or_word(std::optional<Number>& value, Range<Number> range, const std::string& word) {
-  const auto read = [&value, range, word](const std::string& text) {
-    if (text != word) return read_number(text, range, value.emplace());
-    value.reset();
-    return true;
-  };
-  const auto recorded = [&value, word] {
-    return value ? AttributeValue(static_cast<double>(*value)) : AttributeValue(word);
-  };
-  return {.type = std::is_integral_v<Number> ? "integer or word" : "number or word",
-          .read = read,
-          .value = recorded,
-          .admissible = number_in(range) + ", or " + word,
-          .limits = limits(range) + fmt::format(R"(, "word": "{}")", word)};
+bool read(const std::string& text, const Option& option, std::string& value) {
+  value = text;
+  return option.words.empty() || std::ranges::find(option.words, text) != option.words.end();
 }
+
+/// A number is recorded as floating point where it may be a word, also if it is whole.
+template <class Number>
+AttributeValue recorded(const Option& option, const std::optional<Number>& value) {
+  return value ? AttributeValue(static_cast<double>(*value)) : AttributeValue(option.words.front());
+}
+AttributeValue recorded(const Option&, std::uint32_t value) { return std::uint64_t{value}; }
+AttributeValue recorded(const Option&, const std::vector<double>& values) {
+  return fmt::format("{}", fmt::join(values, ","));
+}
+AttributeValue recorded(const Option&, const auto& value) { return value; }
 
 /// Number of letters that differ: Levenshtein distance.
 std::size_t distance(const std::string& a, const std::string& b) {
@@ -153,6 +91,28 @@ std::string as_text(const AttributeValue& value) {
   return std::visit([](const auto& each) { return fmt::format("{}", each); }, value);
 }
 
+bool Option::read(const std::string& text) const {
+  return std::visit([&](auto* each) { return lorentz::read(text, *this, *each); }, variable);
+}
+
+AttributeValue Option::value() const {
+  return std::visit([&](const auto* each) { return recorded(*this, *each); }, variable);
+}
+
+std::string Option::allowed() const {
+  if (is_flag()) return "true or false";
+  if (std::holds_alternative<std::string*>(variable))
+    return words.empty() ? "text" : fmt::format("one of {}", fmt::join(words, ", "));
+  const std::string numbers = std::isfinite(range.high) ? fmt::format("from {} to {}", range.low, range.high)
+                                                        : fmt::format("at least {}", range.low);
+  if (std::holds_alternative<std::vector<double>*>(variable))
+    return fmt::format("numbers {}, ascending, separated by commas", numbers);
+  const bool real =
+      std::holds_alternative<double*>(variable) || std::holds_alternative<std::optional<double>*>(variable);
+  const std::string word = words.empty() ? "" : ", or " + words.front();
+  return fmt::format("a {}number {}{}", real ? "" : "whole ", numbers, word);
+}
+
 Options::Options(std::string program, const std::string& description)
     : program_(std::move(program)), app_(std::make_unique<CLI::App>(description, program_)) {
   app_->set_version_flag("--version", std::string{}, "Print version and hash of the sources, then exit");
@@ -162,107 +122,25 @@ Options::Options(std::string program, const std::string& description)
 
 Options::~Options() = default;
 
-void Options::add(const std::string& name, const std::string& units, const std::string& help, Role role,
-                  Option option) {
-  option.name = name;
-  option.help = help;
-  option.role = role;
-  if (!units.empty()) option.limits += fmt::format(R"(, "units": "{}")", units);
-  option.limits += fmt::format(R"(, "default": {})", json_of(option.value()));
-  std::string text = help;
-  if (!units.empty() && units != "1") text += fmt::format(" [{}]", units);
-  if (!option.admissible.empty())
-    text += fmt::format(" ({}; default {})", option.admissible, as_text(option.value()));
-  if (option.type == "flag")
-    app_->add_flag(name, help);
+void Options::add(Option option) {
+  option.default_value = option.value();
+  const std::string units = option.units.empty() || option.units == "1" ? "" : " [" + option.units + ']',
+                    value = as_text(option.default_value), text = option.help + units;
+  if (option.is_flag())
+    app_->add_flag(option.name, text);
   else
-    app_->add_option(name, CLI::callback_t{}, text)->type_name("")->take_all();
+    app_->add_option(option.name, CLI::callback_t{},
+                     value.empty() ? text : fmt::format("{} ({}; default {})", text, option.allowed(), value))
+        ->type_name("")
+        ->take_all();
   options_.push_back(std::move(option));
-}
-
-void Options::real(const std::string& name, double& value, Range<double> range, const std::string& units,
-                   const std::string& help, Role role) {
-  add(name, units, help, role, number(value, range));
-}
-
-void Options::integer(const std::string& name, std::uint32_t& value, Range<std::uint32_t> range,
-                      const std::string& help, Role role) {
-  add(name, "1", help, role, number(value, range));
-}
-
-void Options::integer(const std::string& name, std::uint64_t& value, Range<std::uint64_t> range,
-                      const std::string& help, Role role) {
-  add(name, "1", help, role, number(value, range));
-}
-
-void Options::real_or_word(const std::string& name, std::optional<double>& value, Range<double> range,
-                           const std::string& word, const std::string& units, const std::string& help) {
-  add(name, units, help, Role::result, number_or_word(value, range, word));
-}
-
-void Options::integer_or_word(const std::string& name, std::optional<std::uint32_t>& value,
-                              Range<std::uint32_t> range, const std::string& word, const std::string& help) {
-  add(name, "1", help, Role::result, number_or_word(value, range, word));
-}
-
-void Options::scaled(const std::string& name, Scaled& value, Range<double> range, const std::string& units,
-                     const std::string& help) {
-  add(name, units, help, Role::result,
-      {.type = "number or polynomial in N",
-       .read = [&value, range](const std::string& text) { return read_polynomial(text, range, value); },
-       .value = [&value] { return polynomial(value); },
-       .admissible = number_in(range) + ", or a sum of such, each alone or followed by N or N^2",
-       .limits = limits(range)});
-}
-
-void Options::ascending_list(const std::string& name, std::vector<double>& values, Range<double> range,
-                             const std::string& units, const std::string& help) {
-  add(name, units, help, Role::result,
-      {.type = "numbers",
-       .read = [&values, range](const std::string& text) { return read_list(text, range, values); },
-       .value = [&values] { return AttributeValue(fmt::format("{}", fmt::join(values, ","))); },
-       .admissible = fmt::format("numbers {}, ascending, separated by commas", interval(range)),
-       .limits = limits(range)});
-}
-
-void Options::flag(const std::string& name, bool& value, const std::string& help, Role role) {
-  const auto read = [&value](const std::string& text) {
-    value = text == "true";
-    return value || text == "false";
-  };
-  add(name, "", help, role,
-      {.type = "flag",
-       .read = read,
-       .value = [&value] { return AttributeValue(value); },
-       .admissible = "true or false"});
-}
-
-void Options::choice(const std::string& name, std::string& value, const std::vector<std::string>& choices,
-                     const std::string& help, Role role) {
-  const auto read = [&value, choices](const std::string& text) {
-    value = text;
-    return std::ranges::find(choices, text) != choices.end();
-  };
-  add(name, "", help, role,
-      {.type = "choice",
-       .read = read,
-       .value = [&value] { return AttributeValue(value); },
-       .admissible = fmt::format("one of {}", fmt::join(choices, ", ")),
-       .limits = fmt::format(R"(, "choices": ["{}"])", fmt::join(choices, R"(", ")"))});
-}
-
-void Options::text(const std::string& name, std::string& value, const std::string& help, Role role) {
-  const auto read = [&value](const std::string& text) {
-    value = text;
-    return true;
-  };
-  add(name, "", help, role,
-      {.type = "text", .read = read, .value = [&value] { return AttributeValue(value); }});
 }
 
 bool Options::given(const std::string& name) const { return app_->count(name) > 0; }
 
-std::optional<std::string> Options::parse(int argc, const char* const* argv, const std::string& version) {
+std::optional<std::string> Options::parse(int argc, const char* const* argv, const std::string& version,
+                                          const std::function<std::string()>& footer) {
+  app_->footer(footer);
   const auto refuse = [this](const std::string& why) {
     throw UsageError(fmt::format("{}. Correct it; '{} --help' lists every option.", why, program_));
   };
@@ -283,21 +161,21 @@ std::optional<std::string> Options::parse(int argc, const char* const* argv, con
     const std::string name = extra.substr(0, extra.find('='));
     const auto nearest = std::ranges::min_element(
         options_, {}, [&](const Option& option) { return distance(option.name, name); });
-    refuse(fmt::format("{} is not an option; the nearest one is {}", name, nearest->name));
+    refuse(fmt::format("{} is not an option; did you mean {}?", name, nearest->name));
   }
   for (const Option& option : options_) {
     const std::vector<std::string>& values = app_->get_option(option.name)->results();
     if (values.size() > 1) refuse(option.name + " is given more than once");
     if (!values.empty() && !option.read(values.front()))
       refuse(fmt::format("{}: '{}' cannot be used: it must be {}", option.name, values.front(),
-                         option.admissible));
+                         option.allowed()));
   }
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i], name = word.substr(0, word.find('='));
     const auto option = std::ranges::find(options_, name, &Option::name);
     if (option == options_.end() || option->role != Role::result) continue;
     words_ += (words_.empty() ? "" : " ") + word;
-    if (name == word && option->type != "flag") words_ += ' ' + std::string(argv[++i]);
+    if (name == word && !option->is_flag()) words_ += ' ' + std::string(argv[++i]);
   }
   return {};
 }
@@ -308,15 +186,6 @@ std::vector<Parameter> Options::parameters() const {
     if (option.role == Role::result) result.push_back({option.name.substr(2), option.value()});
   std::ranges::sort(result, {}, &Parameter::name);
   return result;
-}
-
-std::string Options::describe() const {
-  std::vector<std::string> each;
-  for (const Option& option : options_)
-    each.push_back(fmt::format(
-        R"({{"name": "{}", "type": "{}", "description": "{}"{}, "affects_results": {}}})",
-        option.name.substr(2), option.type, option.help, option.limits, option.role == Role::result));
-  return fmt::format("[{}]", fmt::join(each, ",\n"));
 }
 
 }  // namespace lorentz

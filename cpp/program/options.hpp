@@ -1,7 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -15,26 +15,15 @@ class App;
 
 namespace lorentz {
 
-/// The range of a number: [low, high], or greater than low.
-template <class Number>
+/// The range of a number, ends included.
 struct Range {
-  Number low = 0;
-  Number high = std::numeric_limits<Number>::max();
-  bool open_below = false;
-
-  bool bounded_above() const { return high != std::numeric_limits<Number>::max(); }
-  bool contains(Number value) const { return (open_below ? value > low : value >= low) && value <= high; }
+  double low = 0;
+  double high = std::numeric_limits<double>::infinity();
 };
 
-inline constexpr Range<double> positive{0, std::numeric_limits<double>::max(), true};
-inline constexpr Range<double> non_negative{0};
-
-/// A polynomial of the second degree in a size of the system, most often a number.
-struct Scaled {
-  std::array<double, 3> coefficients;  // of size^0, size^1, size^2
-
-  double at(double size) const { return coefficients[0] + size * (coefficients[1] + size * coefficients[2]); }
-};
+/// Magnitudes of every option with units. All that programs compute from such numbers is representable with
+/// full precision, up to fourth powers of displacements.
+inline constexpr Range positive{1e-30, 1e30}, non_negative{0, 1e30};
 
 using AttributeValue = std::variant<bool, std::int64_t, std::uint64_t, double, std::string>;
 
@@ -46,51 +35,87 @@ struct Parameter {
 
 std::string as_text(const AttributeValue& value);
 
-struct Option;
-
-/// The options of one executable. One declaration of each serves the command line, --help, the check, the
-/// record of parameters in the output file and describe(). parse() writes to the declared values.
-class Options {
- public:
+/// One option: its only description, for the command line, --help, messages, the record of parameters in the
+/// output file and the JSON Schema (describe.hpp).
+struct Option {
   enum class Role {
     result,   // determines the result: recorded in the output file
     runtime,  // how the run is conducted: threads, progress, files
   };
 
+  std::string name;  // with the leading dashes
+  /// The variable, whose value is the default until the command line sets it. None of an optional one is
+  /// stated by a word.
+  std::variant<double*, std::uint32_t*, std::uint64_t*, std::optional<double>*, std::optional<std::uint32_t>*,
+               std::vector<double>*, bool*, std::string*>
+      variable;
+  Range range;        // of numbers
+  std::string units;  // a dimension, such as "temperature" or "1/time", or "1"; empty for words
+  std::string help;
+  std::vector<std::string> words;  // choices of a text, or the word for none
+  Role role;
+  AttributeValue default_value{};  // set by Options
+
+  bool is_flag() const { return std::holds_alternative<bool*>(variable); }
+  AttributeValue value() const;
+  std::string allowed() const;  // values, for messages
+
+  /// Sets the variable; returns false, with the variable unspecified, if the text is not an allowed value.
+  bool read(const std::string& text) const;
+};
+
+/// The options of one executable.
+class Options {
+ public:
+  using Role = Option::Role;
+
   Options(std::string program, const std::string& description);
   ~Options();
 
-  /// The current value is the default. Names have their leading dashes. Units are a dimension, such as
-  /// "temperature" or "1/time", or "1".
-  void real(const std::string& name, double& value, Range<double> range, const std::string& units,
-            const std::string& help, Role role = Role::result);
-  void integer(const std::string& name, std::uint32_t& value, Range<std::uint32_t> range,
-               const std::string& help, Role role = Role::result);
-  void integer(const std::string& name, std::uint64_t& value, Range<std::uint64_t> range,
-               const std::string& help, Role role = Role::result);
+  /// Declare an option. Names have their leading dashes.
+  void real(const std::string& name, double& value, Range range, const std::string& units,
+            const std::string& help, Role role = Role::result) {
+    add({name, &value, range, units, help, {}, role});
+  }
+  template <class Whole>
+  void integer(const std::string& name, Whole& value, Range range, const std::string& help,
+               Role role = Role::result) {
+    add({name, &value, range, "1", help, {}, role});
+  }
   /// A number, or a word, for which the value is none: --gamma N.
-  void real_or_word(const std::string& name, std::optional<double>& value, Range<double> range,
-                    const std::string& word, const std::string& units, const std::string& help);
-  void integer_or_word(const std::string& name, std::optional<std::uint32_t>& value,
-                       Range<std::uint32_t> range, const std::string& word, const std::string& help);
-  /// A number, or a sum of multiples of 1, N and N^2, as 50+0.0004N^2.
-  void scaled(const std::string& name, Scaled& value, Range<double> range, const std::string& units,
-              const std::string& help);
+  void real_or_word(const std::string& name, std::optional<double>& value, Range range,
+                    const std::string& word, const std::string& units, const std::string& help) {
+    add({name, &value, range, units, help, {word}, Role::result});
+  }
+  void integer_or_word(const std::string& name, std::optional<std::uint32_t>& value, Range range,
+                       const std::string& word, const std::string& help, Role role = Role::result) {
+    add({name, &value, range, "1", help, {word}, role});
+  }
   /// Increasing numbers, separated by commas.
-  void ascending_list(const std::string& name, std::vector<double>& values, Range<double> range,
-                      const std::string& units, const std::string& help);
-  void flag(const std::string& name, bool& value, const std::string& help, Role role = Role::result);
+  void ascending_list(const std::string& name, std::vector<double>& values, Range range,
+                      const std::string& units, const std::string& help) {
+    add({name, &values, range, units, help, {}, Role::result});
+  }
+  void flag(const std::string& name, bool& value, const std::string& help, Role role = Role::result) {
+    add({name, &value, {}, "", help, {}, role});
+  }
   void choice(const std::string& name, std::string& value, const std::vector<std::string>& choices,
-              const std::string& help, Role role = Role::result);
-  void text(const std::string& name, std::string& value, const std::string& help, Role role = Role::result);
+              const std::string& help, Role role = Role::result) {
+    add({name, &value, {}, "", help, choices, role});
+  }
+  void text(const std::string& name, std::string& value, const std::string& help, Role role = Role::result) {
+    add({name, &value, {}, "", help, {}, role});
+  }
 
   /// Whether the command line has the option.
   bool given(const std::string& name) const;
   const std::string& program() const { return program_; }
+  const std::vector<Option>& all() const { return options_; }
 
-  /// Reads the command line. Returns the text of --help or --version if one is given, after which the program
-  /// ends; none otherwise. Throws UsageError.
-  std::optional<std::string> parse(int argc, const char* const* argv, const std::string& version);
+  /// Reads the command line. Returns the text of --help, which ends with the footer, or of --version if one
+  /// is given, after which the program ends; none otherwise. Throws UsageError.
+  std::optional<std::string> parse(int argc, const char* const* argv, const std::string& version,
+                                   const std::function<std::string()>& footer);
 
   /// Words of the command line for options that determine the result, as they were given, separated by
   /// spaces: a part of the result's identity (workflow/identity.py).
@@ -99,12 +124,8 @@ class Options {
   /// Values of all options that determine the result, sorted by name.
   std::vector<Parameter> parameters() const;
 
-  /// JSON array of the options in the order of declaration: name, type, limits, default, units, description.
-  std::string describe() const;
-
  private:
-  void add(const std::string& name, const std::string& units, const std::string& help, Role role,
-           Option option);
+  void add(Option option);
 
   std::string program_, words_;
   std::unique_ptr<CLI::App> app_;

@@ -12,8 +12,8 @@
 
 #include "program/atomic_file.hpp"
 #include "program/build_info.hpp"
+#include "program/describe.hpp"
 #include "program/hdf5_file.hpp"
-#include "program/replica_file.hpp"
 
 namespace lorentz {
 namespace {
@@ -38,20 +38,17 @@ std::string cost(double wall, std::uint64_t events) {
       wall, static_cast<double>(std::clock()) / CLOCKS_PER_SEC, usage.ru_maxrss * bytes_per_unit, events);
 }
 
-/// JSON array of the quantities with their axes.
-std::string as_json(const std::vector<Description>& quantities) {
-  const auto members = [](const auto& each) {
-    return fmt::format(R"("name": "{}", "units": "{}", "description": "{}")", each.name, each.units,
-                       each.description);
-  };
-  std::vector<std::string> described;
+/// Lines of --help: every quantity with its units and axes.
+std::string listed(const std::vector<Description>& quantities) {
+  std::string lines = "Quantities:\n";
   for (const Description& what : quantities) {
     std::vector<std::string> axes;
-    for (const Axis& axis : what.axes)
-      axes.push_back(fmt::format(R"({{{}, "size": {}}})", members(axis), axis.values.size()));
-    described.push_back(fmt::format(R"({{{}, "axes": [{}]}})", members(what), fmt::join(axes, ", ")));
+    for (const Axis& axis : what.axes) axes.push_back(axis.name);
+    const std::string label =
+        axes.empty() ? what.name : fmt::format("{} [{}]", what.name, fmt::join(axes, ", "));
+    lines += fmt::format("  {:<33} {} [{}]\n", label, what.description, what.units);
   }
-  return fmt::format("[{}]", fmt::join(described, ",\n"));
+  return lines;
 }
 
 /// Writes /results/NAME/{mean, standard_error, count} for a measured quantity, {mean, discretisation_error}
@@ -95,8 +92,7 @@ double Program::elapsed() const {
 /// Throws UsageError if there is an output and it is no result of these options and sources.
 void Program::require_replaceable() const {
   std::error_code unknown;
-  if (overwrite_ || output_.ends_with(ReplicaFile::part_suffix) || !std::filesystem::exists(output_, unknown))
-    return;
+  if (overwrite_ || !std::filesystem::exists(output_, unknown)) return;
   const auto require = [this](bool equal, const std::string& what) {
     if (!equal)
       throw UsageError(fmt::format(
@@ -133,16 +129,14 @@ ExitStatus Program::write(const Outcome& outcome) const {
       {"achieved_error", outcome.achieved_error},
       {"converged", std::string(names.at(static_cast<std::size_t>(outcome.convergence)))},
       {"results_digest", file.digest("/results")},
+      {"units", std::string("m = k_B = 1")},
+      {"documentation", std::string("docs/format.md of lorentz-gas")},
   };
   for (const auto& [name, value] : provenance) file.attribute("/provenance", name, value);
-  write(file.image(), outcome.events);
-  return outcome.convergence == Convergence::not_reached ? ExitStatus::not_converged : ExitStatus::done;
-}
-
-void Program::write(std::span<const std::byte> content, std::uint64_t events) const {
-  write_atomically(output_, content);
-  const std::string spent = cost(elapsed(), events);
+  write_atomically(output_, file.image());
+  const std::string spent = cost(elapsed(), outcome.events);
   write_atomically(cost_path(output_), std::as_bytes(std::span(spent)));
+  return outcome.convergence == Convergence::not_reached ? ExitStatus::not_converged : ExitStatus::done;
 }
 
 int Program::run(int argc, char** argv, const std::function<std::vector<Description>()>& quantities,
@@ -152,14 +146,11 @@ int Program::run(int argc, char** argv, const std::function<std::vector<Descript
     ::signal(number, [](int received) { ::_exit(static_cast<int>(ExitStatus::interrupted) + received); });
   const std::string version =
       fmt::format("{} {} (sources {})", options_.program(), build_info.version, build_info.source_hash);
-  if (const std::optional<std::string> text = options_.parse(argc, argv, version)) {
+  std::optional<std::string> text = options_.parse(argc, argv, version, [&] { return listed(quantities()); });
+  const std::vector<Description> described = text ? std::vector<Description>() : quantities();
+  if (describe_) text = describe(options_, description_, described);
+  if (text) {
     fmt::print("{}", *text);
-    return 0;
-  }
-  const std::vector<Description> described = quantities();
-  if (describe_) {
-    fmt::print("{{\"program\": \"{}\", \"description\": \"{}\",\n\"options\": {},\n\"quantities\": {}}}\n",
-               options_.program(), description_, options_.describe(), as_json(described));
     return 0;
   }
   if (output_.empty())
@@ -170,8 +161,9 @@ int Program::run(int argc, char** argv, const std::function<std::vector<Descript
 } catch (const UsageError& error) {
   return fail(ExitStatus::usage, fmt::format("error: {}", error.what()));
 } catch (const std::bad_alloc&) {
-  return fail(ExitStatus::usage,
-              "error: there is not enough memory. Choose a smaller system, fewer bins or fewer --threads.");
+  return fail(
+      ExitStatus::usage,
+      "error: there is not enough memory. Choose a smaller system, fewer bins, --replicas or --threads.");
 } catch (const NumericalError& error) {
   return fail(ExitStatus::numerical_failure, fmt::format("numerical failure: {}", error.what()));
 } catch (const std::exception& error) {

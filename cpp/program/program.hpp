@@ -1,10 +1,8 @@
 #pragma once
 
 #include <chrono>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -25,9 +23,8 @@ struct Outcome {
   std::uint64_t events = 0;
   std::string target_quantity{};
   double target_error = 0;    // NaN without a target
-  double achieved_error = 0;  // relative, or absolute if the target was
+  double achieved_error = 0;  // relative as the target; NaN if it is not known
   Convergence convergence = Convergence::not_reached;
-  std::size_t replicas = 0;  // used for the results
 };
 
 /// Common part of every executable: options, one computation, one HDF5 file written atomically, a cost file
@@ -41,7 +38,7 @@ class Program {
   const std::string& output() const { return output_; }
   double elapsed() const;  // seconds since the start of the program
 
-  /// Parses the command line, computes and writes; with --describe prints options and quantities as JSON
+  /// Parses the command line, computes and writes; with --help and --describe prints options and quantities
   /// instead. `quantities` describes what the parsed options compute, and throws UsageError if options that
   /// are valid one by one exclude each other; `compute` calls write(). Returns the exit status and never
   /// throws: errors are printed on standard error as one line.
@@ -50,7 +47,6 @@ class Program {
 
   /// Writes the output and the cost file. Throws UsageError.
   ExitStatus write(const Outcome& outcome) const;
-  void write(std::span<const std::byte> content, std::uint64_t events) const;
 
  private:
   void require_replaceable() const;

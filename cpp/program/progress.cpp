@@ -16,27 +16,33 @@ std::string as_time(double seconds) {
   return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
+/// Of a number rounded to two digits: 0.0996 has -1.
+int decimal_exponent(double x) {
+  const std::string text = fmt::format("{:.1e}", x);
+  return std::stoi(text.substr(text.find('e') + 1));
+}
+
 void print_error(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 }  // namespace
 
 Progress::Progress(std::string program) : program_(std::move(program)) {}
 
-void Progress::show(double done, double wanted, double resumed) {
+void Progress::show(double done, std::uint64_t wanted, double resumed) {
   using Seconds = std::chrono::duration<double>;
   const Clock::time_point now = Clock::now();
   const bool bar = style == "bar" || (style == "auto" && ::isatty(STDERR_FILENO));
   if (style == "none" || now - last_shown_ < Seconds(bar ? 0.1 : 10)) return;
   last_shown_ = now;
-  const double fresh = done - resumed;
-  const std::string remaining =
-      fresh > 0 ? as_time(Seconds(now - start_).count() * (wanted - done) / fresh) + " left"
-                : std::string("time left unknown");
-  if (!bar) return warn(fmt::format("{:.1f} of {:.0f} replicas, {}", done, wanted, remaining));
+  const double fresh = done - resumed, all = static_cast<double>(wanted);
+  const std::string state =
+      fmt::format("{:.1f} of {}, {}", done, counted(wanted),
+                  fresh > 0 ? as_time(Seconds(now - start_).count() * (all - done) / fresh) + " left"
+                            : "time left unknown");
+  if (!bar) return warn(state);
   constexpr int width = 30;
-  const int filled = std::clamp(static_cast<int>(width * done / wanted), 0, width);
-  print_error(fmt::format("\r{} [{:#<{}}{:.<{}}] {:.1f}/{:.0f} replicas, {}\x1b[K", program_, "", filled, "",
-                          width - filled, done, wanted, remaining));
+  const int filled = std::clamp(static_cast<int>(width * done / all), 0, width);
+  print_error(fmt::format("\r{} [{:#<{}}{:.<{}}] {}\x1b[K", program_, "", filled, "", width - filled, state));
   bar_drawn_ = true;
 }
 
@@ -49,21 +55,21 @@ void Progress::warn(const std::string& line) {
   print_error(fmt::format("{}: {}\n", program_, line));
 }
 
+std::string counted(std::uint64_t replicas) {
+  return fmt::format("{} replica{}", replicas, replicas == 1 ? "" : "s");
+}
+
 std::string with_error(double mean, double error) {
   if (!(error > 0) || !std::isfinite(mean) || !std::isfinite(error)) return fmt::format("{:.8g}", mean);
-  const double largest = std::max(std::abs(mean), error);
-  const int exponent = static_cast<int>(std::floor(std::log10(largest)));
-  const bool plain = exponent >= -4 && exponent < 6;  // as for {:g}
-  const double scale = plain ? 1 : std::pow(10, exponent);
-  // Two digits, also where rounding carries: 0.0996 has the digits 10, not 100.
-  int decimals = 1 - static_cast<int>(std::floor(std::log10(error / scale)));
-  if (std::round(error / scale * std::pow(10, decimals)) >= 100) --decimals;
-  const double unit = std::pow(10, decimals), rounded = std::round(error / scale * unit) / unit;
-  decimals = std::max(decimals, 0);
-  const std::string shown =
-      rounded < 1 ? fmt::format("{:.0f}", rounded * unit) : fmt::format("{:.{}f}", rounded, decimals);
-  return fmt::format("{:.{}f}({}){}", mean / scale, decimals, shown,
-                     plain ? "" : fmt::format("e{}", exponent));
+  const int exponent = decimal_exponent(std::max(std::abs(mean), error));
+  if (exponent < -4 || exponent >= 6) {  // as for {:g}
+    const double unit = std::pow(10, exponent);
+    return fmt::format("{}e{}", with_error(mean / unit, error / unit), exponent);
+  }
+  const int decimals = std::max(0, 1 - decimal_exponent(error));
+  std::string digits = fmt::format("{:.{}f}", std::stod(fmt::format("{:.1e}", error)), decimals);
+  if (error < 1) digits.erase(0, digits.find_first_of("123456789"));
+  return fmt::format("{:.{}f}({})", mean, decimals, digits);
 }
 
 }  // namespace lorentz

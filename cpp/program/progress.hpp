@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 
 namespace lorentz {
@@ -14,7 +15,7 @@ class Progress {
   std::string style = "auto";  // or bar, log, none; auto: bar on a terminal and log elsewhere
 
   /// done and wanted: numbers of replicas, fractions included; resumed: how many of them come from a file.
-  void show(double done, double wanted, double resumed);
+  void show(double done, std::uint64_t wanted, double resumed);
 
   /// Prints a line unless the style is none: a result, or why the run stops.
   void say(const std::string& line);
@@ -32,5 +33,8 @@ class Progress {
 
 /// "0.3208(45)", "262.9(3.5)": a mean with two digits of its standard error.
 std::string with_error(double mean, double error);
+
+/// "1 replica", "2 replicas".
+std::string counted(std::uint64_t replicas);
 
 }  // namespace lorentz

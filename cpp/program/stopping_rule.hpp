@@ -14,10 +14,10 @@ namespace lorentz {
 ///
 /// Because R depends on the data, estimates have a bias of order 1/R. For records with skewness g, excess
 /// kurtosis k and coefficient of variation v, the delta method gives a bias of the mean of -(g - 2v) sigma/R
-/// under a relative target and -g sigma/R under an absolute one [eq. 53], and reduces the square of the
-/// standard error by the part (k + 2)/R. With 64 or more replicas, means and errors are at least as good as
-/// those of a fixed number of 32 (tests/cpp/program/stopping_rule_test.cpp). Chow & Robbins, Ann. Math. Stat.
-/// 36, 457 (1965); Glynn & Whitt, Ann. Appl. Probab. 2, 180 (1992).
+/// under a target relative to the mean and -g sigma/R under one with a fixed scale [eq. 53], and reduces the
+/// square of the standard error by the part (k + 2)/R. With 64 or more replicas, means and errors are at
+/// least as good as those of a fixed number of 32 (tests/cpp/program/stopping_rule_test.cpp). Chow & Robbins,
+/// Ann. Math. Stat. 36, 457 (1965); Glynn & Whitt, Ann. Appl. Probab. 2, 180 (1992).
 struct StoppingRule {
   static constexpr std::uint64_t least = 64;  // replicas needed to reach a target
 
@@ -31,16 +31,9 @@ struct StoppingRule {
   /// excess: ratio of the estimated standard error to the target.
   static bool reached(std::uint64_t used, double excess);
 
-  /// Predicted number of replicas at the end of the run, if the error falls as the inverse square root of
+  /// Estimated number of replicas at the end of the run, if the error falls as the inverse square root of
   /// their number.
-  struct Forecast {
-    std::uint64_t likely;
-    std::uint64_t low, high;  // 95 % prediction interval for normal records; less for skewed ones
-  };
-  Forecast forecast(std::uint64_t used, double excess) const;
-
- private:
-  std::uint64_t end(std::uint64_t used, double excess) const;
+  std::uint64_t expected_end(std::uint64_t used, double excess) const;
 };
 
 }  // namespace lorentz

@@ -9,18 +9,17 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <future>
 #include <limits>
-#include <sstream>
+#include <new>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
 #include <utility>
 
 #include "numerics/random.hpp"
-#include "program/atomic_file.hpp"
 #include "program/build_info.hpp"
 #include "program/errors.hpp"
-#include "program/missing_in_libcxx.hpp"
 #include "program/stopping_rule.hpp"
 
 namespace lorentz {
@@ -38,39 +37,41 @@ void note_signals() {
     if (::signal(number, note) == SIG_IGN && number == SIGHUP) ::signal(number, SIG_IGN);
 }
 
+/// sum += x, which libc++ 16 to 19 lack.
+void add(std::atomic<double>& sum, double x) {
+  double before = sum;
+  while (!sum.compare_exchange_weak(before, before + x)) continue;
+}
+
+/// Thrown by a heartbeat to end a replica after another one has failed.
+struct Abandoned {};
+
 }  // namespace
 
 StudyProgram::StudyProgram(const std::string& name, const std::string& description)
-    : program_(name, description), threads_(std::max(1U, std::thread::hardware_concurrency())) {}
+    : program_(name, description) {}
 
 int StudyProgram::run(int argc, char** argv, const std::function<Study()>& make) {
   Options& options = this->options();
   constexpr auto runtime = Options::Role::runtime;
   options.integer("--replicas", replicas_, {1, 100'000'000},
                   "Independent replicas; with a target error, replicas per batch");
-  options.integer("--seed", seed_, {}, "Key of all random streams");
+  options.integer("--seed", seed_, {},
+                  "Key of all random streams; runs with the same seed have correlated results, so give each "
+                  "run of a scan its own");
   options.real("--target-error", target_error_, non_negative, "1",
-               fmt::format("Add replicas, {} at least, until the relative standard error of the target "
-                           "quantity is below this with 95 % confidence; 0: no target",
+               fmt::format("Add replicas, {} at least, until the standard error of the target quantity, "
+                           "relative to its mean, is below this with 95 % confidence; 0: no target",
                            StoppingRule::least));
-  options.real("--target-absolute", target_absolute_, non_negative, "that of the target quantity",
-               "The same for the standard error itself; 0: no target");
-  options.integer("--threads", threads_, {1, 4096}, "Threads; no result depends on them", runtime);
-  options.real(
-      "--time-limit", time_limit_, non_negative, "s",
-      "Seconds after which no replica but the first two starts; those in progress are finished; 0: none",
-      runtime);
+  options.real("--target-scale", target_scale_, non_negative, "",
+               "Number in the target quantity's units to which the target error is relative instead, for a "
+               "mean that may be 0; 0: the mean");
+  options.integer_or_word("--threads", threads_, {1, 4096}, "processors",
+                          "Threads, on which no result depends; processors: one for each", runtime);
   options.real("--checkpoint-interval", checkpoint_interval_, positive, "s",
                "Seconds between checkpoints in OUTPUT.checkpoint", runtime);
   options.flag("--resume", resume_, "Resume from OUTPUT.checkpoint if it exists", runtime);
-  options.text(
-      "--part", part_,
-      "Measure only these replicas, as 24-47, and write their records, to be joined; OUTPUT ends with .part",
-      runtime);
-  options.text("--join", join_, "Take over what the parts in this folder have measured, and measure the rest",
-               runtime);
   const auto plan = [&] {
-    require_consistent();
     study_ = make();
     return quantities();
   };
@@ -86,111 +87,63 @@ std::vector<Description> StudyProgram::quantities() const {
   return all;
 }
 
-/// Reads --part. Throws UsageError if options that are valid one by one exclude each other.
-void StudyProgram::require_consistent() {
-  if (target_error_ > 0 && target_absolute_ > 0)
-    throw UsageError(
-        "--target-error and --target-absolute are both given: a run has one target. Leave out one of the "
-        "two.");
-  if (part_.empty()) return;
-  if (target() > 0 || time_limit_ > 0 || !join_.empty())
-    throw UsageError(
-        "--part is given with a target error, a time limit or --join: a part has a fixed number of replicas. "
-        "Leave out one of the two.");
-  std::istringstream range(part_);
-  char dash = 0;
-  if (!(range >> part_first_ >> dash >> part_last_) || dash != '-' || !range.eof() ||
-      part_first_ > part_last_ || part_last_ >= replicas_)
-    throw UsageError(fmt::format(
-        "--part {} is not a range of replicas. Give the first and the last, as 0-{}, of a run that has {}.",
-        part_, replicas_ - 1, replicas_));
-  if (!program_.output().ends_with(ReplicaFile::part_suffix))
-    throw UsageError(fmt::format("--part writes records, not results. The --output '{}' must end with {}.",
-                                 program_.output(), ReplicaFile::part_suffix));
+/// Throws std::bad_alloc if the records, their copy for the estimate, and one corrected by control variates
+/// exceed the memory of the machine: the system would kill the program late and without a message.
+void StudyProgram::require_memory() const {
+  const auto replicas = static_cast<double>(replicas_), width = static_cast<double>(study_.tallies.width());
+  const double pages = static_cast<double>(::sysconf(_SC_PHYS_PAGES));
+  if (3 * sizeof(double) * replicas * width > pages * static_cast<double>(::sysconf(_SC_PAGESIZE)))
+    throw std::bad_alloc();
 }
 
-/// Loads the replicas of the checkpoint and of the parts. Throws UsageError if there is a checkpoint that
-/// neither --resume nor --overwrite refers to.
+/// Loads the replicas of the checkpoint. Throws UsageError if there is one that neither --resume nor
+/// --overwrite refers to.
 void StudyProgram::prepare() {
+  require_memory();
+  checkpoint_ = {.path = program_.output() + ".checkpoint", .tallies = study_.tallies.tallies()};
   for (const Parameter& each : options().parameters())
-    format_.identity += fmt::format("{} = {}\n", each.name, as_text(each.value));
-  format_.identity += fmt::format("source_hash = {}\n", build_info.source_hash);
-  format_.tallies = study_.tallies.tallies();
-  checkpoint_ = program_.output() + ".checkpoint";
+    checkpoint_.identity += fmt::format("{} = {}\n", each.name, as_text(each.value));
+  checkpoint_.identity += fmt::format("source_hash = {}\n", build_info.source_hash);
   const bool overwrite = options().given("--overwrite");
   if (std::error_code unknown;
-      (resume_ || !overwrite) && std::filesystem::is_regular_file(checkpoint_, unknown)) {
-    std::optional<FinishedReplicas> saved = format_.read(checkpoint_);
+      (resume_ || !overwrite) && std::filesystem::is_regular_file(checkpoint_.path, unknown)) {
+    std::optional<FinishedReplicas> saved = checkpoint_.load();
     if (!saved && !overwrite)
-      throw UsageError(fmt::format(
-          "'{}' is of other options or another build. Choose another --output, or discard it with "
-          "--overwrite.",
-          checkpoint_));
+      throw UsageError(
+          fmt::format("'{}' is of other options or sources. Choose another --output, or discard it with "
+                      "--overwrite.",
+                      checkpoint_.path));
     if (saved && !resume_)
       throw UsageError(
-          fmt::format("'{}' has {} replicas of this run. Continue with --resume, or discard them with "
-                      "--overwrite.",
-                      checkpoint_, saved->size()));
+          fmt::format("'{}' has {} of this run. Continue with --resume, or discard them with --overwrite.",
+                      checkpoint_.path, counted(saved->size())));
     if (saved) finished_ = std::move(*saved);
-  }
-  if (!join_.empty()) finished_.merge(format_.join(join_));
-  if (!part_.empty() && !overwrite && std::filesystem::exists(program_.output())) {
-    const std::optional<FinishedReplicas> former = format_.read(program_.output());
-    if (!former || former->begin()->first != part_first_ || former->rbegin()->first != part_last_)
-      throw UsageError(fmt::format(
-          "'{}' exists and is of other options, another build or other replicas. Choose another --output, or "
-          "replace it with --overwrite.",
-          program_.output()));
   }
   resumed_ = finished_.size();
   next_checkpoint_ = program_.elapsed() + checkpoint_interval_;
   note_signals();
 }
 
-/// A part at once, a run batch by batch until the last.
 ExitStatus StudyProgram::compute() try {
   prepare();
-  if (!part_.empty()) {
-    needed_ = part_last_ - part_first_ + 1;
-    run_replicas(part_first_, part_last_ + 1);
-    program_.progress().say(fmt::format("replicas {} are measured, for --join", part_));
-    std::uint64_t events = 0;
-    for (const auto& [index, replica] : finished_) events += replica.events;
-    program_.write(format_.content(finished_), events);
-    ::unlink(checkpoint_.c_str());
-    return ExitStatus::done;
-  }
   const StoppingRule rule{.batch = replicas_, .most = most_replicas};
-  needed_ = target() > 0 ? rule.next_look(0) : replicas_;
+  const std::uint64_t threads = threads_.value_or(std::max(1U, std::thread::hardware_concurrency()));
+  needed_ = target_error_ > 0 ? rule.next_look(0) : replicas_;
   for (std::uint64_t wanted = needed_;; wanted = rule.next_look(wanted)) {
-    run_replicas(0, wanted);
+    in_threads(std::min(threads, wanted), [&] { measure(wanted); });
     Outcome outcome;
     in_threads(1, [&] { outcome = estimate(wanted); });
-    const double excess = outcome.achieved_error / target();
-    const bool not_reached = outcome.convergence == Convergence::not_reached;
-    const bool last =
-        !not_reached || outcome.replicas < wanted || target() == 0 || wanted + replicas_ > most_replicas;
-    std::string forecast;
-    if (!last && std::isfinite(excess)) {
-      const StoppingRule::Forecast end = rule.forecast(outcome.replicas, excess);
-      needed_ = end.likely;
-      forecast = fmt::format("; the run ends after {} to {}", end.low, end.high);
-    }
-    const Quantity& quantity = quantity_named(outcome.results, study_.target);
-    program_.progress().say(fmt::format("{} replicas: {} = {}{}{}", outcome.replicas, study_.target,
-                                        with_error(quantity.mean.front(), quantity.standard_error.front()),
-                                        not_reached ? ", not reached" : "", forecast));
+    const bool constant = quantity_named(outcome.results, study_.target).standard_error.front() == 0;
+    const bool last = outcome.convergence != Convergence::not_reached || target_error_ == 0 || constant ||
+                      wanted + replicas_ > most_replicas;
+    const double excess = outcome.achieved_error / target_error_;
+    if (!last && std::isfinite(excess)) needed_ = rule.expected_end(wanted, excess);
+    report(outcome, wanted);
     if (!last) continue;
-    // Errors are uncertain by 1/sqrt(2(R-1)) for normal records, and more for skewed ones.
-    constexpr std::size_t enough = 32;
-    if (outcome.replicas > 1 && outcome.replicas < enough)
-      program_.progress().say(fmt::format("standard errors from {} replicas are uncertain by about {:.0f} %",
-                                          outcome.replicas,
-                                          100 / std::sqrt(2.0 * static_cast<double>(outcome.replicas - 1))));
     if (study_.remarks)
       for (const std::string& remark : study_.remarks(outcome.results)) program_.progress().say(remark);
     const ExitStatus status = program_.write(outcome);
-    ::unlink(checkpoint_.c_str());
+    ::unlink(checkpoint_.path.c_str());
     return status;
   }
 } catch (...) {
@@ -198,78 +151,51 @@ ExitStatus StudyProgram::compute() try {
   throw;
 }
 
-/// Writes a checkpoint; if that fails, warns and returns false.
-bool StudyProgram::save(const std::string& prefix) try {
-  write_atomically(checkpoint_, format_.content(finished_));
-  return true;
-} catch (const UsageError& error) {
-  program_.progress().warn(prefix + error.what());
-  return false;
-}
-
-/// Saves the replicas when the run ends early, and reports why it ends and how to resume.
-void StudyProgram::keep(const std::string& why) {
-  const std::string state = fmt::format("{} after {} replicas", why, finished_.size());
-  if (finished_.empty()) return program_.progress().say(state);
-  if (save(state + ", which are not saved: "))
-    program_.progress().say(fmt::format("{}; --resume continues from '{}'", state, checkpoint_));
-}
-
 /// Performs a task in each of some threads, which do not change the finished replicas without the mutex.
-/// Meanwhile reports progress and writes checkpoints. After a signal the process ends at once, with a
-/// checkpoint. Throws the first exception of a task.
+/// Meanwhile shows progress and writes checkpoints. After a signal the process ends at once, with a
+/// checkpoint. Throws an exception of a task.
 void StudyProgram::in_threads(std::uint64_t number, const std::function<void()>& task) {
-  active_ = number;
   const auto perform = [&] {
     try {
       task();
+    } catch (const Abandoned&) {
+      return;
     } catch (...) {
-      const std::scoped_lock lock(mutex_);
-      if (!failure_) failure_ = std::current_exception();
       failed_ = true;  // every replica stops at its next heartbeat
+      throw;
     }
-    const std::scoped_lock lock(mutex_);
-    --active_;
-    changed_.notify_one();
   };
-  std::vector<JoiningThread> threads;
-  std::unique_lock lock(mutex_);  // released, so that no thread waits for it, before they are joined
+  std::vector<std::future<void>> threads;  // which are joined when it goes out of scope
   try {
-    while (threads.size() < number) threads.emplace_back(perform);
+    while (threads.size() < number) threads.push_back(std::async(std::launch::async, perform));
   } catch (const std::system_error& error) {
     failed_ = true;
-    throw UsageError(fmt::format("--threads {}: the system starts only {}: {}. Choose fewer.", threads_,
-                                 threads.size(), error.code().message()));
+    throw UsageError(fmt::format("--threads: the system starts only {}: {}. Choose fewer.", threads.size(),
+                                 error.code().message()));
   }
-  const auto finished = [this] { return active_ == 0; };
-  while (!changed_.wait_for(lock, std::chrono::milliseconds(100), finished) && received_signal == 0) report();
-  if (received_signal != 0) {
+  const auto attend = [this] {
+    const std::scoped_lock lock(mutex_);
+    if (received_signal == 0) return show_progress();
     keep("interrupted");
     std::_Exit(static_cast<int>(ExitStatus::interrupted) + received_signal);
-  }
-  if (failure_) std::rethrow_exception(failure_);
+  };
+  for (const std::future<void>& each : threads)
+    while (each.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready) attend();
+  attend();
+  for (std::future<void>& each : threads) each.get();
 }
 
-/// Measures the replicas first ... end - 1 but those that are finished, in the order of the index, each in
-/// one thread. Returns when all are finished, or after the time limit when those in progress are; the
-/// finished ones then have the lowest indices.
-void StudyProgram::run_replicas(std::uint64_t first, std::uint64_t end) {
-  next_ = first;
-  in_threads(std::min<std::uint64_t>(threads_, end - first), [this, end] { work(end); });
-}
-
-/// Takes replicas until there is none, after a failure, and after the time limit except for the first two.
-void StudyProgram::work(std::uint64_t end) {
+/// Measures replicas below `end` in the order of the index until none is left or one has failed.
+void StudyProgram::measure(std::uint64_t end) {
   double completed = 0;
   const auto heartbeat = [&](double part) {
     add(in_progress_, part - std::exchange(completed, part));
-    if (failed_) throw std::runtime_error("another replica failed");
+    if (failed_) throw Abandoned();
   };
   std::unique_lock lock(mutex_);
   for (;;) {
     while (finished_.contains(next_)) ++next_;
-    const bool too_late = time_limit_ > 0 && program_.elapsed() >= time_limit_ && next_ >= 2;
-    if (next_ >= end || failed_ || too_late) break;
+    if (next_ >= end || failed_) break;
     const std::uint64_t index = next_++;
     lock.unlock();
     TallySums sums(study_.tallies);
@@ -282,38 +208,72 @@ void StudyProgram::work(std::uint64_t end) {
 }
 
 /// The caller holds the mutex.
-void StudyProgram::report() {
-  program_.progress().show(static_cast<double>(finished_.size()) + in_progress_, static_cast<double>(needed_),
+void StudyProgram::show_progress() {
+  program_.progress().show(static_cast<double>(finished_.size()) + in_progress_, needed_,
                            static_cast<double>(resumed_));
   if (warned_ || finished_.empty() || program_.elapsed() < next_checkpoint_) return;
   warned_ = !save("the run goes on without a checkpoint: ");  // the results matter more
   next_checkpoint_ = program_.elapsed() + checkpoint_interval_;
 }
 
-/// From the replicas 0, 1, ... up to the first one missing, at most `wanted`. A resumed run may have others,
-/// of later batches or finished out of order.
-Outcome StudyProgram::estimate(std::uint64_t wanted) const {
+/// Writes a checkpoint; if that fails, warns and returns false.
+bool StudyProgram::save(const std::string& prefix) try {
+  checkpoint_.save(finished_);
+  return true;
+} catch (const UsageError& error) {
+  program_.progress().warn(prefix + error.what());
+  return false;
+}
+
+/// Saves the replicas when the run ends early, and reports why it ends and how to resume.
+void StudyProgram::keep(const std::string& why) {
+  const std::string state = fmt::format("{} after {}", why, counted(finished_.size()));
+  if (finished_.empty()) return program_.progress().say(state);
+  if (save(state + ", which are not saved: "))
+    program_.progress().say(fmt::format("{}; --resume continues from '{}'", state, checkpoint_.path));
+}
+
+/// From the first replicas, which are finished. A resumed run may have others, of later batches.
+Outcome StudyProgram::estimate(std::uint64_t replicas) const {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   Outcome outcome{.seed = seed_,
                   .streams = RandomStream::description,
                   .target_quantity = study_.target,
-                  .target_error = target() > 0 ? target() : std::numeric_limits<double>::quiet_NaN()};
+                  .target_error = target_error_ > 0 ? target_error_ : none};
   Records records(study_.tallies.width());
-  for (const auto& [index, replica] : finished_) {
-    if (index != records.size() || index == wanted) break;
-    records.append(replica.values);
-    outcome.events += replica.events;
+  for (std::uint64_t index = 0; index < replicas; ++index) {
+    records.append(finished_.at(index).values);
+    outcome.events += finished_.at(index).events;
   }
-  outcome.replicas = records.size();
   for (const Group& group : study_.groups)
     for (Quantity& quantity : group.estimate(records)) outcome.results.push_back(std::move(quantity));
   const Quantity& quantity = quantity_named(outcome.results, study_.target);
   const double mean = quantity.mean.front(), error = quantity.standard_error.front();
-  outcome.achieved_error = target_absolute_ > 0 || error == 0 ? error : error / std::abs(mean);
-  const bool complete = outcome.replicas == wanted && std::isfinite(mean);
-  if (complete && target() == 0) outcome.convergence = Convergence::no_target;
-  if (complete && target() > 0 && StoppingRule::reached(outcome.replicas, outcome.achieved_error / target()))
+  // If all replicas agree, as where nothing has happened, their error is not known.
+  outcome.achieved_error = error > 0 ? error / (target_scale_ > 0 ? target_scale_ : std::abs(mean)) : none;
+  if (std::isfinite(mean) && target_error_ == 0) outcome.convergence = Convergence::no_target;
+  if (std::isfinite(mean) && target_error_ > 0 &&
+      StoppingRule::reached(replicas, outcome.achieved_error / target_error_))
     outcome.convergence = Convergence::reached;
   return outcome;
+}
+
+/// Reports the target quantity, and how uncertain its error is if the replicas are few.
+void StudyProgram::report(const Outcome& outcome, std::uint64_t replicas) {
+  const Quantity& quantity = quantity_named(outcome.results, study_.target);
+  const double error = quantity.standard_error.front();
+  std::string line =
+      fmt::format("{}: {} = {}", counted(replicas), study_.target, with_error(quantity.mean.front(), error));
+  if (outcome.convergence == Convergence::not_reached) line += ", not reached";
+  if (target_error_ > 0 && error == 0) line += ": all replicas agree, so that the error is not known";
+  if (needed_ > replicas) line += fmt::format("; about {} are needed", needed_);
+  program_.progress().say(line);
+  // Errors are uncertain by 1/sqrt(2(R-1)) for normal records, and more for skewed ones.
+  constexpr std::uint64_t enough = 32;
+  if (replicas > 1 && replicas < enough)
+    program_.progress().say(fmt::format("standard errors from {} are uncertain by about {:.0f} %",
+                                        counted(replicas),
+                                        100 / std::sqrt(2.0 * static_cast<double>(replicas - 1))));
 }
 
 }  // namespace lorentz

@@ -1,17 +1,16 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <cstdint>
-#include <exception>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "numerics/stream_key.hpp"
+#include "program/checkpoint.hpp"
 #include "program/program.hpp"
-#include "program/replica_file.hpp"
 #include "statistics/group.hpp"
 #include "statistics/tally.hpp"
 
@@ -35,8 +34,8 @@ struct Study {
 };
 
 /// An executable that runs a study: measures replicas in threads until their number or the target error is
-/// reached, or a part of the replicas, with checkpoints, resumption and time limit. The tallies of a replica
-/// depend on its index alone, so results do not depend on threads and interruptions.
+/// reached, with checkpoints and resumption. The tallies of a replica depend on its index alone, so results
+/// do not depend on threads and interruptions.
 class StudyProgram {
  public:
   StudyProgram(const std::string& name, const std::string& description);
@@ -48,18 +47,17 @@ class StudyProgram {
   int run(int argc, char** argv, const std::function<Study()>& make);
 
  private:
-  void require_consistent();
   std::vector<Description> quantities() const;
+  void require_memory() const;
   void prepare();
   ExitStatus compute();
   void in_threads(std::uint64_t number, const std::function<void()>& task);
-  void run_replicas(std::uint64_t first, std::uint64_t end);
-  void work(std::uint64_t end);
-  void report();
-  Outcome estimate(std::uint64_t wanted) const;
+  void measure(std::uint64_t end);
+  void show_progress();
   bool save(const std::string& prefix);
   void keep(const std::string& why);
-  double target() const { return target_error_ > 0 ? target_error_ : target_absolute_; }  // 0: none
+  Outcome estimate(std::uint64_t replicas) const;
+  void report(const Outcome& outcome, std::uint64_t replicas);
 
   Program program_;
 
@@ -67,30 +65,23 @@ class StudyProgram {
   // until the StoppingRule is met.
   static constexpr std::uint64_t most_replicas = 1'000'000;  // with a target error, but at least one batch
   std::uint64_t replicas_ = 16, seed_ = 1;
-  std::uint32_t threads_ = 1;
-  double target_error_ = 0, target_absolute_ = 0;  // 0: none
-  double time_limit_ = 0;                          // seconds; 0: none
+  std::optional<std::uint32_t> threads_{};  // none: one for each processor
+  double target_error_ = 0;                 // 0: none
+  double target_scale_ = 0;                 // 0: the target quantity's mean
   double checkpoint_interval_ = 60;
   bool resume_ = false;
-  std::string part_;  // "first-last" of the replicas to measure apart; empty: all
-  std::uint64_t part_first_ = 0, part_last_ = 0;
-  std::string join_;  // folder with parts; empty: none
 
   Study study_;
-  ReplicaFile format_{};
-  std::string checkpoint_;      // path
+  Checkpoint checkpoint_;
   double next_checkpoint_ = 0;  // as elapsed()
-  std::size_t resumed_ = 0;     // replicas from files
+  std::size_t resumed_ = 0;     // replicas from the checkpoint
   std::uint64_t needed_ = 0;    // predicted number of replicas in all
   bool warned_ = false;         // of a checkpoint that cannot be written
 
   // Shared by the threads under the mutex.
   std::mutex mutex_;
-  std::condition_variable changed_;
   FinishedReplicas finished_;
   std::uint64_t next_ = 0;  // replica that starts next
-  std::size_t active_ = 0;  // threads
-  std::exception_ptr failure_;
   std::atomic<bool> failed_{false};
   std::atomic<double> in_progress_{0};  // sum of the completed parts of unfinished replicas
 };

@@ -34,7 +34,7 @@ double ScatteringParameters::mean_scatterings() const {
   return gamma.value_or(std::numeric_limits<double>::infinity());
 }
 
-void declare(Options& options, ScatteringParameters& parameters, Range<double> gamma_range) {
+void declare(Options& options, ScatteringParameters& parameters, Range gamma_range) {
   options.integer("--cells", parameters.cells, {1, 100'000'000}, "Number of cells N");
   options.real("--sigma", parameters.sigma, {-1, 1}, "1", "Mass ratio (M-m)/(M+m)");
   options.real_or_word("--gamma", parameters.gamma, gamma_range, "N", "1",
@@ -77,6 +77,23 @@ void require_probability(std::optional<double> gamma, std::uint32_t cells) {
   if (gamma && *gamma > cells)
     throw UsageError(
         "--gamma exceeds --cells: gamma/N is a probability. Choose more cells or a smaller gamma.");
+}
+
+void require_memory(double particles, const std::string& options) {
+  constexpr double most = 1e9;
+  if (particles > most)
+    throw UsageError(
+        fmt::format("{}: a replica would have {:.2g} particles, more than {:g}. Choose a smaller system.",
+                    options, particles, most));
+}
+
+void require_resolved(double time, double end, const std::string& options) {
+  constexpr double most = 1e12;
+  if (!(end / time <= most))
+    throw UsageError(
+        fmt::format("{}: the run is {:.2g} times as long as the shortest time that it must resolve, more "
+                    "than {:g}, so that numbers would lose precision. Choose a shorter run.",
+                    options, end / time, most));
 }
 
 void validate(const ScatteringParameters& parameters) {

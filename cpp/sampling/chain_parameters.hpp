@@ -37,7 +37,7 @@ struct ScatteringParameters {
 };
 
 /// Declares --cells, --sigma, --gamma and --rule.
-void declare(Options& options, ScatteringParameters& parameters, Range<double> gamma_range);
+void declare(Options& options, ScatteringParameters& parameters, Range gamma_range);
 
 /// Declares --rule and the options of all rules.
 void declare(Options& options, RuleParameters& parameters);
@@ -47,6 +47,13 @@ void validate(const RuleParameters& parameters);
 
 /// Throws UsageError if particles would have to scatter more than once per cell; gamma none: N.
 void require_probability(std::optional<double> gamma, std::uint32_t cells);
+
+/// Throws UsageError if a replica would have more than 1e9 particles, which `options` determine.
+void require_memory(double particles, const std::string& options);
+
+/// Throws UsageError unless a clock that runs until `end` resolves 1e-4 of a time. `options` determine the
+/// two.
+void require_resolved(double time, double end, const std::string& options);
 
 /// Throws UsageError if options that are valid one by one exclude each other.
 void validate(const ScatteringParameters& parameters);

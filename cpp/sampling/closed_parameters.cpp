@@ -7,33 +7,8 @@
 
 #include "model/rules/elastic.hpp"
 #include "program/errors.hpp"
-#include "sampling/limits.hpp"
 
 namespace lorentz {
-namespace {
-
-/// Throws UsageError unless the stationary start can be sampled and its run be simulated.
-void require_stationary(const ClosedParameters& parameters) {
-  const ClosedChain chain = parameters.chain();
-  const StationaryMeasure measure = parameters.stationary_measure();
-  const RuleProperties& rule = parameters.ring.scattering.rule.properties();
-  if (rule.invariant != InvariantMeasure::maxwellian)
-    throw UsageError(fmt::format(
-        "--rule {}: its stationary state, in which a run starts, is not known. Choose another rule.",
-        rule.name));
-  require_within(measure.slowest / std::sqrt(measure.temperature), 1e-100, 1,
-                 "--observation-time, --cell-length, --temperature",
-                 "the least momentum over the thermal one");
-  const double particles = chain.cells * mean_number(chain, measure);
-  if (particles > 1e9)
-    throw UsageError(
-        "--fugacity: more than 1e9 particles would be needed. Choose a smaller one, or fewer --cells.");
-  require_representable({parameters.temperature, chain.cell_length, parameters.end_time(),
-                         particles + chain.cells, flights_of_a_year, "--temperature", "--observation-time"});
-}
-
-}  // namespace
-
 ClosedChain ClosedParameters::chain() const { return ring.chain(); }
 
 bool ClosedParameters::conserves_momentum() const {
@@ -80,15 +55,22 @@ void declare(Options& options, ClosedParameters& parameters) {
 
 void validate(const ClosedParameters& parameters) {
   validate(parameters.ring.scattering);
-  if (parameters.fugacity) return require_stationary(parameters);
-  if (parameters.zero_total_momentum && !parameters.ring.scattering.rule.properties().conserves_momentum)
+  const ClosedChain chain = parameters.chain();
+  const RuleProperties& rule = parameters.ring.scattering.rule.properties();
+  if (!parameters.fugacity)
+    require_memory(1.0 * chain.cells * chain.particles_per_cell, "--cells, --particles-per-cell");
+  else if (rule.invariant == InvariantMeasure::maxwellian)
+    require_memory(chain.cells * mean_number(chain, parameters.stationary_measure()),
+                   "--cells, --fugacity, --cell-length");
+  else
+    throw UsageError(fmt::format(
+        "--rule {}: its stationary state, in which a run starts, is not known. Choose another rule.",
+        rule.name));
+  if (parameters.zero_total_momentum && !rule.conserves_momentum)
     throw UsageError(
         fmt::format("--zero-total-momentum: the rule {} does not conserve momentum, so that it does not "
-                    "remain zero. Leave "
-                    "it out, or choose another --rule.",
-                    parameters.ring.scattering.rule.name));
-  require_possible(parameters.chain(), parameters.hottest(), parameters.end_time(), flights_of_a_year,
-                   "--temperature, --scatterer-temperature", "--relaxation-time plus --observation-time");
+                    "remain zero. Leave it out, or choose another --rule.",
+                    rule.name));
 }
 
 }  // namespace lorentz

@@ -26,7 +26,7 @@ struct EquilibriumParameters : ClosedParameters {
 /// --times. use: of the times, for the help.
 void declare(Options& options, EquilibriumParameters& parameters, const std::string& use);
 
-/// Throws UsageError if options that are valid one by one exclude each other, or units are not representable.
+/// Throws UsageError if options that are valid one by one exclude each other.
 void validate(const EquilibriumParameters& parameters);
 
 /// Sound in the stationary state of a closed chain, for infinitely many slow particles [eqs. M11, M12, M17].

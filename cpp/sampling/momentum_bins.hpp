@@ -4,7 +4,6 @@
 
 #include "program/errors.hpp"
 #include "program/options.hpp"
-#include "sampling/limits.hpp"
 #include "statistics/histogram.hpp"
 #include "statistics/tally.hpp"
 
@@ -25,14 +24,11 @@ inline void declare(Options& options, MomentumBinParameters& parameters) {
                "The bins span from minus this momentum to plus it");
 }
 
-/// Throws UsageError if the number of bins is odd, as no edge would lie at 0, or if an edge is not
-/// representable.
+/// Throws UsageError if the number of bins is odd, as no edge would lie at 0.
 inline void validate(const MomentumBinParameters& parameters) {
   if (parameters.count % 2 != 0)
     throw UsageError(
         "--momentum-bins is odd: no edge would lie at 0, where the flux jumps. Choose an even number.");
-  require_within(parameters.bins().width(), 1e-290, 1e290, "--momentum-max, --momentum-bins",
-                 "the width of a bin");
 }
 
 inline Axis momentum_axis(const Bins& bins) {

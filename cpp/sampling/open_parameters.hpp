@@ -29,10 +29,10 @@ struct OpenParameters {
 
 /// Parameters of a measurement in the stationary state.
 struct StationaryParameters : OpenParameters {
-  Scaled relaxation_time{{100, 0, 0}};
-  Scaled observation_time{{1000, 0, 0}};
+  double relaxation_time = 100;
+  double observation_time = 1000;
 
-  Window window() const;
+  Window window() const { return {relaxation_time, relaxation_time + observation_time}; }
 };
 
 void declare(Options& options, OpenParameters& parameters);

@@ -7,7 +7,7 @@ import pytest
 from scipy.stats import binom, chi2
 
 from tests.python.conftest import Measure, Program
-from workflow.config.describe import with_option
+from workflow.lib.described import with_option
 from workflow.lib.load import load
 from workflow.tradeoff.accuracy import PREDICTION
 

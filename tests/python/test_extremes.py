@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from tests.python.conftest import ROOT
 from tests.python.drawn_options import PROGRAMS, SIGMAS
-from workflow.config.describe import built
+from workflow.lib.described import built
 from workflow.lib.load import NOT_REACHED, Result, load
 
 DRAWN = settings(

@@ -69,9 +69,9 @@ def test_the_effort_of_the_user_replaces_that_of_the_quality() -> None:
 
 
 def test_a_target_that_can_be_zero_has_a_scale() -> None:
-    assert Quality.of("smoke_error=0.005").complete("a", "b", {}, 200)["target-absolute"] == 1
+    assert Quality.of("smoke_error=0.005").complete("a", "b", {}, 200)["target-scale"] == 200
     runs = load_plan("smoke_error=0.01")["ext13"].runs
-    assert [run.name for run in runs if "target-absolute" in run.options] == ["random"]
+    assert [run.name for run in runs if "target-scale" in run.options] == ["random"]
 
 
 EFFORT_OF_FIG05 = "  fig05: {replicas: 8, dense: {replicas: 2}}"

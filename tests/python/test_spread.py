@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from scipy.stats import chi2, f
 
-from workflow.config.describe import with_option
+from workflow.lib.described import with_option
 from workflow.plan import Run, load_plan
 from workflow.tradeoff.measure import call, shortened
 

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from workflow.config.describe import with_option
+from workflow.lib.described import with_option
 from workflow.tradeoff import accuracy, bias, efficiency, measure, rounding, tradeoff
 from workflow.tradeoff.efficiency import Estimate
 

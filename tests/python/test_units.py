@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.python.scale import ROUNDING, SCALES, Scale, agree
-from workflow.config.describe import built
+from workflow.lib.described import built
 from workflow.lib.load import Result
 from workflow.lib.units import WORDS, Units, UnitsError, option_units, parse
 from workflow.tradeoff.measure import call

@@ -13,6 +13,7 @@ Eigen/Dense            libeigen3-dev       eigen3-devel      eigen
 hdf5.h                 libhdf5-dev         hdf5-devel        hdf5
 zlib.h                 zlib1g-dev          zlib-devel        zlib
 CLI/CLI.hpp            libcli11-dev        cli11-devel       cli11
+nlohmann/json.hpp      nlohmann-json3-dev  json-devel        nlohmann-json
 Random123/philox.h     librandom123-dev    Random123-devel   random123
 sleef.h                libsleef-dev        sleef-devel       sleef
 fmt/format.h           libfmt-dev          fmt-devel         fmt

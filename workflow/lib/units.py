@@ -9,13 +9,11 @@ With m = k_B = 1 a momentum is a length over a time, and energy and temperature 
 the model.
 """
 
-import json
 import re
 from functools import cache
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-SCHEMA = Path(__file__).parents[1] / "config/schema.json"
+from workflow.lib.described import declared
 
 
 class UnitsError(ValueError):
@@ -58,20 +56,13 @@ def parse(text: str) -> Units:
 
 
 @cache
-def declared() -> dict[str, dict[str, Any]]:
-    """JSON Schema of each option of each program that determines its results."""
-    programs: dict[str, dict[str, Any]] = json.loads(SCHEMA.read_text())["programs"]
-    return programs
-
-
-@cache
 def option_units() -> dict[str, str]:
     """Declared units of the options of the programs; all others are dimensionless."""
     return {
         name: option["units"]
         for options in declared().values()
         for name, option in options.items()
-        if "units" in option
+        if option.get("units", "1") != "1"
     }
 
 

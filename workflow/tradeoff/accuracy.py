@@ -1,21 +1,16 @@
-"""Error against CPU seconds of every program, and the predicted cost of a target error."""
-
-import re
+"""Error against CPU seconds of every program."""
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from workflow.config.describe import with_option
 from workflow.lib import style
+from workflow.lib.described import with_option
 from workflow.tradeoff.measure import Done, execute, planned, shortened
 
 REPLICAS = (10, 32, 110, 360, 1300)
 TARGETS = (1e-2, 1e-4, 1e-6, 1e-8)  # target errors of the kinetic equation, which has no replicas
-FIRST_LOOK = 64  # replicas at the first comparison of error and target
-REDUCTION = 4  # ratio of the error at the first look to the target
-PREDICTION = re.compile(r"the run ends after (\d+) to (\d+)")  # replicas, in the log of a program
 SETTINGS = {  # a cheap run of every program with an error, and the simulated fraction of its times
     "persistence": ("fig05", "paper_sigma=0.5", 0.5),
     "waiting_time": ("fig06", "all_sigma=0.5", 0.5),
@@ -84,19 +79,3 @@ def draw(table: pd.DataFrame) -> Figure:
     figure.supxlabel("CPU seconds", size=9)
     figure.supylabel("relative error", size=9)
     return figure
-
-
-def predicted(program: str) -> dict[str, object]:
-    """Replicas and CPU seconds predicted at the first comparison, and those needed."""
-    first = execute_briefly(program, replicas=FIRST_LOOK)
-    target = first.result.provenance["achieved_error"] / REDUCTION
-    whole = execute_briefly(program, replicas=16, target_error=target)
-    least, most = map(int, PREDICTION.findall(whole.log)[0])
-    needed = int(whole.result[whole.result.provenance["target_quantity"]].replicas)
-    row = {"program": program, "target": target, "least": least, "most": most, "replicas": needed}
-    scale = first.seconds / FIRST_LOOK
-    return row | {"least_seconds": scale * least, "most_seconds": scale * most, "cpu_seconds": whole.seconds}
-
-
-def predictions() -> pd.DataFrame:
-    return pd.DataFrame([predicted(program) for program in with_option("replicas")])

@@ -19,7 +19,6 @@ TABLES = {
     "ext06": accuracy.measure,
     "ext06_efficiency": efficiency.measure,
     "ext06_bias": bias.measure,
-    "ext06_prediction": accuracy.predictions,
     "ext06_precision": rounding.measure_types,
     "ext08": rounding.measure,
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "program/errors.hpp"
-#include "sampling/limits.hpp"
+#include "sampling/chain_parameters.hpp"
 
 namespace lorentz {
 
@@ -75,15 +75,7 @@ void validate(const KineticParameters& parameters, bool positions_given) {
     throw UsageError(
         "--positions and --cells are both given: the positions of a chain are its bonds. Leave out one of "
         "the two.");
-  const double rate = parameters.left.rate + parameters.right.rate;
-  require_fourth_powers(parameters.left, parameters.right);
-  require_within(rate, 0, 1e100, "--nu-left, --nu-right", "their sum");
-  // In a narrower bin the difference of two integrals of F, which is its mean there, is nothing but rounding.
-  const double thermal = std::sqrt(std::max(parameters.left.temperature, parameters.right.temperature));
-  require_within(parameters.bins.bins().width() / thermal, 1e-12, 1e100,
-                 "--momentum-max, --momentum-bins, --temperature-left, --temperature-right",
-                 "the width of a bin over the hotter reservoir's thermal momentum");
-  if (rate == 0)
+  if (parameters.left.rate + parameters.right.rate == 0)
     throw UsageError(
         "--nu-left and --nu-right are both 0: there are no particles. Choose one greater than 0.");
 }

@@ -8,7 +8,6 @@
 #include "engine/closed_dynamics.hpp"
 #include "engine/closed_start.hpp"
 #include "program/errors.hpp"
-#include "sampling/limits.hpp"
 
 namespace lorentz {
 namespace {
@@ -130,8 +129,10 @@ void validate(const PulseParameters& parameters) {
   const double of_scatterers = parameters.scatterer_temperature.value_or(0);
   const double hottest = std::max({2 * parameters.energy, 2 * parameters.pulse_energy, of_scatterers});
   const ClosedChain chain = parameters.ring.chain();
-  require_possible(chain, hottest, parameters.relaxation_time + parameters.times.back(), flights_of_one_clock,
-                   "--energy, --pulse-energy, --scatterer-temperature", "--relaxation-time plus --times");
+  require_memory(1.0 * chain.cells * chain.particles_per_cell, "--cells, --particles-per-cell");
+  require_resolved(chain.cell_length / std::sqrt(hottest),
+                   parameters.relaxation_time + parameters.times.back(),
+                   "--cell-length, --relaxation-time, --times");
   if (parameters.pulse_cells > chain.cells)
     throw UsageError("--pulse-cells exceeds --cells. Choose a smaller pulse.");
   if (parameters.pulse_cells % 2 == 0)

@@ -3,11 +3,12 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <atomic>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <new>
 #include <set>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -21,248 +22,266 @@ namespace study_test {
 using namespace lorentz;
 using namespace support;
 using Names = std::set<std::string>;
+using Indices = std::vector<std::uint64_t>;
 
-TEST(Study, WritesEqualBytesForAnyNumberOfThreads) {
-  for (const char* threads : {"1", "2", "5", "64"}) {
-    const TemporaryFolder folder;
-    EXPECT_EQ(run({"--output", folder / "a.h5", "--threads", "1"}), 0);
-    EXPECT_EQ(run({"--output", folder / "b.h5", "--threads", threads}), 0);
-    EXPECT_EQ(content_of(folder / "a.h5"), content_of(folder / "b.h5"));
-    EXPECT_EQ(folder.names(), (Names{"a.h5", "a.cost.json", "b.h5", "b.cost.json"}));
-    EXPECT_EQ(replicas_in(folder / "a.h5"), 16U);
+/// Runs with the output a.h5 in an empty folder.
+struct StudyTest : testing::Test {
+  TemporaryFolder folder;
+  std::string output = folder / "a.h5";
+  Arguments to_output{"--threads", "1", "--output", output};
+
+  bool has(const std::string& converged) const {
+    return Hdf5Reader(output).has_attribute("/provenance", "converged", converged);
   }
-}
-
-TEST(Study, EndsAtTheSameReplicaForAnyNumberOfThreads) {
-  const TemporaryFolder folder;
-  for (const char* threads : {"1", "7"})
-    EXPECT_EQ(run({"--output", folder / threads, "--target-error", "0.02", "--replicas", "3", "--threads",
-                   threads}),
-              0);
-  EXPECT_EQ(content_of(folder / "1"), content_of(folder / "7"));
-  EXPECT_GT(replicas_in(folder / "1"), 66U);
-}
-
-// Without the checkpoint the last replica would wait for ten seconds.
-TEST(Study, WritesCheckpointsOnTheWay) {
-  const TemporaryFolder folder;
-  bool seen = false;
-  const auto wait_for_checkpoint = [&](const Replica& replica) {
-    for (int i = 0; replica.key.replica == 15 && !seen && i < 1000; ++i) {
+  double mean() const { return Hdf5Reader(output).doubles("/results/value/mean").at(0); }
+  double error() const { return Hdf5Reader(output).doubles("/results/value/standard_error").at(0); }
+  void wait_for_checkpoint() const {
+    for (int i = 0; !folder.names().contains("a.h5.checkpoint") && i < 1000; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
-      seen = folder.names().contains("a.h5.checkpoint");
-    }
+    EXPECT_TRUE(folder.names().contains("a.h5.checkpoint"));
+  }
+  void expect_same_bytes_as(const Arguments& arguments) const {
+    EXPECT_EQ(run(with(arguments, {"--output", folder / "other.h5"})), 0);
+    EXPECT_EQ(content_of(output), content_of(folder / "other.h5"));
+  }
+};
+
+TEST_F(StudyTest, WritesEqualBytesForAnyNumberOfThreads) {
+  EXPECT_EQ(run(to_output), 0);
+  EXPECT_EQ(folder.names(), (Names{"a.h5", "a.cost.json"}));
+  EXPECT_EQ(replicas_in(output), 16U);
+  for (const char* threads : {"2", "5", "64"}) expect_same_bytes_as({"--threads", threads});
+}
+
+// 0.3 / sqrt(R) / 1.5 is far enough below 0.02 near R = 128; up to there a look follows every 8 replicas.
+TEST_F(StudyTest, StopsAtTheTargetErrorOnABatchBoundary) {
+  const Arguments target{"--replicas", "8", "--target-error", "0.02"};
+  EXPECT_EQ(run(with(to_output, target)), 0);
+  EXPECT_TRUE(has("reached"));
+  const std::uint64_t count = replicas_in(output);
+  EXPECT_GT(count, 66U);
+  EXPECT_EQ(count % 8, 0U);
+  EXPECT_TRUE(StoppingRule::reached(count, error() / mean() / 0.02));
+  expect_same_bytes_as(with(target, {"--threads", "7"}));
+  EXPECT_EQ(run({"--output", output, "--overwrite", "--replicas", std::to_string(count - 8)}), 0);
+  EXPECT_FALSE(StoppingRule::reached(count - 8, error() / mean() / 0.02));
+  EXPECT_EQ(run({"--output", output, "--overwrite", "--target-error", "10"}), 0);
+  EXPECT_EQ(replicas_in(output), 64U);  // the least number with a target
+}
+
+// The error is within 0.05 after 64 replicas relative to 1, and not relative to 1/4 or to the mean of 0.
+TEST_F(StudyTest, ReachesATargetErrorRelativeToAScale) {
+  const auto centred = [](const Replica& replica) { return measure(replica) - 1.5; };
+  const auto replicas = [&](const char* scale) {
+    EXPECT_EQ(
+        run(with(to_output, {"--overwrite", "--target-error", "0.05", "--target-scale", scale}), centred), 0);
+    EXPECT_TRUE(has("reached"));
+    return replicas_in(output);
+  };
+  EXPECT_EQ(replicas("1"), 64U);
+  EXPECT_GT(replicas("0.25"), 500U);
+}
+
+// Where nothing has happened, all replicas agree, and their error is not known.
+TEST_F(StudyTest, ReachesNoTargetErrorIfAllReplicasAgree) {
+  const auto constant = [](const Replica&) { return 1.0; };
+  EXPECT_EQ(run(with(to_output, {"--target-error", "0.1"}), constant), 4);
+  EXPECT_TRUE(has("not reached"));
+  EXPECT_EQ(replicas_in(output), 64U);
+  EXPECT_EQ(run(with(to_output, {"--overwrite"}), constant), 0);
+  EXPECT_TRUE(has("no target"));
+}
+
+TEST_F(StudyTest, OfOneReplicaHasNoError) {
+  EXPECT_EQ(run(with(to_output, {"--replicas", "1", "--progress", "log"})), 0);
+  EXPECT_TRUE(std::isnan(error()));
+  expect_complaint("1 replica: value = ");
+}
+
+TEST_F(StudyTest, ReportsTheUncertaintyOfErrorsFromFewReplicas) {
+  const auto reported = [&](const char* replicas, const char* progress) {
+    EXPECT_EQ(run(with(to_output, {"--overwrite", "--replicas", replicas, "--progress", progress})), 0);
+    return complaints;
+  };
+  EXPECT_NE(reported("9", "log").find("25 %"), std::string::npos) << complaints;
+  EXPECT_EQ(reported("32", "log").find('%'), std::string::npos) << complaints;
+  EXPECT_EQ(reported("9", "none"), "");
+}
+
+TEST_F(StudyTest, WritesCheckpointsOnTheWay) {
+  const auto last_waits = [&](const Replica& replica) {
+    if (replica.key.replica == 15) wait_for_checkpoint();
     return measure(replica);
   };
-  EXPECT_EQ(run({"--output", folder / "a.h5", "--threads", "1", "--checkpoint-interval", "0.01"},
-                wait_for_checkpoint),
-            0);
-  EXPECT_TRUE(seen);
+  EXPECT_EQ(run(with(to_output, {"--checkpoint-interval", "0.01"}), last_waits), 0);
   EXPECT_EQ(folder.names(), (Names{"a.h5", "a.cost.json"}));
 }
 
-TEST(Study, GoesOnWithoutACheckpointAndSaysSoOnce) {
-  const TemporaryFolder folder;
+TEST_F(StudyTest, WritesCheckpointsDuringTheEstimate) {
+  const auto waiting = [&] { return study_estimating([&] { wait_for_checkpoint(); }); };
+  EXPECT_EQ(run(with(to_output, {"--checkpoint-interval", "0.01"}), waiting), 0);
+  EXPECT_EQ(folder.names(), (Names{"a.h5", "a.cost.json"}));
+}
+
+TEST_F(StudyTest, GoesOnWithoutACheckpoint) {
   std::filesystem::create_directory(folder / "a.h5.checkpoint");
   const auto slow = [](const Replica& replica) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     return measure(replica);
   };
-  EXPECT_EQ(run({"--output", folder / "a.h5", "--threads", "1", "--checkpoint-interval", "0.01"}, slow), 0);
-  EXPECT_TRUE(complaints.starts_with("example: the run goes on without a checkpoint: ")) << complaints;
-  EXPECT_EQ(complaints.find('\n'), complaints.size() - 1) << complaints;
-  EXPECT_EQ(replicas_in(folder / "a.h5"), 16U);
+  EXPECT_EQ(run(with(to_output, {"--checkpoint-interval", "0.01"}), slow), 0);
+  expect_complaint("a.h5.checkpoint");  // once
+  EXPECT_EQ(replicas_in(output), 16U);
+  EXPECT_EQ(run(with(to_output, {"--overwrite"}), failing_at(5)), 3);
+  EXPECT_NE(complaints.find("not saved"), std::string::npos) << complaints;
 }
 
-TEST(Study, KeepsTheReplicasOfResultsThatCannotBeWritten) {
-  const TemporaryFolder folder;
+TEST_F(StudyTest, KeepsTheReplicasOfResultsThatCannotBeWritten) {
   const auto obstruct = [&](const Replica& replica) {
-    if (replica.key.replica == 15) std::filesystem::create_directory(folder / "a.h5");
+    if (replica.key.replica == 15) std::filesystem::create_directory(output);
     return measure(replica);
   };
-  EXPECT_EQ(run({"--output", folder / "a.h5", "--progress", "log"}, obstruct), 2);
-  EXPECT_NE(complaints.find("--resume continues from"), std::string::npos) << complaints;
+  EXPECT_EQ(run(to_output, obstruct), 2);
   EXPECT_EQ(folder.names(), (Names{"a.h5", "a.h5.checkpoint"}));
-  std::filesystem::remove(folder / "a.h5");
-  EXPECT_EQ(run({"--output", folder / "a.h5", "--resume"}, never), 0);
-  EXPECT_EQ(run({"--output", folder / "b.h5"}), 0);
-  EXPECT_EQ(content_of(folder / "a.h5"), content_of(folder / "b.h5"));
+  std::filesystem::remove(output);
+  EXPECT_EQ(run(with(to_output, {"--resume"}), never), 0);
+  expect_same_bytes_as({});
 }
 
-TEST(Study, KeepsTheReplicasIfMemoryRunsOut) {
-  const TemporaryFolder folder;
+TEST_F(StudyTest, KeepsTheReplicasIfMemoryRunsOut) {
   const auto greedy = [](const Replica& replica) {
     if (replica.key.replica == 5) throw std::bad_alloc();
     return measure(replica);
   };
-  EXPECT_EQ(run({"--output", folder / "a.h5", "--threads", "1"}, greedy), 2);
-  EXPECT_EQ(complaints.find('\n'), complaints.size() - 1) << complaints;
-  EXPECT_EQ(Hdf5Reader(folder / "a.h5.checkpoint").counts("/replicas/index").size(), 5U);
+  EXPECT_EQ(run(to_output, greedy), 2);
+  expect_complaint("--replicas");
+  EXPECT_EQ(replicas_kept(output).size(), 5U);
 }
 
-TEST(Study, LosesNoReplicaInSilence) {
-  const TemporaryFolder folder;
-  std::filesystem::create_directory(folder / "a.h5.checkpoint");
-  EXPECT_EQ(run({"--output", folder / "a.h5"}, failing_at(5)), 3);
-  EXPECT_NE(complaints.find("which are not saved: "), std::string::npos) << complaints;
+TEST_F(StudyTest, KeepsTheReplicasIfTheEstimateFails) {
+  const auto failing = [] { return study_estimating([] { throw NumericalError("no estimate"); }); };
+  EXPECT_EQ(run(to_output, failing), 3);
+  expect_complaint("no estimate");
+  EXPECT_EQ(folder.names(), Names{"a.h5.checkpoint"});
 }
 
-TEST(Study, ResumesToEqualBytes) {
-  const TemporaryFolder folder;
-  const auto arguments = [&](const std::string& name, const Arguments& more = {}) {
-    return with({"--threads", "1", "--output", folder / name}, more);
-  };
-  EXPECT_EQ(run(arguments("whole.h5")), 0);
-  EXPECT_EQ(run(arguments("parts.h5"), failing_at(5)), 3);
-  EXPECT_EQ(folder.names(), (Names{"whole.h5", "whole.cost.json", "parts.h5.checkpoint"}));
-  EXPECT_EQ(run(arguments("parts.h5", {"--resume"}), failing_at(9)), 3);
-
-  std::set<std::uint64_t> measured;
+TEST_F(StudyTest, ResumesToEqualBytes) {
+  EXPECT_EQ(run(to_output, failing_at(5)), 3);
+  EXPECT_EQ(folder.names(), Names{"a.h5.checkpoint"});
+  EXPECT_EQ(run(with(to_output, {"--resume"}), failing_at(9)), 3);
+  Indices measured;
   const auto remember = [&](const Replica& replica) {
-    measured.insert(replica.key.replica);
+    measured.push_back(replica.key.replica);
     return measure(replica);
   };
-  EXPECT_EQ(run(arguments("parts.h5", {"--resume"}), remember), 0);
-  EXPECT_EQ(measured, (std::set<std::uint64_t>{9, 10, 11, 12, 13, 14, 15}));
-  EXPECT_EQ(content_of(folder / "parts.h5"), content_of(folder / "whole.h5"));
-  EXPECT_FALSE(folder.names().contains("parts.h5.checkpoint"));
-  EXPECT_EQ(run(arguments("fresh.h5", {"--resume"})), 0);  // there is no checkpoint
-  EXPECT_EQ(content_of(folder / "fresh.h5"), content_of(folder / "whole.h5"));
-}
-
-TEST(Study, DiscardsACheckpointOnlyWithOverwrite) {
-  const TemporaryFolder folder;
-  const Arguments a{"--output", folder / "a.h5"};
-  EXPECT_EQ(run(with(a, {"--threads", "1"}), failing_at(5)), 3);
-  const std::string before = content_of(folder / "a.h5.checkpoint");
-  const std::string foreign = "is of other options or another build";
-  expect_refused_run(a, {"has 5 replicas of this run. Continue with --resume", "--overwrite"});
-  expect_refused_run(with(a, {"--seed", "2"}), {foreign, "--overwrite"});
-  expect_refused_run(with(a, {"--seed", "2", "--resume"}), {foreign, "--overwrite"});
-  EXPECT_EQ(content_of(folder / "a.h5.checkpoint"), before);
-  EXPECT_EQ(run(with(a, {"--resume", "--overwrite", "--seed", "2"})), 0);
-  EXPECT_EQ(run({"--output", folder / "b.h5", "--seed", "2"}), 0);
-  EXPECT_EQ(content_of(folder / "a.h5"), content_of(folder / "b.h5"));
-  EXPECT_EQ(folder.names(), (Names{"a.h5", "a.cost.json", "b.h5", "b.cost.json"}));
-  EXPECT_EQ(run({"--output", folder / "c.h5"}, failing_at(5)), 3);
-  EXPECT_EQ(run({"--output", folder / "c.h5", "--overwrite"}), 0);
-  EXPECT_FALSE(folder.names().contains("c.h5.checkpoint"));
-}
-
-TEST(Study, ReplacesNoResultOfOtherOptions) {
-  const TemporaryFolder folder;
-  const Arguments a{"--output", folder / "a.h5"};
-  EXPECT_EQ(run(a), 0);
-  // The existing result does not depend on the number of threads.
-  EXPECT_EQ(run(with(a, {"--threads", "2"})), 0);
-  const std::string before = content_of(folder / "a.h5");
-  expect_refused_run(with(a, {"--seed", "2"}), {"another --seed", "--overwrite"});
-  EXPECT_EQ(content_of(folder / "a.h5"), before);
-  EXPECT_EQ(run(with(a, {"--seed", "2", "--overwrite"})), 0);
-  expect_refused_run(a, {"another --seed", "--overwrite"});
-  write_file(folder / "a.h5", "notes");
-  expect_refused_run(a, {"not a complete HDF5 file"});
-}
-
-// 0.3 / sqrt(R) / 1.5 is far enough below 0.02 near R = 128; up to there a look follows every 8 replicas.
-TEST(Study, StopsAtTheTargetErrorOnABatchBoundary) {
-  const TemporaryFolder folder;
-  const auto run_with = [&](const Arguments& more) {
-    return run(with({"--overwrite", "--replicas", "8", "--output", folder / "a.h5"}, more));
-  };
-  const auto reached = [](std::uint64_t count, double mean, double error) {
-    return StoppingRule::reached(count, error / mean / 0.02);
-  };
-  EXPECT_EQ(run_with({"--target-error", "0.02"}), 0);
-  const std::uint64_t count = replicas_in(folder / "a.h5");
-  EXPECT_EQ(count % 8, 0U);
-  const Hdf5Reader file(folder / "a.h5");
-  EXPECT_TRUE(reached(count, file.doubles("/results/value/mean")[0],
-                      file.doubles("/results/value/standard_error")[0]));
-  Records fewer(1);
-  for (std::uint64_t index = 0; index < count - 8; ++index)
-    fewer.append(std::vector{measure({{1, index}, {}})});
-  const Quantity before = study_of(measure).groups[0].estimate(fewer)[0];
-  EXPECT_FALSE(reached(count - 8, before.mean[0], before.standard_error[0]));
-
-  EXPECT_EQ(run_with({"--target-error", "10"}), 0);  // a run has never fewer than 64 replicas
-  EXPECT_EQ(replicas_in(folder / "a.h5"), 64U);
-  EXPECT_EQ(run_with({"--target-error", "1e-6", "--time-limit", "1e-9"}), 4);
-  EXPECT_EQ(replicas_in(folder / "a.h5"), 2U);
-  EXPECT_EQ(run_with({"--target-error", "0.1", "--target-absolute", "0.1"}), 2);
-}
-
-TEST(Study, SaysWhereTheRunEnds) {
-  const TemporaryFolder folder;
-  EXPECT_EQ(run({"--target-error", "0.01", "--output", folder / "a.h5", "--progress", "log"}), 0);
-  const std::string words = "the run ends after ";
-  const std::size_t found = complaints.find(words);
-  ASSERT_NE(found, std::string::npos) << complaints;
-  std::istringstream rest(complaints.substr(found + words.size()));
-  std::uint64_t low = 0, high = 0;
-  std::string to;
-  rest >> low >> to >> high;
-  const std::uint64_t spent = replicas_in(folder / "a.h5");
-  EXPECT_LE(low, spent) << complaints;
-  EXPECT_GE(high, spent) << complaints;
-}
-
-TEST(Study, SaysHowUncertainErrorsFromFewReplicasAre) {
-  const TemporaryFolder folder;
-  const auto said = [&](const char* replicas, const char* progress) {
-    EXPECT_EQ(
-        run({"--overwrite", "--replicas", replicas, "--output", folder / "a.h5", "--progress", progress}), 0);
-    return complaints;
-  };
-  const std::string warning = "example: standard errors from 9 replicas are uncertain by about 25 %\n";
-  EXPECT_TRUE(said("9", "log").ends_with(warning)) << complaints;
-  EXPECT_EQ(said("9", "none"), "");
-  for (const char* replicas : {"1", "32"})
-    EXPECT_EQ(said(replicas, "log").find("uncertain"), std::string::npos) << complaints;
+  EXPECT_EQ(run(with(to_output, {"--resume"}), remember), 0);
+  EXPECT_EQ(measured, (Indices{9, 10, 11, 12, 13, 14, 15}));
+  EXPECT_EQ(folder.names(), (Names{"a.h5", "a.cost.json"}));
+  expect_same_bytes_as({"--resume"});  // without a checkpoint
 }
 
 // Looks take place only where an uninterrupted run has them: after 64, 72, 80, ... replicas.
-TEST(Study, ResumesToTheSameBatchBoundary) {
-  const TemporaryFolder folder;
-  const auto run_to = [&](const std::string& name, const MeasureValue& measurement, const Arguments& more) {
-    const Arguments target{"--threads", "1", "--replicas", "8", "--target-error", "0.02"};
-    return run(with(with(target, {"--output", folder / name}), more), measurement);
-  };
-  EXPECT_EQ(run_to("whole.h5", measure, {}), 0);
-  const std::uint64_t count = replicas_in(folder / "whole.h5");
-  ASSERT_GT(count, 72U);
-  EXPECT_EQ(run_to("parts.h5", failing_at(count - 1), {}), 3);
-  EXPECT_EQ(run_to("parts.h5", measure, {"--resume"}), 0);
-  EXPECT_EQ(content_of(folder / "parts.h5"), content_of(folder / "whole.h5"));
+TEST_F(StudyTest, ResumesToTheSameBatchBoundary) {
+  const Arguments target{"--replicas", "8", "--target-error", "0.02"};
+  EXPECT_EQ(run(with(to_output, target), failing_at(73)), 3);
+  EXPECT_EQ(run(with(with(to_output, target), {"--resume"})), 0);
+  expect_same_bytes_as(target);
 }
 
-// The checkpoint has replicas finished out of order. The time limit leaves replica 2 missing, and those after
-// it are not used.
-TEST(Study, UsesTheLowestIndicesAtTheTimeLimitOfAResumedRun) {
-  const TemporaryFolder folder;
-  const auto late_failure = [](const Replica& replica) {
-    if (replica.key.replica == 2) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(200));
-      throw NumericalError("a replica failed");
-    }
-    if (replica.key.replica == 8) std::this_thread::sleep_for(std::chrono::milliseconds(400));
-    return measure(replica);
-  };
-  EXPECT_EQ(run({"--output", folder / "a.h5", "--threads", "2"}, late_failure), 3);
-  EXPECT_EQ(run({"--output", folder / "a.h5", "--resume", "--time-limit", "1e-9"}), 4);
-  EXPECT_EQ(replicas_in(folder / "a.h5"), 2U);
+TEST_F(StudyTest, DiscardsACheckpointOnlyWithOverwrite) {
+  EXPECT_EQ(run(to_output, failing_at(5)), 3);
+  const std::string before = content_of(folder / "a.h5.checkpoint");
+  for (const Arguments& more : {Arguments{}, {"--seed", "2"}, {"--seed", "2", "--resume"}})
+    expect_refused_run(with(to_output, more), "a.h5.checkpoint");
+  EXPECT_EQ(content_of(folder / "a.h5.checkpoint"), before);
+  EXPECT_EQ(run(with(to_output, {"--resume", "--overwrite", "--seed", "2"})), 0);
+  EXPECT_FALSE(folder.names().contains("a.h5.checkpoint"));
+  expect_same_bytes_as({"--seed", "2"});
 }
 
-// A run without its target quantity is refused before anything is measured.
-TEST(Study, WithoutItsTargetIsRefused) {
-  const TemporaryFolder folder;
+TEST_F(StudyTest, ReplacesNoResultOfOtherOptions) {
+  EXPECT_EQ(run(to_output), 0);
+  EXPECT_EQ(run({"--output", output, "--threads", "2"}), 0);
+  const std::string before = content_of(output);
+  expect_refused_run(with(to_output, {"--seed", "2"}), "--seed");
+  EXPECT_EQ(content_of(output), before);
+  EXPECT_EQ(run(with(to_output, {"--seed", "2", "--overwrite"})), 0);
+  expect_refused_run(to_output, "--seed");
+  write_file(output, "notes");
+  expect_refused_run(to_output, "a.h5");
+}
+
+TEST_F(StudyTest, LeavesNothingBehindIfItIsRefusedOrFails) {
+  expect_refused_run({}, "--output");
+  expect_refused_run(with(to_output, {"--replicas", "0"}), "--replicas");
+  expect_refused_run({"--output", folder / "absent/a.h5"}, "absent/a.h5");
+  EXPECT_EQ(run(to_output, failing_at(0)), 3);
+  expect_complaint("a replica failed");
+  EXPECT_EQ(run(to_output, never), 5);
+  expect_complaint("measured");
+  EXPECT_EQ(folder.names(), Names{});
+}
+
+TEST_F(StudyTest, WithoutItsTargetIsRefused) {
   const auto without_target = [] {
     Study study = study_of(never);
     study.target = "vale";
     return study;
   };
-  EXPECT_EQ(run({"--output", folder / "a.h5"}, without_target), 5);
-  EXPECT_NE(complaints.find("vale"), std::string::npos) << complaints;
+  EXPECT_EQ(run(to_output, without_target), 5);
+  expect_complaint("vale");
+}
+
+// Detected mistake: a tally that is never filled, which would be 0 in every result.
+TEST_F(StudyTest, WithATallyThatIsNeverFilledIsRefused) {
+  const auto forgetful = [] {
+    Study study = study_of(measure);
+    study.tallies.tally("forgotten", {numbered_axis("site", "Where", 3)}, "1", "Three numbers");
+    return study;
+  };
+  EXPECT_EQ(run(to_output, forgetful), 5);
+  expect_complaint("forgotten");
+}
+
+// The other replica never ends, so the test terminates only if its heartbeat throws.
+TEST_F(StudyTest, OneFailureStopsTheOtherReplicas) {
+  std::atomic<bool> other_runs{false};
+  const auto fail_or_go_on = [&other_runs](const Replica& replica) -> double {
+    while (replica.key.replica == 0 && !other_runs) std::this_thread::yield();
+    if (replica.key.replica == 0) throw NumericalError("the first");
+    for (other_runs = true;; std::this_thread::sleep_for(std::chrono::milliseconds(1)))
+      replica.heartbeat(0.5);
+  };
+  EXPECT_EQ(run({"--output", output, "--threads", "2", "--replicas", "2"}, fail_or_go_on), 3);
+  expect_complaint("the first");
+}
+
+/// Raises a signal, and then takes long.
+void interrupt(int number) {
+  ::raise(number);
+  std::this_thread::sleep_for(std::chrono::minutes(5));
+}
+
+// The program runs in a separate process, which a signal ends. No replica has a heartbeat: the first three
+// are too short, and the fourth is interrupted during its setup.
+TEST_F(StudyTest, SignalsEndTheRunWithACheckpoint) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
+    const auto killed = [number](const Replica& replica) {
+      if (replica.key.replica == 3) interrupt(number);
+      return measure(replica);
+    };
+    const auto run = [&] {
+      ::signal(SIGHUP, SIG_DFL);  // under nohup these tests would ignore it
+      run_program(with(to_output, {"--overwrite"}), [&] { return study_of(killed); });
+    };
+    EXPECT_EXIT(run(), testing::ExitedWithCode(128 + number), "");
+    EXPECT_EQ(replicas_kept(output), (Indices{0, 1, 2}));
+  }
+  const auto estimating = [] { return study_estimating([] { interrupt(SIGINT); }); };
+  EXPECT_EXIT(run_program(with(to_output, {"--overwrite"}), estimating),
+              testing::ExitedWithCode(128 + SIGINT), "");
+  EXPECT_EQ(replicas_kept(output).size(), 16U);
+  EXPECT_EQ(folder.names(), Names{"a.h5.checkpoint"});
 }
 
 }  // namespace study_test

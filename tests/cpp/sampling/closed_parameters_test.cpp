@@ -9,7 +9,7 @@
 namespace closed_parameters_test {
 
 using namespace lorentz;
-using support::refused_as;
+using support::refusal;
 
 // Detected mistakes: the scatterers are left out; their mass is left out; a mean is stated although the total
 // momentum is set to zero.
@@ -35,19 +35,17 @@ TEST(ClosedParameters, TimesFollowFromSpeeds) {
   EXPECT_EQ(parameters.thermal_flight(), 1);
 }
 
-// Detected mistakes: only the observation time is limited, not the end of the run; the limit of the thermal
-// flights is flights_of_one_clock instead of flights_of_a_year.
-TEST(ClosedParameters, AreRefusedTogether) {
-  ClosedParameters parameters{.temperature = 1, .relaxation_time = 0, .observation_time = 9e14};
-  EXPECT_NO_THROW(validate(parameters));
-  parameters.relaxation_time = 2e14;
-  EXPECT_TRUE(refused_as("--relaxation-time plus --observation-time: the number of thermal flights",
-                         [&] { validate(parameters); }));
-  parameters = {.temperature = 1, .scatterer_temperature = 1e301};
-  EXPECT_TRUE(refused_as("--temperature, --scatterer-temperature: the highest temperature",
-                         [&] { validate(parameters); }));
-  parameters = {.ring = {.particles_per_cell = 100'000'000}};
-  EXPECT_TRUE(refused_as("--cells times --particles-per-cell", [&] { validate(parameters); }));
+// Detected mistake: the product is calculated in 32 bits, where 65536 times 65536 is 0.
+TEST(ClosedParameters, LimitTheNumberOfParticles) {
+  const auto check = [](std::uint32_t cells, std::uint32_t particles_per_cell) {
+    return refusal([&] {
+      validate(ClosedParameters{
+          .ring = {.scattering = {.cells = cells}, .particles_per_cell = particles_per_cell}});
+    });
+  };
+  EXPECT_EQ(check(10'000, 100'000), "");
+  EXPECT_TRUE(check(10'000, 100'001).starts_with("--cells, --particles-per-cell"));
+  EXPECT_NE(check(65'536, 65'536), "");
 }
 
 }  // namespace closed_parameters_test

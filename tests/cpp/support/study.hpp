@@ -45,6 +45,16 @@ inline Study study_of(const MeasureValue& measurement) {
           .target = "value"};
 }
 
+/// Study whose estimate begins with an action.
+inline Study study_estimating(const std::function<void()>& action) {
+  Study study = study_of(measure);
+  study.groups.front().statistics({{"more", "1", "Another"}}, [=](const Records&) {
+    action();
+    return Estimate{{1}, {0}};
+  });
+  return study;
+}
+
 /// Runs a program of a study; returns its exit status.
 inline int run_program(Arguments arguments, const std::function<Study()>& make) {
   arguments.insert(arguments.begin(), "example");
@@ -81,12 +91,17 @@ inline Arguments with(Arguments arguments, const Arguments& more) {
 /// Measurement that must not be executed.
 inline double never(const Replica&) { throw std::logic_error("measured"); }
 
-/// The run is refused in one line with all parts, and measures nothing.
-inline void expect_refused_run(const Arguments& arguments, const std::vector<std::string>& parts) {
-  EXPECT_EQ(run(arguments, never), 2);
+/// The last run has printed one line with this part.
+inline void expect_complaint(const std::string& part) {
   EXPECT_TRUE(complaints.starts_with("example: ")) << complaints;
   EXPECT_EQ(complaints.find('\n'), complaints.size() - 1) << complaints;
-  for (const std::string& part : parts) EXPECT_NE(complaints.find(part), std::string::npos) << complaints;
+  EXPECT_NE(complaints.find(part), std::string::npos) << complaints;
+}
+
+/// The run is refused in one line with this part, and measures nothing.
+inline void expect_refused_run(const Arguments& arguments, const std::string& part) {
+  EXPECT_EQ(run(arguments, never), 2);
+  expect_complaint(part);
 }
 
 /// Measurement that fails at one replica. The exit status is 3, and the finished replicas are kept.
@@ -99,6 +114,10 @@ inline MeasureValue failing_at(std::uint64_t index) {
 
 inline std::uint64_t replicas_in(const std::string& path) {
   return Hdf5Reader(path).counts("/results/value/count").at(0);
+}
+
+inline std::vector<std::uint64_t> replicas_kept(const std::string& path) {
+  return Hdf5Reader(path + ".checkpoint").counts("/replicas/index");
 }
 
 }  // namespace support

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "statistics/tally.hpp"
+
+namespace lorentz {
+
+/// Tallies of a replica, sums whose mean over replicas is meaningful, and its number of events.
+struct FinishedReplica {
+  std::vector<double> values;
+  std::uint64_t events = 0;
+};
+
+/// Finished replicas by index.
+using FinishedReplicas = std::map<std::uint64_t, FinishedReplica>;
+
+/// The finished replicas of a run in an HDF5 file, with a digest as that of a result.
+struct Checkpoint {
+  std::string path;
+  std::string identity{};  // everything that the tallies depend on: parameters and sources
+  std::vector<Description> tallies;
+
+  /// Throws UsageError if the file cannot be written.
+  void save(const FinishedReplicas& finished) const;
+
+  /// None if the file is of other options or sources. Throws UsageError if it cannot be read or is
+  /// damaged.
+  std::optional<FinishedReplicas> load() const;
+};
+
+}  // namespace lorentz

@@ -1,0 +1,32 @@
+"""Options and quantities that the programs declare: build/describe/*.json, which the build writes (PROGRAM --describe)."""
+
+import json
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+FOLDER = Path(__file__).parents[2] / "build/describe"
+
+
+@cache
+def described() -> dict[str, dict[str, Any]]:
+    """What each program prints with --describe; docs/format.md has the keys. Empty before the first build."""
+    return {path.stem: json.loads(path.read_text("utf-8")) for path in sorted(FOLDER.glob("[!.]*.json"))}
+
+
+@cache
+def declared() -> dict[str, dict[str, dict[str, Any]]]:
+    """JSON Schema of every option that determines a result, by program and name."""
+    return {
+        name: {
+            option: schema
+            for option, schema in program["options"]["properties"].items()
+            if schema["affects_results"]
+        }
+        for name, program in described().items()
+    }
+
+
+def with_option(name: str) -> list[str]:
+    """The programs that declare this option."""
+    return [program for program, options in declared().items() if name in options]
