@@ -19,9 +19,9 @@ audit: setup  ## Check every result and figure against sources, parameters and p
 status: setup  ## Fresh, stale (why) or missing
 verify: setup  ## Compile afresh, rerun a SAMPLE=0.1 of the results, or PANEL=fig05, and compare bytes
 provenance: setup  ## Where a file comes from, FILE=figures/standard/fig05.pdf or a copy; FULL=yes
-crate: build  ## Figures, data, code and history in build/crate; PANEL=fig05
+deposit: build  ## Code, results and figures as one archive in build/deposit
 prune: setup  ## Remove a quality's results and figures that no plan names; DRY=yes: list
-figures panel report gallery audit status verify provenance crate prune:
+figures panel report gallery audit status verify provenance deposit prune:
 	$(ENTRY) $@
 setup:  ## System packages, and Python packages in .venv
 	bash workflow/environment/setup.sh
@@ -57,5 +57,5 @@ clean:  ## Remove programs, figures in the store, logs and caches; make distclea
 	rm -rf build .cache
 distclean: clean
 	rm -rf data/*/ figures/*/ .snakemake .venv
-.PHONY: help figures panel report gallery audit status verify provenance crate prune setup setup-dev build test test-long check format \
+.PHONY: help figures panel report gallery audit status verify provenance deposit prune setup setup-dev build test test-long check format \
   describe bench tradeoff docs clean distclean

@@ -148,8 +148,9 @@ def main(options: argparse.Namespace) -> int:
     if rest := [name for name in names if name not in made]:
         print(f"Not made at quality {quality}: {', '.join(rest)}")
     states = Counter(fault.state for fault in faults)
-    listed = ", ".join(f"{number} {state}" for state, number in states.items())
-    print(f"{len(made)} panels with {len(runs_of(plan, made, quality))} results: {listed or 'all hold'}")
+    listed = ", ".join(f"{number} {state}" for state, number in states.items()) or "all hold"
+    if made:
+        print(f"{len(made)} panels with {len(runs_of(plan, made, quality))} results: {listed}")
     if broken := states.keys() - {"not checked"}:
         print(f"make figures {Quality.of(quality).arguments} makes what is stale or missing")
     return 1 if broken else 3 if states or not made else 0

@@ -1,7 +1,7 @@
 """Packs the tracked files, results and figures of a quality as build/deposit/lorentz-gas-QUALITY.zip, with SHA256SUMS.
 
 Its metadata are CITATION.cff and codemeta.json. Unpacked elsewhere, `make figures` finds results and figures under the names that it
-gives them, which depend neither on the folder nor on the compiler. Equal inputs give equal bytes.
+gives them, which depend neither on the folder nor on the compiler.
 """
 
 import argparse
@@ -43,7 +43,7 @@ def pack(archive: Path, paths: Iterable[str]) -> None:
 
 
 def main(options: argparse.Namespace) -> None:
-    """Exits if a product does not hold or a source is not in the commit."""
+    """Exits if a product does not hold or a source is not tracked."""
     quality, plan = options.quality, load_plan(options.quality)
     if new := git("ls-files", "--others", "--exclude-standard", "cpp", "workflow"):
         sys.exit(f"{new[0]} is not tracked, and would be missing in the deposit: git add it, or move it away")

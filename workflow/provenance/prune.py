@@ -28,11 +28,7 @@ def obsolete(base: str) -> Iterator[Path]:
         for copy in Path(SHOWN, quality).glob("*.*"):
             if copy.stem not in plan and (stated(copy.read_bytes()) or ())[:2] == (copy.stem, quality):
                 yield copy
-    for path in [
-        *Path("data", base).glob("*/*"),
-        *Path(STORE).glob(f"{base}/*"),
-        *Path(STORE).glob(f"{base}_*/*"),
-    ]:
+    for path in [*Path("data", base).glob("*/*"), *Path(STORE).glob(f"{base}*/*")]:
         given = GIVEN.fullmatch(str(path))
         if given and (given[1] not in planned or given[3] == ".refused"):
             yield path

@@ -40,7 +40,7 @@ def error_of_difference(a: Quantity, b: Quantity, shared: bool) -> tuple[np.ndar
 
 def largest_difference(one: Result, other: Result) -> tuple[float, float, str]:
     """p-value by Student's distribution with Bonferroni's correction, size in standard errors, and quantity of the least probable difference
-    between two results of a run. Quantities whose size is random, as events of a trajectory, are left out."""
+    between two results of a run. Quantities of different sizes are left out."""
     largest, number = (1.0, 0.0, ""), 0
     shared = one.parameters.get("seed") == other.parameters.get("seed")
     for name, a in one.quantities.items():
@@ -115,7 +115,8 @@ def main(options: argparse.Namespace) -> int:
     lock_products()
     shutil.rmtree(BUILD, ignore_errors=True)
     settings = os.environ | {"BUILD": str(BUILD), "CCACHE_DISABLE": "1"}
-    subprocess.run(["bash", "workflow/environment/build.sh", "all"], env=settings, check=True)
+    if subprocess.run(["bash", "workflow/environment/build.sh", "all"], env=settings, check=False).returncode:
+        return 1
     differing = failed = 0
     for number, path in enumerate(made, 1):
         run, again = runs[path], BUILD / "again.h5"
