@@ -15,12 +15,14 @@ from workflow.environment import clean
 from workflow.files import in_one_line, lock_products
 from workflow.identity import IDENTITY
 from workflow.plan import (
+    SUFFIXES,
     BuildError,
     Quality,
     data_of,
     drawing_command,
     load_plan,
     panel_named,
+    products_of,
     report_stem,
     require_built,
     runs_of,
@@ -48,15 +50,11 @@ except (ConfigurationError, BuildError) as error:
     sys.exit(str(error))
 except OSError as error:  # a panel without a script, or another command
     sys.exit(in_one_line(error))
-KINDS = [".pdf", ".png", ".svg", ".csv", ".json"]
 
 
-def products_of(*panels):
+def inputs_of(panels):
     """Results too: Snakemake does not remake a missing result whose figure is there."""
-    files = [f"{STEMS[name]}{kind}" for name in panels for kind in KINDS]
-    return [
-        ancient(path) for path in dict.fromkeys([*(path for name in panels for path in DATA[name]), *files])
-    ]
+    return [ancient(path) for path in products_of(PLAN, panels, QUALITY)]
 
 
 wildcard_constraints:
@@ -85,7 +83,7 @@ onstart:
 # Without outputs these rules are always executed: they copy what is missing or edited in figures/<quality>.
 rule figures:
     input:
-        products_of(*PLAN),
+        inputs_of(PLAN),
     params:
         stems=[STEMS[name] for name in PLAN],
     shell:
@@ -94,7 +92,7 @@ rule figures:
 
 use rule figures as panel with:
     input:
-        products_of(*PANELS),
+        inputs_of(PANELS),
     params:
         stems=[STEMS[name] for name in PANELS],
 

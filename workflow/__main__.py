@@ -83,7 +83,7 @@ def parse(target: str, words: list[str]) -> argparse.Namespace:
 
 
 def prepare(options: argparse.Namespace) -> None:
-    """Adds the effort, `quality`, and the plan's panels, `panels`. Raises ConfigurationError."""
+    """Adds the effort, `quality`, the `plan`, and the requested `panels`. Raises ConfigurationError."""
     from workflow.plan import load_plan, panel_named  # noqa: PLC0415
 
     effort = {name: getattr(options, name) for name in ("seed", "replicas", "error")}
@@ -91,8 +91,8 @@ def prepare(options: argparse.Namespace) -> None:
         f"{name}={value}" for name in EFFORT if (value := getattr(options, name.lower()))
     )
     options.quality += "".join(f"_{name}={value}" for name, value in effort.items() if value)
-    plan = load_plan(options.quality)
-    options.panels = [panel_named(plan, name).name for name in options.panel.split()]
+    options.plan = load_plan(options.quality)
+    options.panels = [panel_named(options.plan, name).name for name in options.panel.split()]
 
 
 def snakemake(target: str, options: argparse.Namespace) -> int:
@@ -101,7 +101,6 @@ def snakemake(target: str, options: argparse.Namespace) -> int:
     from snakemake.cli import main as run  # noqa: PLC0415
 
     words += ["--forceall"] if options.fresh else []
-    words += ["--dry-run"] if options.dry else []
     words += ["--jobs" if options.profile else "--cores", options.jobs] if options.jobs else []
     slurm = {"slurm_account": options.account, "slurm_partition": options.partition}
     if resources := [f"{name}={value}" for name, value in slurm.items() if value]:
@@ -141,22 +140,34 @@ def profile_words(name: str) -> list[str]:
     return words
 
 
+def missing(target: str, options: argparse.Namespace) -> list[str]:
+    """Products that a command would make, from their names. Raises OSError."""
+    from workflow.plan import products_of, report_stem  # noqa: PLC0415
+
+    paths = products_of(options.plan, options.panels or options.plan, options.quality)
+    paths += [f"{report_stem(options.plan, options.quality)}.html"] if target == "report" else []
+    return [path for path in paths if options.fresh or not os.path.exists(path)]
+
+
 def run(target: str, options: argparse.Namespace) -> int:
     """Raises UsageError, ConfigurationError, OSError."""
     if target not in SNAKEMAKE:
         options.render = target == "audit"
         module = "audit" if target == "status" else target
         return int(importlib.import_module(f"workflow.provenance.{module}").main(options) or 0)
-    compared = (
-        target in ("figures", "panel")
-        and not options.dry
-        and (options.seed or options.replicas or options.fresh)
-    )
+    compared = target in ("figures", "panel") and (options.seed or options.replicas or options.fresh)
+    if options.dry:
+        print("\n".join(missing(target, options)) or "Nothing to be made")
+        return 0
+    for panel in (options.plan[name] for name in options.panels if options.plan[name].replaced):
+        print(
+            f"{panel.name}: at this quality other {', '.join(panel.replaced)} than in paper.yaml", flush=True
+        )
     if compared:
         verify = importlib.import_module("workflow.provenance.verify")
         if options.fresh:
             verify.keep(options)
-    if (status := snakemake(target, options)) or options.dry:
+    if status := snakemake(target, options):
         return status
     print(DONE[target].format(quality=options.quality, given=options.given, panels=" ".join(options.panels)))
     return int(verify.compare(options)) if compared else 0

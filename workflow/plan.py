@@ -34,6 +34,7 @@ from workflow.lib.nearest import nearest
 from workflow.polynomial import evaluated
 from workflow.publish import SHOWN, STORE
 
+SUFFIXES = (".pdf", ".png", ".svg", ".csv", ".json")  # of the files of a panel
 QUALITIES = ("smoke", "standard", "paper", "deep")
 REPORT_SOURCES = (
     "workflow/claims",
@@ -89,14 +90,14 @@ class Run:
 
 @dataclass(frozen=True)
 class Panel:
-    """A figure: its own runs, and the names of other panels whose runs it also plots. replaced: by series, the options of
-    paper.yaml that the quality replaces."""
+    """A figure: its own runs, and the names of other panels whose runs it also plots. replaced: options of paper.yaml that the quality
+    replaces, as `cells of rare`."""
 
     name: str
     script: str
     runs: tuple[Run, ...]
     uses: tuple[str, ...] = ()
-    replaced: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    replaced: tuple[str, ...] = ()
 
     def run(self, name: str) -> Run:
         return next(run for run in self.runs if run.name == name)
@@ -223,6 +224,12 @@ def stem_of(plan: dict[str, Panel], name: str, quality: str) -> str:
     return f"{STORE}/{quality}/{name}.{present}"
 
 
+def products_of(plan: dict[str, Panel], names: Iterable[str], quality: str) -> list[str]:
+    """Paths of the results that panels plot, and of their files in the store. Raises OSError."""
+    files = [f"{stem_of(plan, name, quality)}{suffix}" for name in names for suffix in SUFFIXES]
+    return [*runs_of(plan, names, quality), *files]
+
+
 def report_stem(plan: dict[str, Panel], quality: str) -> str:
     """Path of the report in the store, without suffix. Raises OSError."""
     sources = {path: content_hash(path) for path in REPORT_SOURCES}
@@ -246,7 +253,7 @@ def _merged(*efforts: dict[str, Any]) -> dict[str, Any]:
 
 
 def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Quality) -> Panel:
-    runs, replaced = [], {}
+    runs, replaced = [], []
     effort_of = efforts.get("panels", {}).get(name, {})
     of_all = {key: value for key, value in effort_of.items() if key in EFFORT}
     for series, program in programs_of(panel).items():
@@ -259,7 +266,7 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Q
         effort = _merged(*general, effort_of.get(series, {}))
         physics = {**panel.get("common", {}), **own}
         options = {**physics, **effort}
-        replaced[series] = tuple(key for key in effort if key in physics)
+        replaced += [f"{key} of {series}" for key in effort if key in physics]
         listed = [key for key, value in options.items() if isinstance(value, list)]
         for values in itertools.product(*(options[key] for key in listed)):
             chosen = dict(zip(listed, values, strict=True))
@@ -268,8 +275,7 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Q
             given = {key: evaluated(value, given.get("cells")) for key, value in given.items()}
             completed = quality.complete(name, run, given, scale) if replicated else given
             runs.append(Run(run, program, completed, replicated, series))
-    uses, by_series = tuple(panel.get("uses", ())), tuple(item for item in replaced.items() if item[1])
-    return Panel(name, panel.get("script", name), tuple(runs), uses, by_series)
+    return Panel(name, panel.get("script", name), tuple(runs), tuple(panel.get("uses", ())), tuple(replaced))
 
 
 def _in_name(value: object) -> str:

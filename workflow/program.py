@@ -12,7 +12,7 @@ from workflow.plan import Run
 
 PROGRAMS = ROOT / "build/bin"
 WRITTEN = (0, 4)  # exit statuses with a result; 4: stopped before the target error, and marked
-REPLICAS_PER_THREAD, MOST_THREADS = 16, 16
+REPLICAS_PER_THREAD, MOST_THREADS = 32, 16
 
 
 class ProgramError(ValueError):

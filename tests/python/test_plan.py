@@ -29,7 +29,6 @@ def edit(path: Path, old: str, new: str) -> None:
 def test_every_quality_describes_every_panel(quality: str) -> None:
     for panel in load_plan(quality).values():
         assert (ROOT / f"workflow/figures/{panel.script}.py").is_file()
-        assert panel.runs or panel.uses
         for run in panel.runs:
             assert (ROOT / f"cpp/observables/{run.program}.cpp").is_file()
             assert run.replicated == ("seed" in run.options) == ("replicas" in run.options)
@@ -100,7 +99,7 @@ def test_effort_of_quality_panel_and_series(
 
 
 def test_what_a_quality_replaces_is_known() -> None:
-    assert dict(load_plan("smoke")["fig08"].replaced)["rare"] == ("cells",)
+    assert "cells of rare" in load_plan("smoke")["fig08"].replaced
     assert load_plan("smoke")["fig05"].replaced == ()
 
 

@@ -5,7 +5,7 @@ rule draw:
     input:
         lambda wildcards: [ancient(path) for path in DATA[wildcards.panel]],
     output:
-        multiext(f"{STORE}/{{quality}}/{{panel}}.{{identity}}", *KINDS),
+        multiext(f"{STORE}/{{quality}}/{{panel}}.{{identity}}", *SUFFIXES),
     log:
         "build/logs/{quality}/{panel}.{identity}.log",
     priority: 10**9  # before any run

@@ -3,7 +3,7 @@
 
 rule report:
     input:
-        products_of(*PLAN),
+        inputs_of(PLAN),
         ancient(f"{REPORT}.html"),
     params:
         stems=[*STEMS.values(), REPORT],
@@ -13,7 +13,7 @@ rule report:
 
 rule report_page:
     input:
-        products_of(*PLAN),
+        inputs_of(PLAN),
     output:
         f"{REPORT}.html",
     log:
@@ -25,7 +25,7 @@ rule report_page:
 # Always executed: it changes no file that is up to date.
 rule gallery:
     input:
-        products_of(*PLAN),
+        inputs_of(PLAN),
     log:
         f"build/logs/{QUALITY}/gallery.log",
     shell:
