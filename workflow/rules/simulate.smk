@@ -16,6 +16,8 @@ rule simulate:
     log:
         "data/{quality}/{panel}/{run}.{identity}.log",
     priority: lambda wildcards: -[*PLAN].index(wildcards.panel)  # the figures in their order
+    group:
+        lambda wildcards: "short" if threads_of(run_of(wildcards)) == 1 else None
     threads: lambda wildcards: threads_of(run_of(wildcards))
     params:
         command=lambda wildcards, threads: shlex.join(command_line(run_of(wildcards), threads)),
