@@ -5,6 +5,7 @@ printed instead with --dry-run, --verbose, --printshellcmds and --debug-dag.
 """
 
 import logging
+import os
 import signal
 import time
 from contextlib import suppress
@@ -37,14 +38,18 @@ class LogHandler(LogHandlerBase):
         self._done = self._total = 0  # jobs
         self._running: dict[int, Any] = {}  # events JOB_INFO by number
         self._failed: list[str] = []
+        self._group_logs: list[str] = []  # of the last group that failed
         self._stopped = False  # by Ctrl-C
         self._console = Console(highlight=False, markup=False, emoji=False, soft_wrap=True)
         self._live = Live(console=self._console, get_renderable=self._screen, transient=True)
 
     def emit(self, record: Any) -> None:
         if self.writes_to_stream:
-            with suppress(OSError):  # a full or closed stdout does not stop the jobs
-                self._show(record, getattr(record, "event", None))
+            self._show(record, getattr(record, "event", None))
+
+    def _print(self, text: str) -> None:
+        with suppress(OSError):  # a full or closed stdout does not stop the jobs
+            self._console.print(text)
 
     def _show(self, record: Any, event: LogEvent | None) -> None:
         if event == LogEvent.RUN_INFO:
@@ -56,14 +61,16 @@ class LogHandler(LogHandlerBase):
             self._failed = [name for name in self._failed if name != name_of(record)]  # a retry
         elif event == LogEvent.JOB_FINISHED and record.job_id in self._running:
             self._finish(self._running.pop(record.job_id))
+        elif event == LogEvent.GROUP_ERROR:
+            self._group_logs = record.aux_logs
         elif event == LogEvent.JOB_ERROR and record.jobid in self._running:
-            self._fail(self._running.pop(record.jobid))
+            self._fail(self._running.pop(record.jobid), record)
         elif event in (None, LogEvent.ERROR):
             text = record.getMessage()
             self._stopped = self._stopped or text.startswith(STOPPING)
             follows = self._stopped or self._failed or "CalledProcessError" in text  # from an event JOB_ERROR
             if text.startswith("Nothing to be done") or (record.levelno >= logging.ERROR and not follows):
-                self._console.print(text)
+                self._print(text)
 
     def _finish(self, job: Any) -> None:
         from workflow.lib.load import NOT_TESTED, load  # noqa: PLC0415  0.5 s
@@ -74,14 +81,18 @@ class LogHandler(LogHandlerBase):
         if "panel" in job.wildcards and "run" not in job.wildcards:
             found.append("rendered")
         if found:
-            self._console.print(f"{name_of(job)}: {', '.join(found)}; {self._state()}")
+            self._print(f"{name_of(job)}: {', '.join(found)}; {self._state()}")
 
-    def _fail(self, job: Any) -> None:
-        lines = last_lines(job) or ["(empty: the job was killed, or did not start)"]
-        if not self._stopped and not any(mark in line for line in lines for mark in INTERRUPTED):
+    def _fail(self, job: Any, record: Any) -> None:
+        logs = [*record.log, *self._group_logs]
+        log, lines = next(
+            ((log, lines) for log in logs if (lines := last_lines(log))), ("its log", ["(empty)"])
+        )
+        ended = any(mark in line for line in lines for mark in INTERRUPTED)
+        finished = record.indent and all(map(os.path.exists, job.output))  # a group fails as a whole
+        if not (self._stopped or ended or finished):
             self._failed.append(name_of(job))
-            heading = f"{name_of(job)} failed. The end of {', '.join(job.log)}:"
-            self._console.print("\n  ".join([heading, *lines]))
+            self._print("\n  ".join([f"{name_of(job)} failed. The end of {log}:", *lines]))
 
     def close(self) -> None:
         if self._stopped:
@@ -89,8 +100,7 @@ class LogHandler(LogHandlerBase):
         self._live.stop()
         if self._stopped or self._failed:
             end = f"Failed: {', '.join(self._failed)}" if self._failed else "Stopped"
-            with suppress(OSError):
-                self._console.print(f"{end}; {self._state()}. Finished results are kept.")
+            self._print(f"{end}; {self._state()}. Finished results are kept.")
         self._stopped, self._failed = False, []  # Python closes all handlers again at exit
         super().close()
 
@@ -98,7 +108,8 @@ class LogHandler(LogHandlerBase):
         return f"{self._done} of {self._total} done, {timedelta(seconds=int(time.monotonic() - self._begin))}"
 
     def _screen(self) -> Group:
-        jobs = [f"  {name_of(job)}  {''.join(last_lines(job)[-1:])}" for job in [*self._running.values()][:8]]
+        running = [*self._running.values()][:8]
+        jobs = [f"  {name_of(job)}  {''.join(last_lines(*job.log)[-1:])}" for job in running]
         lines = [Text(line, overflow="ellipsis", no_wrap=True) for line in [self._state(), *jobs]]
         return Group(ProgressBar(self._total, self._done, width=40), *lines)
 
@@ -109,8 +120,8 @@ def name_of(job: Any) -> str:
     return "/".join(names) or str(job.rule_name)
 
 
-def last_lines(job: Any) -> list[str]:
+def last_lines(log: str = "") -> list[str]:
     """At most 12 lines; none if the log is missing."""
-    with suppress(OSError, IndexError):
-        return Path(job.log[0]).read_text(errors="replace").splitlines()[-12:]
+    with suppress(OSError):
+        return Path(log).read_text(errors="replace").splitlines()[-12:]
     return []

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import kstest
 
-from workflow.lib.growth import LAWS, POWER, Growth, fits, local_exponents, widest
+from workflow.lib.growth import LAWS, POWER, fits, local_exponents, widest
 
 SIZES = np.array([16, 32, 64, 128, 256, 512, 1024, 2048], dtype=float)
 TRUTH = {
@@ -32,10 +32,6 @@ def test_the_law_is_found_and_its_p_value_is_uniform(law: str) -> None:
     assert kstest(p_values, "uniform").pvalue > 1e-3
 
 
-def test_a_parameter_has_to_lower_chi_square_by_two() -> None:
-    assert [Growth("", 16, 3.5, 5, count).criterion for count in (1, 2, 3)] == [5.5, 7.5, 9.5]
-
-
 def test_exponent_and_its_error() -> None:
     """Detected mistake: the error ignores that the amplitude is fitted too."""
     scores = []
@@ -49,13 +45,6 @@ def test_exponent_and_its_error() -> None:
         (np.log(SIZES) - np.log(SIZES).mean()) ** 2
     )  # slope of a line through logarithms with equal errors
     assert power.exponent_error == pytest.approx(0.01 / np.sqrt(spread), rel=1e-3)
-
-
-def test_sizes_from_the_first_on_and_never_fewer_than_three() -> None:
-    values, error = noisy(TRUTH[POWER], 0.01, 0)
-    assert {one.freedom for one in fits(SIZES, values, error, first=512)} == {1}
-    assert fits(SIZES, values, error, first=1024) == []
-    assert fits(SIZES, values, error, first=100)[0].first == 128
 
 
 def test_widest_range_of_a_law() -> None:

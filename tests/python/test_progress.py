@@ -87,9 +87,14 @@ def emit(handler: LogHandler, event: LogEvent | None, message: str = "", **field
     handler.emit(record)
 
 
-def start(handler: LogHandler, log: Path) -> None:
-    wildcards = {"panel": "fig05", "run": log.stem}
-    emit(handler, LogEvent.JOB_INFO, jobid=1, rule_name="simulate", wildcards=wildcards, log=[str(log)])
+def start(handler: LogHandler, log: Path, number: int = 1) -> None:
+    fields = {"wildcards": {"panel": "fig05", "run": log.stem}, "output": [f"{log}.h5"], "log": [str(log)]}
+    emit(handler, LogEvent.JOB_INFO, jobid=number, **fields)
+
+
+def fail(handler: LogHandler, log: Path, number: int = 1, in_group: bool = False) -> None:
+    emit(handler, LogEvent.ERROR, "RuleException: CalledProcessError in file")
+    emit(handler, LogEvent.JOB_ERROR, jobid=number, log=[str(log)], indent=in_group)
 
 
 def test_a_failure_has_the_end_of_its_log(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -98,8 +103,7 @@ def test_a_failure_has_the_end_of_its_log(tmp_path: Path, capsys: pytest.Capture
     a.write_text("".join(f"[bold] {k}\n" for k in range(100)))
     for log in (a, b):
         start(handler, log)
-        emit(handler, LogEvent.ERROR, "RuleException: CalledProcessError in file")
-        emit(handler, LogEvent.JOB_ERROR, jobid=1)
+        fail(handler, log)
     start(handler, b)
     emit(handler, None, "Exiting because a job execution failed.")
     handler.close()
@@ -107,16 +111,35 @@ def test_a_failure_has_the_end_of_its_log(tmp_path: Path, capsys: pytest.Capture
     heading, *lines, missing, empty, last = capsys.readouterr().out.splitlines()
     assert heading == f"fig05/a failed. The end of {a}:"
     assert lines == [f"  [bold] {k}" for k in range(88, 100)]
-    assert missing == f"fig05/b failed. The end of {b}:"
+    assert missing.startswith("fig05/b failed")
     assert "empty" in empty
     assert last.startswith("Failed: fig05/a; 0 of 0 done")
+
+
+def test_a_group_of_a_cluster_fails_without_its_finished_runs(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The log of the group is that of Slurm, which says why a run has none."""
+    handler, logs = handler_of(), [tmp_path / f"{name}.log" for name in "ab"]
+    for number, log in enumerate(logs):
+        start(handler, log, number)
+    (tmp_path / "slurm.log").write_text("no space left")
+    (tmp_path / "a.log.h5").touch()
+    emit(handler, LogEvent.GROUP_ERROR, aux_logs=[str(tmp_path / "slurm.log")])
+    for number, log in enumerate(logs):
+        fail(handler, log, number, in_group=True)
+    handler.close()
+    shown = capsys.readouterr().out
+    assert "fig05/a" not in shown
+    assert "no space left" in shown
+    assert "Failed: fig05/b;" in shown
 
 
 def test_a_job_that_a_signal_ends_has_not_failed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     handler, log = handler_of(), tmp_path / "a.log"
     log.write_text("interrupted after 4 replicas; --resume continues")
     start(handler, log)
-    emit(handler, LogEvent.JOB_ERROR, jobid=1)
+    emit(handler, LogEvent.JOB_ERROR, jobid=1, log=[str(log)], indent=False)
     handler.close()
     assert capsys.readouterr().out == ""
 

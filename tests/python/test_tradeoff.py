@@ -1,7 +1,6 @@
 """Trade-off: laws and comparisons on known samples, each measurement in short, and the results with and without a method."""
 
 import io
-from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -30,14 +29,6 @@ def test_uncertainty_over_samples() -> None:
     ratio = np.var(errors) / np.mean(accuracy.uncertainty(errors, 10) ** 2)
     assert 0.9 < ratio < 1.1
     assert not 0.9 < 2 * ratio < 1.1  # detected mistake: the factor 2 is missing
-
-
-@pytest.mark.parametrize(
-    ("times", "fraction", "part"),
-    [(400, 0.1, "40"), ("2,6", 0.5, "1,3")],
-)
-def test_shortened(times: float | str, fraction: float, part: str) -> None:
-    assert measure.shortened(times, fraction) == part
 
 
 def test_compared() -> None:
@@ -107,24 +98,6 @@ def test_results_with_and_without_a_method() -> None:
     one, known = efficiency.spreading("ext07", "spreading_relaxation-time=1", "label")
     assert all(row["z"] < SIGMAS for row in [*rows, one, known])
     assert one["factor"] > 10  # the chain has some hundred particles
-
-
-def test_pulse_with_and_without_methods() -> None:
-    run = measure.planned("fig09a", "gaussian")
-    short = {"cells": 21, "particles-per-cell": 5, "pairs-per-replica": 4, "times": "0.016,0.05"}
-    rows = [*efficiency.pulse(replace(run, options=run.options | short), (50, 60))]
-    assert [row["method"] for row in rows] == ["one start for both", "engine", "both"]
-    assert all(
-        row["z"] < SIGMAS + np.log(row["values"]) for row in rows
-    )  # bound for the largest of this number of scores
-    assert rows[0]["factor"] > 1
-
-
-def test_prediction_of_a_target_error() -> None:
-    row = accuracy.predicted("persistence")
-    assert accuracy.FIRST_LOOK < row["least"] <= row["most"]
-    assert row["least"] / 2 < row["replicas"] < 2 * row["most"]
-    assert row["least_seconds"] / row["least"] == pytest.approx(row["most_seconds"] / row["most"])
 
 
 def test_products(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:

@@ -11,68 +11,29 @@ from functools import cache
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from tests.python.scale import ROUNDING, SCALES, Scale, agree
 from workflow.lib.described import built
 from workflow.lib.load import Result
-from workflow.lib.units import WORDS, Units, UnitsError, option_units, parse
+from workflow.lib.units import Units, UnitsError, option_units, parse
 from workflow.tradeoff.measure import call
-
-factors = st.lists(st.tuples(st.sampled_from(sorted(WORDS)), st.integers(1, 12)), min_size=1, max_size=4)
-
-
-def written(product: list[tuple[str, int]]) -> str:
-    return " ".join(word if power == 1 else f"{word}^{power}" for word, power in product)
-
-
-def exponents(product: list[tuple[str, int]]) -> np.ndarray:
-    return sum(power * np.array(WORDS[word]) for word, power in product)
-
-
-@given(factors, st.none() | factors)
-def test_exponents_are_those_of_the_factors(above: list, below: list | None) -> None:
-    text, expected = written(above), exponents(above)
-    if below is not None:
-        several = written(below)
-        text += f"/({several})" if len(below) > 1 else f"/{several}"
-        expected = expected - exponents(below)
-    assert parse(text) == Units(*expected)
 
 
 @pytest.mark.parametrize(
     ("text", "length", "time"),
-    [("1", 0, 0), ("momentum", 1, -1), ("energy", 2, -2), ("temperature", 2, -2), ("length^4", 4, 0),
-     ("1/(time momentum)", -1, 0), ("energy/(time temperature)", 0, -1)],
+    [("1", 0, 0), ("momentum", 1, -1), ("energy", 2, -2), ("temperature", 2, -2), ("length^4 time", 4, 1),
+     ("1/(time momentum^2)", -2, 1), ("energy/(time temperature)", 0, -1), ("1/length", -1, 0)],
 )  # fmt: skip
 def test_dimensions(text: str, length: int, time: int) -> None:
     assert parse(text) == Units(length, time)
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
-    [("furlong", "'furlong' in 'furlong' is not a unit; use powers of 1, length, time"), ("energy^0", "'energy^0'"),
-     ("energy^-1", "'energy^-1'"), ("energy  time", "'' in 'energy  time'"), ("Energy", "'Energy'"), ("k_B T", "'k_B'"),
-     ("", "'' is not a unit"), ("1/time/time", "'1/time/time' is not a unit"),
-     ("1/time momentum", "is not a unit"), ("(energy)", "is not a unit"), ("1/()", "is not a unit")],
-)  # fmt: skip
-def test_other_texts_are_refused(text: str, words: str) -> None:
-    with pytest.raises(UnitsError) as error:
+    "text", ["furlong", "energy^-1", "energy  time", "", "1/time/time", "1/()", "Energy"]
+)
+def test_other_texts_are_refused(text: str) -> None:
+    with pytest.raises(UnitsError, match="is not a unit"):
         parse(text)
-    assert words in str(error.value)
-
-
-def test_scale() -> None:
-    momenta, lengths = Scale(momenta=8), Scale(lengths=4)
-    units = ("momentum", "temperature", "energy", "time", "1/time", "length", "1/(time momentum)")
-    assert [momenta(each) for each in units] == [8, 64, 64, 1 / 8, 8, 1, 1]
-    assert [lengths(each) for each in units] == [1, 1, 1, 4, 1 / 4, 4, 1 / 4]
-    assert momenta.option("times", "1.0,3.0") == "0.125,0.375"
-    assert lengths.option("relaxation-time", "0.25N") == "1.0N"
-    assert lengths.option("relaxation-time", "50+1e-3N^2") == "200.0+0.004N^2"
-    assert lengths.option("cell-length", "1/N") == "1/N"
-    assert lengths.option("sigma", 0.5) == 0.5
 
 
 CLOSED = {"cells": 5, "particles_per_cell": 4, "relaxation_time": 5, "observation_time": 10, "replicas": 4}

@@ -1,151 +1,183 @@
-"""On a cluster of one node, results have the bytes of a local run, also after jobs have failed."""
+"""A panel on a cluster of one node, with results of the same bytes as without. Needs root and the packages slurm-wlm and munge."""
 
-import contextlib
 import os
-import re
+import secrets
 import shutil
 import signal
+import socket
 import subprocess
+import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TypeVar
 
 import pytest
 
-from tests.workflow import slurm
-from tests.workflow.conftest import Clone
-from tests.workflow.slurm import soon
+from tests.workflow.conftest import Project
+
+T = TypeVar("T")
+
+DAEMONS = ("munged", "slurmctld", "slurmd")
+INSTALLED = Path("/etc/slurm/slurm.conf")  # where commands in jobs look for the configuration
+FREE = os.geteuid() == 0 and all(map(shutil.which, DAEMONS)) and not INSTALLED.exists()
 
 pytestmark = [
     pytest.mark.long,
-    pytest.mark.skipif(not slurm.available(), reason="Slurm is not installed, or runs here already"),
+    pytest.mark.skipif(not FREE, reason=f"needs root, munge, slurm-wlm and no {INSTALLED}"),
 ]
-PATIENCE = "--slurm-init-seconds-before-status-checks 2 --seconds-between-status-checks 3 --latency-wait 10"
-QUALITY = "standard_replicas=128"
-LONG = (f"quality={QUALITY}", "panel=fig01")  # three minutes on one core
+CONFIGURATION = """ClusterName=test
+SlurmctldHost=localhost(127.0.0.1)
+SlurmctldPort={controller}
+SlurmdPort={node}
+SlurmUser=root
+SlurmdUser=root
+AuthType=auth/munge
+AuthInfo=socket={folder}/munge/socket
+CommunicationParameters=NoCtldInAddrAny,NoInAddrAny
+StateSaveLocation={folder}/state
+SlurmdSpoolDir={folder}/spool
+SlurmctldPidFile={folder}/slurmctld.pid
+SlurmdPidFile={folder}/slurmd.pid
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_Core_Memory
+SchedulerParameters=batch_sched_delay=0,sched_interval=2
+MpiDefault=none
+ReturnToService=2
+KillWait=10
+AccountingStorageType=accounting_storage/none
+MinJobAge=3600
+NodeName=localhost NodeAddr=127.0.0.1 CPUs=2 RealMemory=8000 State=UNKNOWN
+PartitionName=test Nodes=ALL Default=YES MaxTime=INFINITE State=UP
+"""
 
 
-@pytest.fixture(scope="module")
-def cluster() -> Iterator[slurm.Cluster]:
-    with slurm.cluster() as one:
-        yield one
-
-
-@contextlib.contextmanager
-def on_cluster(
-    cluster: slurm.Cluster, clone: Clone, *config: str, option: str = "--keep-going"
-) -> Iterator[subprocess.Popen[str]]:
-    """Snakemake in its own session, which is killed at the end."""
-    cluster.cancel_jobs()  # those that a failed test has left
-    profile = ("--workflow-profile", "profiles/slurm", *PATIENCE.split(), option)
-    interruptible = ("env", "--default-signal=INT")  # also where the tests run in the background of a shell
-    with subprocess.Popen(
-        [*interruptible, ".venv/bin/snakemake", "panel", "--nolock", *profile, "--config", *config],
-        cwd=clone.folder,
-        env={"PATH": os.defpath, "HOME": "/"},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        start_new_session=True,
-    ) as making:
-        try:
-            yield making
-        finally:
-            with contextlib.suppress(ProcessLookupError):
-                os.killpg(making.pid, signal.SIGKILL)
-
-
-def products(clone: Clone, quality: str) -> dict[Path, bytes]:
-    """Results and figures of fig01 and fig06, without the records of the commit."""
-    folders = (f"data/{quality.partition('_')[0]}/fig0[16]/*.h5", f"figures/{quality}/fig0[16].???")
-    return {path: path.read_bytes() for folder in folders for path in clone.folder.glob(folder)}
-
-
-def test_parts_and_batches_give_the_same_bytes(cluster: slurm.Cluster, kept: Clone) -> None:
-    """The results are also fresh on one machine. A batch of 0.6 s splits every run; one of 30 minutes holds all."""
-    before = products(kept, "smoke")
-    for panel, batch, jobs in (("fig01", "0.01", 6), ("fig06", "30", 1)):
-        for path in (kept.folder / f"data/smoke/{panel}").iterdir():
-            path.unlink()
-        submitted = len(cluster.command("squeue", "--noheader", "--states=all").splitlines())
-        with on_cluster(cluster, kept, "quality=smoke", f"panel={panel}", f"batch={batch}") as making:
-            shown, _ = making.communicate(timeout=900)
-        assert making.returncode == 0, shown
-        assert len(cluster.command("squeue", "--noheader", "--states=all").splitlines()) - submitted == jobs
-    assert products(kept, "smoke") == before
-    assert not [*(kept.folder / "build/parts").rglob("*.part")]
-    assert kept.stale() == set()
-    assert "fig01" in kept.module("cluster.cost", "--quality", "smoke", "--panel", "fig01")
-
-
-def processes(clone: Clone, program: str) -> list[int]:
-    """Processes of a program of this clone."""
-    found = []
-    for path in Path("/proc").glob("[0-9]*/cmdline"):
-        with contextlib.suppress(OSError):
-            command, folder = path.read_bytes().partition(b"\0")[0], path.with_name("cwd").readlink()
-            if (command, folder) == (f"build/bin/{program}".encode(), clone.folder):
-                found.append(int(path.parent.name))
+def soon(find: Callable[[], T], seconds: float = 300) -> T:
+    """Waits for a true value and returns it."""
+    deadline = time.monotonic() + seconds
+    while not (found := find()):
+        assert time.monotonic() < deadline, f"not within {seconds:g} seconds"
+        time.sleep(0.05)
     return found
 
 
-def test_a_job_that_is_ended_goes_on(cluster: slurm.Cluster, kept: Clone) -> None:
-    """Jobs end by Ctrl-C, scancel, kill -9 or their time limit, while the controller does not run, and while the node is drained."""
-    program = "particle_count"
-    with on_cluster(cluster, kept, *LONG, "batch=0.1") as making:
-        soon(lambda: processes(kept, program), seconds=600)
+class Cluster:
+    """A Slurm of one node on the loopback interface, with all its files in a folder."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder, self._daemons = folder, list[subprocess.Popen]()
+
+    def start(self) -> None:
+        munge = self._folder / "munge"
+        for path in (munge, self._folder / "state", self._folder / "spool"):
+            path.mkdir()
+        with socket.create_server(("127.0.0.1", 0)) as one, socket.create_server(("127.0.0.1", 0)) as two:
+            ports = {"controller": one.getsockname()[1], "node": two.getsockname()[1]}
+        (self._folder / "slurm.conf").write_text(CONFIGURATION.format(folder=self._folder, **ports))
+        INSTALLED.unlink(missing_ok=True)  # a link without a target, left by a killed test
+        INSTALLED.symlink_to(self._folder / "slurm.conf")
+        (munge / "key").write_bytes(secrets.token_bytes(1024))
+        (munge / "key").chmod(0o400)
+        for path in (munge / "key", munge):
+            shutil.chown(path, "munge", "munge")
+        names = {
+            "key-file": "key",
+            "socket": "socket",
+            "pid-file": "pid",
+            "log-file": "log",
+            "seed-file": "seed",
+        }
+        self._run("munged", "--foreground", "--force", *(f"--{option}={munge / name}" for option, name in names.items()),
+                  user="munge")  # fmt: skip
+        soon((munge / "socket").exists)
+        self._run("slurmctld", "-D")
+        self._run("slurmd", "-D", "-N", "localhost")
+        soon(lambda: "idle" in self.command("sinfo", "--noheader", "--format=%t"))
+
+    def stop(self) -> None:
+        if len(self._daemons) == len(DAEMONS):
+            self.command("scancel", "--user=root")
+            soon(lambda: not self.jobs("PENDING,RUNNING,COMPLETING"))
+        for daemon in self._daemons[::-1]:
+            daemon.terminate()
+            daemon.wait(60)
+
+    def command(self, *words: str) -> str:
+        """Output of a command of Slurm; empty if it fails."""
+        done = subprocess.run(words, capture_output=True, text=True, timeout=60, check=False)
+        return done.stdout if done.returncode == 0 else ""
+
+    def jobs(self, states: str) -> list[str]:
+        """Numbers of the jobs in these states."""
+        return self.command("squeue", "--noheader", f"--states={states}", "--format=%i").split()
+
+    def _run(self, *words: str, user: str | None = None) -> None:
+        with (self._folder / f"{words[0]}.out").open("w") as log:
+            self._daemons.append(subprocess.Popen(
+                words, user=user, group=user, stdout=log, stderr=log, start_new_session=True
+            ))  # fmt: skip
+
+
+@pytest.fixture
+def cluster() -> Iterator[Cluster]:
+    folder = Path(tempfile.mkdtemp(prefix="slurm."))  # in /tmp, as the path of a socket has to be short
+    folder.chmod(0o755)
+    instance = Cluster(folder)
+    try:
+        instance.start()
+        yield instance
+    finally:
+        instance.stop()
+        INSTALLED.unlink(missing_ok=True)
+        shutil.rmtree(folder)
+
+
+def test_a_panel_is_submitted_cancelled_and_resumed(cluster: Cluster, made: Project, tmp_path: Path) -> None:
+    """Results have the bytes of those of one machine: of four short runs in one job; and of two longer ones that Ctrl-C and then
+    scancel end."""
+    project = Project(Path(shutil.copytree(made.folder, tmp_path / "no_space", symlinks=True)))
+    quicker = {"threads: 16": "threads: 2", "checks: 20": "checks: 2", "latency-wait: 60": "latency-wait: 10"}
+    for old, new in quicker.items():
+        project.edit("profiles/slurm/config.yaml", lambda text, old=old, new=new: text.replace(old, new))
+    local = [".venv/bin/python", "-m", "workflow", "panel", "QUALITY=smoke"]
+    before = project.products()
+    shutil.rmtree(project.folder / "data/smoke")
+    project.run(*local, "PANEL=energy", "PROFILE=slurm")
+    assert project.products() == before
+    assert len(cluster.jobs("all")) == 1
+
+    shutil.rmtree(project.folder / "data/smoke")
+    project.edit("workflow/config/paper.yaml", lambda text: text.replace("time: 5}", "time: 500}", 1))
+    local += ["PANEL=mu", "REPLICAS=2000"]
+    logs, checkpoints, results = (f"data/smoke/mu/*.{kind}" for kind in ("log", "h5.checkpoint", "h5"))
+    with make(project, local) as making:
+        soon(lambda: [*project.folder.glob(logs)])
+        time.sleep(2)
         os.killpg(making.pid, signal.SIGINT)
         shown, _ = making.communicate(timeout=120)
-    assert "The same command resumes." in shown
-    soon(lambda: not processes(kept, program))
-    with on_cluster(cluster, kept, *LONG, "batch=0.1") as making:
-        (cancelled, *_) = soon(cluster.jobs, seconds=600)
-        soon(lambda: processes(kept, program))
-        cluster.command("scancel", cancelled)
-        soon(lambda: cancelled not in cluster.jobs("RUNNING,COMPLETING"))
-        os.kill(soon(lambda: processes(kept, program), seconds=600)[0], signal.SIGKILL)
-        cluster.stop_controller()
-        time.sleep(5)
-        cluster.start_controller()
-        soon(cluster.jobs)  # jobs are listed again once the controller runs
-        cluster.command("scontrol", "update", "NodeName=localhost", "State=DRAIN", "Reason=test")
-        time.sleep(5)
-        cluster.command("scontrol", "update", "NodeName=localhost", "State=RESUME")
-        os.kill(soon(lambda: processes(kept, program), seconds=600)[0], signal.SIGSTOP)
-        for job in cluster.jobs():
-            cluster.command("scontrol", "update", f"JobId={job}", "TimeLimit=1")
-        shown, _ = making.communicate(timeout=1800)
-    assert making.returncode == 0, shown
-    states = {*cluster.command("squeue", "--states=all", "--format=%T", "--noheader").split()}
-    assert {"CANCELLED", "FAILED", "TIMEOUT", "COMPLETED"} <= states, shown
-    made = products(kept, QUALITY)
-    assert len(made) == 2 + 4
-    kept.run(".venv/bin/snakemake", "panel", "--forceall", "--config", *LONG)
-    assert products(kept, QUALITY) == made
+    assert "Stopped; 0 of 4 done" in shown
+    assert not cluster.jobs("PENDING,RUNNING,COMPLETING")
+    assert [*project.folder.glob(checkpoints)]
+
+    with make(project, local) as making:
+        cluster.command("scancel", soon(lambda: cluster.jobs("RUNNING"))[0])
+        making.communicate(timeout=600)
+    assert making.returncode == 0
+    assert len(cluster.jobs("CANCELLED")) >= 2
+    assert len(cluster.jobs("COMPLETED")) == 3
+    assert not [*project.folder.glob(checkpoints)]
+    resumed = {path: path.read_bytes() for path in project.folder.glob(results)}
+    for path in resumed:
+        path.unlink()
+    project.run(*local)
+    assert {path: path.read_bytes() for path in project.folder.glob(results)} == resumed
 
 
-def test_a_part_resumes_from_its_checkpoint(cluster: slurm.Cluster, kept: Clone) -> None:
-    shutil.rmtree(kept.folder / "build/logs/standard", ignore_errors=True)
-    with on_cluster(cluster, kept, *LONG, "batch=1", option="--forceall") as making:
-        (log,) = soon(
-            lambda: [*kept.folder.glob("build/logs/standard/fig01/unit-chain.*/*_0-63.log")], seconds=600
-        )
-        soon(lambda: len(reports(log)) > 1, seconds=600)
-        cluster.command("scancel", *cluster.jobs())
-        (measured,) = soon(lambda: re.findall(r"interrupted after (\d+) replicas; --resume", text_of(log)))
-        resumed = soon(lambda: "interrupted" not in text_of(log) and reports(log), seconds=1800)
-        assert resumed[0] > int(measured) > 0
-        shown, _ = making.communicate(timeout=1800)
-    assert making.returncode == 0, shown
-
-
-def text_of(log: Path) -> str:
-    """Content of a log; empty if it does not exist, as between two attempts."""
-    with contextlib.suppress(FileNotFoundError):
-        return log.read_text()
-    return ""
-
-
-def reports(log: Path) -> list[float]:
-    """Numbers of finished replicas that a program has printed, one every ten seconds."""
-    return [float(number) for number in re.findall(r"(\d+\.\d) of \d+ replicas", text_of(log))]
+def make(project: Project, words: list[str]) -> subprocess.Popen[str]:
+    """A command on the cluster, in a session of its own, with SIGINT as in a terminal also where the tests run in the background."""
+    command = ["env", "--default-signal=INT", *words, "PROFILE=slurm"]
+    return subprocess.Popen(
+        command, cwd=project.folder, stdout=subprocess.PIPE, text=True, start_new_session=True
+    )
