@@ -1,8 +1,5 @@
 #include "statistics/moving_peak.hpp"
 
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_min.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,7 +8,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "numerics/gsl.hpp"
 #include "statistics/fit.hpp"
 #include "statistics/group.hpp"
 
@@ -68,19 +64,23 @@ double spread(std::span<const Profile> profiles, double low, double high, double
   return differences / size;
 }
 
-/// Minimum of a function between `low` and `high`, to 1e-6, where it is least at `middle` of these three. NaN
-/// if it is not.
+/// Minimum of a function that is unimodal on [a, b], by golden-section search, to 1e-5.
 template <class Function>
-double minimum(const Function& cost, double low, double middle, double high) {
-  const auto call = [](double x, void* function) { return (*static_cast<const Function*>(function))(x); };
-  gsl_function function{call, const_cast<Function*>(&cost)};
-  const GslObject<gsl_min_fminimizer, gsl_min_fminimizer_alloc, gsl_min_fminimizer_free> search(
-      gsl_min_fminimizer_quad_golden);
-  gsl_min_fminimizer* const state = search.get();
-  if (gsl_min_fminimizer_set(state, &function, middle, low, high) != GSL_SUCCESS) return none;
-  while (gsl_min_test_interval(state->x_lower, state->x_upper, 1e-6, 0) == GSL_CONTINUE)
-    if (gsl_min_fminimizer_iterate(state) != GSL_SUCCESS) return none;
-  return state->x_minimum;
+double bottom(const Function& cost, double a, double b) {
+  const double golden = (std::sqrt(5.0) - 1) / 2;
+  double c = b - golden * (b - a), d = a + golden * (b - a), at_c = cost(c), at_d = cost(d);
+  while (b - a > 1e-5) {
+    if (at_c < at_d) {
+      b = std::exchange(d, c);
+      at_d = at_c;
+      at_c = cost(c = b - golden * (b - a));
+    } else {
+      a = std::exchange(c, d);
+      at_c = at_d;
+      at_d = cost(d = a + golden * (b - a));
+    }
+  }
+  return 0.5 * (a + b);
 }
 
 Axis middles(const std::vector<double>& times) {
@@ -93,7 +93,7 @@ Axis middles(const std::vector<double>& times) {
 
 double collapse_exponent(std::span<const Profile> profiles, double low, double high) {
   if (profiles.size() < 2) throw std::invalid_argument("a collapse needs two profiles");
-  // A scan brackets the lowest minimum.
+  // A scan brackets the minimum, because golden-section search needs a unimodal function.
   constexpr int steps = 28;
   const auto cost = [&](double xi) { return spread(profiles, low, high, xi); };
   double best = smallest, least = cost(smallest);
@@ -104,7 +104,7 @@ double collapse_exponent(std::span<const Profile> profiles, double low, double h
     least = here;
   }
   const double step = (largest - smallest) / steps;
-  return minimum(cost, best - step, best, best + step);
+  return bottom(cost, best - step, best + step);
 }
 
 PeakWindows peak_windows(const Records& records, Tally profiles, std::size_t times) {
