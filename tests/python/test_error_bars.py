@@ -11,7 +11,7 @@ from workflow.config.describe import with_option
 from workflow.lib.load import load
 from workflow.tradeoff.accuracy import PREDICTION
 
-SEEDS = 50
+SEEDS = 32
 REPLICAS = 24
 LEAST = 64  # replicas of a run with a target error
 
@@ -37,7 +37,7 @@ OPEN = {"cells": 4, "relaxation_time": 0.5, "observation_time": 4}
 
 PULSE = {"cells": 7, "particles_per_cell": 20, "times": "0.02,0.04", "pairs_per_replica": 2}
 CASES: dict[str, list[tuple[str, dict]]] = {
-    "persistence": [("mu", {"sigma": -0.8}), ("mu", {"sigma": 0.5})],
+    "persistence": [("mu", {"sigma": -0.8})],
     "waiting_time": [("exponent", {"sigma": 0.5, "observation_time": 50})],
     "displacement": [
         ("alpha", {"sigma": 0.5, "decades": 2, "observation_time": 20}),

@@ -17,7 +17,7 @@ from workflow.lib.caption import goodness, listed
 from workflow.lib.fit import rejected, with_error
 from workflow.lib.load import Quantity, Result
 from workflow.lib.peaks import ORDERS, Record, heat_width, jackknife_error, stable_laws
-from workflow.lib.pulse import gaussian_start, ring_closed, start
+from workflow.lib.pulse import gaussian_start, start
 from workflow.lib.rings import chain
 
 PAPERS_START = "paper's start"
@@ -221,8 +221,6 @@ def _later(fitted: Quantity) -> list[float]:
 
 def _drift(result: Result) -> tuple[bool, str]:
     """Whether the exponent changes significantly with ln t, and a clause of the caveat on this change."""
-    if ring_closed(result).any():
-        return False, "may change unseen, as the ring has closed"
     change = result["damping_drift"]
     value, error = float(change.mean), float(change.error)
     if not np.isfinite(value):

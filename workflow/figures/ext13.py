@@ -159,7 +159,7 @@ def draw(results: Sequence[Result]) -> Drawn:
     style.guide_at(right, 4 / 3, "4/3")
     style.guide_at(right, 1, "1")
     style.letter(left, right)
-    best = compared.loc[compared.amplitude_ratio_error.idxmin()]
+    best = compared.sort_values("amplitude_ratio_error").iloc[0]
     gaussian = compared.dropna(subset="gaussian_ratio") if "gaussian_ratio" in compared else compared[:0]
     fluctuations = (
         f" Over that of Gaussian sound: {ratios(gaussian, 'gaussian_ratio')}." if len(gaussian) else ""

@@ -33,15 +33,17 @@ def cut(result: Result) -> float:
 
 
 def tabulate(result: Result) -> pd.DataFrame:
-    """One row per bin that is not empty, with the fitted power law from the cut on and, at sigma = 0, the exact density."""
+    """One row per bin that is not empty, with the fitted power law from the cut on and, at sigma = 0, the exact density. Without errors,
+    as with one replica, the fit has equal weights."""
     density, options = result["density"], result.parameters
     sigma, tau = float(options["sigma"]), density.axes["tau"]
     table = pd.DataFrame({"tau": tau, "density": density.mean, "density_error": density.error})
     table = table[table.density > 0].assign(unsure=lambda rows: ~(rows.density_error < UNSURE * rows.density))
-    tail = table[(table.tau > cut(result)) & ~table.unsure]
+    tail = table[table.tau > cut(result)]
+    tail = tail[tail.unsure.all() | ~tail.unsure]
     shape = tail.tau ** float(result["exponent"].mean)
-    amplitude = np.average(tail.density / shape, weights=(shape / tail.density_error) ** 2)
-    table["fitted"] = amplitude * shape
+    weights = None if tail.unsure.all() else (shape / tail.density_error) ** 2
+    table["fitted"] = np.average(tail.density / shape, weights=weights) * shape
     if sigma == 0:
         table["gaussian_start"] = gaussian_start(table.tau, options["temperature"], options["cell-length"])
     table.insert(0, "sigma", sigma)

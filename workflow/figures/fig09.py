@@ -1,7 +1,7 @@
 """Fig. 9: energy difference after a pulse, at several times; a: gamma = N, b: gamma = 1.
 
 Shown from the paper's start, in which scatterers at rest have relaxed, and from a start in which all momenta are Gaussian; also position
-and speed of the moving peak. Faint: times at which both sides of the pulse have met opposite to it, so that the ring has closed.
+and speed of the moving peak. Faint: times at which both sides of the pulse have met opposite to it; there is no peak from then on.
 """
 
 import functools
@@ -13,20 +13,12 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, number, parameters
+from workflow.lib.caption import ERRORS, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
-from workflow.lib.pulse import (
-    CLOSED,
-    FAINT,
-    STARTS,
-    draw_marked,
-    look_of,
-    paper_first,
-    pulse,
-    ring_closed,
-    start,
-)
+from workflow.lib.pulse import STARTS, look_of, paper_first, pulse, start
+
+FAINT = 0.45
 
 
 def draw_profiles(axes: Axes, result: Result, shown: np.ndarray) -> pd.DataFrame:
@@ -34,7 +26,7 @@ def draw_profiles(axes: Axes, result: Result, shown: np.ndarray) -> pd.DataFrame
     difference = result["energy_difference"]
     times = difference.axes["time"]
     distance = difference.axes["cell"] - len(difference.axes["cell"]) // 2
-    closed = ring_closed(result)
+    closed = result["ring_closed"].mean == 1
     parts = []
     indices = np.flatnonzero(np.isin(times, shown))
     for k, color, dashes in zip(indices, style.SEQUENCE, style.DASHES, strict=False):
@@ -53,19 +45,16 @@ def draw_profiles(axes: Axes, result: Result, shown: np.ndarray) -> pd.DataFrame
 
 def draw_position(axes: Axes, result: Result) -> None:
     """Plots the position of the peak, and the line of constant speed through its first position."""
-    position, closed = result["peak_position"], ring_closed(result)
+    position, label = result["peak_position"], STARTS[start(result)][3]
     time = position.axes["time"]
-    label = STARTS[start(result)][3]
-    values = (position.mean, position.error)
-    draw_marked(axes, time, values, closed, label=label, **look_of(result))
+    axes.errorbar(time, position.mean, position.error, label=label, **look_of(result))
     guide = style.GUIDE | {"color": STARTS[start(result)][1]}
     axes.plot(time, position.mean[0] * time / time[0], **guide)
 
 
 def draw_speed(axes: Axes, result: Result) -> None:
     speed = result["peak_speed"]
-    closed = ring_closed(result)[1:]
-    draw_marked(axes, speed.axes["middle"], (speed.mean, speed.error), closed, **look_of(result))
+    axes.errorbar(speed.axes["middle"], speed.mean, speed.error, **look_of(result))
 
 
 def caption(results: Sequence[Result]) -> str:
@@ -73,12 +62,8 @@ def caption(results: Sequence[Result]) -> str:
     resolved = np.flatnonzero(np.isfinite(rest.mean))
     ends = [style.with_error(rest, k) for k in resolved[[0, -1]]] if len(resolved) else []
     speed = "changes from {} to {}".format(*ends) if ends else "is not resolved"
-    closed = any(ring_closed(result).any() for result in results)
-    faint = (
-        f" Faint: the two sides have met, ΔE opposite to the pulse above {number(100 * CLOSED)} % of the largest."
-        if closed
-        else ""
-    )
+    closed = any(result["ring_closed"].mean.any() for result in results)
+    faint = " Faint: the two sides have met opposite to the pulse." if closed else ""
     near = "Spike: central scatterer; dips beside it: particles that would still be there without the pulse. "
     spike = near if results[0].parameters["gamma"] == 1 else ""
     return f"""

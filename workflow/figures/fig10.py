@@ -1,7 +1,7 @@
 """Fig. 10: height of the moving peak of an energy pulse against time; a: gamma = N, b: gamma = 1.
 
 Below, exponents fitted over octaves of time.
-Times without a moving peak, whose height is NaN, are left out; faint: times at which the ring has closed.
+Times without a moving peak, whose height is NaN, are left out.
 """
 
 from collections.abc import Sequence
@@ -15,7 +15,7 @@ from workflow.lib.caption import listed, number, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
-from workflow.lib.pulse import STARTS, draw_marked, look_of, paper_first, pulse, ring_closed, start
+from workflow.lib.pulse import STARTS, look_of, paper_first, pulse, start
 
 SLOPES = {"N": (-2 / 3, r"$t^{-2/3}$", "2/3"), 1: (-1, r"$t^{-1}$", "1")}  # the paper's guides
 SPAN = 0.12  # smallest range of exponents shown on either side of the paper's
@@ -26,8 +26,7 @@ def tabulate(result: Result) -> pd.DataFrame:
     """One row per time; the exponent of an octave is in the row of its last time."""
     peak = result["peak"]
     part = pd.DataFrame({"time": peak.axes["time"], **result.columns("peak")})
-    part = part.assign(ring_closed=ring_closed(result), peak_raw=result["peak_raw"].mean)
-    part = part.assign(**result.columns("peak_position"))
+    part = part.assign(peak_raw=result["peak_raw"].mean, **result.columns("peak_position"))
     later = {"exponent_from_here": "damping_exponent_from", "speed_to_next": "peak_speed"}
     for column, name in later.items():  # defined at all times but the last
         part[column] = pd.Series(result[name].mean)
@@ -47,16 +46,14 @@ def by_octave(result: Result) -> pd.DataFrame:
 
 
 def draw_peaks(axes: Axes, result: Result, table: pd.DataFrame) -> None:
-    values = (table.peak.to_numpy() / 1e3, table.peak_error.to_numpy() / 1e3)
-    time, closed = table.time.to_numpy(), table.ring_closed.to_numpy()
-    draw_marked(axes, time, values, closed, label=STARTS[start(result)][3], **look_of(result))
+    label = STARTS[start(result)][3]
+    axes.errorbar(table.time, table.peak / 1e3, table.peak_error / 1e3, label=label, **look_of(result))
 
 
 def draw_exponents(axes: Axes, result: Result) -> None:
     octaves = by_octave(result)
-    closed = ring_closed(result)[np.isin(result["peak"].axes["time"], octaves.until)]
-    values = (octaves.octave_exponent.to_numpy(), octaves.octave_exponent_error.to_numpy())
-    draw_marked(axes, octaves.octave_middle.to_numpy(), values, closed, **look_of(result))
+    exponents = octaves.octave_exponent, octaves.octave_exponent_error
+    axes.errorbar(octaves.octave_middle, *exponents, **look_of(result))
 
 
 def caption(results: Sequence[Result]) -> str:

@@ -65,7 +65,9 @@ def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str
         saved = as_csv(table, inherited(results) | errors | units)
     except (FormatError, OSError, TheoryError, UnitsError) as error:
         sys.exit(str(error))
-    text = Text(title if isinstance(title, str) else title(results), with_rules(" ".join(caption.split()), results))
+    text = Text(
+        title if isinstance(title, str) else title(results), with_rules(" ".join(caption.split()), results)
+    )
     save(figure, saved, options.output, text, Parents(name, options.data, sources))
 
 

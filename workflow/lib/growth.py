@@ -44,9 +44,9 @@ class Growth:
 
 
 def fits(size: ArrayLike, value: ArrayLike, error: ArrayLike, first: float) -> list[Growth]:
-    """Fits of all laws to the sizes from `first` on; empty for fewer than three sizes."""
+    """Fits of all laws to the sizes from `first` on whose errors are known; empty for fewer than three."""
     size, value, error = (np.asarray(array, dtype=float) for array in (size, value, error))
-    used = size >= first
+    used = (size >= first) & np.isfinite(error)
     if used.sum() < 3:
         return []
     points = size[used], value[used], error[used]

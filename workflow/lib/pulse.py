@@ -1,17 +1,11 @@
 """Energy pulses in rings, from either start."""
 
 from collections.abc import Sequence
-from typing import Any
-
-import numpy as np
-from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import CHAIN, listed, number, parameters, replicas
 from workflow.lib.load import Result
 
-CLOSED = 0.02  # energy opposite to the pulse over the largest energy, above which the ring has closed
-FAINT = 0.45
 # Marker, colour, fill colour and label by the initial temperature of the scatterers; the paper's start first.
 STARTS = {
     0: ("s", style.VERMILLION, "white", "from rest, as in the paper"),
@@ -32,25 +26,9 @@ def paper_first(results: Sequence[Result]) -> list[Result]:
     return sorted(results, key=lambda result: list(STARTS).index(start(result)))
 
 
-def ring_closed(result: Result) -> np.ndarray:
-    """At every time, whether the two sides of the pulse overlap where they meet, opposite to it."""
-    difference = result["energy_difference"].mean
-    opposite = difference[:, [0, 1, -2, -1]].mean(axis=1)
-    return opposite > CLOSED * difference.max(axis=1)
-
-
 def look_of(result: Result) -> style.Look:
     marker, color, face, _ = STARTS[start(result)]
     return style.points(marker, color, face)
-
-
-def draw_marked(
-    axes: Axes, time: np.ndarray, values: tuple[np.ndarray, np.ndarray], closed: np.ndarray, **look: Any
-) -> None:
-    """Values with errors; faint where the ring has closed."""
-    for part, alpha in ((~closed, 1), (closed, FAINT)):
-        axes.errorbar(time[part], values[0][part], values[1][part], alpha=alpha, **look)
-        look.pop("label", None)
 
 
 def pulse(results: Sequence[Result]) -> str:

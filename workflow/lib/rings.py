@@ -6,7 +6,13 @@ from workflow.lib import style
 from workflow.lib.load import Result
 from workflow.lib.mode_coupling import Chain, logarithm_at
 
-LOOKS = [("o", style.BLUE), ("s", style.VERMILLION), ("^", style.ORANGE), ("v", style.SKY), ("P", style.BLACK)]
+LOOKS = [
+    ("o", style.BLUE),
+    ("s", style.VERMILLION),
+    ("^", style.ORANGE),
+    ("v", style.SKY),
+    ("P", style.BLACK),
+]
 
 
 def chain(result: Result, time: float = np.inf) -> Chain:

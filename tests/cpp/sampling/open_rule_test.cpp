@@ -85,7 +85,7 @@ TEST(OpenRule, HasTheTemperaturesAndCurrentsOfTheReference) {
     EXPECT_LT(largest_score(measured(parameters(reversal, gamma)), reversed), 4);
     EXPECT_GT(largest_score(kept, drawn), 6);
     EXPECT_GT(largest_score(kept, reversed), 6);
-    EXPECT_GT(largest_score(of_reference(0, 0.25, mean), reversed), 4);
+    EXPECT_GT(largest_score(of_reference(0, 0.1, mean), reversed), 6);
     EXPECT_GT(largest_score(measured(parameters(random, 3)), drawn), 6);
   }
 }
