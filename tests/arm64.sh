@@ -7,7 +7,7 @@ export DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8
 install='apt-get -o DPkg::Lock::Timeout=600 install -y --no-install-recommends'
 root=build/arm64
 packages='cmake ninja-build python3 g++-aarch64-linux-gnu libeigen3-dev libcli11-dev librandom123-dev nlohmann-json3-dev
-  libfmt-dev:arm64 libhdf5-dev:arm64 libsleef-dev:arm64 zlib1g-dev:arm64'
+  libfmt-dev:arm64 libgsl-dev:arm64 libhdf5-dev:arm64 libsleef-dev:arm64 zlib1g-dev:arm64'
 
 command -v debootstrap qemu-aarch64 >/dev/null || { apt-get update; $install debootstrap qemu-user; }
 if [ "$(cat $root/complete 2>&1)" != "$packages" ]; then

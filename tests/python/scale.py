@@ -1,6 +1,5 @@
 """Conversion of options and results to other units, and comparison of results in different units."""
 
-import re
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -8,9 +7,6 @@ import numpy as np
 from workflow.lib.load import Quantity, Result
 from workflow.lib.units import option_units, parse
 
-COEFFICIENT = re.compile(
-    r"(?<![\^\d.])\d[\d.]*(?:e[-+]?\d+)?"
-)  # number in a polynomial, but not the exponent of N
 ROUNDING = 1e-9  # relative to the largest value of a dataset
 
 
@@ -26,11 +22,11 @@ class Scale:
         return self.momenta**-time * self.lengths ** (length + time)
 
     def option(self, name: str, value: object) -> object:
-        """An option of the command line: one or more numbers or polynomials in N, or a word."""
+        """An option of the command line: one or more numbers, or a word."""
         if name not in option_units() or value in ("particles", "1/N"):
             return value
         factor = self(option_units()[name])
-        return COEFFICIENT.sub(lambda found: repr(factor * float(found[0])), str(value))
+        return ",".join(repr(factor * float(number)) for number in str(value).split(","))
 
     def result(self, result: Result) -> Result:
         """The result converted to these units."""

@@ -1,7 +1,7 @@
 """Mistakes in the physics that C++ tests must find: each patch of tests/mutants is applied to a copy of the sources, whose tests then
 fail. Its first line states the mistake and, after a semicolon, the source and the names of the tests.
 
-The copy is built in a folder of its own with the compiler cache of the project's build, so that only what a patch changes is compiled.
+The copy is built once in a folder of its own; for a patch only what it changes is compiled.
 """
 
 import re
@@ -29,13 +29,12 @@ def head(patch: Path) -> re.Match[str]:
 class Tree:
     """A copy of the C++ sources with a build of the tests that the patches name."""
 
-    def __init__(self, folder: Path, cache: Path = ROOT / "build/ccache") -> None:
+    def __init__(self, folder: Path) -> None:
         self.folder = folder
         for name in ("cpp", "tests/cpp", "workflow/provenance"):
             shutil.copytree(ROOT / name, folder / name)
         tests = ";".join(sorted({head(patch)["source"] for patch in PATCHES}))
-        options = (f"-DCOMPILER_CACHE={cache}", f"-DTESTS={tests}")
-        self.run("cmake", "-S", "cpp", "-B", "build", "-G", "Ninja", *options)
+        self.run("cmake", "-S", "cpp", "-B", "build", "-G", "Ninja", f"-DTESTS={tests}")
 
     def run(self, *command: str, status: int | None = 0) -> subprocess.CompletedProcess[str]:
         done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=False)

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from tests.python.scale import ROUNDING, SCALES, Scale, agree
-from workflow.lib.described import built
+from workflow.lib.described import described
 from workflow.lib.load import Result
 from workflow.lib.units import Units, UnitsError, option_units, parse
 from workflow.tradeoff.measure import call
@@ -138,7 +138,7 @@ def mutants(result: Result) -> Iterator[tuple[str, Result]]:
                     yield f"{name}/{axis} in {wrong}", changed
 
 
-@pytest.mark.parametrize("program", built())
+@pytest.mark.parametrize("program", described())
 def test_every_wrong_unit_is_found(program: str) -> None:
     """A wrong unit is found in at least one case of the program, as a quantity may be NaN or 0 in the other cases."""
     missed: set[str] | None = None

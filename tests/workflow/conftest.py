@@ -113,12 +113,12 @@ def new_project(folder: Path) -> Project:
     ignored = shutil.ignore_patterns("__pycache__", "bench", "config", "[ef]*[0-9]*.py")
     for name in ("workflow", "cpp", "profiles", "snakemake_logger_plugin_progress"):
         shutil.copytree(ROOT / name, folder / name, ignore=ignored)
-    for name in ("Snakefile", "Makefile", "uv.lock", "CITATION.cff", "workflow/config/schema.json"):
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+    for name in ("Snakefile", "Makefile", "uv.lock", "CITATION.cff"):
         shutil.copy(ROOT / name, folder / name)
+    shutil.copytree(ROOT / "build/describe", folder / "build/describe")
     (folder / "data").mkdir()
     shutil.copy(ROOT / "data/claims.csv", folder / "data")
-    (folder / "workflow/config/quality").mkdir()
+    (folder / "workflow/config/quality").mkdir(parents=True)
     (folder / "workflow/config/paper.yaml").write_text(PLAN)
     for quality in ("smoke", "standard", "paper", "deep"):
         (folder / f"workflow/config/quality/{quality}.yaml").write_text(EFFORT)

@@ -56,7 +56,7 @@ def link(source: str, target: str) -> None:
 
 @pytest.fixture
 def own(tmp_path: Path) -> Project:
-    """A copy of the project, which shares packages and the compiler's cache."""
+    """A copy of the project, which shares packages."""
     command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     for name in filter(None, subprocess.check_output(command, cwd=ROOT, text=True).split("\0")):
         if (ROOT / name).is_file():
@@ -64,7 +64,6 @@ def own(tmp_path: Path) -> Project:
             shutil.copy(ROOT / name, tmp_path / name)
     share_packages(tmp_path)
     (tmp_path / "build").mkdir()
-    (tmp_path / "build/ccache").symlink_to(ROOT / "build/ccache")
     (tmp_path / "workflow/environment/setup.sh").write_text("exit 0\n")
     return Project(tmp_path)
 

@@ -10,6 +10,7 @@ $compiler              g++                 gcc-c++           gcc
 cmake                  cmake               cmake             cmake
 ninja                  ninja-build         ninja-build       ninja
 Eigen/Dense            libeigen3-dev       eigen3-devel      eigen
+gsl/gsl_math.h         libgsl-dev          gsl-devel         gsl
 hdf5.h                 libhdf5-dev         hdf5-devel        hdf5
 zlib.h                 zlib1g-dev          zlib-devel        zlib
 CLI/CLI.hpp            libcli11-dev        cli11-devel       cli11
@@ -19,12 +20,10 @@ sleef.h                libsleef-dev        sleef-devel       sleef
 fmt/format.h           libfmt-dev          fmt-devel         fmt
 "
 for_developers='
-gsl/gsl_math.h         libgsl-dev          gsl-devel         gsl
 gtest/gtest.h          libgtest-dev        gtest-devel       googletest
 benchmark/benchmark.h  libbenchmark-dev    google-benchmark-devel google-benchmark
 clang++                clang               clang             llvm
 doxygen                doxygen             doxygen           doxygen
-ccache                 ccache              ccache            ccache
 chromium               chromium            chromium          chromium
 '
 [ "${1-}" != dev ] || needed+=$for_developers

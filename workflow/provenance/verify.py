@@ -114,7 +114,7 @@ def main(options: argparse.Namespace) -> int:
         made = random.sample(made, min(len(made), max(1, round(float(options.sample) * len(made)))))
     lock_products()
     shutil.rmtree(BUILD, ignore_errors=True)
-    settings = os.environ | {"BUILD": str(BUILD), "CCACHE_DISABLE": "1"}
+    settings = os.environ | {"BUILD": str(BUILD)}
     if subprocess.run(["bash", "workflow/environment/build.sh", "all"], env=settings, check=False).returncode:
         return 1
     differing = failed = 0

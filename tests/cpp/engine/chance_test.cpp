@@ -81,21 +81,24 @@ struct FlightsOfParticles {
 // continues from a later state. Detected mistake: the count begins again.
 TEST(Chance, FlightsOfAClosedChainHaveNumbersOfTheirOwn) {
   const StreamKey key(3, 2);
-  const ClosedChain chain{.cells = 64, .particles_per_cell = 1, .gamma = 16, .rule = {"random-direction"}};
-  PhasePoint point = closed_chain_start(chain, {1, 1}, false, key);
-  const auto watched = [&](const PhasePoint& start, const std::vector<Particle>& counted) {
-    ClosedDynamics dynamics(chain, start, 400, key);
-    FlightsOfParticles flights{key, GeometricCells(0.25), counted};
-    simulate(dynamics, 400, flights, support::nothing);
-    EXPECT_GT(flights.flights, 1000U);
-    point = dynamics.phase_point(400);
-    return flights.wrong;
-  };
-  EXPECT_EQ(watched(point, point.particles), 0U);
-  const std::vector<Particle> begun_again = closed_chain_start(chain, {1, 1}, false, key).particles;
-  const PhasePoint later = point;
-  EXPECT_GT(watched(later, begun_again), 500U);
-  EXPECT_EQ(watched(later, later.particles), 0U);
+  for (const double gamma : {16, 64}) {
+    const ClosedChain chain{
+        .cells = 64, .particles_per_cell = 1, .gamma = gamma, .rule = {"random-direction"}};
+    const PhasePoint begin = closed_chain_start(chain, {1, 1}, false, key);
+    PhasePoint end;
+    const auto wrong = [&](const PhasePoint& start, const std::vector<Particle>& counted) {
+      ClosedDynamics dynamics(chain, start, 400, key);
+      FlightsOfParticles flights{key, GeometricCells(gamma / 64), counted};
+      simulate(dynamics, 400, flights, support::nothing);
+      EXPECT_GT(flights.flights, 1000U);
+      end = dynamics.phase_point(400);
+      return flights.wrong;
+    };
+    EXPECT_EQ(wrong(begin, begin.particles), 0U);
+    const PhasePoint later = end;
+    EXPECT_EQ(wrong(later, later.particles), 0U);
+    EXPECT_GT(wrong(later, begin.particles), 500U);
+  }
 }
 
 /// Observer that compares every flight of an open chain with the numbers of one stream, in their order, and
