@@ -40,7 +40,11 @@ PAPER = [
     ),
     ("sigma: [0, 0.5]", "sigma: [0.5, 0.5]", "all.sigma: [0.5, 0.5] has non-unique elements"),
     ("sigma: [0, 0.5]", "sigma: []", "all.sigma: [] should be non-empty"),
-    ("cell-length: 1/N", "cell-length: 1/M", '"1/M" is invalid; allowed: a number from 1e-30 to 1e+30, or 1/N'),
+    (
+        "cell-length: 1/N",
+        "cell-length: 1/M",
+        '"1/M" is invalid; allowed: a number from 1e-30 to 1e+30, or 1/N',
+    ),
     ("start: warm", "start: tepid", '"tepid" is unknown; choose one of empty, warm, cold, hot'),
     ('"200,600,', '"200;600,', "allowed: numbers from 1e-30 to 1e+30, ascending, separated by commas"),
     (": 0.05N", ": -0.05N", '"-0.05N" is invalid; allowed: a number from 0'),

@@ -53,8 +53,8 @@ TEST(Bins, DivideTheRangeEvenly) {
   for (const double outside : {3.0, -3.0, 1e300, -1e300}) EXPECT_EQ(bins[outside], 6U) << outside;
 }
 
-// Detected mistakes: values outside the range count in the last bin, or not in the total; weights are replaced
-// by 1.
+// Detected mistakes: values outside the range count in the last bin, or not in the total; weights are
+// replaced by 1.
 TEST(Histogram, SumsWeightsInTheBinsAndInAll) {
   Histogram histogram(Bins(4, 2));
   for (const double value : {-2.5, -1.5, -0.5, 0.5, 0.5, 2., 7.}) histogram.add(value);
