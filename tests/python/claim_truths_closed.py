@@ -9,7 +9,7 @@ import numpy as np
 
 from tests.python.claim_truths import EXACT, Answer, World, claim, named, rare
 from tests.python.known_results import Truth, plan
-from workflow.figures.ext03 import stable_densities
+from workflow.lib.peaks import stable_densities
 from workflow.plan import Run
 
 

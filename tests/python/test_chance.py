@@ -155,7 +155,7 @@ REVERSAL = Chain(gamma=1, rule="reversal", reversal_probability=0.3)
 def test_another_chain_does_not_agree(measure: Measure, chain: Chain) -> None:
     measurements = measured(measure, chain)
     assert agree(scores(measurements, chain))
-    for mutant in ({"sigma": 0.44}, {"gamma": 1.1}, {"temperature": 450}, {"relaxation_time": 1}):
+    for mutant in ({"sigma": 0.42}, {"gamma": 1.1}, {"temperature": 450}, {"relaxation_time": 1}):
         assert not agree(scores(measurements, replace(chain, **mutant))), mutant
     another_rule = replace(REVERSAL, rule="elastic") if chain == REVERSAL else REVERSAL
     assert not agree(scores(measurements, another_rule))

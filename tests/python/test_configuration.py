@@ -59,11 +59,6 @@ PAPER = [
         "panels.fig10a.uses.0: fig09 has no runs; did you mean fig09",
     ),
     ("    uses: [fig09a]", "    uses: [ext02]", "panels.fig10a.uses.0: ext02 has no runs"),
-    (
-        "    uses: [fig09a]",
-        "    common: {}",
-        "panels.fig10a: no runs at quality smoke, and no panel whose runs",
-    ),
     ("panels:", "panel:", "1: the file: 'panels' is a required property"),
 ]
 SMOKE = [

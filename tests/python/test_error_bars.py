@@ -4,12 +4,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.stats import binom, chi2
+from scipy.stats import chi2
 
 from tests.python.conftest import Measure, Program
 from workflow.lib.described import with_option
 from workflow.lib.load import load
-from workflow.tradeoff.accuracy import PREDICTION
 
 SEEDS = 32
 REPLICAS = 24
@@ -80,7 +79,7 @@ def check_standard_error(measure: Measure, name: str, quantity: str, options: di
         (
             "conductivity",
             "kappa",
-            {"cells": 8, "relaxation_time": "0.05N", "observation_time": 5, "target_error": 0.05},
+            {"cells": 8, "relaxation_time": 0.4, "observation_time": 5, "target_error": 0.05},
         ),
     ],
 )
@@ -89,20 +88,13 @@ def test_standard_error_over_seeds_where_a_target_ends_the_run(
 ) -> None:
     """Runs with the smallest batches that have an error. tests/cpp/program/stopping_rule_test.cpp measures the effect of the
     rule on means and errors; this test covers programs, with control variates where they have some."""
-    estimates, predicted = [], []
+    estimates = []
     for seed in range(SEEDS):
         done = program(name, seed=seed, replicas=2, progress="log", **options)
         assert done.returncode == 0
         result = load(tmp_path / "out.h5")[quantity]
         estimates.append((float(result.mean), float(result.standard_error), int(result.count)))
-        predicted.append([int(bound) for bound in PREDICTION.search(done.stderr).groups()])
     values, errors, counts = np.array(estimates).T
-    least, most = np.array(predicted).T
-    as_predicted = np.count_nonzero((least <= counts) & (counts <= most))
-    assert binom.cdf(as_predicted, SEEDS, 0.95) > 5e-4
-    # Detected mistake: the range is only the middle of the predicted one, plus and minus 1/16, half of the distance between looks.
-    middle = np.sqrt(least * most)
-    assert binom.cdf(np.count_nonzero(abs(counts - middle) < middle / 16), SEEDS, 0.95) < 5e-4
     assert (errors <= options["target_error"] * abs(values)).all()
     assert counts.min() >= LEAST
     assert counts.max() > counts.min()  # the end depends on the data

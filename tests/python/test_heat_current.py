@@ -154,7 +154,7 @@ def test_every_time_is_from_the_ring_with_the_smallest_error() -> None:
     results = [ring([1, 2, 4], 0.01), ring([2, 4, 8], 0.02, power=1.3)]
     results.append(ring([1, 2, 4, 8], 0.01, 1, rule="random-direction"))
     table = tabulate(results)
-    sound, random = (table[table.rule == rule] for rule in ("elastic", "random-direction"))
+    sound, random = (table[table.rule == rule] for rule in ("elastic", "random directions"))
     assert sound.time.tolist() == random.time.tolist() == [1, 2, 4, 8]
     np.testing.assert_allclose(sound.heat_variance, [1, 2 ** (4 / 3), 4 ** (4 / 3), 8**1.3])
     np.testing.assert_allclose(sound.local_exponent, [4 / 3, 4 / 3, 1.3, np.nan])

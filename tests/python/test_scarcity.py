@@ -59,7 +59,7 @@ def test_threads_that_the_system_does_not_start(tmp_path: Path) -> None:
     limits = {resource.RLIMIT_STACK: 1000 << 20, resource.RLIMIT_AS: 3700 << 20}
     result = limited(tmp_path, limits, {"threads": 4, "progress": "none"}, "persistence")
     assert result.returncode == 2
-    assert result.stderr.startswith("persistence: error: --threads 4: the system starts only 3: ")
+    assert result.stderr.startswith("persistence: error: --threads: the system starts only 3: ")
     assert result.stderr.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
 

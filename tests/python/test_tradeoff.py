@@ -93,7 +93,9 @@ def test_every_program_with_an_error_is_in_the_table_of_accuracy(program: str) -
 
 def test_results_with_and_without_a_method() -> None:
     """Engine against the reference simulator, control variates against the plain means, all particles against one."""
-    rows = [*efficiency.conductivity(measure.planned("fig08", "deterministic_cells=4"), 8, (40, 40))]
+    rows = [
+        *efficiency.conductivity(measure.planned("fig08", "deterministic_cells=4"), 8, (0.4, 25), (40, 40))
+    ]
     assert [row["method"] for row in rows] == ["engine", "control variates", "both", "control variates"]
     one, known = efficiency.spreading("ext07", "spreading_relaxation-time=1", "label")
     assert all(row["z"] < SIGMAS for row in [*rows, one, known])

@@ -251,8 +251,11 @@ def test_a_deposit_renders_elsewhere_without_simulation(project: Project, tmp_pa
     subprocess.run(["sha256sum", "--check", "--quiet", "SHA256SUMS"], cwd=there.folder, check=True)
     assert not (there.folder / "notes.txt").exists()
     shutil.copytree(project.folder / ".venv", there.folder / ".venv", symlinks=True)
+    descriptions = there.folder / "build/describe"  # by make build, before make figures
+    shutil.copytree(ROOT / "build/describe", descriptions)
     assert there.stale() == set()
     shutil.rmtree(there.folder / "build")
+    shutil.copytree(ROOT / "build/describe", descriptions)
     there.entry("figures")
     assert there.products() == project.products()
     write("workflow/figures/mine.py")(project)

@@ -2,13 +2,14 @@
 
 import re
 import shutil
+import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from playwright.sync_api import Page, sync_playwright
 
-from tests.workflow.conftest import clone_into
+from tests.python.conftest import ROOT
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 NARROW = 390  # width in pixels
@@ -18,12 +19,11 @@ EQUATIONS = """[...document.querySelectorAll("mjx-container[display]")].filter(
 
 
 @pytest.fixture(scope="module")
-def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def site() -> Path:
     if CHROMIUM is None:
         pytest.skip("no Chromium")
-    clone = clone_into(tmp_path_factory.mktemp("site"))
-    clone.make("docs")
-    return clone.folder / "build/docs"
+    subprocess.run(["make", "docs"], cwd=ROOT, check=True)
+    return ROOT / "build/docs"
 
 
 @pytest.fixture(scope="module")
