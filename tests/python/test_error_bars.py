@@ -10,7 +10,7 @@ from tests.python.conftest import Measure, Program
 from workflow.lib.described import with_option
 from workflow.lib.load import load
 
-SEEDS = 32
+SEEDS = 50
 REPLICAS = 24
 LEAST = 64  # replicas of a run with a target error
 

@@ -61,7 +61,7 @@ def test_threads_that_the_system_does_not_start(tmp_path: Path) -> None:
     assert result.returncode == 2
     assert result.stderr.startswith("persistence: error: --threads: the system starts only 3: ")
     assert result.stderr.count("\n") == 1
-    assert list(tmp_path.iterdir()) == []
+    assert not (tmp_path / "out.h5").exists()  # a checkpoint of finished replicas may remain
 
 
 BIG = {
