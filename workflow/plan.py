@@ -262,15 +262,17 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Q
         own = dict(panel["series"][series])
         own.pop("program", None)
         replicated, scale = own.pop("replicated", True), own.pop("target-scale", None)
+        equal_runs = range(1, own.pop("runs", 1) + 1)
         general = (efforts["default"], of_all) if replicated else ()
         effort = _merged(*general, effort_of.get(series, {}))
         physics = {**panel.get("common", {}), **own}
         options = {**physics, **effort}
         replaced += [f"{key} of {series}" for key in effort if key in physics]
         listed = [key for key, value in options.items() if isinstance(value, list)]
-        for values in itertools.product(*(options[key] for key in listed)):
+        for *values, number in itertools.product(*(options[key] for key in listed), equal_runs):
             chosen = dict(zip(listed, values, strict=True))
-            run = "_".join([series, *(f"{key}={_in_name(value)}" for key, value in chosen.items())])
+            numbered = chosen if len(equal_runs) == 1 else {**chosen, "run": number}
+            run = "_".join([series, *(f"{key}={_in_name(value)}" for key, value in numbered.items())])
             given = {**options, **chosen}
             given = {key: evaluated(value, given.get("cells")) for key, value in given.items()}
             completed = quality.complete(name, run, given, scale) if replicated else given
