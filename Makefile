@@ -45,8 +45,6 @@ format: setup-dev  ## Format every source in place
 bench: setup-dev build  ## Cost of an event
 	bash workflow/environment/build.sh benchmarks
 	build/bin/benchmarks
-tradeoff: setup-dev build  ## Accuracy against time, and rounding: figures/tradeoff
-	$(DEV)/python -m workflow.tradeoff.tradeoff
 docs: setup-dev build  ## The documentation as a static site, build/docs/index.html
 	NO_MKDOCS_2_WARNING=1 $(DEV)/mkdocs build --strict --quiet
 	doxygen docs/site/Doxyfile
@@ -56,4 +54,4 @@ clean:  ## Remove programs, figures in the store, logs and caches; make distclea
 distclean: clean
 	rm -rf data/*/ figures/*/ .snakemake .venv
 .PHONY: help figures panel report gallery audit status verify provenance deposit prune setup setup-dev build test test-long check format \
-  bench tradeoff docs clean distclean
+  bench docs clean distclean

@@ -12,7 +12,7 @@ import pytest
 from scipy.stats import norm
 
 from tests.python.conftest import Measure
-from workflow.tradeoff.measure import simulate
+from tests.python.simulators import simulate
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ def reference(chain: Chain) -> dict[str, np.ndarray]:
         zip(("particle_reversal", "scatterer_reversal"), reversal.get(rule, (0, probability)), strict=True)
     )
     bins = {"first_edge": waiting_time_edges(chain)[0], "bins_per_decade": BINS_PER_DECADE, "bins": BINS}
-    rows = simulate("closed_chain", **options, **bins)[0].astype(float)
+    rows = simulate("closed_chain", **options, **bins).astype(float)
     moments, scatterings, persistent, waits = np.split(rows, 4 * len(times) + np.arange(3), axis=1)
     names = ("variance", "centre_of_mass", "mean_displacement", "scatterer_energy")
     measurements = dict(zip(names, np.moveaxis(moments.reshape(chain.replicas, -1, 4), 2, 0), strict=True))

@@ -10,9 +10,9 @@ from scipy.integrate import quad
 from scipy.stats import chi2
 
 from tests.python.conftest import Measure
+from tests.python.simulators import simulate
 from workflow.lib.load import Quantity, Result
 from workflow.lib.mode_coupling import Chain
-from workflow.tradeoff.measure import simulate
 
 FIELDS = ("momentum", "heat")
 CELLS, ZETA, T, SIGMA = 25, 1.5, 4.0, 0.5
@@ -89,7 +89,7 @@ def test_free_flight(correlation: Measure) -> None:
 def reference(lag: float, replicas: int) -> dict[str, np.ndarray]:
     """Correlations of the reference simulator by field [replica, distance]."""
     gas = {"cells": CELLS, "fugacity": ZETA, "sigma": SIGMA, "temperature": T, "slowest": SLOWEST}
-    rows, _ = simulate("correlation", **gas, lag=lag, replicas=replicas, seed=1)
+    rows = simulate("correlation", **gas, lag=lag, replicas=replicas, seed=1)
     sample = rows.astype(float).reshape(replicas, len(FIELDS), CELLS)
     # The expectation does not depend on the sign of r.
     sample = 0.5 * (sample + np.roll(sample[:, :, ::-1], 1, axis=2))

@@ -7,8 +7,8 @@ import pytest
 from scipy.stats import chi2, norm
 
 from tests.python.conftest import Measure, OverSeeds
+from tests.python.simulators import simulate
 from workflow.lib.load import Quantity
-from workflow.tradeoff.measure import simulate
 
 BATHS = {"nu_left": 220, "nu_right": 180, "temperature_left": 900 / 11, "temperature_right": 1100 / 9}
 EQUAL = {"nu_left": 200, "nu_right": 200, "temperature_left": 100, "temperature_right": 100}
@@ -21,7 +21,7 @@ def reference(cells: int, gamma: float, relaxation: float, observation: float) -
     chain = {"cells": cells, "cell_length": 1 / cells, "sigma": 0.5, "gamma": gamma, **BATHS}
     times = {"relaxation_time": relaxation, "observation_time": observation}
     bins = {"momentum_bins": BINS, "momentum_max": MAX}
-    rows = simulate("open_chain", **chain, **times, **bins, replicas=100, seed=1)[0].astype(float)
+    rows = simulate("open_chain", **chain, **times, **bins, replicas=100, seed=1).astype(float)
     sizes = {
         **dict.fromkeys(("temperature_scatterer", "temperature_particle", "density"), cells),
         **dict.fromkeys(("rate_right", "rate_left"), cells),

@@ -8,9 +8,9 @@ import pytest
 from scipy.stats import chi2
 
 from tests.python.conftest import Measure
+from tests.python.simulators import simulate
 from tests.python.test_pulse_peak import fit
 from workflow.lib.load import Result
-from workflow.tradeoff.measure import simulate
 
 CELLS, PARTICLES, SIGMA, ENERGY, PULSE_ENERGY = 41, 20, 0.5, 5000, 50000
 PAIRS = {"N": 90, 1: 150}  # enough to detect the mistakes below
@@ -23,7 +23,7 @@ def reference(gamma: float, times: tuple[float, ...], *, replicas: int, pairs: i
     chain = {"cells": CELLS, "particles_per_cell": PARTICLES, "sigma": SIGMA, "gamma": gamma}
     pulse = {"energy": ENERGY, "pulse_energy": PULSE_ENERGY, "times": ",".join(map(str, times))}
     effort = {"pairs_per_replica": pairs, "replicas": replicas, "seed": 1}
-    rows, _ = simulate("pulse", **chain, **pulse, **effort, start="shared")
+    rows = simulate("pulse", **chain, **pulse, **effort, start="shared")
     return rows.astype(float).reshape(replicas, len(times), CELLS)
 
 

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from scipy.stats import chi2, f
 
+from tests.python.simulators import call, shortened
 from workflow.plan import Run, load_plan
-from workflow.tradeoff.measure import call, shortened
 
 pytestmark = pytest.mark.long
 
@@ -54,7 +54,7 @@ def spread_over_error(run: Run) -> float:
     """Ratio of the variance of the means to the mean square error, of the last element of the target quantity."""
     pairs = []
     for seed in range(SEEDS):
-        result = call(run.program, **in_small(run) | {"seed": 1000 + seed}).result
+        result = call(run.program, **in_small(run) | {"seed": 1000 + seed})
         quantity = result[result.provenance["target_quantity"]]
         pairs.append((quantity.mean.flat[-1], quantity.standard_error.flat[-1]))
     mean, error = np.array(pairs).T

@@ -13,10 +13,10 @@ import numpy as np
 import pytest
 
 from tests.python.scale import ROUNDING, SCALES, Scale, agree
+from tests.python.simulators import call
 from workflow.lib.described import described
 from workflow.lib.load import Result
 from workflow.lib.units import Units, UnitsError, option_units, parse
-from workflow.tradeoff.measure import call
 
 
 @pytest.mark.parametrize(
@@ -76,11 +76,11 @@ COUNTS = {"mu/mean", "total_number/mean", "momentum_points/mean"}  # ratios of c
 def measured(case: str) -> tuple[Result, ...]:
     """Results in the default units, then in those of SCALES."""
     program, options = CASES[case]
-    plain = call(program, **options, progress="none").result
+    plain = call(program, **options, progress="none")
     given_or_not = {name: value for name, value in plain.parameters.items() if name in option_units()}
     scaled = [
         call(program, **options | {name: scale.option(name, value) for name, value in given_or_not.items()},
-             progress="none").result
+             progress="none")
         for scale in SCALES
     ]  # fmt: skip
     return plain, *scaled
