@@ -13,11 +13,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import CHAIN, ERRORS, GAS, number, parameters, replicas
+from workflow.lib.caption import ERRORS, GAS, parameters
+from workflow.lib.closed import quasi_stationary
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
-from workflow.lib.mode_coupling import logarithm_at
 
 AGED = {"persistence": "mu", "waiting_time": "exponent", "displacement": "alpha"}  # quantities by program
 ENERGIES: dict[str, style.Look] = {
@@ -26,9 +26,7 @@ ENERGIES: dict[str, style.Look] = {
 }
 SLOPES = [style.points("o", style.BLUE), style.points("D", style.GREEN, "white")]
 
-# Parameters of the quasi-stationary estimate.
-FLIGHTS = 10  # first time of the estimate in units of λ/√T at the start: all but slow particles have scattered often
-ITERATIONS = 20  # each reduces the distance from the fixed point by a factor of at least 8
+FLIGHTS = 10  # first time of the quasi-stationary estimate in units of λ/√T at the start: all but slow particles have scattered often
 
 
 def contents(results: Sequence[Result]) -> list[Result]:
@@ -41,19 +39,13 @@ def contents(results: Sequence[Result]) -> list[Result]:
 
 
 def estimate(result: Result, time: np.ndarray) -> dict[str, np.ndarray]:
-    """Quasi-stationary mean energies at the given times: T/2 of a scatterer and T/(2Λ) of a particle. T solves eq. 14, in which Λ
-    [eq. 13] depends on T. NaN at early times."""
+    """Quasi-stationary mean energies at the given times: T/2 of a scatterer and T/(2Λ) of a particle. NaN at early times."""
     particles, start, length = (
         float(result.parameters[name]) for name in ("particles-per-cell", "temperature", "cell-length")
     )
-    energies = []
-    for moment in time:
-        temperature = start if moment > FLIGHTS * length / np.sqrt(start) else np.nan
-        for _ in range(ITERATIONS):
-            slow = logarithm_at(moment, temperature, length)
-            temperature = start * particles * slow / (particles + slow)
-        energies.append((temperature / 2, temperature / (2 * slow)))
-    return dict(zip(ENERGIES, np.array(energies).T, strict=True))
+    temperature, slow = quasi_stationary(particles, start, length, time)
+    late = np.where(time > FLIGHTS * length / np.sqrt(start), 1, np.nan)
+    return dict(zip(ENERGIES, (late * temperature / 2, late * temperature / (2 * slow)), strict=True))
 
 
 def plot_energies(axes: Axes, result: Result) -> list[pd.DataFrame]:
@@ -110,22 +102,15 @@ def plot_spreading(axes: Axes, table: pd.DataFrame) -> None:
     axes.set(xscale="log", xlabel="relaxation time", ylabel=r"exponent $\alpha$, zero total momentum")
 
 
-def caption(ageing: Sequence[Result], spreading: pd.DataFrame, results: Sequence[Result]) -> str:
-    slope = ageing[0]["decade_slope"]
-    largest, last = (style.with_error(slope, k) for k in (int(np.argmax(slope.mean)), -1))
-    few = [
-        f"; with n = {result.parameters['particles-per-cell']} the last is {style.with_error(result['decade_slope'], -1)}"
-        for result in ageing[1:]
-    ]
-    first, end = (
-        f"{with_error(row.value, row.error)} after {number(row.time)}"
-        for row in spreading.iloc[[0, -1]].itertuples()
-    )
+def caption(ageing: Sequence[Result], slopes: pd.DataFrame, spreading: pd.DataFrame) -> str:
+    paper = ageing[0].parameters["particles-per-cell"]
+    last = slopes[slopes.particles_per_cell == paper].iloc[-1]
+    ratio = with_error(last.value / last.estimate, last.error / last.estimate)
+    end = spreading.iloc[-1]
     return f"""
-        Ageing of a closed chain from scatterers at rest, {parameters(ageing[:1], *CHAIN, *GAS)}, {replicas(results)}. (a) Mean kinetic
-        energy of a scatterer and of a particle. (b) Slope of the scatterers' energy against ln t by decade: at most {largest} and {last} in the
-        last, where the paper has logarithmic growth, then saturation{"".join(few)}. Lines: quasi-stationary estimate, nothing fitted (docs: model).
-        (c) Exponent α of the spreading at zero total momentum, {first} and {end}; dashed: diffusion. α < 1 reflects ageing. {ERRORS}"""
+        Ageing of a closed chain from scatterers at rest, {parameters(ageing[:1], "cells", "sigma", *GAS)}. (a) Mean kinetic energies. (b) Slope of
+        a scatterer's against ln t, by decade. Lines: quasi-stationary estimate, nothing fitted; for n = {paper} the last slope is {ratio} of it.
+        (c) Exponent α of the spreading at zero total momentum, {with_error(end.value, end.error)} at the end. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
@@ -137,11 +122,11 @@ def draw(results: Sequence[Result]) -> Drawn:
     )
     panels["energies"].sharex(panels["slopes"])
     by_program = {program: aged(results, program) for program in AGED}
-    tables = [*plot_energies(panels["energies"], ageing[0]), *plot_slopes(panels["slopes"], ageing)]
+    slopes = pd.concat(plot_slopes(panels["slopes"], ageing))
+    tables = [*plot_energies(panels["energies"], ageing[0]), slopes, *by_program.values()]
     plot_spreading(panels["spreading"], by_program["displacement"])
     style.letter(*(panels[name] for name in ("energies", "slopes", "spreading")))
-    tables += by_program.values()
-    return figure, pd.concat(tables), caption(ageing, by_program["displacement"], results)
+    return figure, pd.concat(tables), caption(ageing, slopes, by_program["displacement"])
 
 
 if __name__ == "__main__":

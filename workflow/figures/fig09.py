@@ -13,12 +13,25 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, parameters
+from workflow.lib.caption import CHAIN, ERRORS, parameters
+from workflow.lib.closed import quasi_stationary
 from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
-from workflow.lib.pulse import STARTS, look_of, paper_first, pulse, start
+from workflow.lib.mode_coupling import Chain
+from workflow.lib.pulse import LOOKS, in_order, label, look_of, resolved, start
 
 FAINT = 0.45
+
+
+def sound_speed(rest: Result) -> float:
+    """Speed of sound [eq. M11] in cells per time, at gamma = N, in the ring from rest without the pulse: at the temperature and with
+    the slow particles of eqs. 13 and 14 at the end of its relaxation."""
+    options = rest.parameters
+    particles, length = float(options["particles-per-cell"]), float(options["cell-length"])
+    before = 2 * float(options["energy"])  # temperature of the particles at the start
+    (temperature,), (slow,) = quasi_stationary(particles, before, length, options["relaxation-time"])
+    mass = (1 + float(options["sigma"])) / (1 - float(options["sigma"]))
+    return Chain(particles / (2 * slow), mass, temperature, length).sound_speed_in_cells
 
 
 def draw_profiles(axes: Axes, result: Result, shown: np.ndarray) -> pd.DataFrame:
@@ -32,70 +45,67 @@ def draw_profiles(axes: Axes, result: Result, shown: np.ndarray) -> pd.DataFrame
     for k, color, dashes in zip(indices, style.SEQUENCE, style.DASHES, strict=False):
         mean, error = difference.mean[k] / 1e3, difference.error[k] / 1e3
         alpha = FAINT if closed[k] else 1
-        label = f"$t = {times[k]:g}$"
-        axes.plot(distance, mean, color=color, linestyle=dashes, label=label, alpha=alpha)
+        axes.plot(distance, mean, color=color, linestyle=dashes, label=f"$t = {times[k]:g}$", alpha=alpha)
         style.band(axes, distance, mean, error, color)
         columns = {"time": times[k], "distance": distance, "energy_difference": difference.mean[k]}
         part = pd.DataFrame({**columns, "energy_difference_error": difference.error[k]})
         parts.append(part.assign(ring_closed=closed[k]))
     axes.set_xlabel(r"distance from the central cell, $x/\lambda$")
-    axes.legend(loc="upper right", title=STARTS[start(result)][3])
+    axes.legend(loc="upper right", title=label(result))
     return pd.concat(parts).assign(scatterer_temperature=str(start(result)))
 
 
-def draw_position(axes: Axes, result: Result) -> None:
-    """Plots the position of the peak, and the line of constant speed through its first position."""
-    position, label = result["peak_position"], STARTS[start(result)][3]
-    time = position.axes["time"]
-    axes.errorbar(time, position.mean, position.error, label=label, **look_of(result))
-    guide = style.GUIDE | {"color": STARTS[start(result)][1]}
-    axes.plot(time, position.mean[0] * time / time[0], **guide)
-
-
-def draw_speed(axes: Axes, result: Result) -> None:
-    speed = result["peak_speed"]
-    axes.errorbar(speed.axes["middle"], speed.mean, speed.error, **look_of(result))
+def draw_motion(position: Axes, speed: Axes, result: Result) -> None:
+    """Plots position and speed of the peak, and the line of constant speed through its first position."""
+    where, rate = result["peak_position"], result["peak_speed"]
+    time = where.axes["time"]
+    position.errorbar(time, where.mean, where.error, label=label(result), **look_of(result))
+    position.plot(time, where.mean[0] * time / time[0], **style.GUIDE | {"color": LOOKS[result.run][1]})
+    speed.errorbar(rate.axes["middle"], rate.mean, rate.error, **look_of(result))
 
 
 def caption(results: Sequence[Result]) -> str:
     rest = results[0]["peak_speed"]
-    resolved = np.flatnonzero(np.isfinite(rest.mean))
-    ends = [style.with_error(rest, k) for k in resolved[[0, -1]]] if len(resolved) else []
+    ends = (
+        [style.with_error(rest, k) for k in resolved(rest.mean)[[0, -1]]] if len(resolved(rest.mean)) else []
+    )
     speed = "changes from {} to {}".format(*ends) if ends else "is not resolved"
     closed = any(result["ring_closed"].mean.any() for result in results)
-    faint = " Faint: the two sides have met opposite to the pulse." if closed else ""
-    near = "Spike: central scatterer; dips beside it: particles that would still be there without the pulse. "
-    spike = near if results[0].parameters["gamma"] == 1 else ""
+    faint = " Faint: both sides have met opposite to the pulse." if closed else ""
+    often = results[0].parameters["gamma"] == "N"
+    sound = "; dashed: sound at temperature and density of the ring from rest" if often else ""
+    near = "" if often else " Dips beside the spike: particles that the pulse has driven away."
     return f"""
-        Energy ΔE(x, t) per cell of a ring with a central pulse minus without; {pulse(results)}. (a), (b) ΔE.
-        {spike}(c) Position of the moving peak; dashed: constant initial speed. (d) Speed between neighbouring times.{faint} As in the paper two peaks move apart; from rest
-        their speed {speed}. {ERRORS}"""
+        Energy ΔE(x, t) per cell of a ring with a central pulse minus without; {parameters(results, *CHAIN)}, {parameters(results, "particles-per-cell", "pulse-energy")}.
+        (a), (b) ΔE.{near}{faint} (c) Position of the moving peak; dashed: initial speed. (d) Its speed{sound}. From rest it {speed}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
-    results = paper_first(results)
+    results = in_order(results)
     figure, panels = plt.subplot_mosaic(
-        [[0, "particles", "position"], [0, "particles", "speed"]],
+        [["rest", "gaussian", "position"], ["rest", "gaussian", "speed"]],
         figsize=(3 * style.COLUMN, 1.2 * style.HEIGHT),
         width_ratios=[1.15, 1.15, 1],
         height_ratios=[1.4, 1],
     )
-    panels["particles"].sharey(panels[0])
-    panels["speed"].sharex(panels["position"])
-    tables = []
+    position, speed, rest = (panels[name] for name in ("position", "speed", "rest"))
+    panels["gaussian"].sharey(rest)
+    speed.sharex(position)
     common = functools.reduce(np.intersect1d, (result["peak"].axes["time"] for result in results))
     shown = common[np.linspace(min(1, len(common) - 1), len(common) - 1, 5).round().astype(int)]
+    tables = []
     for result in results:
-        tables.append(draw_profiles(panels[start(result)], result, shown))
-        draw_position(panels["position"], result)
-        draw_speed(panels["speed"], result)
-    panels[0].set_ylabel(rf"$\Delta E(x,t)\,/\,10^3$ ({style.UNITS})")
+        tables.append(draw_profiles(panels[result.run], result, shown))
+        draw_motion(position, speed, result)
+    if results[0].parameters["gamma"] == "N":
+        style.guide_at(speed, sound_speed(results[0]), "sound")
+    rest.set_ylabel(rf"$\Delta E(x,t)\,/\,10^3$ ({style.UNITS})")
     name = rf"$\gamma = {style.gamma(results[0])}$"
-    panels[0].text(0.04, 0.95, name, transform=panels[0].transAxes, va="top")
-    panels["position"].set(ylabel=r"peak $x_p/\lambda$", xlim=(0, None), ylim=(0, None))
-    panels["speed"].set(xlabel="time $t$", ylabel=r"$dx_p/dt\,/\,\lambda$")
-    panels["position"].legend(loc="upper left")
-    panels["position"].set_ylim(top=1.35 * panels["position"].get_ylim()[1])
+    rest.text(0.04, 0.95, name, transform=rest.transAxes, va="top")
+    position.set(ylabel=r"peak $x_p/\lambda$", xlim=(0, None), ylim=(0, None))
+    speed.set(xlabel="time $t$", ylabel=r"$dx_p/dt\,/\,\lambda$")
+    position.legend(loc="upper left")
+    position.set_ylim(top=1.35 * position.get_ylim()[1])
     style.letter(*panels.values())
     return figure, pd.concat(tables), caption(results)
 

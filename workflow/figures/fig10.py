@@ -1,7 +1,7 @@
 """Fig. 10: height of the moving peak of an energy pulse against time; a: gamma = N, b: gamma = 1.
 
-Below, exponents fitted over octaves of time.
-Times without a moving peak, whose height is NaN, are left out.
+Below, exponents fitted over octaves of time. Beside the runs of fig. 9: pulses in longer rings until later times and, at gamma = N, of other
+energies. Times without a moving peak, whose height is NaN, are left out.
 """
 
 from collections.abc import Sequence
@@ -11,15 +11,21 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import listed, number, parameters
+from workflow.lib.caption import ERRORS, listed, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
-from workflow.lib.pulse import STARTS, look_of, paper_first, pulse, start
+from workflow.lib.pulse import in_order, label, look_of, start
 
-SLOPES = {"N": (-2 / 3, r"$t^{-2/3}$", "2/3"), 1: (-1, r"$t^{-1}$", "1")}  # the paper's guides
-SPAN = 0.12  # smallest range of exponents shown on either side of the paper's
-ABOVE = 1.2  # ratio of a guide to the first point
+# By gamma: slopes of the guides, the paper's first, with their labels.
+Guides = dict[float, tuple[str, str]]
+SLOPES: dict[str | int, Guides] = {
+    "N": {-2 / 3: ("$t^{-2/3}$", "2/3"), -1 / 2: ("$t^{-1/2}$", "1/2")},
+    1: {-1: ("$t^{-1}$", "1")},
+}
+SPAN = 0.15  # range of exponents shown on either side of the guides and of exponents with smaller errors
+UNSURE = 0.5  # relative error above which a height is not shown
+ABOVE = 1.2  # ratio of a guide to the highest point at its time
 
 
 def tabulate(result: Result) -> pd.DataFrame:
@@ -33,6 +39,8 @@ def tabulate(result: Result) -> pd.DataFrame:
         part[f"{column}_error"] = pd.Series(result[name].error)
     part = part.merge(by_octave(result).rename(columns={"until": "time"}), on="time", how="left")
     part.insert(0, "scatterer_temperature", str(start(result)))
+    for name in ("pulse-energy", "cells"):
+        part.insert(1, name.replace("-", "_"), result.parameters[name])
     return part
 
 
@@ -45,51 +53,62 @@ def by_octave(result: Result) -> pd.DataFrame:
     return pd.DataFrame({"until": until, "octave_middle": middle, **columns})
 
 
-def draw_peaks(axes: Axes, result: Result, table: pd.DataFrame) -> None:
-    label = STARTS[start(result)][3]
-    axes.errorbar(table.time, table.peak / 1e3, table.peak_error / 1e3, label=label, **look_of(result))
+def draw_guides(above: Axes, below: Axes, gamma: str | int, table: pd.DataFrame) -> None:
+    """Plots powers of t above the points of the longest times, and their exponents."""
+    longest = table[table.cells == table.cells[table.pulse_energy == table.pulse_energy.iloc[0]].max()]
+    seen = longest.dropna(subset="peak")
+    for slope, (name, exponent) in SLOPES[gamma].items():
+        if len(seen):
+            time = np.array([seen.time.iloc[0], seen.time.iloc[-1]])
+            law = ABOVE * seen.peak.iloc[0] / 1e3 * (time / time[0]) ** slope
+            above.plot(time, law, **style.GUIDE)
+            above.annotate(name, (time[1], law[1]), (2, 0), textcoords="offset points", size=8, va="center")
+        style.guide_at(below, -slope, exponent)
+    precise = table[table.octave_exponent_error < SPAN].octave_exponent
+    shown = [*(-slope for slope in SLOPES[gamma]), *precise]
+    below.set_ylim(min(shown) - SPAN, max(shown) + SPAN)
+    low, high = above.get_xlim()
+    above.set_xlim(low, 1.35 * high)  # room for the names of the guides
 
 
-def draw_exponents(axes: Axes, result: Result) -> None:
-    octaves = by_octave(result)
-    exponents = octaves.octave_exponent, octaves.octave_exponent_error
-    axes.errorbar(octaves.octave_middle, *exponents, **look_of(result))
+def octaves(result: Result) -> str:
+    """Exponents of the octaves with a moving peak."""
+    found = by_octave(result).dropna()
+    pairs = zip(found.octave_exponent, found.octave_exponent_error, strict=True)
+    return listed(with_error(*pair) for pair in pairs) if len(found) else "not resolved"
 
 
 def caption(results: Sequence[Result]) -> str:
-    octaves = by_octave(results[0]).dropna()
-    pairs = zip(octaves.octave_exponent, octaves.octave_exponent_error, strict=True)
-    exponents = listed(with_error(*pair) for pair in pairs) if len(octaves) else "not resolved"
-    slope, _, name = SLOPES[results[0].parameters["gamma"]]
+    rest = results[0]
+    if rest.parameters["gamma"] == "N":
+        law = f"Dashed: the paper's 2/3, damping of sound, and 1/2, a shock. From rest the exponents are {octaves(rest)}"
+    else:
+        law = f"Dashed: the paper's 1. From rest the exponents are {octaves(rest)}"
     return f"""
-        Damping of the moving peak of an energy pulse, runs of fig. 9: {pulse(results)}. (a) Height of the peak, from a smooth fit above
-        half of it. (b) Exponents over octaves of time. Dashed: the paper's {number(slope)}. From rest the {"exponents of the octaves are" if len(octaves) > 1 else "exponent of the octave is"} {exponents};
-        the paper has {name}. Error bars, where larger than the symbols: standard errors over replicas."""
+        Damping of the moving peak of an energy pulse, {parameters([rest], "cells", "sigma", "gamma")}, {parameters([rest], "particles-per-cell")}. (a) Height of the peak, from a
+        smooth fit above half of it. (b) Exponents over octaves of time. {law}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
-    figure, (above, below) = style.stacked(1.7, 1, height=1.6)
-    results = paper_first(results)
+    figure, (above, below) = style.stacked(1.7, 1, height=1.7)
+    results = in_order(results)
     tables = [tabulate(result) for result in results]
     for result, table in zip(results, tables, strict=True):
-        draw_peaks(above, result, table)
-        draw_exponents(below, result)
-    slope, guide, exponent = SLOPES[results[0].parameters["gamma"]]
-    seen = tables[-1].dropna(subset="peak")  # the start with the highest peaks
-    if len(seen):
-        law = ABOVE * seen.peak.iloc[0] / 1e3 * (seen.time / seen.time.iloc[0]) ** slope
-        above.plot(seen.time, law, **style.GUIDE, label=guide)
-    style.guide_at(below, -slope, exponent)
-    low, high = below.get_ylim()
-    below.set_ylim(min(low, -slope - SPAN), max(high, -slope + SPAN))
+        look = look_of(result)
+        sure = table[table.peak_error < UNSURE * table.peak]
+        above.errorbar(sure.time, sure.peak / 1e3, sure.peak_error / 1e3, label=label(result), **look)
+        below.errorbar(table.octave_middle, table.octave_exponent, table.octave_exponent_error, **look)
+    table = pd.concat(tables)
+    gamma = results[0].parameters["gamma"]
     above.set(xscale="log", yscale="log", ylabel=rf"peak of $\Delta E\,/\,10^3$ ({style.UNITS})")
+    draw_guides(above, below, gamma, table)
     below.set(xlabel="time $t$", ylabel=r"$-d\ln\,\mathrm{peak}/d\ln t$")
     for axis in (above.yaxis, below.xaxis):
         style.label_within_decades(axis)
     corner: style.Look = {"transform": above.transAxes, "ha": "right", "va": "top"}
     above.text(0.95, 0.95, rf"$\gamma = {style.gamma(results[0])}$", **corner)
-    figure.legend(*above.get_legend_handles_labels(), loc="outside upper left", ncols=1)
-    return figure, pd.concat(tables), caption(results)
+    figure.legend(*above.get_legend_handles_labels(), loc="outside upper left", ncols=2)
+    return figure, table, caption(results)
 
 
 if __name__ == "__main__":

@@ -1,10 +1,27 @@
 """Closed chains."""
 
 import numpy as np
+from numpy.typing import ArrayLike
+
+from workflow.lib.mode_coupling import logarithm_at
 
 ROUNDING = 1e-9  # relative rounding error of times on a logarithmic grid
+ITERATIONS = 20  # of the quasi-stationary estimate; each reduces the distance from the fixed point by a factor of at least 8
 
 
 def persistence_law(sigma: np.ndarray) -> np.ndarray:
     """Persistence for independent Gaussian momenta of particle and scatterer at one temperature."""
     return np.arccos(sigma) / np.pi
+
+
+def quasi_stationary(particles: float, start: float, length: float, time: ArrayLike) -> np.ndarray:
+    """Temperature T and logarithm Λ of a chain from scatterers at rest, at the given times: T solves eq. 14, in which Λ [eq. 13] depends
+    on T. particles: per cell; start: temperature of the particles at the start; length: of a cell."""
+    states = []
+    for moment in np.atleast_1d(time):
+        temperature = start
+        for _ in range(ITERATIONS):
+            slow = logarithm_at(moment, temperature, length)
+            temperature = start * particles * slow / (particles + slow)
+        states.append((temperature, slow))
+    return np.array(states).T

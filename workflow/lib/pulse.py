@@ -1,15 +1,19 @@
-"""Energy pulses in rings, from either start."""
+"""Energy pulses in rings: starts, and looks of the runs."""
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from workflow.lib import style
-from workflow.lib.caption import CHAIN, listed, number, parameters, replicas
 from workflow.lib.load import Result
 
-# Marker, colour, fill colour and label by the initial temperature of the scatterers; the paper's start first.
-STARTS = {
-    0: ("s", style.VERMILLION, "white", "from rest, as in the paper"),
-    "particles": ("o", style.BLUE, style.BLUE, "Gaussian start"),
+# By run: marker, colour, fill colour and label; in the order of the legends, the paper's start first.
+LOOKS = {
+    "rest": ("s", style.VERMILLION, "white", "from rest, as in the paper"),
+    "gaussian": ("o", style.BLUE, style.BLUE, "Gaussian start"),
+    "long": ("^", style.SKY, style.SKY, "Gaussian, longer ring"),
+    "strong": ("D", style.ORANGE, "white", "ten times the energy"),
+    "weak": ("v", style.GREEN, "white", "a tenth of the energy"),
 }
 
 
@@ -22,18 +26,19 @@ def gaussian_start(results: Sequence[Result]) -> Result:
     return next(result for result in results if start(result) == "particles")
 
 
-def paper_first(results: Sequence[Result]) -> list[Result]:
-    return sorted(results, key=lambda result: list(STARTS).index(start(result)))
+def in_order(results: Sequence[Result]) -> list[Result]:
+    return sorted(results, key=lambda result: list(LOOKS).index(result.run))
+
+
+def label(result: Result) -> str:
+    return LOOKS[result.run][3]
 
 
 def look_of(result: Result) -> style.Look:
-    marker, color, face, _ = STARTS[start(result)]
+    marker, color, face, _ = LOOKS[result.run]
     return style.points(marker, color, face)
 
 
-def pulse(results: Sequence[Result]) -> str:
-    """Text with the parameters and starts. The paper states the start from rest, but not its relaxation time."""
-    names = parameters(results, "particles-per-cell", "energy", "pulse-energy")
-    time = listed(number(result.parameters["relaxation-time"]) for result in results if start(result) == 0)
-    return f"""{parameters(results, *CHAIN)}, {names} per degree of freedom, {replicas(results)}. Start from scatterers at rest, as in the
-        paper, relaxed for {time} (our choice), or Gaussian momenta"""
+def resolved(values: np.ndarray) -> np.ndarray:
+    """Indices of the times with a moving peak, at the others the values are NaN."""
+    return np.flatnonzero(np.isfinite(values))
