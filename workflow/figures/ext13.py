@@ -1,7 +1,9 @@
-"""Ext. 13: growth of the mean square of the heat that passes in equilibrium, against mode coupling, and without conserved momentum.
+"""Ext. 13: growth of the mean square of the heat that passes in equilibrium, against mode coupling, and the control: rings in which a
+fraction of the collisions reverses the momentum of the scatterer, and does not conserve momentum.
 
-Q is the integral of J_q = sum v (v²/2 − T) over all particles of a ring of N cells [mode_coupling.md, eqs. M21-M28]. The fitted
-amplitude of its correlation is compared with that which the measured sound peaks (ext. 3) would have if they were Gaussian.
+Q is the integral of J_q = sum v (v²/2 − T) over all particles of a ring of N cells [mode_coupling.md, eqs. M21-M28]. The table also has
+rings with random directions, and amplitudes of the correlation of J_q in long rings, over the predicted one and over that of Gaussian
+fluctuations with the measured sound peak (ext. 3).
 """
 
 from collections.abc import Sequence
@@ -10,23 +12,33 @@ from dataclasses import replace
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import RULES, number, parameters, replicas, rule
+from workflow.lib.caption import ERRORS, number
 from workflow.lib.figure import Drawn, run
-from workflow.lib.fit import mean_of, with_error
+from workflow.lib.fit import fit_power, mean_of, with_error
 from workflow.lib.load import Result
 from workflow.lib.mode_coupling import Chain
 from workflow.lib.rings import LOOKS, chain
 
-RANDOM = RULES["random-direction"], style.points("D", style.GREEN, "white")
+ELASTIC, REVERSAL = "elastic", "reversal"
 REACH = 4  # largest distance from the centre of a sound peak that counts, in widths
-GAS = ["rule", "zeta", "mass"]  # columns that identify a gas
+SETTLED = 64  # first time, in λ/√T, from which on amplitudes are fitted; before, the exponents still fall
+GAS = ["rule", "epsilon", "zeta", "mass"]  # columns that identify a gas
+COMMON = 5  # εt, in λ/√T, at which D of different ε are compared
+LATE = 8  # first time, in λ/√T, of the exponents that are plotted against εt
+
+
+def epsilon(result: Result) -> float:
+    """Fraction of the collisions that reverse the momentum of the scatterer."""
+    reversing = result.parameters["rule"] == REVERSAL
+    return float(result.parameters["reversal-probability"]) if reversing else 0.0
 
 
 def predicted(result: Result, time: float) -> float:
     """<Q²> per cell in theory, without normal diffusion; NaN before the range of the fit and without conserved momentum."""
-    if result.parameters["rule"] != "elastic" or time < result.parameters["fit-from"]:
+    if result.parameters["rule"] != ELASTIC or time < result.parameters["fit-from"]:
         return np.nan
     return float(chain(result, time).heat_variance(time) * result.parameters["cell-length"])
 
@@ -37,7 +49,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     rows = []
     for result in results:
         heat, exponent, gas = result["heat_variance"], result["local_exponent"], chain(result)
-        of_gas = (rule(result), gas.zeta, gas.mass)
+        of_gas = (result.parameters["rule"], epsilon(result), gas.zeta, gas.mass)
         octaves = {
             "middle": exponent.axes["middle"],
             "local_exponent": exponent.mean,
@@ -58,20 +70,10 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         .head(1)
     )
     columns = [*GAS, "time", "middle", "local_exponent", "local_exponent_error"]
-    merged = best.drop(columns=["relative", *columns[4:]]).merge(exponents[columns], "left", [*GAS, "time"])
+    merged = best.drop(columns=["relative", *columns[len(GAS) + 1 :]]).merge(
+        exponents[columns], "left", [*GAS, "time"]
+    )
     return merged.sort_values([*GAS, "time"], ignore_index=True)
-
-
-def label(gas: pd.Series) -> str:
-    another = "" if gas.rule == "elastic" else f", {gas.rule}"
-    return f"ζ = {number(gas.zeta)}, M = {number(gas.mass)}{another}"
-
-
-def last_octave(part: pd.DataFrame) -> str:
-    """Exponent of a gas over the last octave."""
-    last = part.dropna(subset="middle").iloc[-1]
-    gas = f"{number(last.zeta)}; {number(last.mass)}" if last.rule == "elastic" else last.rule
-    return f"{with_error(last.local_exponent, last.local_exponent_error)} ({gas})"
 
 
 def longest_rings(results: Sequence[Result]) -> list[Result]:
@@ -133,60 +135,92 @@ def square_of_peak(result: Result, index: int, gas: Chain) -> tuple[float, float
     return square, abs(square) * float(peak.error[index] / peak.mean[index])
 
 
-def draw(results: Sequence[Result]) -> Drawn:
-    heat = [result for result in results if result.provenance["program"] == "heat_current"]
-    table = tabulate(heat)
-    rings = longest_rings([result for result in heat if result.parameters["rule"] == "elastic"])
-    compared = amplitudes(
-        rings, [result for result in results if result.provenance["program"] == "correlation"]
-    )
-    figure, (left, right) = plt.subplots(1, 2, figsize=(2 * style.COLUMN, style.HEIGHT))
-    looks, exponents = iter(LOOKS), []
-    for _, part in table.groupby(GAS, sort=False):
-        gas = part.iloc[0]
-        look = RANDOM[1] if gas.rule == RANDOM[0] else style.points(*next(looks))
+def draw_gases(above: Axes, below: Axes, table: pd.DataFrame) -> None:
+    """Plots the mean squares with those in theory, and the exponents, of the gases that conserve momentum."""
+    gases = table[table.rule == ELASTIC].groupby(["zeta", "mass"])
+    for look, ((zeta, mass), part) in zip(LOOKS, gases, strict=False):
+        points = style.points(*look, label=rf"$\zeta = {number(zeta)}$, $M = {number(mass)}$")
         error = part.heat_variance_error / part.time
-        left.errorbar(part.time, part.heat_variance / part.time, error, label=label(gas), **look)
-        left.plot(part.time, part.predicted / part.time, color=look["color"])
-        right.errorbar(part.middle, part.local_exponent, part.local_exponent_error, **look)
-        exponents.append(last_octave(part))
-    left.set(
+        above.errorbar(part.time, part.heat_variance / part.time, error, **points)
+        above.plot(part.time, part.predicted / part.time, color=points["color"])
+        below.errorbar(part.middle, part.local_exponent, part.local_exponent_error, **points)
+    above.set(
         xscale="log", yscale="log", xlabel="time $t$", ylabel=rf"$\langle Q^2 \rangle/Nt$ ({style.UNITS})"
     )
-    style.label_within_decades(left.yaxis)
-    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=3)
-    right.set(xscale="log", xlabel="time $t$", ylabel=r"$d\ln\langle Q^2 \rangle/d\ln t$")
-    style.guide_at(right, 4 / 3, "4/3")
-    style.guide_at(right, 1, "1")
-    style.letter(left, right)
-    best = compared.sort_values("amplitude_ratio_error").iloc[0]
-    gaussian = compared.dropna(subset="gaussian_ratio") if "gaussian_ratio" in compared else compared[:0]
-    fluctuations = (
-        f" Over that of Gaussian sound: {ratios(gaussian, 'gaussian_ratio')}." if len(gaussian) else ""
-    )
-    caption = f"""
-        Heat Q that passes in a time t in rings in equilibrium, {parameters(heat, "cell-length", "temperature")}, {replicas(heat)}; ζ: flux of
-        slow particles. (a) Mean square per cell and time. Lines: fluctuating hydrodynamics, nothing fitted, without normal
-        diffusion. (b) Exponents over octaves; dashed: theory, diffusion. Last octaves (ζ; M): {", ".join(exponents)}. Amplitudes fitted with a normal part, from t =
-        {number(best.fit_from)} on, over the predicted: {ratios(compared, "amplitude_ratio")}.{fluctuations}"""
-    return figure, pd.concat([table, compared]), caption
+    style.label_within_decades(above.yaxis)
 
 
-def ratios(table: pd.DataFrame, name: str) -> str:
-    values = map(with_error, table[name], table[f"{name}_error"])
-    return ", ".join(
-        f"{value} ({number(zeta)}; {number(mass)})"
-        for value, zeta, mass in zip(values, table.zeta, table.mass, strict=True)
-    )
+def rate(result: Result) -> float:
+    """√T/λ, the inverse of the unit of time."""
+    return float(np.sqrt(result.parameters["temperature"]) / result.parameters["cell-length"])
+
+
+def draw_control(against_time: Axes, scaled: Axes, control: pd.DataFrame, unit: float) -> None:
+    """Plots the exponents of one gas for every ε, and those after the first collisions against εt, on which they coincide if the
+    crossover is at a fixed εt. unit: √T/λ."""
+    by_fraction = control.groupby("epsilon")
+    for (fraction, part), color, marker in zip(by_fraction, style.SEQUENCE, "osv^D", strict=False):
+        look = style.points(marker, color, label=rf"$\epsilon = {fraction:g}$", linestyle="-", linewidth=0.6)
+        against_time.errorbar(part.middle, part.local_exponent, part.local_exponent_error, **look)
+        late = part[part.time * unit >= LATE]
+        if fraction:
+            scaled.errorbar(fraction * late.middle, late.local_exponent, late.local_exponent_error, **look)
+    scaled.set_xlabel(r"$\epsilon t$")
+
+
+def diffusion(control: pd.DataFrame, unit: float) -> pd.DataFrame:
+    """D at the common εt, by ε: interpolated on logarithmic axes, with the larger relative error of both neighbours."""
+    rows = []
+    for fraction, part in control[control.epsilon > 0].groupby("epsilon"):
+        scaled = fraction * unit * part.time.to_numpy()
+        if scaled[0] < COMMON <= scaled[-1]:
+            logarithms = (np.log(values) for values in (scaled, part.heat_variance / (2 * part.time)))
+            value = np.exp(np.interp(np.log(COMMON), *logarithms))
+            last = int(np.searchsorted(scaled, COMMON))
+            relative = (part.heat_variance_error / part.heat_variance).iloc[last - 1 : last + 1].max()
+            rows.append({"epsilon": fraction, "diffusion": value, "diffusion_error": value * relative})
+    return pd.DataFrame(rows)
+
+
+def caption(table: pd.DataFrame, control: pd.DataFrame, unit: float) -> str:
+    falling = diffusion(control, unit)
+    law = fit_power(falling.epsilon, falling.diffusion, falling.diffusion_error)
+    last = table[table.rule == ELASTIC].dropna(subset="predicted").groupby(["zeta", "mass"]).tail(1)
+    above = 100 * (last.predicted / last.heat_variance - 1).max()
+    random = table[table.rule == "random-direction"].dropna(subset="middle").iloc[-1]
+    gas = control.iloc[0]
+    return f"""
+        Heat Q that passes in a time t in rings in equilibrium. (a) Mean square; lines: mode coupling, nothing fitted, up to {above:.0f} %
+        above. (b) Exponents over octaves. (c), (d) ζ = {number(gas.zeta)}, M = {number(gas.mass)}: reversal of the scatterer's momentum in a fraction
+        ε of collisions. At εt = {COMMON}, ⟨Q²⟩/t ∼ ε^a, a = {with_error(law.exponent, law.error)}. With random directions the last exponent
+        is {with_error(random.local_exponent, random.local_exponent_error)}. {ERRORS}"""
+
+
+def draw(results: Sequence[Result]) -> Drawn:
+    heat = [result for result in results if result.provenance["program"] == "heat_current"]
+    peaks = [result for result in results if result.provenance["program"] == "correlation"]
+    elastic = [result for result in heat if result.parameters["rule"] == ELASTIC]
+    settled = [result for result in elastic if result.parameters["fit-from"] * rate(result) >= SETTLED]
+    table, unit = tabulate(heat), rate(heat[0])
+    broken = table[table.rule == REVERSAL].iloc[0]
+    same = (table.zeta == broken.zeta) & (table.mass == broken.mass)
+    control = table[same & table.rule.isin([ELASTIC, REVERSAL])]
+    figure, panels = plt.subplots(2, 2, figsize=(2 * style.COLUMN, 1.9 * style.HEIGHT))
+    (left, right), (below_left, below_right) = panels
+    for axes in (right, below_left, below_right):
+        axes.set(xscale="log", xlabel="time $t$", ylabel=r"$d\ln\langle Q^2 \rangle/d\ln t$", ylim=(0.9, 1.8))
+        style.guide_at(axes, 1, "1")
+        style.guide_at(axes, 4 / 3, "4/3")
+    draw_gases(left, right, table)
+    draw_control(below_left, below_right, control, unit)
+    figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=4)
+    below_left.legend(loc="upper right")
+    style.letter(*panels.flat)
+    whole = pd.concat([table, amplitudes(longest_rings(settled), peaks)])
+    return figure, whole, caption(table, control, unit)
 
 
 if __name__ == "__main__":
-    own = {
-        "zeta": "1",
-        "mass": "1",
-        "amplitude_ratio": "1",
-        "gaussian_ratio": "1",
-        "fit_from": "time",
-        "fit_to": "time",
-    }
+    own = dict.fromkeys(("zeta", "mass", "epsilon", "amplitude_ratio", "gaussian_ratio"), "1")
+    own |= dict.fromkeys(("fit_from", "fit_to"), "time")
     run(draw, "Heat current in equilibrium", predicted="energy^2 length^2", **own)
