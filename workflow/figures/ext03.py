@@ -1,9 +1,8 @@
 """Ext. 3: sound and heat peaks of rings in equilibrium, against mode coupling without a fitted parameter.
 
 C_g, the covariance of the momenta of two cells, has the sound peaks [mode_coupling.md, eq. M19]; that of E_s - theta E_p, the
-energies of scatterer and particles with theta = 1/(2 zeta), has the heat peak [eq. M29]. A stable law of free order, width and
-area is fitted to the heat peak inside the sound peaks. Values of neighbouring cells are correlated, so its errors follow from
-the spread over runs that differ only in their seed.
+energies of scatterer and particles with theta = 1/(2 zeta), has the heat peak [eq. M29]. A stable law is fitted to it
+(workflow/lib/peaks.py).
 """
 
 from collections.abc import Callable, Sequence
@@ -14,28 +13,51 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, listed, number, parameters, replicas
+from workflow.lib.caption import ERRORS, number
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
-from workflow.lib.mode_coupling import Chain, f_kpz, levy
+from workflow.lib.mode_coupling import f_kpz, levy
 from workflow.lib.peaks import (
+    CENTRE,
     GAUSSIAN,
     HEAT_ORDER,
     Record,
+    determined,
     heat_area,
     heat_width,
     jackknife_error,
-    records,
     stable_law,
     stable_laws,
 )
 from workflow.lib.rings import LOOKS, chain
 
+FIRST = 16  # first time that is used, in λ/√T: earlier peaks are as narrow as a cell
 HALF_WIDTH = 0.880466  # of f_KPZ at half of its maximum
+UNSURE = 0.1  # error of the height of a sound peak, over the theory, from which on it is not shown
 REACH = 3  # largest scaled distance that is plotted, of sound peaks
 HEAT_REACH = 4  # largest scaled distance that is plotted, of heat peaks
+FITTED = ("stable_width_ratio", "stable_area_ratio", "stable_order", "order_off_centre")  # columns
+WIDE = 3  # cells; narrower heat peaks are not fitted
+BESIDE = 1.06  # ratio of the times of the symbols of both fits, so that they do not overlap
 BIN = 0.2  # width in scaled distance of the bins over which profiles are averaged
+
+
+def records(results: Sequence[Result]) -> list[Record]:
+    """One record per gas and time, from the rings in which the momentum profile has the smallest error."""
+    rings: dict[tuple[float, float, int], list[Result]] = {}
+    for result in results:
+        gas = chain(result)
+        rings.setdefault((gas.zeta, gas.mass, int(result.parameters["cells"])), []).append(result)
+    best: dict[tuple[float, float, float], Record] = {}
+    for (zeta, mass, _), runs in rings.items():
+        for index, time in enumerate(runs[0]["peak"].axes["time"]):
+            record = Record(runs, index, float(time), chain(runs[0]), chain(runs[0], time))
+            if time * np.sqrt(record.gas.temperature) / record.gas.cell_length < FIRST:
+                continue
+            key = (zeta, mass, float(time))
+            best[key] = min(best.get(key, record), record, key=lambda record: record.mean_error)
+    return [best[key] for key in sorted(best)]
 
 
 def binned(x: np.ndarray, y: np.ndarray, error: np.ndarray) -> pd.DataFrame:
@@ -72,15 +94,19 @@ def diffusive(record: Record, y: np.ndarray) -> np.ndarray:
 
 
 def fitted(record: Record) -> dict[str, float]:
-    """Columns of the stable law with its errors; empty for one run, which has no jackknife error."""
-    if len(record.results) < 2:
-        return {}
-    law, without_one = stable_laws(record)
-    errors = jackknife_error(without_one)
-    names = ("stable_width_ratio", "stable_area_ratio", "stable_order")
+    """Columns of the stable law with its errors, and of its order without the central cells; NaN for one run, which has no jackknife
+    error, where the peak is too narrow, and where the profiles determine no order."""
+    undetermined = dict.fromkeys((f"{name}{suffix}" for name in FITTED for suffix in ("", "_error")), np.nan)
+    if len(record.results) < 2 or heat_width(record) < WIDE * record.gas.cell_length:
+        return undetermined
+    whole, off_centre = stable_laws(record), stable_laws(record, CENTRE)
+    if not (determined(*whole) and determined(*off_centre)):
+        return undetermined
+    values = [*whole[0], off_centre[0][-1]]
+    errors = [*jackknife_error(whole[1]), jackknife_error(off_centre[1])[-1]]
     return {
         key: float(f"{value:.4g}")  # further digits depend on the rounding of the profile
-        for name, *pair in zip(names, law, errors, strict=True)
+        for name, *pair in zip(FITTED, values, errors, strict=True)
         for key, value in zip((name, f"{name}_error"), pair, strict=True)
     }
 
@@ -152,24 +178,30 @@ def tabulate(all_records: Sequence[Record]) -> pd.DataFrame:
 
 
 def draw_heights(axes: Axes, table: pd.DataFrame) -> None:
-    """Plots the heights of the sound peaks of all gases over the theory."""
-    for (marker, color), ((zeta, mass), part) in zip(LOOKS, table.groupby(["zeta", "mass"]), strict=False):
+    """Plots the heights of the sound peaks of all gases over the theory, where their errors are smaller than the frame."""
+    sure = table[table.peak_ratio_error < UNSURE]
+    for (marker, color), ((zeta, mass), part) in zip(LOOKS, sure.groupby(["zeta", "mass"]), strict=False):
         look = style.points(marker, color, label=f"$\\zeta = {zeta:g}$, $M = {number(mass)}$")
         axes.errorbar(part.time, part.peak_ratio, part.peak_ratio_error, **look)
     axes.axhline(1, **style.GUIDE)
     axes.set(xscale="log", xlabel="time $t$", ylabel="height of the sound peak / theory", ylim=(0.8, 1.1))
+    style.label_within_decades(axes.xaxis)
     axes.legend(loc="upper left")
 
 
-def of(table: pd.DataFrame, gas: Chain) -> pd.DataFrame:
-    """The rows of a gas."""
-    return table[(table.zeta == gas.zeta) & (table.mass == gas.mass)]
-
-
-def at_end(table: pd.DataFrame, name: str) -> str:
-    """Ratio at the last time of every gas, in the order of zeta."""
-    last = table.groupby(["zeta", "mass"]).tail(1)
-    return listed(map(with_error, last[f"{name}_ratio"], last[f"{name}_ratio_error"]))
+def draw_orders(axes: Axes, law: pd.DataFrame) -> None:
+    """Plots the order of the stable law fitted to the heat peak, with and without the central cells."""
+    looks = {
+        "stable_order": style.points("o", style.BLUE, label="whole peak"),
+        "order_off_centre": style.points("s", style.VERMILLION, "white", label="without its centre"),
+    }
+    for shift, (name, look) in zip((1, BESIDE), looks.items(), strict=True):
+        axes.errorbar(shift * law.time, law[name], law[f"{name}_error"], **look)
+    for value, text in ((GAUSSIAN, "2"), (HEAT_ORDER, "5/3")):
+        style.guide_at(axes, value, text)
+    axes.set(xscale="log", xlabel="time $t$", ylabel="order of the heat peak", ylim=(1.35, 2.35))
+    style.label_within_decades(axes.xaxis)
+    axes.legend(loc="upper right")
 
 
 def draw(results: Sequence[Result]) -> Drawn:
@@ -179,26 +211,24 @@ def draw(results: Sequence[Result]) -> Drawn:
     sound = [
         record for record in all_records if (record.gas.zeta, record.gas.mass) == (first.zeta, first.mass)
     ]
-    heat = [record for record in all_records if len(record.results) > 1][-3:]
-    figure, panels = plt.subplots(1, 3, figsize=(2.1 * style.COLUMN, style.HEIGHT))
-    parts = draw_sound(panels[0], sound[::-2][:4][::-1]) + draw_heat(panels[1], heat)
-    draw_heights(panels[2], table)
-    style.letter(*panels)
-    law = of(table, heat[-1].gas).dropna(subset="stable_order").iloc[-3:]
-    orders, widths, areas = (
-        listed(map(with_error, law[name], law[f"{name}_error"]))
-        for name in ("stable_order", "stable_width_ratio", "stable_area_ratio")
-    )
+    repeated = [record for record in all_records if len(record.results) > 1]
+    law = table.dropna(subset="stable_order")
+    heat = [record for record in repeated if record.time in [*law.time]][-3:] or repeated[-3:]
+    figure, panels = plt.subplots(2, 2, figsize=(2 * style.COLUMN, 1.9 * style.HEIGHT))
+    parts = draw_sound(panels[0, 0], sound[::-2][:4][::-1]) + draw_heat(panels[0, 1], heat)
+    draw_heights(panels[1, 0], table)
+    draw_orders(panels[1, 1], law)
+    style.letter(*panels.flat)
+    last = with_error(*law[["stable_order", "stable_order_error"]].iloc[-1]) if len(law) else "not determined"
     caption = f"""
-        Peaks in rings in equilibrium, {parameters(results, "cell-length")}, T = {number(first.temperature)}, {replicas(results)}; black: mode coupling, nothing
-        fitted. (a) Covariance C_g of the momenta of two cells, ζ = {number(first.zeta)}, M = {number(first.mass)}. (b) Covariance C_h of
-        E_s − E_p/2ζ, energies of scatterer and particles, ζ = {number(heat[-1].gas.zeta)}, M = {number(heat[-1].gas.mass)}. Stable laws fitted inside the
-        sound peaks have the order {orders} (theory {number(HEAT_ORDER)}, diffusion {number(GAUSSIAN)}), {widths} of the width and {areas} of the area predicted; errors from
-        {len(heat[-1].results)} runs. (c) Height of the sound peaks; at the last times their areas are {at_end(table, "peak_area")} of the theory. {ERRORS}"""
+        Peaks in rings in equilibrium; black: mode coupling, nothing fitted. (a) Covariance C_g of the momenta of two cells, ζ =
+        {number(first.zeta)}, M = {number(first.mass)}. (b) Covariance C_h of their heat, ζ = {number(heat[-1].gas.zeta)}, M = {number(heat[-1].gas.mass)}.
+        (c) Height of the sound peaks. (d) Order of stable laws fitted to (b), {last} in the
+        end; theory 5/3, diffusion 2. Errors in (d): jackknife over {len(heat[-1].results)} runs. {ERRORS}"""
     return figure, pd.concat([*parts, table]), caption
 
 
 if __name__ == "__main__":
     names = (*(name for name, _ in RATIOS), "heat_area", "stable_width", "stable_area")
-    ratios = {f"{name}_ratio": "1" for name in names} | {"stable_order": "1"}
+    ratios = {f"{name}_ratio": "1" for name in names} | {"stable_order": "1", "order_off_centre": "1"}
     run(draw, "Sound and heat peaks in equilibrium", zeta="1", mass="1", x="1", y="1", **ratios)

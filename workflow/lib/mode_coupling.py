@@ -104,12 +104,6 @@ class Chain:
         return float((hot * self.sound_speed) ** 2)
 
     @property
-    def sound_damping(self) -> float:
-        """Rate of damping over |k| [eq. M32] of sound by the exchange of slow particles."""
-        exchange = 16 * self.zeta * (2 * self.zeta + 1) * self.slow_logarithm**2
-        return pi * self.sound_speed / exchange
-
-    @property
     def peak_area(self) -> float:
         """Area of each sound peak of C_g per length [eq. M19]."""
         return self.inertia * self.temperature / 2

@@ -9,18 +9,19 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.interpolate import RectBivariateSpline
 from scipy.optimize import least_squares
 
 from workflow.lib.load import Result
 from workflow.lib.mode_coupling import Chain, levy
-from workflow.lib.rings import chain
 
-FIRST = 16  # first time that is used, in λ/√T: earlier peaks are as narrow as a cell
 FITTED = 8  # largest distance in the fit of a heat peak, in predicted widths
 HEAT_ORDER, GAUSSIAN = 5 / 3, 2  # orders of the stable law in theory [eq. M29] and of diffusion
 RATIOS_ALLOWED = (0.1, 10)  # bounds of width and area in the fit, over the predicted ones
 ORDERS = (1, 3)  # bounds of the order in the fit
+AT_BOUND = 0.01  # smallest distance of a fitted order from these
+CENTRE = 3  # distance in cells from which on the heat peak is free of the cusp that slow particles make
 
 
 class Record(NamedTuple):
@@ -60,25 +61,10 @@ class Record(NamedTuple):
 
 
 def mean_over_runs(values: np.ndarray, errors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Mean over the first dimension, and its error. All runs have equal numbers of replicas."""
-    return values.mean(axis=0), np.sqrt(np.sum(errors**2, axis=0)) / len(values)
-
-
-def records(results: Sequence[Result]) -> list[Record]:
-    """One record per gas and time, from the rings in which the momentum profile has the smallest error."""
-    rings: dict[tuple[float, float, int], list[Result]] = {}
-    for result in results:
-        gas = chain(result)
-        rings.setdefault((gas.zeta, gas.mass, int(result.parameters["cells"])), []).append(result)
-    best: dict[tuple[float, float, float], Record] = {}
-    for (zeta, mass, _), runs in rings.items():
-        for index, time in enumerate(runs[0]["peak"].axes["time"]):
-            record = Record(runs, index, float(time), chain(runs[0]), chain(runs[0], time))
-            if time * np.sqrt(record.gas.temperature) / record.gas.cell_length < FIRST:
-                continue
-            key = (zeta, mass, float(time))
-            best[key] = min(best.get(key, record), record, key=lambda record: record.mean_error)
-    return [best[key] for key in sorted(best)]
+    """Mean over the first dimension, and its error from the spread of equal runs; that of a single run is its own."""
+    if len(values) == 1:
+        return values[0], errors[0]
+    return values.mean(axis=0), values.std(axis=0, ddof=1) / np.sqrt(len(values))
 
 
 def heat_width(record: Record) -> float:
@@ -98,12 +84,18 @@ def stable_densities() -> RectBivariateSpline:
     return RectBivariateSpline(x, order, np.stack([levy(x, exponent) for exponent in order], axis=1))
 
 
-def stable_law(record: Record, profile: np.ndarray, order: float | None = None) -> np.ndarray:
+def stable_law(
+    record: Record,
+    profile: np.ndarray,
+    order: float | None = None,
+    omitted: int = 0,
+    start: ArrayLike = (1, 1, HEAT_ORDER),
+) -> np.ndarray:
     """Width and area, over the predicted ones, and order of the stable law that best fits a heat peak inside the sound peaks. order:
-    fixed order; free if None."""
+    fixed order, free if None; omitted: distance in cells from which on the peak is fitted; start: of the fit."""
     within = min(0.5 * record.gas.sound_speed * record.time, FITTED * heat_width(record))
-    inside = profile[: int(within / record.gas.cell_length)]
-    x = np.arange(len(inside)) * record.gas.cell_length / heat_width(record)
+    inside = profile[omitted : int(within / record.gas.cell_length)]
+    x = np.arange(omitted, omitted + len(inside)) * record.gas.cell_length / heat_width(record)
     y = inside * heat_width(record) / (heat_area(record) * record.gas.cell_length)
     weight = np.where(x == 0, np.sqrt(0.5), 1)  # other values are means of two sides
 
@@ -118,16 +110,24 @@ def stable_law(record: Record, profile: np.ndarray, order: float | None = None) 
         )
         return np.append(fit.x, order)
     bounds = [*zip(RATIOS_ALLOWED, RATIOS_ALLOWED, ORDERS, strict=True)]
-    return least_squares(residuals, [1, 1, HEAT_ORDER], bounds=bounds, **exact).x
+    return least_squares(residuals, start, bounds=bounds, **exact).x
 
 
-def stable_laws(record: Record) -> tuple[np.ndarray, np.ndarray]:
+def stable_laws(record: Record, omitted: int = 0) -> tuple[np.ndarray, np.ndarray]:
     """Stable laws (width, area, order) of the mean over all runs, and of the means that leave out one run [run, parameter]."""
     profiles = record.profiles("heat_correlation")
+    law = stable_law(record, profiles.mean(axis=0), omitted=omitted)
     without_one = [
-        stable_law(record, np.delete(profiles, k, axis=0).mean(axis=0)) for k in range(len(profiles))
+        stable_law(record, np.delete(profiles, k, axis=0).mean(axis=0), omitted=omitted, start=law)
+        for k in range(len(profiles))
     ]
-    return stable_law(record, profiles.mean(axis=0)), np.array(without_one)
+    return law, np.array(without_one)
+
+
+def determined(law: np.ndarray, without_one: np.ndarray) -> bool:
+    """Whether the profiles determine the order: no fit ended at a bound."""
+    orders = np.append(without_one[:, -1], law[-1])
+    return bool(ORDERS[0] + AT_BOUND < orders.min() and orders.max() < ORDERS[1] - AT_BOUND)
 
 
 def jackknife_error(without_one: np.ndarray) -> np.ndarray:
