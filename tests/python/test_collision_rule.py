@@ -131,7 +131,7 @@ def test_what_needs_the_elastic_rule_refuses_others(
     assert refused.stderr.count("\n") == 1
 
 
-@pytest.mark.parametrize("script", ["fig05", "fig03_inset", "ext02", "ext11"])
+@pytest.mark.parametrize("script", ["fig05", "fig03_inset", "ext11"])
 def test_laws_of_the_elastic_rule_are_not_plotted_for_others(script: str) -> None:
     draw = importlib.import_module(f"workflow.figures.{script}").draw
     with pytest.raises(

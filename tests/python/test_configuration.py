@@ -58,7 +58,7 @@ PAPER = [
         "    uses: [fig09]",
         "panels.fig10a.uses.0: fig09 has no runs; did you mean fig09",
     ),
-    ("    uses: [fig09a]", "    uses: [ext02]", "panels.fig10a.uses.0: ext02 has no runs"),
+    ("    uses: [fig09a]", "    uses: [fig01_inset]", "panels.fig10a.uses.0: fig01_inset has no runs"),
     ("panels:", "panel:", "1: the file: 'panels' is a required property"),
 ]
 SMOKE = [

@@ -20,9 +20,9 @@ from workflow.lib.fit import mean_of
 from workflow.lib.load import Result
 from workflow.lib.rings import chain
 
-DRAWN = 4000  # samples of the currents, which determine the errors to 1 %
 DENSE = "dense"  # name of the gas at a fixed spacing
-COEFFICIENTS = ("L_uu", "L_un", "L_nu", "L_nn")
+DERIVED = ("L_uu", "L_un", "L_nu", "L_nn", "kappa_0", "asymmetry")  # numbers calculated from the currents
+STEP = 1e-6  # of numerical derivatives, relative to the currents
 
 
 class Mean(NamedTuple):
@@ -59,40 +59,33 @@ class Response:
             result.sound,
         )
 
-    def drawn(self, random: np.random.Generator) -> np.ndarray:
-        """Samples [sample, current] from the normal distribution of the currents. The random numbers do not depend on the units."""
-        errors = np.sqrt(np.diag(self.covariance))
-        product = np.prod(errors)
-        correlation = self.covariance[0, 1] / product if product else 0.0
-        first, second = random.standard_normal((2, DRAWN))
-        both = np.stack([first, correlation * first + np.sqrt(1 - correlation**2) * second], axis=1)
-        return self.currents + errors * both
-
 
 def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
     """Matrix L from two runs, and kappa = -J_u N/(T_R - T_L) of the first. temperature: run with a temperature difference at equal
-    pressure; pressure: run with a pressure difference at equal temperature. Errors are standard deviations over samples of the currents."""
+    pressure; pressure: run with a pressure difference at equal temperature. Errors are those of linear propagation."""
     runs = (temperature, pressure)
     inverse = np.linalg.inv(np.stack([run.forces for run in runs], axis=1)) * temperature.cells
+
+    def derived(currents: np.ndarray) -> np.ndarray:
+        matrix = currents @ inverse
+        heat = matrix[0, 0] - matrix[0, 1] * matrix[1, 0] / matrix[1, 1]
+        return np.array([*matrix.flat, heat / pressure.temperature**2, matrix[0, 1] - matrix[1, 0]])
+
     currents = np.stack([run.currents for run in runs], axis=1)
-    random = np.random.default_rng(0)
-    drawn = np.stack([run.drawn(random) for run in runs], axis=2)
-    matrix, spread = currents @ inverse, drawn @ inverse
+    values, variances = derived(currents), np.zeros(len(DERIVED))
+    for index, run in enumerate(runs):
+        gradient = np.zeros((2, len(DERIVED)))
+        for current, step in enumerate(STEP * np.abs(currents).max(axis=1)):
+            shift = np.zeros((2, 2))
+            shift[current, index] = step
+            gradient[current] = (derived(currents + shift) - derived(currents - shift)) / (2 * step)
+        variances += np.einsum("iq,ij,jq->q", gradient, run.covariance, gradient)
     row: dict[str, float] = {"usable": all(run.sound for run in runs)}
-    for index, name in enumerate(COEFFICIENTS):
-        element = divmod(index, 2)
-        row[name], row[f"{name}_error"] = matrix[element], spread[:, *element].std()
-
-    def heat(matrices: np.ndarray) -> np.ndarray:
-        convected = matrices[..., 0, 1] * matrices[..., 1, 0] / matrices[..., 1, 1]
-        return (matrices[..., 0, 0] - convected) / pressure.temperature**2
-
-    row["kappa_0"], row["kappa_0_error"] = float(heat(matrix)), float(heat(spread).std())
+    for name, value, variance in zip(DERIVED, values, variances, strict=True):
+        row |= {name: float(value), f"{name}_error": float(np.sqrt(variance))}
     per_current = temperature.cells / (temperature.forces[0] * temperature.temperature**2)
     row["kappa"] = per_current * temperature.currents[0]
     row["kappa_error"] = abs(per_current) * np.sqrt(temperature.covariance[0, 0])
-    asymmetry = spread[:, 0, 1] - spread[:, 1, 0]
-    row["asymmetry"], row["asymmetry_error"] = matrix[0, 1] - matrix[1, 0], asymmetry.std()
     return row
 
 
