@@ -1,6 +1,6 @@
-"""Ext. 5: rates and currents along an open chain, and the accumulation of particles at its ends."""
+"""Ext. 5: rates along an open chain, and the accumulation of particles at its ends. The table also has both currents."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -8,127 +8,115 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, WINDOW, baths, listed, parameters, replicas
+from workflow.lib.caption import ERRORS, baths, listed, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import fit_line, with_error
 from workflow.lib.load import Result
 
 FITTED = 20  # cells of the smallest chain in the fit of the excess
-
-# Markers by quantity. Files have the deviation of a rate from a straight line, and of a current from its mean over the bonds, each with
-# its own error.
-SIDES = {"rate_right": ">", "rate_left": "<"}
-CURRENTS = {"particle_current": "o", "energy_current": "s"}
+SIDES = {"rate_right": (">", "to the right"), "rate_left": ("<", "to the left")}
+CURRENTS = ("particle_current", "energy_current")
+ENDS = (("left", "v", style.BLACK, "solid"), ("right", "D", style.GREEN, "dashed"))
 
 
-def look_of(result: Result, marker: str, index: int) -> style.Look:
-    """Style of the symbols: large at gamma = N, small at gamma = 1, open for the second of two curves."""
+def look_of(result: Result, name: str) -> style.Look:
+    """Style of a rate: large symbols at gamma = N, small ones at gamma = 1, open to the left."""
     gamma = result.parameters["gamma"]
-    face, size = "white" if index else None, 4 if gamma == "N" else 2
-    return style.points(marker, style.BY_GAMMA[gamma][1], face, markersize=size, capsize=0)
+    face, size = "white" if name == "rate_left" else None, 4 if gamma == "N" else 2
+    return style.points(SIDES[name][0], style.BY_GAMMA[gamma][1], face, markersize=size, capsize=0)
 
 
-def plot_deviations(axes: Axes, result: Result, curves: dict[str, str]) -> list[pd.DataFrame]:
-    """Plots the deviations of quantities in percent of their means. Returns one table per quantity."""
-    tables = []
+def tabulate(result: Result, names: Iterable[str]) -> pd.DataFrame:
+    """One row per quantity and position, with the deviation in percent of the mean. Files have the deviation of a rate from a straight
+    line, and of a current from its mean over the bonds, each with its own error."""
+    parts = []
     cells = int(result.parameters["cells"])
-    for index, (name, marker) in enumerate(curves.items()):
+    for name in names:
         whole, deviation = result[name], result[f"{name}_deviation"]
         (axis,) = whole.axes
-        x = (whole.axes[axis] + (0.5 if axis == "cell" else 0)) / cells
         scale = 100 / np.abs(whole.mean).mean()
-        look = look_of(result, marker, index)
-        percent, error = scale * deviation.mean, scale * deviation.error
-        inside = (x > 0) & (x < 1)
-        axes.errorbar(x[inside], percent[inside], error[inside], **look)
-        table = pd.DataFrame({"quantity": name, "x": x, "value": whole.mean, "error": whole.error})
-        table["deviation_percent"], table["deviation_percent_error"] = percent, error
-        tables.append(table.assign(units=whole.units, gamma=style.gamma(result), cells=cells))
-    return tables
+        columns = {"x": (whole.axes[axis] + (0.5 if axis == "cell" else 0)) / cells}
+        columns |= {"value": whole.mean, "error": whole.error, "line": whole.mean - deviation.mean}
+        columns |= {
+            "deviation_percent": scale * deviation.mean,
+            "deviation_percent_error": scale * deviation.error,
+        }
+        labels = {"quantity": name, "units": whole.units, "gamma": style.gamma(result), "cells": cells}
+        parts.append(pd.DataFrame(columns).assign(**labels))
+    return pd.concat(parts)
 
 
-def plot_rates(axes: Axes, result: Result) -> None:
-    """Plots both rates, with the fitted straight lines."""
-    for index, (name, marker) in enumerate(SIDES.items()):
-        rate, deviation = result[name], result[f"{name}_deviation"]
-        x = (rate.axes["cell"] + 0.5) / int(result.parameters["cells"])
-        look = look_of(result, marker, index)
-        axes.errorbar(x, rate.mean, rate.error, **look)
-        axes.plot(x, rate.mean - deviation.mean, color=look["color"], linewidth=0.6, zorder=1)
+def draw_rates(raw: Axes, deviations: Axes, result: Result, table: pd.DataFrame) -> None:
+    """Plots both rates with the fitted straight lines, and their deviations from these."""
+    for name, part in table[table.quantity.isin(SIDES)].groupby("quantity", sort=False):
+        look = look_of(result, name)
+        raw.errorbar(part.x, part.value, part.error, **look)
+        raw.plot(part.x, part.line, color=look["color"], linewidth=0.6, zorder=1)
+        deviations.errorbar(part.x, part.deviation_percent, part.deviation_percent_error, **look)
 
 
-def plot_excess(axes: Axes, results: Sequence[Result]) -> pd.DataFrame:
+def draw_excess(axes: Axes, results: Sequence[Result]) -> pd.DataFrame:
     """Plots the excess density of both end cells against the size, with a + b ln N fitted to the longer chains. Returns the table."""
     cells = np.array([int(result.parameters["cells"]) for result in results])
+    fitted = cells >= FITTED
     tables = []
-    for end, (name, marker, color, dashes) in enumerate(
-        (("left", "v", style.BLACK, "solid"), ("right", "D", style.GREEN, "dashed"))
-    ):
+    for end, (name, marker, color, dashes) in enumerate(ENDS):
         excess = np.array([result["density_excess"].mean[end] for result in results])
         error = np.array([result["density_excess"].error[end] for result in results])
-        fitted = cells >= FITTED
         line = fit_line(np.log(cells[fitted]), excess[fitted], error[fitted])
-        look = style.points(marker, color, "white", label=f"{name} end")
-        axes.errorbar(cells, excess, error, **look)
+        axes.errorbar(cells, excess, error, **style.points(marker, color, "white", label=f"{name} end"))
         axes.plot(cells[fitted], line.at(np.log(cells[fitted])), color=color, linestyle=dashes)
-        table = pd.DataFrame({"quantity": f"density_excess {name}", "cells": cells, "value": excess})
+        table = pd.DataFrame(
+            {"quantity": f"density_excess {name}", "cells": cells, "value": excess, "error": error}
+        )
         table["fitted"] = np.where(fitted, line.at(np.log(cells)), np.nan)
         table["slope"], table["slope_error"], table["chi_square"] = line.slope, line.error, line.chi_square
-        tables.append(table.assign(error=error, units="1", gamma=style.gamma(results[0])))
+        tables.append(table.assign(units="1", gamma=style.gamma(results[0])))
     return pd.concat(tables)
 
 
-def caption(table: pd.DataFrame, profiles: Sequence[Result], sizes: Sequence[Result]) -> str:
-    ends = table[table.quantity.str.startswith("density_excess")].drop_duplicates("quantity")
-    slopes = listed(with_error(row.slope, row.slope_error) for row in ends.itertuples())
-    largest = []
-    for result in profiles:
-        rows = table[(table.gamma == style.gamma(result)) & table.quantity.isin(SIDES)]
-        far = rows.loc[rows.deviation_percent.abs().idxmax()]
-        text = with_error(far.deviation_percent, far.deviation_percent_error)
-        largest.append(f"{text} % at γ = {style.gamma(result)}")
+def caption(table: pd.DataFrame, profiles: Sequence[Result]) -> str:
+    slopes = table.dropna(subset="slope").drop_duplicates("quantity")
+    rates = table[table.quantity.isin(SIDES)]
+    far = rates.loc[rates.deviation_percent.abs().groupby(rates.gamma, sort=False).idxmax()]
+    largest = listed(
+        f"{number:.2g} % at γ = {gamma}"
+        for number, gamma in zip(far.deviation_percent.abs(), far.gamma, strict=True)
+    )
     return f"""
-        Open chain, {parameters(profiles, "sigma", "cell-length")}, {baths(profiles[0])}, {parameters(profiles, *WINDOW)},
-        {replicas([*profiles, *sizes])}; (a)–(c) {parameters(profiles, "cells")}. (a) Arrivals at a scatterer per unit time; (b) over straight
-        lines, minus one; (c) both currents over their mean, inside; that of particles falls, as they accumulate.
-        The paper has linear rates; deviations: up to {listed(largest)}. (d) Excess density of the end cells at γ = 1; lines: a + b ln N from N = {FITTED} on,
-        b = {slopes}, as in the paper. {ERRORS}"""
+        Open chain, {parameters(profiles, "sigma", "cell-length")}, {baths(profiles[0])}. (a) Arrivals at a scatterer per time,
+        {parameters(profiles, "cells")}; (b) their deviation from straight lines, up to {largest}. (c) Excess density of the
+        end cells; lines: a + b ln N from N = {FITTED} on, b = {listed(map(with_error, slopes.slope, slopes.slope_error))}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
     profiles = [result for result in results if result.parameters["cells"] == 30]
     sizes = [result for result in results if style.gamma(result) == "1"]
     sizes.sort(key=lambda result: result.parameters["cells"])
-    figure, panels = plt.subplots(2, 2, figsize=(2 * style.COLUMN, 1.7 * style.HEIGHT))
-    raw, rates, currents, excess = panels.flat
+    figure, (raw, deviations, excess) = plt.subplots(1, 3, figsize=(2.2 * style.COLUMN, style.HEIGHT))
     tables = []
     for result in profiles:
-        plot_rates(raw, result)
-        tables += plot_deviations(rates, result, SIDES)
-        tables += plot_deviations(currents, result, CURRENTS)
-    tables.append(plot_excess(excess, sizes))
-    table = pd.concat(tables).reset_index(drop=True)
+        tables.append(tabulate(result, (*SIDES, *CURRENTS)))
+        draw_rates(raw, deviations, result, tables[-1])
+        label = rf"$\gamma = {style.gamma(result)}$"
+        deviations.errorbar([], [], [], **look_of(result, "rate_right"), label=label)
+    for name, (_, label) in SIDES.items():
+        raw.errorbar([], [], [], **look_of(profiles[0], name), label=label)
+    table = pd.concat([*tables, draw_excess(excess, sizes)], ignore_index=True)
+    deviations.axhline(0, **style.GUIDE)
     raw.set(xlabel="$x$", ylabel=f"rate at a scatterer ({style.UNITS})")
-    rates.set(xlabel="$x$", ylabel="rate over line, minus 1 / %")
-    currents.set(xlabel="$x$", ylabel="current over mean, minus 1 / %")
-    excess.set(xscale="log", xlabel="number of cells $N$", ylabel="excess density of an end cell")
+    deviations.set(xlabel="$x$", ylabel="rate over line, minus 1 / %")
+    excess.set(
+        xscale="log", xlabel="number of cells $N$", ylabel="excess density of an end cell", ylim=(0, None)
+    )
     excess.legend(loc="upper left", title=r"$\gamma = 1$")
-    excess.set_ylim(bottom=0)
-    for axes in (rates, currents):
-        axes.axhline(0, **style.GUIDE)
-    for name, index in (("to the right", 0), ("to the left", 1)):
-        raw.errorbar([], [], [], **look_of(profiles[0], "><"[index], index), label=name)
-    for name, index in (("particles", 0), ("energy", 1)):
-        currents.errorbar([], [], [], **look_of(profiles[0], "os"[index], index), label=name)
-    for result in profiles:
-        rates.errorbar([], [], [], **look_of(result, "o", 0), label=rf"$\gamma = {style.gamma(result)}$")
-    for axes in (raw, rates, currents):
+    for axes in (raw, deviations):
         axes.legend(loc="upper right", handletextpad=0.2)
-    style.letter(*panels.flat)
-    return figure, table, caption(table, profiles, sizes)
+    style.letter(raw, deviations, excess)
+    return figure, table, caption(table, profiles)
 
 
 if __name__ == "__main__":
-    by_row = {"value": "column units", "error": "column units"}
+    by_row = dict.fromkeys(("value", "error", "line"), "column units")
     pure = dict.fromkeys(("x", "deviation_percent", "fitted", "slope", "chi_square"), "1")
-    run(draw, "Rates, currents and density along the chain", **pure, **by_row)
+    run(draw, "Rates and density along the chain", **pure, **by_row)

@@ -4,7 +4,8 @@ At 1/N the gas thins out as the chain grows; at a fixed spacing the particles pe
 that N goes to infinity in the thermodynamic limit.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from typing import NamedTuple
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -14,62 +15,63 @@ from matplotlib.lines import Line2D
 from matplotlib.typing import LineStyleType
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, baths, listed, parameters, replicas
-from workflow.lib.conductivity import LOOKS, by_spacing, spacings, tabulate
+from workflow.lib.caption import ERRORS, listed, number, parameters
+from workflow.lib.conductivity import LOOKS, by_spacing, drive, spacings, tabulate
 from workflow.lib.figure import Drawn, run
-from workflow.lib.growth import POWER, Growth, fits, widest
+from workflow.lib.fit import p_value
 from workflow.lib.load import Result
 
 THINNING = "thinning"  # the gas that has no thermodynamic limit
-LEVEL = 0.01  # p-value below which a law is rejected
-CUBE_ROOT = "N^(1/3)"
-# Name of each law in captions, and its label in the legend of panel (c), where no power law is plotted.
+
+
+class Law(NamedTuple):
+    """A law of growth with the size: its name in the caption, its label in the legend, the dashes of its line, and its leading term and
+    first correction, combined linearly. A sound peak whose width grows as t^(2/3) gives corrections of relative order N^(-1/3)."""
+
+    name: str
+    label: str
+    dashes: LineStyleType
+    basis: Callable[[np.ndarray], list[np.ndarray]]
+
+
 LAWS = {
-    CUBE_ROOT: ("cube root", "$a + bN^{1/3}$"),
-    "logarithm": ("logarithm", r"$a + b\,\ln N$"),
-    "constant": ("saturation", "saturation, $a + bN^{-1/3}$"),
-    POWER: ("power law", ""),
+    "N^(1/3)": Law("a + bN^(1/3)", "$a + bN^{1/3}$", "solid", lambda n: [n ** (1 / 3), n**0]),
+    "logarithm": Law("a + b ln N", r"$a + b\,\ln N$", "dashed", lambda n: [np.log(n), n**0]),
+    "constant": Law("saturation", "saturation, $a + bN^{-1/3}$", "dotted", lambda n: [n**0, n ** (-1 / 3)]),
 }
-LINES: dict[str, LineStyleType] = {CUBE_ROOT: "solid", "logarithm": "dashed", "constant": "dotted"}
-ABOVE = 14  # height in points of the axis of N above panel (b)
+
+
+def fitted(law: Law, size: np.ndarray, value: np.ndarray, error: np.ndarray) -> np.ndarray:
+    """Values at the sizes of the law that fits best, by weighted least squares."""
+    design = np.stack(law.basis(size), axis=1)
+    solution, *_ = np.linalg.lstsq(design / error[:, None], value / error, rcond=None)
+    return design @ solution
+
+
+def points(part: pd.DataFrame) -> list[np.ndarray]:
+    return [part[name].to_numpy(dtype=float) for name in ("cells", "kappa", "kappa_error")]
 
 
 def laws(part: pd.DataFrame) -> pd.DataFrame:
-    """Fits of all laws to the sizes of one spacing: one row per law and smallest size in the fit."""
-    growths = [
-        growth
-        for first in part.cells
-        for growth in fits(part.cells, part.kappa, part.kappa_error, float(first))
-    ]
-    return pd.DataFrame(
-        [vars(growth) | {"p_value": growth.p_value, "criterion": growth.criterion} for growth in growths]
-    )
-
-
-def cube_root(part: pd.DataFrame) -> Growth | None:
-    """a + b N^(1/3) over the sizes for which it is not rejected."""
-    return widest(part.cells, part.kappa, part.kappa_error, CUBE_ROOT, LEVEL)
-
-
-def rejected(part: pd.DataFrame, first: float) -> str:
-    """Text with the laws that are rejected by the sizes from `first` on."""
-    names = [
-        LAWS[growth.law][0]
-        for growth in fits(part.cells, part.kappa, part.kappa_error, first)
-        if growth.p_value < LEVEL
-    ]
-    return listed(names) if names else "no other law"
+    """Fits of all laws to all sizes of one gas, one row per law."""
+    size, value, error = points(part)
+    rows = []
+    for name, law in LAWS.items():
+        chi_square = float(np.sum(((value - fitted(law, size, value, error)) / error) ** 2))
+        freedom = len(size) - len(law.basis(size))
+        row = {"law": name, "chi_square": chi_square, "freedom": freedom}
+        rows.append(row | {"p_value": p_value(chi_square, freedom)})
+    return pd.DataFrame(rows)
 
 
 def slopes(part: pd.DataFrame) -> pd.DataFrame:
     """dκ/d(N^(1/3)) between neighbouring sizes, at their geometric mean, with the slopes of the laws fitted to all sizes."""
-    size, value, error = (part[name].to_numpy(dtype=float) for name in ("cells", "kappa", "kappa_error"))
+    size, value, error = points(part)
     step = np.diff(np.cbrt(size))
     columns = {"between": np.sqrt(size[1:] * size[:-1]), "slope": np.diff(value) / step}
     columns["slope_error"] = np.hypot(error[1:], error[:-1]) / step
-    for growth in fits(size, value, error, size[0]):
-        if growth.law in LINES:
-            columns[f"slope_{growth.law}"] = np.diff(growth.predicted) / step
+    for name, law in LAWS.items():
+        columns[f"slope_{name}"] = np.diff(fitted(law, size, value, error)) / step
     return pd.DataFrame(columns, part.index[:-1])
 
 
@@ -91,71 +93,43 @@ def draw_powers(axes: Axes, table: pd.DataFrame, spacing: Mapping[str, str]) -> 
 def draw_slopes(axes: Axes, table: pd.DataFrame) -> None:
     """Plots the slope of kappa against N^(1/3), which is constant for a + b N^(1/3). Lines: slopes of the laws fitted at the fixed spacings."""
     for name, part in table.groupby("gas", sort=False):
-        local = slopes(part)
-        axes.errorbar(local.between, local.slope, local.slope_error, **style.points(*LOOKS[name]))
-        for law, dashes in LINES.items():
-            if name != THINNING and f"slope_{law}" in local:
-                look: style.Look = {"color": LOOKS[name][1], "linestyle": dashes, "linewidth": 0.8}
-                axes.plot(local.between, local[f"slope_{law}"], zorder=1, **look)
+        axes.errorbar(part.between, part.slope, part.slope_error, **style.points(*LOOKS[name]))
+        if name != THINNING:
+            for name_of_law, law in LAWS.items():
+                look: style.Look = {"color": LOOKS[name][1], "linestyle": law.dashes, "linewidth": 0.8}
+                axes.plot(part.between, part[f"slope_{name_of_law}"], zorder=1, **look)
     style.against_size(axes)
     axes.set(yscale="log", ylabel=r"$d\kappa/d(N^{1/3})$")
-    axes.set_ylim(bottom=0.3 * axes.get_ylim()[0])  # space for the legend
+    positive = table.slope[table.slope > 0]
+    axes.set_ylim(0.2 * positive.min(), 2 * positive.max())  # space for the legend
     style.label_within_decades(axes.yaxis)
-    handles = [
-        Line2D([], [], color="grey", linestyle=dashes, label=LAWS[law][1]) for law, dashes in LINES.items()
-    ]
+    handles = [Line2D([], [], color="grey", linestyle=law.dashes, label=law.label) for law in LAWS.values()]
     axes.legend(handles=handles, loc="lower left")
 
 
-def draw_cube_roots(axes: Axes, table: pd.DataFrame) -> None:
-    """Plots kappa against N^(1/3), with a + b N^(1/3) over the sizes for which this law is not rejected."""
-    for name, part in table.groupby("gas", sort=False):
-        size = np.cbrt(part.cells)
-        axes.errorbar(size, part.kappa, part.kappa_error, **style.points(*LOOKS[name]))
-        if held := cube_root(part):
-            axes.plot(size[part.cells >= held.first], held.predicted, color=LOOKS[name][1])
-    above = axes.secondary_xaxis("top", functions=(lambda x: np.power(x, 3), np.cbrt))
-    above.set_xticks([size for size in (16, 64, 256, 1024, 8192) if size <= table.cells.max()])
-    axes.tick_params(axis="x", which="both", top=False)
-    axes.set(xlabel="$N^{1/3}$", ylabel=r"conductivity $\kappa$", ylim=(0, None))
-    above.set_xlabel("$N$", labelpad=1)
-
-
-def caption(table: pd.DataFrame, results: Sequence[Result], spacing: Mapping[str, str]) -> str:
-    ranges = [
-        f"from N = {law.first:.0f} on at λ = {spacing[name]} ({rejected(part, law.first)} rejected)"
-        for name, part in table.groupby("gas", sort=False)
-        if (law := cube_root(part))
-    ]
-    held = listed(ranges) if ranges else "nowhere"
+def caption(tested: pd.DataFrame, results: Sequence[Result], spacing: Mapping[str, str]) -> str:
+    densest = tested[tested.gas == tested.gas.iloc[-1]]
+    p_values = listed(f"{row.p_value:.1g} for {LAWS[row.law].name}" for row in densest.itertuples())
     return f"""
-        Heat conductivity κ = −J_U N/(T_N − T_1) of open chains at the paper's λ = 1/N, where the gas thins out, and at
-        fixed λ; {parameters(results, "gamma", "sigma")}, {baths(results[0])}, {replicas(results)}.
-        (b) Lines: a + bN^(1/3) where it is not rejected at the {100 * LEVEL:.0f} % level: {held}. (c) Slope of (b) between neighbouring
-        sizes, constant if κ = a + bN^(1/3); lines: laws fitted to all sizes. {ERRORS}"""
+        Conductivity κ = −J_U N/(T_N − T_1) of open chains at the paper's λ = 1/N, where the gas thins out, and at fixed λ;
+        {parameters(results, "gamma", "sigma")}, T_R/T_L = {number(max(map(drive, results)))}. (b) Slope against N^(1/3); lines: laws fitted to all sizes. At λ =
+        {spacing[densest.gas.iloc[0]]} their p-values are {p_values}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
     table, spacing = tabulate(results), spacings(results)
-    figure, panels = plt.subplot_mosaic(
-        [["powers", "roots"], ["powers", "slopes"]],
-        figsize=(1.9 * style.COLUMN, 1.5 * style.HEIGHT),
-        height_ratios=[1, 1.3],
-    )
-    draw_powers(panels["powers"], table, spacing)
-    draw_cube_roots(panels["roots"], table)
-    draw_slopes(panels["slopes"], table)
-    style.letter(panels["powers"], panels["roots"], lift=ABOVE)
-    style.letter(panels["slopes"], start="c")
-    local = pd.concat([slopes(part) for _, part in table.groupby("gas")])
-    fitted = [laws(part).assign(gas=name) for name, part in table.groupby("gas", sort=False)]
-    rows = pd.concat(fitted).drop(columns="predicted").rename(columns={"first": "fitted_from"})
-    return figure, by_spacing(pd.concat([table.join(local), rows]), spacing), caption(table, results, spacing)
+    gases = table.groupby("gas", sort=False)
+    table = table.join(pd.concat([slopes(part) for _, part in gases]))
+    tested = pd.concat([laws(part).assign(gas=name) for name, part in table.groupby("gas", sort=False)])
+    figure, (left, right) = plt.subplots(1, 2, figsize=(2 * style.COLUMN, style.HEIGHT))
+    draw_powers(left, table, spacing)
+    draw_slopes(right, table)
+    style.letter(left, right)
+    return figure, by_spacing(pd.concat([table, tested]), spacing), caption(tested, results, spacing)
 
 
 if __name__ == "__main__":
-    names = ("fitted_from", "chi_square", "freedom", "parameters", "exponent", "p_value", "criterion")
-    conductivities = ("kappa_baths", "slope", *(f"slope_{law}" for law in LINES))
-    units = dict.fromkeys((*names, "between"), "1")
+    conductivities = ("kappa_baths", "slope", *(f"slope_{law}" for law in LAWS))
+    units = dict.fromkeys(("between", "chi_square", "freedom", "p_value"), "1")
     units |= dict.fromkeys(conductivities, "energy/(time temperature)")
     run(draw, "Heat conductivity at fixed spacing and at the spacing 1/N", **units)
