@@ -1,7 +1,7 @@
 """Fig. 1: momentum distribution of the particles in an empty chain that fills, times |p|, at several times.
 
-Shown for three distances between scatterers, as the paper states none. Below, the same on logarithmic bins, with the fronts p_0(t), and
-the fronts over lambda/2t, the momentum that crosses half a cell within t.
+Shown for several distances between scatterers, as the paper states none. Below, the same on logarithmic bins, with the fronts p_0(t),
+and the fronts over lambda/2t, the momentum that crosses half a cell within t.
 """
 
 from collections.abc import Sequence
@@ -12,7 +12,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, baths, listed, number, parameters, replicas
+from workflow.lib.caption import ERRORS, baths, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
 
@@ -46,32 +46,30 @@ def plot_times(axes: Axes, table: pd.DataFrame) -> None:
     axes.set_ylim(bottom=0)
 
 
-def bin_width(result: Result) -> float:
-    return 2 * float(result.parameters["momentum-max"]) / int(result.parameters["momentum-bins"])
-
-
 def number_bins(axes: Axes, result: Result) -> None:
     """Adds an upper axis with the numbers of the bins, the abscissa of the paper."""
-    width, low = bin_width(result), float(result.parameters["momentum-max"])
+    low = float(result.parameters["momentum-max"])
+    width = 2 * low / int(result.parameters["momentum-bins"])
     scales = (lambda p: (p + low) / width, lambda k: k * width - low)
     axes.tick_params(axis="x", which="both", top=False)
     axes.secondary_xaxis("top", functions=scales).set_xlabel("bin number")
 
 
 def caption(results: Sequence[Result]) -> str:
-    exponents = listed(style.with_error(result["front_exponent"]) for result in results)
+    exponent = style.with_error(results[0]["front_exponent"])
     return f"""
-        Particles n_t(p) with momentum p in a chain that is empty at t = 0, times |p|; {parameters(results, "cells", "sigma", "gamma")},
-        {baths(results[0])}, {replicas(results)}. The paper does not state the distance λ of the scatterers: columns; claims are
-        judged at λ = {style.JUDGED}. Top: bins of width {number(bin_width(results[0]))}, too wide for the front; upper axis: bin number, the paper's abscissa. Middle: logarithmic bins, both signs of p; circles: front p_0(t), where the density falls to half its
-        height. Bottom: p_0 over λ/2t. The front falls as t^a with a = {exponents} in the columns, not logarithmically.
+        Particles n_t(p) with momentum p in a filling chain, times |p|; {parameters(results, "cells", "sigma", "gamma")},
+        {baths(results[0])}. Columns: λ, unstated in the paper. Top: the paper's bins; middle: logarithmic, with the front p_0; bottom: p_0 over
+        λ/2t, above 1 at λ = {style.spacing(results[-1])[1]}, as cells filled late. At λ = {style.spacing(results[0])[1]}, p_0 ∼ t^a, a = {exponent}.
         {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
-    size = (3 * style.COLUMN, 2.3 * style.HEIGHT)
-    figure, rows = plt.subplots(3, len(results), figsize=size, sharex="row", height_ratios=[2, 2, 1])
     results = style.in_order_of_spacing(results)
+    size = (len(results) * style.COLUMN, 2.3 * style.HEIGHT)
+    figure, rows = plt.subplots(
+        3, len(results), figsize=size, sharex="row", height_ratios=[2, 2, 1], squeeze=False
+    )
     tables = [tabulate(result) for result in results]
     for (above, middle, below), result, table in zip(rows.T, results, tables, strict=True):
         plot_times(above, table[table.bins == "momentum"])
@@ -82,8 +80,7 @@ def draw(results: Sequence[Result]) -> Drawn:
         ratio = front.front / half_cell
         below.errorbar(front.time, ratio, front.front_error / half_cell, **FRONT)
         below.axhline(1, **style.GUIDE)
-        given = style.spacing(result)[1]
-        name = rf"$\lambda = {given}$" + "\n(judged)" * (given == style.JUDGED)
+        name = rf"$\lambda = {style.spacing(result)[1]}$"
         above.text(0.04, 0.94, name, transform=above.transAxes, va="top")
         above.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel=r"$|p|\,n_t(p)$", xlim=(-40, 40))
         number_bins(above, result)
@@ -91,8 +88,10 @@ def draw(results: Sequence[Result]) -> Drawn:
         top = 1.3 * max(1, np.nanmax(ratio))
         below.set(xlabel="time $t$", ylabel=r"$p_0\,/\,(\lambda/2t)$", ylim=(0, top))
     style.letter(*rows[0], lift=26)
-    style.letter(*rows[1:].flat, start="d")
-    figure.legend(*rows[1, 0].get_legend_handles_labels(), loc="outside upper center", ncols=6)
+    style.letter(*rows[1:].flat, first=len(results))
+    figure.legend(
+        *rows[1, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3 * len(results) // 2
+    )
     return figure, pd.concat(tables), caption(results)
 
 

@@ -13,7 +13,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, baths, parameters, replicas
+from workflow.lib.caption import ERRORS, baths, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
 
@@ -57,8 +57,7 @@ def draw_number(axes: Axes, table: pd.DataFrame, result: Result) -> None:
     axes.errorbar(table.time, table.number, table.number_error, **NUMBER, label="$n(t)$")
     if straight(result):
         axes.plot(table.time, table.number_fitted, color=style.BLACK, zorder=3, label=r"$a + b\,\ln t$")
-    given = style.spacing(result)[1]
-    title = rf"$\lambda = {given}$" + " (judged)" * (given == style.JUDGED)
+    title = rf"$\lambda = {style.spacing(result)[1]}$"
     filled = table.cell_length.iloc[0] < 1
     axes.legend(title=title, alignment="left", loc="lower right" if filled else "upper left")
     axes.set(xscale="log", ylabel="particles inside $n(t)$", ylim=(0, None))
@@ -73,27 +72,27 @@ def draw_slopes(axes: Axes, table: pd.DataFrame, result: Result) -> None:
 
 
 def caption(results: Sequence[Result]) -> str:
-    (judged,) = (result for result in results if result.run == "unit-chain")
-    slope, height = style.with_error(judged["log_slope"]), style.with_error(judged["plateau"], -1)
+    chain = results[0]
+    slope, height = style.with_error(chain["log_slope"]), style.with_error(chain["plateau"], -1)
     return f"""
-        Number n(t) of particles in a chain that is empty at t = 0; {parameters(results, "cells", "sigma", "gamma")},
-        {baths(results[0])}, {replicas(results)}. Above: n(t); line: a + b ln t, fitted in the shaded window,
-        where no curvature is resolved. Below: dn/d ln t (circles) and height of |p| n_t(p) above the front, both signs
-        (squares). They agree once the chain is filled, at the largest λ not yet. At λ = {style.JUDGED}, slope {slope} and height {height} at the end,
-        logarithmic growth as in the paper. Early growth breaks off when the fronts from both ends have crossed the chain. {ERRORS}"""
+        Particles n(t) in an initially empty chain; {parameters(results, "cells", "sigma", "gamma")}, {baths(chain)}. Top: n(t) and a + b ln t,
+        fitted in the shaded window if straight. Bottom: dn/d ln t (circles) and height of |p| n_t(p) (squares), which agree once a chain is
+        filled: at λ = {style.spacing(chain)[1]}, {slope} and {height} in the end. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
-    size = (3 * style.COLUMN, 1.5 * style.HEIGHT)
-    figure, rows = plt.subplots(2, len(results), sharex="col", figsize=size, height_ratios=[2, 1])
     results = style.in_order_of_spacing(results)
+    size = (len(results) * style.COLUMN, 1.5 * style.HEIGHT)
+    figure, rows = plt.subplots(
+        2, len(results), sharex="col", figsize=size, height_ratios=[2, 1], squeeze=False
+    )
     tables = [tabulate(result) for result in results]
     for (above, below), result, table in zip(rows.T, results, tables, strict=True):
         draw_number(above, table, result)
         draw_slopes(below, table, result)
         for axes in (above, below) if straight(result) else ():
             axes.axvspan(*result["plateau"].axes["time"][[0, -1]], **style.WINDOW)
-    rows[1, 0].legend(loc="lower right", handletextpad=0.2)
+    rows[1, -1].legend(loc="upper left", handletextpad=0.2)
     style.letter(*rows.flat)
     return figure, pd.concat(tables), caption(results)
 

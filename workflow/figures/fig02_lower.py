@@ -2,12 +2,12 @@
 
 from collections.abc import Sequence
 
+import numpy as np
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, WINDOW, baths, listed, parameters, replicas
+from workflow.lib.caption import ERRORS, baths, listed, parameters
 from workflow.lib.figure import Drawn, run
-from workflow.lib.fit import fit_line, with_error
 from workflow.lib.load import Result
 
 
@@ -17,27 +17,24 @@ def tabulate(result: Result) -> pd.DataFrame:
     table = pd.DataFrame({"x": (density.axes["cell"] + 0.5) / len(density.mean)})
     table["density"], table["density_error"] = density.mean, density.error
     bulk = table[(table.x > 0.25) & (table.x < 0.75)]
-    table["bulk"] = fit_line(bulk.x, bulk.density, bulk.density_error).at(table.x)
+    table["bulk"] = np.polyval(
+        np.polyfit(bulk.x, bulk.density, 1), table.x
+    )  # without weights, as in density_excess
     table["relative"] = table.density / table.bulk
     table["relative_error"] = table.density_error / table.bulk
     table.insert(0, "gamma", style.gamma(result))
     return table
 
 
-def caption(results: Sequence[Result], tables: Sequence[pd.DataFrame]) -> str:
+def caption(results: Sequence[Result]) -> str:
     excess = listed(
-        " and ".join(
-            with_error(100 * (row.relative - 1), 100 * row.relative_error)
-            for row in table.iloc[[0, -1]].itertuples()
-        )
-        + f" % at γ = {table.gamma.iloc[0]}"
-        for table in tables
+        f"{style.with_error(result['density_excess'], 0, 100)} % at γ = {style.gamma(result)}"
+        for result in results
     )
     return f"""
-        Open chain, {parameters(results, "cells", "cell-length", "sigma")}, {baths(results[0])}, {parameters(results, *WINDOW)},
-        {replicas(results)}. (a) Mean number ρ(x) of particles per cell at γ = N (circles) and γ = 1 (squares); lines: through the shading.
-        ρ grows with the window, as slow particles accumulate. (b) ρ over the line. As in the paper the profile at γ = 1 is
-        the flatter, and particles accumulate at the ends: excess of the first and the last cell {excess}. {ERRORS}"""
+        Open chain, {parameters(results, "cells", "cell-length", "sigma")}, {baths(results[0])}. (a) Particles per cell, ρ(x), which grows with the
+        window, as slow particles accumulate; lines: through the shaded half. (b) ρ over the line.
+        The first cell exceeds the line by {excess}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
@@ -55,7 +52,7 @@ def draw(results: Sequence[Result]) -> Drawn:
     above.set(ylabel=r"particles per cell, $\rho(x)$", xlim=(0, 1))
     below.set(xlabel="$x$", ylabel=r"$\rho$ over bulk line")
     above.legend(loc="upper right")
-    return figure, pd.concat(tables), caption(results, tables)
+    return figure, pd.concat(tables), caption(results)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, WINDOW, baths, listed, parameters, replicas
+from workflow.lib.caption import ERRORS, baths, listed, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
 
@@ -33,11 +33,9 @@ def caption(results: Sequence[Result]) -> str:
         for result in results
     )
     return f"""
-        Open chain, {parameters(results, "cells", "cell-length", "sigma")}, {baths(results[0])}, {parameters(results, *WINDOW)},
-        {replicas(results)}. (a) Temperature T of scatterers (symbols) and arriving particles (lines); right axis: kinetic energy
-        E_K = T/2, plotted in the paper; dashed: baths. (b) Particles minus scatterers, in the same cell and runs. As in the paper neither
-        profile reaches the baths, and that of γ = 1 is the flatter: the first scatterer has {first}. At γ = N the
-        particles of the end cells depart from the scatterers. {ERRORS}"""
+        Open chain, {parameters(results, "cells", "cell-length", "sigma")}, {baths(results[0])} (dashed). (a) Temperature of scatterers (symbols)
+        and arriving particles (lines); right axis: E_K = T/2, as in the paper. (b) Particles minus scatterers of a cell. Neither profile
+        reaches the baths; that of γ = 1 is flatter: the first scatterer has {first}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:

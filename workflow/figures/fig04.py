@@ -11,7 +11,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import CHAIN, ERRORS, WINDOW, baths, listed, number, parameters, replicas
+from workflow.lib.caption import CHAIN, ERRORS, baths, listed, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.fluxes import ENDS, at_ends, halves, measured
@@ -96,20 +96,14 @@ def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
 def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]) -> str:
     runs = [result for result in measured(results) if style.gamma(result) == main.gamma.iloc[0]]
     chain = next(result for result in runs if len(set(result.ends("nu"))) > 1)
-    ends = unequal.drop_duplicates("x").itertuples()
-    jumps = listed(with_error(end.jump, end.jump_error) for end in ends)
+    jumps = listed(with_error(end.jump, end.jump_error) for end in unequal.drop_duplicates("x").itertuples())
     far = 100 * (unequal.flux - unequal.kinetic).abs().max() / unequal.kinetic.max()
-    equal = " and at equal rates" if len(runs) > 1 else ""
-    statement = (
-        f"The jumps, {jumps}, are much smaller than at γ = 1, as in the paper, but remain at equal rates"
-        if len(runs) > 1
-        else f"As in the paper F_N agrees with the kinetic equation, within {number(float(f'{far:.1g}'))} %; it jumps by {jumps}"
-    )
+    difference = f"They differ by up to {float(f'{far:.1g}'):g} % of max F"
+    if chain.parameters["gamma"] == "N":
+        difference += ", as mean field neglects correlations between collisions"
     return f"""
-        Flux F_N(p, x) of the particles, per momentum, behind the first and the last scatterer;
-        {parameters([chain], *CHAIN)}, {baths(chain)}, {parameters([chain], *WINDOW)}, {replicas(runs)}. Black: mean field, the kinetic equation.
-        (a) F_N; right axis: over ν_L + ν_R, the scale of the paper. (b) Close-up of p = 0. (c) Deviation from the mean
-        field. (d) Jump at p = 0, extrapolated{equal}. {statement}. {ERRORS}"""
+        Flux F_N(p, x) of the particles behind both end scatterers; {parameters([chain], *CHAIN)}, {baths(chain)}. Black: mean field (kinetic
+        equation). (a), (b) F_N; right axis: over ν_L + ν_R. (c) Difference. (d) Jump at p = 0, {jumps}. {difference}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, listed, number, parameters, replicas
+from workflow.lib.caption import ERRORS, listed, parameters
 from workflow.lib.closed import persistence_law
 from workflow.lib.figure import Drawn, require_elastic, run
 from workflow.lib.fit import with_error
@@ -48,18 +48,11 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     largest = []
     for particles, series in table.groupby("particles_per_cell"):
         far = series.loc[series.deviation.abs().idxmax()]
-        text = f"{with_error(far.deviation, far.mu_error)} at n = {particles} and σ = {number(far.sigma)}"
-        largest.append(text)
-    energies = [
-        f"{energy:.0f} at n = {particles}"
-        for particles, energy in table.groupby("particles_per_cell").particle_energy.median().items()
-    ]
+        largest.append(f"{with_error(far.deviation, far.mu_error)} at n = {particles}")
     return f"""
-        Probability μ that a particle keeps its direction in a scattering, closed chains,
-        {parameters(results, "cells", "cell-length", "gamma", "temperature", "relaxation-time")}, n particles per cell, {replicas(results)}. (a) μ
-        and the law arccos(σ)/π of Gaussian momenta at one temperature. (b) μ minus the law; dashes: the law at the measured energies before
-        collisions (particles: {listed(energies)}), which explains a part. Largest deviations: {listed(largest)}; the law is that of a
-        dense chain. {ERRORS}"""
+        Probability μ that a particle keeps its direction in a scattering, closed chains, n particles per cell;
+        {parameters(results, "cells", "gamma", "temperature")}. (a) μ and the law arccos(σ)/π. (b) μ minus the law, largest {listed(largest)}; dashes:
+        the law at the energies measured before collisions. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:

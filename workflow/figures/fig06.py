@@ -11,7 +11,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import CHAIN, ERRORS, GAS, WINDOW, listed, number, parameters, replicas
+from workflow.lib.caption import ERRORS, GAS, listed, number, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
 
@@ -75,12 +75,10 @@ def caption(results: Sequence[Result]) -> str:
         f"{style.with_error(result['exponent'])} at σ = {number(result.parameters['sigma'])}"
         for result in results
     )
-    chain = [name for name in CHAIN if name != "sigma"]
     return f"""
-        Density Ψ(τ) of waiting times in a closed chain,
-        {parameters(results, *chain, *GAS, *WINDOW)}, {replicas(results)}. τ = λ/|p| is recorded at its start and may exceed the run. (a) Ψ;
-        blue line: exact for σ = 0, n → ∞; a finite n raises the amplitude only. (b), (c) Ψ times the paper's powers of τ. Black: power laws fitted in the
-        shaded tail, exponents {exponents}; paper: −{POWERS[0.0]} and −{POWERS[0.5]}. Open symbols: errors above {number(100 * UNSURE)} %; triangles: bins above the frame. {ERRORS}"""
+        Density Ψ(τ) of waiting times in closed chains, {parameters(results, "cells", "gamma", *GAS)}. (a) Ψ; blue: exact for σ = 0, n → ∞.
+        (b), (c) Ψ times the paper's powers of τ. Black: fits of the shaded tail, exponents {exponents}. Open: errors above
+        {number(100 * UNSURE)} %; triangles: off frame. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:

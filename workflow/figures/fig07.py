@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import CHAIN, ERRORS, GAS, listed, number, parameters, replicas
+from workflow.lib.caption import ERRORS, GAS, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
@@ -48,18 +48,14 @@ def tabulate(result: Result) -> pd.DataFrame:
     return table
 
 
-def caption(random: pd.DataFrame, results: Sequence[Result], window: tuple[float, float]) -> str:
-    last = random.iloc[-1]
-    alpha = [(cells(result), style.with_error(result["alpha"])) for result in results if not zero(result)]
-    larger = listed(f"{text} at N = {size}" for size, text in alpha[1:]) if alpha[1:] else ""
-    without = [style.with_error(result["alpha"]) for result in results if zero(result)]
-    options = [name for name in (*CHAIN, *GAS, "relaxation-time") if name != "cells"]
+def caption(random: pd.DataFrame, results: Sequence[Result]) -> str:
+    last, paper = random.iloc[-1], results[0]
+    (without,) = (style.with_error(result["alpha"]) for result in results if zero(result))
     return f"""
-        Spreading of a tagged particle in closed chains of N cells, {parameters(results, *options)}, {replicas(results)}.
-        (a) Mean square displacement; lines: centre of mass; dashed: t and t². (b) Local exponents. Fitted for t =
-        {number(window[0])} to {number(window[1])} (shaded), α is {alpha[0][1]} in the paper's {alpha[0][0]} cells with random total momentum,
-        slightly below two. This is drift of the centre of mass, {with_error(100 * last.fraction, 100 * last.fraction_error)} % of ⟨x²⟩ at
-        the end, whose velocity falls as N grows: {f"α is {larger}" if larger else ""}{f", and {without[0]} with zero total momentum" if without else ""}. {ERRORS}"""
+        Spreading of tagged particles in closed chains, {parameters([paper], "sigma", "gamma", *GAS)}. (a) Mean square displacement;
+        lines: of the centre of mass. (b) Local exponents. In the shaded window α is {style.with_error(paper["alpha"])} at N = {cells(paper)}, as in
+        the paper: drift of the centre of mass, {with_error(100 * last.fraction, 100 * last.fraction_error)} % of ⟨x²⟩. With zero total
+        momentum α is {without}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
@@ -80,7 +76,9 @@ def draw(results: Sequence[Result]) -> Drawn:
         middle = np.sqrt(table.time * table.time.shift(-1))
         below.errorbar(middle, table.slope_to_next, table.slope_to_next_error, **look)
         if not zero(result):
-            above.plot(time, table.centre_of_mass, color=look["color"], zorder=0)
+            above.plot(table.time, table.centre_of_mass, color=look["color"], zorder=0)
+            style.band(above, table.time, table.centre_of_mass, table.centre_of_mass_error, look["color"])
+    above.plot([], [], color="grey", label="centre of mass")
     late = time[time > last / GUIDED]
     for table, power, factor in ((random, 2, APART), (tables[-1], 1, 1 / APART)):
         guide = factor * table.variance.iloc[-1] * (late / last) ** power
@@ -94,7 +92,7 @@ def draw(results: Sequence[Result]) -> Drawn:
     above.set(xscale="log", yscale="log", ylabel=r"$\langle x^2\rangle$")
     below.set(xlabel=f"time $t$ ({style.UNITS})", ylabel=r"$d\ln\langle x^2\rangle/d\ln t$", ylim=(0.5, 2.2))
     above.legend(loc="upper left", title=rf"$\sigma = {results[0].parameters['sigma']:g}$", alignment="left")
-    return figure, pd.concat(tables), caption(random, results, window)
+    return figure, pd.concat(tables), caption(random, results)
 
 
 if __name__ == "__main__":

@@ -1,9 +1,4 @@
-"""Inset of fig. 7: exponent alpha of the spreading against sigma, with the paper's random total momentum and with none.
-
-The exponent of the displacement about the centre of mass is shown too. It differs from that at zero total momentum. Scatterers stay in
-place, so a conserved total momentum shifts a particle at every collision. With waiting times ~ tau^-2 the relative difference between
-the numbers of collisions of two particles falls only as 1/ln t. The displacement about the centre of mass thus grows nearly as t^2.
-"""
+"""Inset of fig. 7: exponent alpha of the spreading against sigma, with the paper's random total momentum and with none."""
 
 from collections.abc import Sequence
 
@@ -11,18 +6,17 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import CHAIN, ERRORS, GAS, WINDOW, number, parameters, replicas
+from workflow.lib.caption import ERRORS, GAS, number, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import NOT_REACHED, Result
 
 TICKS = (-1, -0.5, 0, 0.5, 1)
 
-# By zero total momentum and column: label, marker, colour, fill colour.
+# By zero total momentum: label, marker, colour, fill colour.
 CURVES = {
-    (False, "alpha"): ("random total momentum, as in the paper", "o", style.BLUE, style.BLUE),
-    (False, "alpha_relative"): ("about the centre of mass", "^", style.SKY, "white"),
-    (True, "alpha"): ("zero total momentum", "s", style.VERMILLION, "white"),
+    False: ("random total momentum, as in the paper", "o", style.BLUE, style.BLUE),
+    True: ("zero total momentum", "s", style.VERMILLION, "white"),
 }
 
 
@@ -32,7 +26,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         {
             "sigma": float(result.parameters["sigma"]),
             "zero_total_momentum": bool(result.parameters["zero-total-momentum"]),
-            **result.columns("alpha", "alpha_relative"),
+            **result.columns("alpha"),
             "converged": result.converged,
         }
         for result in results
@@ -40,11 +34,10 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     return pd.DataFrame(rows).sort_values(["zero_total_momentum", "sigma"], ignore_index=True)
 
 
-def draw_curve(axes: Axes, table: pd.DataFrame, zero: bool, name: str) -> None:
-    label, marker, color, face = CURVES[zero, name]
+def draw_curve(axes: Axes, table: pd.DataFrame, zero: bool) -> None:
+    label, marker, color, face = CURVES[zero]
     part = table[table.zero_total_momentum == zero]
-    look = style.points(marker, color, face, label=label)
-    axes.errorbar(part.sigma, part[name], part[f"{name}_error"], **look)
+    axes.errorbar(part.sigma, part.alpha, part.alpha_error, **style.points(marker, color, face, label=label))
 
 
 def extremes(table: pd.DataFrame) -> str:
@@ -55,23 +48,20 @@ def extremes(table: pd.DataFrame) -> str:
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     free, zero = table[~table.zero_total_momentum], table[table.zero_total_momentum]
-    chain = [name for name in CHAIN if name != "sigma"]
     options = results[0].parameters
     first = options["observation-time"] / 10 ** options["fit-decades"]
     return f"""
-        Exponent α of the spreading of a tagged particle in a closed chain against the mass ratio,
-        {parameters(results, *chain, *GAS, *WINDOW)}, {replicas(results)}, fitted from t = {number(first)} on. (a) Random total momentum, as in the
-        paper; the same about the centre of mass, which leaves some drift, as particles scatter at different rates; zero total momentum.
-        Dashed: ballistic and diffusive. (b) Zero total momentum. For σ ≠ 0, α is {extremes(free)} with random and {extremes(zero)} with zero total momentum:
-        the superdiffusion of the paper is drift. {ERRORS}"""
+        Exponent α of the spreading of tagged particles, closed chains, {parameters(results, "cells", "gamma", *GAS)}, fitted from t =
+        {number(first)} on. (a) With random total momentum, as in the paper, and with none; dashed: ballistic, diffusive. (b) The latter
+        enlarged. For σ ≠ 0, α is {extremes(free)} with and {extremes(zero)} without total momentum. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
     table = tabulate(results)
     figure, (above, below) = style.stacked(2, 1, height=1.6)
-    for zero, name in CURVES:
-        draw_curve(above, table, zero, name)
-    draw_curve(below, table, True, "alpha")
+    for zero in CURVES:
+        draw_curve(above, table, zero)
+    draw_curve(below, table, True)
     style.cross_out(above, table.sigma, table.alpha, table.converged == NOT_REACHED)
     for axes, value in ((above, 1), (above, 2), (below, 1)):
         axes.axhline(value, **style.GUIDE)

@@ -14,7 +14,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import LinearSegmentedColormap, PowerNorm
 
 from workflow.lib import style
-from workflow.lib.caption import listed, number
+from workflow.lib.caption import number
 from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
 
@@ -126,12 +126,9 @@ def draw(_: Sequence[Result]) -> Drawn:
     baths(panels[1], energies)
     label = "energy of the particle, $p^2/2m$"
     figure.colorbar(lines, ax=panels, label=label, extend="max", aspect=30, pad=0.01)
-    caption = f"""The model: world lines of particles in (a) a closed and (b) an open chain of
-        N = {CELLS} cells, σ = {number(SIGMA)}, γ = N. A particle flies freely, past all others, to the next scatterer (grey),
-        which stays in place, and the two exchange energy and momentum. So energy passes from particle to particle through the
-        scatterers. The colour is the energy of the particle. (a) A ring: the dashed ends are joined;
-        n = {PER_CELL} per cell. (b) Each bath injects particles at its rate, ν = {listed(map(number, RATES))}, and absorbs those that
-        reach it; its colour is its temperature as an energy."""
+    caption = f"""The model: world lines of particles in (a) a closed and (b) an open chain, N = {CELLS}, σ = {number(SIGMA)}, γ = N.
+        A particle flies past all others to the next scatterer (grey), fixed in place, and the two exchange energy and momentum. Colour: energy of the particle. (a) A ring, joined at the dashed ends. (b) Baths inject particles and absorb those that
+        reach them; colour: temperature."""
     return figure, table, caption
 
 

@@ -9,8 +9,8 @@ from workflow.lib.fit import p_value
 from workflow.lib.load import Result
 
 SYMBOLS = {
-    "cells": "N = {} cells",
-    "particles-per-cell": "n = {} per cell",
+    "cells": "N = {}",
+    "particles-per-cell": "n = {}",
     "cell-length": "λ = {}",
     "sigma": "σ = {}",
     "gamma": "γ = {}",
@@ -21,20 +21,17 @@ SYMBOLS = {
     "temperature-right": "T_R = {}",
     "energy": "ε⁰ = {}",
     "pulse-energy": "ε̃ = {}",
-    "start": "start {}",
-    "relaxation-time": "relaxed for {}",
-    "observation-time": "observed for {}",
 }
 CHAIN = ("cells", "cell-length", "sigma", "gamma")
 GAS = ("particles-per-cell", "temperature")
 BATHS = ("nu-left", "nu-right", "temperature-left", "temperature-right")
-WINDOW = ("relaxation-time", "observation-time")
+PAPERS_BATHS = (220, 180, 900 / 11, 1100 / 9)
 
 RULES = {"random-direction": "random directions"}  # in words, where the name of --rule is no phrase
 BASE = 10
 SMALLEST_P = -6  # power of ten; smaller p-values are printed as a bound
+ERRORS = "Bars: standard errors."
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-ERRORS = "Error bars: standard errors over replicas."
 
 
 def number(value: float) -> str:
@@ -79,14 +76,17 @@ def rule(result: Result) -> str:
 
 
 def with_rules(caption: str, results: Sequence[Result]) -> str:
-    """The caption, with a sentence on the collision rules that it does not name. Elastic collisions, the paper's, need no name."""
+    """The caption, with a sentence on the collision rules of the panel's own results that it does not name. Elastic collisions, the paper's, need no name."""
     rules = dict.fromkeys(rule(result) for result in results if "rule" in result.parameters)
-    missing = [name for name in rules if name != "elastic" and name not in caption]
+    missing = [name for name in rules if name != "elastic" and name.partition(" (")[0] not in caption]
     return f"{caption} Collision rule: {listed(missing)}." if missing else caption
 
 
 def baths(result: Result) -> str:
-    """baths ν = 220 and 180, T = 81.82 and 122.2, left and right; equal values are given once."""
+    """`the paper's baths`, or others as `baths ν = 100, T = 100 and 120`, left and right; equal values are given once."""
+    values = [float(result.parameters[name]) for name in BATHS]
+    if np.allclose(values, PAPERS_BATHS):
+        return "the paper's baths"
     both = [listed(dict.fromkeys(map(number, result.ends(name)))) for name in ("nu", "temperature")]
     return f"baths ν = {both[0]}, T = {both[1]}"
 

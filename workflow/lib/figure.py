@@ -54,7 +54,8 @@ def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str
     if others := [name for name in sys.modules if name.startswith("workflow.figures.")]:
         sys.exit(f"{script.name} imports the script {others[0]}: move what they share to workflow/lib")
     sources = drawing_sources(script.stem)
-    name = panel_identity(options.output.name.partition(".")[0], map(str, options.data), sources)
+    panel = options.output.name.partition(".")[0]
+    name = panel_identity(panel, map(str, options.data), sources)
     if named_identity(options.output) not in (name, ""):
         sys.exit(f"{script.name}, workflow/lib or uv.lock was edited meanwhile: repeat the command")
     try:
@@ -65,8 +66,9 @@ def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str
         saved = as_csv(table, inherited(results) | errors | units)
     except (FormatError, OSError, TheoryError, UnitsError) as error:
         sys.exit(str(error))
+    own = [result for result in results if result.path.parent.name == panel] or results
     text = Text(
-        title if isinstance(title, str) else title(results), with_rules(" ".join(caption.split()), results)
+        title if isinstance(title, str) else title(results), with_rules(" ".join(caption.split()), own)
     )
     save(figure, saved, options.output, text, Parents(name, options.data, sources))
 

@@ -121,9 +121,10 @@ def stacked(*ratios: float, height: float, width: float = 1) -> tuple[Figure, li
     return figure, [*panels]
 
 
-def letter(*panels: Axes, lift: float | None = None, start: str = "a") -> None:
-    """Labels panels (a), (b), ... above the upper left corner. lift: distance in points, needed if one has tick labels on top."""
-    for character, axes in zip(ascii_lowercase[ascii_lowercase.index(start) :], panels, strict=False):
+def letter(*panels: Axes, lift: float | None = None, first: int = 0) -> None:
+    """Labels panels (a), (b), ... above the upper left corner. lift: distance in points, needed if one has tick labels on top; first:
+    number of panels that are labelled already."""
+    for character, axes in zip(ascii_lowercase[first:], panels, strict=False):
         axes.set_title(f"({character})", loc="left", y=None if lift is None else 1, pad=lift)
 
 
@@ -188,9 +189,6 @@ def spacing(result: Result) -> tuple[float, str]:
     if given == "1/N":
         return 1 / int(result.parameters["cells"]), "1/N"
     return float(given), f"{given:g}"
-
-
-JUDGED = "1/N"  # the distance by which claims are judged: that of the paper's other open chains
 
 
 def in_order_of_spacing(results: Sequence[Result]) -> list[Result]:
