@@ -5,7 +5,9 @@ import pandas as pd
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.figures import ext07, ext09, fig01_inset, fig03_inset
+from workflow.figures import accuracy, ext07, ext09, ext13, fig01_inset, fig03_inset, fig09
+from workflow.lib.closed import quasi_stationary
+from workflow.lib.fit import fit_power
 from workflow.lib.load import Result
 
 
@@ -58,3 +60,44 @@ def test_the_deviation_at_p_0_is_extrapolated_from_both_sides() -> None:
     table = pd.DataFrame({"momentum": momentum, "cells": 4, "kind": fig03_inset.MEAN_FIELD})
     table["deviation"] = np.where(momentum < 0, 5 + momentum, -7 + 0.5 * momentum)
     assert fig03_inset.at_centre(table).to_dict() == {4: 7.0}
+
+
+def test_diffusion_is_compared_at_equal_scaled_times() -> None:
+    """D = ε^-0.4 f(εt), in units in which √T/λ is 2. The ring of ε = 0.001 ends too early. Detected mistake: D at equal times."""
+    time = 2.0 ** np.arange(10)
+    parts = []
+    for epsilon in (0, 0.001, 0.01, 0.1, 0.3):
+        scaled = max(epsilon, 1e-9) * 2 * time
+        heat = 2 * time * max(epsilon, 1e-9) ** -0.4 * scaled**0.2
+        parts.append(pd.DataFrame({"epsilon": epsilon, "time": time, "heat_variance": heat}))
+    table = pd.concat(parts).assign(heat_variance_error=lambda rows: 0.02 * rows.heat_variance)
+    found = ext13.diffusion(table, 2)
+    assert [*found.epsilon] == [0.01, 0.1, 0.3]
+    np.testing.assert_allclose(found.diffusion_error / found.diffusion, 0.02)
+    law = fit_power(found.epsilon, found.diffusion, found.diffusion_error)
+    assert law.exponent == pytest.approx(-0.4)
+    assert fit_power(*table[table.time == 64].iloc[1:, [0, 2, 3]].to_numpy().T).exponent != pytest.approx(
+        -0.4
+    )
+
+
+def test_the_speed_of_sound_before_the_pulse() -> None:
+    """ζ = n/2Λ, and T conserves the energy [eqs. 13, 14, M11], in cells of length 2."""
+    options = {
+        "particles-per-cell": 50,
+        "energy": 5000,
+        "cell-length": 2.0,
+        "sigma": 0.5,
+        "relaxation-time": 1,
+    }
+    temperature, slow = (values.item() for values in quasi_stationary(50, 1e4, 2, 1))
+    assert 50 * temperature / slow + temperature == pytest.approx(50 * 1e4)
+    zeta = 50 / (2 * slow)
+    speed = np.sqrt(8 * zeta**2 * temperature / ((2 * zeta + 3) * (2 * zeta + 1))) / 2
+    assert fig09.sound_speed(Result(ROOT, options, {}, {})) == pytest.approx(speed)
+
+
+def test_the_gain_of_control_variates_is_that_of_the_longest_run() -> None:
+    rows = [("a", "x", 32, 9.0), ("a", "x", 128, 1.0), ("a", "x_plain", 32, 8.0), ("a", "x_plain", 128, 3.0)]
+    table = pd.DataFrame(rows, columns=["program", "quantity", "replicas", "error"])
+    assert accuracy.gain(table, "a") == pytest.approx(9)

@@ -13,7 +13,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, number
+from workflow.lib.caption import number
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
@@ -219,12 +219,12 @@ def draw(results: Sequence[Result]) -> Drawn:
     draw_heights(panels[1, 0], table)
     draw_orders(panels[1, 1], law)
     style.letter(*panels.flat)
-    last = with_error(*law[["stable_order", "stable_order_error"]].iloc[-1]) if len(law) else "not determined"
+    orders = [with_error(*law[["stable_order", "stable_order_error"]].iloc[k]) for k in (0, -1) if len(law)]
     caption = f"""
         Peaks in rings in equilibrium; black: mode coupling, nothing fitted. (a) Covariance C_g of the momenta of two cells, ζ =
         {number(first.zeta)}, M = {number(first.mass)}. (b) Covariance C_h of their heat, ζ = {number(heat[-1].gas.zeta)}, M = {number(heat[-1].gas.mass)}.
-        (c) Height of the sound peaks. (d) Order of stable laws fitted to (b), {last} in the
-        end; theory 5/3, diffusion 2. Errors in (d): jackknife over {len(heat[-1].results)} runs. {ERRORS}"""
+        (c) Height of the sound peaks. (d) Order of stable laws fitted to (b), {" and ".join(orders) or "unknown"} at the first
+        and the last time. Bars: standard errors, in (d) by a jackknife over {len(heat[-1].results)} runs."""
     return figure, pd.concat([*parts, table]), caption
 
 

@@ -221,7 +221,7 @@ def _opened(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
         raise FormatError(f"{path} is missing") from error
     except FormatError as error:
         raise FormatError(f"{path}: {error}") from error
-    except (OSError, KeyError, RuntimeError, ValueError) as error:
+    except (OSError, LookupError, RuntimeError, ValueError) as error:
         if isinstance(error, OSError) and error.errno:  # the file is unreadable, not damaged
             raise OSError(error.errno, os.strerror(error.errno), str(path)) from error
         if not re.search(rf"\.{IDENTITY}\.h5$", str(path)):  # the name is not one that the project gives
@@ -242,11 +242,7 @@ def _text(value: Any) -> Any:
 def _quantity(group: h5py.Group) -> Quantity:
     mean = group["mean"]
     names = ("discretisation_error",) if "discretisation_error" in group else ("standard_error", "count")
-    axes = axes_of(mean)
-    if unknown := group.keys() - {"mean", *names, *axes}:
-        raise FormatError(
-            f"{group.name}: {', '.join(sorted(unknown))} are neither values nor axes of mean; remake it with make figures"
-        )
+    axes = [Path(dimension[0].name).name for dimension in mean.dims]
     stored = {"mean": mean, **{name: group[name] for name in (*names, *axes)}}
     units, descriptions = (
         {name: _text(dataset.attrs[attribute]) for name, dataset in stored.items()}
@@ -264,18 +260,3 @@ def _quantity(group: h5py.Group) -> Quantity:
         descriptions=descriptions,
         control_variates=None if used is None else bool(used),
     )
-
-
-def axes_of(dataset: h5py.Dataset) -> list[str]:
-    """Names of the HDF5 dimension scales attached to the dimensions. Raises FormatError."""
-    try:
-        attached = [[str(scale.name) for scale in dimension.values()] for dimension in dataset.dims]
-    except RuntimeError:  # raised if an attached scale was deleted
-        attached = [[]]
-    for names in attached:
-        if len(names) != 1 or Path(names[0]).parent != Path(dataset.parent.name):
-            raise FormatError(
-                f"{dataset.name}: each dimension needs one dimension scale of {dataset.parent.name}, not {attached}; "
-                "remake it with make figures"
-            )
-    return [Path(name).name for (name,) in attached]
