@@ -19,7 +19,9 @@ Curve = tuple[
 
 
 def measured(results: Sequence[Result]) -> list[Result]:
-    return [result for result in results if result.provenance["program"] == "momentum_flux"]
+    """The simulations between baths of different temperatures; others are in equilibrium."""
+    simulated = [result for result in results if result.provenance["program"] == "momentum_flux"]
+    return [result for result in simulated if len(set(result.ends("temperature"))) > 1]
 
 
 def uncorrelated(results: Sequence[Result], like: Result) -> Result | None:
