@@ -224,7 +224,7 @@ def draw(results: Sequence[Result]) -> Drawn:
         Peaks in rings in equilibrium; black: mode coupling, nothing fitted. (a) Covariance C_g of the momenta of two cells, ζ =
         {number(first.zeta)}, M = {number(first.mass)}. (b) Covariance C_h of their heat, ζ = {number(heat[-1].gas.zeta)}, M = {number(heat[-1].gas.mass)}.
         (c) Height of the sound peaks. (d) Order of stable laws fitted to (b), {" and ".join(orders) or "unknown"} at the first
-        and the last time. Bars: standard errors, in (d) by a jackknife over {len(heat[-1].results)} runs."""
+        and last time. Bars: standard errors, in (d) by jackknife over {len(heat[-1].results)} runs."""
     return figure, pd.concat([*parts, table]), caption
 
 
