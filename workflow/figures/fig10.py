@@ -81,7 +81,9 @@ def octaves(result: Result) -> str:
 def caption(results: Sequence[Result]) -> str:
     rest = results[0]
     if rest.parameters["gamma"] == "N":
-        law = f"Dashed: the paper's 2/3, damping of sound, and 1/2, a shock. Octaves from rest: {octaves(rest)}"
+        law = (
+            f"Dashed: the paper's 2/3, damping of sound, and 1/2, a shock. Octaves from rest: {octaves(rest)}"
+        )
     else:
         law = f"Dashed: the paper's 1. Octaves from rest: {octaves(rest)}"
     return f"""
