@@ -39,10 +39,10 @@ def caption(table: pd.DataFrame, tau: Mean, weak: Sequence[Result], strong: Sequ
     last = table[table.gas == THINNING].iloc[-1]
     ratio = last.kappa_0 / last.predicted
     error = ratio * np.hypot(last.kappa_0_error / last.kappa_0, last.predicted_error / last.predicted)
-    crosses = " Crosses: not stationary, or target missed." if not table.usable.all() else ""
+    crosses = " Crosses: unsound." if not table.usable.all() else ""
     return f"""
         Linear response to small differences of temperature and pressure, {parameters(weak, "gamma", "sigma")}. (a) L_nn/N of the particle current.
-        (b) Conductivity κ_0 without it; lines: a ring of that gas until τN/c, when sound leaves the chain, τ = {with_error(tau.value, tau.error)}
+        (b) Conductivity κ_0 without it; lines: rings until τN/c, when sound leaves the chain, τ = {with_error(tau.value, tau.error)}
         from λ = {spacing[DENSE]}. At λ = 1/N, κ_0 is in the end {with_error(ratio, error)} of the line. (c) Exponents; open: κ at T_R/T_L =
         {number(drive(strong[0]))}.{crosses} {ERRORS}"""
 

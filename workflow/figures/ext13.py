@@ -190,8 +190,8 @@ def caption(table: pd.DataFrame, control: pd.DataFrame, unit: float) -> str:
     random = table[table.rule == "random-direction"].dropna(subset="middle").iloc[-1]
     gas = control.iloc[0]
     return f"""
-        Heat Q that passes in a time t in rings in equilibrium. (a) Mean square; lines: mode coupling, nothing fitted, up to {off:.0f} % off in
-        the end. (b) Exponents over octaves. (c), (d) ζ = {number(gas.zeta)}, M = {number(gas.mass)}: reversal of the scatterer's momentum in a fraction
+        Heat Q that passes in a time t in rings in equilibrium. (a) Mean square; lines: mode coupling, nothing fitted, up to {off:.0f} % off.
+        (b) Exponents over octaves. (c), (d) ζ = {number(gas.zeta)}, M = {number(gas.mass)}: reversal of the scatterer's momentum in a fraction
         ε of collisions. At εt = {COMMON}, ⟨Q²⟩/t ∼ ε^a, a = {with_error(law.exponent, law.error)}. With random directions the last exponent
         is {with_error(random.local_exponent, random.local_exponent_error)}. {ERRORS}"""
 
