@@ -18,7 +18,7 @@ from workflow.lib.closed import quasi_stationary
 from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
 from workflow.lib.mode_coupling import Chain
-from workflow.lib.pulse import LOOKS, in_order, label, look_of, resolved, start
+from workflow.lib.pulse import LOOKS, in_order, label, look, look_of, resolved, start
 
 FAINT = 0.45
 
@@ -60,7 +60,7 @@ def draw_motion(position: Axes, speed: Axes, result: Result) -> None:
     where, rate = result["peak_position"], result["peak_speed"]
     time = where.axes["time"]
     position.errorbar(time, where.mean, where.error, label=label(result), **look_of(result))
-    position.plot(time, where.mean[0] * time / time[0], **style.GUIDE | {"color": LOOKS[result.run][1]})
+    position.plot(time, where.mean[0] * time / time[0], **style.GUIDE | {"color": look(result)[1]})
     speed.errorbar(rate.axes["middle"], rate.mean, rate.error, **look_of(result))
 
 
@@ -71,17 +71,17 @@ def caption(results: Sequence[Result]) -> str:
     )
     speed = "changes from {} to {}".format(*ends) if ends else "is not resolved"
     closed = any(result["ring_closed"].mean.any() for result in results)
-    faint = " Faint: both sides have met opposite to the pulse." if closed else ""
+    faint = " Faint: ring closed." if closed else ""
     often = results[0].parameters["gamma"] == "N"
     sound = "; dashed: sound at temperature and density of the ring from rest" if often else ""
-    near = "" if often else " Dips beside the spike: particles that the pulse has driven away."
+    near = "" if often else "Dips beside the spike: particles that the pulse has driven away."
     return f"""
         Energy ΔE(x, t) per cell of a ring with a central pulse minus without; {parameters(results, *CHAIN)}, {parameters(results, "particles-per-cell", "pulse-energy")}.
-        (a), (b) ΔE.{near}{faint} (c) Position of the moving peak; dashed: initial speed. (d) Its speed{sound}. From rest it {speed}. {ERRORS}"""
+        {near}{faint} (c) Position of the moving peak; dashed: initial speed. (d) Its speed{sound}. From rest it {speed}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
-    results = in_order(results)
+    results = [result for result in in_order(results) if result.run in LOOKS]
     figure, panels = plt.subplot_mosaic(
         [["rest", "gaussian", "position"], ["rest", "gaussian", "speed"]],
         figsize=(3 * style.COLUMN, 1.2 * style.HEIGHT),

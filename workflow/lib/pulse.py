@@ -26,16 +26,22 @@ def gaussian_start(results: Sequence[Result]) -> Result:
     return next(result for result in results if start(result) == "particles")
 
 
+def look(result: Result) -> tuple[str, str, str, str]:
+    """Marker, colour, fill colour and label; runs of the user's own have their name."""
+    return LOOKS.get(result.run, ("P", style.BLACK, style.BLACK, result.run))
+
+
 def in_order(results: Sequence[Result]) -> list[Result]:
-    return sorted(results, key=lambda result: list(LOOKS).index(result.run))
+    names = [*LOOKS]
+    return sorted(results, key=lambda result: names.index(result.run) if result.run in LOOKS else len(names))
 
 
 def label(result: Result) -> str:
-    return LOOKS[result.run][3]
+    return look(result)[3]
 
 
 def look_of(result: Result) -> style.Look:
-    marker, color, face, _ = LOOKS[result.run]
+    marker, color, face, _ = look(result)
     return style.points(marker, color, face)
 
 
