@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 from workflow.configuration import ConfigurationError
-from workflow.environment import clean
+from workflow.environment.variables import clean
 from workflow.files import in_one_line, lock_products
 from workflow.identity import IDENTITY
 from workflow.plan import (

@@ -44,7 +44,7 @@ if __name__ == "__main__":
     run(draw, "A panel")
 '''
 EFFORT = "default: {replicas: 4}\npanels:\n  energy: {replicas: 4}\n"
-JOB = re.compile(rf"^\s*output: \S*?([^/\s]+(?:/[^/\s]+)?)\.{IDENTITY}\.(h5|pdf)", re.MULTILINE)
+PRODUCT = re.compile(rf"([^/\s]+/[^/\s]+)\.{IDENTITY}\.(h5|pdf)")
 Done = subprocess.CompletedProcess[str]
 
 
@@ -75,8 +75,7 @@ class Project:
 
     def stale(self) -> set[str]:
         """What would be made: `panel/run` or `panel`."""
-        jobs = JOB.findall(self.snakemake("--dry-run", "figures"))
-        return {name if kind == "h5" else name.partition("/")[2] for name, kind in jobs}
+        return named(self.entry("figures", "DRY=yes"))
 
     def files(self, *folders: str) -> dict[str, bytes]:
         """Content by path."""
@@ -104,9 +103,14 @@ class Project:
             path = self.folder / "build/bin" / program
             former, present = source_hash(program), source_hash(program, self.folder / "cpp")
             content = (ROOT / "build/bin" / program).read_bytes().replace(former.encode(), present.encode())
-            path.unlink()
+            path.unlink(missing_ok=True)
             path.write_bytes(content)
             path.chmod(0o755)
+
+
+def named(text: str) -> set[str]:
+    """Results and figures that a text names: `panel/run` or `panel`."""
+    return {name if kind == "h5" else name.partition("/")[2] for name, kind in PRODUCT.findall(text)}
 
 
 def new_project(folder: Path) -> Project:
@@ -128,6 +132,9 @@ def new_project(folder: Path) -> Project:
     for program in ("persistence", "ageing"):
         (folder / "build/bin" / program).symlink_to(ROOT / "build/bin" / program)
     share_packages(folder)
+    (folder / ".cache").mkdir()
+    (ROOT / ".cache/matplotlib").mkdir(parents=True, exist_ok=True)
+    (folder / ".cache/matplotlib").symlink_to(ROOT / ".cache/matplotlib")  # its table of fonts
     return Project(folder)
 
 

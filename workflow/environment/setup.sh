@@ -1,14 +1,14 @@
 #!/bin/bash
 # System packages, and the locked Python packages in .venv; with "dev" also those of tests, checks and benchmarks.
-# uv installs them: from PATH, or a pinned version in .cache/uv.
+# uv installs them: from PATH, or a fixed version in .cache/uv.
 set -euo pipefail
 bash workflow/environment/system_packages.sh "$@"
 
 uv=$(command -v uv || echo .cache/uv/bin/uv)
 if [ ! -x "$uv" ]; then
   echo 'Installing uv into .cache/uv'
-  python3 -m venv --clear .cache/pip
-  .cache/pip/bin/pip install --quiet --disable-pip-version-check --target .cache/uv --require-hashes --requirement workflow/environment/uv.txt
+  python3 -m venv --clear .cache/uv
+  .cache/uv/bin/pip install --quiet --disable-pip-version-check uv==0.13.9
 fi
 
 if [ "${1-}" = dev ]; then groups=--dev; else groups=--no-dev; fi

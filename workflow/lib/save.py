@@ -6,21 +6,23 @@ line with panel, quality and identity.
 
 import io
 import json
+import platform
 import subprocess
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
-from workflow.environment import renderer
 from workflow.files import write_together
 from workflow.identity import ROOT, sha256, statement
 from workflow.lib.style import FONTS
 
 CREATOR = "lorentz-gas"
+RENDERING = ("matplotlib", "numpy", "scipy", "pandas", "pillow", "fonttools")  # packages
 
 
 @dataclass(frozen=True)
@@ -83,6 +85,12 @@ def commit() -> str:
         return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False).stdout.strip()
     except OSError:  # no git
         return ""
+
+
+def renderer() -> str:
+    """What the bytes of a picture depend on besides its parents: Python, kind of processor, versions of packages."""
+    versions = ", ".join(f"{name} {version(name)}" for name in RENDERING)
+    return f"Python {platform.python_version()} on {platform.machine()}, {versions}"
 
 
 def _picture(figure: Figure, kind: str, metadata: dict[str, Any]) -> bytes:

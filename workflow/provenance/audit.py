@@ -14,11 +14,11 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import NamedTuple
 
-from workflow.environment import renderer
 from workflow.files import in_one_line
 from workflow.identity import DIGITS, drawing_sources, named_identity, sha256, source_hash, stated
 from workflow.lib.load import FormatError, load
-from workflow.plan import Panel, Quality, Run, data_of, drawing_command, load_plan, runs_of, stem_of
+from workflow.lib.save import renderer
+from workflow.plan import Panel, Quality, Run, data_of, drawing_command, runs_of, stem_of
 from workflow.publish import SHOWN, copies, read_record
 
 
@@ -130,14 +130,14 @@ def check(plan: dict[str, Panel], names: list[str], quality: str, render: bool) 
     """Faults of the figures of panels and of the results that they plot. A figure whose results do not hold is not rendered."""
     runs, pictures = runs_of(plan, names, quality), [Picture(plan, name, quality) for name in names]
     results = {path: fault for path, run in runs.items() if (fault := fault_of_result(path, run))}
-    with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as threads:
+    with ThreadPoolExecutor(os.cpu_count()) as threads:
         usable = [render and not {*results} & {*picture.data} for picture in pictures]
         figures = threads.map(Picture.fault, pictures, usable)
     return [*results.values(), *filter(None, figures)]
 
 
 def main(options: argparse.Namespace) -> int:
-    quality, plan = options.quality, load_plan(options.quality)
+    quality, plan = options.quality, options.plan
     names = options.panels or [*plan]
     made = [name for name in names if Picture(plan, name, quality).is_made()]
     faults, alike = check(plan, made, quality, options.render), defaultdict(list)

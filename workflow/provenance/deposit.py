@@ -13,7 +13,7 @@ from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from workflow.identity import sha256
-from workflow.plan import Quality, load_plan, report_stem, runs_of, stem_of
+from workflow.plan import Quality, report_stem, runs_of, stem_of
 from workflow.provenance.audit import check
 from workflow.publish import copies
 
@@ -44,7 +44,7 @@ def pack(archive: Path, paths: Iterable[str]) -> None:
 
 def main(options: argparse.Namespace) -> None:
     """Exits if a product does not hold or a source is not tracked."""
-    quality, plan = options.quality, load_plan(options.quality)
+    quality, plan = options.quality, options.plan
     if new := git("ls-files", "--others", "--exclude-standard", "cpp", "workflow"):
         sys.exit(f"{new[0]} is not tracked, and would be missing in the deposit: git add it, or move it away")
     if faults := check(plan, [*plan], quality, render=False):

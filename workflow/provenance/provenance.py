@@ -1,4 +1,4 @@
-"""Prints where a file comes from: a result, a figure or its table, or a copy of one anywhere.
+"""Prints where a file comes from: a result, a figure or its table, or a copy of one anywhere. FULL=yes: with hashes and versions.
 
 Exit status: 0 if the file is unmodified, 1 if it is edited or states nothing, 3 if its record is not here.
 """
@@ -6,6 +6,7 @@ Exit status: 0 if the file is unmodified, 1 if it is edited or states nothing, 3
 import argparse
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 from workflow.identity import content_hash, result_identity, sha256, stated
 from workflow.lib.load import FormatError, load
@@ -35,6 +36,10 @@ def print_results(paths: Iterable[str]) -> None:
         print(f"  {path}:", *(word for word in own if word not in common))
 
 
+def print_details(details: dict[str, Any]) -> None:
+    print(*(f"{name}: {value}" for name, value in details.items()), sep="\n")
+
+
 def explain_result(path: Path, full: bool) -> int:
     origin = load(path).provenance
     program, words = origin["program"], origin["words"]
@@ -42,35 +47,31 @@ def explain_result(path: Path, full: bool) -> int:
         for planned, run in runs_of(plan, plan, quality).items():
             if (run.program, run.words) == (program, words):
                 print_panel(Path(planned).parent.name, quality)
-                print(f"present name {planned}")
     print(f"{program} {words}")
     print(f"unmodified, identity {result_identity(program, words, origin['source_hash'])}")
-    print(*(f"{name}: {value}\n" for name, value in origin.items() if full), sep="", end="")
+    if full:
+        print_details(origin)
     return 0
 
 
 def explain_figure(content: bytes, full: bool) -> int:
     if not (statement := stated(content)):
-        print(
-            "This is no file of a panel, or another program wrote it again: it states no panel and identity"
-        )
+        print("It states no panel: it is no file of a panel, or another program has written it again")
         return 1
     panel, quality, identity = statement
     print_panel(panel, quality)
-    records = map(read_record, (f"{STORE}/{quality}/{panel}.{identity}.json", f"docs/gallery/{panel}.json"))
-    record = next((record for record in records if record.get("identity") == identity), None)
+    record = read_record(f"{STORE}/{quality}/{panel}.{identity}.json")
     if not record:
         print(f"identity {identity}, of which there is no record here")
         return 3
     edited, parents = sha256(content) not in record["files"].values(), record["parents"]
     print_results(path for path in parents if path.endswith(".h5"))
-    print(
-        f"{'edited' if edited else 'unmodified'}, identity {identity}, commit {record['commit'] or 'unknown'}"
-    )
-    print(record["renderer"])
-    for path in (path for path in parents if full or not path.endswith(".h5")):
-        same = Path(path).exists() and content_hash(path) == parents[path]
-        print(f"{path}, {'the same' if same else 'another'} here", f"sha256 {parents[path]}" if full else "")
+    print(f"{'edited' if edited else 'unmodified'}, made from {len(parents)} files")
+    for path, digest in parents.items():
+        if not path.endswith(".h5") and not (Path(path).exists() and content_hash(path) == digest):
+            print(f"{path} is another here")
+    if full:
+        print_details({name: record[name] for name in ("identity", "commit", "renderer")} | parents)
     return int(edited)
 
 

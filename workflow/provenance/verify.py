@@ -70,8 +70,7 @@ def compared(former: Path | str, path: Path | str, rerun: bool) -> tuple[float, 
 
 def keep(options: argparse.Namespace) -> None:
     """Keeps the results that FRESH=yes replaces. An interrupted rerun keeps those from before its first start."""
-    plan = load_plan(options.quality)
-    for path in runs_of(plan, options.panels or plan, options.quality):
+    for path in runs_of(options.plan, options.panels or options.plan, options.quality):
         if Path(path).is_file() and not (BEFORE / path).exists():
             (BEFORE / path).parent.mkdir(parents=True, exist_ok=True)
             os.link(path, BEFORE / path)
@@ -79,7 +78,7 @@ def keep(options: argparse.Namespace) -> None:
 
 def compare(options: argparse.Namespace) -> int:
     """Compares the results of a command with SEED, REPLICAS or FRESH."""
-    quality, plan = Quality.of(options.quality), load_plan(options.quality)
+    quality, plan = Quality.of(options.quality), options.plan
     base, found = load_plan(quality.base), []
     for path, run in runs_of(plan, options.panels or plan, quality.name).items():
         panel = Path(path).parent.name
@@ -107,8 +106,7 @@ def compare(options: argparse.Namespace) -> int:
 
 def main(options: argparse.Namespace) -> int:
     """Reruns a sample of the results, or those of a panel, by freshly compiled programs."""
-    quality, plan = options.quality, load_plan(options.quality)
-    runs = runs_of(plan, options.panels or plan, quality)
+    runs = runs_of(options.plan, options.panels or options.plan, options.quality)
     made = [path for path in runs if Path(path).is_file()]
     if not options.panels:
         made = random.sample(made, min(len(made), max(1, round(float(options.sample) * len(made)))))

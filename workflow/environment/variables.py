@@ -1,12 +1,9 @@
 """Environment of Snakemake and its jobs: variables of the caller's shell change no result, however Snakemake is started."""
 
 import os
-import platform
-from importlib import metadata
 from pathlib import Path
 
-RENDERING = ("matplotlib", "numpy", "scipy", "pandas", "pillow", "fonttools")  # packages
-KEPT = (Path(__file__).parent / "environment/kept").read_text().split()
+KEPT = Path(__file__).with_name("kept").read_text().split()
 FIXED = {
     "LC_ALL": "C.UTF-8",
     "TZ": "UTC",
@@ -22,14 +19,8 @@ FIXED = {
 
 
 def clean() -> None:
-    """Removes all variables that are not listed in environment/kept; those of Slurm remain."""
+    """Removes all variables that are not listed in `kept`; those of Slurm remain."""
     kept = {name: text for name, text in os.environ.items() if name in KEPT or name.startswith("SLURM_")}
     os.environ.clear()
     # Snakemake needs a name, and the user of a container may have none.
     os.environ.update({"USER": f"user-{os.getuid()}"} | kept | FIXED)
-
-
-def renderer() -> str:
-    """What the bytes of a picture depend on besides its parents: Python, kind of processor, versions of packages."""
-    versions = ", ".join(f"{name} {metadata.version(name)}" for name in RENDERING)
-    return f"Python {platform.python_version()} on {platform.machine()}, {versions}"
