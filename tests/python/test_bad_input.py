@@ -13,54 +13,19 @@ BAD: dict[str, list[dict[str, object]]] = {  # options; the first is named
         {"sigma": "-1.0000001"},
         {"gamma": 4.1, "cells": 4},
         {"cells": 100_000_000, "particles-per-cell": 100_000_000},
-        {"temperature": 1e31},
-        {"cell-length": 1e-31},
         {"rule": "plastic"},
-        {"zero-total-momentum": True, "rule": "random-direction"},
         {"output": None},
     ],
-    "displacement": [
-        {"decades": "0"},
-        {"decades": 15, "observation-time": 1e-3, "relaxation-time": 100},
-    ],
-    "ageing": [{"fit-decades": 1.5, "decades": 1}],
-    "energy_pulse": [
-        {"times": "0.02,0.01"},
-        {"times": "0.02"},
-        {"pulse-cells": 22},
-        {"pulse-cells": 2},
-        {"cells": 6},
-        {"relaxation-time": 1e12},
-    ],
-    "correlation": [
-        {"times": "0.2,0.3"},
-        {"times": "1e-9,1"},
-        {"times": "1"},
-        {"times": "1,2", "observation-time": 1.5},
-        {"cells": 25},
-        {"sigma": 1},
-    ],
-    "heat_current": [
-        {"times": "1,2.5"},
-        {"times": "1e-12,1"},
-        {"fit-from": 3},
-        {"fugacity": 1e12},
-    ],
-    "conductivity": [
-        {"relaxation-time": "5N"},
-        {"relaxation-time": 1e5, "observation-time": 1e-8},
-        {"cell-length": 1e-11, "observation-time": 1000},
-        {"nu-left": 1e12},
-    ],
+    "displacement": [{"decades": 15, "observation-time": 1e-3, "relaxation-time": 100}],
+    "ageing": [{"fit-decades": 1.5, "decades": 1}, {"replicas": 10**8}],
+    "energy_pulse": [{"times": "0.02,0.01"}, {"pulse-cells": 22}, {"cells": 6}, {"relaxation-time": 1e12}],
+    "correlation": [{"times": "1e-9,1"}, {"times": "1,2", "observation-time": 1.5}, {"cells": 25}, {"sigma": 1}],
+    "heat_current": [{"times": "1,2.5"}, {"fit-from": 3}, {"fugacity": 1e12}],
+    "conductivity": [{"relaxation-time": "5N"}, {"cell-length": 1e-11, "observation-time": 1000}, {"nu-left": 1e12}],
     "momentum_flux": [{"momentum-bins": 21}],
-    "particle_count": [{"times": "10"}, {"gamma": 4.1, "cells": 4}],
-    "boltzmann": [
-        {"gamma": "N"},
-        {"gamma": 5, "cells": 4},
-        {"positions": "0.5", "cells": 4},
-        {"nu-left": 0, "nu-right": 0},
-    ],
-}
+    "particle_count": [{"times": "10"}],
+    "boltzmann": [{"gamma": "N"}, {"positions": "0.5", "cells": 4}, {"nu-left": 0, "nu-right": 0}],
+}  # fmt: skip
 
 
 def check_refusal(result: subprocess.CompletedProcess, name: str, word: str) -> None:
@@ -74,11 +39,6 @@ def check_refusal(result: subprocess.CompletedProcess, name: str, word: str) -> 
 @pytest.mark.parametrize(("name", "options"), [(name, case) for name, cases in BAD.items() for case in cases])
 def test_refused(program: Program, tmp_path: Path, name: str, options: dict[str, object]) -> None:
     check_refusal(program(name, **options), name, f"--{next(iter(options))}")
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_more_replicas_than_memory(program: Program, tmp_path: Path) -> None:
-    check_refusal(program("ageing", replicas=10**8), "ageing", "--replicas")
     assert list(tmp_path.iterdir()) == []
 
 

@@ -125,18 +125,9 @@ def agree(z: dict[str, np.ndarray]) -> bool:
 
 
 CHAINS = [
-    *(Chain(sigma, gamma) for gamma in ("N", 3, 1, 0.3) for sigma in (0.5, -0.4)),
-    *(Chain(sigma, gamma, rule="random-direction") for gamma in ("N", 1) for sigma in (0.5, -0.4)),
-    *(Chain(sigma, gamma, "reversal", 0.3) for gamma in ("N", 1) for sigma in (0.5, -0.4)),
-    # The paper's chain.
-    Chain(
-        rule="random-direction",
-        cells=11,
-        particles_per_cell=20,
-        relaxation_time=20,
-        observation_time=100,
-        replicas=100,
-    ),
+    *(Chain(sigma, gamma) for sigma, gamma in ((0.5, "N"), (-0.4, 3), (0.5, 1), (-0.4, 0.3))),
+    *(Chain(sigma, gamma, "random-direction") for sigma, gamma in ((-0.4, "N"), (0.5, 1))),
+    *(Chain(sigma, gamma, "reversal", 0.3) for sigma, gamma in ((0.5, "N"), (-0.4, 1))),
 ]
 
 
@@ -149,9 +140,7 @@ def test_closed_chain_against_the_reference_simulator(measure: Measure, chain: C
 REVERSAL = Chain(gamma=1, rule="reversal", reversal_probability=0.3)
 
 
-@pytest.mark.parametrize(
-    "chain", [Chain(gamma=1), Chain(gamma=1, rule="random-direction"), REVERSAL], ids=str
-)
+@pytest.mark.parametrize("chain", [Chain(gamma=1), REVERSAL], ids=str)
 def test_another_chain_does_not_agree(measure: Measure, chain: Chain) -> None:
     measurements = measured(measure, chain)
     assert agree(scores(measurements, chain))

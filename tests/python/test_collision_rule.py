@@ -11,7 +11,6 @@ from workflow.lib.load import Quantity, Result
 
 UNEQUAL = {"nu_left": 30, "nu_right": 10, "temperature_left": 100, "temperature_right": 400}
 EQUAL = {"nu_left": 200, "nu_right": 200, "temperature_left": 100, "temperature_right": 100}
-SAME_PRESSURE = {"nu_left": 200, "nu_right": 100, "temperature_left": 50, "temperature_right": 200}
 RANDOM = {"rule": "random-direction"}
 REVERSAL = {"rule": "reversal", "reversal_probability": 0.1}
 
@@ -21,7 +20,7 @@ def score(quantity: Quantity, expected: float | np.ndarray) -> float:
     return float(np.abs((quantity.mean - expected) / quantity.standard_error).max())
 
 
-@pytest.mark.parametrize(("cells", "gamma"), [(1, "N"), (5, "N"), (5, 2), (12, 3)])
+@pytest.mark.parametrize(("cells", "gamma"), [(5, "N"), (12, 3)])
 @pytest.mark.parametrize("walker", [(RANDOM | {"sigma": -1}, 0.5), (REVERSAL | {"sigma": 0}, 0.1)])
 def test_currents_of_independent_walkers(
     measure: Measure, walker: tuple[dict[str, object], float], cells: int, gamma: float | str
@@ -62,7 +61,7 @@ def test_without_reversal_the_rule_is_elastic(
 
 
 @pytest.mark.parametrize("gamma", ["N", 3])
-@pytest.mark.parametrize("rule", [RANDOM, REVERSAL])
+@pytest.mark.parametrize("rule", [{}, RANDOM, REVERSAL])
 def test_equilibrium_of_every_rule(measure: Measure, rule: dict[str, object], gamma: float | str) -> None:
     """Temperatures of scatterers and particles are those of the baths, and no current flows [eq. 8]. Detected mistake: temperatures
     that are 2 % too high."""
@@ -73,24 +72,6 @@ def test_equilibrium_of_every_rule(measure: Measure, rule: dict[str, object], ga
         assert score(result[name], 102) > 6, name
     for name in ("particle_current", "energy_current", "temperature_difference"):
         assert score(result[name], 0) < 4, name
-
-
-def test_heat_conductivity_grows_only_where_momentum_is_conserved(measure: Measure) -> None:
-    """The spacing is fixed and both baths have the same pressure."""
-
-    def kappa(cells: int, rule: str) -> tuple[float, float]:
-        chain = {"cells": cells, "cell_length": 0.1, "rule": rule, **SAME_PRESSURE}
-        result = measure("conductivity", **chain, relaxation_time=30, observation_time=200, replicas=64)[
-            "kappa"
-        ]
-        return float(result.mean), float(result.standard_error)
-
-    def growth(rule: str) -> float:
-        (short, short_error), (long, long_error) = kappa(4, rule), kappa(16, rule)
-        return (long - short) / float(np.hypot(short_error, long_error))
-
-    assert growth("elastic") > 3
-    assert growth("random-direction") < 0
 
 
 def test_every_program_has_rules(program: Program) -> None:

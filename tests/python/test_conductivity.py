@@ -26,8 +26,6 @@ def test_a_window_that_is_not_stationary_is_reported(program: Program) -> None:
     ("options", "remedy"),
     [
         ({"nu_left": 0, "nu_right": 0}, "--nu-right"),
-        ({"nu_left": 0}, "--nu-left"),
-        ({"nu_right": 0}, "--nu-right"),
         ({"temperature_left": 100, "temperature_right": 100}, "--temperature-right"),
         ({"cells": 1}, "--cells"),
     ],

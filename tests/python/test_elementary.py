@@ -32,6 +32,7 @@ def test_no_program_uses_an_inexact_function_of_libm(program: str) -> None:
     assert inexact(ROOT / "build/bin" / program) == set()
 
 
+@pytest.mark.long
 def test_a_program_without_elementary_functions_of_its_own_is_found(tmp_path: Path) -> None:
     (tmp_path / "plain.cpp").write_text(
         "#include <gsl/gsl_sf.h>\nint main() { return gsl_sf_expint_E1(2) > 1; }\n"

@@ -17,7 +17,7 @@ from workflow.lib.described import described
 from workflow.lib.load import NOT_REACHED, Result, load
 
 DRAWN = settings(
-    derandomize=True, database=None, deadline=None, max_examples=20, suppress_health_check=list(HealthCheck)
+    derandomize=True, database=None, deadline=None, max_examples=12, suppress_health_check=list(HealthCheck)
 )
 MEMORY = 2 << 30  # bytes; a run that needs more must be rejected
 REPLICAS = 3
@@ -117,7 +117,7 @@ def same_but_for_units(one: Result, other: Result, units: dict[str, float], k: i
             np.testing.assert_allclose(other[name].standard_error, quantity.standard_error * unit, rtol=1e-14)
 
 
-@settings(DRAWN, max_examples=8)
+@settings(DRAWN, max_examples=5)
 @given(st.integers(-45, 45), SIGMAS)
 def test_temperatures_are_a_matter_of_units(k: int, sigma: float) -> None:
     """A power of two as the unit of velocity leaves results bitwise unchanged."""
@@ -130,7 +130,7 @@ def test_temperatures_are_a_matter_of_units(k: int, sigma: float) -> None:
     same_but_for_units(one, other, ENERGIES | {"mu": 1.0}, k)
 
 
-@settings(DRAWN, max_examples=8)
+@settings(DRAWN, max_examples=5)
 @given(st.integers(-30, 30), SIGMAS)
 def test_baths_are_a_matter_of_units(k: int, sigma: float) -> None:
     def conductivity(power: int) -> Result:
@@ -143,21 +143,6 @@ def test_baths_are_a_matter_of_units(k: int, sigma: float) -> None:
     same_but_for_units(conductivity(0), conductivity(k), CURRENTS, k)
 
 
-@pytest.mark.parametrize("sign", [1, -1])
-def test_scatterers_close_to_sigma_1_gain_in_proportion(sign: int) -> None:
-    """A scatterer at rest gains an energy that is proportional to 1 - sigma^2 to first order."""
-
-    def gain(k: int) -> float:
-        sigma = sign * (1 - 10.0**-k)
-        result = execute("persistence", {"sigma": repr(sigma), "relaxation-time": 0, "observation-time": 1})[
-            2
-        ]
-        return float(result["scatterer_energy"].mean) / ((1 - abs(sigma)) * (1 + abs(sigma)))
-
-    assert [gain(k) for k in (13, 14, 15)] == pytest.approx([gain(16)] * 3, rel=4e-10)
-    assert gain(8) != pytest.approx(gain(16), rel=4e-10)
-
-
 @pytest.mark.parametrize(("cells", "time", "limit"), [(1, 1e5, 4e-16), (10**6, 0.05, 3e-14)])
 def test_smallest_and_largest_chains_conserve_energy_and_momentum(
     cells: int, time: float, limit: float
@@ -167,16 +152,7 @@ def test_smallest_and_largest_chains_conserve_energy_and_momentum(
     assert max(float(result[name].mean) for name in ("energy_drift", "momentum_drift")) < limit
 
 
-@pytest.mark.parametrize(
-    "options",
-    [
-        {"gamma": 0},
-        {"gamma": 1e-300},
-        {"gamma": 1e-10},
-        {"nu-left": 0},
-        {"temperature-left": 1, "temperature-right": 1e8},
-    ],
-)
+@pytest.mark.parametrize("options", [{"gamma": 0}, {"gamma": 1e-10}, {"nu-left": 0}])
 def test_kinetic_currents_are_constant_in_extreme_limits(options: dict[str, object]) -> None:
     result = execute("boltzmann", {"gamma": 1, "coarsening": 2, "target-error": 1e-6, **options})[2]
     assert result["current_spread"].mean < 2e-15

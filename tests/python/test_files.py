@@ -5,9 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from workflow.configuration import ConfigurationError
 from workflow.files import in_one_line, write_together
-from workflow.report.citation import CITATION, citation
 
 
 def test_a_failure_leaves_the_previous_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -25,10 +23,3 @@ def test_a_failure_leaves_the_previous_files(tmp_path: Path, monkeypatch: pytest
         write_together({first: b"3", second: b"4"})
     assert in_one_line(error.value) == f"{second}.{os.getpid()}.tmp: No space left on device"
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == {"one": b"1", "other": b"2"}
-
-
-@pytest.mark.parametrize("text", ["title: a", "title: [", ""])
-def test_a_damaged_citation(tmp_path: Path, text: str) -> None:
-    (tmp_path / CITATION).write_text(text)
-    with pytest.raises(ConfigurationError, match=rf"{CITATION}"):
-        citation(tmp_path)

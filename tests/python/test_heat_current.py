@@ -118,17 +118,6 @@ def test_sound_must_not_come_around(program: Program) -> None:
     assert run(cells=int(2 * reach), rule="random-direction").returncode == 0
 
 
-def test_a_rounded_last_time_has_a_window(heat_current: Measure) -> None:
-    options = {
-        "times": "0.1,0.29999999",
-        "observation_time": 0.29999999,
-        "fit_from": 0.1,
-        "replicas": 2,
-        "sigma": 0.5,
-    }
-    assert np.isfinite(heat_current(**options)["heat_variance"].mean).all()
-
-
 def ring(times: list[float], error: float, power: float = 4 / 3, **options: object) -> Result:
     """A ring of ζ = 0.8 and M = 1/3 with ⟨Q²⟩ = t^power."""
     time = np.array(times)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.special import erfc
 
-from tests.python.conftest import Measure
+from tests.python.conftest import Measure, OverSeeds
 from workflow.lib.load import Quantity
 
 
@@ -17,15 +17,8 @@ def score(quantity: Quantity, expected: float) -> float:
 def test_waiting_times_at_sigma_0_are_the_exact_ones(measure: Measure) -> None:
     """Many particles per cell, because the law neglects the time of order 1/n for which a scatterer holds a
     momentum between two flights [eq. 17]."""
-    result = measure(
-        "waiting_time",
-        sigma=0,
-        replicas=64,
-        cells=11,
-        particles_per_cell=320,
-        relaxation_time=5,
-        observation_time=20,
-    )
+    chain = {"cells": 11, "particles_per_cell": 320, "relaxation_time": 5, "observation_time": 20}
+    result = measure("waiting_time", sigma=0, replicas=64, **chain)
     density = result["density"]
     tau = density.axes["tau"]
     thermal = 1 / np.sqrt(500)
@@ -44,15 +37,8 @@ def test_waiting_times_at_sigma_0_are_the_exact_ones(measure: Measure) -> None:
 
 
 def test_waiting_time_exponent(measure: Measure) -> None:
-    result = measure(
-        "waiting_time",
-        sigma=0.5,
-        replicas=64,
-        cells=11,
-        particles_per_cell=20,
-        relaxation_time=10,
-        observation_time=50,
-    )
+    chain = {"cells": 11, "particles_per_cell": 20, "relaxation_time": 10, "observation_time": 50}
+    result = measure("waiting_time", sigma=0.5, replicas=64, **chain)
     assert abs(score(result["exponent"], -2)) < 4
     assert abs(score(result["exponent"], -3)) > 20
 
@@ -73,16 +59,12 @@ def test_displacement_begins_ballistically(measure: Measure) -> None:
 FEW = {"cells": 4, "particles_per_cell": 5, "observation_time": 20, "decades": 1, "relaxation_time": 1}
 
 
-def test_displacement_with_known_momentum(measure: Measure) -> None:
+def test_displacement_with_known_momentum(over_seeds: OverSeeds) -> None:
     """Over seeds the plain and the corrected estimate agree, also if scatterers move at the start. The corrected
     one has the smaller error."""
-    estimates = []
-    for seed in range(50):
-        result = measure("displacement", **FEW, sigma=0.8, scatterer_temperature=500,
-                     replicas=40, seed=seed)  # fmt: skip
-        pair = (result["variance"], result["variance_plain"])
-        estimates.append([(quantity.mean[-1], quantity.standard_error[-1]) for quantity in pair])
-    (reduced, error), (plain, plain_error) = np.moveaxis(np.array(estimates), 0, -1)
+    moving = {"sigma": 0.8, "scatterer_temperature": 500, "replicas": 40}
+    found = over_seeds("displacement", 50, "variance", "variance_plain", **FEW, **moving)
+    (reduced, error), (plain, plain_error) = (pair[:, :, -1] for pair in found.values())
 
     def difference(factor: float) -> float:
         sample = factor * reduced - plain
@@ -118,15 +100,8 @@ def test_random_direction_conserves_energy(measure: Measure) -> None:
 
 
 def test_ageing_moves_energy_from_particles_to_scatterers(measure: Measure) -> None:
-    result = measure(
-        "ageing",
-        replicas=64,
-        cells=11,
-        particles_per_cell=20,
-        relaxation_time=0,
-        observation_time=100,
-        decades=5,
-    )
+    chain = {"cells": 11, "particles_per_cell": 20, "relaxation_time": 0, "observation_time": 100}
+    result = measure("ageing", replicas=64, decades=5, **chain)
     scatterer, particle = result["scatterer_energy"], result["particle_energy"]
     total = 220 * particle.mean + 11 * scatterer.mean
     np.testing.assert_allclose(total, total[0], rtol=1e-12)
@@ -148,16 +123,8 @@ def test_a_pulse_has_no_peak_once_it_has_gone_around_the_ring(measure: Measure) 
 
 
 def test_pulse(measure: Measure) -> None:
-    result = measure(
-        "energy_pulse",
-        cells=31,
-        particles_per_cell=50,
-        relaxation_time=0,
-        observation_time=None,
-        replicas=32,
-        pairs_per_replica=4,
-        times="0.001,0.01,0.02",
-    )
+    ring = {"cells": 31, "particles_per_cell": 50, "relaxation_time": 0, "times": "0.001,0.01,0.02"}
+    result = measure("energy_pulse", replicas=32, pairs_per_replica=4, **ring)
     # The mean energy of 51 degrees of freedom rises from 5000 to 50000 each, and the sum is conserved.
     assert abs(score(result["injected_energy"], 51 * 45000)) < 4
     assert abs(score(result["injected_energy"], 50 * 45000)) > 4

@@ -2,7 +2,6 @@
 
 import json
 import socket
-import time
 from pathlib import Path
 
 import h5py
@@ -50,14 +49,6 @@ def test_results_have_a_digest(program: Program, tmp_path: Path, name: str) -> N
         assert results_digest(file["results"]) != stored
 
 
-def test_bytes_do_not_depend_on_the_time(persistence: Program, tmp_path: Path) -> None:
-    persistence()
-    before = (tmp_path / "out.h5").read_bytes()
-    time.sleep(1.1)  # longer than the resolution of time stamps in HDF5
-    persistence()
-    assert (tmp_path / "out.h5").read_bytes() == before
-
-
 @pytest.mark.parametrize(
     ("changed", "mean"),
     [
@@ -90,9 +81,9 @@ def test_progress_lines(persistence: Program) -> None:
     result, warning = persistence(progress="log").stderr.splitlines()
     assert result.startswith("persistence: 4 replicas: mu = ")
     assert "41 %" in warning
-    bar = persistence(progress="bar", observation_time=400_000).stderr
-    assert "left" in bar
-    assert "\x1b[K" in bar  # erases the line to redraw it
+    assert (
+        "\x1b[K" in persistence(progress="bar", observation_time=40_000).stderr
+    )  # erases the line to redraw it
 
 
 @pytest.mark.parametrize("name", described())

@@ -1,7 +1,5 @@
-"""Snakemake's display of a small workflow, in a file and on a terminal, and its answers to single events."""
+"""Snakemake's display of a small workflow, in a file and on a terminal, and its answers to the failure of a group of jobs."""
 
-import errno
-import io
 import logging
 import os
 import pty
@@ -11,7 +9,6 @@ import time
 from contextlib import suppress
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
 
 import pytest
 from snakemake_interface_logger_plugins.common import LogEvent
@@ -50,6 +47,16 @@ def test_a_file_has_a_line_per_panel_and_doubtful_result(tmp_path: Path) -> None
     assert re.fullmatch(r"fig05: rendered; 3 of 4 done, 0:00:\d\d", panel)
 
 
+def test_a_failure_has_the_end_of_its_log(tmp_path: Path) -> None:
+    words = command(tmp_path, "seq -f '[bold] %g' 100 > {log}; exit 1")
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=False)
+    heading, *lines, last = done.stdout.splitlines()
+    (run,) = re.findall(r"fig05/[ab]", heading)
+    assert heading == f"{run} failed. The end of {run}.log:"
+    assert lines == [f"  [bold] {k}" for k in range(89, 101)]
+    assert last.startswith(f"Failed: {run}; 0 of 4 done")
+
+
 def test_a_terminal_has_a_bar_and_the_running_jobs_until_ctrl_c(tmp_path: Path) -> None:
     words = command(tmp_path, "echo at work > {log}; exec sleep 60")
     process, terminal = pty.fork()
@@ -71,90 +78,29 @@ def test_a_terminal_has_a_bar_and_the_running_jobs_until_ctrl_c(tmp_path: Path) 
     assert "Traceback" not in shown
 
 
-class Full(io.StringIO):
-    def write(self, _: str) -> int:
-        raise OSError(errno.ENOSPC, "No space left on device")
-
-
-def handler_of(**output: bool) -> LogHandler:
-    options = dict.fromkeys(("dryrun", "verbose", "debug_dag", "printshellcmds"), False) | output
-    return LogHandler(SimpleNamespace(**options), None)
-
-
-def emit(handler: LogHandler, event: LogEvent | None, message: str = "", **fields: Any) -> None:
-    record = logging.LogRecord("snakemake", logging.ERROR, "", 0, message, (), None)
-    vars(record).update(event=event, **fields)
-    handler.emit(record)
-
-
-def start(handler: LogHandler, log: Path, number: int = 1) -> None:
-    fields = {"wildcards": {"panel": "fig05", "run": log.stem}, "output": [f"{log}.h5"], "log": [str(log)]}
-    emit(handler, LogEvent.JOB_INFO, jobid=number, **fields)
-
-
-def fail(handler: LogHandler, log: Path, number: int = 1, in_group: bool = False) -> None:
-    emit(handler, LogEvent.ERROR, "RuleException: CalledProcessError in file")
-    emit(handler, LogEvent.JOB_ERROR, jobid=number, log=[str(log)], indent=in_group)
-
-
-def test_a_failure_has_the_end_of_its_log(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """The messages of Snakemake that follow from it are not shown. A job that is restarted has not failed."""
-    handler, a, b = handler_of(), tmp_path / "a.log", tmp_path / "b.log"
-    a.write_text("".join(f"[bold] {k}\n" for k in range(100)))
-    for log in (a, b):
-        start(handler, log)
-        fail(handler, log)
-    start(handler, b)
-    emit(handler, None, "Exiting because a job execution failed.")
-    handler.close()
-    handler.close()
-    heading, *lines, missing, empty, last = capsys.readouterr().out.splitlines()
-    assert heading == f"fig05/a failed. The end of {a}:"
-    assert lines == [f"  [bold] {k}" for k in range(88, 100)]
-    assert missing.startswith("fig05/b failed")
-    assert "empty" in empty
-    assert last.startswith("Failed: fig05/a; 0 of 0 done")
-
-
 def test_a_group_of_a_cluster_fails_without_its_finished_runs(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """The log of the group is that of Slurm, which says why a run has none."""
-    handler, logs = handler_of(), [tmp_path / f"{name}.log" for name in "ab"]
+    common = SimpleNamespace(**dict.fromkeys(("dryrun", "verbose", "debug_dag", "printshellcmds"), False))
+    handler = LogHandler(common, None)
+
+    def emit(event: LogEvent, **fields: object) -> None:
+        record = logging.LogRecord("snakemake", logging.ERROR, "", 0, "", (), None)
+        vars(record).update(event=event, **fields)
+        handler.emit(record)
+
+    logs = [str(tmp_path / f"{name}.log") for name in "ab"]
     for number, log in enumerate(logs):
-        start(handler, log, number)
+        job = {"wildcards": {"panel": "fig05", "run": "ab"[number]}, "output": [f"{log}.h5"], "log": [log]}
+        emit(LogEvent.JOB_INFO, jobid=number, **job)
     (tmp_path / "slurm.log").write_text("no space left")
     (tmp_path / "a.log.h5").touch()
-    emit(handler, LogEvent.GROUP_ERROR, aux_logs=[str(tmp_path / "slurm.log")])
+    emit(LogEvent.GROUP_ERROR, aux_logs=[str(tmp_path / "slurm.log")])
     for number, log in enumerate(logs):
-        fail(handler, log, number, in_group=True)
+        emit(LogEvent.JOB_ERROR, jobid=number, log=[log], indent=True)
     handler.close()
     shown = capsys.readouterr().out
     assert "fig05/a" not in shown
     assert "no space left" in shown
     assert "Failed: fig05/b;" in shown
-
-
-def test_a_job_that_a_signal_ends_has_not_failed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    handler, log = handler_of(), tmp_path / "a.log"
-    log.write_text("interrupted after 4 replicas; --resume continues")
-    start(handler, log)
-    emit(handler, LogEvent.JOB_ERROR, jobid=1, log=[str(log)], indent=False)
-    handler.close()
-    assert capsys.readouterr().out == ""
-
-
-def test_other_errors_are_shown_and_a_full_disk_stops_nothing(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    emit(handler_of(), LogEvent.ERROR, "MissingInputException")
-    assert capsys.readouterr().out == "MissingInputException\n"
-    monkeypatch.setattr("sys.stdout", Full())
-    emit(handler_of(), LogEvent.ERROR, "MissingInputException")
-
-
-def test_a_dry_run_is_shown_by_snakemake(capsys: pytest.CaptureFixture[str]) -> None:
-    handler = handler_of(dryrun=True)
-    emit(handler, LogEvent.ERROR, "wrong")
-    assert not handler.writes_to_stream
-    assert capsys.readouterr().out == ""

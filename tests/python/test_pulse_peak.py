@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import least_squares
 from scipy.stats import chi2, f, norm
 
-from tests.python.conftest import Measure
+from tests.python.conftest import Measure, OverSeeds
 
 CELLS, PARTICLES, ENERGY, PULSE_ENERGY = 101, 20, 5000, 50000
 FREE = {"cells": CELLS, "particles_per_cell": PARTICLES, "gamma": 1e-9}
@@ -92,7 +92,13 @@ def test_free_flight(measure: Measure) -> None:
     )
 
 
-SEEDS, MIRRORED, REPLICAS = 70, 40, 24
+SEEDS, REPLICAS = 70, 24
+OF_THE_PEAK = ("peak", "peak_position", "peak_speed", "local_damping_exponent", "damping_exponent_from", "damping_exponent",
+               "damping_drift", "peak_collapse")  # fmt: skip
+RINGS = {
+    "N": {"cells": 41, "times": "0.007,0.01,0.014,0.02"},
+    1: {"cells": 80, "times": "0.006,0.008,0.012,0.018"},
+}
 
 
 def spread_accepted(values: np.ndarray, errors: np.ndarray) -> bool:
@@ -111,30 +117,16 @@ def mean_is_zero(samples: np.ndarray) -> bool:
     return bool((count - size) / (size * (count - 1)) * statistic < f.ppf(1 - 1e-4, size, count - size))
 
 
-@pytest.mark.parametrize("gamma", ["N", 1])
-def test_errors_over_seeds(measure: Measure, gamma: str | int) -> None:
-    """Spread over 70 seeds against the stored errors, for all quantities of the peak."""
-    times = "0.007,0.01,0.014,0.02" if gamma == "N" else "0.006,0.008,0.012,0.018"
-    by_name: dict[str, list[np.ndarray]] = {}
-    for seed in range(SEEDS):
-        result = measure(
-            "energy_pulse",
-            cells=41 if gamma == "N" else 81,
-            particles_per_cell=20,
-            gamma=gamma,
-            pairs_per_replica=10,
-            replicas=REPLICAS,
-            times=times,
-            seed=seed,
-        )
-        for name in ("peak", "peak_position", "peak_speed", "local_damping_exponent", "damping_exponent_from",
-                     "damping_exponent", "damping_drift", "peak_collapse"):  # fmt: skip
-            quantity = result[name]
-            by_name.setdefault(name, []).append(
-                np.array([quantity.mean.ravel(), quantity.standard_error.ravel()])
-            )
-    for name, samples in by_name.items():
-        values, errors = np.moveaxis(np.array(samples), 1, 0)
+@pytest.mark.parametrize("gamma", RINGS)
+def test_errors_and_mirror_symmetry_over_seeds(over_seeds: OverSeeds, gamma: str | int) -> None:
+    """The spread over seeds against the stored errors, for all quantities of the peak; and the odd part has mean 0 at all distances, also
+    on a ring with an even number of cells."""
+    chain = RINGS[gamma] | {"particles_per_cell": 20, "gamma": gamma}
+    effort = {"pairs_per_replica": 10, "replicas": REPLICAS}
+    names = (*OF_THE_PEAK, "odd_part", "energy_difference")
+    found = over_seeds("energy_pulse", SEEDS, *names, **chain, **effort)
+    for name in OF_THE_PEAK:
+        values, errors = found[name].reshape(2, SEEDS, -1)
         assert (errors > 0).all(), name
         for column in range(values.shape[1]):
             # Detected mistakes: errors that are twice or half as large.
@@ -142,35 +134,18 @@ def test_errors_over_seeds(measure: Measure, gamma: str | int) -> None:
                 accepted = spread_accepted(values[:, column], factor * errors[:, column])
                 assert accepted == good, (name, column, factor)
 
-
-@pytest.mark.parametrize("gamma", ["N", 1])
-def test_mirror_symmetry(measure: Measure, gamma: str | int) -> None:
-    """The odd part has mean 0 at all distances over many seeds, also on a ring with an even number of cells."""
-    for cells in (41, 40) if gamma == "N" else (81, 80):
-        odd, errors, off_centre = [], [], []
-        for seed in range(MIRRORED):
-            result = measure(
-                "energy_pulse",
-                cells=cells,
-                particles_per_cell=20,
-                gamma=gamma,
-                pairs_per_replica=8,
-                replicas=REPLICAS,
-                times="0.01,0.02",
-                seed=seed,
-            )
-            quantity, profile = result["odd_part"], result["energy_difference"].mean[-1]
-            distance = quantity.axes["distance"].astype(int)
-            right, left = profile[cells // 2 + distance], profile[cells // 2 - distance]
-            np.testing.assert_allclose(quantity.mean[-1], (right - left) / 2, atol=1e-12 * profile.max())
-            odd.append(quantity.mean[-1])
-            errors.append(np.nan_to_num(quantity.standard_error[-1]))  # NaN where no particle arrived
-            off_centre.append((right - profile[cells // 2 - distance + 1]) / 2)
-        reached = np.min(errors, axis=0) > 0.1 * np.max(errors)  # reached often enough for a Gaussian mean
-        assert reached.sum() > 7
-        assert mean_is_zero(np.array(odd)[:, reached])
-        z = np.array(odd)[:, reached] / np.array(errors)[:, reached]
-        squares = np.sum(z**2, axis=1) * (REPLICAS - 3) / (REPLICAS - 1)
-        assert abs(squares.mean() - reached.sum()) < 4 * squares.std(ddof=1) / np.sqrt(MIRRORED)
-        # Detected mistake: the profile is folded about another cell than that of the pulse.
-        assert not mean_is_zero(np.array(off_centre)[:, reached])
+    odd, errors = (
+        np.nan_to_num(values[:, -1]) for values in found["odd_part"]
+    )  # NaN where no particle arrived
+    profile = found["energy_difference"][0, :, -1]
+    centre, distance = chain["cells"] // 2, np.arange(1, odd.shape[1] + 1)
+    right, left = profile[:, (centre + distance) % chain["cells"]], profile[:, centre - distance]
+    np.testing.assert_allclose(odd, (right - left) / 2, atol=1e-12 * profile.max())
+    reached = errors.min(axis=0) > 0.1 * errors.max()  # reached often enough for a Gaussian mean
+    assert reached.sum() > 7
+    assert mean_is_zero(odd[:, reached])
+    squares = np.sum((odd / errors)[:, reached] ** 2, axis=1) * (REPLICAS - 3) / (REPLICAS - 1)
+    assert abs(squares.mean() - reached.sum()) < 4 * squares.std(ddof=1) / np.sqrt(SEEDS)
+    # Detected mistake: the profile is folded about another cell than that of the pulse.
+    off_centre = (right - profile[:, centre - distance + 1]) / 2
+    assert not mean_is_zero(off_centre[:, reached])
