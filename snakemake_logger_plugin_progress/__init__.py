@@ -44,14 +44,9 @@ class LogHandler(LogHandlerBase):
         self._live = Live(console=self._console, get_renderable=self._screen, transient=True)
 
     def emit(self, record: Any) -> None:
-        if self.writes_to_stream:
-            self._show(record, getattr(record, "event", None))
-
-    def _print(self, text: str) -> None:
-        with suppress(OSError):  # a full or closed stdout does not stop the jobs
-            self._console.print(text)
-
-    def _show(self, record: Any, event: LogEvent | None) -> None:
+        event = getattr(record, "event", None)
+        if not self.writes_to_stream:
+            return
         if event == LogEvent.RUN_INFO:
             self._total = record.stats["total"]
             if self._console.is_terminal:
@@ -72,11 +67,15 @@ class LogHandler(LogHandlerBase):
             if text.startswith("Nothing to be done") or (record.levelno >= logging.ERROR and not follows):
                 self._print(text)
 
+    def _print(self, text: str) -> None:
+        with suppress(OSError):  # a full or closed stdout does not stop the jobs
+            self._console.print(text)
+
     def _finish(self, job: Any) -> None:
         from workflow.lib.load import NOT_TESTED, load  # noqa: PLC0415  0.5 s
 
         self._done += 1
-        results = [load(path) for path in job.output if path.endswith(".h5")]
+        results = (load(path) for path in job.output if path.endswith(".h5"))
         found = [doubt for result in results for doubt in result.doubts if doubt != NOT_TESTED]
         if "panel" in job.wildcards and "run" not in job.wildcards:
             found.append("rendered")
@@ -84,10 +83,8 @@ class LogHandler(LogHandlerBase):
             self._print(f"{name_of(job)}: {', '.join(found)}; {self._state()}")
 
     def _fail(self, job: Any, record: Any) -> None:
-        logs = [*record.log, *self._group_logs]
-        log, lines = next(
-            ((log, lines) for log in logs if (lines := last_lines(log))), ("its log", ["(empty)"])
-        )
+        logs = [log for log in [*record.log, *self._group_logs] if last_lines(log)]
+        log, lines = (logs[0], last_lines(logs[0])) if logs else ("its log", ["(empty)"])
         ended = any(mark in line for line in lines for mark in INTERRUPTED)
         finished = record.indent and all(map(os.path.exists, job.output))  # a group fails as a whole
         if not (self._stopped or ended or finished):

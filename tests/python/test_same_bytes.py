@@ -22,12 +22,6 @@ WITHOUT = ",".join(
 )
 MASKED = {"GLIBC_TUNABLES": f"glibc.cpu.hwcaps={WITHOUT}"}
 PROGRAMS = sorted(path.stem for path in (ROOT / "cpp/observables").glob("*.cpp"))
-# One run of every program for each gamma.
-SMALL = {
-    f"{run.program}-{run.options.get('gamma', 'N')}": run
-    for panel in load_plan("smoke").values()
-    for run in reversed(panel.runs)
-}
 
 
 def shortened(run: Run) -> Run:
@@ -48,6 +42,12 @@ def shortened(run: Run) -> Run:
     return Run(run.name, run.program, options)
 
 
+# One run of every program for each gamma.
+SMALL = {
+    f"{run.program}-{run.options.get('gamma', 'N')}": shortened(run)
+    for panel in load_plan("smoke").values()
+    for run in reversed(panel.runs)
+}
 # One run of every series, with the largest size that takes no minutes.
 PAPER = {
     f"{panel.name}-{run.series}": shortened(run)
@@ -130,6 +130,7 @@ def output_of(*command: object) -> str:
     return subprocess.run([str(word) for word in command], capture_output=True, text=True, check=True).stdout
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("program", PROGRAMS)
 def test_no_instruction_depends_on_the_processor(program: str) -> None:
     """Programs use no 80-bit arithmetic. They query neither caches nor instruction sets, on which Eigen's sums would depend."""

@@ -11,6 +11,7 @@ from playwright.sync_api import Page, sync_playwright
 
 from tests.python.conftest import ROOT
 
+pytestmark = pytest.mark.long
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 NARROW = 390  # width in pixels
 HEADING = re.compile(r'<h[1-6][^>]*\bid="([^"]+)"')
@@ -46,7 +47,6 @@ def faults(tab: Page, messages: list[str], path: Path) -> list[str]:
     return [*messages, *(f"wide equation: {text}" for text in tab.evaluate(EQUATIONS))]
 
 
-@pytest.mark.long
 def test_every_page(site: Path, tab: Page) -> None:
     """Detected mistakes: an unescaped <template> in a docstring; a missing script; a table or a signature that is wider than the page."""
     pages = [
