@@ -13,7 +13,6 @@ from workflow.lib.load import Result, load
 
 ROOT = Path(__file__).parents[2]
 
-# Options with which each program runs for a fraction of a second: those of GENERAL that it has, unless it is named.
 GENERAL = {"cells": 5, "particles-per-cell": 4, "relaxation-time": 5, "observation-time": 10, "replicas": 4}
 NAMED: dict[str, dict[str, object]] = {
     "correlation": {"cells": 101, "observation-time": 64, "times": "4,8,16", "replicas": 4},
@@ -28,11 +27,15 @@ Measure = Callable[..., Result]
 OverSeeds = Callable[..., dict[str, np.ndarray]]
 
 
+def small(program: str) -> dict[str, object]:
+    """Options with which a program, also one of the user, runs for a fraction of a second."""
+    return NAMED.get(program, {name: GENERAL[name] for name in GENERAL if name in declared()[program]})
+
+
 def command_line(program: str, options: dict) -> list[str]:
     """Command of a program with small options, changed by `options`. True gives a flag; None omits an option."""
     words = [str(ROOT / "build/bin" / program)]
-    small = NAMED.get(program, {name: GENERAL[name] for name in GENERAL if name in declared()[program]})
-    for name, value in {**small, **options}.items():
+    for name, value in {**small(program), **options}.items():
         if value is True:
             words.append(f"--{name}")
         elif value is not None:
