@@ -3,7 +3,7 @@
 import itertools
 import json
 import warnings
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import pandas as pd
@@ -65,15 +65,9 @@ def _checked(program: str, options: Mapping[str, object], known: Mapping[str, An
         name = key.replace("_", "-")
         if name not in allowed:
             raise MeasureError(f"{program} has no option {name}; {nearest(name, allowed)}")
-        if name in given:
-            raise MeasureError(f"{name} is given twice, with a dash and an underscore; give it once")
         given[name] = value
-        if isinstance(value, bool) and known.get(name, {}).get("type") != "boolean":
-            raise MeasureError(f"{name}={value}: {name} is no flag; give a value")
         if isinstance(value, str) or not isinstance(value, Iterable) or getattr(value, "ndim", 1) == 0:
             continue
-        if isinstance(value, Set | Iterator) or getattr(value, "ndim", 1) > 1:
-            raise MeasureError(f"{name} is a {type(value).__name__} without one order; give a list")
         given[name] = [*value]
         of_numbers = given[name] and not any(isinstance(each, str) for each in given[name])
         if of_numbers and "," in known.get(name, {}).get("pattern", ""):  # one value is a list

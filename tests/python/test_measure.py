@@ -83,10 +83,7 @@ def test_a_flag_and_a_target_quantity_that_is_not_determined() -> None:
         ("conductivty", {}, "conductivty is not a program; did you mean conductivity?"),
         ("conductivity", {"cell": 4}, "conductivity has no option cell; did you mean cells?"),
         ("conductivity", {"sigma": 2}, "conductivity: error: --sigma"),
-        ("conductivity", {"cells": True}, "cells=True: cells is no flag; give a value"),
         ("conductivity", {"cells": [8, 8]}, "cells has no value, or one twice"),
-        ("conductivity", {"cells": {4, 8}}, "cells is a set without one order; give a list"),
-        ("conductivity", {"nu-left": 1, "nu_left": 2}, "nu-left is given twice"),
     ],
 )
 def test_errors_are_one_line(program: str, options: dict[str, object], message: str, folder: Path) -> None:
