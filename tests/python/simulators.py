@@ -11,11 +11,6 @@ from workflow.lib.load import Result, load
 from workflow.program import PROGRAMS, execute
 
 
-def shortened(times: float | str, fraction: float) -> str:
-    """Scales a time, or each time of a list."""
-    return ",".join(f"{fraction * float(time):.6g}" for time in str(times).split(","))
-
-
 def call(program: str, **options: object) -> Result:
     """Result of a program; underscores in names of options become dashes. Raises ProgramError."""
     with tempfile.TemporaryDirectory() as folder:

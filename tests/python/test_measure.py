@@ -137,6 +137,12 @@ def wait_until(condition: Callable[[], object]) -> None:
     raise AssertionError("not within 20 s")
 
 
+def running(folder: Path) -> bool:
+    """Whether a program is running that writes into the folder."""
+    command = ["pgrep", "-f", f"bin/persistence .*{folder}"]
+    return subprocess.run(command, check=False, capture_output=True).returncode == 0
+
+
 def test_the_program_ends_with_the_session(folder: Path) -> None:
     """The program writes a checkpoint and exits. Otherwise it would continue alone, at the same time as that of the next call."""
     options = {"cells": 4, "relaxation_time": 1, "observation_time": 200, "replicas": 20000, "threads": 1}
@@ -144,27 +150,27 @@ def test_the_program_ends_with_the_session(folder: Path) -> None:
         f"from pathlib import Path; from workflow import measure as m; m.FOLDER = Path({str(folder)!r}); "
         f"m.measure('persistence', **{options})"
     )
-
-    def running() -> bool:
-        command = ["pgrep", "-f", f"bin/persistence .*{folder}"]
-        return subprocess.run(command, check=False, capture_output=True).returncode == 0
-
     session = subprocess.Popen([sys.executable, "-c", code], cwd=ROOT, stderr=subprocess.DEVNULL)
-    wait_until(running)
+    wait_until(lambda: running(folder))
     time.sleep(0.5)
     session.terminate()
     session.wait()
-    wait_until(lambda: not running())
+    wait_until(lambda: not running(folder))
     assert [*folder.glob("*.checkpoint")]
 
 
 def test_an_interrupted_call_is_continued(folder: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    options = {"cells": 4, "relaxation_time": 1, "observation_time": 200, "replicas": 2000, "threads": 1}
+    options = {"cells": 4, "relaxation_time": 1, "observation_time": 200, "replicas": 4000, "threads": 1}
     former = signal.signal(
         signal.SIGINT, signal.default_int_handler
     )  # the workers of pytest ignore this signal
-    timer = threading.Timer(1, lambda: os.kill(os.getpid(), signal.SIGINT))
-    timer.start()
+
+    def interrupt() -> None:
+        wait_until(lambda: running(folder))
+        time.sleep(1)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Thread(target=interrupt).start()
     try:
         with pytest.raises(KeyboardInterrupt):
             measure("persistence", **options, sigma=0.3)

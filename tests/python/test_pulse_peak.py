@@ -144,7 +144,7 @@ def test_errors_and_mirror_symmetry_over_seeds(over_seeds: OverSeeds, gamma: str
     reached = errors.min(axis=0) > 0.1 * errors.max()  # reached often enough for a Gaussian mean
     assert reached.sum() > 7
     assert mean_is_zero(odd[:, reached])
-    squares = np.sum((odd / errors)[:, reached] ** 2, axis=1) * (REPLICAS - 3) / (REPLICAS - 1)
+    squares = np.sum((odd[:, reached] / errors[:, reached]) ** 2, axis=1) * (REPLICAS - 3) / (REPLICAS - 1)
     assert abs(squares.mean() - reached.sum()) < 4 * squares.std(ddof=1) / np.sqrt(SEEDS)
     # Detected mistake: the profile is folded about another cell than that of the pulse.
     off_centre = (right - profile[:, centre - distance + 1]) / 2
