@@ -14,7 +14,7 @@ help:  ## This list
 figures: build  ## Build, simulate and render every figure: figures/QUALITY/*.pdf, .png, .svg, .csv
 panel: build  ## One panel, PANEL=fig05; FRESH=yes: rerun from scratch and compare
 report: build  ## The paper's claims against the results: figures/QUALITY/report.html
-gallery: build  ## docs/gallery and the answer in README.md, from the results at QUALITY
+gallery: build  ## The report of the release, docs/gallery, from the results at QUALITY
 audit: setup  ## Check every result and figure against sources, parameters and packages
 status: setup  ## Fresh, stale (why) or missing
 verify: setup  ## Compile afresh, rerun a SAMPLE=0.1 of the results, or PANEL=fig05, and compare bytes

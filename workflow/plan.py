@@ -41,7 +41,6 @@ REPORT_SOURCES = (
     "workflow/report",
     "workflow/plan.py",
     "data/claims.csv",
-    "CITATION.cff",
     *DRAWING,
 )
 BATCH = 16  # replicas between two checks of a target error

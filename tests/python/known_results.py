@@ -16,11 +16,11 @@ from workflow.plan import Panel, Run, data_path, load_plan
 
 # Quantities on which claims depend, by program, with their axes (docs/format.md).
 QUANTITIES: dict[str, dict[str, tuple[str, ...]]] = {
-    "particle_count": {"log_slope": (), "log_curvature": (), "plateau": ("time",), "front": ("time",), "front_exponent": ()},
+    "particle_count": {"plateau": ("time",), "front_exponent": ()},
     "persistence": {"mu": ()},
     "waiting_time": {"exponent": (), "exponent_spread": ()},
     "displacement": {"alpha": (), "momentum_drift": ()},
-    "ageing": {"decade_slope": ("decade",)},
+    "ageing": {"scatterer_energy_mean": ("window",), "decade_slope": ("decade",)},
     "steady_profile": {
         "temperature_scatterer": ("cell",), "temperature_particle": ("cell",), "temperature_difference": ("cell",),
         "density_slope": (), "density_excess": ("end",), "rate_right": ("cell",), "rate_right_deviation": ("cell",),
@@ -28,7 +28,7 @@ QUANTITIES: dict[str, dict[str, tuple[str, ...]]] = {
     },
     "momentum_flux": {"flux": ("bond", "momentum"), "jump": ("bond",), "square": ("bond", "half"), "kurtosis": ("bond", "half")},
     "boltzmann": {"flux": ("x", "momentum"), "flux_density": ("x", "momentum"), "jump": ("x",), "kurtosis": ("x", "half")},
-    "conductivity": {"kappa": (), "kappa_particle": (), "stationary": (), "energy_current": (), "particle_current": (), "current_correlation": ()},
+    "conductivity": {"kappa": (), "stationary": (), "energy_current": (), "particle_current": (), "current_correlation": ()},
     "correlation": {
         "damping_exponent": (), "damping_exponent_from": ("from",), "peak": ("time",), "heat_correlation": ("time", "cell"),
     },
@@ -36,7 +36,7 @@ QUANTITIES: dict[str, dict[str, tuple[str, ...]]] = {
     "energy_pulse": {
         "centre_share": ("time",), "odd_part": ("time", "distance"), "peak": ("time",), "peak_position": ("time",),
         "peak_speed": ("middle",), "damping_exponent": (), "damping_exponent_from": ("from",),
-        "peak_raw": ("time",), "damping_drift": (), "local_damping_exponent": ("until",), "energy_difference": ("time", "cell"),
+        "local_damping_exponent": ("until",),
     },
 }  # fmt: skip
 DEFAULTS = {
@@ -55,23 +55,21 @@ plan = cache(load_plan)
 class Known(Data):
     """Data in which every run of some panels has the result that the function of its panel returns; other panels have no results."""
 
-    def __init__(
-        self, fills: Mapping[str, Fill], quality: str = "paper", converged: str = "no target"
-    ) -> None:
-        self.quality, self.root, self.fills, self.converged = quality, ROOT, fills, converged
+    def __init__(self, fills: Mapping[str, Fill], quality: str = "paper") -> None:
+        self.quality, self.root, self.fills = quality, ROOT, fills
         self.plan: dict[str, Panel] = plan(quality)
-        self.loaded, self.used = {}, {}
+        self.loaded = {}
 
-    def _load(self, panel: str, run: Run) -> tuple[str, Result]:
+    def _load(self, panel: str, run: Run) -> Result:
         path = data_path(self.quality, panel, run)
         if panel not in self.fills:
-            raise MissingError(f"{path} is missing, damaged or unreadable")
+            raise MissingError(f"{path} is missing")
         if path not in self.loaded:
             planned = replace(run, options=DEFAULTS | run.options)
-            provenance = {"program": planned.program, "converged": self.converged}
+            provenance = {"program": planned.program, "converged": "no target"}
             quantities = dict(self.fills[panel](planned))
             self.loaded[path] = Result(Path(path), planned.options, provenance, quantities)
-        return path, self.loaded[path]
+        return self.loaded[path]
 
 
 def axes(run: Run) -> dict[str, np.ndarray]:
@@ -80,6 +78,7 @@ def axes(run: Run) -> dict[str, np.ndarray]:
     times = np.array(str(run.options.get("times", 1)).split(","), dtype=float)
     bins, largest = run.options.get("momentum-bins", 100), run.options.get("momentum-max", 60)
     decades, end = run.options.get("decades", 6), run.options.get("observation-time")
+    starts = (end if isinstance(end, int) else 1) * 10.0 ** np.arange(-decades, 0)
     positions = run.options.get("positions")
     return {
         "time": times,
@@ -93,7 +92,8 @@ def axes(run: Run) -> dict[str, np.ndarray]:
         "x": np.array(positions.split(","), dtype=float) if positions else np.linspace(0, 1, cells + 1),
         "momentum": (np.arange(bins) + 0.5) * (2 * largest / bins) - largest,
         "distance": np.arange(1.0, cells // 2 + 1),
-        "decade": (end if isinstance(end, int) else 1) * 10.0 ** np.arange(-decades, 0),
+        "decade": starts,
+        "window": np.sort([*starts, *(2 * starts)]),
     }
 
 

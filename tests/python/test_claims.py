@@ -1,49 +1,50 @@
 """The table of claims, its messages, and how a claim is judged."""
 
-import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
-import h5py
+import numpy as np
 import pytest
-import yaml
 
-import tests.python.claim_truths_closed  # noqa: F401  # adds its cases
-from tests.python.claim_truths import CASES, World
+from tests.python.claim_truths_closed import linear_response
 from tests.python.conftest import ROOT
-from tests.python.known_results import Known, truth
-from workflow.claims import judge
-from workflow.claims.data import Data, Evidence, MissingError, combination, ratio
+from tests.python.known_results import Fill, Known, quantity, truth, uneven
+from workflow.claims import closed, growth, judge, pulse
+from workflow.claims.data import MissingError, combination, ratio
 from workflow.claims.verdict import Number, Outcome
 from workflow.configuration import ConfigurationError
-from workflow.plan import data_of, load_plan
-from workflow.report import numbers
+from workflow.lib.load import Quantity
+from workflow.plan import Run, load_plan
 
-CLAIMS = judge.read_claims(ROOT)
-CLAIM = {"id": "C01", "literal": "-1 to 1", "intended": "-2 to 2", "alternative": ""}
+ROWS = judge.read_claims(ROOT)
 
 
-def test_every_claim_is_there_once_and_has_a_judge() -> None:
-    assert [claim["id"] for claim in CLAIMS] == [f"C{number:02}" for number in range(1, 36)]
-    assert judge.FUNCTIONS.keys() == {claim["id"] for claim in CLAIMS}
-    assert sum(len(module.CLAIMS) for module in judge.MODULES) == len(CLAIMS)
+def test_every_statement_has_a_row() -> None:
+    """Intended meanings come after the literal statement. The numbers are those of the paper's statements, C01 to C35, of two more, and of the title."""
+    numbers = [number for row in ROWS if row["kind"] == "literal" for number in row["numbers"].split()]
+    assert sorted(numbers) == [f"C{number:02}" for number in range(1, 39)]
+    literal = [row["numbers"] for row in ROWS if row["kind"] == "literal"]
+    assert {row["numbers"] for row in ROWS if row["kind"] == "intended"} <= {*literal}
+    assert len({(row["numbers"], row["kind"]) for row in ROWS}) == len(ROWS)
 
 
 def test_rows_are_complete() -> None:
     panels = load_plan("standard")
-    for claim in CLAIMS:
-        assert all(claim[name] for name in ("panel", "place", "quantity", "paper", "criterion", "literal"))
-        assert claim["panel"] in panels
+    for row in ROWS:
+        assert all(row[name] for name in judge.COLUMNS if name != "caveat")
+        assert row["panel"] in panels
 
 
 @pytest.mark.parametrize(
     "damage",
     [
         lambda text: "",
-        lambda text: text[: text.rindex("\nC35") + 1],
         lambda text: text.replace("-0.1 to 0.1", "0.1 to -0.1", 1),
-        lambda text: text.replace("C02", "C99", 1),
-        lambda text: text.encode().replace(b"Changes", b"Chang\xe9s", 1),
+        lambda text: text.replace("front_falls", "front_rises", 1),
+        lambda text: text.replace("filling.", "emptying.", 1),
+        lambda text: text.replace("intended", "meant", 1),
+        lambda text: text.encode().replace(b"stationary", b"stat\xe9", 1),
     ],
 )
 def test_a_damaged_table_is_reported_in_one_line(
@@ -57,81 +58,67 @@ def test_a_damaged_table_is_reported_in_one_line(
         judge.read_claims(tmp_path)
 
 
-def test_misprints_name_claims_and_numbers() -> None:
-    misprints = yaml.safe_load((ROOT / "workflow/report/misprints.yaml").read_text())
-    documented = (ROOT / "docs/model.md").read_text().partition("\n## 7.")[2].partition("\n## ")[0]
-    assert len(misprints) == len(re.findall(r"^\| \d+ \|", documented, re.MULTILINE))
-    assert {row["claim"] for row in misprints if "claim" in row} <= {claim["id"] for claim in CLAIMS}
-    assert all(callable(getattr(numbers, row["number"])) for row in misprints if "number" in row)
+def test_what_was_not_measured_is_undecided() -> None:
+    for row in ROWS:
+        judgement = judge.judge(row, Known({}), 0.05)
+        assert judgement.verdict.outcome is Outcome.UNDECIDED
+        assert "data/paper/" in judgement.missing
 
 
-def judged(monkeypatch: pytest.MonkeyPatch, evidence: Evidence | Exception) -> judge.Judgement:
-    def claim(_: Data) -> Evidence:
-        if isinstance(evidence, Exception):
-            raise evidence
-        return evidence
-
-    monkeypatch.setitem(judge.FUNCTIONS, "C01", claim)
-    return judge.judge(CLAIM, Data("smoke", ROOT), 0.05)
+def of_sizes(kappa: Callable[[int], float], still: Callable[[int], bool] = lambda _: True) -> Known:
+    given = {
+        "kappa": lambda run: kappa(run.options["cells"]),
+        "stationary": lambda run: float(still(run.options["cells"])),
+    }
+    return Known({"fig08": truth(given, 0.01)})
 
 
-def test_what_is_missing_is_not_testable(monkeypatch: pytest.MonkeyPatch) -> None:
-    judgement = judged(monkeypatch, MissingError("there are no runs"))
-    assert (judgement.outcome, judgement.caveat) == (Outcome.NOT_TESTABLE, "there are no runs.")
-    assert judgement.deciding is None
+def test_an_exponent_takes_two_stationary_sizes_one_of_which_is_large() -> None:
+    for sizes in ((128,), (32, 64)):
+        with pytest.raises(MissingError, match="stationary size"):
+            growth.linear(of_sizes(float, sizes.__contains__))
+    (number,) = growth.linear(of_sizes(float, (64, 128).__contains__))
+    assert number.value == pytest.approx(1)
+    with pytest.raises(MissingError, match="stationary sizes"):
+        growth.cube_root(of_sizes(float, (8, 16).__contains__))
 
 
-def test_readings_share_the_level_and_the_alternative_one_does_not_count(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    number = Number("", 1.5, 0.1)
-    both = judged(monkeypatch, Evidence([number], [number]))
-    assert both.outcome is Outcome.IN_MEANING
-    assert both.deciding is both.intended
-    assert both.literal.level == both.intended.level == 0.025
-    alone = judged(monkeypatch, Evidence([number]))
-    assert (alone.outcome, alone.literal.level) == (Outcome.CONTRADICTED, 0.05)
+def test_an_exponent_is_called_a_mean_slope_where_the_law_is_rejected() -> None:
+    (power,), (bent,) = (growth.linear(of_sizes(lambda n, at=at: n * (1 + (n == at)))) for at in (0, 512))
+    assert bent.label == f"{power.label}, a mean slope"
 
 
-def test_damaged_results_are_missing(tmp_path: Path) -> None:
-    with pytest.raises(MissingError, match="there is no panel"):
-        Data("smoke", tmp_path).of("fig00")
-    path = tmp_path / data_of(load_plan("smoke"), "fig05", "smoke")[0]
-    path.parent.mkdir(parents=True)
-    with h5py.File(path, "w"):
-        pass
-    with pytest.raises(MissingError, match="missing, damaged or unreadable"):
-        Data("smoke", tmp_path).of("fig05")
+def test_the_last_octave_of_the_chains_without_particle_current() -> None:
+    """κ_0 ∼ √N up to 256 cells and N^0.2 beyond."""
+    response = linear_response(lambda cells: 256**0.5 * (cells / 256) ** (0.5 if cells < 256 else 0.2))
+    data = Known({"ext11": truth(response | {"stationary": 1}, 1e-6)})
+    assert growth.without_particle_current(data, last=2).value == pytest.approx(0.2, abs=1e-3)
 
 
-def judged_in(
-    claim: str, world: World, quality: str = "paper", converged: str = "no target"
-) -> judge.Judgement:
-    fills = {panel: truth(given, 1e-6) for panel, given in world.items()}
-    row = CLAIMS[int(claim[1:3]) - 1]
-    return judge.judge(row, Known(fills, quality, converged), 0.05)
+def test_a_decade_from_1_on_counts_though_rounding_puts_it_below() -> None:
+    def fill(run: Run) -> dict[str, Quantity]:
+        slope = uneven(run)["decade_slope"]
+        return uneven(run) | {
+            "decade_slope": replace(slope, axes={"decade": (1 - 1e-15) * slope.axes["decade"]})
+        }
+
+    found, exact = (closed.ageing(Known({"ext07": each}))[-1] for each in (fill, uneven))
+    assert found.value == pytest.approx(exact.value)
 
 
-def test_no_claim_is_judged_without_its_runs() -> None:
-    for claim in CLAIMS:
-        judgement = judged_in(claim["id"], {})
-        assert judgement.outcome is Outcome.NOT_TESTABLE
-        assert "data/paper/" in judgement.caveat
+def test_a_pulse_without_moving_peaks_is_not_measured() -> None:
+    def with_peaks(name: str, kept: slice) -> Fill:
+        def fill(run: Run) -> dict[str, Quantity]:
+            values = np.full(len(uneven(run)[name].mean), np.nan)
+            values[kept] = 10
+            return uneven(run) | {name: quantity(run, name, values, np.full(len(values), 0.1))}
 
+        return fill
 
-def test_what_is_not_stationary_does_not_count() -> None:
-    for name in ("C23", "C24"):
-        moving = {panel: {**given, "stationary": 0} for panel, given in CASES[name].world.items()}
-        assert judged_in(name, moving).outcome is Outcome.NOT_TESTABLE
-
-
-def test_runs_that_did_not_reach_their_target_are_reported() -> None:
-    judgement = judged_in("C14", CASES["C14"].world, converged="not reached")
-    assert "2 runs stopped before their target error" in judgement.caveat
-    assert [path.partition(".")[0] for path in judgement.data] == [
-        "data/paper/fig04a/rare",
-        "data/paper/fig04b/deterministic",
-    ]
+    with pytest.raises(MissingError, match="too few times"):
+        pulse.ballistic(Known({"fig09b": with_peaks("peak_position", slice(2))}))
+    with pytest.raises(MissingError, match="too few times"):
+        pulse.peaks_leave(Known({"fig09a": with_peaks("peak_speed", slice(1))}))
 
 
 def test_errors_of_ratios_and_sums() -> None:

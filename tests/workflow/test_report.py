@@ -1,9 +1,9 @@
 """Report and gallery: complete, reproducible, self-contained, from unmodified results only."""
 
+import csv
 import re
 import shutil
-import subprocess
-import sys
+from collections import defaultdict
 from dataclasses import dataclass, field
 from html.parser import HTMLParser
 from pathlib import Path
@@ -12,29 +12,32 @@ import h5py
 import pytest
 from PIL import Image
 
-from workflow.claims.judge import read_claims
+from workflow.claims.data import Data
+from workflow.claims.judge import judge_all, read_claims
+from workflow.claims.verdict import Outcome
 from workflow.identity import ROOT, stated
-from workflow.plan import data_of, load_plan, stem_of
-from workflow.report.gallery import gallery
-from workflow.report.questions import read_questions
-from workflow.report.sources import ReportError
+from workflow.lib.load import FormatError
+from workflow.plan import data_of, load_plan, runs_of, stem_of
+from workflow.report.write import write
 
 PLAN = load_plan("smoke")
-# Elements without an end: those of HTML, and those of SVG that end themselves.
-VOID = {"meta", "img", "link", "br", "hr", "input"}
+VOID = {"meta", "img"}  # elements without an end
+IDS = {
+    *(number.lower() for row in read_claims(ROOT) for number in row["numbers"].split()),
+    *(f"{row['numbers'].lower()[:3]}-intended" for row in read_claims(ROOT) if row["kind"] == "intended"),
+    *PLAN,
+}
 
 
 @dataclass
 class Page(HTMLParser):
-    """Ids, links, loaded files, pictures and unclosed elements of an HTML page."""
+    """Ids, links, pictures and unclosed elements of an HTML page."""
 
     ids: list[str] = field(default_factory=list)
     links: list[str] = field(default_factory=list)
-    loaded: list[str] = field(default_factory=list)  # fetched by a browser to show the page
     pictures: list[dict[str, str]] = field(default_factory=list)
     faults: list[str] = field(default_factory=list)
     open: list[str] = field(default_factory=list)
-    scripts: int = 0
 
     def __post_init__(self) -> None:
         super().__init__()
@@ -48,126 +51,99 @@ class Page(HTMLParser):
         return page
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.handle_startendtag(tag, attrs)
-        if tag not in VOID:
-            self.open.append(tag)
-
-    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         given = {name: value or "" for name, value in attrs}
-        if len(given) < len(attrs):
-            self.faults.append(f"{tag} repeats an attribute")
         self.ids += [given["id"]] if "id" in given else []
         self.links += [given["href"]] if tag == "a" else []
-        self.loaded += [given[name] for name in ("src", "srcset", "data", "poster") if name in given]
-        self.loaded += [given["href"]] if tag in ("link", "image", "use", "base") else []
-        self.pictures += [given] if tag == "img" or given.get("role") == "img" else []
-        self.scripts += tag == "script" and given.get("type") != "application/json"
+        self.pictures += [given] if tag == "img" else []
+        if tag not in VOID:
+            self.open.append(tag)
 
     def handle_endtag(self, tag: str) -> None:
         if not self.open or self.open.pop() != tag:
             self.faults.append(f"</{tag}> without a start tag")
 
 
-def write(path: Path) -> Path:
-    command = [sys.executable, "-m", "workflow.report.write", "--quality", "smoke", "--output", path]
-    subprocess.run(command, cwd=ROOT, check=True)
+@pytest.fixture(scope="module")
+def html(smoke: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("report") / "report.html"
+    write("smoke", path, smoke)
     return path
 
 
 @pytest.fixture(scope="module")
-def html(smoke: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return write(tmp_path_factory.mktemp("report") / "report.html")
+def copy(smoke: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the products of this project."""
+    folder = tmp_path_factory.mktemp("copy")
+    for name in ("build", "data", "docs/gallery"):
+        (folder / name).mkdir(parents=True)
+    shutil.copy(smoke / "data/claims.csv", folder / "data")
+    shutil.copytree(smoke / "data/smoke", folder / "data/smoke")
+    (folder / "build/figures").symlink_to(smoke / "build/figures")
+    return folder
 
 
-@pytest.fixture
-def page(html: Path) -> Page:
-    return Page.of(html)
-
-
-def test_it_is_written_again_with_the_same_bytes(html: Path, tmp_path: Path) -> None:
-    again = write(tmp_path / "report.html").read_bytes()
-    assert again == html.read_bytes()
-    assert str(ROOT).encode() not in again
-
-
-def test_it_is_well_formed(page: Page) -> None:
+def test_the_report_is_complete_and_loads_nothing(html: Path) -> None:
+    page, text = Page.of(html), html.read_text()
     assert page.faults == []
     assert len(page.ids) == len({*page.ids})
-
-
-def test_it_loads_nothing_and_runs_nothing(html: Path, page: Page) -> None:
-    assert page.loaded
-    assert all(address.startswith("data:image/svg+xml;base64,") for address in page.loaded)
-    assert page.scripts == 0
-    text = html.read_text()
-    assert "default-src 'none'" in text
-    assert re.findall(r"@import|url\(|javascript:", text) == []
-
-
-def test_every_link_leads_somewhere(page: Page) -> None:
-    folder = ROOT / "figures/smoke"
-    assert page.links
+    assert {*page.ids} >= IDS
+    assert len(page.pictures) == len(PLAN)
+    assert all(
+        picture["alt"] and picture["src"].startswith("data:image/svg+xml;base64,")
+        for picture in page.pictures
+    )
+    assert re.findall(r"<script|<link|@import|url\(|javascript:", text) == []
     for link in page.links:
-        assert link[1:] in page.ids if link.startswith("#") else (folder / link).is_file(), link
+        inside = link.startswith(("#", "https://doi.org/"))
+        assert link.strip("#") in page.ids or not link.startswith("#")
+        assert inside or (ROOT / "figures/smoke" / link).is_file(), link
 
 
-def test_every_claim_and_panel_is_there(page: Page) -> None:
-    claims = [claim["id"] for claim in read_claims(ROOT)]
-    assert {*claims, *PLAN} <= {*page.ids}
-
-
-def test_pictures_are_described(page: Page) -> None:
-    assert len(page.pictures) > len(PLAN)
-    assert all(picture.get("alt") or picture.get("aria-label") for picture in page.pictures)
-
-
-@pytest.fixture
-def copy(smoke: Path, tmp_path: Path) -> Path:
-    """A folder with the products of this project and front pages of its own."""
-    for name in ("README.md", "docs/index.md", "CITATION.cff", "data/claims.csv"):
-        (tmp_path / name).parent.mkdir(exist_ok=True)
-        shutil.copy(smoke / name, tmp_path / name)
-    (tmp_path / "build").mkdir()
-    for name in ("data/smoke", "build/figures"):
-        (tmp_path / name).symlink_to(smoke / name)
-    return tmp_path
-
-
-def test_the_gallery_has_every_panel_and_claim(copy: Path) -> None:
-    gallery("smoke", copy)
-    folder = copy / "docs/gallery"
-    page = (folder / "README.md").read_text()
+def test_the_gallery_has_equal_bytes_and_every_panel_and_claim(copy: Path) -> None:
+    former = copy / "docs/gallery/removed_panel.png"
+    former.touch()
+    write("smoke", None, copy)
+    first = {path.name: path.read_bytes() for path in (copy / "docs/gallery").iterdir()}
+    write("smoke", None, copy)
+    assert {path.name: path.read_bytes() for path in (copy / "docs/gallery").iterdir()} == first
+    assert first.keys() == {"README.md", "numbers.csv", *(f"{panel}.png" for panel in PLAN)}
+    text = first["README.md"].decode()
+    assert str(ROOT) not in text
+    assert not re.search(
+        r"\n\n(?!<(h1|h2|p|ul|table|details|figure|tr|li|thead|tbody)\b)", text
+    )  # Markdown keeps HTML as it is
+    page = Page.of(copy / "docs/gallery/README.md")
+    assert page.faults == []
+    assert {*page.ids} >= IDS
+    for link in [*page.links, *(picture["src"] for picture in page.pictures)]:
+        assert link.startswith("https://doi.org/") or link in first or link.strip("#") in page.ids, link
     for panel in PLAN:
-        small, original = folder / f"{panel}.png", ROOT / f"{stem_of(PLAN, panel, 'smoke')}.png"
+        small, original = copy / f"docs/gallery/{panel}.png", ROOT / f"{stem_of(PLAN, panel, 'smoke')}.png"
         assert stated(small.read_bytes()) == stated(original.read_bytes())
-        assert small.stat().st_size < original.stat().st_size
         with Image.open(small, formats=["PNG"]) as picture, Image.open(original, formats=["PNG"]) as large:
             assert picture.width == min(1440, large.width)
-    assert all((folder / "claims" / f"{claim['id']}.svg").is_file() for claim in read_claims(ROOT))
-    for link in re.findall(r"\]\(([^)]*)\)", page):
-        heading = rf"^#+ {link[1:].replace('-', ' ')}$"
-        anchored = f'id="{link[1:]}"' in page or re.search(heading, page, re.I | re.M)
-        assert anchored if link.startswith("#") else (folder / link).is_file(), link
-    for front in ("README.md", "docs/index.md"):
-        table = (copy / front).read_text().split("<!-- questions, by make gallery -->")[1]
-        rows = re.findall(r"^\| (.*\?) \| ", table, re.MULTILINE)
-        assert len(rows) == len(read_questions())
-        assert all(f"| {row} | " in page for row in rows)
 
 
 def test_the_gallery_is_written_from_unmodified_results_only(copy: Path) -> None:
-    (copy / "data/smoke").unlink()
-    shutil.copytree(ROOT / "data/smoke", copy / "data/smoke")
     edited = copy / data_of(PLAN, "fig05", "smoke")[0]
     with h5py.File(edited, "r+") as file:
         file["results/mu/mean"][...] *= 1.001
-    with pytest.raises(
-        ReportError, match=r"is edited or damaged; remove it and run make figures QUALITY=smoke"
-    ):
-        gallery("smoke", copy)
-    shutil.copy(ROOT / edited.relative_to(copy), edited)
-    text = (copy / "README.md").read_text()
-    (copy / "README.md").write_text(text.replace("<!-- end of the answer -->", ""))
-    with pytest.raises(ReportError, match="has no line '<!-- end of the answer -->', which marks the answer"):
-        gallery("smoke", copy)
-    assert not (copy / "docs/gallery").exists()
+    with pytest.raises(FormatError, match=r"fig05/.* edited or damaged: .* remove it and make it again"):
+        write("smoke", None, copy)
+
+
+def test_no_quality_contradicts_another(smoke: Path) -> None:
+    """The same row is not reproduced at one quality and contradicted at another, among the release and the qualities made here."""
+    verdicts = defaultdict(dict)
+    with (ROOT / "docs/gallery/numbers.csv").open(newline="") as file:
+        for line in csv.DictReader(file):
+            verdicts[line["claim"], line["kind"]]["release"] = line["verdict"]
+    for quality in ("smoke", "standard", "paper"):
+        plan = load_plan(quality)
+        if all((smoke / path).exists() for path in runs_of(plan, plan, quality)):
+            for judgement in judge_all(Data(quality, smoke)):
+                key = judgement.row["numbers"], judgement.row["kind"]
+                verdicts[key][quality] = judgement.verdict.outcome.value
+    assert any("smoke" in of_row for of_row in verdicts.values())
+    opposite = {Outcome.REPRODUCED.value, Outcome.CONTRADICTED.value}
+    assert [row for row, of_row in verdicts.items() if opposite <= {*of_row.values()}] == []

@@ -2,14 +2,12 @@
 
 import math
 import sys
-from dataclasses import replace
 
 import numpy as np
 
-from workflow.claims.data import Claim, Data, Evidence, number, ratio, where_made
+from workflow.claims.data import Data, number, ratio
 from workflow.claims.verdict import Number, with_systematic
-from workflow.lib.caption import scientific
-from workflow.lib.closed import ROUNDING, persistence_law
+from workflow.lib.closed import ROUNDING, persistence_law, quasi_stationary
 from workflow.lib.load import Result
 
 
@@ -25,39 +23,36 @@ def _named(results: list[Result], quantity: str, name: str) -> list[Number]:
     return numbers
 
 
-def persistence(data: Data) -> Evidence:
-    """mu minus arccos(sigma)/pi. Literal: at sigma = -1, 0 and 1; intended: at every sigma in a dense chain; alternative: at every sigma in
-    the paper's chain."""
-    paper = data.of("fig05", particles_per_cell=20)
-    limits = [result for result in paper if result.parameters["sigma"] in (-1, 0, 1)]
-    dense = data.of("fig05", particles_per_cell=320)
-    literal, intended, alternative = (
-        [_from_law(result) for result in runs] for runs in (limits, dense, paper)
-    )
-    return Evidence(literal, intended, alternative)
+def persistence_limits(data: Data) -> list[Number]:
+    """mu minus arccos(sigma)/pi at sigma = -1, 0 and 1."""
+    runs = data.of("fig05", particles_per_cell=20)
+    return _from_law([run for run in runs if run.parameters["sigma"] in (-1, 0, 1)])
 
 
-def _from_law(result: Result) -> Number:
-    sigma = result.parameters["sigma"]
-    return number(result, "mu", label=f"μ - arccos(σ)/π, σ = {sigma:g}").over(
-        1, float(persistence_law(sigma))
-    )
+def persistence_in_dense_chain(data: Data) -> list[Number]:
+    """mu minus arccos(sigma)/pi at every sigma in a chain of many particles per cell."""
+    return _from_law(data.of("fig05", particles_per_cell=320))
 
 
-def waiting_half(data: Data) -> Evidence:
+def _from_law(results: list[Result]) -> list[Number]:
+    numbers = _named(results, "mu", "μ - arccos(σ)/π")
+    laws = (float(persistence_law(result.parameters["sigma"])) for result in results)
+    return [value.over(1, law) for value, law in zip(numbers, laws, strict=True)]
+
+
+def persistent(data: Data) -> list[Number]:
+    """mu at the sigma of the paper's other figures."""
+    return _named(data.of("fig05", particles_per_cell=20, sigma=0.5), "mu", "μ")
+
+
+def waiting_half(data: Data) -> list[Number]:
+    """Exponent of the waiting times at sigma = 1/2. Its change with the relaxation time is a systematic error."""
     runs = [run for run in data.of("ext07", "waiting_time") if run.parameters["relaxation-time"] >= 10]
-    aged = [float(run["exponent"].mean) for run in runs]
-    return Evidence(
-        [with_systematic(_waiting(data, 0.5), aged)],
-        caveat="The systematic bound is what the relaxation time changes (ext07); cuts of the tail change less.",
-    )
+    return [with_systematic(_waiting(data, 0.5), [float(run["exponent"].mean) for run in runs])]
 
 
-def waiting_zero(data: Data) -> Evidence:
-    return Evidence(
-        [_waiting(data, 0)],
-        caveat="A property of the Gaussian start: at σ = 0 the momenta are only exchanged.",
-    )
+def waiting_zero(data: Data) -> list[Number]:
+    return [_waiting(data, 0)]
 
 
 def _waiting(data: Data, sigma: float) -> Number:
@@ -67,110 +62,87 @@ def _waiting(data: Data, sigma: float) -> Number:
     return with_systematic(exponent, [exponent.value + float(result["exponent_spread"].mean)])
 
 
-def spreading_half(data: Data) -> Evidence:
+def spreading_half(data: Data) -> list[Number]:
     """alpha at sigma = 1/2. Its change with the relaxation time is a systematic error."""
-    aged = _relaxed(data, 0.5)
-    zero = _named(data.of("ext01", sigma=0.5, zero_total_momentum=True), "alpha", "α at zero total momentum")
-    return Evidence(
-        [with_systematic(number(data.of("fig07")[0], "alpha", label="α, σ = 0.5, a mean slope"), aged)],
-        alternative=zero,
-        caveat=f"What is measured is judged here, what it is taken for in C20. {_without_drift(zero)}",
-    )
+    (result,) = data.of("fig07", cells=11, zero_total_momentum=False)
+    return [with_systematic(number(result, "alpha", label="α, σ = 0.5"), _relaxed(data, 0.5))]
 
 
-def spreading_zero(data: Data) -> Evidence:
-    aged = _relaxed(data, 0)
+def spreading_zero(data: Data) -> list[Number]:
+    """alpha at sigma = 0. Its change with the relaxation time is a systematic error."""
     (result,) = data.of("fig07_inset", sigma=0, zero_total_momentum=False)
-    dense = where_made(lambda: _named(_drifting(data, 0, 80), "alpha", "α, n = 80"))
-    return Evidence(
-        [with_systematic(number(result, "alpha", label="α, σ = 0"), aged)],
-        alternative=dense,
-        caveat="What is measured is judged here, what it is taken for in C20."
-        + " The alternative reading is a chain of 80 particles per cell over the same time." * bool(dense),
-    )
+    return [with_systematic(number(result, "alpha", label="α, σ = 0"), _relaxed(data, 0))]
 
 
 def _relaxed(data: Data, sigma: float) -> list[float]:
-    return [float(run["alpha"].mean) for run in _drifting(data, sigma, 20)]
+    runs = data.of("ext01", sigma=sigma, particles_per_cell=20, zero_total_momentum=False, rule="elastic")
+    return [float(run["alpha"].mean) for run in runs]
 
 
-def _drifting(data: Data, sigma: float, n: int) -> list[Result]:
-    """Runs with the paper's random total momentum and n particles per cell."""
-    chain = {"sigma": sigma, "particles_per_cell": n}
-    return data.of("ext01", None, zero_total_momentum=False, rule="elastic", **chain)
+def spreading_with_drift(data: Data) -> list[Number]:
+    """alpha for every sigma but 0, with the paper's random total momentum."""
+    return _spreading(data, zero_total_momentum=False)
 
 
-def _without_drift(zero: list[Number]) -> str:
-    return f"At zero total momentum α lies between {min(alpha.value for alpha in zero):.3f} and {max(alpha.value for alpha in zero):.3f}."
+def spreading_without_drift(data: Data) -> list[Number]:
+    """alpha for every sigma but 0, with zero total momentum."""
+    return _spreading(data, zero_total_momentum=True)
 
 
-def superdiffusive(data: Data) -> Evidence:
-    """alpha for every sigma but 0. Literal: with the paper's random total momentum; intended: with zero total momentum."""
-    runs = [run for run in data.of("fig07_inset") if run.parameters["sigma"]]
-    free, zero = (
-        _named([run for run in runs if run.parameters["zero-total-momentum"] == given], "alpha", name)
-        for given, name in ((False, "α"), (True, "α at zero total momentum"))
-    )
-    return Evidence(free, zero, caveat=_without_drift(zero))
+def _spreading(data: Data, *, zero_total_momentum: bool) -> list[Number]:
+    runs = data.of("fig07_inset", zero_total_momentum=zero_total_momentum)
+    name = "α at zero total momentum" if zero_total_momentum else "α"
+    return _named([run for run in runs if run.parameters["sigma"]], "alpha", name)
 
 
-def diffusion_recovered(data: Data) -> Evidence:
-    exponents = _named(data.of("ext01", rule="random-direction"), "alpha", "α")
-    return Evidence(
-        exponents,
-        exponents,
-        caveat="Waits of τ⁻² make t/ln t, whose exponent approaches 1 from below (ext01).",
-    )
+def random_directions(data: Data) -> list[Number]:
+    return _named(data.of("ext01", rule="random-direction"), "alpha", "α")
 
 
-def only_energy(data: Data) -> Evidence:
+def momentum_changes(data: Data) -> list[Number]:
     """Change of the total momentum over a run, relative to the sum of all |momenta|, as a power of ten. Changes below
     the rounding error are replaced by it."""
     runs = [run for run in data.of("fig07_inset") if run.parameters["sigma"]]
     changes = []
     for drift in _named(runs, "momentum_drift", "log₁₀ of the relative change of Σp + ΣP"):
         change = max(drift.value, sys.float_info.epsilon)
-        changes.append(
-            Number(drift.label, math.log10(change), drift.error / (change * math.log(10)), drift.freedom)
+        error = drift.error / (change * math.log(10))
+        changes.append(Number(drift.label, math.log10(change), error, drift.freedom))
+    return changes
+
+
+def ageing(data: Data) -> list[Number]:
+    """Against the quasi-stationary estimate: the energy of a scatterer of the paper's chain over it, minus 1, at the start of every decade from
+    t = 1 on; and in a chain of few particles, whose energy saturates, the slope against ln t in the last decade over that in the first
+    decade from t = 1 on, minus that of the estimate."""
+    paper, few = (data.one("ext07", run) for run in ("energy", "few"))
+    numbers = []
+    (times,) = paper["scatterer_energy_mean"].axes.values()
+    expected = _estimate(paper, times)
+    for decade in range(math.floor(math.log10(times[-1])) + 1):
+        k = _first(times, 10.0**decade)
+        label = (
+            f"energy over eq. 14, minus 1, n = {paper.parameters['particles-per-cell']}, t = {times[k]:.3g}"
         )
-    largest = max(float(run["momentum_drift"].mean) for run in runs)
-    return Evidence(
-        changes,
-        caveat=f"The largest change is {scientific(largest)}, rounding; every collision conserves p + P.",
+        numbers.append(number(paper, "scatterer_energy_mean", k, label).over(expected[k], 1))
+    decades = few["decade_slope"].axes["decade"]
+    first = _first(decades, 1.0)
+    ends = [_estimate(few, factor * decades[[first, -1]]) for factor in (1, 10)]
+    rise = ends[1] - ends[0]
+    label = f"slope from t = {decades[-1]:g} over that from t = 1, minus eq. 14, n = {few.parameters['particles-per-cell']}"
+    change = ratio(number(few, "decade_slope", -1), number(few, "decade_slope", first), label)
+    return [*numbers, change.over(1, float(rise[1] / rise[0]))]
+
+
+def _estimate(result: Result, times: np.ndarray) -> np.ndarray:
+    """Energy of a scatterer at the given times by eq. 14."""
+    particles, start, length = (
+        float(result.parameters[name]) for name in ("particles-per-cell", "temperature", "cell-length")
     )
+    temperature, _ = quasi_stationary(particles, start, length, times)
+    return 0.5 * temperature
 
 
-def ageing(data: Data) -> Evidence:
-    """Slope of the scatterers' energy against ln t in the last decade over that in the first decade from t = 1 on. Literal: this ratio
-    minus 1, which is 0 for logarithmic growth. Intended: the ratio in a chain of few particles, which saturates first."""
-    runs = data.of("ext07", "ageing")
-    result = max(
-        runs, key=lambda run: [run.parameters[key] for key in ("particles-per-cell", "observation-time")]
-    )
-    change = _last_slope(result)
-    return Evidence(
-        [replace(change.over(1, 1), label=f"{change.label}, minus 1")],
-        where_made(lambda: [_last_slope(data.one("ext07", "few"))]),
-        caveat="By eq. 14 of docs/model.md the slope falls from the outset, as 1/(n + Λ)² with Λ ≈ ln t, and the energy saturates "
-        "where Λ exceeds n: for n = 20 at t of the order e^20.",
-    )
-
-
-def _last_slope(result: Result) -> Number:
-    decade = result["decade_slope"].axes["decade"]
-    first = int(np.flatnonzero(decade > 1 - ROUNDING)[0])
-    label = f"slope from t = {decade[-1]:g} over that from t = {decade[first]:g}, n = {result.parameters['particles-per-cell']}"
-    return ratio(number(result, "decade_slope", -1), number(result, "decade_slope", first), label)
-
-
-CLAIMS: dict[str, Claim] = {
-    "C15": persistence,
-    "C16": waiting_half,
-    "C17": waiting_zero,
-    "C18": spreading_half,
-    "C19": spreading_zero,
-    "C20": superdiffusive,
-    "C21": diffusion_recovered,
-    "C22": only_energy,
-    "C29": ageing,
-}
+def _first(times: np.ndarray, after: float) -> int:
+    """Index of the first time that is not before the given one."""
+    return int(np.flatnonzero(times >= after * (1 - ROUNDING))[0])

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from workflow.claims.data import Claim, Data, Evidence, by_size, combination, freedom, number, ratio
+from workflow.claims.data import Data, by_size, combination, freedom, number, ratio
 from workflow.claims.verdict import Number, with_systematic
 from workflow.lib.fit import fit_line
 from workflow.lib.load import Result
@@ -23,7 +23,7 @@ def _both(data: Data) -> list[tuple[Result, str]]:
     return [(data.one("fig02_upper", run), name) for run, name in RUNS.items()]
 
 
-def temperatures_mismatch(data: Data) -> Evidence:
+def temperatures_mismatch(data: Data) -> list[Number]:
     """The end cells' temperatures lie between those of the baths, and the profile is less steep at gamma = 1."""
     jumps = []
     for result, name in _both(data):
@@ -33,21 +33,20 @@ def temperatures_mismatch(data: Data) -> Evidence:
         last = number(result, "temperature_scatterer", -1, f"(T_R - T_N)/(T_R - T_L), {name}")
         jumps += [first.over(scale, low / scale), last.over(-scale, -high / scale)]
     steeper = combination(jumps, [-1, -1, 1, 1], "(T_N - T₁)/(T_R - T_L), γ = N minus γ = 1")
-    return Evidence([*jumps, steeper])
+    return [*jumps, steeper]
 
 
-def temperatures_coincide(data: Data) -> Evidence:
+def temperatures_coincide(data: Data) -> list[Number]:
     """T of the scatterer minus T of the particles in every cell, relative to the latter."""
     numbers = []
     for result, name in _both(data):
         for k, local in enumerate(result["temperature_particle"].mean):
             label = f"T of scatterer over that of particles, minus 1, in cell {k + 1}, {name}"
             numbers.append(number(result, "temperature_difference", k, label).over(local))
-    caveat = "Exact only where the mean momentum vanishes (docs/model.md, eq. 39)."
-    return Evidence(numbers, numbers, caveat=caveat)
+    return numbers
 
 
-def density_profiles(data: Data) -> Evidence:
+def density_profiles(data: Data) -> list[Number]:
     """Slope of the density in the bulk at gamma = 1 over that at gamma = N, and excess of particles in both end cells over the line through
     the bulk."""
     both = [result for result, _ in _both(data)]
@@ -58,10 +57,10 @@ def density_profiles(data: Data) -> Evidence:
     for end, name in enumerate(("first", "last")):
         ends = [number(profile, "density_excess", end) for profile in both]
         excess.append(combination(ends, [-1, 1], f"excess of the {name} cell, γ = 1 minus γ = N"))
-    return Evidence([less, *excess])
+    return [less, *excess]
 
 
-def linear_rates(data: Data) -> Evidence:
+def linear_rates(data: Data) -> list[Number]:
     """Deviations of the rates from a straight line and of the current from its mean, over the mean rate."""
     numbers = []
     for result, name in _both(data):
@@ -70,17 +69,14 @@ def linear_rates(data: Data) -> Evidence:
             for k in range(len(result[f"{quantity}_deviation"].mean)):
                 label = f"{words} {k + first}, {name}"
                 numbers.append(number(result, f"{quantity}_deviation", k, label).over(scale))
-    return Evidence(numbers, numbers)
+    return numbers
 
 
-def boundary_grows(data: Data) -> Evidence:
+def boundary_grows(data: Data) -> list[Number]:
     """Excess density of the end cells against ln N at gamma = 1."""
     every = [*data.of("ext05"), data.one("fig02_upper", "rare")]
     results = by_size(run for run in every if run.parameters["cells"] >= FROM_SIZE)
-    return Evidence(
-        [_slope(results, end, name) for end, name in enumerate(("first", "last"))],
-        caveat="Growth up to the largest N; that it goes on without limit cannot be seen in finite chains.",
-    )
+    return [_slope(results, end, name) for end, name in enumerate(("first", "last"))]
 
 
 def _slope(results: Sequence[Result], end: int, name: str) -> Number:
@@ -90,12 +86,3 @@ def _slope(results: Sequence[Result], end: int, name: str) -> Number:
     line, later = fit_line(size, value, error), fit_line(size[1:], value[1:], error[1:])
     label = f"excess of the {name} cell per unit of ln N"
     return with_systematic(Number(label, line.slope, line.error, freedom(*results)), [later.slope])
-
-
-CLAIMS: dict[str, Claim] = {
-    "C05": temperatures_mismatch,
-    "C06": temperatures_coincide,
-    "C07": density_profiles,
-    "C08": linear_rates,
-    "C34": boundary_grows,
-}

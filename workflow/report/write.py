@@ -1,27 +1,156 @@
-"""Writes the report from the products of one quality. Equal inputs give equal bytes."""
+"""Writes the report of a quality: a page of HTML with all pictures in it, or the release's page docs/gallery/README.md with pictures
+beside it and all numbers in numbers.csv. Equal inputs give equal bytes.
+"""
 
 import argparse
+import base64
+import io
+import re
 import sys
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
+import jinja2
+import pandas as pd
+from PIL import Image
+from PIL.PngImagePlugin import PngInfo
+
+from workflow.claims.data import Data
+from workflow.claims.judge import KINDS, Judgement, judge_all
+from workflow.claims.verdict import Number, Outcome
 from workflow.configuration import ConfigurationError
-from workflow.files import write_together
+from workflow.files import in_one_line, write_together
 from workflow.identity import ROOT
-from workflow.report.content import content
-from workflow.report.sources import ReportError
-from workflow.report.templates import rendered
+from workflow.lib.load import FormatError
+from workflow.plan import Quality, stem_of
+from workflow.publish import read_record
+from workflow.report import words
+
+GALLERY = "docs/gallery"
+SIGNS = {Outcome.REPRODUCED: "✓", Outcome.CONTRADICTED: "✗", Outcome.UNDECIDED: "?"}
+MOST = 12  # numbers of a claim on the page; of more, only the one that is closest to the band's edge or farthest outside
+WIDTH, COLORS = 1440, 256  # of pictures in the gallery: largest width in pixels, number of colours
+
+
+def rendered(judgements: Sequence[Judgement], data: Data, *, release: bool) -> bytes:
+    """The page. release: whether it is that of the gallery, with pictures in files beside it. Raises OSError."""
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(Path(__file__).parent),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    environment.filters["typeset"] = words.typeset
+    rows = [shown(judgement) for judgement in judgements]
+    panels = []
+    for name in data.plan:
+        stem = data.root / stem_of(data.plan, name, data.quality)
+        picture = Path(f"{stem}.svg").read_bytes()
+        width = re.search(rb'<svg [^>]*width="([0-9.]+)pt"', picture)
+        address = f"data:image/svg+xml;base64,{base64.b64encode(picture).decode()}"
+        own = {"address": f"{name}.png" if release else address, "width": width[1].decode() if width else "0"}
+        panels.append(read_record(f"{stem}.json") | own | {"name": name})
+    page = environment.get_template("page.html.j2").render(
+        release=release,
+        quality=data.quality,
+        effort=Quality.of(data.quality).arguments,
+        kinds=KINDS,
+        outcomes=[*Outcome],
+        rows=rows,
+        row={f"{row['numbers']} {row['kind']}": row for row in rows},
+        panels=panels,
+    )
+    return page.encode()
+
+
+def shown(judgement: Judgement) -> dict[str, Any]:
+    """A row of the table of claims with its verdict, for the template. least, most: its smallest and largest number."""
+    verdict = judgement.verdict
+    numbers = sorted(verdict.numbers, key=lambda number: number.value)
+    listed = verdict.numbers if len(numbers) <= MOST else [verdict.shown]
+    return dict(judgement.row) | {
+        "outcome": verdict.outcome,
+        "sign": SIGNS[verdict.outcome],
+        "band": words.acceptance(verdict.band),
+        "value": words.value(verdict.shown) if numbers else "not measured",
+        "label": verdict.shown.label if numbers else "",
+        "list": [(number.label, words.value(number), verdict.of(number).value) for number in listed],
+        "omitted": len(numbers) - len(listed),
+        "least": plain(numbers[0]) if numbers else "",
+        "most": plain(numbers[-1]) if numbers else "",
+        "missing": judgement.missing,
+    }
+
+
+def plain(number: Number) -> str:
+    """The number with its standard error only, for sentences."""
+    return words.value(Number("", number.value, number.error))
+
+
+def numbers_file(judgements: Sequence[Judgement]) -> bytes:
+    """CSV with one line per number of every claim."""
+    lines = [
+        {
+            "claim": judgement.row["numbers"],
+            "kind": judgement.row["kind"],
+            "verdict": judgement.verdict.outcome.value,
+            "quantity": number.label,
+            "value": number.value,
+            "error": number.error,
+            "systematic": number.systematic,
+        }
+        for judgement in judgements
+        for number in judgement.verdict.numbers
+    ]
+    return pd.DataFrame(lines).to_csv(index=False, float_format="%.6g").encode()
+
+
+def small(picture: Path) -> bytes:
+    """PNG with few colours, at most WIDTH wide, and the texts of the original."""
+    with Image.open(picture, formats=["PNG"]) as original:
+        texts = PngInfo()
+        for name, text in original.info.items():
+            if isinstance(name, str) and isinstance(text, str):
+                texts.add_text(name, text)
+        width = min(WIDTH, original.width)
+        size = (width, round(original.height * width / original.width))
+        scaled = original.convert("RGB").resize(size, Image.Resampling.LANCZOS)
+        content = io.BytesIO()
+        scaled.quantize(COLORS, dither=Image.Dither.NONE).save(content, "PNG", optimize=True, pnginfo=texts)
+        return content.getvalue()
+
+
+def write(quality: str, output: Path | None, root: Path = ROOT) -> None:
+    """Writes the report to the output, or the gallery without one. Raises ConfigurationError, FormatError, OSError."""
+    data = Data(quality, root)
+    judgements = judge_all(data)
+    if output:
+        write_together({output: rendered(judgements, data, release=False)})
+        return
+    folder = root / GALLERY
+    pictures = {
+        folder / f"{name}.png": small(root / f"{stem_of(data.plan, name, quality)}.png") for name in data.plan
+    }
+    page = {folder / "README.md": rendered(judgements, data, release=True)}
+    write_together(pictures | page | {folder / "numbers.csv": numbers_file(judgements)})
+    for former in {*folder.glob("*.png")} - pictures.keys():
+        former.unlink()
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--quality", required=True)
-    parser.add_argument("--output", type=Path, required=True)
+    parser.add_argument("--output", type=Path, help="file of the report; without it the gallery is written")
     options = parser.parse_args()
     try:
-        page = rendered("report.html", **content(options.quality, ROOT))
-        write_together({options.output: page.encode()})
-    except (ReportError, ConfigurationError) as error:
+        write(options.quality, options.output)
+    except (ConfigurationError, FormatError) as error:
         sys.exit(f"make report: {error}")
+    except OSError as error:
+        sys.exit(f"make report: {in_one_line(error)}")
 
 
 if __name__ == "__main__":

@@ -29,4 +29,4 @@ rule gallery:
     log:
         f"build/logs/{QUALITY}/gallery.log",
     shell:
-        ".venv/bin/python -m workflow.report.gallery --quality {QUALITY:q} 2> {log:q}"
+        ".venv/bin/python -m workflow.report.write --quality {QUALITY:q} 2> {log:q}"

@@ -1,0 +1,37 @@
+"""Measured numbers and verdicts of the front pages are those of the release's report."""
+
+import csv
+import re
+
+import pytest
+
+from tests.python.conftest import ROOT
+
+with (ROOT / "docs/gallery/numbers.csv").open(newline="") as file:
+    RELEASE = [*csv.DictReader(file)]
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/index.md"])
+def test_front_pages_have_the_numbers_of_the_release(page: str) -> None:
+    """A number with its error in brackets, as 1.26(2), is one of the report, rounded."""
+    text = (ROOT / page).read_text().replace("−", "-")
+    found = re.findall(r"(-?\d+\.(\d+))\((\d+)\)", text)
+    assert found
+    for value, decimals, error in found:
+        digits = len(decimals)
+        assert any(
+            f"{float(line['value']):.{digits}f}" == value
+            and round(float(line["error"]) * 10**digits) == int(error)
+            for line in RELEASE
+        ), f"{value}({error})"
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/index.md"])
+def test_front_pages_name_the_contradicted_claims(page: str) -> None:
+    sentence = re.search(r"these are contradicted:(.*?);(.*?)\.", (ROOT / page).read_text(), re.DOTALL)
+    assert sentence
+    for kind, part in zip(("literal", "intended"), sentence.groups(), strict=True):
+        refuted = (
+            line["claim"] for line in RELEASE if (line["kind"], line["verdict"]) == (kind, "contradicted")
+        )
+        assert {*re.findall(r"C\d\d", part)} == {number for claim in refuted for number in claim.split()}

@@ -1,0 +1,72 @@
+"""Numbers of the report, and its answer by verdict."""
+
+import math
+
+import pytest
+
+from tests.python.conftest import ROOT
+from workflow.claims.data import Data
+from workflow.claims.judge import Judgement, read_claims
+from workflow.claims.verdict import Band, Number, Verdict
+from workflow.lib.fit import with_error
+from workflow.report import words
+from workflow.report.write import numbers_file, rendered
+
+NUMBERS = (Number("first", 0.5, 0.001), Number("second", 0.25, 0.002))
+BANDS = {"reproduced": Band(0, 1), "contradicted": Band(1, 2), "undecided": Band(0, 0.5)}
+
+
+@pytest.mark.parametrize(
+    ("number", "text"),
+    [
+        (Number("", 1.8515, 0.0019), with_error(1.8515, 0.0019)),
+        (Number("", 0.6397, 0.0041, systematic=0.0234), f"{with_error(0.6397, 0.0041)} ± 0.023"),
+        (Number("", -0.000861, 0.0000168), f"{with_error(-8.61, 0.168)}·10⁻⁴"),
+        (Number("", 0.0, 0.0), "0"),
+        (Number("", 2e-4, 0.01), "0.000(10)"),
+        (Number("", 0.007544, 0.0, systematic=4.61e-12), "0.007544 ± 4.6·10⁻¹²"),
+        (Number("", 4.4e-16, 0.0, systematic=1.5e-13), "0 to rounding ± 1.5·10⁻¹³"),
+        (Number("", 0.5, math.nan), "0.5"),
+    ],
+)
+def test_numbers(number: Number, text: str) -> None:
+    assert words.value(number) == text
+
+
+def test_typesetting() -> None:
+    assert words.typeset("N^0.1922(37) at 10^-4 <b>, T_N - 3") == (
+        "N<sup>0.1922(37)</sup> at 10<sup>−4</sup> &lt;b&gt;, T<sub>N</sub> − 3"
+    )
+
+
+def judged(verdict: str) -> list[Judgement]:
+    return [Judgement(row, Verdict(BANDS[verdict], NUMBERS, 0.05)) for row in read_claims(ROOT)]
+
+
+@pytest.mark.parametrize(
+    ("verdict", "answer"),
+    [
+        ("reproduced", "The title is right: heat is superdiffusive."),
+        ("contradicted", "The title is wrong"),
+    ],
+)
+def test_the_answer_follows_from_verdicts_and_has_their_numbers(verdict: str, answer: str) -> None:
+    data = Data("smoke", ROOT)
+    data.plan = {}
+    page = rendered(judged(verdict), data, release=True).decode()
+    assert answer in page
+    assert "with β = 0.2500(20) to 0.5000(10)" in page
+    claims = len(read_claims(ROOT))
+    assert page.count(f'class="{verdict}"') == claims
+    lines = numbers_file(judged(verdict)).decode().splitlines()
+    assert lines[:2] == [
+        "claim,kind,verdict,quantity,value,error,systematic",
+        f"C01 C02,literal,{verdict},first,0.5,0.001,0",
+    ]
+    assert len(lines) == 1 + len(NUMBERS) * claims
+
+
+def test_an_undecided_answer_says_so() -> None:
+    data = Data("smoke", ROOT)
+    data.plan = {}
+    assert rendered(judged("undecided"), data, release=True).count(b": undecided at quality smoke.") == 4
