@@ -13,15 +13,22 @@ from workflow.claims.data import Data, MissingError, combination, number
 from workflow.claims.growth import of_largest, without_particle_current
 from workflow.claims.verdict import Number, with_systematic
 from workflow.lib.load import Result
-from workflow.lib.peaks import ORDERS, Record, heat_width, jackknife_error, stable_laws
+from workflow.lib.peaks import (
+    CENTRE,
+    Record,
+    determined,
+    heat_width,
+    jackknife_error,
+    stable_law,
+    stable_laws,
+)
 from workflow.lib.rings import chain
 
 PAPERS_START = "rest"  # runs of figs. 9a and 9b
 HEAT = "heat"  # runs of ext. 3 for the heat peak
 WIDE = 6  # cells; narrower heat peaks are not fitted
-AT_BOUND = 0.01  # smallest distance of a fitted order from the bounds of the fit; closer ones are not determined by the profile
 PEAK_BIAS = 0.02  # largest bias of the damping exponent of an octave (cpp/statistics/moving_peak.hpp)
-CENTRE, ODD, SPEED = 0.1, 0.1, 0.25  # bounds of the numbers of peaks_leave
+LEFT, ODD, SPEED = 0.1, 0.1, 0.25  # bounds of the numbers of peaks_leave
 
 
 def peaks_leave(data: Data) -> list[Number]:
@@ -31,7 +38,7 @@ def peaks_leave(data: Data) -> list[Number]:
     share = number(result, "centre_share", -1, "fraction in the centre over 0.1")
     slowing = replace(_slowing(result), label="d ln v/d ln t over 1/4")
     odd = [part.over(ODD) for part in _odd_parts(result)]
-    return [share.over(CENTRE), *odd, slowing.over(SPEED)]
+    return [share.over(LEFT), *odd, slowing.over(SPEED)]
 
 
 def _odd_parts(result: Result) -> list[Number]:
@@ -145,20 +152,23 @@ def relation_of_central_peak(data: Data) -> list[Number]:
 
 def heat_peak(data: Data) -> list[Number]:
     """Order 1/xi of the stable law fitted to the heat peak in equilibrium, at every time at which the peak is several cells wide. The errors are
-    those of a jackknife over equal runs, as neighbouring cells are correlated. Raises MissingError."""
+    those of a jackknife over equal runs, as neighbouring cells are correlated; the change without the central cells, in which slow
+    particles make a cusp, is a systematic error. Raises MissingError."""
     runs = [run for run in data.of("ext03", "correlation") if run.run.startswith(HEAT)]
     if len(runs) < 2:
         raise MissingError("ext03 has fewer than two runs of the heat peak")
     gas, orders = chain(runs[0]), []
-    low, high = ORDERS[0] + AT_BOUND, ORDERS[1] - AT_BOUND
     for k, time in enumerate(map(float, runs[0]["heat_correlation"].axes["time"])):
         record = Record(runs, k, time, gas, chain(runs[0], time))
         if heat_width(record) < WIDE * gas.cell_length:
             continue
-        law, without_one = (laws[..., -1] for laws in stable_laws(record))
-        if low < min(law, *without_one) and max(law, *without_one) < high:
-            error = float(jackknife_error(without_one))
-            orders.append(Number(f"t = {time:g}", float(law), error, len(runs) - 1))
+        law, without_one = stable_laws(record)
+        if determined(law, without_one):
+            error = float(jackknife_error(without_one[:, -1]))
+            order = Number(f"t = {time:g}", float(law[-1]), error, len(runs) - 1)
+            profile = record.profiles("heat_correlation").mean(axis=0)
+            outer = stable_law(record, profile, omitted=CENTRE, start=law)
+            orders.append(with_systematic(order, [float(outer[-1])]))
     if not orders:
         raise MissingError("the profiles determine no order of the heat peak")
     return orders
