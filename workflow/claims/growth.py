@@ -1,6 +1,7 @@
 """Claims on the conductivity against the size (fig. 8, section 6), and on heat in equilibrium."""
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from typing import TypeVar
 
 import numpy as np
@@ -74,20 +75,21 @@ def _with_bulk(runs: Sequence[Result]) -> list[Result]:
 
 def superdiffusive(data: Data) -> list[Number]:
     """beta of <Q²> ∼ t^beta, of every gas over the last octave of its longest ring."""
-    return [_last_octave(ring) for ring in _longest(data.of("ext13", rule="elastic"))]
+    rings = _longest(data.of("ext13", rule="elastic"))
+    return [replace(slope, label=f"β, {slope.label}") for slope in map(_last_octave, rings)]
 
 
 def at_fixed_density(data: Data) -> list[Number]:
     """Exponents of kappa at a density that does not depend on N: beta - 1 in rings, and those of kappa_0 between baths over all sizes and over
     the last octave."""
-    rings = [ring.over(1, 1) for ring in superdiffusive(data)]
+    rings = _of_kappa(data.of("ext13", rule="elastic"))
     return [*rings, without_particle_current(data), without_particle_current(data, last=2)]
 
 
 def without_momentum(data: Data) -> list[Number]:
     """Exponents of kappa where a fraction of the collisions reverses the scatterer and so breaks the conservation of momentum: beta - 1 in the
     longest ring of every fraction, and that of kappa between the two largest sizes of chains between baths, as far as they are measured."""
-    slopes = [_last_octave(ring).over(1, 1) for ring in _longest(data.of("ext13", rule="reversal"))]
+    slopes = _of_kappa(data.of("ext13", rule="reversal"))
     chains: dict[float, list[Result]] = {}
     for run in _with_bulk(_stationary(data.of("fig08", "conductivity", rule="reversal"))):
         chains.setdefault(run.parameters["reversal-probability"], []).append(run)
@@ -95,6 +97,12 @@ def without_momentum(data: Data) -> list[Number]:
     return slopes + [
         exponent(pair, f"d ln κ/d ln N, ε = {probability:g}") for probability, pair in pairs.items()
     ]
+
+
+def _of_kappa(rings: Sequence[Result]) -> list[Number]:
+    """The exponents beta - 1 of kappa over the last octave of the longest rings."""
+    slopes = map(_last_octave, _longest(rings))
+    return [replace(slope.over(1, 1), label=f"β - 1, {slope.label}") for slope in slopes]
 
 
 def _longest(rings: Sequence[Result]) -> list[Result]:
@@ -108,7 +116,7 @@ def _longest(rings: Sequence[Result]) -> list[Result]:
 
 def _last_octave(ring: Result) -> Number:
     """d ln⟨Q²⟩/d ln t over the last octave."""
-    return number(ring, "local_exponent", -1, f"β, {_gas(ring)}, t = {_last_time(ring):.0f}")
+    return number(ring, "local_exponent", -1, f"{_gas(ring)}, t = {_last_time(ring):.0f}")
 
 
 def _gas(ring: Result) -> str:
