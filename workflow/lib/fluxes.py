@@ -1,11 +1,10 @@
-"""Momentum distributions of open chains: against the kinetic equation, and in equilibrium."""
+"""Momentum distributions of open chains against the kinetic equation."""
 
 from collections.abc import Sequence
 from itertools import product
 
 import numpy as np
 import pandas as pd
-from scipy.special import erf
 
 from workflow.lib import style
 from workflow.lib.load import Quantity, Result
@@ -13,9 +12,6 @@ from workflow.lib.load import Quantity, Result
 # Bonds behind the first and behind the last scatterer: index, colour, line style and marker.
 ENDS = {"x = 1/N": (1, style.BLUE, "solid", "o"), "x = 1": (-1, style.VERMILLION, (0, (4, 1.5)), "s")}
 SIMULATION, MEAN_FIELD = "simulation", "mean field"
-Curve = tuple[
-    np.ndarray, np.ndarray, np.ndarray, np.ndarray
-]  # momenta, measured values, their errors, exact values
 
 
 def measured(results: Sequence[Result]) -> list[Result]:
@@ -59,20 +55,6 @@ def at_ends(results: Sequence[Result]) -> pd.DataFrame:
 def halves(part: pd.DataFrame) -> list[pd.DataFrame]:
     """The rows with p < 0 and those with p > 0, which are plotted as separate curves as F jumps at p = 0."""
     return [part[part.momentum < 0], part[part.momentum > 0]]
-
-
-def extrapolation_error(table: pd.DataFrame) -> float:
-    """Largest error, over chains and ends, that the extrapolation of bins to p = 0 makes in mean field.
-
-    A measured jump is the difference of the lines through two bins on either side of p = 0. Here the lines are applied to the bins of
-    the kinetic equation, and the result is compared with the exact jump."""
-    solved = table.dropna(subset="kinetic").sort_values("momentum")
-    errors = []
-    for _, part in solved.groupby(["gamma", "nu_left", "x"]):
-        before, after = (half.kinetic.to_numpy() for half in halves(part))
-        extrapolated = 1.5 * (after[0] - before[-1]) - 0.5 * (after[1] - before[-2])
-        errors.append(abs(extrapolated - part.kinetic_jump.iloc[0]))
-    return float(max(errors))
 
 
 def outgoing(values: np.ndarray, momentum: np.ndarray) -> np.ndarray:
@@ -121,37 +103,3 @@ def amplitudes(table: pd.DataFrame, kind: str = SIMULATION) -> pd.DataFrame:
         for cells, part in table[table.kind == kind].groupby("cells")
     ]
     return pd.DataFrame(rows)
-
-
-def gaussian(momentum: np.ndarray, temperature: float) -> np.ndarray:
-    """Probability density, averaged over equal bins about the given momenta."""
-    half = 0.5 * (momentum[1] - momentum[0])
-    below = [erf((momentum + sign * half) / np.sqrt(2 * temperature)) for sign in (-1, 1)]
-    return 0.5 * (below[1] - below[0]) / (2 * half)
-
-
-def outgoing_flux(result: Result) -> Curve:
-    """Momenta, F_N of the particles that leave (p < 0 at the left end, p > 0 at the right one), its error, the exact F."""
-    flux, parameters = result["flux"], result.parameters
-    momentum = flux.axes["momentum"]
-    left = momentum < 0
-    values = [np.where(left, array[0], array[-1]) for array in (flux.mean, flux.error)]
-    exact = 2 * parameters["nu-left"] * gaussian(momentum, parameters["temperature-left"])
-    return momentum, *values, exact
-
-
-def end_scatterers(result: Result) -> Curve:
-    """Momenta, g of both end scatterers together, its error, the exact g."""
-    density = result["scatterer_density"]
-    momentum = density.axes["momentum"]
-    error = np.hypot(*density.error) / 2
-    exact = gaussian(momentum, result.parameters["temperature-left"])
-    return momentum, density.mean.mean(axis=0), error, exact
-
-
-def largest_distance(measured: np.ndarray, error: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
-    """Kolmogorov-Smirnov distance of two histograms: the largest difference of their cumulative sums, with the error of the sum there."""
-    total = exact.sum()
-    distance = np.cumsum(measured - exact) / total
-    at = int(np.abs(distance).argmax())
-    return float(np.abs(distance[at])), float(np.sqrt(np.sum(error[: at + 1] ** 2)) / total)
