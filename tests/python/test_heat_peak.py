@@ -1,13 +1,12 @@
 """The order of the heat peak in equilibrium: interpolated stable densities, its error, times that count, missing results."""
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from tests.python.claim_truths_closed import heat_peak as stable_peak
-from tests.python.known_results import Known, truth
+from tests.python.known_results import EQUAL, Known, truth
 from tests.python.test_claim_numbers import outside
 from workflow.claims.data import MissingError
 from workflow.claims.pulse import heat_peak
@@ -15,16 +14,9 @@ from workflow.lib.mode_coupling import Chain, levy
 from workflow.lib.peaks import CENTRE, Record, heat_area, heat_width, stable_densities, stable_law
 from workflow.plan import Run
 
-RUNS = 8
-
 
 def known(profile: Callable[..., object], error: float, random: np.random.Generator | None = None) -> Known:
-    """Data with the first RUNS equal runs, as fits to all take long."""
-    data = Known({"ext03": truth({"heat_correlation": profile}, error, random)})
-    ext03 = data.plan["ext03"]
-    runs = [run for run in ext03.runs if run.series == "heat"][:RUNS]
-    data.plan = data.plan | {"ext03": replace(ext03, runs=tuple(runs))}
-    return data
+    return Known({"ext03": truth({"heat_correlation": profile}, error, random)})
 
 
 @pytest.mark.parametrize("order", [1, 1.234, 5 / 3, 2, 2.51, 3])
@@ -37,7 +29,7 @@ def test_the_order_scatters_as_its_error_predicts() -> None:
     random = np.random.default_rng(6)
     draws = [heat_peak(known(stable_peak(1.7), 0.03, random)) for _ in range(50)]
     z = np.array([[(order.value - 1.7) / order.error for order in draw] for draw in draws])
-    freedom = np.full(z.shape[1], RUNS - 1.0)
+    freedom = np.full(z.shape[1], EQUAL - 1.0)
     assert not outside(z, freedom, np.ones(1)).any()
     assert outside(2 * z, freedom, np.ones(1)).all()
 
