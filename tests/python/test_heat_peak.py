@@ -45,3 +45,13 @@ def test_times_whose_profile_determines_no_order_do_not_count() -> None:
     assert [order.value for order in orders] == pytest.approx([1.7] * 2, abs=1e-6)
     with pytest.raises(MissingError, match="determine no order"):
         heat_peak(known(lambda *_: 1.0, 1e-4))
+
+
+def test_a_cusp_at_the_centre_does_not_count_without_the_central_cells() -> None:
+    gas = Chain(0.2, 1 / 9, slow_logarithm=7.0)
+    record = Record([], 0, 512.0, gas, gas)
+    width = heat_width(record)
+    profile = heat_area(record) * gas.cell_length / width * levy(np.arange(1000) / width, 1.6)
+    profile[:CENTRE] *= 1.1
+    assert stable_law(record, profile, omitted=CENTRE)[-1] == pytest.approx(1.6, abs=1e-3)
+    assert stable_law(record, profile)[-1] < 1.59
