@@ -1,6 +1,6 @@
 """Packs the tracked files, results and figures of a quality as build/deposit/lorentz-gas-QUALITY.zip, with SHA256SUMS.
 
-Its metadata are CITATION.cff and codemeta.json. Unpacked elsewhere, `make figures` finds results and figures under the names that it
+Its metadata are those of CITATION.cff. Unpacked elsewhere, `make figures` finds results and figures under the names that it
 gives them, which depend neither on the folder nor on the compiler.
 """
 

@@ -1,4 +1,6 @@
-"""Hook of MkDocs: the tables of options and quantities in format.md, from build/describe/*.json."""
+"""Hook of MkDocs: the pages at the top of the project, README.md as the first, and the tables of options and quantities in format.md,
+from build/describe/*.json.
+"""
 
 import json
 import re
@@ -6,7 +8,16 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-DESCRIBED = Path(__file__).parents[2] / "build/describe"
+from mkdocs.config.defaults import MkDocsConfig
+from mkdocs.structure.files import File, Files
+
+ROOT = Path(__file__).parents[2]
+TOP = {
+    "README.md": "index.md",
+    "CONTRIBUTING.md": "CONTRIBUTING.md",
+    "CHANGELOG.md": "CHANGELOG.md",
+    "CITATION.cff": "CITATION.cff",
+}
 
 
 def options(programs: list[dict[str, Any]]) -> Iterable[tuple[str, ...]]:
@@ -34,8 +45,17 @@ def quantities(programs: list[dict[str, Any]]) -> Iterable[tuple[str, ...]]:
             yield f"`{program['program']}`", label, quantity["units"], quantity["description"]
 
 
+def on_files(files: Files, config: MkDocsConfig) -> Files:
+    for source, page in TOP.items():
+        text = (ROOT / source).read_text("utf-8").replace("(docs/", "(").replace("(README.md", "(index.md")
+        files.append(File.generated(config, page, content=text))
+    return files
+
+
 def on_page_markdown(markdown: str, **_: Any) -> str:
-    programs = [json.loads(path.read_text("utf-8")) for path in sorted(DESCRIBED.glob("*.json"))]
+    programs = [
+        json.loads(path.read_text("utf-8")) for path in sorted((ROOT / "build/describe").glob("*.json"))
+    ]
     for name, rows in {"options": options(programs), "quantities": quantities(programs)}.items():
         lines = (" | ".join(re.sub(r"[|<]", r"\\\g<0>", cell) for cell in row) for row in rows)
         table = "\n".join(f"| {line} |" for line in lines)
