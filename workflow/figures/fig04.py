@@ -5,6 +5,7 @@ both ends if gamma = N. Mean field is the kinetic equation: that of the continuu
 """
 
 from collections.abc import Sequence
+from itertools import product
 
 import matplotlib.pyplot as plt
 import pandas as pd
@@ -14,12 +15,52 @@ from workflow.lib import style
 from workflow.lib.caption import CHAIN, ERRORS, baths, listed, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
-from workflow.lib.fluxes import ENDS, at_ends, halves, measured
+from workflow.lib.fluxes import at
 from workflow.lib.load import Result
 
+# Bonds behind the first and behind the last scatterer: index, colour, line style and marker.
+ENDS = {"x = 1/N": (1, style.BLUE, "solid", "o"), "x = 1": (-1, style.VERMILLION, (0, (4, 1.5)), "s")}
 EQUAL = "\n$\\nu_L = \\nu_R$"
 FEW = 0.5  # if a jump is below this fraction of the largest, the axis includes 0
 NEAR = 12  # largest |p| in the panel of the jump
+
+
+def measured(results: Sequence[Result]) -> list[Result]:
+    """The simulations between baths of different temperatures; others are in equilibrium."""
+    simulated = [result for result in results if result.provenance["program"] == "momentum_flux"]
+    return [result for result in simulated if len(set(result.ends("temperature"))) > 1]
+
+
+def uncorrelated(results: Sequence[Result], like: Result) -> Result | None:
+    """The solution of the kinetic equation for the chain of `like`; None if there is none."""
+    for result in results:
+        same = style.gamma(result) == style.gamma(like) and result.ends("nu") == like.ends("nu")
+        same &= result.parameters["rule"] == like.parameters["rule"]
+        if same and result.provenance["program"] == "boltzmann":
+            return result
+    return None
+
+
+def at_ends(results: Sequence[Result]) -> pd.DataFrame:
+    """One row per chain, end and bin."""
+    parts = []
+    for result, (end, (bond, *_)) in product(measured(results), ENDS.items()):
+        flux, jump, expected = result["flux"], result["jump"], uncorrelated(results, result)
+        part = pd.DataFrame({"x": end, "momentum": flux.axes["momentum"], "flux": flux.mean[bond]})
+        part["flux_error"] = flux.error[bond]
+        part["jump"], part["jump_error"] = jump.mean[bond], jump.error[bond]
+        if expected:
+            where = flux.axes["bond"][bond] / flux.axes["bond"][-1]
+            part["kinetic"], part["kinetic_jump"] = at(expected["flux"], where), at(expected["jump"], where)
+        part["nu_left"], part["nu_right"] = result.ends("nu")
+        part.insert(0, "gamma", style.gamma(result))
+        parts.append(part)
+    return pd.concat(parts, ignore_index=True)
+
+
+def halves(part: pd.DataFrame) -> list[pd.DataFrame]:
+    """The rows with p < 0 and those with p > 0, which are plotted as separate curves as F jumps at p = 0."""
+    return [part[part.momentum < 0], part[part.momentum > 0]]
 
 
 def draw_distribution(axes: Axes, table: pd.DataFrame, reach: float) -> None:

@@ -5,7 +5,6 @@ from fractions import Fraction
 
 import numpy as np
 
-from workflow.lib.fit import p_value
 from workflow.lib.load import Result
 
 SYMBOLS = {
@@ -29,7 +28,6 @@ PAPERS_BATHS = (220, 180, 900 / 11, 1100 / 9)
 
 RULES = {"random-direction": "random directions"}  # in words, where the name of --rule is no phrase
 BASE = 10
-SMALLEST_P = -6  # power of ten; smaller p-values are printed as a bound
 ERRORS = "Bars: standard errors."
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -111,13 +109,3 @@ def scientific(value: float, digits: int = 2) -> str:
 def power_of_ten(power: int) -> str:
     """The power as text: 10⁻¹⁵."""
     return f"{BASE}{str(power).translate(SUPERSCRIPTS)}"
-
-
-def goodness(chi_square: float, freedom: int) -> str:
-    """Text with chi^2, its degrees of freedom and its p-value, or that errors are unknown, as with one replica."""
-    if np.isnan(chi_square):
-        return "errors unknown"
-    if freedom < 1:
-        return "no degree of freedom to test it"
-    p = p_value(chi_square, freedom)
-    return f"χ² = {chi_square:.1f} for {freedom}, p {f'= {p:.2g}' if p > BASE**SMALLEST_P else f'< {power_of_ten(SMALLEST_P)}'}"

@@ -73,16 +73,6 @@ def mean_of(value: ArrayLike, error: ArrayLike) -> tuple[float, float, float]:
     return mean, float(np.sum(error**-2) ** -0.5), float(np.sum(((value - mean) / error) ** 2))
 
 
-def fit_multiple(shape: ArrayLike, y: ArrayLike, error: ArrayLike) -> tuple[float, float, float]:
-    """Factor of y = factor shape, its error, and chi^2, over the points with an error. A point has none if all of its few
-    replicas agree."""
-    shape, y, error = (np.asarray(values, dtype=float) for values in (shape, y, error))
-    weight = np.where(error > 0, error, np.inf) ** -2.0
-    variance = 1 / np.sum(weight * shape**2)
-    factor = variance * np.sum(weight * shape * y)
-    return float(factor), float(np.sqrt(variance)), float(np.sum(weight * (y - factor * shape) ** 2))
-
-
 def fit_line(x: ArrayLike, y: ArrayLike, error: ArrayLike) -> Line:
     """Line by least squares, weighted with the standard errors of the points."""
     x, y, error = (np.asarray(values, dtype=float) for values in (x, y, error))

@@ -21,11 +21,6 @@ def start(result: Result) -> str | float:
     return result.parameters["scatterer-temperature"]
 
 
-def gaussian_start(results: Sequence[Result]) -> Result:
-    """The run whose scatterers start at the temperature of the particles."""
-    return next(result for result in results if start(result) == "particles")
-
-
 def look(result: Result) -> tuple[str, str, str, str]:
     """Marker, colour, fill colour and label; runs of the user's own have their name."""
     return LOOKS.get(result.run, ("P", style.BLACK, style.BLACK, result.run))
