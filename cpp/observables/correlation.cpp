@@ -144,16 +144,7 @@ Group profiles(const Parameters& parameters, const Tallies& tallies) {
   const auto heat_area = [=](std::span<const double> profile, std::size_t k) {
     return 2 * side_moment(profile, 0, 0, ranges[k].half);
   };
-  Axis middle{"middle", "time", "Middle of two neighbouring times", {}};
-  for (std::size_t k = 0; k + 1 < times.size(); ++k) middle.values.push_back(0.5 * (times[k] + times[k + 1]));
   const auto centroids = at_every_time(tallies.momentum, times.size(), centroid);
-  const auto speeds = [=](TallyMeans mean) {
-    const std::vector<double> position = centroids(mean);
-    std::vector<double> values;
-    for (std::size_t k = 0; k + 1 < times.size(); ++k)
-      values.push_back((position[k + 1] - position[k]) / (times[k + 1] - times[k]));
-    return values;
-  };
   Group group;
   group.quantity("momentum_correlation", {tallies.time, tallies.cell}, "momentum^2",
                  "C_g(r, t): covariance of the momenta of two cells", mean_of(tallies.momentum));
@@ -165,8 +156,9 @@ Group profiles(const Parameters& parameters, const Tallies& tallies) {
   group.quantity("centroid", {tallies.time}, "1",
                  "Centre of mass of C_g over the same distances, in cells; NaN if no cell is there",
                  centroids);
-  group.quantity("sound_speed", {middle}, "1/time", "Cells per time by which it moves between two times",
-                 speeds);
+  group.quantity("sound_speed", {middles(times)}, "1/time",
+                 "Cells per time by which it moves between two times",
+                 [=](TallyMeans mean) { return speeds(times, centroids(mean)); });
   group.quantity("heat_area", {tallies.time}, "energy^2",
                  "Sum of heat_correlation up to half the distance of sound, on both sides",
                  at_every_time(tallies.heat, times.size(), heat_area));

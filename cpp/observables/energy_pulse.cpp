@@ -64,17 +64,22 @@ std::uint64_t average_pairs(const PulseParameters& parameters, const Tallies& ta
 }
 
 /// At every time, 1 from the first one on at which the two sides of the pulse overlap where they meet: in the
-/// mean over replicas the energy opposite to the pulse, over the largest energy of a cell, exceeds 2 %.
+/// mean over replicas the energy opposite to the pulse, over the largest energy of a cell, exceeds 2 %, or
+/// the peak at its last speed has gone around half the ring, as it may pass between two times.
 std::vector<double> ring_closed(const Records& records, const Tallies& tallies) {
   const std::vector<double> mean = records.mean();
   const std::size_t cells = tallies.cell.values.size();
   std::vector<double> closed;
+  double speed = 0;  // in cells per time
   for (std::size_t k = 0; k < tallies.time.values.size(); ++k) {
     const auto difference = TallyMeans(mean)[tallies.energy_difference.row(k)];
     const double opposite =
         (difference[0] + difference[1] + difference[cells - 2] + difference[cells - 1]) / 4;
     const bool before = k > 0 && closed[k - 1] == 1;
-    closed.push_back(before || opposite > 0.02 * std::ranges::max(difference) ? 1 : 0);
+    const double time = tallies.time.values[k];
+    const bool passed = speed * time > 0.5 * static_cast<double>(cells);
+    closed.push_back(before || passed || opposite > 0.02 * std::ranges::max(difference) ? 1 : 0);
+    if (const auto window = peak_window(folded(difference))) speed = window->middle / time;
   }
   return closed;
 }

@@ -150,10 +150,8 @@ std::vector<std::byte> Hdf5Writer::image() {
   return bytes;
 }
 
-Hdf5Reader::Hdf5Reader(const std::string& path) : Hdf5Reader(path, read_whole(path)) {}
-
-Hdf5Reader::Hdf5Reader(const std::string& path, std::vector<std::byte> content)
-    : content_(std::move(content)), file_(open_file(path, content_), H5Fclose) {}
+Hdf5Reader::Hdf5Reader(const std::string& path)
+    : content_(read_whole(path)), file_(open_file(path, content_), H5Fclose) {}
 
 std::vector<double> Hdf5Reader::doubles(const std::string& dataset) const {
   return read<double>(file_, dataset, H5T_IEEE_F64LE);
@@ -174,7 +172,5 @@ bool Hdf5Reader::has_attribute(const std::string& object, const std::string& nam
          H5LTget_attribute(file_, object.c_str(), name.c_str(), type, stored.data()) >= 0 &&
          std::memcmp(stored.data(), data_of(value), size) == 0;
 }
-
-std::string crc32_of(std::span<const std::byte> content) { return fmt::format("{:08x}", crc32(0, content)); }
 
 }  // namespace lorentz

@@ -80,7 +80,6 @@ class Hdf5Writer {
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(const std::string& path);
-  Hdf5Reader(const std::string& path, std::vector<std::byte> content);
 
   std::vector<double> doubles(const std::string& dataset) const;
   std::vector<std::uint64_t> counts(const std::string& dataset) const;
@@ -90,8 +89,5 @@ class Hdf5Reader {
   std::vector<std::byte> content_;
   Hdf5Handle file_;  // in content_
 };
-
-/// CRC-32 as 8 hexadecimal digits.
-std::string crc32_of(std::span<const std::byte> content);
 
 }  // namespace lorentz

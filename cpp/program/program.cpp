@@ -80,8 +80,8 @@ Program::Program(const std::string& name, const std::string& description)
       "--overwrite", overwrite_,
       "Replace an output of other options or another build; without --resume, discard OUTPUT.checkpoint",
       runtime);
-  options_.choice("--progress", progress_.style, {"auto", "bar", "log", "none"},
-                  "Display of progress on standard error", runtime);
+  options_.choice("--progress", progress_.style, {"log", "none"}, "Display of progress on standard error",
+                  runtime);
   options_.flag("--describe", describe_, "Print options and quantities as JSON, then exit", runtime);
 }
 

@@ -1,7 +1,6 @@
 #include "program/progress.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +21,6 @@ int decimal_exponent(double x) {
   return std::stoi(text.substr(text.find('e') + 1));
 }
 
-void print_error(const std::string& text) { std::fputs(text.c_str(), stderr); }
-
 }  // namespace
 
 Progress::Progress(std::string program) : program_(std::move(program)) {}
@@ -31,19 +28,12 @@ Progress::Progress(std::string program) : program_(std::move(program)) {}
 void Progress::show(double done, std::uint64_t wanted, double resumed) {
   using Seconds = std::chrono::duration<double>;
   const Clock::time_point now = Clock::now();
-  const bool bar = style == "bar" || (style == "auto" && ::isatty(STDERR_FILENO));
-  if (style == "none" || now - last_shown_ < Seconds(bar ? 0.1 : 10)) return;
+  if (style == "none" || now - last_shown_ < Seconds(10)) return;
   last_shown_ = now;
   const double fresh = done - resumed, all = static_cast<double>(wanted);
-  const std::string state =
-      fmt::format("{:.1f} of {}, {}", done, counted(wanted),
-                  fresh > 0 ? as_time(Seconds(now - start_).count() * (all - done) / fresh) + " left"
-                            : "time left unknown");
-  if (!bar) return warn(state);
-  constexpr int width = 30;
-  const int filled = std::clamp(static_cast<int>(width * done / all), 0, width);
-  print_error(fmt::format("\r{} [{:#<{}}{:.<{}}] {}\x1b[K", program_, "", filled, "", width - filled, state));
-  bar_drawn_ = true;
+  warn(fmt::format("{:.1f} of {}, {}", done, counted(wanted),
+                   fresh > 0 ? as_time(Seconds(now - start_).count() * (all - done) / fresh) + " left"
+                             : "time left unknown"));
 }
 
 void Progress::say(const std::string& line) {
@@ -51,8 +41,7 @@ void Progress::say(const std::string& line) {
 }
 
 void Progress::warn(const std::string& line) {
-  if (std::exchange(bar_drawn_, false)) print_error("\r\x1b[K");
-  print_error(fmt::format("{}: {}\n", program_, line));
+  std::fputs(fmt::format("{}: {}\n", program_, line).c_str(), stderr);
 }
 
 std::string counted(std::uint64_t replicas) {

@@ -6,13 +6,12 @@
 
 namespace lorentz {
 
-/// Progress and remaining time on standard error: on a terminal as a bar that is redrawn, otherwise as log
-/// lines, at most one every ten seconds.
+/// Progress and remaining time on standard error: lines, at most one every ten seconds.
 class Progress {
  public:
   explicit Progress(std::string program);
 
-  std::string style = "auto";  // or bar, log, none; auto: bar on a terminal and log elsewhere
+  std::string style = "log";  // or none
 
   /// done and wanted: numbers of replicas, fractions included; resumed: how many of them come from a file.
   void show(double done, std::uint64_t wanted, double resumed);
@@ -28,7 +27,6 @@ class Progress {
 
   std::string program_;
   Clock::time_point start_ = Clock::now(), last_shown_ = start_;
-  bool bar_drawn_ = false;
 };
 
 /// "0.3208(45)", "262.9(3.5)": a mean with two digits of its standard error.

@@ -59,13 +59,14 @@ std::optional<Records> regress_out(const Records& records, const Regression& reg
     return {};  // with a leverage close to 1, the leave-one-out coefficient is undetermined
   const ArrayXd own = gain.transpose().cwiseProduct(x).rowwise().sum().array() / (1 - leverage);
 
-  Records reduced = records;
-  for (const std::size_t column : regression.measured) {
-    const MatrixXd y = columns_of(records, {column}), y_centred = centred(y);
+  Records reduced(regression.measured.size());
+  for (Index i = 0; i < rows; ++i) reduced.append(std::vector<double>(reduced.width()));
+  for (std::size_t k = 0; k < reduced.width(); ++k) {
+    const MatrixXd y = columns_of(records, {regression.measured[k]}), y_centred = centred(y);
     const MatrixXd coefficients = gain * y_centred;
     const MatrixXd corrected =
         y - x * coefficients + (own * (y_centred - x_centred * coefficients).array()).matrix();
-    for (Index i = 0; i < rows; ++i) reduced[static_cast<std::size_t>(i)][column] = corrected(i);
+    for (Index i = 0; i < rows; ++i) reduced[static_cast<std::size_t>(i)][k] = corrected(i);
   }
   return reduced;
 }
@@ -94,10 +95,13 @@ Group::Prepared reduce_variance(const Records& records, const std::vector<Regres
   for (const Regression& regression : regressions) {
     const std::optional<Records> corrected = regress_out(records, regression);
     if (!corrected) continue;
-    for (const std::size_t column : regression.measured) {
-      if (variance_ratio(*corrected, records, {column}) < determined) continue;
-      for (std::size_t i = 0; i < records.size(); ++i) reduced[i][column] = (*corrected)[i][column];
-      measured.push_back(column);
+    for (std::size_t k = 0; k < corrected->width(); ++k) {
+      const std::size_t column = regression.measured[k];
+      for (std::size_t i = 0; i < records.size(); ++i) reduced[i][column] = (*corrected)[i][k];
+      if (variance_ratio(reduced, records, {column}) >= determined)
+        measured.push_back(column);
+      else
+        for (std::size_t i = 0; i < records.size(); ++i) reduced[i][column] = records[i][column];
     }
   }
   if (measured.empty() || variance_ratio(reduced, records, measured) >= 1) return {records, false};

@@ -83,12 +83,6 @@ double bottom(const Function& cost, double a, double b) {
   return 0.5 * (a + b);
 }
 
-Axis middles(const std::vector<double>& times) {
-  Axis axis{"middle", "time", "Middle of two neighbouring times", {}};
-  for (std::size_t k = 0; k + 1 < times.size(); ++k) axis.values.push_back(0.5 * (times[k] + times[k + 1]));
-  return axis;
-}
-
 }  // namespace
 
 double collapse_exponent(std::span<const Profile> profiles, double low, double high) {
@@ -135,6 +129,19 @@ std::vector<double> octaves(const std::vector<double>& times) {
     if (nearest > ends.back()) ends.push_back(nearest);
   }
   return ends;
+}
+
+Axis middles(const std::vector<double>& times) {
+  Axis axis{"middle", "time", "Middle of two neighbouring times", {}};
+  for (std::size_t k = 0; k + 1 < times.size(); ++k) axis.values.push_back(0.5 * (times[k] + times[k + 1]));
+  return axis;
+}
+
+std::vector<double> speeds(const std::vector<double>& times, const std::vector<double>& positions) {
+  std::vector<double> values;
+  for (std::size_t k = 0; k + 1 < times.size(); ++k)
+    values.push_back((positions[k + 1] - positions[k]) / (times[k + 1] - times[k]));
+  return values;
 }
 
 std::vector<double> geometric_middles(const std::vector<double>& times) {
@@ -205,13 +212,6 @@ std::vector<double> MovingPeak::odd_parts() const {
     const std::vector<double> odd = odd_part(profiles_.subspan(k * cells, cells));
     values.insert(values.end(), odd.begin(), odd.end());
   }
-  return values;
-}
-
-std::vector<double> MovingPeak::speeds() const {
-  std::vector<double> values;
-  for (std::size_t k = 0; k + 1 < times_.size(); ++k)
-    values.push_back((positions_[k + 1] - positions_[k]) / (times_[k + 1] - times_[k]));
   return values;
 }
 

@@ -22,6 +22,12 @@ PeakWindows peak_windows(const Records& records, Tally profiles, std::size_t tim
 /// has doublings (at least one), and the ends are the nearest of the times. The first is times.front().
 std::vector<double> octaves(const std::vector<double>& times);
 
+/// Middles of neighbouring times, where speeds between them belong.
+Axis middles(const std::vector<double>& times);
+
+/// Differences of neighbouring positions over those of the times.
+std::vector<double> speeds(const std::vector<double>& times, const std::vector<double>& positions);
+
 /// Geometric middles of neighbouring times, where local exponents belong.
 std::vector<double> geometric_middles(const std::vector<double>& times);
 
@@ -55,7 +61,7 @@ class MovingPeak {
   std::vector<double> raw_heights() const;
   std::vector<double> centre_shares(double total) const;  // part in the five central cells
   std::vector<double> odd_parts() const;                  // [time, distance]
-  std::vector<double> speeds() const;
+  std::vector<double> speeds() const { return lorentz::speeds(times_, positions_); }
   std::vector<double> exponents_from() const;  // fits from every time but the last on
   double exponent() const { return exponent_from(0); }
 

@@ -1,6 +1,5 @@
 #include "statistics/peak.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -63,7 +63,6 @@ TEST(ControlVariates, UseCoefficientsOfTheOtherRecords) {
     const double expected =
         records[left_out][0] - fit[1] * records[left_out][1] - fit[2] * records[left_out][2];
     EXPECT_NEAR(reduced[left_out][0], expected, 1e-12);
-    EXPECT_EQ(reduced[left_out][1], records[left_out][1]);
   }
 }
 
