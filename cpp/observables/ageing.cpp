@@ -29,10 +29,10 @@ struct Parameters : ClosedParameters {
 
 struct Tallies : ClosedTallies {
   Axis time, window;
-  Tally scatterer = tally("scatterer", {time}, "energy", "Mean over scatterers of U^2/2");
-  Tally particle = tally("particle", {time}, "energy", "Mean over particles of u^2/2");
-  Tally scatterer_window = tally("scatterer_window", {window}, "energy",
-                                 "Mean over scatterers and over the window between two times of U^2/2");
+  Tally scatterer = tally("scatterer_energy", {time}, "energy", "Mean kinetic energy of a scatterer");
+  Tally particle = tally("particle_energy", {time}, "energy", "Mean kinetic energy of a particle");
+  Tally scatterer_window =
+      tally("scatterer_energy_mean", {window}, "energy", "Mean kinetic energy of a scatterer over a window");
   ScalarTally total_energy = tally("total_energy", "1", "Total energy over its mean, minus 1; mean 0");
 
   explicit Tallies(const Parameters& parameters)
@@ -96,12 +96,8 @@ Group energies(const Parameters& parameters, const Tallies& tallies) {
   Group group([=](const Records& records) {
     return reduce_variance(records, {{measured, columns_of({tallies.total_energy})}});
   });
-  group.quantity("scatterer_energy", {tallies.time}, "energy", "Mean kinetic energy of a scatterer",
-                 mean_of(tallies.scatterer));
-  group.quantity("particle_energy", {tallies.time}, "energy", "Mean kinetic energy of a particle",
-                 mean_of(tallies.particle));
-  group.quantity("scatterer_energy_mean", {tallies.window}, "energy",
-                 "Mean kinetic energy of a scatterer over a window", mean_of(tallies.scatterer_window));
+  for (const Tally each : {tallies.scatterer, tallies.particle, tallies.scatterer_window})
+    group.quantity(tallies, each);
   group.quantity(
       "decade_slope", {decade}, "energy", "Slope of scatterer_energy_mean against ln t in a decade",
       [=](TallyMeans mean) {

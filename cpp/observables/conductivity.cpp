@@ -10,8 +10,9 @@
 /// = N and with deterministic collisions are the only randomness, and for gamma < N the scattering
 /// martingales of the end scatterers [eq. 32], whose means are exact for every collision rule. Quantities
 /// named *_plain do without. kappa is NaN, and the reason is printed, where reservoirs do not impose a
-/// difference of temperature. Stationarity is tested by the differences between the halves of the window [eq.
-/// 51], and by blocking, for which blocks must be longer than the correlation time [eq. 50].
+/// difference of temperature, or where it is less than five of its standard errors. Stationarity is tested by
+/// the differences between the halves of the window [eq. 51], and by blocking, for which blocks must be
+/// longer than the correlation time [eq. 50].
 #include <fmt/format.h>
 
 #include <cmath>
@@ -30,7 +31,7 @@ namespace {
 
 using namespace lorentz;
 
-const WindowTallies of_window;
+const BlockTallies of_blocks, of_window(1);
 constexpr double level = 0.01;  // of the test of stationarity
 
 Group::Prepared reduced(const Records& records) {
@@ -46,83 +47,85 @@ std::string reason_without_kappa(const OpenChain& chain) {
   if (chain.gamma == 0) return "no particle is scattered; choose a --gamma above 0";
   if (std::abs(chain.sigma) == 1)
     return "scatterers of mass 0 or infinity exchange no energy; choose a --sigma between -1 and 1";
-  if (chain.sigma == 0 && rule_properties(chain.rule.name).conserves_momentum)
+  const bool elastic = rule_properties(chain.rule.name).conserves_momentum ||
+                       chain.rule.options == std::vector{0.};  // a reversal that never happens
+  if (chain.sigma == 0 && elastic)
     return "equal masses only exchange momenta, so that no gradient of temperature forms; choose another "
            "--sigma";
   return chain.cells == 1 ? "a single cell has no difference of temperature; choose more --cells" : "";
 }
 
+double rise(TallyMeans mean) { return mean[of_window.temperature][1] - mean[of_window.temperature][0]; }
+
+double rise_of_particles(TallyMeans mean) {
+  const auto energy = mean[of_window.arriving_energy], arrivals = mean[of_window.arrivals];
+  return energy[1] / arrivals[1] - energy[0] / arrivals[0];
+}
+
+/// -J_U `factor` over a rise of temperature; NaN unless the rise is at least five of its standard errors,
+/// because a ratio to a number that may be 0 has neither a mean nor an error. The error is 0 with one
+/// replica.
+Group::Array current_per_rise(const Records& records, double (*of)(TallyMeans), double factor, bool defined) {
+  const Estimate found = jackknife(records, [of](TallyMeans mean) { return std::vector{of(mean)}; });
+  const double error = records.size() > 1 ? found.standard_error.front() : 0;
+  const bool resolved = defined && std::abs(found.mean.front()) > 5 * error;
+  return [=](TallyMeans mean) {
+    return std::vector{resolved ? -mean[of_window.energy_current][0] / of(mean) * factor
+                                : std::numeric_limits<double>::quiet_NaN()};
+  };
+}
+
+void add_currents_and_temperatures(Group& group, const std::string& suffix, const std::string& remark) {
+  const auto add = [&](const std::string& name, const char* units, const std::string& description,
+                       Tally tally, std::size_t i) {
+    group.quantity(name + suffix, units, description + remark,
+                   [=](TallyMeans mean) { return mean[tally][i]; });
+  };
+  add("energy_current", "energy/time", "J_U, positive to the right", of_window.energy_current, 0);
+  add("particle_current", "1/time", "J_n, positive to the right", of_window.particle_current, 0);
+  add("temperature_first", "temperature", "<P^2>/M of the first scatterer", of_window.temperature, 0);
+  add("temperature_last", "temperature", "<P^2>/M of the last scatterer", of_window.temperature, 1);
+}
+
 void add_conductivity(Group& group, const OpenChain& chain, const std::string& suffix,
                       const std::string& remark) {
-  const double cells = chain.cells;
   const bool defined = reason_without_kappa(chain).empty();
-  const auto rise = [defined](double first, double last) {
-    return !defined || first == last ? std::numeric_limits<double>::quiet_NaN() : last - first;
+  const auto add = [&](const std::string& name, const std::string& description, auto of, double factor) {
+    group.quantities({{name + suffix, "energy/(time temperature)", description + remark}},
+                     [=](const Records& records) { return current_per_rise(records, of, factor, defined); });
   };
-  const auto per_degree = [rise](TallyMeans mean) {
-    return -mean[of_window.energy_current] /
-           rise(mean[of_window.temperature][0], mean[of_window.temperature][1]);
-  };
-  const auto particle_temperature = [](TallyMeans mean, std::size_t end) {
-    return mean[of_window.arriving_energy][end] / mean[of_window.arrivals][end];
-  };
-  const std::string conductivity_units = "energy/(time temperature)";
-  group.quantity("energy_current" + suffix, "energy/time", "J_U, positive to the right" + remark,
-                 [](TallyMeans mean) { return mean[of_window.energy_current]; });
-  group.quantity("particle_current" + suffix, "1/time", "J_n, positive to the right" + remark,
-                 [](TallyMeans mean) { return mean[of_window.particle_current]; });
-  group.quantity("temperature_first" + suffix, "temperature", "<P^2>/M of the first scatterer" + remark,
-                 [](TallyMeans mean) { return mean[of_window.temperature][0]; });
-  group.quantity("temperature_last" + suffix, "temperature", "<P^2>/M of the last scatterer" + remark,
-                 [](TallyMeans mean) { return mean[of_window.temperature][1]; });
-  group.quantity("kappa" + suffix, conductivity_units, "-J_U N / (T_N - T_1)" + remark,
-                 [=](TallyMeans mean) { return per_degree(mean) * cells; });
-  group.quantity("kappa_printed" + suffix, conductivity_units,
-                 "-J_U / (T_N - T_1), the paper's definition" + remark, per_degree);
-  group.quantity("kappa_particle" + suffix, conductivity_units,
-                 "-J_U N / difference of <p^2>/m of the arrivals" + remark, [=](TallyMeans mean) {
-                   return -mean[of_window.energy_current] /
-                          rise(particle_temperature(mean, 0), particle_temperature(mean, 1)) * cells;
-                 });
+  add_currents_and_temperatures(group, suffix, remark);
+  add("kappa", "-J_U N / (T_N - T_1)", rise, chain.cells);
+  add("kappa_printed", "-J_U / (T_N - T_1), the paper's definition", rise, 1);
+  add("kappa_particle", "-J_U N / difference of <p^2>/m of the arrivals", rise_of_particles, chain.cells);
 }
 
 /// Correlation coefficient r over replicas of two tallies with the error of normal records, (1 - r^2)/sqrt(R
 /// - 1); NaN if one does not vary.
-Estimate correlation_coefficient(const Records& records, ScalarTally one, ScalarTally other) {
-  const Eigen::MatrixXd x = centred(standardised(records, {one.column, other.column}));
+Estimate correlation_coefficient(const Records& records, Tally one, Tally other) {
+  const Eigen::MatrixXd x = centred(standardised(records, {one.first, other.first}));
   const double found = x.col(0).dot(x.col(1)) / (x.col(0).norm() * x.col(1).norm());
   const double r = std::abs(found) <= 1 ? found : std::numeric_limits<double>::quiet_NaN();
   return {{r}, {(1 - r * r) / std::sqrt(static_cast<double>(records.size()) - 1)}};
 }
 
-void add_drifts(Group& group) {
-  group.quantity("energy_current_drift", "energy/time", "J_U, second half of the window minus first",
-                 [](TallyMeans mean) { return mean[of_window.energy_current]; });
-  group.quantity("particle_current_drift", "1/time", "J_n, second half minus first",
-                 [](TallyMeans mean) { return mean[of_window.particle_current]; });
-  group.quantity("temperature_first_drift", "temperature", "T_1, second half minus first",
-                 [](TallyMeans mean) { return mean[of_window.temperature][0]; });
-  group.quantity("temperature_last_drift", "temperature", "T_N, second half minus first",
-                 [](TallyMeans mean) { return mean[of_window.temperature][1]; });
-}
-
 /// Error of J_U by blocking [eq. 50], p-value of the hypothesis that all four drifts are 0 [eq. 51], and
 /// `stationary`: 1 if the p-value exceeds 0.01, so that the test rejects one stationary run in a hundred, and
 /// the blocking has converged.
-void add_stationarity(Group& group, const BlockTallies& tallies) {
+void add_stationarity(Group& group) {
   const Axis length{"length", "1", "Part of the window that a block takes", {0.125, 0.25, 0.5, 1}};
   const std::vector<Description> descriptions{
       {"blocking_error", "energy/time", "Error of the plain J_U from blocks", {length}},
       {"drift_p_value", "1", "p-value of the four drifts being 0, by Hotelling's T^2 test"},
       {"stationary", "1", "1: drift_p_value above 0.01, and blocking has converged"}};
-  group.statistics(descriptions, [=](const Records& records) {
+  group.statistics(descriptions, [](const Records& records) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    const Group::Prepared differences = reduced(half_differences(records, tallies));
+    const Group::Prepared differences = reduced(half_differences(records));
     const double p_value = zero_mean_p_value(differences.records, of_window.currents_and_temperatures(),
                                              *differences.control_variates ? of_window.controls().size() : 0);
     Records currents(block_count);
     for (std::size_t replica = 0; replica < records.size(); ++replica)
-      currents.append(TallyMeans(records[replica])[tallies.energy_current]);
+      currents.append(TallyMeans(records[replica])[of_blocks.energy_current]);
     const Blocking blocks = blocking(currents);
     Estimate estimate{blocks.error, blocks.uncertainty};
     for (const double value : {p_value, p_value > level && blocks.converged() ? 1.0 : 0.0}) {
@@ -138,6 +141,10 @@ std::vector<std::string> remarks(const OpenChain& chain, const Results& results)
   std::vector<std::string> lines;
   if (const std::string reason = reason_without_kappa(chain); !reason.empty())
     lines.push_back("kappa is not defined: " + reason);
+  else if (std::isnan(quantity_named(results, "kappa").mean.front()))
+    lines.emplace_back(
+        "kappa is not defined: T_N - T_1 is less than five of its standard errors; choose more --replicas or "
+        "a longer --observation-time");
   if (quantity_named(results, "stationary").mean.front() == 1) return lines;
   const double p_value = quantity_named(results, "drift_p_value").mean.front();
   if (std::isnan(p_value))
@@ -157,10 +164,9 @@ Study conductivity(const StationaryParameters& parameters) {
   validate(parameters);
   const OpenChain chain = parameters.chain();
   const Window window = parameters.window();
-  const BlockTallies tallies;
-  Group corrected([=](const Records& records) { return reduced(window_means(records, tallies)); });
-  Group plain([=](const Records& records) { return Group::Prepared{window_means(records, tallies)}; });
-  Group halves([=](const Records& records) { return reduced(half_differences(records, tallies)); });
+  Group corrected([](const Records& records) { return reduced(window_means(records)); });
+  Group plain([](const Records& records) { return Group::Prepared{window_means(records)}; });
+  Group halves([](const Records& records) { return reduced(half_differences(records)); });
   Group stationary;
   add_conductivity(corrected, chain, "", "");
   corrected.statistics({{"current_correlation", "1", "Correlation coefficient over replicas of J_U and J_n"}},
@@ -169,10 +175,10 @@ Study conductivity(const StationaryParameters& parameters) {
                                                         of_window.particle_current);
                        });
   add_conductivity(plain, chain, "_plain", ", without control variates");
-  add_drifts(halves);
-  add_stationarity(stationary, tallies);
+  add_currents_and_temperatures(halves, "_drift", ", second half of the window minus first");
+  add_stationarity(stationary);
   Study study = open_study(
-      parameters, window, tallies, [=] { return EndsAndOpenings(chain, window); },
+      parameters, window, of_blocks, [=] { return EndsAndOpenings(chain, window); },
       {corrected, plain, halves, stationary},
       reason_without_kappa(chain).empty() ? "kappa" : "energy_current");
   study.remarks = [chain](const Results& results) { return remarks(chain, results); };

@@ -31,7 +31,6 @@
 #include "program/errors.hpp"
 #include "sampling/closed_run.hpp"
 #include "sampling/equilibrium_parameters.hpp"
-#include "sampling/lags.hpp"
 #include "statistics/moving_peak.hpp"
 
 namespace {
@@ -53,8 +52,10 @@ struct Parameters : EquilibriumParameters {
 
 struct Tallies : ClosedTallies {
   Axis time, cell;
-  Tally momentum = tally("momentum", {time, cell}, "momentum^2", "Covariance of the momenta of two cells");
-  Tally heat = tally("heat", {time, cell}, "energy^2", "Covariance of E_s - theta E_p of two cells");
+  Tally momentum = tally("momentum_correlation", {time, cell}, "momentum^2",
+                         "C_g(r, t): covariance of the momenta of two cells");
+  Tally heat =
+      tally("heat_correlation", {time, cell}, "energy^2", "Covariance of E_s - E_p/(2 zeta) of two cells");
 
   explicit Tallies(const Parameters& parameters)
       : time{"time", "time", "Time between the two", parameters.times},
@@ -146,10 +147,8 @@ Group profiles(const Parameters& parameters, const Tallies& tallies) {
   };
   const auto centroids = at_every_time(tallies.momentum, times.size(), centroid);
   Group group;
-  group.quantity("momentum_correlation", {tallies.time, tallies.cell}, "momentum^2",
-                 "C_g(r, t): covariance of the momenta of two cells", mean_of(tallies.momentum));
-  group.quantity("heat_correlation", {tallies.time, tallies.cell}, "energy^2",
-                 "Covariance of E_s - E_p/(2 zeta) of two cells", mean_of(tallies.heat));
+  group.quantity(tallies, tallies.momentum);
+  group.quantity(tallies, tallies.heat);
   group.quantity("peak_area", {tallies.time}, "momentum^2",
                  "Sum of C_g from half the distance of sound on, on one side",
                  at_every_time(tallies.momentum, times.size(), area));

@@ -11,8 +11,8 @@
 /// Over the last --fit-decades decades alpha is the slope of ln <x^2> against ln t, and b the exponent of
 /// <x^2> ~ t ln(t/tau)^b [eq. 19], tau the time of a thermal flight. alpha = 1 and b = 0 mean t, b = -1 means
 /// t/ln t, alpha > 1 and b > 0 superdiffusion; both depend on the age of the chain [eq. 15, 20]. b is stored
-/// only without a common drift, which would dominate it. Where the collision rule does not conserve momentum,
-/// there is neither drift nor control variate.
+/// only without a common drift, which would dominate it. Where momentum is not conserved, by the collision
+/// rule or at sigma = 1, there is neither drift nor control variate.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -32,18 +32,17 @@ struct Parameters : ClosedParameters {
 
   Parameters() { observation_time = 1000; }
   std::vector<double> times() const { return log_times.times(observation_time); }
-  bool drifts() const {
-    return mean_square_momentum() > 0 && ring.scattering.rule.properties().conserves_momentum;
-  }
+  bool drifts() const { return mean_square_momentum() > 0 && conserves_momentum(); }
 };
 
 struct Tallies : ClosedTallies {
   Axis time;
-  Tally square = tally("square", {time}, "length^2", "Mean over particles of x^2");
-  Tally absolute = tally("absolute", {time}, "length", "Mean over particles of |x|");
-  Tally fourth = tally("fourth", {time}, "length^4", "Mean over particles of x^4");
-  Tally centre_square = tally("centre_square", {time}, "length^2", "Square of the mean over particles of x");
-  Tally mean = tally("mean", {time}, "length", "Mean over particles of x");
+  Tally square = tally("variance", {time}, "length^2", "<x^2>, no mean subtracted");
+  Tally absolute = tally("absolute_moment", {time}, "length", "<|x|>");
+  Tally fourth = tally("fourth_moment", {time}, "length^4", "<x^4>");
+  Tally centre_square =
+      tally("centre_of_mass", {time}, "length^2", "Mean square of the particles' mean displacement");
+  Tally mean = tally("mean_displacement", {time}, "length", "<x>; 0 by symmetry");
   ScalarTally momentum_square =
       tally("momentum_square", "1", "Square of the total momentum over its mean, minus 1; mean 0");
 
@@ -95,13 +94,9 @@ std::vector<Group> spreading(const Parameters& parameters, const Tallies& tallie
   };
 
   Group group([=](const Records& records) { return controlled(records, tallies); }), plain;
-  group.quantity("variance", {tallies.time}, "length^2", "<x^2>, no mean subtracted",
-                 mean_of(tallies.square));
-  group.quantity("absolute_moment", {tallies.time}, "length", "<|x|>", mean_of(tallies.absolute));
-  group.quantity("fourth_moment", {tallies.time}, "length^4", "<x^4>", mean_of(tallies.fourth));
-  group.quantity("centre_of_mass", {tallies.time}, "length^2",
-                 "Mean square of the particles' mean displacement", mean_of(tallies.centre_square));
-  group.quantity("mean_displacement", {tallies.time}, "length", "<x>; 0 by symmetry", mean_of(tallies.mean));
+  for (const Tally each :
+       {tallies.square, tallies.absolute, tallies.fourth, tallies.centre_square, tallies.mean})
+    group.quantity(tallies, each);
   group.quantity("local_slope", {middle}, "1", "d ln <x^2> / d ln t",
                  [=](TallyMeans mean) { return local_exponents(times, mean[tallies.square]); });
   group.quantity("alpha", "1", "Slope of ln <x^2> against ln t over the last --fit-decades decades", alpha);

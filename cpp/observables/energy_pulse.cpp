@@ -31,7 +31,7 @@ struct Tallies : TallySchema {
       tally("energy_difference", {time, cell}, "energy", "Energy per cell with the pulse minus without");
   ScalarTally injected_energy = tally("injected_energy", "energy", "Energy of the pulse");
   ScalarTally sum_error =
-      tally("sum_error", "1", "Largest |sum over cells - injected energy| / total energy");
+      tally("sum_error", "1", "Largest |sum over cells - injected energy| / total energy, mean over pairs");
 
   explicit Tallies(const PulseParameters& parameters)
       : time{"time", "time", "Time after the pulse", parameters.times},
@@ -89,13 +89,9 @@ Group spreading(const Tallies& tallies) {
   const Axis distance =
       numbered_axis("distance", "Cells from the central one", (tallies.cell.values.size() - 1) / 2, 1);
   Group group;
-  group.quantity("energy_difference", {tallies.time, tallies.cell}, "energy",
-                 "Energy per cell with the pulse minus without", mean_of(tallies.energy_difference));
-  group.quantity("injected_energy", "energy", "Energy of the pulse",
-                 [=](TallyMeans mean) { return mean[tallies.injected_energy]; });
-  group.quantity("sum_error", "1",
-                 "Largest |sum over cells - injected energy| / total energy, mean over pairs",
-                 [=](TallyMeans mean) { return mean[tallies.sum_error]; });
+  group.quantity(tallies, tallies.energy_difference);
+  group.quantity(tallies, tallies.injected_energy);
+  group.quantity(tallies, tallies.sum_error);
   group.statistics(
       {{"ring_closed", "1", "1: both sides of the pulse have met opposite to it", {tallies.time}}},
       [=](const Records& records) {

@@ -22,7 +22,6 @@
 #include "program/errors.hpp"
 #include "sampling/closed_run.hpp"
 #include "sampling/equilibrium_parameters.hpp"
-#include "sampling/lags.hpp"
 #include "statistics/fit.hpp"
 #include "statistics/moving_peak.hpp"
 
@@ -44,11 +43,10 @@ struct Parameters : EquilibriumParameters {
 
 struct Tallies : ClosedTallies {
   Axis time;
-  Tally heat =
-      tally("heat", {time}, "energy^2 length^2", "Square of the heat that passes in a time, per cell");
-  Tally number =
-      tally("number", {time}, "length^2",
-            "Square of the particles' displacement in a time without that of the total momentum, per cell");
+  Tally heat = tally("heat_variance", {time}, "energy^2 length^2",
+                     "<Q^2>/N: mean square of the heat that passes in a time, per cell");
+  Tally number = tally("number_variance", {time}, "length^2",
+                       "<Q_n^2>/N without the part of the total momentum, if it is conserved");
 
   explicit Tallies(const std::vector<double>& times)
       : time{"time", "time", "Time over which the currents are integrated", times} {}
@@ -120,11 +118,8 @@ std::vector<Group> variances(const Parameters& parameters, const Tallies& tallie
     return Growth::of(s, y, from * unit);
   };
   Group group;
-  group.quantity("heat_variance", {tallies.time}, "energy^2 length^2",
-                 "<Q^2>/N: mean square of the heat that passes in a time, per cell", mean_of(tallies.heat));
-  group.quantity("number_variance", {tallies.time}, "length^2",
-                 "<Q_n^2>/N without the part of the total momentum, if it is conserved",
-                 mean_of(tallies.number));
+  group.quantity(tallies, tallies.heat);
+  group.quantity(tallies, tallies.number);
   group.quantity("local_exponent", {middle}, "1", "d ln <Q^2> / d ln t between two times",
                  [=](TallyMeans mean) { return local_exponents(times, mean[tallies.heat]); });
   group.quantity("amplitude", "1",

@@ -23,70 +23,38 @@ struct Parameters : StationaryParameters {
   MomentumBinParameters bins;
 };
 
-/// Array [bond, inner] of values.
-template <class Value>
-std::vector<double> by_bond(std::size_t bonds, std::size_t inner, const Value& value) {
-  std::vector<double> values;
-  for (std::size_t bond = 0; bond < bonds; ++bond)
-    for (std::size_t i = 0; i < inner; ++i) values.push_back(value(bond, i));
-  return values;
-}
-
-/// F_N from a mean record.
-struct Flux {
+/// F_N and its moments by direction, from a mean record.
+struct Reading {
   TallyMeans mean;
   const BondTallies& tallies;
-  double bin_width = 0;
+  double bin_width;
 
-  double operator()(std::size_t bond, std::size_t bin) const {
+  double flux(std::size_t bond, std::size_t bin) const {
     return mean[tallies.crossings.row(bin)][bond] / bin_width;
   }
-  std::vector<double> all() const { return by_bond(tallies.bonds(), tallies.momentum.values.size(), *this); }
-
   /// Jump of F_N at p = 0, from lines through the two bins on either side; NaN with fewer bins.
-  std::vector<double> jump() const {
-    if (tallies.momentum.values.size() < 4)
-      return std::vector<double>(tallies.bonds(), std::numeric_limits<double>::quiet_NaN());
+  double jump(std::size_t bond, std::size_t) const {
+    if (tallies.momentum.values.size() < 4) return std::numeric_limits<double>::quiet_NaN();
     const std::size_t zero = tallies.momentum.values.size() / 2;
-    return by_bond(tallies.bonds(), 1, [&](std::size_t bond, std::size_t) {
-      return 1.5 * ((*this)(bond, zero) - (*this)(bond, zero - 1)) -
-             0.5 * ((*this)(bond, zero + 1) - (*this)(bond, zero - 2));
-    });
+    return 1.5 * (flux(bond, zero) - flux(bond, zero - 1)) -
+           0.5 * (flux(bond, zero + 1) - flux(bond, zero - 2));
   }
-};
-
-/// Rates and moments of F_N by direction, from a mean record.
-struct HalfMoments {
-  TallyMeans mean;
-  const BondTallies& tallies;
-
-  double sum(std::size_t k, std::size_t bond, std::size_t side) const {
-    return mean[tallies.sums[k].row(side)][bond];
-  }
+  double rate(std::size_t bond, std::size_t side) const { return mean[tallies.sums[0].row(side)][bond]; }
   double average(std::size_t k, std::size_t bond, std::size_t side) const {
-    const double crossings = sum(0, bond, side);
-    return crossings > 0 ? sum(k, bond, side) / crossings : std::numeric_limits<double>::quiet_NaN();
+    const double crossings = rate(bond, side), sum = mean[tallies.sums[k].row(side)][bond];
+    return crossings > 0 ? sum / crossings : std::numeric_limits<double>::quiet_NaN();
   }
-  template <class Value>
-  std::vector<double> by_direction(const Value& value) const {
-    return by_bond(tallies.bonds(), 2, value);
+  double square(std::size_t bond, std::size_t side) const { return average(1, bond, side); }
+  double kurtosis(std::size_t bond, std::size_t side) const {
+    return average(2, bond, side) / (square(bond, side) * square(bond, side));
   }
 
-  std::vector<double> rate() const {
-    return by_direction([this](std::size_t bond, std::size_t side) { return sum(0, bond, side); });
-  }
-  std::vector<double> square() const {
-    return by_direction([this](std::size_t bond, std::size_t side) { return average(1, bond, side); });
-  }
-  std::vector<double> kurtosis() const {
-    return by_direction([this](std::size_t bond, std::size_t side) {
-      const double square = average(1, bond, side);
-      return average(2, bond, side) / (square * square);
-    });
-  }
-  double crossings() const {
-    const std::vector<double> rates = rate();
-    return std::accumulate(rates.begin(), rates.end(), 0.0) / static_cast<double>(tallies.bonds());
+  /// Array [bond, inner] of values.
+  std::vector<double> all(std::size_t inner, double (Reading::*value)(std::size_t, std::size_t) const) const {
+    std::vector<double> values;
+    for (std::size_t bond = 0; bond < tallies.bonds(); ++bond)
+      for (std::size_t i = 0; i < inner; ++i) values.push_back((this->*value)(bond, i));
+    return values;
   }
 };
 
@@ -95,7 +63,11 @@ std::vector<Group> flux_and_shape(const BondTallies& tallies, double bin_width,
   const std::string units = "1/(time momentum)";
   const std::vector<Axis> bonds{tallies.bond}, bins{tallies.bond, tallies.momentum},
       halves{tallies.bond, tallies.half};
-  const auto flux = [=](TallyMeans mean) { return Flux{mean, tallies, bin_width}; };
+  const auto all = [=](const std::vector<Axis>& axes,
+                       double (Reading::*value)(std::size_t, std::size_t) const) {
+    const std::size_t inner = axes.size() > 1 ? axes[1].values.size() : 1;
+    return [=](TallyMeans mean) { return Reading{mean, tallies, bin_width}.all(inner, value); };
+  };
 
   const Regression by_all{columns_of({tallies.sums[0], tallies.sums[1], tallies.sums[2]}),
                           columns_of({tallies.injection})};
@@ -103,19 +75,19 @@ std::vector<Group> flux_and_shape(const BondTallies& tallies, double bin_width,
   Group moments([=](const Records& records) { return reduce_variance(records, {by_all}); });
   Group plain;
   fluxes.quantity("flux", bins, units, "F_N, crossings per unit time and momentum",
-                  [=](TallyMeans mean) { return flux(mean).all(); });
-  fluxes.quantity("jump", bonds, units, "F_N at p = 0+ minus p = 0-",
-                  [=](TallyMeans mean) { return flux(mean).jump(); });
-  plain.quantity("flux_plain", bins, units, "F_N without control variates",
-                 [=](TallyMeans mean) { return flux(mean).all(); });
-  moments.quantity("rate", halves, "1/time", "Crossings by direction",
-                   [=](TallyMeans mean) { return HalfMoments{mean, tallies}.rate(); });
-  moments.quantity("square", halves, "momentum^2", "<p^2> by direction",
-                   [=](TallyMeans mean) { return HalfMoments{mean, tallies}.square(); });
+                  all(bins, &Reading::flux));
+  fluxes.quantity("jump", bonds, units, "F_N at p = 0+ minus p = 0-", all(bonds, &Reading::jump));
+  plain.quantity("flux_plain", bins, units, "F_N without control variates", all(bins, &Reading::flux));
+  moments.quantity("rate", halves, "1/time", "Crossings by direction", all(halves, &Reading::rate));
+  moments.quantity("square", halves, "momentum^2", "<p^2> by direction", all(halves, &Reading::square));
   moments.quantity("kurtosis", halves, "1", "<p^4>/<p^2>^2 by direction; 3 for a Gaussian half",
-                   [=](TallyMeans mean) { return HalfMoments{mean, tallies}.kurtosis(); });
+                   all(halves, &Reading::kurtosis));
   moments.quantity("crossings", "1/time", "Crossings of a bond, mean over bonds",
-                   [=](TallyMeans mean) { return HalfMoments{mean, tallies}.crossings(); });
+                   [=, rates = all(halves, &Reading::rate)](TallyMeans mean) {
+                     const std::vector<double> each = rates(mean);
+                     return std::accumulate(each.begin(), each.end(), 0.0) /
+                            static_cast<double>(tallies.bonds());
+                   });
   return {fluxes, moments, plain};
 }
 

@@ -6,15 +6,36 @@
 /// The front is where |p| n_t(p), on logarithmic bins, falls to half of its value above.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "observables/particle_count/census.hpp"
-#include "observables/particle_count/front.hpp"
 #include "sampling/open_run.hpp"
 #include "statistics/fit.hpp"
 
 namespace {
 
 using namespace lorentz;
+
+/// Mean of y over the points with low <= x <= high; NaN if there are none.
+double mean_between(const std::vector<double>& x, std::span<const double> y, double low, double high) {
+  double sum = 0, points = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (x[i] < low || x[i] > high) continue;
+    sum += y[i];
+    points += 1;
+  }
+  return sum / points;
+}
+
+/// x at which y first rises through a level, interpolated linearly in ln x; NaN if there is none.
+double rise_through(const std::vector<double>& x, std::span<const double> y, double level) {
+  for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+    if (y[i] > level || y[i + 1] <= level) continue;
+    const double part = (level - y[i]) / (y[i + 1] - y[i]);
+    return x[i] * std::pow(x[i + 1] / x[i], part);
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
 
 struct Parameters : OpenParameters {
   std::vector<double> times{200, 600, 1000, 1400, 1800};
@@ -98,7 +119,7 @@ Group numbers_and_momenta(const CensusTallies& tallies, const CensusGrid& grid, 
   group.quantity("weighted_speed_density", {tallies.time, tallies.speed}, "1",
                  "|p| n_t(p), both signs, on logarithmic bins",
                  [=](TallyMeans mean) { return reading(mean).speed_density(); });
-  group.quantity("total_number", {tallies.number_time}, "1", "Particles inside", mean_of(tallies.number));
+  group.quantity(tallies, tallies.number);
   group.quantity("number_slope", {between}, "1", "d n / d ln t",
                  [=](TallyMeans mean) { return reading(mean).number_slopes(); });
   group.quantity(

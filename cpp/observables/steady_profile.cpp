@@ -68,16 +68,14 @@ Group profiles(const CellTallies& tallies, double bin_width) {
     return DensityProfile(profile.mean[profile.tallies.density]);
   };
 
-  group.quantity("temperature_scatterer", cell, "temperature", "Time average of P^2/M",
-                 of([](const Profile& profile) { return profile.temperature(); }));
+  group.quantity(tallies, tallies.temperature);
   group.quantity("temperature_particle", cell, "temperature", "<p^2>/m over the arrivals at the scatterer",
                  of([](const Profile& profile) { return profile.particle_temperature(); }));
   group.quantity("temperature_difference", cell, "temperature",
                  "That of the scatterer minus that of the particles", of([](const Profile& profile) {
                    return difference(profile.temperature(), profile.particle_temperature());
                  }));
-  group.quantity("density", cell, "1", "Mean number of particles in the cell, frozen ones included",
-                 mean_of(tallies.density));
+  group.quantity(tallies, tallies.density);
   group.quantity("density_slope", "1",
                  "Of the line through the middle half, over the chain and relative to its mean",
                  of([=](const Profile& profile) { return density(profile).slope(); }));

@@ -5,9 +5,11 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <ctime>
 #include <filesystem>
+#include <limits>
 #include <new>
 
 #include "program/atomic_file.hpp"
@@ -65,7 +67,9 @@ void write_quantity(Hdf5Writer& file, const Quantity& quantity) {
     file.array(group, {"discretisation_error", units, error, axes}, quantity.standard_error);
   } else {
     const auto* error = "Standard error of the mean over replicas";
-    file.array(group, {"standard_error", units, error, axes}, quantity.standard_error);
+    std::vector<double> errors = quantity.standard_error;  // unknown where all replicas agree
+    std::ranges::replace(errors, 0., std::numeric_limits<double>::quiet_NaN());
+    file.array(group, {"standard_error", units, error, axes}, errors);
     file.array(group, {"count", "1", "Number of replicas that contribute", axes}, quantity.count);
   }
 }

@@ -23,7 +23,7 @@ struct Outcome {
   std::uint64_t events = 0;
   std::string target_quantity{};
   double target_error = 0;    // NaN without a target
-  double achieved_error = 0;  // relative as the target; NaN if it is not known
+  double achieved_error = 0;  // relative as the target; NaN if it is not known, as where all replicas agree
   Convergence convergence = Convergence::not_reached;
 };
 

@@ -30,10 +30,10 @@ void Progress::show(double done, std::uint64_t wanted, double resumed) {
   const Clock::time_point now = Clock::now();
   if (style == "none" || now - last_shown_ < Seconds(10)) return;
   last_shown_ = now;
-  const double fresh = done - resumed, all = static_cast<double>(wanted);
+  const double left = Seconds(now - start_).count() * (static_cast<double>(wanted) - done) / (done - resumed);
+  constexpr double longest = 1e8;  // s; a longer time left is a guess from hardly anything
   warn(fmt::format("{:.1f} of {}, {}", done, counted(wanted),
-                   fresh > 0 ? as_time(Seconds(now - start_).count() * (all - done) / fresh) + " left"
-                             : "time left unknown"));
+                   left < longest ? as_time(left) + " left" : "time left unknown"));
 }
 
 void Progress::say(const std::string& line) {
@@ -49,6 +49,7 @@ std::string counted(std::uint64_t replicas) {
 }
 
 std::string with_error(double mean, double error) {
+  if (std::isnan(mean)) return "nan";  // without the sign that 0/0 has
   if (!(error > 0) || !std::isfinite(mean) || !std::isfinite(error)) return fmt::format("{:.8g}", mean);
   const int exponent = decimal_exponent(std::max(std::abs(mean), error));
   if (exponent < -4 || exponent >= 6) {  // as for {:g}

@@ -134,8 +134,8 @@ ExitStatus StudyProgram::compute() try {
     Outcome outcome;
     in_threads(1, [&] { outcome = estimate(wanted); });
     const bool constant = quantity_named(outcome.results, study_.target).standard_error.front() == 0;
-    const bool last = outcome.convergence != Convergence::not_reached || target_error_ == 0 || constant ||
-                      wanted + replicas_ > most_replicas;
+    const bool last =
+        outcome.convergence != Convergence::not_reached || constant || wanted + replicas_ > most_replicas;
     const double excess = outcome.achieved_error / target_error_;
     if (!last && std::isfinite(excess)) needed_ = rule.expected_end(wanted, excess);
     report(outcome, wanted);
@@ -240,7 +240,7 @@ Outcome StudyProgram::estimate(std::uint64_t replicas) const {
                   .streams = RandomStream::description,
                   .target_quantity = study_.target,
                   .target_error = target_error_ > 0 ? target_error_ : none};
-  Records records(study_.tallies.width());
+  Records records(study_.tallies.width(), replicas);
   for (std::uint64_t index = 0; index < replicas; ++index) {
     records.append(finished_.at(index).values);
     outcome.events += finished_.at(index).events;
@@ -249,11 +249,10 @@ Outcome StudyProgram::estimate(std::uint64_t replicas) const {
     for (Quantity& quantity : group.estimate(records)) outcome.results.push_back(std::move(quantity));
   const Quantity& quantity = quantity_named(outcome.results, study_.target);
   const double mean = quantity.mean.front(), error = quantity.standard_error.front();
-  // If all replicas agree, as where nothing has happened, their error is not known.
   outcome.achieved_error = error > 0 ? error / (target_scale_ > 0 ? target_scale_ : std::abs(mean)) : none;
-  if (std::isfinite(mean) && target_error_ == 0) outcome.convergence = Convergence::no_target;
-  if (std::isfinite(mean) && target_error_ > 0 &&
-      StoppingRule::reached(replicas, outcome.achieved_error / target_error_))
+  if (target_error_ == 0)
+    outcome.convergence = Convergence::no_target;
+  else if (std::isfinite(mean) && StoppingRule::reached(replicas, outcome.achieved_error / target_error_))
     outcome.convergence = Convergence::reached;
   return outcome;
 }
@@ -261,12 +260,16 @@ Outcome StudyProgram::estimate(std::uint64_t replicas) const {
 /// Reports the target quantity, and how uncertain its error is if the replicas are few.
 void StudyProgram::report(const Outcome& outcome, std::uint64_t replicas) {
   const Quantity& quantity = quantity_named(outcome.results, study_.target);
-  const double error = quantity.standard_error.front();
-  std::string line =
-      fmt::format("{}: {} = {}", counted(replicas), study_.target, with_error(quantity.mean.front(), error));
+  const double mean = quantity.mean.front(), error = quantity.standard_error.front();
+  std::string line = fmt::format("{}: {} = {}", counted(replicas), study_.target, with_error(mean, error));
   if (outcome.convergence == Convergence::not_reached) line += ", not reached";
-  if (target_error_ > 0 && error == 0) line += ": all replicas agree, so that the error is not known";
+  if (std::isnan(mean))
+    line += ", not defined by these replicas";
+  else if (target_error_ > 0 && error == 0)
+    line += ": all replicas agree, so that the error is not known";
   if (needed_ > replicas) line += fmt::format("; about {} are needed", needed_);
+  if (needed_ > replicas && target_scale_ == 0 && std::abs(mean) < 2 * error)
+    line += "; the mean may be 0: choose a --target-scale to which the error is relative";
   program_.progress().say(line);
   // Errors are uncertain by 1/sqrt(2(R-1)) for normal records, and more for skewed ones.
   constexpr std::uint64_t enough = 32;

@@ -27,11 +27,8 @@ Study closed_study(const ClosedParameters& parameters, const ClosedTallies& tall
                    const std::function<void(ClosedRun&, TallySums&)>& observe, std::vector<Group> groups,
                    const std::string& target) {
   Group& conservation = groups.emplace_back();
-  conservation.quantity("energy_drift", "1", "Mean over replicas of |change of total energy| / total energy",
-                        [=](TallyMeans mean) { return mean[tallies.energy_drift]; });
-  conservation.quantity("momentum_drift", "1",
-                        "Mean over replicas of |change of total momentum| / sum of all |momenta|",
-                        [=](TallyMeans mean) { return mean[tallies.momentum_drift]; });
+  conservation.quantity(tallies, tallies.energy_drift);
+  conservation.quantity(tallies, tallies.momentum_drift);
   const auto sample = [=](const Replica& replica, TallySums& sums) {
     ClosedRun run(parameters, replica);
     run.relax();

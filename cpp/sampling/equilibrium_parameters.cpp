@@ -24,6 +24,19 @@ std::size_t EquilibriumParameters::intervals(const std::vector<std::size_t>& lag
   return std::max(whole, lags.back());  // the last time may be rounded
 }
 
+std::vector<std::size_t> lags(const std::vector<double>& times) {
+  std::vector<std::size_t> lags;
+  for (const double time : times) {
+    const double lag = time / times.front();
+    if (lag > 1e6 || std::abs(lag - std::round(lag)) > 1e-6 * lag)
+      throw UsageError(
+          "--times: every time must be a whole multiple of the first, which is the interval of the record, "
+          "and at most 1e6 times it. Choose others.");
+    lags.push_back(static_cast<std::size_t>(std::lround(lag)));
+  }
+  return lags;
+}
+
 void declare(Options& options, EquilibriumParameters& parameters, const std::string& use) {
   options.integer("--cells", parameters.ring.scattering.cells, {1, 100'000'000}, "Number of cells N");
   options.real("--sigma", parameters.ring.scattering.sigma, {-1, 1}, "1", "Mass ratio (M-m)/(M+m)");

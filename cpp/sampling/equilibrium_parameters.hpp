@@ -22,6 +22,10 @@ struct EquilibriumParameters : ClosedParameters {
   std::size_t intervals(const std::vector<std::size_t>& lags) const;
 };
 
+/// Ascending times in units of the first, the interval of a record. Throws UsageError unless they are whole
+/// multiples of it.
+std::vector<std::size_t> lags(const std::vector<double>& times);
+
 /// Declares --cells, --sigma, --rule, --cell-length, --temperature, --fugacity, --observation-time and
 /// --times. use: of the times, for the help.
 void declare(Options& options, EquilibriumParameters& parameters, const std::string& use);

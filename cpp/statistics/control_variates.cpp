@@ -104,8 +104,9 @@ Group::Prepared reduce_variance(const Records& records, const std::vector<Regres
         for (std::size_t i = 0; i < records.size(); ++i) reduced[i][column] = records[i][column];
     }
   }
-  if (measured.empty() || variance_ratio(reduced, records, measured) >= 1) return {records, false};
-  return {std::move(reduced), true};
+  const bool used = !measured.empty() && variance_ratio(reduced, records, measured) < 1;
+  if (!used) reduced = records;
+  return {std::move(reduced), used};
 }
 
 }  // namespace lorentz

@@ -33,13 +33,6 @@ void append(Results& results, const std::vector<Description>& what, const Estima
   }
 }
 
-/// Sets the error of an element that is 0 in every replica, such as an empty bin, to NaN: it is unknown.
-void mask_errors_of_empty_bins(Quantity& quantity) {
-  for (std::size_t i = 0; i < quantity.mean.size() && !quantity.what.axes.empty(); ++i)
-    if (quantity.mean[i] == 0 && quantity.standard_error[i] == 0)
-      quantity.standard_error[i] = std::numeric_limits<double>::quiet_NaN();
-}
-
 }  // namespace
 
 const Quantity& quantity_named(const Results& results, std::string_view name) {
@@ -99,6 +92,11 @@ void Group::quantity(std::string_view name, const std::vector<Axis>& axes, std::
              [formula = std::move(formula)](const Records&) { return formula; });
 }
 
+void Group::quantity(const TallySchema& schema, Tally tally) {
+  const Description& what = schema.description(tally);
+  quantity(what.name, what.axes, what.units, what.description, mean_of(tally));
+}
+
 void Group::quantities(const std::vector<Description>& descriptions,
                        std::function<Array(const Records&)> formula_for) {
   formulas_.push_back({descriptions, std::move(formula_for)});
@@ -138,7 +136,6 @@ Results Group::estimate(const Records& measured) const {
   Results results;
   std::size_t at = 0;
   for (const auto& part : formulas_) append(results, part.what, all, at, records.size(), control_variates);
-  for (Quantity& quantity : results) mask_errors_of_empty_bins(quantity);
   for (const auto& part : statistics_) {
     at = 0;
     append(results, part.what, part.of(records), at, records.size(), control_variates);

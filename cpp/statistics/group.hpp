@@ -16,7 +16,7 @@ namespace lorentz {
 /// Estimate of a described array.
 struct Quantity {
   Description what;
-  std::vector<double> mean, standard_error;  // for a computed quantity the discretisation error
+  std::vector<double> mean, standard_error;  // 0: all replicas agree; if computed: discretisation error
   std::vector<std::uint64_t> count{};        // replicas that contribute; empty if computed
   std::optional<bool> control_variates{};    // whether they were used; none if there are none
 };
@@ -50,7 +50,7 @@ class Group {
   };
   using Prepare = std::function<Prepared(const Records&)>;
 
-  /// Formulas of the mean record. The error of an array element that is 0 in all replicas is NaN.
+  /// Formulas of the mean record.
   using Number = std::function<double(TallyMeans)>;
   using Array = std::function<std::vector<double>(TallyMeans)>;
 
@@ -60,6 +60,8 @@ class Group {
   void quantity(std::string_view name, std::string_view units, std::string_view description, Number formula);
   void quantity(std::string_view name, const std::vector<Axis>& axes, std::string_view units,
                 std::string_view description, Array formula);
+  /// The mean of a tally, with its name, axes, units and description.
+  void quantity(const TallySchema& schema, Tally tally);
 
   /// Several quantities with a common formula, which is chosen when the records are known and returns their
   /// values one after another.

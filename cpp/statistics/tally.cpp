@@ -38,6 +38,15 @@ ScalarTally TallySchema::tally(std::string_view name, std::string_view units, st
   return {tally(name, {}, units, description).first};
 }
 
+const Description& TallySchema::description(Tally tally) const {
+  std::size_t first = 0;
+  for (const Description& each : tallies_) {
+    if (first == tally.first && each.size() == tally.size) return each;
+    first += each.size();
+  }
+  throw std::logic_error("a tally of another schema");
+}
+
 void TallySums::set(Tally tally, std::span<const double> values) {
   if (values.size() != tally.size) throw std::out_of_range("values of another size than the tally");
   std::ranges::copy(values, (*this)[tally].begin());

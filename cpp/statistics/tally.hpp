@@ -64,6 +64,8 @@ class TallySchema {
 
   std::size_t width() const { return width_; }
   const std::vector<Description>& tallies() const { return tallies_; }
+  /// Throws std::logic_error for a tally of another schema.
+  const Description& description(Tally tally) const;
 
  private:
   std::vector<Description> tallies_;
@@ -112,7 +114,10 @@ class TallyMeans {
 /// Matrix of measurements: one row of sums per replica, in the order of the replicas.
 class Records {
  public:
-  explicit Records(std::size_t width) : width_(width) {}
+  /// expected: number of rows for which memory is reserved.
+  explicit Records(std::size_t width, std::size_t expected = 0) : width_(width) {
+    rows_.reserve(width * expected);
+  }
 
   /// Throws std::invalid_argument if the row does not have the width of the others.
   void append(std::span<const double> row);

@@ -18,9 +18,9 @@ namespace lorentz {
 constexpr std::size_t block_count = 8;  // blocks of the window
 
 /// Tallies of the currents through the openings and the temperatures of the end cells [eq. 26, 27], by blocks
-/// of the window, with their control variates.
+/// of the window, with their control variates; with one block those of the whole window.
 struct BlockTallies : TallySchema {
-  Axis block = numbered_axis("block", "Block of the window", block_count);
+  Axis block;
   Axis end{"end", "1", "0: first cell, 1: last", {0, 1}};
   Tally energy_current = tally("energy_current", {block}, "energy/time", "J_U, mean of both openings");
   Tally particle_current = tally("particle_current", {block}, "1/time", "J_n, mean of both openings");
@@ -31,6 +31,17 @@ struct BlockTallies : TallySchema {
   Tally injection =
       tally("injection", {block, InjectionControls::axis()}, "1", "Injected, minus its known mean");
   Tally scattering = tally("scattering", {block, end}, "energy", "Scattering martingale; mean 0");
+
+  explicit BlockTallies(std::size_t blocks = block_count)
+      : block(numbered_axis("block", "Block of the window", blocks)) {}
+
+  Columns currents_and_temperatures() const {
+    return columns_of({energy_current, particle_current, temperature});
+  }
+  Columns measured() const {
+    return columns_of({energy_current, particle_current, temperature, arriving_energy, arrivals});
+  }
+  Columns controls() const { return columns_of({injection, scattering}); }
 };
 
 /// Observer that fills BlockTallies.

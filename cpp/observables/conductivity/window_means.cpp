@@ -3,8 +3,8 @@
 namespace lorentz {
 namespace {
 
-Records joined(const Records& records, const BlockTallies& blocks, bool difference) {
-  const WindowTallies tallies;
+Records joined(const Records& records, bool difference) {
+  const BlockTallies blocks, tallies(1);
   Records result(tallies.width());
   for (std::size_t replica = 0; replica < records.size(); ++replica) {
     const TallyMeans row = records[replica];
@@ -32,12 +32,8 @@ Records joined(const Records& records, const BlockTallies& blocks, bool differen
 
 }  // namespace
 
-Records window_means(const Records& records, const BlockTallies& blocks) {
-  return joined(records, blocks, false);
-}
+Records window_means(const Records& records) { return joined(records, false); }
 
-Records half_differences(const Records& records, const BlockTallies& blocks) {
-  return joined(records, blocks, true);
-}
+Records half_differences(const Records& records) { return joined(records, true); }
 
 }  // namespace lorentz

@@ -46,7 +46,7 @@ struct CensusTallies : TallySchema {
   Tally momentum =
       tally("momentum", {time, p}, "momentum", "Sum of |p| over the particles in a linear bin of p");
   Tally by_speed = tally("by_speed", {time, speed}, "1", "Particles in a logarithmic bin of |p|");
-  Tally number = tally("number", {number_time}, "1", "Particles inside");
+  Tally number = tally("total_number", {number_time}, "1", "Particles inside");
 
   explicit CensusTallies(const CensusGrid& grid)
       : time{"time", "time", "Time from the start", grid.times},

@@ -21,8 +21,8 @@ struct CellTallies : TallySchema {
   Axis cell, bond, momentum;
   Axis end{"end", "1", "0: first cell, 1: last", {0, 1}};
   Axis direction{"direction", "1", "-1: to the left, 1: to the right", {-1, 1}};
-  Tally temperature = tally("temperature", {cell}, "temperature", "Time average of P^2/M of the scatterer");
-  Tally density = tally("density", {cell}, "1", "Time average of the number of particles in the cell");
+  Tally temperature = tally("temperature_scatterer", {cell}, "temperature", "Time average of P^2/M");
+  Tally density = tally("density", {cell}, "1", "Mean number of particles in the cell, frozen ones included");
   Tally arrivals = tally("arrivals", {direction, cell}, "1/time", "Arrivals at the scatterer");
   Tally arriving_squares =
       tally("arriving_squares", {direction, cell}, "momentum^2/time", "Sum of u^2 over arrivals");
