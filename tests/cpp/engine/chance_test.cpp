@@ -101,47 +101,4 @@ TEST(Chance, FlightsOfAClosedChainHaveNumbersOfTheirOwn) {
   }
 }
 
-/// Observer that compares every flight of an open chain with the numbers of one stream, in their order, and
-/// every direction with those of the cell and its count of collisions.
-struct FlightsOfARow {
-  const StreamKey& key;
-  OpenChain chain;
-  GeometricCells cells{chain.gamma / chain.cells};
-  RandomStream passes{key, Purpose::passes, 0};
-  std::vector<std::uint64_t> collisions = std::vector<std::uint64_t>(chain.cells, 0);
-  std::size_t flights = 0, wrong = 0;
-
-  void on_collision(const Collision& collision) {
-    const std::uint32_t cell = collision.scatterer;
-    const bool right = RandomStream(key, Purpose::collision, cell, collisions[cell]++).uniform() > 0.5;
-    wrong += right == (collision.particle_after > 0) ? 0 : 1;
-  }
-  void on_flight(const Path& path) {
-    const std::int64_t expected = cells(passes.uniform()), flown = std::abs(path.last - path.first) / 2 + 1;
-    const bool leaves = path.last % 2 == 0;
-    wrong += leaves ? expected < flown - 1 : expected != flown;
-    ++flights;
-  }
-};
-
-// Numbers of particles are reused in an open chain. Detected mistake: another seed.
-TEST(Chance, FlightsOfAnOpenChainHaveNumbersOfTheirOwn) {
-  const StreamKey key(3, 2), other(4, 2);
-  const OpenChain chain{.cells = 20,
-                        .cell_length = 1,
-                        .gamma = 5,
-                        .left = {5, 100},
-                        .right = {5, 100},
-                        .rule = {"random-direction"}};
-  const auto wrong = [&](const StreamKey& expected) {
-    OpenDynamics dynamics(chain, empty_start(chain), 100, key);
-    FlightsOfARow flights{expected, chain};
-    simulate(dynamics, 100, flights, support::nothing);
-    EXPECT_GT(flights.flights, 1000U);
-    return flights.wrong;
-  };
-  EXPECT_EQ(wrong(key), 0U);
-  EXPECT_GT(wrong(other), 500U);
-}
-
 }  // namespace chance_test

@@ -85,15 +85,4 @@ TEST(Simulate, HeartbeatMayStopTheRunAndLeavesItWhole) {
   expect_same(recorder.collisions, whole);
 }
 
-TEST(Simulate, RefusesAPhasePointOfAnotherChain) {
-  const ClosedChain chain{3, 2, 1, 0.5};
-  const PhasePoint good = closed_chain_start(chain, {}, false, {1, 0});
-  EXPECT_NO_THROW(ClosedDynamics(chain, good, 1, {1, 0}));
-  PhasePoint bad = good;
-  bad.scatterers.push_back(0);
-  EXPECT_THROW(ClosedDynamics(chain, bad, 1, {1, 0}), std::invalid_argument);
-  EXPECT_THROW(ClosedDynamics(chain, PhasePoint{}, 1, {1, 0}), std::invalid_argument);
-  EXPECT_THROW(ClosedDynamics({3, 2, 1, 1.5}, good, 1, {1, 0}), std::invalid_argument);
-}
-
 }  // namespace closed_dynamics_test

@@ -39,13 +39,4 @@ TEST(FreeFlight, CellsAreGeometric) {
   EXPECT_LT(gsl_cdf_chisq_Q(chi_squared_of_cells(free_flight, 0.21), 19), 1e-4);
 }
 
-// A number beyond those of the particles is a copy of one, with the same random numbers. Detected mistake:
-// every particle has the same.
-TEST(FreeFlight, CopiesShareDraws) {
-  const FreeFlight free_flight(chain_with(1), {3, 0}, chain_with(1).particles());
-  const auto draw = [&](std::uint32_t particle) { return free_flight.of_collision(particle, 2).uniform(); };
-  EXPECT_EQ(draw(107), draw(7));
-  EXPECT_NE(draw(8), draw(7));
-}
-
 }  // namespace free_flight_test

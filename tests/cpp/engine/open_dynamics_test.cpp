@@ -73,18 +73,6 @@ TEST(OpenDynamics, EnergyIsWhatEnteredAndHasNotLeft) {
   }
 }
 
-TEST(OpenDynamics, WithoutScatteringParticlesFlyThrough) {
-  const OpenChain chain = chain_of(5, 0);
-  OpenDynamics dynamics(chain, empty_start(chain), 10, {1, 0});
-  Everything seen;
-  simulate(dynamics, 10, seen, support::nothing);
-  EXPECT_EQ(seen.entries, seen.exits);
-  for (const Path& path : seen.paths) {
-    EXPECT_EQ(std::abs(path.last - path.first), 10);
-    EXPECT_NEAR((path.arrival - path.departure) * std::abs(path.velocity), 1, 1e-12);
-  }
-}
-
 /// Every flight begins where and when the one before it ended, or at an opening.
 TEST(OpenDynamics, FlightsOfAParticleJoin) {
   const OpenChain chain = chain_of(6, 2);
@@ -184,11 +172,6 @@ TEST(OpenDynamics, ReportsThoseThatStoppedDuringTheRelaxation) {
     return path.velocity == 0 && path.place(25) == path.from;
   });
   EXPECT_EQ(stopped, chain.cells);
-}
-
-TEST(OpenDynamics, RefusesAStartOfAnotherSize) {
-  const OpenChain chain = chain_of(6, 1);
-  EXPECT_THROW(OpenDynamics(chain, empty_start(chain_of(5, 1)), 1, {1, 0}), std::invalid_argument);
 }
 
 }  // namespace open_dynamics_test

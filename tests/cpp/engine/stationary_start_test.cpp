@@ -105,16 +105,6 @@ TEST(StationaryStart, DirectionsAreEven) {
   EXPECT_LT(std::abs(flux - chain.cells * 2 * zeta * T * std::exp(-cut)) / std::sqrt(squares), 4);
 }
 
-// Detected mistake: U is 10 % too small.
-TEST(StationaryStart, ScatterersHaveTheTemperature) {
-  double squares = 0;
-  const PhasePoint point = start();
-  ASSERT_EQ(point.scatterers.size(), chain.cells);
-  for (const double scatterer : point.scatterers) squares += scatterer * scatterer / measure.temperature;
-  EXPECT_TRUE(plausible(squares, chain.cells));
-  EXPECT_FALSE(plausible(0.81 * squares, chain.cells));
-}
-
 /// Number of collisions per cell and sum of U^2/T per cell after a time, for several rings of 20 cells.
 std::pair<std::vector<double>, std::vector<double>> later(double time, double scatterers) {
   const ClosedChain ring{.cells = 20, .cell_length = 0.5, .sigma = -0.4};

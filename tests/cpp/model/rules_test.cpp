@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <stdexcept>
 #include <variant>
 #include <vector>
 
@@ -88,26 +87,6 @@ TEST(Rules, HaveThePropertiesThatTheyState) {
       EXPECT_EQ(largest < 5, rule.invariant == InvariantMeasure::maxwellian) << rule.name << " " << largest;
     }
   }
-}
-
-// Detected mistakes: the energy is shared unequally; the two directions have unequal probabilities.
-TEST(Rules, ScoresFindAnotherMeasure) {
-  std::vector<Velocities> hotter = encounters(Elastic(0.5), 1).after, biased = hotter;
-  for (Velocities& v : hotter) v.u *= 1.02;
-  for (std::size_t k = 0; k < collisions; ++k)
-    biased[k].u = std::copysign(biased[k].u, k % 100 < 52 ? 1.0 : -1.0);
-  EXPECT_GT(std::ranges::max(scores(hotter)), 5);
-  EXPECT_GT(std::ranges::max(scores(biased)), 5);
-}
-
-TEST(Rules, AreMadeByName) {
-  EXPECT_TRUE(std::holds_alternative<Elastic>(make_rule({"elastic"}, 0.5)));
-  EXPECT_TRUE(std::holds_alternative<Reversal>(make_rule({"reversal", {0.1}}, 0.5)));
-  EXPECT_EQ(rule_properties("random-direction").name, RandomDirection::properties.name);
-  EXPECT_THROW(make_rule({"inelastic"}, 0.5), std::invalid_argument);
-  EXPECT_THROW(make_rule({"reversal"}, 0.5), std::invalid_argument);
-  EXPECT_THROW(rule_properties("inelastic"), std::invalid_argument);
-  EXPECT_THROW(make_rule({"elastic"}, 2), std::invalid_argument);
 }
 
 /// Frequency of the collisions with value(velocities) of opposite sign after two rules, and of equal

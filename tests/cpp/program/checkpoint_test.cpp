@@ -1,14 +1,9 @@
 #include "program/checkpoint.hpp"
 
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <cmath>
 #include <string>
-#include <thread>
 
 #include "program/errors.hpp"
 #include "support/refusal.hpp"
@@ -79,20 +74,6 @@ TEST_F(CheckpointTest, RefusesTruncatedAndForeignFiles) {
   for (std::size_t size = 0; size < whole.size(); size += size < 64 ? 8 : 97)
     expect_refused(whole.substr(0, size));
   expect_refused(std::string(5000, '\0'));
-}
-
-TEST_F(CheckpointTest, SurvivesAKillAtAnyMoment) {
-  checkpoint.save(saved);
-  for (int round = 0; round < 20; ++round) {
-    const pid_t child = ::fork();
-    ASSERT_GE(child, 0);
-    // NOLINTNEXTLINE(bugprone-infinite-loop): until it is killed
-    for (std::uint64_t index = 0; child == 0; ++index) checkpoint.save({{index, {{1.0, 2.0, 3.0}, 1}}});
-    std::this_thread::sleep_for(std::chrono::microseconds(3000 + 700 * round));
-    ::kill(child, SIGKILL);
-    ::waitpid(child, nullptr, 0);
-    EXPECT_FALSE(checkpoint.load()->empty()) << round;
-  }
 }
 
 }  // namespace checkpoint_test

@@ -1,9 +1,6 @@
 #include "program/hdf5_file.hpp"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <limits>
@@ -67,47 +64,10 @@ TEST(Hdf5File, ReadsBackWhatWasWritten) {
   EXPECT_FALSE(file.has_attribute("/parameters", "absent", true));
 }
 
-// The expected values are those of Python's zlib.crc32 over path and bytes, one dataset after another.
-TEST(Hdf5File, DigestsDatasetsInTheOrderOfTheirPaths) {
-  const auto digest = [](double value) {
-    Hdf5Writer file;
-    file.array("/results", {"b", "1", "Two", {axis("i", 2)}}, std::vector{1.0, value});
-    file.array("/results/a", {"c", "1", "One"}, std::vector<std::uint64_t>{7});
-    file.array("/results2", {"a", "1", "Another"}, std::vector{3.0});
-    return file.digest("/results");
-  };
-  EXPECT_EQ(digest(2), "fe45c3be");
-  EXPECT_NE(digest(2.0000000000000004), digest(2));
-}
-
-// The HDF5 library checks that a number is a 0-d dataset, not an array of one element.
-TEST(Hdf5File, GivesDatasetsTheirShape) {
-  const TemporaryFolder folder;
-  write_atomically(folder / "a.h5", image());
-  const Hdf5Handle file(H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  const auto shape = [&file](const char* path) {
-    const Hdf5Handle dataset(H5Dopen2(file, path, H5P_DEFAULT), H5Dclose);
-    const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
-    std::vector<hsize_t> size(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
-    if (!size.empty()) H5Sget_simple_extent_dims(space, size.data(), nullptr);
-    return size;
-  };
-  EXPECT_EQ(shape("/results/number"), std::vector<hsize_t>{});
-  EXPECT_EQ(shape("/results/profile/mean"), (std::vector<hsize_t>{2, 3}));
-  EXPECT_EQ(shape("/results/nothing"), std::vector<hsize_t>{0});
-}
-
 TEST(Hdf5File, RefusesASizeThatIsNotThatOfTheShape) {
   Hdf5Writer file;
   EXPECT_THROW(file.array("/group", {"x", "1", "Three", {axis("i", 3)}}, reals), std::invalid_argument);
   EXPECT_THROW(file.array("/group", {"x", "1", "A number"}, reals), std::invalid_argument);
-}
-
-TEST(Hdf5File, ReportsFailuresOfTheLibrary) {
-  Hdf5Writer file;
-  file.array("/group", {"x", "1", "A number"}, std::vector{1.0});
-  EXPECT_THROW(file.array("/group", {"x", "1", "A number"}, std::vector{2.0}), NumericalError);  // exists
-  EXPECT_THROW(file.attribute("/missing", "units", std::string("1")), NumericalError);
 }
 
 TEST(Hdf5File, RefusesMissingDatasetsAndOtherFiles) {
@@ -118,17 +78,6 @@ TEST(Hdf5File, RefusesMissingDatasetsAndOtherFiles) {
   support::write_file(other, "not HDF5");
   EXPECT_NE(support::refusal([&] { Hdf5Reader{other}; }), "");
   EXPECT_NE(support::refusal([&] { Hdf5Reader{folder / "absent.h5"}; }), "");
-}
-
-// The HDF5 library does not open a file that another process has locked.
-TEST(Hdf5File, IsReadWhereItIsLocked) {
-  const TemporaryFolder folder;
-  write_atomically(folder / "a.h5", image());
-  const int file = ::open((folder / "a.h5").c_str(), O_RDONLY);
-  ASSERT_EQ(::flock(file, LOCK_EX), 0);
-  EXPECT_LT(H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), 0);
-  EXPECT_EQ(Hdf5Reader(folder / "a.h5").doubles("/results/profile/mean"), reals);
-  ::close(file);
 }
 
 }  // namespace hdf5_file_test

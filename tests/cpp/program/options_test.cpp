@@ -127,40 +127,10 @@ TEST(Options, ReadNumbersAsTheCompilerDoes) {
   EXPECT_EQ(example.seed, 9U);
 }
 
-TEST(Options, RecordWhatDeterminesTheResultSortedByName) {
-  Example example;
-  example.parse({"--cells", "7", "--output", "file.h5", "--threads", "2"});
-  const std::vector<Parameter> parameters = example.options.parameters();
-  const std::vector<Parameter> expected = {{"cells", std::uint64_t{7}},
-                                           {"gamma", std::string("N")},
-                                           {"relaxation-time", 0.1},
-                                           {"seed", std::uint64_t{1}},
-                                           {"sigma", 0.5},
-                                           {"sites", 4.0},
-                                           {"start", std::string("empty")},
-                                           {"temperature", 500.0},
-                                           {"times", std::string("1,2")},
-                                           {"zero-total-momentum", false}};
-  ASSERT_EQ(parameters.size(), expected.size());
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    EXPECT_EQ(parameters[i].name, expected[i].name);
-    EXPECT_TRUE(parameters[i].value == expected[i].value) << expected[i].name;
-  }
-  EXPECT_EQ(as_text(1.0 / 3), "0.3333333333333333");  // every digit
-}
-
 TEST(Options, KeepTheirWordsAsGiven) {
   Example example;
   example.parse({"--threads", "2", "--sigma=+.50", "--zero-total-momentum", "--output=a", "--cells", "007"});
   EXPECT_EQ(example.options.words(), "--sigma=+.50 --zero-total-momentum --cells 007");
-}
-
-TEST(Options, HelpListsEveryOptionWithRangeAndDefault) {
-  const std::string help = Example().parse({"--help"}).value();
-  for (const char* part : {"--sigma", "from -1 to 1; default 0.5", "--temperature", "[temperature]", "--seed",
-                           "--zero-total-momentum", "--output", "empty, warm", "default N", "footer"})
-    EXPECT_NE(help.find(part), std::string::npos) << part;
-  EXPECT_EQ(Example().parse({"--version"}), "example 1.0\n");
 }
 
 }  // namespace options_test

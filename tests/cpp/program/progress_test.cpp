@@ -17,6 +17,7 @@ TEST(Progress, WritesTheErrorInBrackets) {
   EXPECT_EQ(with_error(4.1234e-9, 1.2e-11), "4.123(12)e-9");
   EXPECT_EQ(with_error(0.5, 0), "0.5");
   EXPECT_EQ(with_error(0.5, std::nan("")), "0.5");
+  EXPECT_EQ(with_error(-std::nan(""), 0.1), "nan");
 }
 
 }  // namespace progress_test

@@ -40,18 +40,6 @@ class OpenHeapSimulator {
     next_injection(false, 0);
   }
 
-  /// After every collision reverses the momentum of the particle, of the scatterer, with these probabilities.
-  void reverse(double of_particle, double of_scatterer, std::uint64_t seed) {
-    particle_reversed_ = std::bernoulli_distribution(of_particle);
-    scatterer_reversed_ = std::bernoulli_distribution(of_scatterer);
-    coin_.seed(seed);
-  }
-
-  /// <P^2>/M of the scatterer of a cell over the window, and the currents through a bond.
-  double temperature(std::size_t cell) const { return scatterer_[cell] / parameters_.observation; }
-  double particle_current(std::size_t bond) const { return particles_[bond] / parameters_.observation; }
-  double energy_current(std::size_t bond) const { return energy_[bond] / parameters_.observation; }
-
   /// Processes all events before `end`. Returns the number of collisions.
   std::uint64_t run(double end) {
     std::uint64_t collisions = 0;
@@ -151,8 +139,6 @@ class OpenHeapSimulator {
     const double sigma = parameters_.sigma, p = event.p;
     event.p = -sigma * p + (1 - sigma) * P_[cell];
     P_[cell] = (1 + sigma) * p + sigma * P_[cell];
-    if (particle_reversed_(coin_)) event.p = -event.p;
-    if (scatterer_reversed_(coin_)) P_[cell] = -P_[cell];
     return true;
   }
 
@@ -171,8 +157,7 @@ class OpenHeapSimulator {
   }
 
   OpenHeapParameters parameters_;
-  std::mt19937_64 generator_, coin_;
-  std::bernoulli_distribution particle_reversed_{0}, scatterer_reversed_{0};
+  std::mt19937_64 generator_;
   std::priority_queue<Event> events_;
   std::vector<double> P_, changed_;
   std::vector<int> occupied_;

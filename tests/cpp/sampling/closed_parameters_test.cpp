@@ -2,14 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "support/refusal.hpp"
-
 namespace closed_parameters_test {
 
 using namespace lorentz;
-using support::refusal;
 
 // Detected mistakes: the scatterers are left out; their mass is left out; a mean is stated although the total
 // momentum is set to zero.
@@ -33,19 +28,6 @@ TEST(ClosedParameters, TimesFollowFromSpeeds) {
   EXPECT_EQ(parameters.hottest(), 16);
   EXPECT_EQ(parameters.longest_clock(), 0x1p31);
   EXPECT_EQ(parameters.thermal_flight(), 1);
-}
-
-// Detected mistake: the product is calculated in 32 bits, where 65536 times 65536 is 0.
-TEST(ClosedParameters, LimitTheNumberOfParticles) {
-  const auto check = [](std::uint32_t cells, std::uint32_t particles_per_cell) {
-    return refusal([&] {
-      validate(ClosedParameters{
-          .ring = {.scattering = {.cells = cells}, .particles_per_cell = particles_per_cell}});
-    });
-  };
-  EXPECT_EQ(check(10'000, 100'000), "");
-  EXPECT_TRUE(check(10'000, 100'001).starts_with("--cells, --particles-per-cell"));
-  EXPECT_NE(check(65'536, 65'536), "");
 }
 
 }  // namespace closed_parameters_test

@@ -76,21 +76,6 @@ TEST(ClosedRun, ObservesAfterTheRelaxationAndConserves) {
   }
 }
 
-// If directions are drawn, energy is conserved and momentum is not.
-TEST(ClosedRun, ReportsThatNoMomentumIsConserved) {
-  const ClosedParameters parameters{.ring = {.scattering = {.cells = 11, .rule = {"random-direction"}}},
-                                    .relaxation_time = 0,
-                                    .observation_time = 1};
-  ClosedRun run(parameters, replica);
-  Counter counter;
-  run.observe(counter);
-  EXPECT_GT(counter.collisions, 100U);
-  EXPECT_LT(finished(run).energy, 1e-12);
-  EXPECT_TRUE(std::isnan(finished(run).momentum));
-  EXPECT_EQ(run.momentum_control(), 0);
-  EXPECT_NE(run.energy_control(), 0);
-}
-
 // Over replicas the controls have the mean 0; their variances are those of the square of a normal number and
 // of a sum of 9 such squares. Detected mistakes: the subtracted mean is that of the particles alone, which is
 // far off for M = 19; the momentum is not squared.
@@ -110,31 +95,6 @@ TEST(ClosedRun, ControlsHaveMeanZero) {
   EXPECT_LT(std::abs(support::z_score(support::sample(momenta), 0)), 4);
   EXPECT_LT(std::abs(support::z_score(support::sample(energies), 0)), 4);
   EXPECT_NEAR(support::sample(momenta).standard_error * std::sqrt(2000), std::sqrt(2), 0.2);
-}
-
-// Detected mistake: the control is -1 if its mean is 0 or unknown.
-TEST(ClosedRun, HasNoControlsWithZeroTotalMomentum) {
-  const ClosedParameters parameters{.zero_total_momentum = true};
-  const ClosedRun run(parameters, replica);
-  EXPECT_EQ(run.momentum_control(), 0);
-  EXPECT_EQ(run.energy_control(), 0);
-}
-
-// Detected mistake: energy drift and momentum drift are exchanged.
-TEST(ConservationErrors, AreMeansOverReplicas) {
-  const ClosedTallies tallies;
-  Records records(tallies.width());
-  for (const double drift : {1., 3.}) {
-    TallySums sums(tallies);
-    sums[tallies.energy_drift] = drift;
-    sums[tallies.momentum_drift] = 10 * drift;
-    records.append(sums.values());
-  }
-  const Study study = closed_study({}, tallies, {}, {}, "energy_drift");
-  const Results results = study.groups.at(0).estimate(records);
-  EXPECT_EQ(results[0].what.name, "energy_drift");
-  EXPECT_EQ(results[0].mean, std::vector{2.});
-  EXPECT_EQ(results[1].mean, std::vector{20.});
 }
 
 }  // namespace closed_run_test

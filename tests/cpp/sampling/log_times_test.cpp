@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "support/refusal.hpp"
-
 namespace log_times_test {
 
 using namespace lorentz;
@@ -29,12 +27,6 @@ TEST(LogTimes, FitBeginsWithAPointOfTheGrid) {
     EXPECT_GE(times[times.size() - 17], parameters.fit_from(last)) << last;
     EXPECT_LT(times[times.size() - 18], parameters.fit_from(last)) << last;
   }
-}
-
-TEST(LogTimes, HoldTheFit) {
-  validate(LogTimeParameters{.decades = 2, .fit_decades = 2});
-  EXPECT_TRUE(support::refused_as("--fit-decades",
-                                  [] { validate(LogTimeParameters{.decades = 2, .fit_decades = 2.01}); }));
 }
 
 }  // namespace log_times_test

@@ -2,12 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "support/refusal.hpp"
-
 namespace open_parameters_test {
 
 using namespace lorentz;
-using support::refused_as;
 
 // Detected mistake: the starts empty and warm are exchanged.
 TEST(OpenParameters, Starts) {
@@ -36,41 +33,6 @@ TEST(OpenParameters, StartsFromEquilibriumWithOneReservoir) {
     parameters.start = "hot";
     EXPECT_NEAR(temperature(parameters), 900, 900 * 4 * error);
   }
-}
-
-StationaryParameters stationary(double relaxation_time, double observation_time) {
-  StationaryParameters parameters;
-  parameters.relaxation_time = relaxation_time;
-  parameters.observation_time = observation_time;
-  return parameters;
-}
-
-// Detected mistake: the observation is counted from 0 instead of the end of the relaxation.
-TEST(OpenParameters, WindowFollowsTheRelaxation) {
-  const Window window = stationary(10, 3).window();
-  EXPECT_EQ(window.begin, 10);
-  EXPECT_EQ(window.end, 13);
-}
-
-// Detected mistakes: every particle is assumed to stay for the whole run; only the hotter reservoir is
-// checked.
-TEST(OpenParameters, LimitTheNumberOfParticles) {
-  // 1e8 particles per unit time stay for a time 50 L/sqrt(T), which is 5.5 on a chain of length 1 and longer
-  // than the run of 100 on one of length 30.
-  OpenParameters parameters{.left = {1e8, 900. / 11}};
-  EXPECT_NO_THROW(validate(parameters, 100, "--times"));
-  parameters.cell_length = 1;
-  EXPECT_TRUE(refused_as("--nu-left, --nu-right", [&] { validate(parameters, 100, "--times"); }));
-}
-
-// Detected mistakes: the colder reservoir is used; the relaxation time is compared in place of the end of the
-// run.
-TEST(OpenParameters, RequireAClockThatResolvesFlightsAndWindow) {
-  OpenParameters parameters{.cell_length = 1, .left = {1, 1}, .right = {1, 100}};
-  EXPECT_NO_THROW(validate(parameters, 1e11, "--times"));
-  EXPECT_TRUE(refused_as("--cell-length, --times", [&] { validate(parameters, 1.1e11, "--times"); }));
-  EXPECT_NO_THROW(validate(stationary(1e5, 1.1e-7)));
-  EXPECT_TRUE(refused_as("--relaxation-time, --observation-time", [] { validate(stationary(1e5, 0.9e-7)); }));
 }
 
 }  // namespace open_parameters_test

@@ -1,9 +1,8 @@
 #include "statistics/control_variates.hpp"
 
-#include <gsl/gsl_multifit.h>
 #include <gtest/gtest.h>
 
-#include <array>
+#include <Eigen/QR>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -28,21 +27,6 @@ Records noisy(std::size_t size, double noise, std::uint64_t seed) {
   return records;
 }
 
-/// Coefficients c that minimise |A c - y|^2 for a row-major A with three columns.
-std::array<double, 3> least_squares(const std::vector<double>& design, const std::vector<double>& y) {
-  std::array<double, 3> c{};
-  std::array<double, 9> covariance{};
-  double squares = 0;
-  const gsl_matrix_const_view a = gsl_matrix_const_view_array(design.data(), y.size(), 3);
-  const gsl_vector_const_view b = gsl_vector_const_view_array(y.data(), y.size());
-  gsl_vector_view solution = gsl_vector_view_array(c.data(), 3);
-  gsl_matrix_view errors = gsl_matrix_view_array(covariance.data(), 3, 3);
-  gsl_multifit_linear_workspace* const workspace = gsl_multifit_linear_alloc(y.size(), 3);
-  gsl_multifit_linear(&a.matrix, &b.vector, &solution.vector, &errors.matrix, &squares, workspace);
-  gsl_multifit_linear_free(workspace);
-  return c;
-}
-
 support::Sample first_column(const Records& records) {
   std::vector<double> values;
   for (std::size_t i = 0; i < records.size(); ++i) values.push_back(records[i][0]);
@@ -53,13 +37,14 @@ TEST(ControlVariates, UseCoefficientsOfTheOtherRecords) {
   const Records records = noisy(12, 1, 1);
   const Records reduced = *regress_out(records, support::on_last(records, 2));
   for (std::size_t left_out = 0; left_out < records.size(); ++left_out) {
-    std::vector<double> design, y;
-    for (std::size_t i = 0; i < records.size(); ++i) {
+    Eigen::Matrix<double, 11, 3> design;
+    Eigen::Vector<double, 11> y;
+    for (std::size_t i = 0, row = 0; i < records.size(); ++i) {
       if (i == left_out) continue;
-      design.insert(design.end(), {1, records[i][1], records[i][2]});
-      y.push_back(records[i][0]);
+      design.row(static_cast<Eigen::Index>(row)) << 1, records[i][1], records[i][2];
+      y[static_cast<Eigen::Index>(row++)] = records[i][0];
     }
-    const std::array<double, 3> fit = least_squares(design, y);
+    const Eigen::Vector3d fit = design.colPivHouseholderQr().solve(y);
     const double expected =
         records[left_out][0] - fit[1] * records[left_out][1] - fit[2] * records[left_out][2];
     EXPECT_NEAR(reduced[left_out][0], expected, 1e-12);

@@ -48,32 +48,18 @@ TEST(Group, JackknifesFormulasOfTheMeanRecord) {
   EXPECT_NEAR(results[1].standard_error[0], std::sqrt(2. / 3 * squares), 1e-14);
 }
 
-// Detected mistakes: an empty bin has the error 0; a number that is 0 has the error NaN.
-TEST(Group, HasNoErrorOfAnEmptyBin) {
+// Detected mistakes: the quantity has another tally's name or values; where all replicas agree, rounding
+// gives an error.
+TEST(Group, HasQuantitiesThatAreTallies) {
   const Tallies tallies;
   Group group;
-  group.quantity("pair", {tallies.place}, "1", "Two", mean_of(tallies.pair));
-  group.quantity("zero", "1", "A number", [=](TallyMeans mean) { return mean[tallies.pair][0]; });
+  group.quantity(tallies, tallies.pair);
   const Results results = group.estimate(records());
+  EXPECT_EQ(results[0].what.name, "pair");
+  EXPECT_EQ(results[0].what.axes[0].name, "place");
   EXPECT_EQ(results[0].mean, (std::vector<double>{0, 3}));
-  EXPECT_TRUE(std::isnan(results[0].standard_error[0]));
+  EXPECT_EQ(results[0].standard_error[0], 0);
   EXPECT_GT(results[0].standard_error[1], 0);
-  EXPECT_EQ(results[1].standard_error, std::vector<double>{0});
-}
-
-// Detected mistake: the formula is chosen anew for every mean of the jackknife.
-TEST(Group, ChoosesAFormulaOncePerEstimate) {
-  const Tallies tallies;
-  int chosen = 0;
-  Group group;
-  group.quantities({{"once", "1", "It"}, {"twice", "1", "Twice"}}, [&](const Records&) {
-    ++chosen;
-    return [=](TallyMeans mean) { return std::vector{mean[tallies.a], 2 * mean[tallies.a]}; };
-  });
-  EXPECT_EQ(group.descriptions().size(), 2U);
-  const Results results = group.estimate(records());
-  EXPECT_EQ(results[1].mean, std::vector{6.});
-  EXPECT_EQ(chosen, 1);
 }
 
 // Detected mistake: the errors of the statistic are replaced by those of a jackknife.

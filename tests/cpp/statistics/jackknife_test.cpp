@@ -1,12 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <random>
 #include <vector>
 
 #include "statistics/group.hpp"
-#include "support/plausible.hpp"
 #include "support/sample.hpp"
 
 namespace jackknife_test {
@@ -74,51 +72,6 @@ TEST(Jackknife, IsExactlyZeroWithoutSpread) {
     EXPECT_EQ(jackknife_of(records, identity).mean, std::vector{value});
     EXPECT_EQ(jackknife_of(records, identity).standard_error, std::vector{0.0});
   }
-}
-
-/// Records (x, y) with means 2 and 3: x = 2 + 0.2 g, y = 3 + 0.6 g + 0.4 h with g, h standard normal. To
-/// leading order the ratio of the means has the variance ((0.6 - 1.5 0.2)^2 + 0.4^2) / 2^2 per replica.
-constexpr int replicas = 200;
-constexpr double true_ratio = 1.5;
-constexpr double true_deviation = 0.25;
-
-Records synthetic_records(std::mt19937_64& generator) {
-  std::normal_distribution<double> normal;
-  Records records(2);
-  for (int i = 0; i < replicas; ++i) {
-    const double g = normal(generator), h = normal(generator);
-    records.append(std::vector{2 + 0.2 * g, 3 + 0.6 * g + 0.4 * h});
-  }
-  return records;
-}
-
-/// Whether the estimates of 400 independent repetitions scatter about the truth according to their errors.
-testing::AssertionResult plausible(const std::function<double(const Records&)>& error) {
-  constexpr int repetitions = 400;
-  std::mt19937_64 generator(2);
-  double chi_squared = 0;
-  for (int i = 0; i < repetitions; ++i) {
-    const Records records = synthetic_records(generator);
-    chi_squared += std::pow((ratio(records.mean())[0] - true_ratio) / error(records), 2);
-  }
-  return support::plausible(chi_squared, repetitions);
-}
-
-double jackknife_error(const Records& records) { return jackknife_of(records, ratio).standard_error[0]; }
-
-// The error from 200 replicas has a relative error of 5 %, which adds 1 % to the expected chi^2, a tenth of
-// its standard deviation. The bias of the ratio, of second order in 0.1/sqrt(200), is negligible.
-// Detected mistakes: the standard deviation of the leave-one-out values without the factor R-1 for their
-// correlation; numerator and denominator are treated as independent.
-TEST(Jackknife, GivesTheErrorOfARatio) {
-  EXPECT_TRUE(plausible(jackknife_error));
-  EXPECT_TRUE(plausible([](const Records&) { return true_deviation / std::sqrt(replicas); }));
-  EXPECT_FALSE(plausible([](const Records& r) { return jackknife_error(r) / std::sqrt(replicas - 1.0); }));
-  EXPECT_FALSE(plausible([](const Records& r) {
-    const Estimate means = jackknife_of(r, identity);
-    return ratio(means.mean)[0] *
-           std::hypot(means.standard_error[0] / means.mean[0], means.standard_error[1] / means.mean[1]);
-  }));
 }
 
 }  // namespace jackknife_test

@@ -83,10 +83,6 @@ TEST(Blocking, SeldomRaisesAFalseAlarm) {
   EXPECT_LT(alarms, 12);
 }
 
-TEST(Blocking, RefusesOddNumbersOfBlocks) {
-  EXPECT_THROW(blocking(process(0, 10, 6, 1, 1)), std::invalid_argument);
-}
-
 TEST(Blocking, OfOneReplicaHasNoErrorForTheWhole) {
   const Blocking result = blocking(process(0, 1, 8, 1, 1));
   EXPECT_TRUE(std::isnan(result.error.back()));
