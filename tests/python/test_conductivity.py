@@ -28,6 +28,7 @@ def test_a_window_that_is_not_stationary_is_reported(program: Program) -> None:
         ({"nu_left": 0, "nu_right": 0}, "--nu-right"),
         ({"temperature_left": 100, "temperature_right": 100}, "--temperature-right"),
         ({"cells": 1}, "--cells"),
+        ({"sigma": 0, "rule": "reversal", "reversal_probability": 0}, "--sigma"),
     ],
 )
 def test_a_conductivity_that_is_not_defined(
@@ -43,3 +44,16 @@ def test_a_conductivity_that_is_not_defined(
         assert np.isnan(result[name].mean)
     assert result.provenance["target_quantity"] == "energy_current"
     assert np.isfinite(result["energy_current"].mean)
+
+
+def test_a_difference_of_temperatures_that_is_noise_gives_no_conductivity(
+    program: Program, tmp_path: Path
+) -> None:
+    """No particle scatters."""
+    options = {"gamma": 1e-20, "cells": 5, "relaxation_time": 5, "observation_time": 20, "replicas": 32}
+    done = program("conductivity", **options, progress="log")
+    assert done.returncode == 0
+    assert "kappa is not defined: T_N - T_1" in done.stderr
+    result = load(tmp_path / "out.h5")
+    assert np.isnan(result["kappa"].mean)
+    assert np.isfinite(result["temperature_last"].mean)

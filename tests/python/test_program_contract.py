@@ -49,23 +49,27 @@ def test_results_have_a_digest(program: Program, tmp_path: Path, name: str) -> N
         assert results_digest(file["results"]) != stored
 
 
-@pytest.mark.parametrize(
-    ("changed", "mean"),
-    [
-        ({"target_error": 0.1, "sigma": -0.999999, "observation_time": 0.1}, 1),  # no particle turns
-        ({"relaxation_time": 0, "observation_time": 1e-12}, np.nan),  # no particle scatters
-    ],
-)
-def test_a_result_without_a_known_error_is_marked(
-    persistence: Program, tmp_path: Path, changed: dict, mean: float
+@pytest.mark.parametrize("targeted", [True, False])
+def test_there_is_no_error_where_no_particle_turns(
+    persistence: Program, tmp_path: Path, targeted: bool
 ) -> None:
-    result = persistence(**changed, progress="log")
-    assert result.returncode == 4
-    assert "not reached" in result.stderr
+    target = {"target_error": 0.1} if targeted else {}
+    result = persistence(**target, sigma=-0.999999, observation_time=0.1, progress="log")
+    assert result.returncode == (4 if targeted else 0)
     stored = load(tmp_path / "out.h5")
-    assert stored.converged == "not reached"
-    assert stored["mu"].mean == pytest.approx(mean, nan_ok=True)
-    assert np.isnan(stored.provenance["achieved_error"])
+    assert stored.converged == ("not reached" if targeted else "no target")
+    assert stored["mu"].mean == 1
+    assert np.isnan([stored["mu"].standard_error, stored.provenance["achieved_error"]]).all()
+
+
+def test_a_quantity_that_is_not_defined_misses_no_target(persistence: Program, tmp_path: Path) -> None:
+    """No particle scatters."""
+    result = persistence(relaxation_time=0, observation_time=1e-12, progress="log")
+    assert result.returncode == 0
+    assert "mu = nan, not defined" in result.stderr
+    stored = load(tmp_path / "out.h5")
+    assert stored.doubts == ["target quantity not defined"]
+    assert np.isnan(stored["mu"].mean)
 
 
 @pytest.mark.parametrize("name", with_option("replicas"))
@@ -81,9 +85,6 @@ def test_progress_lines(persistence: Program) -> None:
     result, warning = persistence(progress="log").stderr.splitlines()
     assert result.startswith("persistence: 4 replicas: mu = ")
     assert "41 %" in warning
-    assert (
-        "\x1b[K" in persistence(progress="bar", observation_time=40_000).stderr
-    )  # erases the line to redraw it
 
 
 @pytest.mark.parametrize("name", described())

@@ -10,7 +10,7 @@ from tests.python.conftest import command_line
 
 
 def test_no_result_is_lost_with_a_reader_of_standard_error(tmp_path: Path) -> None:
-    options = {"output": "out.h5", "progress": "bar", "observation-time": 30_000}
+    options = {"output": "out.h5", "progress": "log", "observation-time": 30_000}
     process = subprocess.Popen(command_line("persistence", options), cwd=tmp_path, stderr=subprocess.PIPE)
     process.stderr.close()
     assert process.wait(timeout=60) == 0

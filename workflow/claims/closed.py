@@ -2,6 +2,7 @@
 
 import math
 import sys
+from dataclasses import replace
 
 import numpy as np
 
@@ -35,9 +36,13 @@ def persistence_in_dense_chain(data: Data) -> list[Number]:
 
 
 def _from_law(results: list[Result]) -> list[Number]:
+    """At sigma = 1 and -1 every particle turns, or none: there is no error."""
     numbers = _named(results, "mu", "μ - arccos(σ)/π")
-    laws = (float(persistence_law(result.parameters["sigma"])) for result in results)
-    return [value.over(1, law) for value, law in zip(numbers, laws, strict=True)]
+    sigmas = [float(result.parameters["sigma"]) for result in results]
+    return [
+        (replace(mu, error=0.0) if abs(sigma) == 1 else mu).over(1, float(persistence_law(sigma)))
+        for mu, sigma in zip(numbers, sigmas, strict=True)
+    ]
 
 
 def persistent(data: Data) -> list[Number]:

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 FORMAT = "lorentz-gas"
 FORMAT_VERSION = 3
 NOT_REACHED = "not reached"
+UNDEFINED = "target quantity not defined"
 NOT_TESTED = "stationarity not tested"
 VALUES = (
     "mean",
@@ -143,13 +144,13 @@ class Result:
 
     @property
     def doubts(self) -> list[str]:
-        """Reasons to doubt the numbers: a missed target error, an early end, a window that is not stationary or was not tested."""
+        """Reasons to doubt the numbers: a missed target error, a target quantity that is NaN, a window that is not stationary or was not tested."""
         reasons = []
+        target = self.quantities.get(self.provenance.get("target_quantity", ""))
         if self.converged == NOT_REACHED:
-            targeted = np.isfinite(self.provenance["target_error"])
-            reasons.append(
-                "target error not reached" if targeted else "stopped early, or target quantity undetermined"
-            )
+            reasons.append("target error not reached")
+        elif target is not None and np.isnan(target.mean).any():
+            reasons.append(UNDEFINED)
         of_a_stationary_state = {"nu-left", "relaxation-time"} <= self.parameters.keys()
         if of_a_stationary_state and np.isnan(self._drift_p_value):
             reasons.append(NOT_TESTED)

@@ -1,7 +1,10 @@
 #include "program/atomic_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <set>
 #include <span>
@@ -37,6 +40,31 @@ TEST(AtomicFile, WritesAndReplaces) {
     EXPECT_EQ(content_of(folder / "file"), content);
     EXPECT_EQ(folder.names(), Names{"file"});
   }
+}
+
+TEST(AtomicFile, WrittenBySeveralProcesses) {
+  const TemporaryFolder folder;
+  std::vector<pid_t> children;
+  for (int i = 0; i < 6; ++i) {
+    children.push_back(::fork());
+    if (children.back() != 0) continue;
+    try {
+      for (int round = 0; round < 20; ++round) {
+        require_writable(folder / "file");
+        write(folder / "file", std::string(100'000, 'x'));
+      }
+    } catch (...) {
+      std::_Exit(1);
+    }
+    std::_Exit(0);
+  }
+  for (const pid_t child : children) {
+    int status = 1;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  EXPECT_EQ(folder.names(), Names{"file"});
+  EXPECT_EQ(content_of(folder / "file"), std::string(100'000, 'x'));
 }
 
 TEST(AtomicFile, IsRefusedWhereItCannotBeRead) {

@@ -1,6 +1,9 @@
 #include "program/hdf5_file.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <limits>
@@ -78,6 +81,17 @@ TEST(Hdf5File, RefusesMissingDatasetsAndOtherFiles) {
   support::write_file(other, "not HDF5");
   EXPECT_NE(support::refusal([&] { Hdf5Reader{other}; }), "");
   EXPECT_NE(support::refusal([&] { Hdf5Reader{folder / "absent.h5"}; }), "");
+}
+
+// The HDF5 library does not open a file that another process has locked.
+TEST(Hdf5File, IsReadWhereItIsLocked) {
+  const TemporaryFolder folder;
+  write_atomically(folder / "a.h5", image());
+  const int file = ::open((folder / "a.h5").c_str(), O_RDONLY);
+  ASSERT_EQ(::flock(file, LOCK_EX), 0);
+  EXPECT_LT(H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), 0);
+  EXPECT_EQ(Hdf5Reader(folder / "a.h5").doubles("/results/profile/mean"), reals);
+  ::close(file);
 }
 
 }  // namespace hdf5_file_test

@@ -71,17 +71,22 @@ Study study_estimating(const std::function<void()>& action) {
 std::string complaints;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): read after the call
 
 /// Runs a program of a study; returns its exit status.
-int run(Arguments arguments, const std::function<Study()>& make) {
+int run_program(Arguments arguments, const std::function<Study()>& make) {
   arguments.insert(arguments.begin(), "example");
   if (std::ranges::find(arguments, "--progress") == arguments.end())
     arguments.insert(arguments.end(), {"--progress", "none"});
   std::vector<char*> pointers;
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   StudyProgram program("example", "An example");
-  testing::internal::CaptureStderr();
   const int status = program.run(static_cast<int>(pointers.size()), pointers.data(), make);
-  complaints = testing::internal::GetCapturedStderr();
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) ::signal(number, SIG_DFL);  // as before
+  return status;
+}
+
+int run(const Arguments& arguments, const std::function<Study()>& make) {
+  testing::internal::CaptureStderr();
+  const int status = run_program(arguments, make);
+  complaints = testing::internal::GetCapturedStderr();
   return status;
 }
 
@@ -332,6 +337,32 @@ TEST_F(StudyTest, OneFailureStopsTheOtherReplicas) {
   };
   EXPECT_EQ(run({"--output", output, "--threads", "2", "--replicas", "2"}, fail_or_go_on), 3);
   expect_complaint("the first");
+}
+
+/// Raises a signal, and then takes long.
+void interrupt(int number) {
+  ::raise(number);
+  std::this_thread::sleep_for(std::chrono::minutes(5));
+}
+
+// The program runs in a separate process, which a signal ends. No replica has a heartbeat: the first three
+// are too short, and the fourth is interrupted during its setup.
+TEST_F(StudyTest, SignalsEndTheRunWithACheckpoint) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
+    const auto killed = [number](const Replica& replica) {
+      if (replica.key.replica == 3) interrupt(number);
+      return measure(replica);
+    };
+    ::signal(SIGHUP, SIG_DFL);  // under nohup these tests would ignore it
+    EXPECT_EXIT(run_program(with(to_output, {"--overwrite"}), [&] { return study_of(killed); }),
+                testing::ExitedWithCode(128 + number), "");
+    EXPECT_EQ(replicas_kept(output), (Indices{0, 1, 2}));
+  }
+  const auto estimating = [] { return study_estimating([] { interrupt(SIGINT); }); };
+  EXPECT_EXIT(run_program(with(to_output, {"--overwrite"}), estimating),
+              testing::ExitedWithCode(128 + SIGINT), "");
+  EXPECT_EQ(replicas_kept(output).size(), 16U);
+  EXPECT_EQ(folder.names(), Names{"a.h5.checkpoint"});
 }
 
 }  // namespace study_test
