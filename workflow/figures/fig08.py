@@ -94,7 +94,7 @@ def fraction(rule_text: str) -> str:
 
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
-    control = table[table.curve == "reversal"].rule.max()
+    control = table[table.curve == "reversal"].rule.min()
     return f"""
         Conductivity κ = −J_U N/(T_N − T_1) of open chains, {parameters(results, "sigma")}, the paper's baths at λ = 1/N, else T_R/T_L =
         {number(table.drive.max())}. (a) κ; grey: the paper's powers. (b) Exponents between neighbouring sizes; lines: linear response. At fixed density (λ
@@ -126,7 +126,7 @@ def draw(results: Sequence[Result]) -> Drawn:
         elif name == "elastic":
             look, label = DRIVEN[curve], rf"$T_R/T_L = {first.drive:g}$, $\lambda = {first.spacing}$"
         else:
-            look, label = next(controls), rf"the same, $\epsilon = {fraction(name)}$"
+            look, label = next(controls), rf"$\lambda = {first.spacing}$, $\epsilon = {fraction(name)}$"
         left.errorbar(part.cells, part.kappa, part.kappa_error, label=label, **look)
         right.errorbar(part.between, part.exponent_to_next, part.exponent_to_next_error, **look)
     color = style.BY_GAMMA["N"][1]
