@@ -40,7 +40,7 @@ def _from_law(results: list[Result]) -> list[Number]:
     numbers = _named(results, "mu", "μ - arccos(σ)/π")
     sigmas = [float(result.parameters["sigma"]) for result in results]
     return [
-        (replace(mu, error=0.0) if abs(sigma) == 1 else mu).over(1, float(persistence_law(sigma)))
+        (replace(mu, error=0.0) if abs(sigma) == 1 else mu).over(1, float(persistence_law(np.asarray(sigma))))
         for mu, sigma in zip(numbers, sigmas, strict=True)
     ]
 
