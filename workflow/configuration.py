@@ -31,11 +31,8 @@ FRACTION = {**SCALE, "exclusiveMaximum": 1, "allowed": "a number greater than 0 
 OF_SERIES: Schema = {
     "program": True,
     "replicated": {"type": "boolean", "allowed": "true or false"},
-    "runs": {
-        "type": "integer",
-        "minimum": 1,
-        "allowed": "a whole number of at least 1",
-    },  # equal ones but for their seeds
+    # Equal runs, which differ by their seeds.
+    "runs": {"type": "integer", "minimum": 1, "allowed": "a whole number of at least 1"},
     "target-scale": SCALE,  # size of a target quantity that can be 0, to which ERROR refers then
 }
 NAME: Schema = {"type": "string", "pattern": "^[A-Za-z0-9_-]+$", "allowed": "letters, digits, _ and -"}
