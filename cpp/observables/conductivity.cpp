@@ -75,29 +75,26 @@ Group::Array current_per_rise(const Records& records, double (*of)(TallyMeans), 
   };
 }
 
-void add_currents_and_temperatures(Group& group, const std::string& suffix, const std::string& remark) {
-  const auto add = [&](const std::string& name, const char* units, const std::string& description,
-                       Tally tally, std::size_t i) {
-    group.quantity(name + suffix, units, description + remark,
-                   [=](TallyMeans mean) { return mean[tally][i]; });
-  };
-  add("energy_current", "energy/time", "J_U, positive to the right", of_window.energy_current, 0);
-  add("particle_current", "1/time", "J_n, positive to the right", of_window.particle_current, 0);
-  add("temperature_first", "temperature", "<P^2>/M of the first scatterer", of_window.temperature, 0);
-  add("temperature_last", "temperature", "<P^2>/M of the last scatterer", of_window.temperature, 1);
-}
-
+/// Currents, temperatures of the end scatterers and conductivities.
 void add_conductivity(Group& group, const OpenChain& chain, const std::string& suffix,
                       const std::string& remark) {
   const bool defined = reason_without_kappa(chain).empty();
-  const auto add = [&](const std::string& name, const std::string& description, auto of, double factor) {
-    group.quantities({{name + suffix, "energy/(time temperature)", description + remark}},
-                     [=](const Records& records) { return current_per_rise(records, of, factor, defined); });
+  const auto element = [&](const std::string& name, const char* units, const std::string& description,
+                           Tally tally, std::size_t i) {
+    group.quantity(name + suffix, units, description + remark,
+                   [=](TallyMeans mean) { return mean[tally][i]; });
   };
-  add_currents_and_temperatures(group, suffix, remark);
-  add("kappa", "-J_U N / (T_N - T_1)", rise, chain.cells);
-  add("kappa_printed", "-J_U / (T_N - T_1), the paper's definition", rise, 1);
-  add("kappa_particle", "-J_U N / difference of <p^2>/m of the arrivals", rise_of_particles, chain.cells);
+  const auto ratio = [&](const std::string& name, const std::string& description, auto to, double factor) {
+    group.quantities({{name + suffix, "energy/(time temperature)", description + remark}},
+                     [=](const Records& records) { return current_per_rise(records, to, factor, defined); });
+  };
+  element("energy_current", "energy/time", "J_U, positive to the right", of_window.energy_current, 0);
+  element("particle_current", "1/time", "J_n, positive to the right", of_window.particle_current, 0);
+  element("temperature_first", "temperature", "<P^2>/M of the first scatterer", of_window.temperature, 0);
+  element("temperature_last", "temperature", "<P^2>/M of the last scatterer", of_window.temperature, 1);
+  ratio("kappa", "-J_U N / (T_N - T_1)", rise, chain.cells);
+  ratio("kappa_printed", "-J_U / (T_N - T_1), the paper's definition", rise, 1);
+  ratio("kappa_particle", "-J_U N / difference of <p^2>/m of the arrivals", rise_of_particles, chain.cells);
 }
 
 /// Correlation coefficient r over replicas of two tallies with the error of normal records, (1 - r^2)/sqrt(R
@@ -166,7 +163,6 @@ Study conductivity(const StationaryParameters& parameters) {
   const Window window = parameters.window();
   Group corrected([](const Records& records) { return reduced(window_means(records)); });
   Group plain([](const Records& records) { return Group::Prepared{window_means(records)}; });
-  Group halves([](const Records& records) { return reduced(half_differences(records)); });
   Group stationary;
   add_conductivity(corrected, chain, "", "");
   corrected.statistics({{"current_correlation", "1", "Correlation coefficient over replicas of J_U and J_n"}},
@@ -175,12 +171,10 @@ Study conductivity(const StationaryParameters& parameters) {
                                                         of_window.particle_current);
                        });
   add_conductivity(plain, chain, "_plain", ", without control variates");
-  add_currents_and_temperatures(halves, "_drift", ", second half of the window minus first");
   add_stationarity(stationary);
   Study study = open_study(
       parameters, window, of_blocks, [=] { return EndsAndOpenings(chain, window); },
-      {corrected, plain, halves, stationary},
-      reason_without_kappa(chain).empty() ? "kappa" : "energy_current");
+      {corrected, plain, stationary}, reason_without_kappa(chain).empty() ? "kappa" : "energy_current");
   study.remarks = [chain](const Results& results) { return remarks(chain, results); };
   return study;
 }

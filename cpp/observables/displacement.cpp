@@ -1,4 +1,4 @@
-/// Displacement of a tagged particle: moments <|x|^q>, q = 1, 2, 4, of the unwrapped displacement x(t) since
+/// Displacement of a tagged particle: moments <x^q>, q = 1, 2, 4, of the unwrapped displacement x(t) since
 /// the end of the relaxation, averaged over all particles, on a logarithmic grid of times.
 ///
 /// The closed chain conserves the total momentum [eq. 4]. The paper's random initial state gives it a value
@@ -38,7 +38,6 @@ struct Parameters : ClosedParameters {
 struct Tallies : ClosedTallies {
   Axis time;
   Tally square = tally("variance", {time}, "length^2", "<x^2>, no mean subtracted");
-  Tally absolute = tally("absolute_moment", {time}, "length", "<|x|>");
   Tally fourth = tally("fourth_moment", {time}, "length^4", "<x^4>");
   Tally centre_square =
       tally("centre_of_mass", {time}, "length^2", "Mean square of the particles' mean displacement");
@@ -58,7 +57,6 @@ void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& ru
     run.observe(particles, time);
     const Displacement mean = particles.displacement(time);
     sums[tallies.square][k] = mean.square;
-    sums[tallies.absolute][k] = mean.absolute;
     sums[tallies.fourth][k] = mean.fourth;
     sums[tallies.centre_square][k] = mean.mean * mean.mean;
     sums[tallies.mean][k] = mean.mean;
@@ -69,10 +67,8 @@ void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& ru
 /// Plain records replace corrected ones if a corrected mean of squares is negative, as may happen with few
 /// replicas of few particles.
 Group::Prepared controlled(const Records& plain, const Tallies& tallies) {
-  const Columns squares =
-      columns_of({tallies.square, tallies.absolute, tallies.fourth, tallies.centre_square});
-  const Columns measured =
-      columns_of({tallies.square, tallies.absolute, tallies.fourth, tallies.centre_square, tallies.mean});
+  const Columns squares = columns_of({tallies.square, tallies.fourth, tallies.centre_square});
+  const Columns measured = columns_of({tallies.square, tallies.fourth, tallies.centre_square, tallies.mean});
   Group::Prepared reduced = reduce_variance(plain, {{measured, columns_of({tallies.momentum_square})}});
   const std::vector<double> means = reduced.records.mean();
   const bool possible = std::ranges::all_of(squares, [&](std::size_t column) { return means[column] >= 0; });
@@ -94,15 +90,12 @@ std::vector<Group> spreading(const Parameters& parameters, const Tallies& tallie
   };
 
   Group group([=](const Records& records) { return controlled(records, tallies); }), plain;
-  for (const Tally each :
-       {tallies.square, tallies.absolute, tallies.fourth, tallies.centre_square, tallies.mean})
+  for (const Tally each : {tallies.square, tallies.fourth, tallies.centre_square, tallies.mean})
     group.quantity(tallies, each);
   group.quantity("local_slope", {middle}, "1", "d ln <x^2> / d ln t",
                  [=](TallyMeans mean) { return local_exponents(times, mean[tallies.square]); });
   group.quantity("alpha", "1", "Slope of ln <x^2> against ln t over the last --fit-decades decades", alpha);
   group.quantity("alpha_relative", "1", "The same without the part of the centre of mass", alpha_relative);
-  group.quantity("alpha_difference", "1", "alpha minus alpha_relative",
-                 [=](TallyMeans mean) { return alpha(mean) - alpha_relative(mean); });
   if (!parameters.drifts())
     group.quantity(
         "logarithmic_power", "1", "b of <x^2> ~ t ln(t/tau)^b over the same times: 0 for t, -1 for t/ln t",

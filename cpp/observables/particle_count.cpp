@@ -120,8 +120,6 @@ Group numbers_and_momenta(const CensusTallies& tallies, const CensusGrid& grid, 
                  "|p| n_t(p), both signs, on logarithmic bins",
                  [=](TallyMeans mean) { return reading(mean).speed_density(); });
   group.quantity(tallies, tallies.number);
-  group.quantity("number_slope", {between}, "1", "d n / d ln t",
-                 [=](TallyMeans mean) { return reading(mean).number_slopes(); });
   group.quantity(
       "log_slope", "1", "Slope of n against ln t from the first of --times on",
       [=](TallyMeans mean) { return reading(mean).late_slope(mean[tallies.number], grid.number_times); });

@@ -92,7 +92,6 @@ std::vector<double> exponents(std::span<const double> counts, std::span<const do
 Group waiting_times(const Parameters& parameters, const Tallies& tallies) {
   const LogGrid bins = parameters.bins();
   const std::vector<double> edges = bins.points();
-  const Axis cut{"cut", "time", "Shortest waiting time of the tail", {edges.begin(), edges.end() - 1}};
   const auto bin_of_cut = [&](double factor) {  // rounding does not move a cut on an edge to the bin below
     return bins.interval(factor * parameters.tail_from * parameters.thermal_flight() * (1 + 1e-9));
   };
@@ -105,8 +104,6 @@ Group waiting_times(const Parameters& parameters, const Tallies& tallies) {
   group.quantity("density", {tallies.tau}, "1/time",
                  "Probability density of the time between two scatterings of a particle",
                  [=](TallyMeans mean) { return density(mean[tallies.count], edges); });
-  group.quantity("exponent_by_cut", {cut}, "1", "Maximum-likelihood exponent of the tail above the cut",
-                 by_cut);
   group.quantity("exponent", "1", "Exponent of the tail above --tail-from thermal flights",
                  [=](TallyMeans mean) { return by_cut(mean)[chosen]; });
   group.quantity("exponent_spread", "1", "Largest difference of exponents for cuts within a factor of three",

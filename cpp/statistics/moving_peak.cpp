@@ -1,11 +1,9 @@
 #include "statistics/moving_peak.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <stdexcept>
 #include <utility>
 
 #include "statistics/fit.hpp"
@@ -28,78 +26,7 @@ Peak peak_in(const std::optional<PeakWindow>& window, const std::vector<double>&
   return window ? fit_peak(profile, *window) : Peak{none, none};
 }
 
-constexpr std::size_t points = 41;               // at which the rescaled profiles are compared
-constexpr double smallest = 0.1, largest = 1.5;  // range of the search for xi
-
-/// y at x by linear interpolation; 0 outside the range of the profile.
-double value_at(const Profile& profile, double x) {
-  const double step = profile.x[1] - profile.x[0];
-  const double place = (x - profile.x.front()) / step;
-  if (place < 0 || place > static_cast<double>(profile.x.size() - 1)) return 0;
-  const auto left = std::min(static_cast<std::size_t>(place), profile.x.size() - 2);
-  const double part = place - static_cast<double>(left);
-  return (1 - part) * profile.y[left] + part * profile.y[left + 1];
-}
-
-/// Variance of the rescaled profiles about their mean, averaged over s, relative to the mean square of that
-/// mean.
-double spread(std::span<const Profile> profiles, double low, double high, double xi) {
-  const double last = profiles.back().time;
-  std::array<double, points> sum{}, squares{};
-  for (const Profile& profile : profiles) {
-    const double stretch = std::pow(profile.time / last, xi);
-    for (std::size_t i = 0; i < points; ++i) {
-      const double s = low + (high - low) * static_cast<double>(i) / (points - 1);
-      const double y = stretch * value_at(profile, s * stretch);
-      sum[i] += y;
-      squares[i] += y * y;
-    }
-  }
-  double differences = 0, size = 0;
-  for (std::size_t i = 0; i < points; ++i) {
-    const double mean = sum[i] / static_cast<double>(profiles.size());
-    differences += squares[i] / static_cast<double>(profiles.size()) - mean * mean;
-    size += mean * mean;
-  }
-  return differences / size;
-}
-
-/// Minimum of a function that is unimodal on [a, b], by golden-section search, to 1e-5.
-template <class Function>
-double bottom(const Function& cost, double a, double b) {
-  const double golden = (std::sqrt(5.0) - 1) / 2;
-  double c = b - golden * (b - a), d = a + golden * (b - a), at_c = cost(c), at_d = cost(d);
-  while (b - a > 1e-5) {
-    if (at_c < at_d) {
-      b = std::exchange(d, c);
-      at_d = at_c;
-      at_c = cost(c = b - golden * (b - a));
-    } else {
-      a = std::exchange(c, d);
-      at_c = at_d;
-      at_d = cost(d = a + golden * (b - a));
-    }
-  }
-  return 0.5 * (a + b);
-}
-
 }  // namespace
-
-double collapse_exponent(std::span<const Profile> profiles, double low, double high) {
-  if (profiles.size() < 2) throw std::invalid_argument("a collapse needs two profiles");
-  // A scan brackets the minimum, because golden-section search needs a unimodal function.
-  constexpr int steps = 28;
-  const auto cost = [&](double xi) { return spread(profiles, low, high, xi); };
-  double best = smallest, least = cost(smallest);
-  for (int i = 1; i <= steps; ++i) {
-    const double xi = smallest + (largest - smallest) * i / steps, here = cost(xi);
-    if (!(here < least)) continue;
-    best = xi;
-    least = here;
-  }
-  const double step = (largest - smallest) / steps;
-  return bottom(cost, best - step, best + step);
-}
 
 PeakWindows peak_windows(const Records& records, Tally profiles, std::size_t times) {
   const auto sides = [&](TallyMeans row) { return folded_profiles(row[profiles], times); };
@@ -158,26 +85,23 @@ std::vector<Description> MovingPeak::descriptions(const Axis& time, const std::s
                    "Last time of an octave, which begins where the one before it ends",
                    {ends.begin() + 1, ends.end()}};
   const Axis from{"from", "time", "First time of the fit", {time.values.begin(), time.values.end() - 1}};
-  return {
-      {"peak_position", "1", "Distance of the moving peak from the centre, in cells", {time}},
-      {"peak", units, "Height of the moving peak, by a fit of exp(cubic) above half of it", {time}},
-      {"peak_raw", units, "Largest value of the folded profile, biased upwards by the noise", {time}},
-      {"peak_speed",
-       "1/time",
-       "Cells per time by which peak_position moves between two times",
-       {middles(time.values)}},
-      {"local_damping_exponent", "1", "Minus the slope of ln peak against ln t over an octave", {until}},
-      {"damping_drift", "1", "Slope of local_damping_exponent against ln t"},
-      {"damping_exponent_from", "1", "Minus the slope of ln peak against ln t from a time on", {from}},
-      {"damping_exponent", "1", "The same over all times that have a peak"},
-      {"peak_collapse", "1", "Exponent xi that makes t^xi times the profile a function of (x - peak)/t^xi"}};
+  return {{"peak_position", "1", "Distance of the moving peak from the centre, in cells", {time}},
+          {"peak", units, "Height of the moving peak, by a fit of exp(cubic) above half of it", {time}},
+          {"peak_raw", units, "Largest value of the folded profile, biased upwards by the noise", {time}},
+          {"peak_speed",
+           "1/time",
+           "Cells per time by which peak_position moves between two times",
+           {middles(time.values)}},
+          {"local_damping_exponent", "1", "Minus the slope of ln peak against ln t over an octave", {until}},
+          {"damping_exponent_from", "1", "Minus the slope of ln peak against ln t from a time on", {from}},
+          {"damping_exponent", "1", "The same over all times that have a peak"}};
 }
 
 std::vector<double> MovingPeak::values() const {
   std::vector<double> all = positions_;
-  const std::vector<double> drift{exponent_drift()}, exponent{exponent_from(0)}, xi{collapse()};
+  const std::vector<double> exponent{exponent_from(0)};
   for (const std::vector<double>& each :
-       {heights_, raw_heights(), speeds(), exponents_by_octave(), drift, exponents_from(), exponent, xi})
+       {heights_, raw_heights(), speeds(), exponents_by_octave(), exponents_from(), exponent})
     all.insert(all.end(), each.begin(), each.end());
   return all;
 }
@@ -238,31 +162,6 @@ std::vector<double> MovingPeak::exponents_by_octave() const {
   for (std::size_t k = 0; k + 1 < ends.size(); ++k)
     values.push_back(-fit_power(times_, heights_, ends[k], ends[k + 1]));
   return values;
-}
-
-double MovingPeak::exponent_drift() const {
-  const std::vector<double> middles = geometric_middles(octaves(times_)), exponents = exponents_by_octave();
-  std::vector<double> times, known;
-  for (std::size_t k = 0; k < exponents.size(); ++k) {
-    if (std::isnan(exponents[k])) continue;
-    times.push_back(middles[k]);
-    known.push_back(exponents[k]);
-  }
-  return known.size() < 2 ? none : fit_logarithm(times, known, times.front(), times.back());
-}
-
-double MovingPeak::collapse() const {
-  std::vector<Profile> moving;
-  double reach = 0;
-  for (std::size_t k = 0; k < times_.size(); ++k) {
-    if (std::isnan(positions_[k])) continue;
-    Profile profile{times_[k], {}, sides_[k]};
-    for (std::size_t d = 0; d < sides_[k].size(); ++d)
-      profile.x.push_back(static_cast<double>(d) - positions_[k]);
-    moving.push_back(std::move(profile));
-    reach = 0.25 * positions_[k];
-  }
-  return moving.size() < 2 ? none : collapse_exponent(moving, -reach, reach);
 }
 
 }  // namespace lorentz

@@ -31,18 +31,6 @@ std::vector<double> speeds(const std::vector<double>& times, const std::vector<d
 /// Geometric middles of neighbouring times, where local exponents belong.
 std::vector<double> geometric_middles(const std::vector<double>& times);
 
-/// A profile y(x) at one time; x equally spaced and ascending.
-struct Profile {
-  double time;
-  std::vector<double> x, y;
-};
-
-/// Exponent xi for which y = t^-xi f(x/t^xi) describes all profiles best [eq. 46, 48]. The profiles rescaled
-/// to the last time, s = x (t_last/t)^xi and Y = y (t/t_last)^xi, have the least variance about their mean,
-/// averaged over s in [low, high] and relative to the mean square of their mean. The search covers 0.1 <= xi
-/// <= 1.5. Throws std::invalid_argument for fewer than two profiles.
-double collapse_exponent(std::span<const Profile> profiles, double low, double high);
-
 /// Moving peak of a mean profile that spreads on a ring. Arrays have one element per time, per pair of
 /// neighbouring times or per octave; NaN without a peak.
 class MovingPeak {
@@ -51,7 +39,7 @@ class MovingPeak {
   MovingPeak(std::span<const double> profiles, std::vector<double> times, const PeakWindows& windows);
 
   /// What is measured of a moving peak: position and height, speed between two times, damping exponents over
-  /// octaves and other ranges of times, and the collapse exponent. `units` are those of the profile.
+  /// octaves and other ranges of times. `units` are those of the profile.
   static std::vector<Description> descriptions(const Axis& time, const std::string& units);
   /// Their values, one after another.
   std::vector<double> values() const;
@@ -68,11 +56,6 @@ class MovingPeak {
   /// Fits over octaves. Between neighbouring times, heights that differ by the bias of the peak's fit, 1.3 %
   /// at the first times, would change the exponent by 0.06; over an octave of four times by less than 0.02.
   std::vector<double> exponents_by_octave() const;
-  double exponent_drift() const;  // slope of these against ln t
-
-  /// Collapse exponent xi of the profiles about their peaks, within a quarter of the last peak position [eq.
-  /// 48].
-  double collapse() const;
 
  private:
   /// Minus the slope of ln height against ln t over the times with a peak, from time number `first` on.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -9,9 +8,9 @@
 
 namespace lorentz {
 
-/// Means over particles of powers of the displacement x: x^2, |x|, x^4, x.
+/// Means over particles of powers of the displacement x: x^2, x^4, x.
 struct Displacement {
-  double square = 0, absolute = 0, fourth = 0, mean = 0;
+  double square = 0, fourth = 0, mean = 0;
 };
 
 /// Observer that follows the displacement of every particle of a closed run, unwrapped from the ring, from
@@ -33,13 +32,11 @@ class TaggedParticles {
     for (std::size_t i = 0; i < start_.size(); ++i) {
       const double x = static_cast<double>(cells_[i]) * cell_length_ + now[i] - start_[i];
       sums.square += x * x;
-      sums.absolute += std::abs(x);
       sums.fourth += x * x * x * x;
       sums.mean += x;
     }
     const auto particles = static_cast<double>(start_.size());
-    return {sums.square / particles, sums.absolute / particles, sums.fourth / particles,
-            sums.mean / particles};
+    return {sums.square / particles, sums.fourth / particles, sums.mean / particles};
   }
 
  private:

@@ -4,12 +4,8 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 #include <span>
 #include <vector>
-
-#include "numerics/random.hpp"
-#include "support/sample.hpp"
 
 namespace moving_peak_test {
 
@@ -66,7 +62,6 @@ TEST(MovingPeak, FollowsGaussianPeaks) {
   EXPECT_NEAR(peak.exponent(), 1, 1e-3);
   ASSERT_EQ(peak.exponents_from().size(), 2U);
   EXPECT_NEAR(peak.exponents_from()[1], 1, 1e-3);
-  EXPECT_NEAR(peak.collapse(), 1, 0.02);  // the width grows as t, the height falls as 1/t
 }
 
 // The ends of the octaves are calculated by hand. Detected mistakes: octaves end at neighbouring times; an
@@ -83,10 +78,9 @@ TEST(Octaves, DivideTheTimesEvenly) {
   EXPECT_EQ(octaves({1}), (Times{1}));
 }
 
-// Heights of 8, 4 and 1 at the times 1, 2 and 4 give the exponents 1 and 2, which drift by 1/ln 2. Detected
-// mistakes: the sign is that of d ln peak; the drift is a difference of exponents instead of a slope; one
-// exponent is fitted to all times.
-TEST(MovingPeak, ExponentsOfOctavesAndTheirDrift) {
+// Heights of 8, 4 and 1 at the times 1, 2 and 4 give the exponents 1 and 2. Detected mistakes: the sign is
+// that of d ln peak; one exponent is fitted to all times.
+TEST(MovingPeak, ExponentsOfOctaves) {
   std::vector<double> mean = profiles();
   for (double& value : std::span(mean).last(cells)) value /= 2;
   const MovingPeak peak = peak_of(mean, windows_of(records_of({mean, mean})));
@@ -94,7 +88,6 @@ TEST(MovingPeak, ExponentsOfOctavesAndTheirDrift) {
   ASSERT_EQ(exponents.size(), 2U);
   EXPECT_NEAR(exponents[0], 1, 1e-3);
   EXPECT_NEAR(exponents[1], 2, 1e-3);
-  EXPECT_NEAR(peak.exponent_drift(), 1 / std::numbers::ln2, 3e-3);
 }
 
 // Detected mistakes: the even part is returned; the right side is subtracted from the left one; the energy of
@@ -127,7 +120,6 @@ TEST(MovingPeak, IsNaNBeforeThePeakHasLeftTheCentre) {
   EXPECT_TRUE(std::isnan(peak.exponents_from()[0]));
   EXPECT_TRUE(std::isnan(peak.exponents_by_octave()[0]));
   EXPECT_NEAR(peak.exponents_by_octave()[1], 1, 1e-3);
-  EXPECT_TRUE(std::isnan(peak.exponent_drift()));  // one octave has no drift
   EXPECT_NEAR(peak.speeds()[1], 5, 1e-3);
   EXPECT_NEAR(peak.exponent(), 1, 1e-3);
 }
@@ -142,36 +134,6 @@ TEST(PeakWindows, HaveAPeakInEveryLeaveOneOutMean) {
   for (const auto& window : windows) EXPECT_FALSE(window);
   for (const auto& window : windows_of(records_of({profiles(1), profiles(3)}))) EXPECT_TRUE(window);
   for (const auto& window : windows_of(records_of({profiles()}))) EXPECT_TRUE(window);
-}
-
-/// Profiles y = t^-xi f(x/t^xi) of an asymmetric function f, with Gaussian noise.
-std::vector<Profile> scaling_profiles(double xi, double noise, std::uint64_t seed) {
-  RandomStream random({seed, 0}, Purpose::initial_position, 0);
-  std::vector<Profile> profiles;
-  for (const double time : {1.0, 2.0, 4.0, 8.0}) {
-    Profile profile{time, {}, {}};
-    for (int cell = -60; cell <= 60; ++cell) {
-      const double s = cell / std::pow(time, xi) / 6;
-      profile.x.push_back(cell);
-      profile.y.push_back(std::exp(-s * s + 0.3 * s) / std::pow(time, xi) + noise * random.gaussian());
-    }
-    profiles.push_back(profile);
-  }
-  return profiles;
-}
-
-TEST(CollapseExponent, IsThatOfScalingProfiles) {
-  for (const double xi : {0.5, 0.6, 2.0 / 3, 1.0})
-    EXPECT_NEAR(collapse_exponent(scaling_profiles(xi, 0, 1), -15, 15), xi, 0.01);
-}
-
-TEST(CollapseExponent, IsUnbiasedUnderNoise) {
-  std::vector<double> found;
-  for (std::uint64_t seed = 0; seed < 100; ++seed)
-    found.push_back(collapse_exponent(scaling_profiles(0.6, 0.01, seed), -15, 15));
-  const double exact = collapse_exponent(scaling_profiles(0.6, 0, 1), -15, 15);
-  EXPECT_LT(std::abs(support::z_score(support::sample(found), exact)), 4);
-  EXPECT_GT(std::abs(support::z_score(support::sample(found), exact + 0.01)), 4);
 }
 
 }  // namespace moving_peak_test
