@@ -16,7 +16,7 @@ from workflow.lib.load import (
     FormatError,
     Quantity,
     load,
-    load_statements,
+    load_provenance,
     results_digest,
 )
 
@@ -140,7 +140,7 @@ def attribute(name: str, value: object) -> Callable[[Path], object]:
 )
 def test_what_is_no_result(path: Path, change: Callable[[Path], object], words: str) -> None:
     change(path)
-    for read in (load, load_statements):
+    for read in (load, load_provenance):
         with pytest.raises(FormatError) as error:
             read(path)
         assert str(error.value).startswith(f"{path}{words}")

@@ -160,7 +160,7 @@ def test_the_program_ends_with_the_session(folder: Path) -> None:
 
 
 def test_an_interrupted_call_is_continued(folder: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    options = {"cells": 4, "relaxation_time": 1, "observation_time": 200, "replicas": 4000, "threads": 1}
+    options = {"cells": 4, "relaxation_time": 1, "observation_time": 200, "replicas": 1000, "threads": 1}
     former = signal.signal(
         signal.SIGINT, signal.default_int_handler
     )  # the workers of pytest ignore this signal

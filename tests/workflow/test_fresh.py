@@ -157,7 +157,9 @@ def test_two_commands_exclude_each_other_and_a_stopped_one_resumes(
     project: Project, number: signal.Signals
 ) -> None:
     folder = project.folder / "data/smoke/mu"
-    long = ("--config", "quality=smoke_replicas=300000", "panel=mu", "--", "panel")
+    planned = (project.folder / PAPER).read_text()
+    text(PAPER, "time: 5}\n    series:\n      all", "time: 20000}\n    series:\n      all")(project)
+    long = ("--config", "quality=smoke_replicas=1000", "panel=mu", "--", "panel")
     with (project.folder / "log.txt").open("w") as file:
         running = subprocess.Popen(
             [".venv/bin/snakemake", *long],
@@ -167,6 +169,7 @@ def test_two_commands_exclude_each_other_and_a_stopped_one_resumes(
             start_new_session=True,
         )
     until(lambda: len([*folder.glob("*.log")]) > 2 or running.poll() is not None)
+    (project.folder / PAPER).write_text(planned)
     if number == signal.SIGTERM:
         assert "Another command is making products" in project.entry("figures", status=1)
         assert "Another command is making products" in project.snakemake("figures", status=1)
@@ -180,4 +183,4 @@ def test_two_commands_exclude_each_other_and_a_stopped_one_resumes(
         project.entry("figures")  # the lock has ended with its process
     else:
         until(lambda: [*folder.glob("*.checkpoint")])
-        assert (project.folder / "figures/smoke_replicas=300000").is_dir()  # a plan from its start
+        assert (project.folder / "figures/smoke_replicas=1000").is_dir()  # a plan from its start

@@ -172,32 +172,22 @@ class Result:
 def load(path: Path | str) -> Result:
     """Reads a result file. Raises FormatError, also if its values were edited or its name is that of another result, and OSError if the
     file is unreadable."""
-    with _opened(path) as (file, provenance):
-        own = result_identity(*(provenance[name] for name in ("program", "words", "source_hash")))
-        if (named_identity(path) or own) != own:
-            raise FormatError(
-                "its content is that of another result: of other options or sources, copied or exchanged"
-            )
-        if provenance["results_digest"] != results_digest(file["results"]):
-            raise FormatError(
-                "edited or damaged: its values differ from those written; remove it and make it again"
-            )
+    with _verified(path) as (file, provenance):
         quantities = {name: _quantity(group) for name, group in file["results"].items()}
         return Result(Path(path), _attributes(file["parameters"]), provenance, quantities)
 
 
-def load_statements(path: Path | str) -> tuple[dict[str, Any], dict[str, Any], bool]:
-    """Provenance and parameters of a result file, and whether its values are unmodified. Raises FormatError, OSError."""
-    with _opened(path) as (file, provenance):
-        whole = provenance["results_digest"] == results_digest(file["results"])
-        return provenance, _attributes(file["parameters"]), whole
+def load_provenance(path: Path | str) -> dict[str, Any]:
+    """The provenance of a result file, which is checked as by load()."""
+    with _verified(path) as (_, provenance):
+        return provenance
 
 
 def results_digest(results: h5py.Group) -> str:
     """CRC-32 of path and little-endian values of all datasets below a group, in the order of the paths."""
     datasets: dict[str, h5py.Dataset] = {}
     digest = 0
-    results.visititems(lambda _, node: datasets.update({node.name: node}))
+    results.visititems(lambda name, node: datasets.update({f"{results.name}/{name}": node}))
     for name, dataset in sorted(datasets.items()):
         if isinstance(dataset, h5py.Dataset):
             values = np.asarray(dataset[()], dtype=dataset.dtype.newbyteorder("<"))
@@ -206,8 +196,9 @@ def results_digest(results: h5py.Group) -> str:
 
 
 @contextmanager
-def _opened(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
-    """Opens a result file, without a lock, as results are written under another name and renamed."""
+def _verified(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
+    """Opens a result file whose name is that of its content and whose values are those written. It is not locked, because results are
+    written under another name and renamed."""
     try:
         with h5py.File(path, locking=False) as file:
             provenance = _attributes(file["provenance"]) if "provenance" in file else {}
@@ -216,6 +207,15 @@ def _opened(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
             if (version := provenance.get("format_version")) != FORMAT_VERSION:
                 raise FormatError(
                     f"format version {version}, not {FORMAT_VERSION}; remake it with make figures"
+                )
+            own = result_identity(*(provenance[name] for name in ("program", "words", "source_hash")))
+            if (named_identity(path) or own) != own:
+                raise FormatError(
+                    "its content is that of another result: of other options or sources, copied or exchanged"
+                )
+            if provenance["results_digest"] != results_digest(file["results"]):
+                raise FormatError(
+                    "edited or damaged: its values differ from those written; remove it and make it again"
                 )
             yield file, provenance
     except FileNotFoundError as error:

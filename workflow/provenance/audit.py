@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 from workflow.files import in_one_line
 from workflow.identity import DIGITS, drawing_sources, named_identity, sha256, source_hash, stated
-from workflow.lib.load import FormatError, load
+from workflow.lib.load import FormatError, load_provenance
 from workflow.lib.save import renderer
 from workflow.plan import Panel, Quality, Run, data_of, drawing_command, runs_of, stem_of
 from workflow.publish import SHOWN, copies, read_record
@@ -42,7 +42,7 @@ def options_of(words: str) -> list[str]:
 def fault_of_result(path: str, run: Run) -> Fault | None:
     """Fault of the result of a run. path: the planned one."""
     try:
-        load(path)
+        load_provenance(path)
     except OSError as error:
         return Fault("not checked", path, in_one_line(error))
     except FormatError as error:
@@ -59,7 +59,7 @@ def fault_of_result(path: str, run: Run) -> Fault | None:
 def changes(run: Run, sibling: Path) -> list[str]:
     """Options and sources of a run that differ from those of a former result."""
     try:
-        former = load(sibling).provenance
+        former = load_provenance(sibling)
     except (FormatError, OSError) as error:
         return [str(error)]
     was, now = options_of(former["words"]), options_of(run.words)

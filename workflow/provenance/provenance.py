@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from workflow.identity import content_hash, result_identity, sha256, stated
-from workflow.lib.load import FormatError, load
+from workflow.lib.load import FormatError, load_provenance
 from workflow.plan import QUALITIES, Quality, plans_of, runs_of
 from workflow.provenance.audit import options_of
 from workflow.publish import STORE, read_record
@@ -26,7 +26,7 @@ def print_results(paths: Iterable[str]) -> None:
     words = {}
     for path in paths:
         try:
-            origin = load(path).provenance
+            origin = load_provenance(path)
             words[path] = [origin["program"], *options_of(origin["words"])]
         except (FormatError, OSError) as error:
             print(error)
@@ -41,7 +41,7 @@ def print_details(details: dict[str, Any]) -> None:
 
 
 def explain_result(path: Path, full: bool) -> int:
-    origin = load(path).provenance
+    origin = load_provenance(path)
     program, words = origin["program"], origin["words"]
     for quality, plan in (named for base in QUALITIES for named in plans_of(base).items()):
         for planned, run in runs_of(plan, plan, quality).items():
