@@ -26,7 +26,7 @@ class EventQueue {
 
   /// Takes out the first flight that arrives before `until`; false if there is none. `until` must not
   /// decrease from call to call.
-  bool take_before(double until, Flight& flight) {
+  [[gnu::always_inline]] bool take_before(double until, Flight& flight) {
     while (word_bits_ == 0) {
       if (word_ + 1 < occupied_.size())
         word_bits_ = std::exchange(occupied_[++word_], 0);

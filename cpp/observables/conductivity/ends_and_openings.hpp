@@ -52,7 +52,7 @@ class EndsAndOpenings {
         blocks_(window.begin, window.end, block_count),
         ends_{EndCell(0, chain, blocks_), EndCell(chain.cells - 1, chain, blocks_)} {}
 
-  void on_collision(const Collision& collision) {
+  [[gnu::always_inline]] void on_collision(const Collision& collision) {
     for (EndCell& end : ends_)
       if (collision.scatterer == end.scatterer) end.advance(collision.scatterer_before, collision.time);
   }
