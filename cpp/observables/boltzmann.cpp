@@ -13,13 +13,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "boltzmann/fields.hpp"
 #include "boltzmann/moments.hpp"
 #include "boltzmann/refinement.hpp"
-#include "observables/boltzmann/kinetic_parameters.hpp"
+#include "model/reservoir.hpp"
 #include "program/program.hpp"
+#include "sampling/chain_parameters.hpp"
+#include "sampling/momentum_bins.hpp"
 
 namespace {
 
@@ -27,13 +33,97 @@ using namespace lorentz;
 using Eigen::Index;
 using Eigen::VectorXd;
 
+/// Defaults: figure 3 of the paper.
+struct Parameters {
+  double sigma = 0.5;
+  std::optional<double> gamma = 1;       // none: N, one scattering at each of the cells
+  std::optional<std::uint32_t> cells{};  // none: continuum
+  RuleParameters rule{};
+  Reservoir left = default_left, right = default_right;
+  std::vector<double> positions{0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1};
+  MomentumBinParameters bins;
+  double target_error = 1e-10;
+  std::uint32_t coarsening = 0;
+
+  KineticProblem problem() const;
+  FieldGrid grid() const;  // of the output: --positions, or the bonds and scatterers of a chain
+};
+
+KineticProblem Parameters::problem() const {
+  KineticProblem problem;
+  problem.sigma = sigma;
+  problem.gamma = gamma.value_or(cells.value_or(0));
+  problem.left = left;
+  problem.right = right;
+  problem.cells = static_cast<int>(cells.value_or(0));
+  return problem;
+}
+
+FieldGrid Parameters::grid() const {
+  const Bins p = bins.bins();
+  const std::vector<double> middles = p.middles();
+  const auto half = static_cast<Index>(p.count() / 2);
+  FieldGrid grid{.crossings = VectorXd::Map(positions.data(), static_cast<Index>(positions.size())),
+                 .scatterers = {},
+                 .edges = VectorXd::LinSpaced(half + 1, 0, p.edge(p.count())),
+                 .middles = VectorXd::Map(middles.data() + half, half),
+                 .bin_width = p.width(),
+                 .root_mass = std::sqrt((1 + sigma) / (1 - sigma))};
+  grid.scatterers = grid.crossings;
+  if (cells) {
+    const Index sites = *cells;
+    grid.crossings = VectorXd::LinSpaced(sites + 1, 0, 1);
+    grid.scatterers = 0.5 * (grid.crossings.head(sites) + grid.crossings.tail(sites));
+  }
+  return grid;
+}
+
+void declare(Options& options, Parameters& parameters) {
+  options.real("--sigma", parameters.sigma, {-0.99, 0.99}, "1", "Mass ratio (M-m)/(M+m)");
+  options.real_or_word("--gamma", parameters.gamma, {0, 1000}, "N", "1",
+                       "Mean number of scatterings on the way through; N: one at each of --cells");
+  options.integer_or_word("--cells", parameters.cells, {1, 300}, "continuum",
+                          "Number of scatterers of a mean-field chain");
+  declare(options, parameters.rule);
+  declare(options, parameters.left, parameters.right);
+  options.ascending_list("--positions", parameters.positions, {0, 1}, "1",
+                         "Positions of the continuum's output, over the length of the chain");
+  declare(options, parameters.bins);
+  options.real("--target-error", parameters.target_error, non_negative, "1",
+               "Relative error of the currents at which the resolution suffices");
+  options.integer("--coarsening", parameters.coarsening, {0, 4},
+                  "Levels below the usual one at which the refinement begins");
+}
+
+/// Throws UsageError if options that are valid one by one exclude each other.
+void validate(const Parameters& parameters, bool positions_given) {
+  validate(parameters.bins);
+  validate(parameters.rule);
+  if (!parameters.rule.properties().kinetic_equation)
+    throw UsageError(fmt::format(
+        "--rule {}: its kinetic equation is not solved here. Choose --rule {}, or simulate the chain.",
+        parameters.rule.name, Elastic::properties.name));
+  if (!parameters.cells && !parameters.gamma)
+    throw UsageError(
+        "--gamma N is given without --cells: the continuum has no number of cells. Give --cells, or gamma as "
+        "a number.");
+  if (parameters.cells) require_probability(parameters.gamma, *parameters.cells);
+  if (parameters.cells && positions_given)
+    throw UsageError(
+        "--positions and --cells are both given: the positions of a chain are its bonds. Leave out one of "
+        "the two.");
+  if (parameters.left.rate + parameters.right.rate == 0)
+    throw UsageError(
+        "--nu-left and --nu-right are both 0: there are no particles. Choose one greater than 0.");
+}
+
 /// Quantity with its formula.
 struct Definition {
   Description what;
   std::function<std::vector<double>(const KineticFields&)> formula;
 };
 
-std::vector<Definition> definitions(const KineticParameters& parameters) {
+std::vector<Definition> definitions(const Parameters& parameters) {
   const FieldGrid grid = parameters.grid();
   const auto values = [](const VectorXd& x) { return std::vector<double>(x.begin(), x.end()); };
   const Axis x{"x", "1", "Position over the length of the chain; bonds of a chain of cells",
@@ -78,7 +168,7 @@ std::vector<Definition> definitions(const KineticParameters& parameters) {
 
 const Description momentum_points{"momentum_points", "1", "Points in momentum, both halves together"};
 
-std::vector<Description> descriptions(const KineticParameters& parameters) {
+std::vector<Description> descriptions(const Parameters& parameters) {
   std::vector<Description> result;
   for (const Definition& definition : definitions(parameters)) result.push_back(definition.what);
   result.push_back(momentum_points);
@@ -105,7 +195,7 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
   return largest;
 }
 
-Results results(const KineticParameters& parameters, const RefinedSolution& solution) {
+Results results(const Parameters& parameters, const RefinedSolution& solution) {
   constexpr double rounding = 5e-14;  // relative to the rounding scale
   const KineticProblem problem = parameters.problem();
   const FieldGrid grid = parameters.grid();
@@ -126,7 +216,7 @@ Results results(const KineticParameters& parameters, const RefinedSolution& solu
   return results;
 }
 
-Outcome solve(const KineticParameters& parameters, Progress& progress) try {
+Outcome solve(const Parameters& parameters, Progress& progress) try {
   const double target = parameters.target_error;
   const RefinedSolution solution =
       refine(parameters.problem(), target, static_cast<int>(parameters.coarsening));
@@ -149,7 +239,7 @@ Outcome solve(const KineticParameters& parameters, Progress& progress) try {
 
 int main(int argc, char** argv) {
   Program program("boltzmann", "Kinetic equation of the open chain, solved to a given accuracy");
-  KineticParameters parameters;
+  Parameters parameters;
   declare(program.options(), parameters);
   const auto quantities = [&] {
     validate(parameters, program.options().given("--positions"));

@@ -23,7 +23,6 @@
 #include "observables/conductivity/blocking.hpp"
 #include "observables/conductivity/ends_and_openings.hpp"
 #include "observables/conductivity/hotelling.hpp"
-#include "observables/conductivity/window_means.hpp"
 #include "sampling/open_run.hpp"
 #include "statistics/control_variates.hpp"
 
@@ -33,6 +32,34 @@ using namespace lorentz;
 
 const BlockTallies of_blocks, of_window(1);
 constexpr double level = 0.01;  // of the test of stationarity
+
+/// The tallies by blocks as tallies with one block: means over the window or, for the test of stationarity,
+/// over its second half minus those over the first [eq. 51]. Arrivals are those of the whole window.
+Records joined(const Records& records, bool difference) {
+  Records result(of_window.width());
+  for (std::size_t replica = 0; replica < records.size(); ++replica) {
+    const TallyMeans row = records[replica];
+    TallySums window(of_window);
+    const auto join = [&](Tally from, Tally to, double scale) {
+      for (std::size_t i = 0; i < to.size; ++i) {
+        double sum = 0;
+        for (std::size_t block = 0; block < block_count; ++block)
+          sum += (difference && block < block_count / 2 ? -1 : 1) * row[from.row(block)][i];
+        window[to][i] = scale * sum;
+      }
+    };
+    const double per_block = (difference ? 2. : 1.) / block_count;
+    join(of_blocks.energy_current, of_window.energy_current, per_block);
+    join(of_blocks.particle_current, of_window.particle_current, per_block);
+    join(of_blocks.temperature, of_window.temperature, per_block);
+    join(of_blocks.injection, of_window.injection, 1);
+    join(of_blocks.scattering, of_window.scattering, 1);
+    window.set(of_window.arriving_energy, row[of_blocks.arriving_energy]);
+    window.set(of_window.arrivals, row[of_blocks.arrivals]);
+    result.append(window.values());
+  }
+  return result;
+}
 
 Group::Prepared reduced(const Records& records) {
   return reduce_variance(records, {{of_window.measured(), of_window.controls()}});
@@ -117,7 +144,7 @@ void add_stationarity(Group& group) {
       {"stationary", "1", "1: drift_p_value above 0.01, and blocking has converged"}};
   group.statistics(descriptions, [](const Records& records) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    const Group::Prepared differences = reduced(half_differences(records));
+    const Group::Prepared differences = reduced(joined(records, true));
     const double p_value = zero_mean_p_value(differences.records, of_window.currents_and_temperatures(),
                                              *differences.control_variates ? of_window.controls().size() : 0);
     Records currents(block_count);
@@ -161,8 +188,8 @@ Study conductivity(const StationaryParameters& parameters) {
   validate(parameters);
   const OpenChain chain = parameters.chain();
   const Window window = parameters.window();
-  Group corrected([](const Records& records) { return reduced(window_means(records)); });
-  Group plain([](const Records& records) { return Group::Prepared{window_means(records)}; });
+  Group corrected([](const Records& records) { return reduced(joined(records, false)); });
+  Group plain([](const Records& records) { return Group::Prepared{joined(records, false)}; });
   Group stationary;
   add_conductivity(corrected, chain, "", "");
   corrected.statistics({{"current_correlation", "1", "Correlation coefficient over replicas of J_U and J_n"}},

@@ -17,7 +17,6 @@
 #include <cmath>
 #include <functional>
 
-#include "observables/displacement/tagged_particles.hpp"
 #include "sampling/closed_run.hpp"
 #include "sampling/log_times.hpp"
 #include "statistics/control_variates.hpp"
@@ -47,6 +46,44 @@ struct Tallies : ClosedTallies {
 
   explicit Tallies(const std::vector<double>& times)
       : time{"time", "time", "Time since the end of the relaxation", times} {}
+};
+
+/// Means over particles of powers of the displacement x: x^2, x^4, x.
+struct Displacement {
+  double square = 0, fourth = 0, mean = 0;
+};
+
+/// Observer that follows the displacement of every particle of a closed run, unwrapped from the ring, from
+/// the time `since` on.
+class TaggedParticles {
+ public:
+  TaggedParticles(const ClosedRun& run, double since, double cell_length)
+      : run_(run),
+        cell_length_(cell_length),
+        start_(run.chain().positions_from_targets(run.clock(since))),
+        cells_(start_.size(), 0) {}
+
+  void on_flight(const Departure& departure) { cells_[departure.particle] += departure.cells; }
+
+  /// Moments of the displacement at `time`, to which the run has advanced.
+  Displacement displacement(double time) const {
+    const std::vector<double> now = run_.chain().positions_from_targets(run_.clock(time));
+    Displacement sums;
+    for (std::size_t i = 0; i < start_.size(); ++i) {
+      const double x = static_cast<double>(cells_[i]) * cell_length_ + now[i] - start_[i];
+      sums.square += x * x;
+      sums.fourth += x * x * x * x;
+      sums.mean += x;
+    }
+    const auto particles = static_cast<double>(start_.size());
+    return {sums.square / particles, sums.fourth / particles, sums.mean / particles};
+  }
+
+ private:
+  const ClosedRun& run_;
+  double cell_length_;
+  std::vector<double> start_;        // positions relative to the target
+  std::vector<std::int64_t> cells_;  // cells by which the target has moved since then
 };
 
 void observe(const Parameters& parameters, const Tallies& tallies, ClosedRun& run, TallySums& sums) {

@@ -23,7 +23,6 @@
 #include "sampling/closed_run.hpp"
 #include "sampling/equilibrium_parameters.hpp"
 #include "statistics/fit.hpp"
-#include "statistics/moving_peak.hpp"
 
 namespace {
 
@@ -106,7 +105,9 @@ struct Growth {
 
 std::vector<Group> variances(const Parameters& parameters, const Tallies& tallies) {
   const std::vector<double> times = tallies.time.values;
-  const Axis middle{"middle", "time", "Geometric middle of two neighbouring times", geometric_middles(times)};
+  Axis middle{"middle", "time", "Geometric middle of two neighbouring times", {}};
+  for (std::size_t k = 0; k + 1 < times.size(); ++k)
+    middle.values.push_back(std::sqrt(times[k]) * std::sqrt(times[k + 1]));
   const double T = parameters.temperature, length = parameters.ring.cell_length;
   const auto fitted = [=, from = parameters.fit_from * (1 - 1e-9)](TallyMeans mean) {
     const double unit = std::sqrt(T) / length;  // of the times

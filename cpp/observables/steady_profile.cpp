@@ -93,8 +93,6 @@ Group profiles(const CellTallies& tallies, double bin_width) {
                  of([](const Profile& profile) { return profile.particle_current(); }));
   group.quantity("energy_current", bond, "energy/time", "J_U, positive to the right",
                  of([](const Profile& profile) { return profile.energy_current(); }));
-  group.quantity("particle_current_mean", "1/time", "Mean of J_n over the bonds",
-                 of([](const Profile& profile) { return average(profile.particle_current()); }));
   group.quantity("energy_current_mean", "energy/time", "Mean of J_U over the bonds",
                  of([](const Profile& profile) { return average(profile.energy_current()); }));
   group.quantity("particle_current_deviation", bond, "1/time", "J_n minus its mean over the bonds",

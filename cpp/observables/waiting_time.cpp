@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "observables/waiting_time/log_sum.hpp"
 #include "sampling/closed_run.hpp"
 #include "statistics/log_grid.hpp"
 
@@ -35,6 +34,26 @@ struct Tallies : ClosedTallies {
   Tally log_sum = tally("log_sum", {tau}, "1", "Sum of ln tau in a bin");
 
   explicit Tallies(const LogGrid& bins) : tau{"tau", "time", "Geometric middle of the bin", bins.middles()} {}
+};
+
+/// Sum of the logarithms of positive numbers, computed from products, so that few logarithms are evaluated.
+class LogSum {
+ public:
+  void add(double number) {
+    const double product = product_ * number;
+    if (product > 0x1p-1000 && product < 0x1p1000) [[likely]] {
+      product_ = product;
+    } else {
+      sum_ += std::log(product_) + std::log(number);
+      product_ = 1;
+    }
+  }
+
+  double sum() const { return sum_ + std::log(product_); }
+
+ private:
+  double product_ = 1;
+  double sum_ = 0;  // of the numbers that are not in the product
 };
 
 class WaitingTimes {

@@ -1,14 +1,12 @@
 #include "program/atomic_file.hpp"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 #include <random>
 #include <system_error>
 #include <vector>
@@ -58,18 +56,6 @@ void write_atomically(const std::string& path, std::span<const std::byte> conten
 void require_writable(const std::string& path) {
   constexpr std::size_t usual_size = 1 << 18;  // bytes
   fs::remove(write_beside(path, std::vector<std::byte>(usual_size)));
-}
-
-std::vector<std::byte> read_whole(const std::string& path) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
-  struct stat status{};
-  if (file && ::fstat(::fileno(file.get()), &status) == 0) {
-    std::vector<std::byte> content(static_cast<std::size_t>(status.st_size));
-    if (std::fread(content.data(), 1, content.size(), file.get()) == content.size()) return content;
-  }
-  throw UsageError(fmt::format(
-      "'{}' cannot be read: {}. Its content may be intact: make it readable, or name another file.", path,
-      std::strerror(errno)));
 }
 
 }  // namespace lorentz

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace lorentz {
 
@@ -15,9 +14,5 @@ void write_atomically(const std::string& path, std::span<const std::byte> conten
 /// Throws UsageError if write_atomically(path, ...) could not write a result of usual size now. Called before
 /// a long run, so that the run does not fail at its end.
 void require_writable(const std::string& path);
-
-/// Content of a file, which may be locked, because files are replaced and not changed. Throws UsageError with
-/// the reason of the system if it cannot be read.
-std::vector<std::byte> read_whole(const std::string& path);
 
 }  // namespace lorentz

@@ -2,38 +2,30 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <span>
-#include <utility>
 
 #include "program/atomic_file.hpp"
 #include "program/errors.hpp"
 #include "program/hdf5_file.hpp"
+#include "statistics/tally.hpp"
 
 namespace lorentz {
 namespace {
 
-void write(Hdf5Writer& file, const Checkpoint& checkpoint, const FinishedReplicas& finished) {
+void write(Hdf5Writer& file, const std::string& identity, const FinishedReplicas& finished) {
   std::vector<std::uint64_t> indices, events;
+  std::vector<double> values;
   for (const auto& [index, one] : finished) {
     indices.push_back(index);
     events.push_back(one.events);
+    values.insert(values.end(), one.values.begin(), one.values.end());
   }
   const Axis replica{"replica", "1", "Finished replicas", {indices.begin(), indices.end()}};
+  const Axis column = numbered_axis("column", "Tallies, one after another", values.size() / finished.size());
   file.array("/replicas", {"index", "1", "Number of the replica, from 0", {replica}}, indices);
   file.array("/replicas", {"events", "1", "Events of the replica", {replica}}, events);
-  std::size_t column = 0;
-  for (Description tally : checkpoint.tallies) {
-    std::vector<double> values;
-    for (const auto& [index, one] : finished) {
-      const auto part = std::span(one.values).subspan(column, tally.size());
-      values.insert(values.end(), part.begin(), part.end());
-    }
-    column += tally.size();
-    tally.axes.insert(tally.axes.begin(), replica);
-    file.array("/tallies", tally, std::move(values));
-  }
-  file.attribute("/replicas", "identity", checkpoint.identity);
+  file.array("/replicas", {"tallies", "1", "Sums of the replica", {replica, column}}, values);
+  file.attribute("/replicas", "identity", identity);
   file.attribute("/replicas", "digest", file.digest(""));
 }
 
@@ -41,28 +33,26 @@ void write(Hdf5Writer& file, const Checkpoint& checkpoint, const FinishedReplica
 
 void Checkpoint::save(const FinishedReplicas& finished) const {
   Hdf5Writer file;
-  write(file, *this, finished);
+  write(file, identity, finished);
   write_atomically(path, file.image());
 }
 
-std::optional<FinishedReplicas> Checkpoint::load() const try {
+FinishedReplicas Checkpoint::load() const try {
   const Hdf5Reader file(path);
   if (!file.has_attribute("/replicas", "identity", identity)) return {};
   const std::vector<std::uint64_t> indices = file.counts("/replicas/index");
   const std::vector<std::uint64_t> events = file.counts("/replicas/events");
+  const std::vector<double> values = file.doubles("/replicas/tallies");
+  if (indices.empty() || events.size() != indices.size() || values.size() % indices.size() != 0)
+    throw NumericalError("the replicas differ in number");
+  const std::size_t width = values.size() / indices.size();
   FinishedReplicas finished;
-  for (std::size_t row = 0; row < indices.size(); ++row) finished[indices[row]].events = events.at(row);
-  for (const Description& tally : tallies) {
-    const std::vector<double> values = file.doubles("/tallies/" + tally.name);
-    if (values.size() != indices.size() * tally.size()) throw NumericalError("a tally has another size");
-    for (std::size_t row = 0; row < indices.size(); ++row) {
-      const auto part = std::span(values).subspan(row * tally.size(), tally.size());
-      std::vector<double>& of_replica = finished[indices[row]].values;
-      of_replica.insert(of_replica.end(), part.begin(), part.end());
-    }
+  for (std::size_t row = 0; row < indices.size(); ++row) {
+    const auto part = std::span(values).subspan(row * width, width);
+    finished[indices[row]] = {{part.begin(), part.end()}, events[row]};
   }
   Hdf5Writer again;
-  write(again, *this, finished);
+  write(again, identity, finished);
   if (!file.has_attribute("/replicas", "digest", again.digest("")))
     throw NumericalError("the digest differs");
   return finished;

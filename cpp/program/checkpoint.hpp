@@ -2,11 +2,8 @@
 
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
-
-#include "statistics/tally.hpp"
 
 namespace lorentz {
 
@@ -23,14 +20,13 @@ using FinishedReplicas = std::map<std::uint64_t, FinishedReplica>;
 struct Checkpoint {
   std::string path;
   std::string identity{};  // everything that the tallies depend on: parameters and sources
-  std::vector<Description> tallies;
 
-  /// Throws UsageError if the file cannot be written.
+  /// At least one replica. Throws UsageError if the file cannot be written.
   void save(const FinishedReplicas& finished) const;
 
-  /// None if the file is of other options or sources. Throws UsageError if it cannot be read or is
+  /// No replicas if the file is of other options or sources. Throws UsageError if it cannot be read or is
   /// damaged.
-  std::optional<FinishedReplicas> load() const;
+  FinishedReplicas load() const;
 };
 
 }  // namespace lorentz

@@ -9,7 +9,6 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "program/atomic_file.hpp"
 #include "program/errors.hpp"
 
 namespace lorentz {
@@ -34,14 +33,16 @@ hid_t memory_file() {
   return H5Fcreate("in memory", H5F_ACC_TRUNC, H5P_DEFAULT, access);
 }
 
-/// Opens a file in memory: HDF5 does not open files that another process has locked.
-hid_t open_file(const std::string& path, std::vector<std::byte>& content) {
+/// Opens a file also where another process has locked it, because files are replaced and not changed.
+hid_t open_file(const std::string& path) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  const hid_t id = H5LTopen_file_image(content.data(), content.size(),
-                                       H5LT_FILE_IMAGE_DONT_COPY | H5LT_FILE_IMAGE_DONT_RELEASE);
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  check(H5Pset_file_locking(access, false, true));
+  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
   if (id < 0)
-    throw UsageError(
-        fmt::format("'{}' is not a complete HDF5 file. Name another, or replace it with --overwrite.", path));
+    throw UsageError(fmt::format(
+        "'{}' cannot be read, or is not a complete HDF5 file. Name another, or replace it with --overwrite.",
+        path));
   return id;
 }
 
@@ -150,8 +151,7 @@ std::vector<std::byte> Hdf5Writer::image() {
   return bytes;
 }
 
-Hdf5Reader::Hdf5Reader(const std::string& path)
-    : content_(read_whole(path)), file_(open_file(path, content_), H5Fclose) {}
+Hdf5Reader::Hdf5Reader(const std::string& path) : file_(open_file(path), H5Fclose) {}
 
 std::vector<double> Hdf5Reader::doubles(const std::string& dataset) const {
   return read<double>(file_, dataset, H5T_IEEE_F64LE);

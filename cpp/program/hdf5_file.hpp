@@ -86,8 +86,7 @@ class Hdf5Reader {
   bool has_attribute(const std::string& object, const std::string& name, const AttributeValue& value) const;
 
  private:
-  std::vector<std::byte> content_;
-  Hdf5Handle file_;  // in content_
+  Hdf5Handle file_;
 };
 
 }  // namespace lorentz

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
-#include <numeric>
 #include <utility>
 
 #include "program/errors.hpp"
@@ -72,19 +71,6 @@ AttributeValue recorded(const Option&, const std::vector<double>& values) {
 }
 AttributeValue recorded(const Option&, const auto& value) { return value; }
 
-/// Number of letters that differ: Levenshtein distance.
-std::size_t distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j)
-      diagonal = std::exchange(row[j + 1],
-                               std::min({row[j] + 1, row[j + 1] + 1, diagonal + (a[i] == b[j] ? 0 : 1)}));
-  }
-  return row.back();
-}
-
 }  // namespace
 
 std::string as_text(const AttributeValue& value) {
@@ -117,7 +103,6 @@ Options::Options(std::string program, const std::string& description)
     : program_(std::move(program)), app_(std::make_unique<CLI::App>(description, program_)) {
   app_->set_version_flag("--version", std::string{}, "Print version and hash of the sources, then exit");
   app_->get_formatter()->column_width(36);
-  app_->allow_extras();  // parse() refuses them, with the name that is nearest
 }
 
 Options::~Options() = default;
@@ -155,13 +140,6 @@ std::optional<std::string> Options::parse(int argc, const char* const* argv, con
     refuse(what.substr(0, what.find(':')) + " needs a value");
   } catch (const CLI::ParseError& error) {
     refuse(error.what());
-  }
-  for (const std::string& extra : app_->remaining()) {
-    if (!extra.starts_with('-')) refuse(fmt::format("unexpected argument '{}'", extra));
-    const std::string name = extra.substr(0, extra.find('='));
-    const auto nearest = std::ranges::min_element(
-        options_, {}, [&](const Option& option) { return distance(option.name, name); });
-    refuse(fmt::format("{} is not an option; did you mean {}?", name, nearest->name));
   }
   for (const Option& option : options_) {
     const std::vector<std::string>& values = app_->get_option(option.name)->results();

@@ -19,12 +19,4 @@ bool StoppingRule::reached(std::uint64_t used, double excess) {
   return used >= least && excess * std::sqrt(freedom / gsl_cdf_chisq_Qinv(0.95, freedom)) <= 1;  // [eq. 52]
 }
 
-std::uint64_t StoppingRule::expected_end(std::uint64_t used, double excess) const {
-  std::uint64_t look = used;
-  do look = next_look(look);
-  while (look + batch <= most &&
-         !reached(look, excess * std::sqrt(static_cast<double>(used) / static_cast<double>(look))));
-  return look;
-}
-
 }  // namespace lorentz

@@ -30,10 +30,6 @@ struct StoppingRule {
 
   /// excess: ratio of the estimated standard error to the target.
   static bool reached(std::uint64_t used, double excess);
-
-  /// Estimated number of replicas at the end of the run, if the error falls as the inverse square root of
-  /// their number.
-  std::uint64_t expected_end(std::uint64_t used, double excess) const;
 };
 
 }  // namespace lorentz

@@ -37,12 +37,6 @@ void note_signals() {
     if (::signal(number, note) == SIG_IGN && number == SIGHUP) ::signal(number, SIG_IGN);
 }
 
-/// sum += x, which libc++ 16 to 19 lack.
-void add(std::atomic<double>& sum, double x) {
-  double before = sum;
-  while (!sum.compare_exchange_weak(before, before + x)) continue;
-}
-
 /// Thrown by a heartbeat to end a replica after another one has failed.
 struct Abandoned {};
 
@@ -100,24 +94,16 @@ void StudyProgram::require_memory() const {
 /// --overwrite refers to.
 void StudyProgram::prepare() {
   require_memory();
-  checkpoint_ = {.path = program_.output() + ".checkpoint", .tallies = study_.tallies.tallies()};
+  checkpoint_.path = program_.output() + ".checkpoint";
   for (const Parameter& each : options().parameters())
     checkpoint_.identity += fmt::format("{} = {}\n", each.name, as_text(each.value));
   checkpoint_.identity += fmt::format("source_hash = {}\n", build_info.source_hash);
-  const bool overwrite = options().given("--overwrite");
-  if (std::error_code unknown;
-      (resume_ || !overwrite) && std::filesystem::is_regular_file(checkpoint_.path, unknown)) {
-    std::optional<FinishedReplicas> saved = checkpoint_.load();
-    if (!saved && !overwrite)
-      throw UsageError(
-          fmt::format("'{}' is of other options or sources. Choose another --output, or discard it with "
-                      "--overwrite.",
-                      checkpoint_.path));
-    if (saved && !resume_)
-      throw UsageError(
-          fmt::format("'{}' has {} of this run. Continue with --resume, or discard them with --overwrite.",
-                      checkpoint_.path, counted(saved->size())));
-    if (saved) finished_ = std::move(*saved);
+  if (std::error_code unknown; std::filesystem::is_regular_file(checkpoint_.path, unknown)) {
+    if (resume_) finished_ = checkpoint_.load();
+    if (finished_.empty() && !options().given("--overwrite"))
+      throw UsageError(fmt::format("'{}' is of {}, or discard it with --overwrite.", checkpoint_.path,
+                                   resume_ ? "other options or sources. Choose another --output"
+                                           : "a run that ended early. Continue it with --resume"));
   }
   resumed_ = finished_.size();
   next_checkpoint_ = program_.elapsed() + checkpoint_interval_;
@@ -137,7 +123,11 @@ ExitStatus StudyProgram::compute() try {
     const bool last =
         outcome.convergence != Convergence::not_reached || constant || wanted + replicas_ > most_replicas;
     const double excess = outcome.achieved_error / target_error_;
-    if (!last && std::isfinite(excess)) needed_ = rule.expected_end(wanted, excess);
+    if (!last && std::isfinite(excess)) {  // the error falls as the inverse square root of the number
+      const double expected = static_cast<double>(wanted) * excess * excess;
+      needed_ = std::max(rule.next_look(wanted),
+                         static_cast<std::uint64_t>(std::min<double>(expected, most_replicas)));
+    }
     report(outcome, wanted);
     if (!last) continue;
     if (study_.remarks)
@@ -189,8 +179,9 @@ void StudyProgram::in_threads(std::uint64_t number, const std::function<void()>&
 void StudyProgram::measure(std::uint64_t end) {
   double completed = 0;
   const auto heartbeat = [&](double part) {
-    add(in_progress_, part - std::exchange(completed, part));
     if (failed_) throw Abandoned();
+    const std::scoped_lock lock(mutex_);
+    in_progress_ += part - std::exchange(completed, part);
   };
   std::unique_lock lock(mutex_);
   for (;;) {
@@ -203,7 +194,7 @@ void StudyProgram::measure(std::uint64_t end) {
     sums.require_filled(study_.tallies);
     lock.lock();
     finished_.emplace(index, FinishedReplica{sums.values(), events});
-    add(in_progress_, -std::exchange(completed, 0));
+    in_progress_ -= std::exchange(completed, 0);
   }
 }
 

@@ -82,8 +82,8 @@ class StudyProgram {
   std::mutex mutex_;
   FinishedReplicas finished_;
   std::uint64_t next_ = 0;  // replica that starts next
+  double in_progress_ = 0;  // sum of the completed parts of unfinished replicas
   std::atomic<bool> failed_{false};
-  std::atomic<double> in_progress_{0};  // sum of the completed parts of unfinished replicas
 };
 
 }  // namespace lorentz

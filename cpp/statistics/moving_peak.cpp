@@ -71,13 +71,6 @@ std::vector<double> speeds(const std::vector<double>& times, const std::vector<d
   return values;
 }
 
-std::vector<double> geometric_middles(const std::vector<double>& times) {
-  std::vector<double> middles;
-  for (std::size_t k = 0; k + 1 < times.size(); ++k)
-    middles.push_back(std::sqrt(times[k]) * std::sqrt(times[k + 1]));
-  return middles;
-}
-
 std::vector<Description> MovingPeak::descriptions(const Axis& time, const std::string& units) {
   const std::vector<double> ends = octaves(time.values);
   const Axis until{"until",
@@ -100,8 +93,8 @@ std::vector<Description> MovingPeak::descriptions(const Axis& time, const std::s
 std::vector<double> MovingPeak::values() const {
   std::vector<double> all = positions_;
   const std::vector<double> exponent{exponent_from(0)};
-  for (const std::vector<double>& each :
-       {heights_, raw_heights(), speeds(), exponents_by_octave(), exponents_from(), exponent})
+  for (const std::vector<double>& each : {heights_, raw_heights(), speeds(times_, positions_),
+                                          exponents_by_octave(), exponents_from(), exponent})
     all.insert(all.end(), each.begin(), each.end());
   return all;
 }
@@ -118,7 +111,8 @@ MovingPeak::MovingPeak(std::span<const double> profiles, std::vector<double> tim
 
 std::vector<double> MovingPeak::raw_heights() const {
   std::vector<double> values;
-  for (const std::vector<double>& side : sides_) values.push_back(highest_value(side));
+  for (const std::vector<double>& side : sides_)
+    values.push_back(*std::max_element(side.begin() + 1, side.end()));
   return values;
 }
 

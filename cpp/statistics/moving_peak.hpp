@@ -28,9 +28,6 @@ Axis middles(const std::vector<double>& times);
 /// Differences of neighbouring positions over those of the times.
 std::vector<double> speeds(const std::vector<double>& times, const std::vector<double>& positions);
 
-/// Geometric middles of neighbouring times, where local exponents belong.
-std::vector<double> geometric_middles(const std::vector<double>& times);
-
 /// Moving peak of a mean profile that spreads on a ring. Arrays have one element per time, per pair of
 /// neighbouring times or per octave; NaN without a peak.
 class MovingPeak {
@@ -46,11 +43,10 @@ class MovingPeak {
 
   std::vector<double> positions() const { return positions_; }
   std::vector<double> heights() const { return heights_; }
-  std::vector<double> raw_heights() const;
+  std::vector<double> raw_heights() const;                // largest values away from the centre
   std::vector<double> centre_shares(double total) const;  // part in the five central cells
   std::vector<double> odd_parts() const;                  // [time, distance]
-  std::vector<double> speeds() const { return lorentz::speeds(times_, positions_); }
-  std::vector<double> exponents_from() const;  // fits from every time but the last on
+  std::vector<double> exponents_from() const;             // fits from every time but the last on
   double exponent() const { return exponent_from(0); }
 
   /// Fits over octaves. Between neighbouring times, heights that differ by the bias of the peak's fit, 1.3 %

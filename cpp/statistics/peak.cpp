@@ -69,10 +69,6 @@ std::vector<double> odd_part(std::span<const double> profile) {
   return result;
 }
 
-double highest_value(const std::vector<double>& profile) {
-  return *std::max_element(profile.begin() + 1, profile.end());
-}
-
 std::optional<PeakWindow> peak_window(const std::vector<double>& profile) {
   const std::vector<double> y = running_mean(profile);
   const auto top = static_cast<std::size_t>(std::max_element(y.begin() + 1, y.end()) - y.begin());

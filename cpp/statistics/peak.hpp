@@ -14,9 +14,6 @@ std::vector<double> folded(std::span<const double> profile);
 /// than half the ring. Its mean is 0 by mirror symmetry [eq. 45].
 std::vector<double> odd_part(std::span<const double> profile);
 
-/// Largest value away from the centre, biased upwards by noise and downwards by the spacing of the cells.
-double highest_value(const std::vector<double>& profile);
-
 /// Interval of distances from the centre in which a peak is fitted.
 struct PeakWindow {
   double middle, half_width;  // in cells

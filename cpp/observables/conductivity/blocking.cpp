@@ -2,9 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <stdexcept>
 
 namespace lorentz {
 
@@ -14,8 +12,6 @@ bool Blocking::converged() const {
 }
 
 Blocking blocking(const Records& blocks) {
-  if (!std::has_single_bit(blocks.width()))
-    throw std::invalid_argument("the number of blocks must be a power of two");
   // Rows are stored one after another, so joining neighbours joins blocks of one replica until one block per
   // replica is left.
   std::vector<double> means = blocks.values();

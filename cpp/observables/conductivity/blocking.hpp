@@ -18,9 +18,8 @@ struct Blocking {
   bool converged() const;
 };
 
-/// Error of the mean of all blocks; rows are independent replicas, columns successive blocks. The error is
-/// NaN if only one block is left. Throws std::invalid_argument unless the number of columns is a power of
-/// two.
+/// Error of the mean of all blocks; rows are independent replicas, columns successive blocks, a power of two
+/// of them. The error is NaN if only one block is left.
 Blocking blocking(const Records& blocks);
 
 }  // namespace lorentz

@@ -1,7 +1,6 @@
 #include "observables/correlation/ring_correlation.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 namespace lorentz {
@@ -32,7 +31,6 @@ void RingCorrelation::add(const std::vector<double>& field) {
 
 std::vector<double> RingCorrelation::at(std::size_t k) const {
   const auto& [sum, count] = spectra_[k];
-  if (count == 0) throw std::logic_error("no snapshot is as late as the lag");
   // Sum of the products of the real and of the imaginary parts at a wave number, of which 0 and, for an even
   // number of cells, the last one have no imaginary part. The spectrum is real and even, so its inverse
   // transform is its transform over the number of cells.

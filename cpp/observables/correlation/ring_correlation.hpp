@@ -24,8 +24,7 @@ class RingCorrelation {
   /// Adds the next snapshot.
   void add(const std::vector<double>& field);
 
-  /// C(r, lags[k]), r = 0 ... cells - 1. Throws std::logic_error if fewer than
-  /// lags[k] + 1 snapshots were added.
+  /// C(r, lags[k]), r = 0 ... cells - 1. At least lags[k] + 1 snapshots were added.
   std::vector<double> at(std::size_t k) const;
 
  private:

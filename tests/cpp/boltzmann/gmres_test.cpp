@@ -35,19 +35,6 @@ double residual(const MatrixXd& a, const VectorXd& x, const VectorXd& b) {
   return (b - a * x).norm() / b.norm();
 }
 
-// Detected mistake: y is returned instead of x = P y.
-TEST(Gmres, ThePreconditionerChangesTheStepsOnly) {
-  const VectorXd diagonal = 2 + random_matrix(12, 1, 3).array().abs(), inverse = diagonal.cwiseInverse();
-  const MatrixXd a = diagonal.asDiagonal();
-  const VectorXd exact = random_matrix(12, 1, 4), b = a * exact;
-  EXPECT_GT(gmres(product(a), identity, b, 1e-12, 50).iterations, 8);
-  const KrylovResult solved = gmres(product(a), product(inverse.asDiagonal()), b, 1e-12, 50);
-  EXPECT_EQ(solved.iterations, 1);
-  const KrylovResult other = gmres(product(a), product(well_conditioned(12, 5)), b, 1e-12, 50);
-  for (const KrylovResult& found : {solved, other})
-    EXPECT_LT((found.solution - exact).norm(), 1e-11 * exact.norm());
-}
-
 // The residual is least over the Krylov space if it is orthogonal to the image of that space. Detected
 // mistakes: the limit of the steps is off by one; Givens rotations have the wrong sign.
 TEST(Gmres, MinimisesTheResidualWithinTheLimit) {

@@ -67,24 +67,6 @@ TEST(AtomicFile, WrittenBySeveralProcesses) {
   EXPECT_EQ(content_of(folder / "file"), std::string(100'000, 'x'));
 }
 
-TEST(AtomicFile, IsRefusedWhereItCannotBeRead) {
-  const TemporaryFolder folder;
-  for (const std::string& path : {folder / "absent", folder.path()}) {
-    const std::string message = support::refusal([&] { (void)read_whole(path); });
-    EXPECT_NE(message.find("'" + path + "'"), std::string::npos) << message;
-  }
-}
-
-TEST(AtomicFile, TheCheckLeavesNothingBehind) {
-  const TemporaryFolder folder;
-  require_writable(folder / "file");
-  EXPECT_EQ(folder.names(), Names{});
-  write(folder / "file", std::string("content"));
-  require_writable(folder / "file");
-  EXPECT_EQ(folder.names(), Names{"file"});
-  EXPECT_EQ(content_of(folder / "file"), "content");
-}
-
 TEST(AtomicFile, RefusesMissingFoldersAndWhatIsNotARegularFile) {
   const TemporaryFolder folder;
   write(folder / "file", std::string("content"));

@@ -82,11 +82,9 @@ TEST(Options, RefuseOtherValues) {
 }
 
 TEST(Options, RefuseUnknownAndRepeatedNames) {
-  for (const char* word : {"--sgima", "--sgima=0.5", "-sgima", "--sigm"})
-    expect_refused({word, "0.5"}, {word == std::string("--sgima=0.5") ? "--sgima" : word, "--sigma"});
-  expect_refused({"--cell", "4"}, {"--cell ", "--cells"});
-  expect_refused({"-s", "4"}, {"-s"});
-  expect_refused({"extra"}, {"'extra'"});
+  for (const char* word : {"--sgima", "--sgima=0.5", "-sgima", "--sigm", "-s"})
+    expect_refused({word, "0.5"}, {word});
+  expect_refused({"extra"}, {"extra"});
   expect_refused({"--sigma"}, {"--sigma"});
   expect_refused({"--sigma", "0.5", "--sigma", "0.3"}, {"--sigma", "more than once"});
   expect_refused({"--zero-total-momentum", "--zero-total-momentum"}, {"--zero-total-momentum"});

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <new>
@@ -182,34 +181,6 @@ TEST_F(StudyTest, ReachesATargetErrorRelativeToAScale) {
   EXPECT_GT(replicas("0.25"), 500U);
 }
 
-// Where nothing has happened, all replicas agree, and their error is not known.
-TEST_F(StudyTest, ReachesNoTargetErrorIfAllReplicasAgree) {
-  const auto constant = [](const Replica&) { return 1.0; };
-  EXPECT_EQ(run(with(to_output, {"--target-error", "0.1"}), constant), 4);
-  EXPECT_TRUE(has("not reached"));
-  EXPECT_EQ(replicas_in(output), 64U);
-  EXPECT_EQ(run(with(to_output, {"--overwrite"}), constant), 0);
-  EXPECT_TRUE(has("no target"));
-  EXPECT_TRUE(std::isnan(error()));
-}
-
-// Detected mistake: without a target error, a quantity that is not defined is a missed target.
-TEST_F(StudyTest, MissesNoTargetErrorWithoutOne) {
-  const auto undefined = [](const Replica&) { return -std::nan(""); };
-  EXPECT_EQ(run(with(to_output, {"--progress", "log"}), undefined), 0);
-  EXPECT_TRUE(has("no target"));
-  EXPECT_NE(complaints.find("value = nan, not defined"), std::string::npos) << complaints;
-}
-
-TEST_F(StudyTest, WritesCheckpointsOnTheWay) {
-  const auto last_waits = [&](const Replica& replica) {
-    if (replica.key.replica == 15) wait_for_checkpoint();
-    return measure(replica);
-  };
-  EXPECT_EQ(run(with(to_output, {"--checkpoint-interval", "0.01"}), last_waits), 0);
-  EXPECT_EQ(folder.names(), (Names{"a.h5", "a.cost.json"}));
-}
-
 TEST_F(StudyTest, WritesCheckpointsDuringTheEstimate) {
   const auto waiting = [&] { return study_estimating([&] { wait_for_checkpoint(); }); };
   EXPECT_EQ(run(with(to_output, {"--checkpoint-interval", "0.01"}), waiting), 0);
@@ -249,13 +220,6 @@ TEST_F(StudyTest, KeepsTheReplicasIfMemoryRunsOut) {
   EXPECT_EQ(run(to_output, greedy), 2);
   expect_complaint("--replicas");
   EXPECT_EQ(replicas_kept(output).size(), 5U);
-}
-
-TEST_F(StudyTest, KeepsTheReplicasIfTheEstimateFails) {
-  const auto failing = [] { return study_estimating([] { throw NumericalError("no estimate"); }); };
-  EXPECT_EQ(run(to_output, failing), 3);
-  expect_complaint("no estimate");
-  EXPECT_EQ(folder.names(), Names{"a.h5.checkpoint"});
 }
 
 TEST_F(StudyTest, ResumesToEqualBytes) {
@@ -305,8 +269,6 @@ TEST_F(StudyTest, ReplacesNoResultOfOtherOptions) {
 }
 
 TEST_F(StudyTest, LeavesNothingBehindIfItIsRefusedOrFails) {
-  expect_refused_run({}, "--output");
-  expect_refused_run(with(to_output, {"--replicas", "0"}), "--replicas");
   expect_refused_run({"--output", folder / "absent/a.h5"}, "absent/a.h5");
   EXPECT_EQ(run(to_output, failing_at(0)), 3);
   expect_complaint("a replica failed");

@@ -42,17 +42,6 @@ TEST(Bins, ChangeAtTheEdges) {
   }
 }
 
-TEST(Bins, DivideTheRangeEvenly) {
-  const Bins bins(6, 1.5);
-  EXPECT_EQ(bins.count(), 6U);
-  EXPECT_EQ(bins.width(), 0.5);
-  EXPECT_EQ(bins.edge(0), -1.5);
-  EXPECT_EQ(bins.edge(6), 1.5);
-  EXPECT_EQ(bins.middles(), (std::vector<double>{-1.25, -0.75, -0.25, 0.25, 0.75, 1.25}));
-  EXPECT_EQ(bins[0.0], 3U);
-  for (const double outside : {3.0, -3.0, 1e300, -1e300}) EXPECT_EQ(bins[outside], 6U) << outside;
-}
-
 // Detected mistakes: values outside the range count in the last bin, or not in the total; weights are
 // replaced by 1.
 TEST(Histogram, SumsWeightsInTheBinsAndInAll) {

@@ -56,15 +56,6 @@ TEST(Jackknife, NeitherOverflowsNorUnderflows) {
   }
 }
 
-TEST(Jackknife, IsNaNForOneReplica) {
-  Records records(2);
-  records.append(std::vector{2.0, 3.0});
-  const Estimate estimate = jackknife_of(records, ratio);
-  EXPECT_EQ(estimate.mean, std::vector{1.5});
-  ASSERT_EQ(estimate.standard_error.size(), 1U);
-  EXPECT_TRUE(std::isnan(estimate.standard_error[0]));
-}
-
 TEST(Jackknife, IsExactlyZeroWithoutSpread) {
   for (const double value : {0.1, 1e-300, 1e300, -7.3}) {
     Records records(1);

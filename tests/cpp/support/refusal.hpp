@@ -17,10 +17,4 @@ std::string refusal(Action&& action) {
   return {};
 }
 
-/// Whether the action throws a UsageError whose message begins with this text.
-template <class Action>
-bool refused_as(const std::string& beginning, Action&& action) {
-  return !beginning.empty() && refusal(action).starts_with(beginning);
-}
-
 }  // namespace support

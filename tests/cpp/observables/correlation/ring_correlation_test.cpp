@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <stdexcept>
 #include <vector>
 
 namespace ring_correlation_test {
@@ -45,13 +44,6 @@ TEST(RingCorrelation, IsTheMeanOverCellsAndSnapshots) {
         EXPECT_NEAR(found[r], direct(cells, 9, lags[k], r), 1e-13) << cells << ' ' << lags[k] << ' ' << r;
     }
   }
-}
-
-TEST(RingCorrelation, NeedsASnapshotAsLateAsTheLag) {
-  RingCorrelation correlation(7, {1, 4});
-  for (std::size_t j = 0; j < 4; ++j) correlation.add(snapshot(7, j));
-  EXPECT_EQ(correlation.at(0).size(), 7U);
-  EXPECT_THROW(correlation.at(1), std::logic_error);
 }
 
 }  // namespace ring_correlation_test
