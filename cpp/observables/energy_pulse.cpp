@@ -149,12 +149,6 @@ struct Tallies : TallySchema {
         cell(numbered_axis("cell", "Cell number", parameters.ring.scattering.cells)) {}
 };
 
-/// A function of its own, because inlined its loop is a tenth slower.
-[[gnu::noinline]] void advance(PairDynamics& pair, double time,
-                               const std::function<void(double)>& heartbeat) {
-  pair.run(time, heartbeat);
-}
-
 /// One replica: means over its pairs of trajectories, with the pulse and without, that start from one state
 /// and use common random numbers [eq. 43, 44].
 std::uint64_t average_pairs(const Parameters& parameters, const Tallies& tallies, const Replica& replica,
@@ -180,7 +174,7 @@ std::uint64_t average_pairs(const Parameters& parameters, const Tallies& tallies
     const double injected = sum(energy_difference(pair, 0, chain)), total = energy(start) + injected;
     double error = 0;
     for (std::size_t k = 0; k < parameters.times.size(); ++k) {
-      advance(pair, parameters.times[k], heartbeat);
+      pair.run(parameters.times[k], heartbeat);
       const std::vector<double> difference = energy_difference(pair, parameters.times[k], chain);
       for (std::size_t cell = 0; cell < difference.size(); ++cell)
         sums[tallies.energy_difference.row(k)][cell] += difference[cell] / pairs;
