@@ -6,8 +6,9 @@ rings with random directions, and amplitudes of the correlation of J_q in long r
 fluctuations with the measured sound peak (ext. 3).
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -17,7 +18,7 @@ from matplotlib.axes import Axes
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, number
 from workflow.lib.figure import Drawn, run
-from workflow.lib.fit import fit_power, mean_of, with_error
+from workflow.lib.fit import mean_of, with_error
 from workflow.lib.load import Result
 from workflow.lib.mode_coupling import Chain
 from workflow.lib.rings import LOOKS, chain
@@ -182,18 +183,26 @@ def diffusion(control: pd.DataFrame, unit: float) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
+def slopes_in_epsilon(falling: pd.DataFrame) -> Iterator[tuple[float, float]]:
+    """d ln D/d ln ε between neighbouring ε, and its error."""
+    relative = falling.diffusion_error / falling.diffusion
+    for (_, less), (_, more) in pairwise(falling.assign(relative=relative).iterrows()):
+        span = np.log(more.epsilon / less.epsilon)
+        yield (
+            float(np.log(more.diffusion / less.diffusion) / span),
+            float(np.hypot(less.relative, more.relative) / span),
+        )
+
+
 def caption(table: pd.DataFrame, control: pd.DataFrame, unit: float) -> str:
-    falling = diffusion(control, unit)
-    law = fit_power(falling.epsilon, falling.diffusion, falling.diffusion_error)
+    slopes = ", ".join(with_error(*slope) for slope in slopes_in_epsilon(diffusion(control, unit)))
     last = table[table.rule == ELASTIC].dropna(subset="predicted").groupby(["zeta", "mass"]).tail(1)
     off = 100 * (last.predicted / last.heat_variance - 1).abs().max()
-    random = table[table.rule == "random-direction"].dropna(subset="middle").iloc[-1]
     gas = control.iloc[0]
     return f"""
-        Heat Q that passes in a time t in rings in equilibrium. (a) Mean square; lines: mode coupling, nothing fitted, up to {off:.0f} % off.
+        Heat Q that passes in a time t in equilibrium. (a) Mean square; lines: mode coupling, nothing fitted, up to {off:.0f} % off.
         (b) Exponents over octaves. (c), (d) ζ = {number(gas.zeta)}, M = {number(gas.mass)}: reversal of the scatterer's momentum in a fraction
-        ε of collisions. At εt = {COMMON}, ⟨Q²⟩/t ∼ ε^a, a = {with_error(law.exponent, law.error)}. With random directions the last exponent
-        is {with_error(random.local_exponent, random.local_exponent_error)}. {ERRORS}"""
+        ε of collisions. At εt = {COMMON}, ⟨Q²⟩/t ∼ ε^a with a = {slopes} between neighbouring ε; theory for small ε: −1/3. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:

@@ -25,7 +25,7 @@ SLOPES: dict[str | int, Guides] = {
 }
 SPAN = 0.15  # range of exponents shown on either side of the guides and of exponents with smaller errors
 UNSURE = 0.5  # relative error above which a height is not shown
-ABOVE = 1.2  # ratio of a guide to the highest point at its time
+ABOVE = 1.2  # smallest ratio of a guide to a point
 
 
 def tabulate(result: Result) -> pd.DataFrame:
@@ -54,15 +54,23 @@ def by_octave(result: Result) -> pd.DataFrame:
 
 
 def draw_guides(above: Axes, below: Axes, gamma: str | int, table: pd.DataFrame) -> None:
-    """Plots powers of t above the points of the longest times, and their exponents."""
+    """Plots powers of t from one point on, above those of the longest times, and their exponents."""
     longest = table[table.cells == table.cells[table.pulse_energy == table.pulse_energy.iloc[0]].max()]
     seen = longest.dropna(subset="peak")
+    time = seen.time / seen.time.min()
+    start = ABOVE * max((seen.peak / time**slope).max() for slope in SLOPES[gamma]) / 1e3
     for slope, (name, exponent) in SLOPES[gamma].items():
         if len(seen):
-            time = np.array([seen.time.iloc[0], seen.time.iloc[-1]])
-            law = ABOVE * seen.peak.iloc[0] / 1e3 * (time / time[0]) ** slope
-            above.plot(time, law, **style.GUIDE)
-            above.annotate(name, (time[1], law[1]), (2, 0), textcoords="offset points", size=8, va="center")
+            law = start * time**slope
+            above.plot(seen.time, law, **style.GUIDE)
+            above.annotate(
+                name,
+                (seen.time.iloc[-1], law.iloc[-1]),
+                (2, 0),
+                textcoords="offset points",
+                size=8,
+                va="center",
+            )
         style.guide_at(below, -slope, exponent)
     precise = table[table.octave_exponent_error < SPAN].octave_exponent
     shown = [*(-slope for slope in SLOPES[gamma]), *precise]
