@@ -23,8 +23,15 @@ def test_front_page_has_the_numbers_of_the_release() -> None:
         ), f"{value}({error})"
 
 
-def test_front_page_names_the_contradicted_claims() -> None:
-    sentence = re.search(r"these are contradicted:(.*?);(.*?)\.", (ROOT / "README.md").read_text(), re.DOTALL)
+def test_front_page_has_the_verdicts_of_the_release() -> None:
+    verdicts = {(line["claim"], line["kind"]): line["verdict"] for line in RELEASE}
+    literal = [verdict for (_, kind), verdict in verdicts.items() if kind == "literal"]
+    sentence = re.search(
+        rf"Of {len(literal)} statements, taken literally, {literal.count('reproduced')} hold, "
+        rf"{literal.count('undecided')} are undecided, and these are contradicted:(.*?); of "
+        rf"{len(verdicts) - len(literal)} intended meanings that differ,(.*?)\.",
+        " ".join((ROOT / "README.md").read_text().split()),
+    )
     assert sentence
     for kind, part in zip(("literal", "intended"), sentence.groups(), strict=True):
         refuted = (

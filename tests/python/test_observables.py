@@ -118,7 +118,9 @@ def test_a_pulse_has_no_peak_once_it_has_gone_around_the_ring(measure: Measure) 
     assert all_times["ring_closed"].mean.tolist() == [0, 0, 0, 1, 1, 1]
     assert np.isnan(all_times["peak"].mean).tolist() == [False] * 3 + [True] * 3
     np.testing.assert_allclose(all_times["damping_exponent"].mean, early["damping_exponent"].mean, rtol=1e-12)
-    np.testing.assert_allclose(all_times["damping_exponent"].error, early["damping_exponent"].error, rtol=1e-9)
+    np.testing.assert_allclose(
+        all_times["damping_exponent"].error, early["damping_exponent"].error, rtol=1e-9
+    )
 
 
 def test_pulse(measure: Measure) -> None:

@@ -46,7 +46,7 @@ def judged(verdict: str) -> list[Judgement]:
 @pytest.mark.parametrize(
     ("verdict", "answer"),
     [
-        ("reproduced", "The title is right: heat is superdiffusive."),
+        ("reproduced", "The title is right: heat is superdiffusive at all times reached."),
         ("contradicted", "The title is wrong"),
     ],
 )

@@ -81,11 +81,12 @@ def draw_guide(axes: Axes, part: pd.DataFrame, slope: float, name: str) -> None:
 
 
 def last_exponent(table: pd.DataFrame, **labels: object) -> str:
-    """Exponent between the largest sizes of a curve."""
+    """Exponent between the two largest sizes of a curve, and the smaller of these."""
     rows = table.loc[(table[[*labels]] == pd.Series(labels)).all(axis=1)].dropna(subset="between")
-    return (
-        with_error(*rows[["exponent_to_next", "exponent_to_next_error"]].iloc[-1]) if len(rows) else "unknown"
-    )
+    if not len(rows):
+        return "unknown"
+    last = rows.iloc[-1]
+    return f"{with_error(last.exponent_to_next, last.exponent_to_next_error)} from N = {last.cells} on"
 
 
 def fraction(rule_text: str) -> str:
@@ -97,9 +98,9 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     control = table[table.curve == "reversal"].rule.min()
     return f"""
         Conductivity κ = −J_U N/(T_N − T_1) of open chains, {parameters(results, "sigma")}, the paper's baths at λ = 1/N, else T_R/T_L =
-        {number(table.drive.max())}. (a) κ; grey: the paper's powers. (b) Exponents between neighbouring sizes; lines: linear response. At fixed density (λ
-        = {table[table.curve == "dense"].spacing.iloc[0]}) the last is {last_exponent(table, curve="dense")}, and {last_exponent(table, curve="reversal", rule=control)} where a fraction ε =
-        {fraction(control)} of collisions breaks conservation of momentum (reversal). {ERRORS}"""
+        {number(table.drive.max())}. (a) Grey: the paper's powers. (b) Exponents between neighbouring sizes; lines: κ_0 by linear response. At λ =
+        {table[table.curve == "dense"].spacing.iloc[0]} the last is {last_exponent(table, curve="dense")}, and {last_exponent(table, curve="reversal", rule=control)}
+        where a fraction ε = {fraction(control)} of collisions breaks conservation of momentum. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:

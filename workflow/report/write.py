@@ -79,6 +79,7 @@ def shown(judgement: Judgement) -> dict[str, Any]:
         "label": verdict.shown.label if numbers else "",
         "list": [(number.label, words.value(number), verdict.of(number).value) for number in listed],
         "omitted": len(numbers) - len(listed),
+        "outside": sum(verdict.of(number) is Outcome.CONTRADICTED for number in numbers),
         "least": plain(numbers[0]) if numbers else "",
         "most": plain(numbers[-1]) if numbers else "",
         "missing": judgement.missing,
