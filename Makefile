@@ -24,14 +24,15 @@ prune: setup  ## Remove a quality's results and figures that no plan names; DRY=
 figures panel report gallery audit status verify provenance deposit prune:
 	$(ENTRY) $@
 setup:  ## System packages, and Python packages in .venv
-	bash workflow/environment/setup.sh
+	bash workflow/environment/setup.sh $(PROFILE)
 setup-dev:
 	bash workflow/environment/setup.sh dev
 build: setup  ## The programs, in build/bin
 	bash workflow/environment/build.sh all
 test: setup-dev  ## Tests; make test-long: also those that take many minutes
 	bash workflow/environment/test.sh -m 'not long'
-test-long: setup-dev
+test-long:
+	bash workflow/environment/setup.sh dev slurm
 	bash workflow/environment/test.sh
 check: setup-dev build docs  ## Format, lint, types, documentation
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 $(DEV)/clang-format --dry-run --Werror

@@ -1,5 +1,6 @@
 #!/bin/bash
-# System packages, and the locked Python packages in .venv; with "dev" also those of tests, checks and benchmarks.
+# System packages, and the locked Python packages in .venv; with "dev" also those of tests, checks and benchmarks, with "slurm" those of
+# PROFILE=slurm.
 # uv installs them: from PATH, or a fixed version in .cache/uv.
 set -euo pipefail
 bash workflow/environment/system_packages.sh "$@"
@@ -11,7 +12,8 @@ if [ ! -x "$uv" ]; then
   .cache/uv/bin/pip install --quiet --disable-pip-version-check uv==0.13.9
 fi
 
-if [ "${1-}" = dev ]; then groups=--dev; else groups=--no-dev; fi
+groups='--no-default-groups'
+for name; do case $name in dev | slurm) groups+=" --group $name" ;; esac; done
 # A relocatable environment may be copied and moved. Without its interpreter it is created again.
 .venv/bin/python -c '' 2>/dev/null || "$uv" venv --quiet --clear --relocatable .venv
 for packages in .venv/lib/python3*/site-packages; do
