@@ -32,7 +32,7 @@ QUANTITIES: dict[str, dict[str, tuple[str, ...]]] = {
     "correlation": {
         "damping_exponent": (), "damping_exponent_from": ("from",), "peak": ("time",), "heat_correlation": ("time", "cell"),
     },
-    "heat_current": {"local_exponent": ("middle",)},
+    "heat_current": {"local_exponent": ("middle",), "heat_variance": ("time",)},
     "energy_pulse": {
         "centre_share": ("time",), "odd_part": ("time", "distance"), "peak": ("time",), "peak_position": ("time",),
         "peak_speed": ("middle",), "damping_exponent": (), "damping_exponent_from": ("from",),

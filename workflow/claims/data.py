@@ -1,6 +1,7 @@
 """Data of the claims: the results of a quality, and numbers taken from them."""
 
 from collections.abc import Callable, Iterable, Sequence
+from math import hypot, log
 from pathlib import Path
 
 import numpy as np
@@ -97,6 +98,13 @@ def combination(numbers: Sequence[Number], weights: Sequence[float], label: str,
         min(term.freedom for term in numbers),
         sum(abs(weight) * term.systematic for weight, term in terms),
     )
+
+
+def log_slope(first: Number, last: Number, factor: float) -> Number:
+    """Slope on logarithmic axes between two times, the later of which is `factor` times the first."""
+    span = log(factor)
+    error = hypot(first.error / first.value, last.error / last.value) / span
+    return Number("", log(last.value / first.value) / span, error, first.freedom)
 
 
 def power(results: Sequence[Result], size: Sequence[float], values: Sequence[Number], label: str) -> Number:

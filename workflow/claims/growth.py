@@ -6,7 +6,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from workflow.claims.data import Data, MissingError, by_size, freedom, mean_slope, number, power
+from workflow.claims.data import Data, MissingError, by_size, freedom, log_slope, mean_slope, number, power
 from workflow.claims.verdict import Number, with_systematic
 from workflow.lib.fit import fit_power
 from workflow.lib.load import Result
@@ -74,9 +74,16 @@ def _with_bulk(runs: Sequence[Result]) -> list[Result]:
 
 
 def superdiffusive(data: Data) -> list[Number]:
-    """beta of <Q²> ∼ t^beta, of every gas over the last octave of its longest ring."""
-    rings = _longest(data.of("ext13", rule="elastic"))
-    return [replace(slope, label=f"β, {slope.label}") for slope in map(_last_octave, rings)]
+    """beta of <Q²> ∼ t^beta, of every gas from t = LATE on in its longest ring. The errors of both ends are taken as independent, which
+    overestimates that of their ratio."""
+    numbers = []
+    for ring in _longest(data.of("ext13", rule="elastic")):
+        times = ring["heat_variance"].axes["time"]
+        first = int(np.searchsorted(times, LATE))
+        early, late = (number(ring, "heat_variance", k) for k in (first, -1))
+        label = f"β, {_gas(ring)}, t = {times[first]:g} to {times[-1]:g}"
+        numbers.append(replace(log_slope(early, late, times[-1] / times[first]), label=label))
+    return numbers
 
 
 def at_fixed_density(data: Data) -> list[Number]:

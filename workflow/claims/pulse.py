@@ -4,12 +4,11 @@ Literal statements are judged from the paper's start, scatterers at rest that ha
 equilibrium, belong to the intended meaning.
 """
 
-import math
 from dataclasses import replace
 
 import numpy as np
 
-from workflow.claims.data import Data, MissingError, combination, number
+from workflow.claims.data import Data, MissingError, combination, log_slope, number
 from workflow.claims.growth import of_largest, without_particle_current
 from workflow.claims.verdict import Number, with_systematic
 from workflow.lib.load import Result
@@ -59,14 +58,7 @@ def _slowing(result: Result) -> Number:
         raise MissingError("too few times with a moving peak")
     first, last = (number(result, "peak_speed", k) for k in resolved[[0, -1]])
     time = speed.axes["middle"][resolved]
-    return _log_slope(first, last, time[-1] / time[0])
-
-
-def _log_slope(first: Number, last: Number, factor: float) -> Number:
-    """Slope on logarithmic axes between two times, the later of which is `factor` times the first."""
-    span = math.log(factor)
-    error = math.hypot(first.error / first.value, last.error / last.value) / span
-    return Number("", math.log(last.value / first.value) / span, error, first.freedom)
+    return log_slope(first, last, time[-1] / time[0])
 
 
 def ballistic(data: Data) -> list[Number]:
@@ -90,7 +82,7 @@ def _way(result: Result) -> Number:
 
     def between(first: int, last: int) -> Number:
         early, late = (number(result, "peak_position", k) for k in (first, last))
-        return _log_slope(early, late, times[last] / times[first])
+        return log_slope(early, late, times[last] / times[first])
 
     slope, *others = (between(*resolved[list(ends)]) for ends in ((0, -1), (1, -1), (0, -2)))
     label = f"d ln x_p/d ln t, N = {result.parameters['cells']}"

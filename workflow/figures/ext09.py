@@ -108,12 +108,12 @@ def draw_slopes(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def caption(tested: pd.DataFrame, results: Sequence[Result], spacing: Mapping[str, str]) -> str:
-    densest = tested[tested.gas == tested.gas.iloc[-1]]
-    p_values = listed(f"{row.p_value:.1g} for {LAWS[row.law].name}" for row in densest.itertuples())
+    largest = tested.groupby("gas", sort=False).p_value.max()
+    p_values = listed(f"{p:.1g} (λ = {spacing[gas]})" for gas, p in largest.items())
     return f"""
         Conductivity κ = −J_U N/(T_N − T_1) of open chains at the paper's λ = 1/N, where the gas thins out, and at fixed λ;
-        {parameters(results, "gamma", "sigma")}, T_R/T_L = {number(max(map(drive, results)))}. (b) Slope against N^(1/3); lines: laws fitted to all sizes. At λ =
-        {spacing[densest.gas.iloc[0]]} their p-values are {p_values}. {ERRORS}"""
+        {parameters(results, "gamma", "sigma")}, T_R/T_L = {number(max(map(drive, results)))}. (b) Slope against N^(1/3); lines: laws fitted to all sizes, of which
+        the best has the p-value {p_values}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:

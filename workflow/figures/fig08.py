@@ -2,9 +2,8 @@
 which are constant where a power law holds.
 
 The runs have the paper's drive at its spacing 1/N, and a stronger one there and at a fixed spacing (ext. 9); at the latter also with the
-control, in which a fraction of the collisions reverses the momentum of the scatterer. Lines: mean field, the kinetic equation of N
-scatterers, and exponents that linear response predicts from rings in equilibrium (ext. 11). Points whose window is not stationary, or
-whose run stopped before its target, are crossed out and not used.
+control, in which a fraction of the collisions reverses the momentum of the scatterer. Line: mean field, the kinetic equation of N
+scatterers. Points whose window is not stationary, or whose run stopped before its target, are crossed out and not used.
 """
 
 from collections.abc import Sequence
@@ -22,9 +21,7 @@ from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
-from workflow.lib.response import response
 
-LINEAR = ("temperature", "pressure")  # second part of the names of runs of linear response
 BELOW = 0.7  # ratio of a guide to the lowest point
 CURVE = ["curve", "rule"]  # columns that identify a curve
 PAPERS = {"deterministic": "N", "rare": 1}  # γ of the curves at the paper's drive
@@ -80,13 +77,19 @@ def draw_guide(axes: Axes, part: pd.DataFrame, slope: float, name: str) -> None:
     axes.annotate(name, end, (4, 0), textcoords="offset points", size=8, va="center")
 
 
-def last_exponent(table: pd.DataFrame, **labels: object) -> str:
-    """Exponent between the two largest sizes of a curve, and the smaller of these."""
-    rows = table.loc[(table[[*labels]] == pd.Series(labels)).all(axis=1)].dropna(subset="between")
-    if not len(rows):
-        return "unknown"
-    last = rows.iloc[-1]
-    return f"{with_error(last.exponent_to_next, last.exponent_to_next_error)} from N = {last.cells} on"
+def compared(table: pd.DataFrame, control: str) -> str:
+    """Exponents at fixed density with and without conserved momentum, between the largest neighbouring sizes that both have."""
+    known = table.dropna(subset="between").set_index(["cells", "between"])
+    exponents = [known[known.curve == "dense"], known[(known.curve == "reversal") & (known.rule == control)]]
+    common = exponents[0].index.intersection(exponents[1].index)
+    if not len(common):
+        return "at no common sizes"
+    cells, between = common.max()
+    elastic, broken = (
+        with_error(*rows.loc[(cells, between), ["exponent_to_next", "exponent_to_next_error"]])
+        for rows in exponents
+    )
+    return f"{elastic} and {broken} between N = {cells} and {between**2 / cells:.0f}"
 
 
 def fraction(rule_text: str) -> str:
@@ -98,19 +101,15 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     control = table[table.curve == "reversal"].rule.min()
     return f"""
         Conductivity κ = −J_U N/(T_N − T_1) of open chains, {parameters(results, "sigma")}, the paper's baths at λ = 1/N, else T_R/T_L =
-        {number(table.drive.max())}. (a) Grey: the paper's powers. (b) Exponents between neighbouring sizes; lines: κ_0 by linear response. At λ =
-        {table[table.curve == "dense"].spacing.iloc[0]} the last is {last_exponent(table, curve="dense")}, and {last_exponent(table, curve="reversal", rule=control)}
-        where a fraction ε = {fraction(control)} of collisions breaks conservation of momentum. {ERRORS}"""
+        {number(table.drive.max())}. (a) Grey: the paper's powers. (b) Exponents between neighbouring sizes. At fixed density (λ =
+        {table[table.curve == "dense"].spacing.iloc[0]}), without and with a fraction ε = {fraction(control)} of collisions that break conservation of
+        momentum (reversal), {compared(table, control)}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
     chains = [result for result in results if result.provenance["program"] == "conductivity"]
-    linear = [
-        result for result in chains if result.run.partition("_")[0].partition("-")[2].startswith(LINEAR)
-    ]
-    shown = [result for result in chains if result not in linear and gas(result) != "dilute"]
+    shown = [result for result in chains if gas(result) != "dilute"]
     table, theory = tabulate(shown), mean_field(results)
-    predicted, _ = response(linear, results)
     size = (2 * style.COLUMN, 1.2 * style.HEIGHT)
     figure, (left, right) = plt.subplots(1, 2, figsize=size, sharex=True)
     controls = iter(CONTROLS)
@@ -138,10 +137,6 @@ def draw(results: Sequence[Result]) -> Drawn:
         linestyle="dashed",
         label=r"$\gamma = N$, mean field",
     )
-    for name, part in predicted.groupby("gas", sort=False):
-        middle, expected, error = local_exponents(part.cells, part.predicted, part.predicted_error)
-        right.plot(middle, expected, color=DRIVEN[name]["color"], linewidth=0.8)
-        style.band(right, middle, expected, error, DRIVEN[name]["color"])
     style.guide_at(right, 0, "0")
     style.cross_out(left, table.cells, table.kappa, ~table.usable)
     left.set(xscale="log", yscale="log", xlabel="number of cells $N$")
