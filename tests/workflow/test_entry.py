@@ -29,12 +29,9 @@ from workflow.environment.variables import FIXED, clean
     ],
 )  # fmt: skip
 def test_a_mistyped_option_gets_a_line(tmp_path: Path, words: str, line: str) -> None:
-    environment = {"PATH": str(tmp_path), "HOME": str(tmp_path)}
-    command = [ROOT / ".venv/bin/python", "-m", "workflow", *words.split()]
-    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
-    assert done.returncode == 2
-    assert done.stderr.startswith(line)
-    assert len(done.stderr.splitlines()) == 1
+    printed = Project(ROOT).workflow(*words.split(), status=2, path=str(tmp_path))
+    assert printed.startswith(line)
+    assert len(printed.splitlines()) == 1
 
 
 def test_words_of_make() -> None:
