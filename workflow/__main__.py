@@ -29,7 +29,7 @@ TARGETS: dict[str, tuple[str, ...]] = {  # with their options
     "audit": ("PANEL", *EFFORT),
     "status": ("PANEL", *EFFORT),
     "verify": ("PANEL", "SAMPLE", *EFFORT),
-    "provenance": ("FILE", "FULL"),
+    "provenance": ("FILE",),
     "deposit": EFFORT,
     "prune": ("DRY", "QUALITY"),
 }
@@ -45,7 +45,7 @@ DONE = {  # of the targets of Snakemake
 RULES = {  # pattern and description of the allowed values
     "JOBS": ("[1-9][0-9]*", "a whole number, at least 1"),
     "SAMPLE": (r"1|0?\.[0-9]+", "a fraction of the results, as 0.1"),
-    **dict.fromkeys(("FRESH", "DRY", "FULL"), ("yes", "yes, or leave it out")),
+    **dict.fromkeys(("FRESH", "DRY"), ("yes", "yes, or leave it out")),
 }
 
 

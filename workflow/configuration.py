@@ -16,7 +16,7 @@ from workflow.files import in_one_line
 from workflow.identity import ROOT
 from workflow.lib.described import declared
 from workflow.lib.nearest import nearest
-from workflow.polynomial import pattern
+from workflow.polynomial import POLYNOMIAL
 
 Options = dict[str, Any]  # by name without leading dashes: a number, text, or a bool for a flag
 Schema = dict[str, Any]
@@ -88,11 +88,9 @@ def read(folder: Path, name: str) -> Document:
     except OSError as error:
         raise ConfigurationError(in_one_line(error)) from error
     except MarkedYAMLError as error:
-        mark, problem = error.problem_mark, str(error.problem)
-        problem = "a tab; indent with spaces" if "'\\t'" in problem else problem
-        raise ConfigurationError(
-            f"{_shown(folder / name)}:{mark.line + 1}:{mark.column + 1}: {problem}"
-        ) from error
+        mark = error.problem_mark
+        position = f"{mark.line + 1}:{mark.column + 1}"
+        raise ConfigurationError(f"{_shown(folder / name)}:{position}: {error.problem}") from error
     except (YAMLError, UnicodeDecodeError) as error:
         raise ConfigurationError(f"{_shown(folder / name)}: {' '.join(str(error).split())}") from error
 
@@ -192,7 +190,7 @@ def _options(program: str, options: Schema, elsewhere: dict[str, str]) -> Schema
 
 def _of_size(name: str, option: Schema) -> Schema:
     """Schema of an option in the configuration, where times may be polynomials in N, which the plan evaluates."""
-    polynomial = {"type": "string", "pattern": f"^{pattern()}$"}
+    polynomial = {"type": "string", "pattern": f"^{POLYNOMIAL}$"}
     return {"if": polynomial, "then": True, "else": option} if name.endswith("-time") else option
 
 

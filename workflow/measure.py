@@ -90,10 +90,9 @@ def _plain(options: Mapping[str, Any]) -> Options:
 
 
 def _result(program: str, options: Options, known: Mapping[str, Any]) -> Result:
-    threads = {name: options.pop(name) for name in ("threads",) if name in options}
+    threads = {name: options.pop(name) for name in CONDUCT if name in options}
     if "seed" in known and "seed" not in options:
-        physics = {name: value for name, value in options.items() if name not in CONDUCT}
-        options["seed"] = seed_of(json.dumps([program, physics], sort_keys=True))
+        options["seed"] = seed_of(json.dumps([program, options], sort_keys=True))
     run = Run(program, program, options)
     path = FOLDER / f"{run.name}.{run.identity}.h5"
     if not path.exists():

@@ -20,7 +20,11 @@ from workflow.identity import IDENTITY, source_hash
 from workflow.provenance import audit, verify
 
 ROOT = Path(__file__).parents[2]
-PACKAGES = (audit, snakemake.cli, verify)  # imported here, so that they and what they import are not in each fork
+PACKAGES = (
+    audit,
+    snakemake.cli,
+    verify,
+)  # imported here, so that they and what they import are not in each fork
 OWN = ("workflow", "snakemake_logger_plugin_progress")  # modules of this project
 PLAN = """panels:
   mu:
