@@ -17,9 +17,9 @@ from workflow.environment.variables import clean
 from workflow.files import in_one_line
 from workflow.identity import ROOT
 from workflow.lib.nearest import nearest
-from workflow.plan import load_plan, panel_named, products_of
+from workflow.plan import EFFORTS, Quality, load_plan, panel_named, products_of
 
-EFFORT = ("QUALITY", "SEED", "REPLICAS", "ERROR")
+EFFORT = ("QUALITY", *map(str.upper, EFFORTS))
 EXECUTION = (*EFFORT, "FRESH", "DRY", "JOBS", "PROFILE", "ACCOUNT", "PARTITION")
 TARGETS: dict[str, tuple[str, ...]] = {  # with their options
     "figures": EXECUTION,
@@ -37,7 +37,7 @@ NEEDED = {"panel": "PANEL=fig05", "provenance": "FILE=figures/standard/fig05.pdf
 DEFAULTS = {"QUALITY": "standard", "SAMPLE": "0.1", "PROFILE": "default"}
 OF_MAKE = ("CXX",)  # options of make build
 DONE = {  # of the targets of Snakemake
-    "figures": "The figures are in figures/{quality}. Next: make report {given}",
+    "figures": "The figures are in figures/{quality}. Next: make report {effort}",
     "panel": "In figures/{quality}: {panel}.pdf and .png .svg .csv",
     "report": "The report is figures/{quality}/report.html",
     "gallery": "The gallery is docs/gallery",
@@ -81,11 +81,9 @@ def parse(target: str, words: list[str]) -> argparse.Namespace:
 
 def prepare(options: argparse.Namespace) -> None:
     """Adds the effort to `quality`, the `plan`, and the requested `panels`. Raises ConfigurationError."""
-    effort = {name: value for name in EFFORT if (value := getattr(options, name.lower()))}
-    options.given = " ".join(f"{name}={value}" for name, value in effort.items())
-    options.quality = "_".join(
-        [effort.pop("QUALITY"), *(f"{name.lower()}={value}" for name, value in effort.items())]
-    )
+    efforts = [f"{name}={value}" for name in EFFORTS if (value := getattr(options, name))]
+    options.quality = "_".join([options.quality, *efforts])
+    options.effort = Quality.of(options.quality).arguments
     options.plan = load_plan(options.quality)
     options.panels = [panel_named(options.plan, name).name for name in options.panel.split()]
 

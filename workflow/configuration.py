@@ -30,7 +30,6 @@ SCALE: Schema = {"type": "number", "exclusiveMinimum": 0, "allowed": "a number g
 FRACTION = {**SCALE, "exclusiveMaximum": 1, "allowed": "a number greater than 0 and less than 1"}
 OF_SERIES: Schema = {
     "program": True,
-    "replicated": {"type": "boolean", "allowed": "true or false"},
     # Equal runs, which differ by their seeds.
     "runs": {"type": "integer", "minimum": 1, "allowed": "a whole number of at least 1"},
     "target-scale": SCALE,  # size of a target quantity that can be 0, to which ERROR refers then
@@ -161,7 +160,7 @@ def _physics(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
 
 
 def _efforts(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
-    """Schema of quality/*.yaml: the effort of all replicated series of a panel, and that of single series."""
+    """Schema of quality/*.yaml: the effort of all series of a panel with replicas, and that of single series."""
     physics = {name for options in programs.values() for name in options if name not in EFFORT}
     elsewhere = dict.fromkeys(physics, "belongs into paper.yaml")
     series = {name: _options(name, options, elsewhere) for name, options in programs.items()}

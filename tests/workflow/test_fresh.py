@@ -137,7 +137,9 @@ def test_results_of_a_program_that_was_exchanged_meanwhile_are_refused(project: 
     project.rebuild()
     hook = "onstart:\n    os.system('cp other/* build/bin')\n"
     project.edit("Snakefile", lambda before: before.replace("onstart:\n", hook))
-    assert "its content is that of another result" in project.entry("panel", "PANEL=mu", status=1)
+    printed = project.entry("panel", "PANEL=mu", status=1)
+    assert "its content is that of another result" in printed
+    assert "Failed: mu; 2 of 4 done" in printed
 
 
 def test_a_script_that_imports_another_is_refused(project: Project) -> None:
