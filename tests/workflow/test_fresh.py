@@ -67,13 +67,12 @@ def test_exactly_what_is_affected_is_made_again(project: Project, change: str) -
     assert project.stale() == expected
 
 
-@pytest.mark.parametrize("change", ["script", "nothing that matters"])
-def test_snakemake_makes_what_is_listed_and_a_dry_run_changes_no_file(project: Project, change: str) -> None:
-    edit, expected = CHANGES[change]
-    edit(project)
+def test_snakemake_makes_what_is_listed_and_a_dry_run_changes_no_file(project: Project) -> None:
+    unimportant(project)
+    append("workflow/figures/mu.py", "# x\n")(project)
     before = project.files(".")
     shown = project.snakemake("--dry-run", "figures").splitlines()
-    assert named("\n".join(line for line in shown if " output: " in line)) == expected
+    assert named("\n".join(line for line in shown if " output: " in line)) == {"mu"}
 
     def lasting(files: dict[str, bytes]) -> dict[str, bytes]:
         return {
