@@ -3,7 +3,6 @@
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -49,7 +48,7 @@ class Document:
     """A YAML file."""
 
     name: str
-    text: str
+    root: Node | None
     content: Any
 
     def check(self, schema: Schema) -> None:
@@ -65,13 +64,9 @@ class Document:
         line, column = self._position(keys)
         return f"{self.name}:{line}:{column}: {'.'.join(map(str, keys)) or 'the file'}: {problem}"
 
-    @cached_property
-    def _root(self) -> Any:
-        return SAFE.compose(self.text)
-
     def _position(self, keys: Keys) -> tuple[int, int]:
         """Line and column of a key or an item; of a merged key, in the mapping that defines it."""
-        node, position = self._root, (1, 1)
+        node, position = self.root, (1, 1)
         for key in keys:
             if member := _member(node, key):
                 mark, node = member
@@ -82,8 +77,10 @@ class Document:
 def read(folder: Path, name: str) -> Document:
     """Reads a YAML 1.2 file. Raises ConfigurationError, also for duplicate keys."""
     try:
-        text = (folder / name).read_text("utf-8")
-        return Document(_shown(folder / name), text, SAFE.load(text))
+        root = SAFE.compose((folder / name).read_text("utf-8"))
+        # This also merges the mappings of the node.
+        content = SAFE.constructor.construct_document(root) if root else None
+        return Document(_shown(folder / name), root, content)
     except OSError as error:
         raise ConfigurationError(in_one_line(error)) from error
     except MarkedYAMLError as error:
@@ -216,12 +213,8 @@ def _problems(error: ValidationError) -> Iterator[tuple[Keys, str]]:
 
 
 def _member(node: Node | None, key: Any) -> tuple[Any, Node] | None:
-    """Start and node of a member of a mapping, merged mappings included, or of a sequence."""
-    if not isinstance(node, MappingNode):
-        return (node.value[key].start_mark, node.value[key]) if isinstance(node, SequenceNode) else None
-    members = {name.value: (name.start_mark, value) for name, value in node.value}
-    if str(key) in members or "<<" not in members:
-        return members.get(str(key))
-    merged = members["<<"][1]
-    parts = merged.value if isinstance(merged, SequenceNode) else [merged]
-    return next(filter(None, (_member(part, key) for part in parts)), None)
+    """Start and node of a member of a mapping or of a sequence."""
+    if isinstance(node, SequenceNode):
+        return node.value[key].start_mark, node.value[key]
+    members = node.value if isinstance(node, MappingNode) else ()
+    return {name.value: (name.start_mark, value) for name, value in members}.get(str(key))
