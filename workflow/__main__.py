@@ -80,7 +80,7 @@ def parse(target: str, words: list[str]) -> argparse.Namespace:
 
 
 def prepare(options: argparse.Namespace) -> None:
-    """Adds the effort to `quality`, the `plan`, and the requested `panels`. Raises ConfigurationError."""
+    """Adds the effort to `quality`, `effort` as arguments of make, the `plan`, and the requested `panels`. Raises ConfigurationError."""
     efforts = [f"{name}={value}" for name in EFFORTS if (value := getattr(options, name))]
     options.quality = "_".join([options.quality, *efforts])
     options.effort = Quality.of(options.quality).arguments
