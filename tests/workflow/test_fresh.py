@@ -160,7 +160,7 @@ def test_two_commands_exclude_each_other_and_a_stopped_one_resumes(
     folder = project.folder / "data/smoke/mu"
     planned = (project.folder / PAPER).read_text()
     text(PAPER, "time: 5}\n    series:\n      all", "time: 20000}\n    series:\n      all")(project)
-    long = ("--config", "quality=smoke_replicas=1000", "panel=mu", "--", "panel")
+    long = ("--config", "quality=smoke_replicas=1000", "panel=mu")
     with (project.folder / "log.txt").open("w") as file:
         running = subprocess.Popen(
             [".venv/bin/snakemake", *long],
