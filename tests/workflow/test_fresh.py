@@ -10,6 +10,7 @@ from collections.abc import Callable
 import h5py
 import pytest
 
+from tests.python.conftest import soon
 from tests.workflow.conftest import Project, named
 
 Edit = Callable[[Project], object]
@@ -146,13 +147,6 @@ def test_a_script_that_imports_another_is_refused(project: Project) -> None:
     assert "imports the script workflow.figures.energy" in project.entry("panel", "PANEL=mu", status=1)
 
 
-def until(condition: Callable[[], object]) -> None:
-    end = time.monotonic() + 60
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.05)
-
-
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
 def test_two_commands_exclude_each_other_and_a_stopped_one_resumes(
     project: Project, number: signal.Signals
@@ -169,7 +163,7 @@ def test_two_commands_exclude_each_other_and_a_stopped_one_resumes(
             stderr=file,
             start_new_session=True,
         )
-    until(lambda: len([*folder.glob("*.log")]) > 2 or running.poll() is not None)
+    soon(lambda: len([*folder.glob("*.log")]) > 2 or running.poll() is not None)
     (project.folder / PAPER).write_text(planned)
     if number == signal.SIGTERM:
         assert "Another command is making products" in project.entry("figures", status=1)
@@ -183,5 +177,5 @@ def test_two_commands_exclude_each_other_and_a_stopped_one_resumes(
     if number == signal.SIGKILL:
         project.entry("figures")  # the lock has ended with its process
     else:
-        until(lambda: [*folder.glob("*.checkpoint")])
+        soon(lambda: [*folder.glob("*.checkpoint")])
         assert (project.folder / "figures/smoke_replicas=1000").is_dir()  # a plan from its start
