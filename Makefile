@@ -18,7 +18,7 @@ gallery: build  ## The report of the release, docs/gallery, from the results at 
 audit: setup  ## Check every result and figure against sources, parameters and packages
 status: setup  ## Fresh, stale (why) or missing
 verify: setup  ## Compile afresh, rerun a SAMPLE=0.1 of the results, or PANEL=fig05, and compare bytes
-provenance: setup  ## Where a file comes from, FILE=figures/standard/fig05.pdf or a copy; FULL=yes
+provenance: setup  ## Where a file comes from, FILE=figures/standard/fig05.pdf or a copy
 deposit: build  ## Code, results and figures as one archive in build/deposit
 prune: setup  ## Remove a quality's results and figures that no plan names; DRY=yes: list
 figures panel report gallery audit status verify provenance deposit prune:

@@ -36,12 +36,12 @@ QUALITY = config.get("quality", "standard")
 try:
     EFFORT = Quality.of(QUALITY)
     PLAN = load_plan(QUALITY)
-    PANELS = [panel_named(PLAN, name).name for name in str(config.get("panel", "")).split()]
+    PANELS = [panel_named(PLAN, name).name for name in str(config.get("panel", "")).split()] or [*PLAN]
     DATA = {name: data_of(PLAN, name, QUALITY) for name in PLAN}
     STEMS = {name: stem_of(PLAN, name, QUALITY) for name in PLAN}
     REPORT = report_stem(PLAN, QUALITY)
     if workflow.is_main_process:
-        runs = runs_of(PLAN, PANELS or PLAN, QUALITY).items()
+        runs = runs_of(PLAN, PANELS, QUALITY).items()
         for program in {run.program for path, run in runs if not os.path.exists(path)}:
             require_built(program)
         if not workflow.output_settings.dryrun:
@@ -66,7 +66,6 @@ wildcard_constraints:
 
 localrules:
     figures,
-    panel,
     draw,
     report,
     report_page,
@@ -80,21 +79,15 @@ onstart:
     signal.signal(signal.SIGTERM, signal.default_int_handler)
 
 
-# Without outputs these rules are always executed: they copy what is missing or edited in figures/<quality>.
+# All, or those of --config panel="fig05 fig08". Without outputs it is always executed: it copies what is missing or edited in
+# figures/<quality>.
 rule figures:
-    input:
-        inputs_of(PLAN),
-    params:
-        stems=[STEMS[name] for name in PLAN],
-    shell:
-        ".venv/bin/python -m workflow.publish {params.stems:q}"
-
-
-use rule figures as panel with:
     input:
         inputs_of(PANELS),
     params:
         stems=[STEMS[name] for name in PANELS],
+    shell:
+        ".venv/bin/python -m workflow.publish {params.stems:q}"
 
 
 include: "workflow/rules/simulate.smk"

@@ -72,11 +72,15 @@ class LogHandler(LogHandlerBase):
             self._console.print(text)
 
     def _finish(self, job: Any) -> None:
-        from workflow.lib.load import NOT_TESTED, load  # noqa: PLC0415  0.5 s
+        from workflow.lib.load import NOT_TESTED, FormatError, load  # noqa: PLC0415  0.5 s
 
         self._done += 1
-        results = (load(path) for path in job.output if path.endswith(".h5"))
-        found = [doubt for result in results for doubt in result.doubts if doubt != NOT_TESTED]
+        found = []
+        for path in (path for path in job.output if path.endswith(".h5")):
+            try:
+                found += [doubt for doubt in load(path).doubts if doubt != NOT_TESTED]
+            except (FormatError, OSError) as error:  # an exception here would end the display
+                found.append(str(error))
         if "panel" in job.wildcards and "run" not in job.wildcards:
             found.append("rendered")
         if found:

@@ -17,9 +17,9 @@ from workflow.environment.variables import clean
 from workflow.files import in_one_line
 from workflow.identity import ROOT
 from workflow.lib.nearest import nearest
-from workflow.plan import load_plan, panel_named, products_of
+from workflow.plan import EFFORTS, Quality, load_plan, panel_named, products_of
 
-EFFORT = ("QUALITY", "SEED", "REPLICAS", "ERROR")
+EFFORT = ("QUALITY", *map(str.upper, EFFORTS))
 EXECUTION = (*EFFORT, "FRESH", "DRY", "JOBS", "PROFILE", "ACCOUNT", "PARTITION")
 TARGETS: dict[str, tuple[str, ...]] = {  # with their options
     "figures": EXECUTION,
@@ -29,7 +29,7 @@ TARGETS: dict[str, tuple[str, ...]] = {  # with their options
     "audit": ("PANEL", *EFFORT),
     "status": ("PANEL", *EFFORT),
     "verify": ("PANEL", "SAMPLE", *EFFORT),
-    "provenance": ("FILE", "FULL"),
+    "provenance": ("FILE",),
     "deposit": EFFORT,
     "prune": ("DRY", "QUALITY"),
 }
@@ -37,7 +37,7 @@ NEEDED = {"panel": "PANEL=fig05", "provenance": "FILE=figures/standard/fig05.pdf
 DEFAULTS = {"QUALITY": "standard", "SAMPLE": "0.1", "PROFILE": "default"}
 OF_MAKE = ("CXX",)  # options of make build
 DONE = {  # of the targets of Snakemake
-    "figures": "The figures are in figures/{quality}. Next: make report {given}",
+    "figures": "The figures are in figures/{quality}. Next: make report {effort}",
     "panel": "In figures/{quality}: {panel}.pdf and .png .svg .csv",
     "report": "The report is figures/{quality}/report.html",
     "gallery": "The gallery is docs/gallery",
@@ -45,7 +45,7 @@ DONE = {  # of the targets of Snakemake
 RULES = {  # pattern and description of the allowed values
     "JOBS": ("[1-9][0-9]*", "a whole number, at least 1"),
     "SAMPLE": (r"1|0?\.[0-9]+", "a fraction of the results, as 0.1"),
-    **dict.fromkeys(("FRESH", "DRY", "FULL"), ("yes", "yes, or leave it out")),
+    **dict.fromkeys(("FRESH", "DRY"), ("yes", "yes, or leave it out")),
 }
 
 
@@ -80,12 +80,10 @@ def parse(target: str, words: list[str]) -> argparse.Namespace:
 
 
 def prepare(options: argparse.Namespace) -> None:
-    """Adds the effort to `quality`, the `plan`, and the requested `panels`. Raises ConfigurationError."""
-    effort = {name: value for name in EFFORT if (value := getattr(options, name.lower()))}
-    options.given = " ".join(f"{name}={value}" for name, value in effort.items())
-    options.quality = "_".join(
-        [effort.pop("QUALITY"), *(f"{name.lower()}={value}" for name, value in effort.items())]
-    )
+    """Adds the effort to `quality`, `effort` as arguments of make, the `plan`, and the requested `panels`. Raises ConfigurationError."""
+    efforts = [f"{name}={value}" for name in EFFORTS if (value := getattr(options, name))]
+    options.quality = "_".join([options.quality, *efforts])
+    options.effort = Quality.of(options.quality).arguments
     options.plan = load_plan(options.quality)
     options.panels = [panel_named(options.plan, name).name for name in options.panel.split()]
 
@@ -107,7 +105,7 @@ def snakemake(target: str, options: argparse.Namespace) -> int:
     words += ["--default-resources", *resources] if resources else []
     words += ["--config", f"quality={options.quality}"]
     words += [f"panel={' '.join(options.panels)}"] if options.panels else []
-    words += ["--", target]
+    words += ["--", target.replace("panel", "figures")]
     from snakemake.cli import main as run  # noqa: PLC0415  0.5 s
 
     sys.argv = ["snakemake", *words]  # Snakemake prints its command

@@ -3,7 +3,6 @@
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +15,7 @@ from workflow.files import in_one_line
 from workflow.identity import ROOT
 from workflow.lib.described import declared
 from workflow.lib.nearest import nearest
-from workflow.polynomial import pattern
+from workflow.polynomial import POLYNOMIAL
 
 Options = dict[str, Any]  # by name without leading dashes: a number, text, or a bool for a flag
 Schema = dict[str, Any]
@@ -30,7 +29,6 @@ SCALE: Schema = {"type": "number", "exclusiveMinimum": 0, "allowed": "a number g
 FRACTION = {**SCALE, "exclusiveMaximum": 1, "allowed": "a number greater than 0 and less than 1"}
 OF_SERIES: Schema = {
     "program": True,
-    "replicated": {"type": "boolean", "allowed": "true or false"},
     # Equal runs, which differ by their seeds.
     "runs": {"type": "integer", "minimum": 1, "allowed": "a whole number of at least 1"},
     "target-scale": SCALE,  # size of a target quantity that can be 0, to which ERROR refers then
@@ -50,7 +48,7 @@ class Document:
     """A YAML file."""
 
     name: str
-    text: str
+    root: Node | None
     content: Any
 
     def check(self, schema: Schema) -> None:
@@ -66,13 +64,9 @@ class Document:
         line, column = self._position(keys)
         return f"{self.name}:{line}:{column}: {'.'.join(map(str, keys)) or 'the file'}: {problem}"
 
-    @cached_property
-    def _root(self) -> Any:
-        return SAFE.compose(self.text)
-
     def _position(self, keys: Keys) -> tuple[int, int]:
         """Line and column of a key or an item; of a merged key, in the mapping that defines it."""
-        node, position = self._root, (1, 1)
+        node, position = self.root, (1, 1)
         for key in keys:
             if member := _member(node, key):
                 mark, node = member
@@ -83,16 +77,16 @@ class Document:
 def read(folder: Path, name: str) -> Document:
     """Reads a YAML 1.2 file. Raises ConfigurationError, also for duplicate keys."""
     try:
-        text = (folder / name).read_text("utf-8")
-        return Document(_shown(folder / name), text, SAFE.load(text))
+        root = SAFE.compose((folder / name).read_text("utf-8"))
+        # This also merges the mappings of the node.
+        content = SAFE.constructor.construct_document(root) if root else None
+        return Document(_shown(folder / name), root, content)
     except OSError as error:
         raise ConfigurationError(in_one_line(error)) from error
     except MarkedYAMLError as error:
-        mark, problem = error.problem_mark, str(error.problem)
-        problem = "a tab; indent with spaces" if "'\\t'" in problem else problem
-        raise ConfigurationError(
-            f"{_shown(folder / name)}:{mark.line + 1}:{mark.column + 1}: {problem}"
-        ) from error
+        mark = error.problem_mark
+        position = f"{mark.line + 1}:{mark.column + 1}"
+        raise ConfigurationError(f"{_shown(folder / name)}:{position}: {error.problem}") from error
     except (YAMLError, UnicodeDecodeError) as error:
         raise ConfigurationError(f"{_shown(folder / name)}: {' '.join(str(error).split())}") from error
 
@@ -163,7 +157,7 @@ def _physics(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
 
 
 def _efforts(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
-    """Schema of quality/*.yaml: the effort of all replicated series of a panel, and that of single series."""
+    """Schema of quality/*.yaml: the effort of all series of a panel with replicas, and that of single series."""
     physics = {name for options in programs.values() for name in options if name not in EFFORT}
     elsewhere = dict.fromkeys(physics, "belongs into paper.yaml")
     series = {name: _options(name, options, elsewhere) for name, options in programs.items()}
@@ -192,7 +186,7 @@ def _options(program: str, options: Schema, elsewhere: dict[str, str]) -> Schema
 
 def _of_size(name: str, option: Schema) -> Schema:
     """Schema of an option in the configuration, where times may be polynomials in N, which the plan evaluates."""
-    polynomial = {"type": "string", "pattern": f"^{pattern()}$"}
+    polynomial = {"type": "string", "pattern": f"^{POLYNOMIAL}$"}
     return {"if": polynomial, "then": True, "else": option} if name.endswith("-time") else option
 
 
@@ -219,12 +213,8 @@ def _problems(error: ValidationError) -> Iterator[tuple[Keys, str]]:
 
 
 def _member(node: Node | None, key: Any) -> tuple[Any, Node] | None:
-    """Start and node of a member of a mapping, merged mappings included, or of a sequence."""
-    if not isinstance(node, MappingNode):
-        return (node.value[key].start_mark, node.value[key]) if isinstance(node, SequenceNode) else None
-    members = {name.value: (name.start_mark, value) for name, value in node.value}
-    if str(key) in members or "<<" not in members:
-        return members.get(str(key))
-    merged = members["<<"][1]
-    parts = merged.value if isinstance(merged, SequenceNode) else [merged]
-    return next(filter(None, (_member(part, key) for part in parts)), None)
+    """Start and node of a member of a mapping or of a sequence."""
+    if isinstance(node, SequenceNode):
+        return node.value[key].start_mark, node.value[key]
+    members = node.value if isinstance(node, MappingNode) else ()
+    return {name.value: (name.start_mark, value) for name, value in members}.get(str(key))

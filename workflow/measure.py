@@ -90,10 +90,9 @@ def _plain(options: Mapping[str, Any]) -> Options:
 
 
 def _result(program: str, options: Options, known: Mapping[str, Any]) -> Result:
-    threads = {name: options.pop(name) for name in ("threads",) if name in options}
+    threads = {name: options.pop(name) for name in CONDUCT if name in options}
     if "seed" in known and "seed" not in options:
-        physics = {name: value for name, value in options.items() if name not in CONDUCT}
-        options["seed"] = seed_of(json.dumps([program, physics], sort_keys=True))
+        options["seed"] = seed_of(json.dumps([program, options], sort_keys=True))
     run = Run(program, program, options)
     path = FOLDER / f"{run.name}.{run.identity}.h5"
     if not path.exists():
@@ -121,17 +120,11 @@ def _combined(trees: "Sequence[xarray.DataTree]", listed: Mapping[str, list[Any]
         return parts[0]
 
     names = [name for name in trees[0].children if all(name in tree.children for tree in trees)]
-    doubts = [
-        xarray.Dataset({attribute: tree.attrs[attribute] for attribute in ("converged", "doubts")})
-        for tree in trees
-    ]
-    root = gridded(doubts)
-    common = {
-        key: value
-        for key, value in trees[0].attrs.items()
-        if all(tree.attrs.get(key) == value for tree in trees)
-    }
-    root.attrs = {key: value for key, value in common.items() if key not in ("converged", "doubts", *listed)}
+    states = ("converged", "doubts")
+    root = gridded(
+        [xarray.Dataset({name: tree.attrs[name] for name in states}, attrs=tree.attrs) for tree in trees]
+    )
+    root.attrs = {name: value for name, value in root.attrs.items() if name not in (*states, *listed)}
     return xarray.DataTree.from_dict(
         {"/": root, **{name: gridded([tree[name].to_dataset() for tree in trees]) for name in names}}
     )

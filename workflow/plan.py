@@ -30,6 +30,7 @@ from workflow.identity import (
     result_identity,
     source_hash,
 )
+from workflow.lib.described import declared
 from workflow.lib.nearest import nearest
 from workflow.polynomial import evaluated
 from workflow.publish import SHOWN, STORE
@@ -73,8 +74,12 @@ class Run:
     name: str
     program: str
     options: Options
-    replicated: bool = True  # False for a deterministic program
     series: str = ""  # key in the configuration; the name also has the listed values
+
+    @property
+    def replicated(self) -> bool:
+        """Whether the program has random numbers, hence a seed and replicas."""
+        return "replicas" in self.options
 
     @property
     def words(self) -> str:
@@ -260,7 +265,7 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Q
             continue
         own = dict(panel["series"][series])
         own.pop("program", None)
-        replicated, scale = own.pop("replicated", True), own.pop("target-scale", None)
+        replicated, scale = "replicas" in declared()[program], own.pop("target-scale", None)
         equal_runs = range(1, own.pop("runs", 1) + 1)
         general = (efforts["default"], of_all) if replicated else ()
         effort = _merged(*general, effort_of.get(series, {}))
@@ -275,7 +280,7 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Q
             given = {**options, **chosen}
             given = {key: evaluated(value, given.get("cells")) for key, value in given.items()}
             completed = quality.complete(name, run, given, scale) if replicated else given
-            runs.append(Run(run, program, completed, replicated, series))
+            runs.append(Run(run, program, completed, series))
     return Panel(name, panel.get("script", name), tuple(runs), tuple(panel.get("uses", ())), tuple(replaced))
 
 

@@ -21,8 +21,7 @@ class ProgramError(ValueError):
 
 def threads_of(run: Run) -> int:
     """Threads among which the replicas of a run are divided without waste."""
-    replicas = int(run.options.get("replicas", 1)) if run.replicated else 1
-    return max(1, min(MOST_THREADS, replicas // REPLICAS_PER_THREAD))
+    return max(1, min(MOST_THREADS, int(run.options.get("replicas", 1)) // REPLICAS_PER_THREAD))
 
 
 def command_line(run: Run, threads: int = 1) -> list[str]:

@@ -1,8 +1,10 @@
 import os
 import subprocess
+import time
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import TypeVar
 
 import h5py
 import numpy as np
@@ -12,6 +14,7 @@ from workflow.lib.described import declared
 from workflow.lib.load import Result, load
 
 ROOT = Path(__file__).parents[2]
+T = TypeVar("T")
 
 GENERAL = {"cells": 5, "particles-per-cell": 4, "relaxation-time": 5, "observation-time": 10, "replicas": 4}
 NAMED: dict[str, dict[str, object]] = {
@@ -25,6 +28,15 @@ NAMED: dict[str, dict[str, object]] = {
 Program = Callable[..., subprocess.CompletedProcess]
 Measure = Callable[..., Result]
 OverSeeds = Callable[..., dict[str, np.ndarray]]
+
+
+def soon(find: Callable[[], T], seconds: float = 300) -> T:
+    """Waits for a true value and returns it."""
+    deadline = time.monotonic() + seconds
+    while not (found := find()):
+        assert time.monotonic() < deadline, f"not within {seconds:g} seconds"
+        time.sleep(0.01)
+    return found
 
 
 def small(program: str) -> dict[str, object]:

@@ -55,7 +55,7 @@ MISTAKES = [
     ("cells: 11", "cels: 11", "cels: persistence has no such option; did you mean cells?"),
     ("cells: 11", "replicas: 9", "replicas: belongs into quality/*.yaml"),
     ("cells: 11", "seed: 9", "seed: follows from the names of panel and run; `make panel SEED=7`"),
-    ("      cells: 11", "\tcells: 11", ":1: a tab; indent with spaces"),
+    ("      cells: 11", "\tcells: 11", ":1: found character '\\t'"),
     ("cells: 11", "cells: 11\n      cells: 11", '7:7: found duplicate key "cells"'),
     ("cells: 11", "cells: *none", "found undefined alias 'none'"),
     ("[0, 0.5]", "[0, -3]", "all.sigma.1: -3 is invalid; allowed: a number from -1 to 1"),

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.python.conftest import Program, command_line
+from tests.python.conftest import Program, command_line, soon
 
 # The jackknife of 2000 replicas takes half of the run time of displacement, so that it is interrupted too.
 LONG = {
@@ -51,9 +51,7 @@ def test_a_closed_terminal_is_ignored_with_nohup(tmp_path: Path) -> None:
     options = LONG["persistence"] | {"checkpoint-interval": 0.1, "output": "out.h5"}
     command = ["nohup", *command_line("persistence", options)]
     process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.DEVNULL)
-    deadline = time.monotonic() + 30
-    while not (tmp_path / "out.h5.checkpoint").exists() and time.monotonic() < deadline:
-        time.sleep(0.01)
+    soon((tmp_path / "out.h5.checkpoint").exists)
     process.send_signal(signal.SIGHUP)
     assert process.wait(timeout=60) == 0
     assert (tmp_path / "out.h5").is_file()

@@ -7,12 +7,12 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from tests.python.conftest import soon
 from workflow import measure as module
 from workflow import plan
 from workflow.identity import ROOT
@@ -129,14 +129,6 @@ def test_doubts_are_warned_of() -> None:
         measure("conductivity", **options | {"replicas": 1})
 
 
-def wait_until(condition: Callable[[], object]) -> None:
-    for _ in range(400):
-        if condition():
-            return
-        time.sleep(0.05)
-    raise AssertionError("not within 20 s")
-
-
 def running(folder: Path) -> bool:
     """Whether a program is running that writes into the folder."""
     command = ["pgrep", "-f", f"bin/persistence .*{folder}"]
@@ -151,11 +143,11 @@ def test_the_program_ends_with_the_session(folder: Path) -> None:
         f"m.measure('persistence', **{options})"
     )
     session = subprocess.Popen([sys.executable, "-c", code], cwd=ROOT, stderr=subprocess.DEVNULL)
-    wait_until(lambda: running(folder))
+    soon(lambda: running(folder))
     time.sleep(0.5)
     session.terminate()
     session.wait()
-    wait_until(lambda: not running(folder))
+    soon(lambda: not running(folder))
     assert [*folder.glob("*.checkpoint")]
 
 
@@ -166,7 +158,7 @@ def test_an_interrupted_call_is_continued(folder: Path, capfd: pytest.CaptureFix
     )  # the workers of pytest ignore this signal
 
     def interrupt() -> None:
-        wait_until(lambda: running(folder))
+        soon(lambda: running(folder))
         time.sleep(1)
         os.kill(os.getpid(), signal.SIGINT)
 

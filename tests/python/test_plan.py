@@ -7,7 +7,7 @@ import pytest
 
 from tests.python.conftest import ROOT
 from workflow import plan
-from workflow.configuration import EFFORT, FOLDER, ConfigurationError
+from workflow.configuration import FOLDER, ConfigurationError
 from workflow.plan import BATCH, QUALITIES, Quality, Run, data_path, load_plan
 from workflow.polynomial import evaluated
 
@@ -28,7 +28,7 @@ def test_every_quality_describes_every_panel(quality: str) -> None:
         assert (ROOT / f"workflow/figures/{panel.script}.py").is_file()
         for run in panel.runs:
             assert (ROOT / f"cpp/observables/{run.program}.cpp").is_file()
-            assert run.replicated == ("seed" in run.options) == ("replicas" in run.options)
+            assert (run.program != "boltzmann") == run.replicated == ("seed" in run.options)
             assert run.options.get("replicas", 2) >= 2 or "_run=" in run.name
 
 
@@ -59,13 +59,9 @@ def test_the_effort_of_the_user_replaces_that_of_the_quality() -> None:
     assert Quality.of("smoke_seed=7_replicas=5").arguments == "QUALITY=smoke SEED=7 REPLICAS=5"
     quality = Quality.of("smoke_seed=7_error=0.005")
     assert quality.arguments == "QUALITY=smoke SEED=7 ERROR=0.005"
-    completed = quality.complete("fig05", "paper", {"replicas": 500, "sigma": 0}, None)
-    assert completed["target-error"] == 0.005
-    assert completed["replicas"] == BATCH
-
-
-def test_a_target_that_can_be_zero_has_a_scale() -> None:
-    assert Quality.of("smoke_error=0.005").complete("a", "b", {}, 200)["target-scale"] == 200
+    completed = quality.complete("fig05", "paper", {"replicas": 500, "sigma": 0}, 200)
+    given = {key: completed[key] for key in ("replicas", "target-error", "target-scale")}
+    assert given == {"replicas": BATCH, "target-error": 0.005, "target-scale": 200}
 
 
 EFFORT_OF_FIG05 = "  fig05: {replicas: 8, dense: {replicas: 2}}"
@@ -97,18 +93,6 @@ def test_a_run_has_no_slash_in_its_name(folder: Path) -> None:
     edit(folder / "paper.yaml", "        cell-length: 1/N\n", "        cell-length: [1/N, 0.1]\n")
     names = {run.name for run in load_plan("smoke", folder)["fig01"].runs}
     assert {"unit-chain_cell-length=1perN", "unit-chain_cell-length=0.1"} < names
-
-
-def test_quality_changes_effort_only() -> None:
-    plans = [load_plan(quality) for quality in QUALITIES]
-    for name, panel in plans[0].items():
-        for run in panel.runs:
-            same = [match for plan in plans for match in plan[name].runs if match.name == run.name]
-            same = [match for match in same if match.options.get("cells") == run.options.get("cells")]
-            physics = [
-                {key: value for key, value in match.options.items() if key not in EFFORT} for match in same
-            ]
-            assert all(options == physics[0] for options in physics)
 
 
 @pytest.mark.parametrize(

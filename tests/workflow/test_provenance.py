@@ -133,9 +133,7 @@ def test_states(project: Project, case: str) -> None:
 
 
 def provenance(project: Project, file: Path, status: int = 0) -> str:
-    return project.run(
-        ".venv/bin/python", "-m", "workflow", "provenance", f"FILE={file}", status=status
-    ).stdout
+    return project.workflow("provenance", f"FILE={file}", status=status)
 
 
 def test_where_a_copy_of_a_figure_comes_from(project: Project, tmp_path: Path) -> None:

@@ -8,15 +8,13 @@ import socket
 import subprocess
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TypeVar
 
 import pytest
 
+from tests.python.conftest import soon
 from tests.workflow.conftest import Project
-
-T = TypeVar("T")
 
 DAEMONS = ("munged", "slurmctld", "slurmd")
 INSTALLED = Path("/etc/slurm/slurm.conf")  # where commands in jobs look for the configuration
@@ -52,15 +50,6 @@ MinJobAge=3600
 NodeName=localhost NodeAddr=127.0.0.1 CPUs=2 RealMemory=8000 State=UNKNOWN
 PartitionName=test Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 """
-
-
-def soon(find: Callable[[], T], seconds: float = 300) -> T:
-    """Waits for a true value and returns it."""
-    deadline = time.monotonic() + seconds
-    while not (found := find()):
-        assert time.monotonic() < deadline, f"not within {seconds:g} seconds"
-        time.sleep(0.05)
-    return found
 
 
 class Cluster:

@@ -18,7 +18,7 @@ from workflow.files import in_one_line
 from workflow.identity import DIGITS, drawing_sources, named_identity, sha256, source_hash, stated
 from workflow.lib.load import FormatError, load_provenance
 from workflow.lib.save import renderer
-from workflow.plan import Panel, Quality, Run, data_of, drawing_command, runs_of, stem_of
+from workflow.plan import Panel, Run, data_of, drawing_command, runs_of, stem_of
 from workflow.publish import SHOWN, copies, read_record
 
 
@@ -152,5 +152,5 @@ def main(options: argparse.Namespace) -> int:
     if made:
         print(f"{len(made)} panels with {len(runs_of(plan, made, quality))} results: {listed}")
     if broken := states.keys() - {"not checked"}:
-        print(f"make figures {Quality.of(quality).arguments} makes what is stale or missing")
+        print(f"make figures {options.effort} makes what is stale or missing")
     return 1 if broken else 3 if states or not made else 0

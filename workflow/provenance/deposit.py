@@ -13,7 +13,7 @@ from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from workflow.identity import sha256
-from workflow.plan import Quality, report_stem, runs_of, stem_of
+from workflow.plan import report_stem, runs_of, stem_of
 from workflow.provenance.audit import check
 from workflow.publish import copies
 
@@ -48,8 +48,8 @@ def main(options: argparse.Namespace) -> None:
     if new := git("ls-files", "--others", "--exclude-standard", "cpp", "workflow"):
         sys.exit(f"{new[0]} is not tracked, and would be missing in the deposit: git add it, or move it away")
     if faults := check(plan, [*plan], quality, render=False):
-        remedy = f"run make figures {Quality.of(quality).arguments}"
-        sys.exit(f"{faults[0].path} is {faults[0].state}: {faults[0].reason}; {remedy}")
+        first = faults[0]
+        sys.exit(f"{first.path} is {first.state}: {first.reason}; run make figures {options.effort}")
     paths = {*git("ls-files"), *runs_of(plan, plan, quality)}
     for stem in map(Path, [*(stem_of(plan, name, quality) for name in plan), report_stem(plan, quality)]):
         paths |= {*map(str, [*stem.parent.glob(f"{stem.name}.*"), *copies(stem)])}

@@ -1,17 +1,14 @@
-"""Prints where a file comes from: a result, a figure or its table, or a copy of one anywhere. FULL=yes: with hashes and versions.
+"""Prints where a file comes from: a result, a figure or its table, or a copy of one anywhere.
 
 Exit status: 0 if the file is unmodified, 1 if it is edited or states nothing, 3 if its record is not here.
 """
 
 import argparse
-from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
 
 from workflow.identity import content_hash, result_identity, sha256, stated
 from workflow.lib.load import FormatError, load_provenance
 from workflow.plan import QUALITIES, Quality, plans_of, runs_of
-from workflow.provenance.audit import options_of
 from workflow.publish import STORE, read_record
 
 HDF5 = b"\x89HDF"  # first bytes of a file
@@ -21,26 +18,7 @@ def print_panel(panel: str, quality: str) -> None:
     print(f"panel {panel}, quality {quality}: make panel PANEL={panel} {Quality.of(quality).arguments}")
 
 
-def print_results(paths: Iterable[str]) -> None:
-    """Program and options that results have in common, then those of each."""
-    words = {}
-    for path in paths:
-        try:
-            origin = load_provenance(path)
-            words[path] = [origin["program"], *options_of(origin["words"])]
-        except (FormatError, OSError) as error:
-            print(error)
-    common = [word for word in next(iter(words.values()), []) if all(word in own for own in words.values())]
-    print(*common)
-    for path, own in words.items():
-        print(f"  {path}:", *(word for word in own if word not in common))
-
-
-def print_details(details: dict[str, Any]) -> None:
-    print(*(f"{name}: {value}" for name, value in details.items()), sep="\n")
-
-
-def explain_result(path: Path, full: bool) -> int:
+def explain_result(path: Path) -> int:
     origin = load_provenance(path)
     program, words = origin["program"], origin["words"]
     for quality, plan in (named for base in QUALITIES for named in plans_of(base).items()):
@@ -49,38 +27,46 @@ def explain_result(path: Path, full: bool) -> int:
                 print_panel(Path(planned).parent.name, quality)
     print(f"{program} {words}")
     print(f"unmodified, identity {result_identity(program, words, origin['source_hash'])}")
-    if full:
-        print_details(origin)
+    print(f"compiled by {origin['compiler']} with {origin['libraries']}")
     return 0
 
 
-def explain_figure(content: bytes, full: bool) -> int:
+def explain_figure(content: bytes) -> int:
     if not (statement := stated(content)):
         print("It states no panel: it is no file of a panel, or another program has written it again")
         return 1
     panel, quality, identity = statement
     print_panel(panel, quality)
-    record = read_record(f"{STORE}/{quality}/{panel}.{identity}.json")
-    if not record:
+    path = f"{STORE}/{quality}/{panel}.{identity}.json"
+    if not (record := read_record(path)):
         print(f"identity {identity}, of which there is no record here")
         return 3
-    edited, parents = sha256(content) not in record["files"].values(), record["parents"]
-    print_results(path for path in parents if path.endswith(".h5"))
-    print(f"{'edited' if edited else 'unmodified'}, made from {len(parents)} files")
-    for path, digest in parents.items():
-        if not path.endswith(".h5") and not (Path(path).exists() and content_hash(path) == digest):
-            print(f"{path} is another here")
-    if full:
-        print_details({name: record[name] for name in ("identity", "commit", "renderer")} | parents)
+    for parent, digest in record["parents"].items():
+        if parent.endswith(".h5"):
+            print_command(parent)
+        elif not (Path(parent).exists() and content_hash(parent) == digest):
+            print(f"{parent} is another here")
+    edited = sha256(content) not in record["files"].values()
+    print(f"{'edited' if edited else 'unmodified'}, made from {len(record['parents'])} files: {path}")
+    print(f"commit {record['commit'] or 'unknown'}, rendered by {record['renderer']}")
     return int(edited)
+
+
+def print_command(path: str) -> None:
+    """Path of a result, and the command of its program."""
+    try:
+        origin = load_provenance(path)
+        print(f"{path}: {origin['program']} {origin['words']}")
+    except (FormatError, OSError) as error:
+        print(error)
 
 
 def main(options: argparse.Namespace) -> int:
     content = Path(options.file).read_bytes()
     try:
         if content.startswith(HDF5):
-            return explain_result(Path(options.file), options.full)
-        return explain_figure(content, options.full)
+            return explain_result(Path(options.file))
+        return explain_figure(content)
     except FormatError as error:
         print(error)
         return 1
