@@ -31,6 +31,7 @@ def moment(power: int, sign: int) -> Expr:
     return sympy.expand(integrate(sympy.expand(both * p**power * exp(-(p**2) / (2 * T))), (p, 0, oo)))
 
 
+@cache
 def fields_and_currents() -> tuple[Matrix, Matrix]:
     """n, g, e per length and their currents [eqs. M2 to M8], in z, T and w."""
     # The only divergent term of n is that of 1/|p|; its finite rest is moment(1).
@@ -116,25 +117,24 @@ def test_speed_and_couplings(chain: Chain) -> None:
     assert chain.self_coupling == pytest.approx(2 * sqrt(2) * own)
 
 
+@cache
+def derivatives() -> list[list[Matrix]]:
+    """For the fields and the currents the first derivatives by z, T and w at rest, and the derivatives of these by each of them."""
+    start, state = Symbol("T0", positive=True), (z, T, w)
+    logarithm = slow + sympy.log(T / start) / 2  # the cut is a momentum
+    first = [vector.subs(slow, logarithm).jacobian(state) for vector in fields_and_currents()]
+    return [[x.subs({start: T, w: 0}) for x in (each, *map(each.diff, state))] for each in first]
+
+
 @pytest.mark.parametrize("chain", CHAINS)
 def test_three_fields_with_many_slow_particles(chain: Chain) -> None:
     """Speed at a finite Λ, and K = dc/dw along the wave for large Λ: what the slow particles pin is F(0), not z."""
 
     def found(number: float) -> tuple[float, float, float]:
-        fields, currents = fields_and_currents()
-        # dΛ/dT = 1/2T: the cut is a momentum.
-        logarithm = slow + sympy.log(T / Symbol("T0", positive=True)) / 2
-        state = (z, T, w)
-        numbers = {**values(chain), slow: number, Symbol("T0", positive=True): chain.temperature, w: 0}
-
-        def derivatives(vector: Matrix) -> tuple[np.ndarray, np.ndarray]:
-            first = vector.subs(slow, logarithm).jacobian(state)
-            second = [first.diff(x).subs(numbers).evalf() for x in state]
-            return np.array(first.subs(numbers).evalf(), dtype=float), np.array(second, dtype=float).reshape(
-                3, 3, 3
-            )
-
-        (a, da), (b, db) = derivatives(fields), derivatives(currents)
+        numbers = {**values(chain), slow: number}
+        (a, *da), (b, *db) = (
+            [np.array(x.subs(numbers).evalf(), dtype=float) for x in each] for each in derivatives()
+        )
         speeds, right = np.linalg.eig(np.linalg.solve(a, b))
         fastest = int(np.argmax(speeds.real))
         speed, wave = float(speeds[fastest].real), right[:, fastest].real
@@ -142,7 +142,7 @@ def test_three_fields_with_many_slow_particles(chain: Chain) -> None:
         left_speeds, left = np.linalg.eig(np.linalg.solve(a.T, b.T))
         mirror = left[:, int(np.argmax(left_speeds.real))].real
         mirror = np.linalg.solve(a.T, a.T @ mirror)
-        change = np.tensordot(wave, db - speed * da, axes=1)
+        change = np.tensordot(wave, np.array(db) - speed * np.array(da), axes=1)
         return speed, float(mirror @ change @ wave / (mirror @ a @ wave)), float(wave[1])
 
     for number in (4.0, 9.0):

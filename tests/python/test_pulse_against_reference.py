@@ -23,7 +23,7 @@ def reference(gamma: float, times: tuple[float, ...], *, replicas: int, pairs: i
     chain = {"cells": CELLS, "particles_per_cell": PARTICLES, "sigma": SIGMA, "gamma": gamma}
     pulse = {"energy": ENERGY, "pulse_energy": PULSE_ENERGY, "times": ",".join(map(str, times))}
     effort = {"pairs_per_replica": pairs, "replicas": replicas, "seed": 1}
-    rows = simulate("pulse", **chain, **pulse, **effort, start="shared")
+    rows = simulate("pulse", **chain, **pulse, **effort)
     return rows.astype(float).reshape(replicas, len(times), CELLS)
 
 

@@ -14,14 +14,12 @@ namespace reference {
 /// Energy pulse by the reference simulator, with independent random numbers and initial states and no code
 /// shared with the engine or the program energy_pulse. Prints one line per replica: the mean over its pairs
 /// of the energy per cell with the pulse minus without, all cells at the first time, all cells at the second,
-/// ... Both trajectories start from the same state or, to measure the variance reduction by that, from
-/// independent ones.
+/// ... Both trajectories start from the same state.
 struct Pulse {
   Arguments of;
   std::size_t cells = of.count("cells"), particles_per_cell = of.count("particles-per-cell");
   double sigma = of.number("sigma"), gamma = of.number("gamma"), energy = of.number("energy"),
          pulse_energy = of.number("pulse-energy");
-  bool shared = of.text("start") == "shared";  // else independent
   std::vector<double> times = of.list("times");
 
   void run() const;
@@ -62,7 +60,7 @@ inline PulseStart with_pulse(const Pulse& pulse, PulseStart start) {
 /// Adds the energy differences of one pair to the sums.
 inline void add_pair(const Pulse& pulse, std::mt19937_64& generator, std::vector<double>& sums) {
   const PulseStart start = draw_start(pulse, generator);
-  const PulseStart pulsed = with_pulse(pulse, pulse.shared ? start : draw_start(pulse, generator));
+  const PulseStart pulsed = with_pulse(pulse, start);
   HeapSimulator<double> plain(pulse.sigma, 1, start.x, start.p, start.P),
       perturbed(pulse.sigma, 1, pulsed.x, pulsed.p, pulsed.P);
   const double probability = pulse.gamma / static_cast<double>(pulse.cells);

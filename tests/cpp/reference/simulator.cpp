@@ -1,10 +1,8 @@
-/// Independent simulators of the same observables, for the Python tests and workflow/tradeoff: they share no
-/// code and no random numbers with the engine. Usage: reference_simulator NAME --option value ..., all
-/// options required.
+/// Independent simulators of the same observables, for the Python tests: they share no code and no
+/// random numbers with the engine. Usage: reference_simulator NAME --option value ..., all options required.
 #include "reference/arguments.hpp"
 #include "reference/closed_chain.hpp"
 #include "reference/correlation.hpp"
-#include "reference/drift.hpp"
 #include "reference/open_chain.hpp"
 #include "reference/pulse.hpp"
 
@@ -16,7 +14,6 @@ int main(int argc, char** argv) {
   if (name == "open_chain") return run_open_chain(arguments), 0;
   if (name == "pulse") return Pulse{arguments}.run(), 0;
   if (name == "correlation") return run_correlation(arguments), 0;
-  if (name == "drift") return run_drift(arguments), 0;
   std::fprintf(stderr, "no simulator is named '%s'\n", name.c_str());
   return 2;
 }
