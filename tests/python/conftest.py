@@ -9,7 +9,9 @@ from typing import TypeVar
 import h5py
 import numpy as np
 import pytest
+from scipy.stats import chi2, norm
 
+from workflow.configuration import arguments
 from workflow.lib.described import declared
 from workflow.lib.load import Result, load
 
@@ -53,6 +55,29 @@ def command_line(program: str, options: dict) -> list[str]:
         elif value is not None:
             words += [f"--{name}", str(value)]
     return words
+
+
+def simulate(simulator: str, **options: object) -> np.ndarray:
+    """Table printed by a reference simulator of tests/cpp/reference, as numbers. Raises CalledProcessError."""
+    dashed = {name.replace("_", "-"): value for name, value in options.items()}
+    command = [str(ROOT / "build/bin/reference_simulator"), simulator, *arguments(dashed)]
+    printed = subprocess.check_output(command, text=True)
+    return np.array([line.split() for line in printed.splitlines()], dtype=float)
+
+
+def agree(*scores: np.ndarray) -> bool:
+    """Whether the largest score is below the bound for as many independent normal ones. Correlations only make it smaller."""
+    every = np.concatenate([np.ravel(each) for each in scores])
+    return bool(np.abs(every).max() < norm.isf(1e-4 / 2 / every.size))
+
+
+def spread_accepted(values: np.ndarray, errors: np.ndarray, replicas: int, level: float) -> bool:
+    """Chi-square of values [seed] about their weighted mean at a two-sided level. Errors estimated from R replicas make the sum of squared
+    Student variables: each has mean (R-1)/(R-3), not 1, which the bounds allow for."""
+    weights = errors**-2
+    statistic = np.sum(weights * (values - np.average(values, weights=weights)) ** 2)
+    low, high = chi2.ppf([level / 2, 1 - level / 2], len(values) - 1)
+    return bool(low < statistic < (replicas - 1) / (replicas - 3) * high)
 
 
 @pytest.fixture

@@ -1,28 +1,21 @@
 """The program that solves the kinetic equation: axes, consistency of its quantities, coverage of its errors."""
 
-from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from tests.python.conftest import Program
-from workflow.lib.load import Result, load
-
-Solve = Callable[..., Result]
+from tests.python.conftest import Measure, Program
+from workflow.lib.load import load
 
 
 @pytest.fixture
-def solve(program: Program, tmp_path: Path) -> Solve:
-    def solve(**options: object) -> Result:
-        done = program("boltzmann", **options)
-        assert done.returncode == 0, done.stderr
-        return load(tmp_path / "out.h5")
-
-    return solve
+def solve(measure: Measure) -> Measure:
+    return partial(measure, "boltzmann")
 
 
-def test_positions(solve: Solve) -> None:
+def test_positions(solve: Measure) -> None:
     """Bonds and scatterers of a chain; in the continuum all quantities are at the positions given."""
     chain = solve(cells=7)
     np.testing.assert_allclose(chain["flux"].axes["x"], np.arange(8) / 7, rtol=1e-15)
@@ -37,7 +30,7 @@ def test_positions(solve: Solve) -> None:
     assert continuum.provenance["achieved_error"] <= 1e-10
 
 
-def test_quantities_fit_together(solve: Solve) -> None:
+def test_quantities_fit_together(solve: Measure) -> None:
     result = solve(momentum_bins=400, momentum_max=150)
     flux, p = result["flux"].mean, result["flux"].axes["momentum"]
     width = p[1] - p[0]
@@ -64,7 +57,7 @@ def test_quantities_fit_together(solve: Solve) -> None:
 @pytest.mark.parametrize(
     "options", [{}, {"sigma": -0.9, "gamma": 20}, {"sigma": 0.03}, {"cells": 5, "gamma": 5}]
 )
-def test_errors_are_honest(solve: Solve, options: dict) -> None:
+def test_errors_are_honest(solve: Measure, options: dict) -> None:
     """The errors of a loose target cover the difference from a much finer solution. Densities, which are not
     truncated at 0, are negative within their errors only."""
     loose = solve(target_error=1e-3, **options)
@@ -78,7 +71,7 @@ def test_errors_are_honest(solve: Solve, options: dict) -> None:
         assert (fine[name].mean >= -fine[name].discretisation_error).all(), name
 
 
-def test_equilibrium(solve: Solve) -> None:
+def test_equilibrium(solve: Measure) -> None:
     baths = {"nu_left": 10, "nu_right": 10, "temperature_left": 4, "temperature_right": 4, "momentum_max": 10}
     result = solve(sigma=-0.3, gamma=30, **baths)
     density = result["flux_density"]

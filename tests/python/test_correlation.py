@@ -9,8 +9,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.stats import chi2
 
-from tests.python.conftest import Measure
-from tests.python.simulators import simulate
+from tests.python.conftest import Measure, simulate
 from workflow.lib.load import Quantity, Result
 from workflow.lib.mode_coupling import Chain
 
@@ -90,7 +89,7 @@ def reference(lag: float, replicas: int) -> dict[str, np.ndarray]:
     """Correlations of the reference simulator by field [replica, distance]."""
     gas = {"cells": CELLS, "fugacity": ZETA, "sigma": SIGMA, "temperature": T, "slowest": SLOWEST}
     rows = simulate("correlation", **gas, lag=lag, replicas=replicas, seed=1)
-    sample = rows.astype(float).reshape(replicas, len(FIELDS), CELLS)
+    sample = rows.reshape(replicas, len(FIELDS), CELLS)
     # The expectation does not depend on the sign of r.
     sample = 0.5 * (sample + np.roll(sample[:, :, ::-1], 1, axis=2))
     return {name: sample[:, k] for k, name in enumerate(FIELDS)}

@@ -3,11 +3,10 @@ pulse are tested with their other properties in test_open_chain.py and test_puls
 
 import numpy as np
 import pytest
-from scipy.stats import chi2
 
-from tests.python.conftest import OverSeeds
+from tests.python.conftest import OverSeeds, spread_accepted
 
-SEEDS = 50
+SEEDS, LEVEL = 50, 1e-3
 REPLICAS = 24
 LEAST = 64  # replicas of a run with a target error
 
@@ -29,25 +28,15 @@ CASES: list[tuple[str, str, dict]] = [
 ]
 
 
-def accepted(values: np.ndarray, errors: np.ndarray, replicas: int) -> bool:
-    """Chi-square about the weighted mean. Errors estimated from R replicas make the sum of squared Student variables: each has mean
-    (R-1)/(R-3), not 1, which the bounds allow for."""
-    weights = errors**-2
-    statistic = np.sum(weights * (values - np.average(values, weights=weights)) ** 2)
-    stretch = (replicas - 1) / (replicas - 3)
-    low, high = chi2.ppf([5e-4, 1 - 5e-4], SEEDS - 1)
-    return bool(low < statistic < stretch * high)
-
-
 @pytest.mark.parametrize(("name", "quantity", "options"), CASES)
 def test_standard_error_over_seeds(over_seeds: OverSeeds, name: str, quantity: str, options: dict) -> None:
     """Of an array the last element is tested. Detected mistakes: the standard deviation of one replica instead of the mean; errors
     that are wrong by a factor of two."""
     estimates = over_seeds(name, SEEDS, quantity, replicas=REPLICAS, **options)[quantity]
     values, errors = estimates.reshape(2, SEEDS, -1)[:, :, -1]
-    assert accepted(values, errors, REPLICAS)
+    assert spread_accepted(values, errors, REPLICAS, LEVEL)
     for factor in (np.sqrt(REPLICAS), 2, 0.5):
-        assert not accepted(values, factor * errors, REPLICAS)
+        assert not spread_accepted(values, factor * errors, REPLICAS, LEVEL)
 
 
 def test_standard_error_over_seeds_where_a_target_ends_the_run(over_seeds: OverSeeds) -> None:
@@ -58,6 +47,6 @@ def test_standard_error_over_seeds_where_a_target_ends_the_run(over_seeds: OverS
         "kappa"
     ]
     assert (errors <= 0.05 * abs(values)).all()
-    assert accepted(values, errors, LEAST)
+    assert spread_accepted(values, errors, LEAST, LEVEL)
     for factor in (2, 0.5):
-        assert not accepted(values, factor * errors, LEAST)
+        assert not spread_accepted(values, factor * errors, LEAST, LEVEL)

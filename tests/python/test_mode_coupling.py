@@ -192,30 +192,6 @@ def test_drude_weight(chain: Chain) -> None:
     assert 4 * chain.fugacity**2 * chain.temperature / chain.inertia == pytest.approx(float(weight))
 
 
-@pytest.mark.parametrize(
-    ("zeta", "mass", "diffusion", "widening"),
-    [(0.2, 1 / 9, 0.0002, 0.0001), (0.8, 1 / 3, 0.0033, 0.0032), (1.6, 3, 0.0006, 0.0014)],
-)
-def test_heat_is_a_random_medium_in_which_sound_hardly_spreads(
-    zeta: float, mass: float, diffusion: float, widening: float
-) -> None:
-    """The medium by the static covariance of n and e at T = λ = 1, in ln z and ln T; the speed by its difference at uniform pressure."""
-    chain, step = Chain(zeta, mass, slow_logarithm=5.0), 1e-4
-    # Poisson particles and scatterers. The same matrix has the derivatives by ln z and ln T.
-    covariance = np.array([[2 * zeta * chain.slow_logarithm, zeta], [zeta, zeta + 0.5]])
-    in_logarithms = np.linalg.inv(covariance)
-    of_pressure = in_logarithms @ [1, 1]
-    medium = in_logarithms[0, 0] - of_pressure[0] ** 2 / of_pressure.sum()
-    assert medium == pytest.approx(1 / chain.heat_susceptibility)
-    slower, faster = (Chain(zeta * np.exp(h), mass, np.exp(-h)).sound_speed for h in (-step, step))
-    change = np.log(faster / slower) / (2 * step)
-    assert change == pytest.approx(1 / 2 - zeta / (2 * zeta + 1) - zeta / (2 * zeta + mass))
-    spread = chain.sound_speed * change**2 * medium / 2
-    assert spread == pytest.approx(diffusion, abs=5e-5)
-    widened = 2 * spread * 64 / (mode_coupling.SECOND_MOMENT * (chain.self_coupling * 64) ** (4 / 3))
-    assert widened == pytest.approx(widening, abs=5e-5)
-
-
 def test_slow_logarithm() -> None:
     expected, _ = quad(lambda q: np.exp(-(q**2) / 5) / q, 0.01, 30, limit=200)
     assert slow_logarithm(0.01, 2.5) == pytest.approx(expected)

@@ -4,10 +4,9 @@ from functools import cache
 
 import numpy as np
 import pytest
-from scipy.stats import chi2, norm
+from scipy.stats import norm
 
-from tests.python.conftest import Measure, OverSeeds
-from tests.python.simulators import simulate
+from tests.python.conftest import Measure, OverSeeds, agree, simulate, spread_accepted
 from workflow.lib.load import Quantity
 
 BATHS = {"nu_left": 220, "nu_right": 180, "temperature_left": 900 / 11, "temperature_right": 1100 / 9}
@@ -21,7 +20,7 @@ def reference(cells: int, gamma: float, relaxation: float, observation: float) -
     chain = {"cells": cells, "cell_length": 1 / cells, "sigma": 0.5, "gamma": gamma, **BATHS}
     times = {"relaxation_time": relaxation, "observation_time": observation}
     bins = {"momentum_bins": BINS, "momentum_max": MAX}
-    rows = simulate("open_chain", **chain, **times, **bins, replicas=100, seed=1).astype(float)
+    rows = simulate("open_chain", **chain, **times, **bins, replicas=100, seed=1)
     sizes = {
         **dict.fromkeys(("temperature_scatterer", "temperature_particle", "density"), cells),
         **dict.fromkeys(("rate_right", "rate_left"), cells),
@@ -39,11 +38,6 @@ def scores(quantity: Quantity, sample: np.ndarray) -> np.ndarray:
     often = (np.count_nonzero(sample, axis=0) > len(sample) / 2) & (quantity.standard_error.ravel() > 0)
     difference = quantity.mean.ravel() - mean
     return difference[often] / np.hypot(quantity.standard_error.ravel(), error)[often]
-
-
-def agree(z: np.ndarray) -> bool:
-    """Whether the largest score is below the bound for as many independent normal ones. Correlations only make it smaller."""
-    return bool(np.abs(z).max() < norm.isf(1e-4 / 2 / len(z)))
 
 
 @pytest.mark.parametrize(("cells", "gamma"), [(1, "N"), (8, "N"), (8, 4)])
@@ -160,14 +154,8 @@ def test_reduced_and_plain_estimates_over_seeds(
     assert abs(difference.mean()) < 4 * difference.std(ddof=1) / np.sqrt(seeds)
     assert np.mean(plain_error**2) > 8 * np.mean(error**2)
 
-    def accepted(values: np.ndarray, errors: np.ndarray) -> bool:
-        """Student's t with R - 1 degrees of freedom has the variance (R - 1)/(R - 3)."""
-        low, high = chi2.ppf([5e-4, 1 - 5e-4], seeds - 1)
-        statistic = np.sum((values - values.mean()) ** 2 / errors**2)
-        return bool(low < statistic < (replicas - 1) / (replicas - 3) * high)
-
     for values, errors in ((reduced, error), (plain, plain_error), (kappa, kappa_error)):
-        assert accepted(values, errors)
-        assert not accepted(values, 2 * errors)
-        assert not accepted(values, errors / 2)
-    assert not accepted(plain, error)
+        assert spread_accepted(values, errors, replicas, 1e-3)
+        assert not spread_accepted(values, 2 * errors, replicas, 1e-3)
+        assert not spread_accepted(values, errors / 2, replicas, 1e-3)
+    assert not spread_accepted(plain, error, replicas, 1e-3)

@@ -5,9 +5,9 @@ from functools import cache
 import numpy as np
 import pytest
 from scipy.optimize import least_squares
-from scipy.stats import chi2, f, norm
+from scipy.stats import f, norm
 
-from tests.python.conftest import Measure, OverSeeds
+from tests.python.conftest import Measure, OverSeeds, spread_accepted
 
 CELLS, PARTICLES, ENERGY, PULSE_ENERGY = 101, 20, 5000, 50000
 FREE = {"cells": CELLS, "particles_per_cell": PARTICLES, "gamma": 1e-9}
@@ -100,14 +100,6 @@ RINGS = {
 }
 
 
-def spread_accepted(values: np.ndarray, errors: np.ndarray) -> bool:
-    """Chi-square about the weighted mean; squared Student variables have the mean (R-1)/(R-3)."""
-    weights = errors**-2
-    statistic = np.sum(weights * (values - np.average(values, weights=weights)) ** 2)
-    low, high = chi2.ppf([1e-4, 1 - 1e-4], SEEDS - 1)
-    return bool(low < statistic < (REPLICAS - 1) / (REPLICAS - 3) * high)
-
-
 def mean_is_zero(samples: np.ndarray) -> bool:
     """Hotelling's T^2 test of [seed, distance], whose columns are correlated."""
     count, size = samples.shape
@@ -130,7 +122,7 @@ def test_errors_and_mirror_symmetry_over_seeds(over_seeds: OverSeeds, gamma: str
         for column in range(values.shape[1]):
             # Detected mistakes: errors that are twice or half as large.
             for factor, good in ((1, True), (2, False), (0.5, False)):
-                accepted = spread_accepted(values[:, column], factor * errors[:, column])
+                accepted = spread_accepted(values[:, column], factor * errors[:, column], REPLICAS, 2e-4)
                 assert accepted == good, (name, column, factor)
 
     odd, errors = (

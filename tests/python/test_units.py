@@ -8,16 +8,18 @@ agree to rounding.
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
 
 from tests.python.conftest import small
 from tests.python.scale import ROUNDING, SCALES, Scale, agree
-from tests.python.simulators import call
 from workflow.lib.described import described
-from workflow.lib.load import Result
+from workflow.lib.load import Result, load
 from workflow.lib.units import Units, UnitsError, option_units, parse
+from workflow.program import execute
 
 
 @pytest.mark.parametrize(
@@ -37,19 +39,19 @@ def test_other_texts_are_refused(text: str) -> None:
         parse(text)
 
 
-CLOSED = {"cells": 5, "particles_per_cell": 4, "relaxation_time": 5, "observation_time": 10, "replicas": 4}
-PULSE = {"cells": 41, "particles_per_cell": 20, "times": "0.01,0.02,0.03,0.04", "replicas": 8}
-SOUND = {"cells": 120, "observation_time": 256, "times": "4,8,16,32", "replicas": 8}
-EQUILIBRIUM = {"cells": 20, "observation_time": 8, "times": "0.5,1,2,4", "fit_from": 1, "replicas": 8}
-OPEN = {"cells": 4, "cell_length": 0.25, "relaxation_time": 0.5, "observation_time": 4, "replicas": 16}
+CLOSED = {"cells": 5, "particles-per-cell": 4, "relaxation-time": 5, "observation-time": 10, "replicas": 4}
+PULSE = {"cells": 41, "particles-per-cell": 20, "times": "0.01,0.02,0.03,0.04", "replicas": 8}
+SOUND = {"cells": 120, "observation-time": 256, "times": "4,8,16,32", "replicas": 8}
+EQUILIBRIUM = {"cells": 20, "observation-time": 8, "times": "0.5,1,2,4", "fit-from": 1, "replicas": 8}
+OPEN = {"cells": 4, "cell-length": 0.25, "relaxation-time": 0.5, "observation-time": 4, "replicas": 16}
 FILLING = {"cells": 5, "times": "10,30,100", "replicas": 4}
 CASES = {
     "persistence": ("persistence", CLOSED),
-    "persistence, rare": ("persistence", CLOSED | {"gamma": 2, "scatterer_temperature": 400}),
+    "persistence, rare": ("persistence", CLOSED | {"gamma": 2, "scatterer-temperature": 400}),
     "waiting_time": ("waiting_time", CLOSED),
-    "waiting_time, rare": ("waiting_time", CLOSED | {"gamma": 2, "tail_from": 100}),
+    "waiting_time, rare": ("waiting_time", CLOSED | {"gamma": 2, "tail-from": 100}),
     "displacement": ("displacement", CLOSED),
-    "displacement, rare": ("displacement", CLOSED | {"gamma": 2, "zero_total_momentum": True}),
+    "displacement, rare": ("displacement", CLOSED | {"gamma": 2, "zero-total-momentum": True}),
     "displacement, random": ("displacement", CLOSED | {"rule": "random-direction"}),
     "ageing": ("ageing", CLOSED),
     "ageing, rare": ("ageing", CLOSED | {"gamma": 0.5}),
@@ -57,7 +59,7 @@ CASES = {
     "heat_current": ("heat_current", EQUILIBRIUM),
     "heat_current, random": ("heat_current", EQUILIBRIUM | {"rule": "random-direction"}),
     "energy_pulse": ("energy_pulse", PULSE),
-    "energy_pulse, rare": ("energy_pulse", PULSE | {"gamma": 1, "relaxation_time": 0.1}),
+    "energy_pulse, rare": ("energy_pulse", PULSE | {"gamma": 1, "relaxation-time": 0.1}),
     "conductivity": ("conductivity", OPEN),
     "conductivity, rare": ("conductivity", OPEN | {"gamma": 1}),
     "steady_profile": ("steady_profile", OPEN),
@@ -75,18 +77,22 @@ CASES |= {name: (name, small(name)) for name in described() if name not in CASES
 COUNTS = {"mu/mean", "total_number/mean", "momentum_points/mean"}  # ratios of counts, without rounding
 
 
+def call(program: str, options: dict[str, object]) -> Result:
+    with TemporaryDirectory() as folder:
+        execute(program, options, Path(folder) / "out.h5")
+        return load(Path(folder) / "out.h5")
+
+
 @cache
 def measured(case: str) -> tuple[Result, ...]:
     """Results in the default units, then in those of SCALES."""
     program, options = CASES[case]
-    plain = call(program, **options, progress="none")
+    plain = call(program, options)
     given_or_not = {name: value for name, value in plain.parameters.items() if name in option_units()}
-    scaled = [
-        call(program, **options | {name: scale.option(name, value) for name, value in given_or_not.items()},
-             progress="none")
-        for scale in SCALES
-    ]  # fmt: skip
-    return plain, *scaled
+    in_other_units = (
+        {name: scale.option(name, value) for name, value in given_or_not.items()} for scale in SCALES
+    )
+    return plain, *(call(program, options | scaled) for scaled in in_other_units)
 
 
 def datasets(result: Result) -> Iterator[tuple[str, np.ndarray, str]]:
