@@ -61,8 +61,7 @@ def test_without_reversal_the_rule_is_elastic(
     assert not np.array_equal(elastic, seldom)
 
 
-@pytest.mark.parametrize("gamma", ["N", 3])
-@pytest.mark.parametrize("rule", [{}, RANDOM, REVERSAL])
+@pytest.mark.parametrize(("rule", "gamma"), [({}, "N"), ({}, 3), (RANDOM, 3), (REVERSAL, "N")])
 def test_equilibrium_of_every_rule(measure: Measure, rule: dict[str, object], gamma: float | str) -> None:
     """Temperatures of scatterers and particles are those of the baths, and no current flows [eq. 8]. Detected mistake: temperatures
     that are 2 % too high."""

@@ -1,10 +1,9 @@
-"""Rendering a panel: reproducible bytes, files that state what they are, tables with the numbers of the results."""
+"""Rendering a panel: files that state what they are, tables with the numbers of the results."""
 
 import json
 import resource
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -23,11 +22,6 @@ from workflow.lib.save import Parents, Text, save
 KINDS = ("pdf", "png", "svg", "csv")
 
 
-def draw(stem: Path, data: list[Path]) -> None:
-    command = [sys.executable, "-P", "-m", "workflow.figures.fig05"]
-    subprocess.run([*command, "--output", stem, "--data", *data], cwd=ROOT, check=True)
-
-
 @pytest.fixture(scope="module")
 def runs(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
     folder = tmp_path_factory.mktemp("runs")
@@ -44,15 +38,13 @@ def runs(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
 def panel(runs: list[Path], tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A rendered panel, without the extension of its files."""
     stem = tmp_path_factory.mktemp("figures") / "smoke/panel"
-    draw(stem, runs)
+    command = [sys.executable, "-P", "-m", "workflow.figures.fig05"]
+    subprocess.run([*command, "--output", stem, "--data", *runs], cwd=ROOT, check=True)
     return stem
 
 
-def test_panel_is_byte_stable_and_states_what_it_is(panel: Path, runs: list[Path], tmp_path: Path) -> None:
-    time.sleep(1.1)  # longer than the resolution of a time stamp
-    draw(tmp_path / "smoke/panel", runs)
+def test_panel_states_what_it_is(panel: Path, runs: list[Path]) -> None:
     contents = {kind: panel.with_suffix(f".{kind}").read_bytes() for kind in KINDS}
-    assert contents == {kind: (tmp_path / f"smoke/panel.{kind}").read_bytes() for kind in KINDS}
     record = json.loads(panel.with_suffix(".json").read_text())
     sources = drawing_sources("fig05")
     identity = panel_identity("panel", map(str, runs), sources)

@@ -1,7 +1,9 @@
-"""Measured numbers and verdicts of the front page are those of the release's report."""
+"""Numbers, verdicts and links of the papers at the top. mkdocs checks the links of docs."""
 
 import csv
 import re
+
+import pytest
 
 from tests.python.conftest import ROOT
 
@@ -38,3 +40,17 @@ def test_front_page_has_the_verdicts_of_the_release() -> None:
             line["claim"] for line in RELEASE if (line["kind"], line["verdict"]) == (kind, "contradicted")
         )
         assert {*re.findall(r"C\d\d", part)} == {number for claim in refuted for number in claim.split()}
+
+
+def linked(name: str) -> list[str]:
+    return re.findall(r"\]\(([^)#\s]+)", (ROOT / name).read_text("utf-8"))
+
+
+@pytest.mark.parametrize("name", ["README.md", "CONTRIBUTING.md", "CHANGELOG.md"])
+def test_every_relative_link_leads_to_a_file(name: str) -> None:
+    assert [link for link in linked(name) if "://" not in link and not (ROOT / link).exists()] == []
+
+
+def test_readme_links_every_page() -> None:
+    pages = {path.relative_to(ROOT).as_posix() for path in (ROOT / "docs").glob("*.md")}
+    assert pages <= {*linked("README.md")}

@@ -3,11 +3,13 @@
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.stats import kstest
 
 from tests.python.conftest import ROOT
 from workflow.figures import accuracy, ext07, ext09, ext13, fig01_inset, fig03_inset, fig09
 from workflow.lib.closed import quasi_stationary
 from workflow.lib.fit import fit_power
+from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
 
@@ -24,9 +26,36 @@ def test_the_slope_against_the_cube_root_is_constant_for_one_law_only() -> None:
     np.testing.assert_allclose(slopes.slope_error, 0.1 * np.sqrt(2) / np.diff(np.cbrt(size)))
     assert (np.diff(slopes.slope_logarithm) < 0).all()
     assert 0 < slopes.slope_constant.iloc[-1] < slopes.slope_logarithm.iloc[-1]
-    laws = ext09.laws(table).set_index("law")
-    assert laws.p_value["N^(1/3)"] > 0.99
-    assert laws.p_value[["logarithm", "constant"]].max() < 0.01
+
+
+SIZES = np.array([16, 32, 64, 128, 256, 512, 1024, 2048], dtype=float)
+TRUTH = {
+    "N^(1/3)": 60 + 40 * np.cbrt(SIZES),
+    "logarithm": 50 + 40 * np.log(SIZES),
+    "constant": 300 - 200 * SIZES ** (-1 / 3),
+}
+
+
+@pytest.mark.parametrize("law", TRUTH)
+def test_the_law_is_found_and_its_p_value_is_uniform(law: str) -> None:
+    values, p_values = TRUTH[law], []
+    for seed in range(200):
+        noise = 0.005 * np.random.default_rng(seed).standard_normal(len(values))
+        table = pd.DataFrame({"cells": SIZES, "kappa": values * (1 + noise), "kappa_error": 0.005 * values})
+        found = ext09.laws(table).set_index("law")
+        assert {*found.index} == {*ext09.LAWS}
+        p_values.append(found.p_value[law])
+        if seed < 20:
+            assert found.chi_square.idxmin() == law
+    assert kstest(p_values, "uniform").pvalue > 1e-3
+
+
+def test_local_exponents() -> None:
+    values = 70 * SIZES**0.25
+    middle, slope, error = local_exponents(SIZES, values, 0.01 * values)
+    np.testing.assert_allclose(middle, np.sqrt(SIZES[1:] * SIZES[:-1]))
+    np.testing.assert_allclose(slope, 0.25)
+    np.testing.assert_allclose(error, 0.01 * np.sqrt(2) / np.log(2))
 
 
 def test_slopes_of_a_logarithm_are_its_factor() -> None:

@@ -95,7 +95,7 @@ reference::KineticEquation reference_for(const KineticProblem& p, Index panels, 
 }
 
 TEST(KineticEquation, AgreesWithQuadratureInRealSpace) {
-  for (const auto& [sigma, gamma] : {std::pair(0.5, 1.0), {-0.5, 1.0}, {0.9, 1.0}, {0.5, 0.1}, {0.5, 5.0}}) {
+  for (const auto& [sigma, gamma] : {std::pair(-0.5, 1.0), {0.9, 1.0}, {0.5, 0.1}, {0.5, 5.0}}) {
     const KineticProblem p = problem(sigma, gamma);
     const Comparison difference = compare(p, reference_for(p, 8, gamma > 1 ? 15 : 9));
     EXPECT_LT(difference.particles, 2e-11) << sigma << ' ' << gamma;
