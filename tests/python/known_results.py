@@ -11,34 +11,10 @@ import numpy as np
 
 from tests.python.conftest import ROOT
 from workflow.claims.data import Data, MissingError
+from workflow.lib.described import described
 from workflow.lib.load import Quantity, Result
 from workflow.plan import Panel, Run, data_path, load_plan
 
-# Quantities on which claims depend, by program, with their axes (docs/format.md).
-QUANTITIES: dict[str, dict[str, tuple[str, ...]]] = {
-    "particle_count": {"plateau": ("time",), "front_exponent": ()},
-    "persistence": {"mu": ()},
-    "waiting_time": {"exponent": (), "exponent_spread": ()},
-    "displacement": {"alpha": (), "momentum_drift": ()},
-    "ageing": {"scatterer_energy_mean": ("window",), "decade_slope": ("decade",)},
-    "steady_profile": {
-        "temperature_scatterer": ("cell",), "temperature_particle": ("cell",), "temperature_difference": ("cell",),
-        "density_slope": (), "density_excess": ("end",), "rate_right": ("cell",), "rate_right_deviation": ("cell",),
-        "rate_left_deviation": ("cell",), "particle_current_deviation": ("bond",), "scatterer_density": ("end", "momentum"),
-    },
-    "momentum_flux": {"flux": ("bond", "momentum"), "jump": ("bond",), "square": ("bond", "half"), "kurtosis": ("bond", "half")},
-    "boltzmann": {"flux": ("x", "momentum"), "flux_density": ("x", "momentum"), "jump": ("x",), "kurtosis": ("x", "half")},
-    "conductivity": {"kappa": (), "stationary": (), "energy_current": (), "particle_current": (), "current_correlation": ()},
-    "correlation": {
-        "damping_exponent": (), "damping_exponent_from": ("from",), "peak": ("time",), "heat_correlation": ("time", "cell"),
-    },
-    "heat_current": {"local_exponent": ("middle",), "heat_variance": ("time",)},
-    "energy_pulse": {
-        "centre_share": ("time",), "odd_part": ("time", "distance"), "peak": ("time",), "peak_position": ("time",),
-        "peak_speed": ("middle",), "damping_exponent": (), "damping_exponent_from": ("from",),
-        "local_damping_exponent": ("until",),
-    },
-}  # fmt: skip
 DEFAULTS = {
     "cells": "continuum",
     "zero-total-momentum": False,
@@ -50,6 +26,13 @@ Fill = Callable[[Run], Mapping[str, Quantity]]
 Truth = Mapping[str, Any]
 
 EQUAL = 8  # of the equal runs of the heat peak; fits to all take long
+
+
+@cache
+def axes_of(program: str) -> dict[str, tuple[str, ...]]:
+    """Names of the axes of every quantity of a program."""
+    quantities = described()[program]["quantities"]
+    return {quantity["name"]: tuple(axis["name"] for axis in quantity["axes"]) for quantity in quantities}
 
 
 @cache
@@ -109,7 +92,7 @@ def axes(run: Run) -> dict[str, np.ndarray]:
 
 def quantity(run: Run, name: str, mean: np.ndarray, error: np.ndarray) -> Quantity:
     """Quantity with a standard error, or with a discretisation error if the run is not replicated."""
-    along = {axis: axes(run)[axis] for axis in QUANTITIES[run.program][name]}
+    along = {axis: axes(run)[axis] for axis in axes_of(run.program)[name]}
     if run.replicated:
         count = np.full(mean.shape, run.options["replicas"])
         return Quantity(mean, error, None, count, along, "1", {}, {}, None)
@@ -117,12 +100,13 @@ def quantity(run: Run, name: str, mean: np.ndarray, error: np.ndarray) -> Quanti
 
 
 def uneven(run: Run) -> dict[str, Quantity]:
-    """All quantities of a run, with values from 1 to 2 and errors from 0.01 to 0.02 that differ between elements and runs."""
+    """Quantities of a run with these axes: values from 1 to 2 and errors from 0.01 to 0.02 that differ between elements and runs."""
     random = np.random.default_rng(zlib.crc32(f"{run.name} {run.program} {run.options.get('seed')}".encode()))
     coordinates = axes(run)
     shapes = {
         name: tuple(len(coordinates[axis]) for axis in along)
-        for name, along in QUANTITIES[run.program].items()
+        for name, along in axes_of(run.program).items()
+        if coordinates.keys() >= {*along}
     }
     return {
         name: quantity(
@@ -145,8 +129,8 @@ def truth(
     def fill(run: Run) -> dict[str, Quantity]:
         coordinates = axes(run)
         quantities = {}
-        for name in QUANTITIES[run.program].keys() & given.keys():
-            grids = np.meshgrid(*(coordinates[axis] for axis in QUANTITIES[run.program][name]), indexing="ij")
+        for name in (name for name in given if name in axes_of(run.program)):
+            grids = np.meshgrid(*(coordinates[axis] for axis in axes_of(run.program)[name]), indexing="ij")
             value = given[name](run, *grids) if callable(given[name]) else given[name]
             mean = np.array(np.broadcast_to(value, grids[0].shape if grids else ()), dtype=float)
             error = relative.get(name, relative["*"]) * np.where(mean == 0, 1, abs(mean))
