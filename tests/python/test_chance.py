@@ -26,7 +26,7 @@ class Chain:
     temperature: float = 500
     relaxation_time: float = 0.5
     observation_time: float = 5
-    replicas: int = 8000
+    replicas: int = 4000
 
     @property
     def options(self) -> dict[str, object]:
