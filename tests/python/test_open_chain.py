@@ -138,16 +138,17 @@ def test_equilibrium(measure: Measure) -> None:
 
 
 @pytest.mark.parametrize(
-    ("gamma", "cells", "target"), [("N", 4, "energy_current"), (1, 8, "temperature_first")]
+    ("gamma", "cells", "times", "target"),
+    [("N", 4, (3, 6), "energy_current"), (1, 8, (5, 12), "temperature_first")],
 )
 def test_reduced_and_plain_estimates_over_seeds(
-    over_seeds: OverSeeds, gamma: str | int, cells: int, target: str
+    over_seeds: OverSeeds, gamma: str | int, cells: int, times: tuple[int, int], target: str
 ) -> None:
     """Estimates with and without control variates agree, the former have smaller errors, and both errors predict the spread
     over 50 seeds."""
     seeds, replicas = 50, 40
     options = {"gamma": gamma, "cells": cells, "replicas": replicas}
-    options |= {"relaxation_time": 5, "observation_time": 12}
+    options |= {"relaxation_time": times[0], "observation_time": times[1]}
     estimates = over_seeds("conductivity", seeds, target, f"{target}_plain", "kappa", **options)
     (reduced, error), (plain, plain_error), (kappa, kappa_error) = estimates.values()
     difference = reduced - plain
