@@ -198,7 +198,7 @@ def caption(table: pd.DataFrame, control: pd.DataFrame) -> str:
     known = table.dropna(subset="middle")
     ends, broken = (known[known.rule == rule].groupby(GAS).tail(1) for rule in (ELASTIC, REVERSAL))
     return f"""
-        Heat Q that passes in a time t in equilibrium. (a) Mean square; lines: mode coupling without normal diffusion, nothing fitted, at
+        Heat current of rings in equilibrium, summed over cells and integrated over t to Q. (a) Mean square; lines: mode coupling without normal diffusion, nothing fitted, at
         the last times up to {off:.0f} % off. (b) Exponents over octaves, the last {between(ends)}. (c), (d) ζ = {number(gas.zeta)}, M =
         {number(gas.mass)}: reversal of the scatterer's momentum in a fraction ε of collisions, the last {between(broken)}. {ERRORS}"""
 
