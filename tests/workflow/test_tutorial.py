@@ -31,6 +31,7 @@ def follow(project: Project, block: re.Match[str]) -> str:
     return project.run("bash", "-e", "-c", block["text"]).stdout
 
 
+@pytest.mark.long
 def test_a_panel_of_your_own(project: Project) -> None:
     own = without_installation(project)
     shutil.copytree(ROOT / "build/bin", own.folder / "build/bin", dirs_exist_ok=True, copy_function=link)
