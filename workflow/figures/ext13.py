@@ -198,9 +198,9 @@ def caption(table: pd.DataFrame, control: pd.DataFrame) -> str:
     known = table.dropna(subset="middle")
     ends, broken = (known[known.rule == rule].groupby(GAS).tail(1) for rule in (ELASTIC, REVERSAL))
     return f"""
-        Heat current of rings in equilibrium, summed over cells and integrated over t to Q. (a) Mean square; lines: mode coupling,
-        nothing fitted, up to {off:.0f} % off at the end. (b) Exponents over octaves, the last {between(ends)}. (c), (d) Reversal of the
-        scatterer's momentum in a fraction ε of collisions, ζ = {number(gas.zeta)}, M = {number(gas.mass)}, the last {between(broken)}. {ERRORS}"""
+        Heat current of equilibrium rings, summed over cells and integrated over t to Q. (a) Mean square; lines: mode coupling, nothing
+        fitted, up to {off:.0f} % off. (b) Exponents over octaves, the last {between(ends)}. (c), (d) ζ = {number(gas.zeta)}, M = {number(gas.mass)}: reversal of
+        scatterers in a fraction ε of collisions, the last {between(broken)}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
