@@ -120,9 +120,12 @@ def test_on_arm64(name: str, arm64: Path, tmp_path: Path) -> None:
     assert here.provenance["events"] == there.provenance["events"]
     # GSL has fused multiply-adds there.
     tolerance = 1e-9 if run.program == "correlation" else 1e-12
-    for quantity in here.quantities:
+    for each, quantity in here.quantities.items():
+        # Densities of the kinetic equation are accurate relative to their maximum, and the spread of its currents is a rounding error.
+        largest = 1 if each == "current_spread" else np.nanmax(np.abs(quantity.mean), initial=0)
+        absolute = tolerance * largest if run.program == "boltzmann" else 0
         np.testing.assert_allclose(
-            there[quantity].mean, here[quantity].mean, rtol=tolerance, err_msg=quantity
+            there[each].mean, quantity.mean, rtol=tolerance, atol=absolute, err_msg=each
         )
 
 
