@@ -117,13 +117,17 @@ def test_on_arm64(name: str, arm64: Path, tmp_path: Path) -> None:
     emulated = ["qemu-aarch64", "-L", str(arm64), str(arm64 / "build/bin" / run.program)]
     data_of(emulated, run.options, tmp_path / "there.h5", {})
     here, there = load(tmp_path / "here.h5"), load(tmp_path / "there.h5")
-    assert here.provenance["events"] == there.provenance["events"]
-    # GSL has fused multiply-adds there.
+    # GSL has fused multiply-adds there. Events of the kinetic equation are iterations.
+    assert not run.replicated or here.provenance["events"] == there.provenance["events"]
     tolerance = 1e-9 if run.program == "correlation" else 1e-12
     for each, quantity in here.quantities.items():
         # Densities of the kinetic equation are accurate relative to their maximum, and the spread of its currents is a rounding error.
         largest = 1 if each == "current_spread" else np.nanmax(np.abs(quantity.mean), initial=0)
         absolute = tolerance * largest if run.program == "boltzmann" else 0
+        if run.program == "correlation":
+            absolute = 1e-3 * np.nan_to_num(
+                quantity.error
+            )  # fits of peaks with few replicas end at other roundings
         np.testing.assert_allclose(
             there[each].mean, quantity.mean, rtol=tolerance, atol=absolute, err_msg=each
         )

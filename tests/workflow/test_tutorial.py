@@ -114,7 +114,7 @@ def test_a_collision_rule_of_your_own(own: Project) -> None:
         assert np.abs((temperature.mean - 102) / temperature.error).max() > 6, name
     assert abs(mu.mean - 0.5) < 4 * mu.error < 0.01
     refused = own.run("build/bin/persistence", "--rule", "rotation", "--output", "x.h5", status=2).stdout
-    assert "elastic, random-direction, random-rotation" in refused
+    assert "elastic, random-direction, reversal, random-rotation" in refused
 
 
 def test_grammar(tmp_path) -> None:
