@@ -29,8 +29,8 @@ rule simulate:
     log: "{panel}/{run}.log"
     threads: 8
     shell: """
-FILLING = "conductivity --cells 5 --start empty --relaxation-time 0 --observation-time 2 --replicas 64"
-NOT_STATIONARY = f"{ROOT}/build/bin/{FILLING} --output {{output}} 2> {{log}}"
+FILLING = "--cells 5 --start empty --relaxation-time 0 --observation-time 2 --replicas 64"
+NOT_STATIONARY = f"'{ROOT}/build/bin/conductivity' {FILLING} --output {{output}} 2> {{log}}"
 CONTROL = re.compile(r"\x1b\[[0-9;?]*[a-zA-Z]")
 
 
