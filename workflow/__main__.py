@@ -105,7 +105,7 @@ def snakemake(target: str, options: argparse.Namespace) -> int:
     words += ["--default-resources", *resources] if resources else []
     words += ["--config", f"quality={options.quality}"]
     words += [f"panel={' '.join(options.panels)}"] if options.panels else []
-    words += ["--", target.replace("panel", "figures")]
+    words += ["--", "figures" if target == "panel" else target]  # some panels, or all
     from snakemake.cli import main as run  # noqa: PLC0415  0.5 s
 
     sys.argv = ["snakemake", *words]  # Snakemake prints its command

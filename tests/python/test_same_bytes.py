@@ -123,7 +123,7 @@ def test_on_arm64(name: str, arm64: Path, tmp_path: Path) -> None:
     for each, quantity in here.quantities.items():
         # Densities of the kinetic equation are accurate relative to their maximum, the spread of its currents is a rounding error, and
         # fits of peaks with few replicas end at other roundings.
-        absolute = np.array(0.0)
+        absolute: float | np.ndarray = 0
         if run.program == "boltzmann":
             largest = 1 if each == "current_spread" else np.nanmax(np.abs(quantity.mean), initial=0)
             absolute = tolerance * largest

@@ -20,11 +20,8 @@ from workflow.identity import IDENTITY, source_hash
 from workflow.provenance import audit, verify
 
 ROOT = Path(__file__).parents[2]
-PACKAGES = (
-    audit,
-    snakemake.cli,
-    verify,
-)  # imported here, so that they and what they import are not in each fork
+# Imported here, so that each fork has them and what they import already.
+PACKAGES = (audit, snakemake.cli, verify)
 OWN = ("workflow", "snakemake_logger_plugin_progress")  # modules of this project
 PLAN = """panels:
   mu:

@@ -25,19 +25,18 @@ THINNING = "thinning"  # the gas that has no thermodynamic limit
 
 
 class Law(NamedTuple):
-    """A law of growth with the size: its name in the caption, its label in the legend, the dashes of its line, and its leading term and
+    """A law of growth with the size: its label in the legend, the dashes of its line, and its leading term and
     first correction, combined linearly. A sound peak whose width grows as t^(2/3) gives corrections of relative order N^(-1/3)."""
 
-    name: str
     label: str
     dashes: LineStyleType
     basis: Callable[[np.ndarray], list[np.ndarray]]
 
 
 LAWS = {
-    "N^(1/3)": Law("a + bN^(1/3)", "$a + bN^{1/3}$", "solid", lambda n: [n ** (1 / 3), n**0]),
-    "logarithm": Law("a + b ln N", r"$a + b\,\ln N$", "dashed", lambda n: [np.log(n), n**0]),
-    "constant": Law("saturation", "saturation, $a + bN^{-1/3}$", "dotted", lambda n: [n**0, n ** (-1 / 3)]),
+    "N^(1/3)": Law("$a + bN^{1/3}$", "solid", lambda n: [n ** (1 / 3), n**0]),
+    "logarithm": Law(r"$a + b\,\ln N$", "dashed", lambda n: [np.log(n), n**0]),
+    "constant": Law("saturation, $a + bN^{-1/3}$", "dotted", lambda n: [n**0, n ** (-1 / 3)]),
 }
 
 

@@ -2,8 +2,8 @@
 fraction of the collisions reverses the momentum of the scatterer, and does not conserve momentum.
 
 Q is the integral of J_q = sum v (v²/2 − T) over all particles of a ring of N cells [mode_coupling.md, eqs. M21-M28]. The table also has
-rings with random directions, D = <Q²>/2Nt of the control at a common εt, and amplitudes of the correlation of J_q in long rings, over the predicted one and over that of Gaussian
-fluctuations with the measured sound peak (ext. 3).
+rings with random directions, D = <Q²>/2Nt of the control at a common εt, and amplitudes of the correlation of J_q in long rings, over the
+predicted one and over that of Gaussian fluctuations with the measured sound peak (ext. 3).
 """
 
 from collections.abc import Sequence

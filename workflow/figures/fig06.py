@@ -65,9 +65,8 @@ def draw_density(axes: Axes, table: pd.DataFrame, power: float = 0, label: str =
 def mark_outside(axes: Axes, table: pd.DataFrame, power: float, top: float) -> None:
     """Marks bins above the frame by triangles at its upper edge."""
     outside = table.tau[table.tau**power * table.density > top]
-    if (
-        outside.empty
-    ):  # a line without points and without clipping would count for the layout, at the corner of the figure
+    # Without clipping a line that has no points would count for the layout, at the corner of the figure.
+    if outside.empty:
         return
     _, color, _ = MARKS[float(table.sigma.iloc[0])]
     look: style.Look = {"marker": "^", "color": color, "markerfacecolor": "white", "markersize": 3.5}
