@@ -7,8 +7,6 @@
 /// thus depends on the window. All means are corrected by the injection controls [eq. 31, 34]. Differences,
 /// deviations and slopes are separate quantities with their own errors, because the noise of neighbouring
 /// cells and bonds is correlated. The bulk of the density is a line through the middle half of the chain.
-#include <functional>
-
 #include "observables/steady_profile/cell_profile.hpp"
 #include "observables/steady_profile/profile.hpp"
 #include "sampling/open_run.hpp"
@@ -29,35 +27,24 @@ struct Profile {
 
   Values temperature() const { return mean_of(tallies.temperature)(mean); }
   Values particle_temperature() const {
-    const auto sum = [](double right, double left) { return right + left; };
-    return combined(combined(tallies.arriving_squares, sum), combined(tallies.arrivals, sum),
-                    std::divides<>());
-  }
-  Values rate(Direction direction) const { return mean_of(tallies.arrivals.row(direction))(mean); }
-  Values particle_current() const { return combined(tallies.crossings, std::minus<>()); }
-  Values energy_current() const {
-    return combined(tallies.crossing_squares, [](double right, double left) { return 0.5 * (right - left); });
-  }
-
- private:
-  template <class Operation>
-  static Values combined(std::span<const double> a, std::span<const double> b, const Operation& operation) {
+    const auto of = [&](Tally tally, std::size_t cell) {
+      return mean[tally.row(rightwards)][cell] + mean[tally.row(leftwards)][cell];
+    };
     Values values;
-    for (std::size_t i = 0; i < a.size(); ++i) values.push_back(operation(a[i], b[i]));
+    for (std::size_t cell = 0; cell < tallies.cell.values.size(); ++cell)
+      values.push_back(of(tallies.arriving_squares, cell) / of(tallies.arrivals, cell));
     return values;
   }
-  /// Of both directions: operation(right, left).
-  template <class Operation>
-  Values combined(Tally tally, const Operation& operation) const {
-    return combined(mean[tally.row(rightwards)], mean[tally.row(leftwards)], operation);
-  }
+  Values rate(Direction direction) const { return mean_of(tallies.arrivals.row(direction))(mean); }
+  Values particle_current() const { return mean_of(tallies.particle_current)(mean); }
+  Values energy_current() const { return mean_of(tallies.energy_current)(mean); }
 };
 
 Group profiles(const CellTallies& tallies, double bin_width) {
   const std::vector<Axis> cell{tallies.cell}, bond{tallies.bond}, end{tallies.end};
   const Columns measured =
       columns_of({tallies.temperature, tallies.density, tallies.arrivals, tallies.arriving_squares,
-                  tallies.crossings, tallies.crossing_squares, tallies.end_momentum});
+                  tallies.particle_current, tallies.energy_current, tallies.end_momentum});
   Group group([=](const Records& records) {
     return reduce_variance(records, {{measured, columns_of({tallies.injection})}});
   });
@@ -89,10 +76,8 @@ Group profiles(const CellTallies& tallies, double bin_width) {
                  of([](const Profile& profile) { return minus_line(profile.rate(rightwards)); }));
   group.quantity("rate_left_deviation", cell, "1/time", "rate_left minus a straight line through it",
                  of([](const Profile& profile) { return minus_line(profile.rate(leftwards)); }));
-  group.quantity("particle_current", bond, "1/time", "J_n, positive to the right",
-                 of([](const Profile& profile) { return profile.particle_current(); }));
-  group.quantity("energy_current", bond, "energy/time", "J_U, positive to the right",
-                 of([](const Profile& profile) { return profile.energy_current(); }));
+  group.quantity(tallies, tallies.particle_current);
+  group.quantity(tallies, tallies.energy_current);
   group.quantity("energy_current_mean", "energy/time", "Mean of J_U over the bonds",
                  of([](const Profile& profile) { return average(profile.energy_current()); }));
   group.quantity("particle_current_deviation", bond, "1/time", "J_n minus its mean over the bonds",

@@ -66,21 +66,16 @@ def draw_slopes(axes: Axes, table: pd.DataFrame) -> None:
     axes.set(xscale="log", xlabel=f"time $t$ ({style.UNITS})", ylim=(0.6, 2.4))
 
 
-def extremes(runs: pd.DataFrame) -> str:
-    """Smallest and largest alpha."""
-    ordered = runs.sort_values("alpha")
-    return " to ".join(with_error(*ordered[["alpha", "alpha_error"]].iloc[k]) for k in (0, -1))
-
-
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     runs = table.drop_duplicates(["kind", *KEYS])
-    ranges = {name: extremes(part) for name, part in runs.groupby("kind")}
+    ordered = {name: part.sort_values("alpha") for name, part in runs.groupby("kind")}
+    least = with_error(*ordered[PAPER][["alpha", "alpha_error"]].iloc[0])
+    none, random = (with_error(*ordered[name][["alpha", "alpha_error"]].iloc[-1]) for name in (ZERO, RANDOM))
     relaxed = number(of_the_paper(table).relaxation_time.iloc[0])
     return f"""
         Local exponents of ⟨x²⟩ of a tagged particle in a closed chain, {parameters(results, "cells", "temperature", "gamma")}, n =
         {table.particles_per_cell.min()}, relaxed for {relaxed}; dashed: ballistic, diffusive. Random directions do not conserve momentum. α, fitted in the
-        shaded window of all runs, is {ranges[PAPER]} with random total momentum, {ranges[ZERO]} with none and {ranges[RANDOM]} with random
-        directions. {ERRORS}"""
+        shaded window of all runs, is at least {least} with random total momentum, at most {none} with none and {random} with random directions. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:

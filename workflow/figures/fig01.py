@@ -12,7 +12,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, baths, parameters
+from workflow.lib.caption import baths, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
 
@@ -61,7 +61,7 @@ def caption(results: Sequence[Result]) -> str:
         Particles n_t(p) with momentum p in a filling chain, times |p|; {parameters(results, "cells", "sigma", "gamma")},
         {baths(results[0])}. Columns: λ, unstated in the paper. Top: the paper's bins; middle: logarithmic, with the front p_0; bottom: p_0 over
         λ/2t, above 1 at λ = {style.spacing(results[-1])[1]}, as cells filled late. At λ = {style.spacing(results[0])[1]}, p_0 ∼ t^a, a = {exponent}.
-        {ERRORS}"""
+        Bands and bars: standard errors."""
 
 
 def draw(results: Sequence[Result]) -> Drawn:

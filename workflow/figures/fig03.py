@@ -65,7 +65,7 @@ def caption(results: Sequence[Result]) -> str:
     return f"""
         Flux F(p, x) of the particles at both ends by the kinetic equation; {parameters([paper], "sigma", "gamma")}, {baths(paper)}. (a) F; right
         axis: over ν_L + ν_R. F jumps by {jumps}. (b) Each half over the Gaussian of its rate and second moment: what the baths inject
-        is Gaussian, what leaves is not; dotted: T_L = T_R."""
+        is Gaussian, what leaves is not; dotted: T_L = T_R, but still ν_L > ν_R."""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
@@ -82,7 +82,7 @@ def draw(results: Sequence[Result]) -> Drawn:
         axes.axvline(0, **style.GUIDE)
     above.set(ylabel="$F(p, x)$", xlim=(-style.SHOWN_MOMENTA, style.SHOWN_MOMENTA), ylim=(0, None))
     style.second_axis(above, 1 / style.both_rates(results[0]), r"$F/(\nu_L + \nu_R)$")
-    below.plot([], [], color="grey", linestyle="dotted", label="$T_L = T_R$")
+    below.plot([], [], color="grey", linestyle="dotted", label=r"$T_L = T_R$, $\nu_L > \nu_R$")
     below.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel="$F$ over Gaussian,\nminus 1 / %")
     above.legend(loc="upper right")
     below.legend(loc="best")

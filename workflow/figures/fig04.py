@@ -139,12 +139,12 @@ def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]
     chain = next(result for result in runs if len(set(result.ends("nu"))) > 1)
     jumps = listed(with_error(end.jump, end.jump_error) for end in unequal.drop_duplicates("x").itertuples())
     far = 100 * (unequal.flux - unequal.kinetic).abs().max() / unequal.kinetic.max()
-    difference = f"They differ by up to {float(f'{far:.1g}'):g} % of max F"
+    difference = f"Difference, up to {float(f'{far:.1g}'):g} % of max F"
     if chain.parameters["gamma"] == "N":
         difference += ", as mean field neglects correlations between collisions"
     return f"""
         Flux F_N(p, x) of the particles behind both end scatterers; {parameters([chain], *CHAIN)}, {baths(chain)}. Black: mean field (kinetic
-        equation). (a), (b) F_N; right axis: over ν_L + ν_R. (c) Difference. (d) Jump at p = 0, {jumps}. {difference}. {ERRORS}"""
+        equation). (a), (b) F_N; right axis: over ν_L + ν_R. (c) {difference}. (d) Jump at p = 0, {jumps}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:

@@ -40,20 +40,16 @@ def draw_curve(axes: Axes, table: pd.DataFrame, zero: bool) -> None:
     axes.errorbar(part.sigma, part.alpha, part.alpha_error, **style.points(marker, color, face, label=label))
 
 
-def extremes(table: pd.DataFrame) -> str:
-    """Smallest and largest alpha, away from sigma = 0, where momenta are only exchanged."""
-    generic = table[table.sigma != 0].sort_values("alpha")
-    return " to ".join(with_error(*generic[["alpha", "alpha_error"]].iloc[k]) for k in (0, -1))
-
-
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
-    free, zero = table[~table.zero_total_momentum], table[table.zero_total_momentum]
+    generic = table[table.sigma != 0].sort_values("alpha")  # at σ = 0 momenta are only exchanged
+    least = with_error(*generic[~generic.zero_total_momentum][["alpha", "alpha_error"]].iloc[0])
+    most = with_error(*generic[generic.zero_total_momentum][["alpha", "alpha_error"]].iloc[-1])
     options = results[0].parameters
     first = options["observation-time"] / 10 ** options["fit-decades"]
     return f"""
         Exponent α of the spreading of tagged particles, closed chains, {parameters(results, "cells", "gamma", *GAS)}, fitted from t =
         {number(first)} on. (a) With random total momentum, as in the paper, and with none; dashed: ballistic, diffusive. (b) The latter
-        enlarged. For σ ≠ 0, α is {extremes(free)} with and {extremes(zero)} without total momentum. {ERRORS}"""
+        enlarged. For σ ≠ 0, α is at least {least} with and at most {most} without total momentum. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:

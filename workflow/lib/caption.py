@@ -50,14 +50,14 @@ def listed(texts: Iterable[str]) -> str:
 
 
 def parameters(results: Sequence[Result], *names: str) -> str:
-    """The named parameters that the results have, with all their values: `N = 11 cells, σ = −1/2 and 1/2`."""
+    """The named parameters that the results have, with all their values: `N = 11, σ = −1/2 and 1/2`; by the name of the option without a symbol."""
     texts = []
     for name in names:
         values = {result.parameters[name] for result in results if name in result.parameters}
         numbers = sorted(value for value in values if not isinstance(value, str))
         words = sorted(value for value in values if isinstance(value, str))
         if values:
-            texts.append(SYMBOLS[name].format(listed([*map(number, numbers), *words])))
+            texts.append(SYMBOLS.get(name, f"{name} = {{}}").format(listed([*map(number, numbers), *words])))
     return ", ".join(texts)
 
 

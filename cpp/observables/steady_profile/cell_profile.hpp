@@ -26,9 +26,10 @@ struct CellTallies : TallySchema {
   Tally arrivals = tally("arrivals", {direction, cell}, "1/time", "Arrivals at the scatterer");
   Tally arriving_squares =
       tally("arriving_squares", {direction, cell}, "momentum^2/time", "Sum of u^2 over arrivals");
-  Tally crossings = tally("crossings", {direction, bond}, "1/time", "Crossings of the bond");
-  Tally crossing_squares =
-      tally("crossing_squares", {direction, bond}, "momentum^2/time", "Sum of u^2 over crossings");
+  // Net currents, not crossings by direction: the injection controls determine those that enter at an
+  // opening.
+  Tally particle_current = tally("particle_current", {bond}, "1/time", "J_n, positive to the right");
+  Tally energy_current = tally("energy_current", {bond}, "energy/time", "J_U, positive to the right");
   Tally end_momentum = tally("end_momentum", {end, momentum}, "1",
                              "Part of the time that an end scatterer spends in a bin of U");
   Tally injection = tally("injection", {InjectionControls::axis()}, "1", "Injected, minus its known mean");
@@ -130,13 +131,17 @@ class CellProfile {
       sums[tallies.density][cell] = (to_right[cell] + to_left[cell]) / duration;
     }
     for (const Direction side : {leftwards, rightwards}) {
-      for (const std::size_t kind : {0U, 1U}) {
-        const std::vector<double> at_marks = streams_[side].at_marks(kind, side == rightwards ? 1 : -1);
-        const auto at_scatterers = sums[(kind == 0 ? tallies.arrivals : tallies.arriving_squares).row(side)];
-        const auto at_bonds = sums[(kind == 0 ? tallies.crossings : tallies.crossing_squares).row(side)];
-        for (std::size_t cell = 0; cell < cells; ++cell)
-          at_scatterers[cell] = at_marks[2 * cell + 1] / duration;
-        for (std::size_t bond = 0; bond <= cells; ++bond) at_bonds[bond] = at_marks[2 * bond] / duration;
+      const bool to_right = side == rightwards;
+      const std::vector<double> numbers = streams_[side].at_marks(0, to_right ? 1 : -1);
+      const std::vector<double> squares = streams_[side].at_marks(1, to_right ? 1 : -1);
+      for (std::size_t cell = 0; cell < cells; ++cell) {
+        sums[tallies.arrivals.row(side)][cell] = numbers[2 * cell + 1] / duration;
+        sums[tallies.arriving_squares.row(side)][cell] = squares[2 * cell + 1] / duration;
+      }
+      const double sign = to_right ? 1 : -1;
+      for (std::size_t bond = 0; bond <= cells; ++bond) {
+        sums[tallies.particle_current][bond] += sign * numbers[2 * bond] / duration;
+        sums[tallies.energy_current][bond] += sign * 0.5 * squares[2 * bond] / duration;
       }
     }
     for (const std::size_t end : {0U, 1U})
