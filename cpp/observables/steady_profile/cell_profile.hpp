@@ -131,14 +131,13 @@ class CellProfile {
       sums[tallies.density][cell] = (to_right[cell] + to_left[cell]) / duration;
     }
     for (const Direction side : {leftwards, rightwards}) {
-      const bool to_right = side == rightwards;
-      const std::vector<double> numbers = streams_[side].at_marks(0, to_right ? 1 : -1);
-      const std::vector<double> squares = streams_[side].at_marks(1, to_right ? 1 : -1);
+      const int sign = side == rightwards ? 1 : -1;
+      const std::vector<double> numbers = streams_[side].at_marks(0, sign);
+      const std::vector<double> squares = streams_[side].at_marks(1, sign);
       for (std::size_t cell = 0; cell < cells; ++cell) {
         sums[tallies.arrivals.row(side)][cell] = numbers[2 * cell + 1] / duration;
         sums[tallies.arriving_squares.row(side)][cell] = squares[2 * cell + 1] / duration;
       }
-      const double sign = to_right ? 1 : -1;
       for (std::size_t bond = 0; bond <= cells; ++bond) {
         sums[tallies.particle_current][bond] += sign * numbers[2 * bond] / duration;
         sums[tallies.energy_current][bond] += sign * 0.5 * squares[2 * bond] / duration;
