@@ -19,11 +19,6 @@ def law(run: Run) -> float:
     return float(np.arccos(run.options["sigma"]) / np.pi)
 
 
-def drop_per_cell(run: Run) -> float:
-    """Temperature drop per cell, from the left bath to the right one."""
-    return float(run.options["temperature-left"] - run.options["temperature-right"]) / run.options["cells"]
-
-
 def linear_response(kappa_0: Callable[[int], float]) -> Truth:
     """Currents between baths with a small difference of temperature or pressure. kappa_0: conductivity at J_n = 0 as a function of N.
     The thinning gas has another coefficient L_un."""

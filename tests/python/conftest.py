@@ -2,7 +2,6 @@ import os
 import subprocess
 import time
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
@@ -97,11 +96,6 @@ def program(tmp_path: Path) -> Program:
         )
 
     return run
-
-
-@pytest.fixture
-def persistence(program: Program) -> Program:
-    return partial(program, "persistence")
 
 
 @pytest.fixture

@@ -1,6 +1,6 @@
 """Results with known values for the runs of the plan, with their parameters."""
 
-import zlib
+import copy
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cache
@@ -90,55 +90,41 @@ def axes(run: Run) -> dict[str, np.ndarray]:
     }
 
 
-def quantity(run: Run, name: str, mean: np.ndarray, error: np.ndarray) -> Quantity:
-    """Quantity with a standard error, or with a discretisation error if the run is not replicated."""
-    along = {axis: axes(run)[axis] for axis in axes_of(run.program)[name]}
-    if run.replicated:
-        count = np.full(mean.shape, run.options["replicas"])
-        return Quantity(mean, error, None, count, along, "1", {}, {}, None)
-    return Quantity(mean, None, error, None, along, "1", {}, {}, None)
-
-
-def uneven(run: Run) -> dict[str, Quantity]:
-    """Quantities of a run with these axes: values from 1 to 2 and errors from 0.01 to 0.02 that differ between elements and runs."""
-    random = np.random.default_rng(zlib.crc32(f"{run.name} {run.program} {run.options.get('seed')}".encode()))
-    coordinates = axes(run)
-    shapes = {
-        name: tuple(len(coordinates[axis]) for axis in along)
-        for name, along in axes_of(run.program).items()
-        if coordinates.keys() >= {*along}
-    }
-    return {
-        name: quantity(
-            run, name, np.asarray(random.uniform(1, 2, shape)), np.asarray(random.uniform(0.01, 0.02, shape))
-        )
-        for name, shape in shapes.items()
-    }
-
-
-def truth(
-    given: Truth, relative: float | Mapping[str, float], random: np.random.Generator | None = None
-) -> Callable[[Run], dict[str, Quantity]]:
-    """Function that returns the results of a run with given true values.
-
-    The error is relative to the value, or absolute where the value is 0; a mapping gives it by quantity, with "*" for all others. With
-    random numbers the quantities of replicated runs are drawn: normal means, and errors that are estimated from the run's number of
-    replicas."""
+def truth(given: Truth, relative: float | Mapping[str, float]) -> Fill:
+    """Function that returns the results of a run with given true values: with a standard error, or with a discretisation error if the run
+    is not replicated. It is relative to the value, or absolute where the value is 0; a mapping gives it by quantity, with "*" for all
+    others."""
     relative = relative if isinstance(relative, Mapping) else {"*": relative}
 
     def fill(run: Run) -> dict[str, Quantity]:
-        coordinates = axes(run)
-        quantities = {}
+        coordinates, quantities = axes(run), {}
         for name in (name for name in given if name in axes_of(run.program)):
-            grids = np.meshgrid(*(coordinates[axis] for axis in axes_of(run.program)[name]), indexing="ij")
+            along = {axis: coordinates[axis] for axis in axes_of(run.program)[name]}
+            grids = np.meshgrid(*along.values(), indexing="ij")
             value = given[name](run, *grids) if callable(given[name]) else given[name]
             mean = np.array(np.broadcast_to(value, grids[0].shape if grids else ()), dtype=float)
             error = relative.get(name, relative["*"]) * np.where(mean == 0, 1, abs(mean))
-            if random is not None and run.replicated and name != "stationary":
-                mean = mean + error * random.standard_normal(mean.shape)
-                freedom = run.options["replicas"] - 1
-                error = error * np.sqrt(random.chisquare(freedom, mean.shape) / freedom)
-            quantities[name] = quantity(run, name, mean, error)
+            count = np.full(mean.shape, run.options["replicas"]) if run.replicated else None
+            errors = (error, None) if run.replicated else (None, error)
+            quantities[name] = Quantity(mean, *errors, count, along, "1", {}, {}, None)
         return quantities
 
     return fill
+
+
+def drawn(known: Known, random: np.random.Generator) -> Known:
+    """Data with noise in the results that are loaded: normal means, and errors that are estimated from the number of replicas."""
+
+    def noisy(result: Result) -> Result:
+        quantities = dict(result.quantities)
+        for name, exact in result.quantities.items():
+            if exact.count is not None and name != "stationary":
+                shape, freedom = exact.mean.shape, result.parameters["replicas"] - 1
+                mean = exact.mean + exact.error * random.standard_normal(shape)
+                error = exact.error * np.sqrt(random.chisquare(freedom, shape) / freedom)
+                quantities[name] = replace(exact, mean=mean, standard_error=error)
+        return replace(result, quantities=quantities)
+
+    other = copy.copy(known)
+    other.loaded = {path: noisy(result) for path, result in known.loaded.items()}
+    return other

@@ -5,8 +5,7 @@ import importlib
 import numpy as np
 import pytest
 
-from tests.python.conftest import ROOT, Measure, Program
-from workflow.lib.described import described
+from tests.python.conftest import ROOT, Measure
 from workflow.lib.figure import TheoryError
 from workflow.lib.load import Quantity, Result
 
@@ -43,24 +42,6 @@ def test_currents_of_independent_walkers(
     assert score(result["energy_current"], current(cells + 3)) > 6
 
 
-@pytest.mark.parametrize("gamma", ["N", 2])
-@pytest.mark.parametrize(
-    ("name", "quantity"),
-    [("displacement", "variance_plain"), ("energy_pulse", "energy_difference"), ("momentum_flux", "flux")],
-)
-def test_without_reversal_the_rule_is_elastic(
-    measure: Measure, name: str, quantity: str, gamma: float | str
-) -> None:
-    """Bit for bit. Detected mistake: one reversal in a hundred collisions."""
-    elastic = measure(name, (0, 4), gamma=gamma)[quantity].mean
-    never, seldom = (
-        measure(name, (0, 4), gamma=gamma, rule="reversal", reversal_probability=p)[quantity].mean
-        for p in (0, 0.01)
-    )
-    assert np.array_equal(elastic, never)
-    assert not np.array_equal(elastic, seldom)
-
-
 @pytest.mark.parametrize(("rule", "gamma"), [({}, "N"), ({}, 3), (RANDOM, 3), (REVERSAL, "N")])
 def test_equilibrium_of_every_rule(measure: Measure, rule: dict[str, object], gamma: float | str) -> None:
     """Temperatures of scatterers and particles are those of the baths, and no current flows [eq. 8]. Detected mistake: temperatures
@@ -72,44 +53,6 @@ def test_equilibrium_of_every_rule(measure: Measure, rule: dict[str, object], ga
         assert score(result[name], 102) > 6, name
     for name in ("particle_current", "energy_current", "temperature_difference"):
         assert score(result[name], 0) < 4, name
-
-
-def test_every_program_has_rules(program: Program) -> None:
-    for name in described():
-        refused = program(name, rule="inelastic")
-        assert refused.returncode == 2
-        assert "--rule" in refused.stderr
-        assert "elastic, random-direction, " in refused.stderr
-        for wrong in (
-            {"rule": "reversal"},
-            {"reversal_probability": 0.1},
-            {"rule": "reversal", "reversal_probability": 1.5},
-        ):
-            refused = program(name, **wrong)
-            assert refused.returncode == 2
-            assert refused.stderr.count("\n") == 1
-            assert "--reversal-probability" in refused.stderr
-
-
-@pytest.mark.parametrize(
-    ("name", "options", "words"),
-    [
-        ("boltzmann", {}, "--rule random-direction: its kinetic equation is not solved here"),
-        ("correlation", {}, "--rule, --sigma: momentum is not conserved, and there is no sound"),
-        (
-            "persistence",
-            {"zero_total_momentum": True},
-            "--zero-total-momentum: the rule random-direction does not",
-        ),
-    ],
-)
-def test_what_needs_the_elastic_rule_refuses_others(
-    program: Program, name: str, options: dict[str, object], words: str
-) -> None:
-    refused = program(name, **options, **RANDOM)
-    assert refused.returncode == 2
-    assert words in refused.stderr
-    assert refused.stderr.count("\n") == 1
 
 
 @pytest.mark.parametrize("script", ["fig05", "fig03_inset", "ext11"])

@@ -8,7 +8,6 @@ from tests.python.conftest import OverSeeds, spread_accepted
 
 SEEDS, LEVEL = 50, 1e-3
 REPLICAS = 24
-LEAST = 64  # replicas of a run with a target error
 
 OPEN = {"cells": 4, "relaxation_time": 0.5, "observation_time": 4}
 EQUILIBRIUM = {"cells": 30, "observation_time": 64, "times": "1,2,4,8", "fit_from": 2}
@@ -34,16 +33,3 @@ def test_standard_error_over_seeds(over_seeds: OverSeeds, name: str, quantity: s
     assert spread_accepted(values, errors, REPLICAS, LEVEL)
     for factor in (np.sqrt(REPLICAS), 2, 0.5):
         assert not spread_accepted(values, factor * errors, REPLICAS, LEVEL)
-
-
-def test_standard_error_over_seeds_where_a_target_ends_the_run(over_seeds: OverSeeds) -> None:
-    """Runs with the smallest batches that have an error. tests/cpp/program/stopping_rule_test.cpp measures the effect of the
-    rule on means and errors; this test covers a program with control variates."""
-    chain = {"cells": 8, "relaxation_time": 0.4, "observation_time": 5}
-    values, errors = over_seeds("conductivity", SEEDS, "kappa", replicas=2, target_error=0.05, **chain)[
-        "kappa"
-    ]
-    assert (errors <= 0.05 * abs(values)).all()
-    assert spread_accepted(values, errors, LEAST, LEVEL)
-    for factor in (2, 0.5):
-        assert not spread_accepted(values, factor * errors, LEAST, LEVEL)

@@ -9,14 +9,6 @@ from workflow.lib.fit import fit_power, mean_of, rejected, with_error
 SIZE = np.array([4, 8, 16, 64, 256])
 
 
-def test_an_exact_law() -> None:
-    law = fit_power(SIZE, 3 * SIZE**0.4, SIZE / 100)
-    assert law.exponent == pytest.approx(0.4, abs=1e-12)
-    assert law.chi_square < 1e-20
-    assert law.freedom == 3
-    np.testing.assert_allclose(law.at(SIZE), 3 * SIZE**0.4, rtol=1e-12)
-
-
 def test_error_and_goodness_over_samples() -> None:
     """With unequal errors, the pulls of the exponent are standard normal and chi^2 is chi-square distributed."""
     generator = np.random.default_rng(1)
@@ -46,12 +38,6 @@ def test_text_has_two_digits_of_the_error() -> None:
         (-2.5, 0): "−2.5",
     }
     assert {numbers: with_error(*numbers) for numbers in texts} == texts
-
-
-def test_a_law_through_two_points_is_not_rejected() -> None:
-    law = fit_power(SIZE[:2], [1, 3], [0.1, 0.1])
-    assert law.freedom == 0
-    assert not law.rejected
 
 
 def test_values_that_differ_are_rejected() -> None:

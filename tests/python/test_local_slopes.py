@@ -6,10 +6,9 @@ import pytest
 from scipy.stats import kstest
 
 from tests.python.conftest import ROOT
-from workflow.figures import accuracy, ext07, ext09, ext13, fig01_inset, fig03_inset, fig09
+from workflow.figures import ext07, ext09, ext13, fig01_inset, fig03_inset, fig09
 from workflow.lib.closed import quasi_stationary
 from workflow.lib.fit import fit_power
-from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
 
 
@@ -48,14 +47,6 @@ def test_the_law_is_found_and_its_p_value_is_uniform(law: str) -> None:
         if seed < 20:
             assert found.chi_square.idxmin() == law
     assert kstest(p_values, "uniform").pvalue > 1e-3
-
-
-def test_local_exponents() -> None:
-    values = 70 * SIZES**0.25
-    middle, slope, error = local_exponents(SIZES, values, 0.01 * values)
-    np.testing.assert_allclose(middle, np.sqrt(SIZES[1:] * SIZES[:-1]))
-    np.testing.assert_allclose(slope, 0.25)
-    np.testing.assert_allclose(error, 0.01 * np.sqrt(2) / np.log(2))
 
 
 def test_slopes_of_a_logarithm_are_its_factor() -> None:
@@ -124,9 +115,3 @@ def test_the_speed_of_sound_before_the_pulse() -> None:
     zeta = 50 / (2 * slow)
     speed = np.sqrt(8 * zeta**2 * temperature / ((2 * zeta + 3) * (2 * zeta + 1))) / 2
     assert fig09.sound_speed(Result(ROOT, options, {}, {})) == pytest.approx(speed)
-
-
-def test_the_gain_of_control_variates_is_that_of_the_longest_run() -> None:
-    rows = [("a", "x", 32, 9.0), ("a", "x", 128, 1.0), ("a", "x_plain", 32, 8.0), ("a", "x_plain", 128, 3.0)]
-    table = pd.DataFrame(rows, columns=["program", "quantity", "replicas", "error"])
-    assert accuracy.gain(table, "a") == pytest.approx(9)

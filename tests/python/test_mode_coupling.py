@@ -61,15 +61,6 @@ def values(chain: Chain) -> dict[Expr, float]:
     }
 
 
-def test_euler_currents() -> None:
-    fields, currents = fields_and_currents()
-    expected = Matrix([2 * z * w, 2 * z * T + z * w**2, 2 * z * T * w])
-    assert simplify(currents - expected) == Matrix([0, 0, 0])
-    assert simplify(fields[1] - (2 * z + M / length) * w) == 0
-    _, at_fixed_flux = pinned()
-    assert simplify(at_fixed_flux[0] - 2 * flux * (T + w**2)) == 0
-
-
 @cache
 def normal_modes() -> tuple[Matrix, Matrix, Matrix]:
     """Fields, their linear combinations of unit variance that move to the right and to the left, and second-order currents."""
@@ -163,33 +154,6 @@ def test_three_fields_with_many_slow_particles(chain: Chain) -> None:
     speed, steepening, _ = found(1e7)
     assert speed == pytest.approx(chain.sound_speed, rel=1e-5)
     assert steepening == pytest.approx(chain.steepening, rel=1e-5)
-    inertia = chain.inertia
-    if_z_were_pinned = chain.fugacity / chain.heat_capacity + chain.fugacity / inertia * (
-        1 + chain.fugacity / chain.heat_capacity
-    )
-    assert abs(steepening / if_z_were_pinned - 1) > 0.01
-
-
-def test_heat_current() -> None:
-    """J_e - T J_n is Tc/2 times the difference of the squares of the sound modes."""
-    temperature = Symbol("T1", positive=True)
-    inertia, capacity = 2 * flux + M / length, flux + 1 / (2 * length)
-    right, left = sympy.symbols("right left")
-    drift = sympy.sqrt(T / (2 * inertia)) * (right + left)
-    heating = T * (right - left) / sympy.sqrt(2 * capacity)
-    _, currents = fields_and_currents()
-    energy, number = currents[2].subs(T, temperature), currents[0].subs(T, temperature)
-    heat = (energy - T * number).subs({temperature: T + heating, w: drift, z: flux})
-    speed = sympy.sqrt(4 * flux**2 * T / (capacity * inertia))
-    assert simplify(heat - T * speed / 2 * (right**2 - left**2)) == 0
-
-
-@pytest.mark.parametrize("chain", CHAINS)
-def test_drude_weight(chain: Chain) -> None:
-    """<J_n Π>²/<Π²> per length, where <J_n Π> = dJ_n/dw T and <Π²> = dg/dw T [eq. M30]."""
-    fields, currents = fields_and_currents()
-    weight = (currents[0].diff(w) ** 2 / fields[1].diff(w) * T).subs({**values(chain), w: 0})
-    assert 4 * chain.fugacity**2 * chain.temperature / chain.inertia == pytest.approx(float(weight))
 
 
 def test_slow_logarithm() -> None:

@@ -1,4 +1,4 @@
-"""Common properties of all programs: provenance, target errors, progress, help."""
+"""Common properties of all programs: provenance, cost, target errors."""
 
 import json
 import socket
@@ -8,41 +8,33 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import ROOT, Program
-from workflow.identity import source_hash
-from workflow.lib.described import declared, described, with_option
+from workflow.lib.described import declared, with_option
 from workflow.lib.load import load
 
 
-def test_provenance_parameters_and_cost(persistence: Program, tmp_path: Path) -> None:
+def test_provenance_parameters_and_cost(program: Program, tmp_path: Path) -> None:
     """The file names neither a folder nor the machine; what differs between runs is in the file of the cost."""
-    assert persistence(sigma=0.25, seed=7).returncode == 0
+    assert program("persistence", sigma=0.25, seed=7).returncode == 0
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out.cost.json", "out.h5"]
     result = load(tmp_path / "out.h5")
     assert result.provenance["seed"] == 7
-    assert result.provenance["events"] > 0
-    assert result.provenance["target_quantity"] == "mu"
-    assert result.provenance["units"] == "m = k_B = 1"
     assert (ROOT / result.provenance["documentation"].split()[0]).is_file()
     assert result.converged == "no target"
     assert set(result.parameters) == set(declared()["persistence"])
-    assert result.parameters["sigma"] == 0.25
-    assert result.parameters["cells"] == 5
-    assert result.parameters["zero-total-momentum"] in (False, np.False_)
+    assert (result.parameters["sigma"], result.parameters["cells"]) == (0.25, 5)
     cost = json.loads((tmp_path / "out.cost.json").read_text())
     assert cost["cpu_seconds"] > 0
     assert cost["peak_memory_bytes"] > 1e6
-    assert cost["events"] == result.provenance["events"]
+    assert cost["events"] == result.provenance["events"] > 0
     content = (tmp_path / "out.h5").read_bytes()
     for text in (str(ROOT), str(tmp_path), "/home/", "/tmp/", socket.gethostname()):
         assert text.encode() not in content
 
 
 @pytest.mark.parametrize("targeted", [True, False])
-def test_there_is_no_error_where_no_particle_turns(
-    persistence: Program, tmp_path: Path, targeted: bool
-) -> None:
+def test_there_is_no_error_where_no_particle_turns(program: Program, tmp_path: Path, targeted: bool) -> None:
     target = {"target_error": 0.1} if targeted else {}
-    result = persistence(**target, sigma=-0.999999, observation_time=0.1, progress="log")
+    result = program("persistence", **target, sigma=-0.999999, observation_time=0.1)
     assert result.returncode == (4 if targeted else 0)
     stored = load(tmp_path / "out.h5")
     assert stored.converged == ("not reached" if targeted else "no target")
@@ -50,11 +42,9 @@ def test_there_is_no_error_where_no_particle_turns(
     assert np.isnan([stored["mu"].standard_error, stored.provenance["achieved_error"]]).all()
 
 
-def test_a_quantity_that_is_not_defined_misses_no_target(persistence: Program, tmp_path: Path) -> None:
+def test_a_quantity_that_is_not_defined_misses_no_target(program: Program, tmp_path: Path) -> None:
     """No particle scatters."""
-    result = persistence(relaxation_time=0, observation_time=1e-12, progress="log")
-    assert result.returncode == 0
-    assert "mu = nan, not defined" in result.stderr
+    assert program("persistence", relaxation_time=0, observation_time=1e-12).returncode == 0
     stored = load(tmp_path / "out.h5")
     assert stored.doubts == ["target quantity not defined"]
     assert np.isnan(stored["mu"].mean)
@@ -66,24 +56,3 @@ def test_a_single_replica_has_no_error(program: Program, tmp_path: Path, name: s
     result = load(tmp_path / "out.h5")
     for quantity in result.quantities.keys() - {"blocking_error"}:  # its blocks are parts of one replica
         assert np.isnan(result[quantity].standard_error).all(), quantity
-
-
-def test_progress_lines(persistence: Program) -> None:
-    assert persistence(progress="none").stderr == ""
-    result, warning = persistence(progress="log").stderr.splitlines()
-    assert result.startswith("persistence: 4 replicas: mu = ")
-    assert "41 %" in warning
-
-
-@pytest.mark.parametrize("name", described())
-def test_help_lists_options_and_quantities(program: Program, name: str) -> None:
-    text = program(name, help=True).stdout
-    assert described()[name]["description"] in text
-    for option in described()[name]["options"]["properties"]:
-        assert f"--{option}" in text
-    for quantity in described()[name]["quantities"]:
-        assert quantity["description"] in text
-
-
-def test_version(persistence: Program) -> None:
-    assert source_hash("persistence") in persistence(version=True).stdout

@@ -1,6 +1,5 @@
 """Snakemake's display of a small workflow, in a file and on a terminal, and its answers to the failure of a group of jobs."""
 
-import logging
 import os
 import pty
 import re
@@ -8,12 +7,7 @@ import subprocess
 import time
 from contextlib import suppress
 from pathlib import Path
-from types import SimpleNamespace
 
-import pytest
-from snakemake_interface_logger_plugins.common import LogEvent
-
-from snakemake_logger_plugin_progress import LogHandler
 from tests.python.conftest import ROOT
 
 SNAKEFILE = """
@@ -76,31 +70,3 @@ def test_a_terminal_has_a_bar_and_the_running_jobs_until_ctrl_c(tmp_path: Path) 
     assert re.search(r"Stopped; 0 of 4 done, 0:00:\d\d\.", shown)
     assert "failed" not in shown
     assert "Traceback" not in shown
-
-
-def test_a_group_of_a_cluster_fails_without_its_finished_runs(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """The log of the group is that of Slurm, which says why a run has none."""
-    common = SimpleNamespace(**dict.fromkeys(("dryrun", "verbose", "debug_dag", "printshellcmds"), False))
-    handler = LogHandler(common, None)
-
-    def emit(event: LogEvent, **fields: object) -> None:
-        record = logging.LogRecord("snakemake", logging.ERROR, "", 0, "", (), None)
-        vars(record).update(event=event, **fields)
-        handler.emit(record)
-
-    logs = [str(tmp_path / f"{name}.log") for name in "ab"]
-    for number, log in enumerate(logs):
-        job = {"wildcards": {"panel": "fig05", "run": "ab"[number]}, "output": [f"{log}.h5"], "log": [log]}
-        emit(LogEvent.JOB_INFO, jobid=number, **job)
-    (tmp_path / "slurm.log").write_text("no space left")
-    (tmp_path / "a.log.h5").touch()
-    emit(LogEvent.GROUP_ERROR, aux_logs=[str(tmp_path / "slurm.log")])
-    for number, log in enumerate(logs):
-        emit(LogEvent.JOB_ERROR, jobid=number, log=[log], indent=True)
-    handler.close()
-    shown = capsys.readouterr().out
-    assert "fig05/a" not in shown
-    assert "no space left" in shown
-    assert "Failed: fig05/b;" in shown

@@ -69,15 +69,6 @@ def commit(project: Project) -> None:
 
 # Edits; the command and its exit status; state, path (before the edits) and a part of the reason of every product that it names.
 STATES: dict[str, tuple[list[Edit], str, int, list[tuple[str, str, str]]]] = {
-    "a panel that has only lent its runs, and files of the user": (
-        [
-            remove("figures/smoke/mu.*"),
-            remove("build/figures/smoke/mu.*"),
-            write("data/smoke/mu/mine.h5"),
-            write("figures/smoke/mine.pdf"),
-        ],
-        "audit", 0, [],
-    ),
     "results": (
         [edit_value, remove(OTHER_MU), exchange], "status", 1,
         [
@@ -138,19 +129,16 @@ def provenance(project: Project, file: Path, status: int = 0) -> str:
 
 def test_where_a_copy_of_a_figure_comes_from(project: Project, tmp_path: Path) -> None:
     seeds = [load(project.one(path)).parameters["seed"] for path in (MU, OTHER_MU)]
-    for kind in ("png", "csv"):
-        copy = Path(shutil.copy(project.folder / f"figures/smoke/mu.{kind}", tmp_path / f"my talk.{kind}"))
-        printed = provenance(project, copy)
-        assert printed.startswith("panel mu, quality smoke: make panel PANEL=mu QUALITY=smoke\n")
-        assert "unmodified, made from 5 files" in printed
-        assert all(f"--seed {seed}" in printed for seed in seeds)
+    copy = Path(shutil.copy(project.folder / "figures/smoke/mu.png", tmp_path / "my talk.png"))
+    printed = provenance(project, copy)
+    assert printed.startswith("panel mu, quality smoke: make panel PANEL=mu QUALITY=smoke\n")
+    assert "unmodified, made from 5 files" in printed
+    assert all(f"--seed {seed}" in printed for seed in seeds)
     copy.write_bytes(copy.read_bytes() + b"\n")
     substitute("workflow/lib/fit.py", '"""\n', '"""\n# mine\n')(project)
     printed = provenance(project, copy, status=1)
     assert "edited, made from 5 files" in printed
     assert "workflow/lib is another here" in printed
-    remove(RECORD)(project)
-    assert "panel mu, quality smoke" in provenance(project, copy, status=3)
 
 
 def test_where_a_copy_of_a_result_comes_from(project: Project, tmp_path: Path) -> None:
@@ -160,8 +148,6 @@ def test_where_a_copy_of_a_result_comes_from(project: Project, tmp_path: Path) -
     assert load(copy).provenance["words"] in printed
     edit_value(project)
     assert "edited" in provenance(project, project.one(MU), status=1)
-    copy.write_text("text")
-    assert "states no panel" in provenance(project, copy, status=1)
 
 
 def test_a_rerun_is_compared_also_over_an_edited_result(project: Project) -> None:
@@ -179,8 +165,6 @@ def test_other_replicas_are_compared_and_kept_beside(project: Project) -> None:
     for printed in (independent, shared):
         assert "2 of 2 results agree with the former: largest difference" in printed
     assert ("shared" in independent, "shared" in shared) == (False, True)
-    commit(project)
-    assert "2 panels with 4 results: all hold" in project.entry("status")
     shutil.rmtree(project.folder / "build/figures/smoke_seed=7")  # as after an interruption
     shutil.rmtree(project.folder / "figures/smoke_replicas=8")  # its results are not planned any more
     project.entry("prune")
