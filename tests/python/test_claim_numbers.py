@@ -5,6 +5,7 @@ state, give numbers that scatter about them as their own errors predict: chi-squ
 p-value LEVEL. An error that is wrong by a factor of two is found in all numbers.
 """
 
+import copy
 from dataclasses import replace
 
 import numpy as np
@@ -17,6 +18,7 @@ from tests.python.conftest import ROOT
 from tests.python.known_results import Known, drawn, truth
 from workflow.claims import judge, pulse
 from workflow.claims.verdict import Number
+from workflow.lib.load import Quantity
 
 TRIALS, LEVEL = 100, 1e-5
 HEAT_PEAK = "pulse.relation_of_central_peak"
@@ -88,3 +90,38 @@ def test_noisy_results_scatter_about_them_as_the_errors_predict(
     assert not wrong.any(), [labels[k] for k in np.flatnonzero(wrong)]
     assert outside(z * 2, freedom, np.ones(1)).all()
     assert outside(z / 2 / widest, freedom, np.ones(1)).all()
+
+
+def changed(known: Known, path: str) -> Known:
+    """The data with all means of one run changed by different relative amounts of about a thousandth."""
+    run, random = known.loaded[path], np.random.default_rng(1)
+
+    def shifted(quantity: Quantity) -> Quantity:
+        return replace(quantity, mean=quantity.mean * random.uniform(1.001, 1.002, quantity.mean.shape))
+
+    quantities = {
+        name: quantity if name == "stationary" else shifted(quantity)
+        for name, quantity in run.quantities.items()
+    }
+    other = copy.copy(known)
+    other.loaded = known.loaded | {path: replace(run, quantities=quantities)}
+    return other
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_degrees_of_freedom_are_those_of_the_run_with_the_fewest_replicas(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A number depends on those runs whose change changes it. Exception: the heat peak, whose error is the spread over equal runs."""
+    known = data(cheaper(name, monkeypatch))
+    plain = numbers(name, known)
+    fewest = np.full(len(plain), np.inf)
+    for path, run in list(known.loaded.items()):
+        if "replicas" not in run.parameters:
+            continue  # computed runs have no replicas
+        for k, number in enumerate(numbers(name, changed(known, path))):
+            if abs(number.value - plain[k].value) > 1e-9 * abs(plain[k].value):
+                fewest[k] = min(fewest[k], run.parameters["replicas"] - 1)
+    if name == HEAT_PEAK:
+        fewest = np.minimum(fewest, pulse.heat_peak(known)[0].freedom)
+    np.testing.assert_array_equal([shifted.freedom for shifted in plain], fewest)

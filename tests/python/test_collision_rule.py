@@ -42,6 +42,20 @@ def test_currents_of_independent_walkers(
     assert score(result["energy_current"], current(cells + 3)) > 6
 
 
+@pytest.mark.parametrize(
+    ("name", "quantity"),
+    [("displacement", "variance_plain"), ("energy_pulse", "energy_difference"), ("momentum_flux", "flux")],
+)
+def test_without_reversal_the_rule_is_elastic(measure: Measure, name: str, quantity: str) -> None:
+    """Bit for bit. Detected mistake: one reversal in a hundred collisions."""
+    elastic = measure(name, (0, 4))[quantity].mean
+    never, seldom = (
+        measure(name, (0, 4), rule="reversal", reversal_probability=p)[quantity].mean for p in (0, 0.01)
+    )
+    assert np.array_equal(elastic, never)
+    assert not np.array_equal(elastic, seldom)
+
+
 @pytest.mark.parametrize(("rule", "gamma"), [({}, "N"), ({}, 3), (RANDOM, 3), (REVERSAL, "N")])
 def test_equilibrium_of_every_rule(measure: Measure, rule: dict[str, object], gamma: float | str) -> None:
     """Temperatures of scatterers and particles are those of the baths, and no current flows [eq. 8]. Detected mistake: temperatures

@@ -88,6 +88,10 @@ def test_one_contradiction_outweighs_what_is_open_and_what_agrees() -> None:
     assert Verdict(Band(0, math.inf), (far, near), LEVEL).shown is near  # not in units of the errors
 
 
+def test_without_numbers_nothing_is_decided() -> None:
+    assert Verdict(BAND, (), LEVEL).outcome is Outcome.UNDECIDED
+
+
 def test_bands_as_they_are_written() -> None:
     assert Band.of("-0.5 to 1e-3") == Band(-0.5, 0.001)
     assert Band.of("above 0") == Band(0, math.inf)

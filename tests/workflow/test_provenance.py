@@ -69,6 +69,15 @@ def commit(project: Project) -> None:
 
 # Edits; the command and its exit status; state, path (before the edits) and a part of the reason of every product that it names.
 STATES: dict[str, tuple[list[Edit], str, int, list[tuple[str, str, str]]]] = {
+    "a panel that has only lent its runs, and files of the user": (
+        [
+            remove("figures/smoke/mu.*"),
+            remove("build/figures/smoke/mu.*"),
+            write("data/smoke/mu/mine.h5"),
+            write("figures/smoke/mine.pdf"),
+        ],
+        "audit", 0, [],
+    ),
     "results": (
         [edit_value, remove(OTHER_MU), exchange], "status", 1,
         [
@@ -139,6 +148,8 @@ def test_where_a_copy_of_a_figure_comes_from(project: Project, tmp_path: Path) -
     printed = provenance(project, copy, status=1)
     assert "edited, made from 5 files" in printed
     assert "workflow/lib is another here" in printed
+    remove(RECORD)(project)
+    assert "panel mu, quality smoke" in provenance(project, copy, status=3)
 
 
 def test_where_a_copy_of_a_result_comes_from(project: Project, tmp_path: Path) -> None:
