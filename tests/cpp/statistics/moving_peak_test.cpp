@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <span>
 #include <vector>
 
 namespace moving_peak_test {
