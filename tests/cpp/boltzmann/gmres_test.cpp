@@ -48,15 +48,7 @@ TEST(Gmres, MinimisesTheResidualWithinTheLimit) {
   EXPECT_GT(std::abs(image.dot(b - a * found.solution)), 1e-6 * image.norm() * b.norm());
 }
 
-TEST(Gmres, StopsAtTheLimitOrTheTolerance) {
-  MatrixXd shift = MatrixXd::Zero(6, 6);  // cyclic: the residual does not decrease before the last step
-  for (Index i = 0; i < 6; ++i) shift((i + 1) % 6, i) = 1;
-  const VectorXd b = VectorXd::Unit(6, 0);
-  EXPECT_LT(residual(shift, gmres(product(shift), identity, b, 1e-12, 6).solution, b), 1e-12);
-  const KrylovResult short_of_it = gmres(product(shift), identity, b, 1e-12, 5);
-  EXPECT_EQ(short_of_it.iterations, 5);
-  EXPECT_NEAR(residual(shift, short_of_it.solution, b), 1, 1e-12);
-
+TEST(Gmres, StopsAtTheTolerance) {
   const MatrixXd a = well_conditioned(40, 8);
   const VectorXd ones = VectorXd::Ones(40);
   int before = 0;

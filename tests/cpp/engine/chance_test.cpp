@@ -1,5 +1,5 @@
 /// Which random numbers starts, injections and flights take: no two replicas, seeds or sources share one.
-/// tests/cpp/numerics/random_test.cpp tests that streams of different names differ.
+/// tests/cpp/numerics/random_test.cpp tests the words of a stream.
 #include <gtest/gtest.h>
 
 #include <algorithm>

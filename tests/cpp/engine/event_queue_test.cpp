@@ -162,25 +162,6 @@ TEST(EventQueue, LetsParticlesEnterAndLeave) {
     EXPECT_GE(compare_with_ordered_set({0, 6, heavy_tailed(1), 2e-4, 200'000, entering}, rate), 30'000U);
 }
 
-TEST(EventQueue, NeverReturnsArrivalsAtOrAfterTheEnd) {
-  const double end = 8;
-  const double last = std::nextafter(end, 0.0);
-  EventQueue queue({{end, 1, 0, 0}, {last, 1, 0, 1}, {infinity, 1, 0, 2}, {9, 1, 0, 3}, {0, 1, 0, 4}}, 1,
-                   end);
-  Flight flight;
-  ASSERT_TRUE(queue.take_before(1, flight));
-  EXPECT_EQ(flight.particle, 4U);
-  flight.time = end;
-  queue.schedule(flight);
-  EXPECT_FALSE(queue.take_before(last, flight));  // takes only arrivals strictly before the limit
-  ASSERT_TRUE(queue.take_before(end, flight));
-  EXPECT_EQ(flight.particle, 1U);
-  flight.time = infinity;
-  queue.schedule(flight);
-  for (const double until : {end, 9.0, 100.0, infinity}) EXPECT_FALSE(queue.take_before(until, flight));
-  EXPECT_EQ(queue.flights()[0].time, end);  // the flight is still in the queue
-}
-
 // Every flight that outlasts the revolution takes a new slot; free slots are reused.
 TEST(EventQueue, TakesNoMoreMemoryInALongRun) {
   Generator generator(3);

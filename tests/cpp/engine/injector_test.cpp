@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -86,11 +85,6 @@ TEST(Injector, IntervalsAreExponentialAndIndependent) {
   EXPECT_LT(z(product_with_last, 0), 4);
   EXPECT_LT(z(product_with_momentum, 0), 4);
   EXPECT_GT(z(square, 2.1), 4);
-}
-
-TEST(Injector, NothingComesAtRateZero) {
-  EXPECT_EQ(Injector({0, 1}, {1, 0}, Purpose::injection_left).time(),
-            std::numeric_limits<double>::infinity());
 }
 
 }  // namespace injector_test

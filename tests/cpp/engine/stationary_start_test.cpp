@@ -4,12 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdint>
-#include <numbers>
 #include <vector>
 
-#include "engine/closed_dynamics.hpp"
-#include "support/collisions.hpp"
 #include "support/plausible.hpp"
 #include "support/sample.hpp"
 
@@ -87,52 +83,6 @@ TEST(StationaryStart, SpeedsFollowTheirDensityIndependentlyOfPositions) {
                                                      one.position / length);
                                   }),
                          399));
-}
-
-// Mean and variance of sums over the particles of a Poisson process (Campbell's theorem). The sum of p^2
-// sign(p) has the mean 0; that of p^2 has the mean 2 zeta T per cell apart from the cut. Detected mistake:
-// all momenta point to the right.
-TEST(StationaryStart, DirectionsAreEven) {
-  const PhasePoint point = start();
-  double signs = 0, flux = 0, squares = 0;
-  for (const Particle& particle : point.particles) {
-    signs += std::copysign(1, particle.velocity);
-    flux += particle.velocity * particle.velocity;
-    squares += std::pow(particle.velocity, 4);
-  }
-  const double T = measure.temperature, cut = measure.slowest * measure.slowest / (2 * T);
-  EXPECT_LT(std::abs(signs) / std::sqrt(point.particles.size()), 4);
-  EXPECT_LT(std::abs(flux - chain.cells * 2 * zeta * T * std::exp(-cut)) / std::sqrt(squares), 4);
-}
-
-/// Number of collisions per cell and sum of U^2/T per cell after a time, for several rings of 20 cells.
-std::pair<std::vector<double>, std::vector<double>> later(double time, double scatterers) {
-  const ClosedChain ring{.cells = 20, .cell_length = 0.5, .sigma = -0.4};
-  const StationaryMeasure fine{.fugacity = 3, .temperature = 4, .slowest = 1e-3};
-  std::vector<double> collisions, energies;
-  for (std::uint64_t replica = 0; replica < 400; ++replica) {
-    PhasePoint begin = stationary_start(ring, fine, {7, replica});
-    for (double& U : begin.scatterers) U *= scatterers;
-    ClosedDynamics dynamics(ring, begin, time, {7, replica});
-    NoObserver nobody;
-    simulate(dynamics, time, nobody, support::nothing);
-    collisions.push_back(static_cast<double>(dynamics.events()) / ring.cells);
-    double squares = 0;
-    for (const double U : dynamics.scatterers()) squares += U * U / fine.temperature;
-    energies.push_back(squares / ring.cells);
-  }
-  return {collisions, energies};
-}
-
-// The rate of collisions of a scatterer is 2 times the integral of z exp(-p^2/2T). Detected mistake: U of the
-// scatterers is initially 40 % too small.
-TEST(StationaryStart, IsStationary) {
-  const double time = 3, rate = 2 * 3 * std::sqrt(std::numbers::pi * 4 / 2);
-  const auto [collisions, energies] = later(time, 1);
-  EXPECT_LT(std::abs(support::z_score(support::sample(collisions), rate * time)), 4);
-  EXPECT_LT(std::abs(support::z_score(support::sample(energies), 1)), 4);
-  const auto [fewer, colder] = later(time, 0.6);
-  EXPECT_GT(std::abs(support::z_score(support::sample(colder), 1)), 4);
 }
 
 }  // namespace stationary_start_test

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
 
 namespace random_test {
 
@@ -15,6 +14,8 @@ using Key = r123::Philox4x64::key_type;
 /// A 64-bit word as a number in [0, 1]; a uniform number keeps its leading 52 or 53 bits.
 double fraction(std::uint64_t word) { return static_cast<double>(word) * 0x1p-64; }
 
+// Philox gives every key and counter different words. Detected mistakes: a stream does not depend on the
+// seed, the replica, the purpose or the entity; words are used twice.
 TEST(Random, UniformReadsTheWordsOfTheStreamInOrder) {
   RandomStream stream({7, 5}, Purpose::initial_particle_momentum, 11);
   for (std::uint64_t block = 0; block < 3; ++block) {
@@ -22,19 +23,6 @@ TEST(Random, UniformReadsTheWordsOfTheStreamInOrder) {
         Counter{{block, 11, 5, 0}}, Key{{7, static_cast<std::uint64_t>(Purpose::initial_particle_momentum)}});
     for (const std::uint64_t word : words) EXPECT_NEAR(stream.uniform(), fraction(word), 0x1p-52);
   }
-}
-
-TEST(Random, StreamsDiffer) {
-  std::set<double> numbers;
-  std::size_t streams = 0;
-  for (std::uint64_t seed = 0; seed < 4; ++seed)
-    for (std::uint64_t purpose = 0; purpose < 3; ++purpose)
-      for (std::uint64_t replica = 0; replica < 4; ++replica)
-        for (std::uint64_t entity = 0; entity < 4; ++entity, ++streams) {
-          RandomStream stream({seed, replica}, static_cast<Purpose>(purpose), entity);
-          for (int i = 0; i < 8; ++i) numbers.insert(stream.uniform());
-        }
-  EXPECT_EQ(numbers.size(), 8 * streams);
 }
 
 TEST(Random, UniformExcludesBothEnds) {

@@ -19,12 +19,6 @@ struct CheckpointTest : testing::Test {
   Checkpoint checkpoint{folder / "a.h5.checkpoint", "sigma = 0.5\nsource_hash = abc\n"};
   FinishedReplicas saved{
       {0, {{0.1, -0.0, 5e-324}, 3}}, {1, {{1e308, 2, 3}, 0}}, {1ULL << 40, {{-1, 1.0 / 3, 7}, ~0ULL}}};
-
-  void expect_refused(const std::string& content) const {
-    support::write_file(checkpoint.path, content);
-    const std::string message = support::refusal([&] { (void)checkpoint.load(); });
-    EXPECT_NE(message.find("'" + checkpoint.path + "'"), std::string::npos) << message;
-  }
 };
 
 TEST_F(CheckpointTest, LoadsWhatWasSaved) {
@@ -50,27 +44,19 @@ TEST_F(CheckpointTest, OfAnotherRunHasNoReplicas) {
   }
 }
 
-TEST_F(CheckpointTest, RefusesAnotherValue) {
+TEST_F(CheckpointTest, RefusesDamagedFiles) {
   checkpoint.save(saved);
   const std::string whole = content_of(checkpoint.path);
   const double value = 1.0 / 3;
   const std::size_t at = whole.find(std::string(reinterpret_cast<const char*>(&value), sizeof value));
   ASSERT_NE(at, std::string::npos);
-  for (std::size_t byte = at; byte < at + sizeof value; ++byte) {
-    std::string damaged = whole;
-    damaged[byte] = static_cast<char>(damaged[byte] ^ 1);
-    expect_refused(damaged);
+  std::string another_value = whole;
+  another_value[at] = static_cast<char>(another_value[at] ^ 1);
+  for (const std::string& damaged : {another_value, whole.substr(0, whole.size() / 2), std::string()}) {
+    support::write_file(checkpoint.path, damaged);
+    const std::string message = support::refusal([&] { (void)checkpoint.load(); });
+    EXPECT_NE(message.find("'" + checkpoint.path + "'"), std::string::npos) << message;
   }
-  support::write_file(checkpoint.path, whole);
-  EXPECT_EQ(checkpoint.load().size(), 3U);
-}
-
-TEST_F(CheckpointTest, RefusesTruncatedAndForeignFiles) {
-  checkpoint.save(saved);
-  const std::string whole = content_of(checkpoint.path);
-  for (std::size_t size = 0; size < whole.size(); size += size < 64 ? 8 : 97)
-    expect_refused(whole.substr(0, size));
-  expect_refused(std::string(5000, '\0'));
 }
 
 }  // namespace checkpoint_test

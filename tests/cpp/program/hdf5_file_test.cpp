@@ -1,12 +1,8 @@
 #include "program/hdf5_file.hpp"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -21,9 +17,11 @@ namespace hdf5_file_test {
 using namespace lorentz;
 using support::TemporaryFolder;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-const std::vector<double> reals = {0.1, -0.0, 5e-324, 1e308, infinity, -infinity};
+const std::vector<double> reals = {0.1, -0.0, 5e-324, 1e308, INFINITY, -INFINITY};
 const std::vector<std::uint64_t> counts = {0, 1, ~std::uint64_t{0}};
+const std::vector<Parameter> parameters = {
+    {"flag", true}, {"integer", std::int64_t{-3}},           {"count", std::uint64_t{3}},
+    {"real", 0.1},  {"text", std::string("\xcf\x83 = 1/2")}, {"empty", std::string()}};  // UTF-8
 
 Axis axis(const std::string& name, std::size_t size) { return numbered_axis(name, "An axis", size); }
 
@@ -37,12 +35,7 @@ std::vector<std::byte> image() {
   file.array("/results", {"number", "1", "A number"}, std::vector{0.25});
   file.array("/results", {"nothing", "1", "Nothing", {axis("none", 0)}}, std::vector<double>{});
   file.group("/parameters");
-  file.attribute("/parameters", "flag", true);
-  file.attribute("/parameters", "integer", std::int64_t{-3});
-  file.attribute("/parameters", "count", std::uint64_t{3});
-  file.attribute("/parameters", "real", 0.1);
-  file.attribute("/parameters", "text", std::string("\xcf\x83 = 1/2"));  // UTF-8
-  file.attribute("/parameters", "empty", std::string());
+  for (const auto& [name, value] : parameters) file.attribute("/parameters", name, value);
   return file.image();
 }
 
@@ -57,11 +50,8 @@ TEST(Hdf5File, ReadsBackWhatWasWritten) {
   EXPECT_EQ(file.doubles("/results/number"), std::vector{0.25});
   EXPECT_TRUE(file.doubles("/results/nothing").empty());
   EXPECT_TRUE(file.has_attribute("/results/profile/mean", "units", std::string("time")));
-  const std::vector<Parameter> values = {
-      {"flag", true}, {"integer", std::int64_t{-3}},           {"count", std::uint64_t{3}},
-      {"real", 0.1},  {"text", std::string("\xcf\x83 = 1/2")}, {"empty", std::string()}};
-  for (const auto& [name, value] : values)
-    for (const auto& [other, other_value] : values)
+  for (const auto& [name, value] : parameters)
+    for (const auto& [other, other_value] : parameters)
       EXPECT_EQ(file.has_attribute("/parameters", name, other_value), name == other) << name << other;
   EXPECT_FALSE(file.has_attribute("/parameters", "text", std::string("\xcf\x83 = 1/")));
   EXPECT_FALSE(file.has_attribute("/parameters", "absent", true));
@@ -81,17 +71,6 @@ TEST(Hdf5File, RefusesMissingDatasetsAndOtherFiles) {
   support::write_file(other, "not HDF5");
   EXPECT_NE(support::refusal([&] { Hdf5Reader{other}; }), "");
   EXPECT_NE(support::refusal([&] { Hdf5Reader{folder / "absent.h5"}; }), "");
-}
-
-// The HDF5 library does not open a file that another process has locked.
-TEST(Hdf5File, IsReadWhereItIsLocked) {
-  const TemporaryFolder folder;
-  write_atomically(folder / "a.h5", image());
-  const int file = ::open((folder / "a.h5").c_str(), O_RDONLY);
-  ASSERT_EQ(::flock(file, LOCK_EX), 0);
-  EXPECT_LT(H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), 0);
-  EXPECT_EQ(Hdf5Reader(folder / "a.h5").doubles("/results/profile/mean"), reals);
-  ::close(file);
 }
 
 }  // namespace hdf5_file_test

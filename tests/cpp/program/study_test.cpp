@@ -8,7 +8,6 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
-#include <new>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -54,16 +53,6 @@ Study study_of(const MeasureValue& measurement) {
               },
           .groups = {group},
           .target = "value"};
-}
-
-/// Study whose estimate begins with an action.
-Study study_estimating(const std::function<void()>& action) {
-  Study study = study_of(measure);
-  study.groups.front().statistics({{"more", "1", "Another"}}, [=](const Records&) {
-    action();
-    return Estimate{{1}, {0}};
-  });
-  return study;
 }
 
 /// Output of the last run on standard error.
@@ -141,11 +130,6 @@ struct StudyTest : testing::Test {
   }
   double mean() const { return Hdf5Reader(output).doubles("/results/value/mean").at(0); }
   double error() const { return Hdf5Reader(output).doubles("/results/value/standard_error").at(0); }
-  void wait_for_checkpoint() const {
-    for (int i = 0; !folder.names().contains("a.h5.checkpoint") && i < 1000; ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    EXPECT_TRUE(folder.names().contains("a.h5.checkpoint"));
-  }
   void expect_same_bytes_as(const Arguments& arguments) const {
     EXPECT_EQ(run(with(arguments, {"--output", folder / "other.h5"})), 0);
     EXPECT_EQ(content_of(output), content_of(folder / "other.h5"));
@@ -181,25 +165,6 @@ TEST_F(StudyTest, ReachesATargetErrorRelativeToAScale) {
   EXPECT_GT(replicas("0.25"), 500U);
 }
 
-TEST_F(StudyTest, WritesCheckpointsDuringTheEstimate) {
-  const auto waiting = [&] { return study_estimating([&] { wait_for_checkpoint(); }); };
-  EXPECT_EQ(run(with(to_output, {"--checkpoint-interval", "0.01"}), waiting), 0);
-  EXPECT_EQ(folder.names(), (Names{"a.h5", "a.cost.json"}));
-}
-
-TEST_F(StudyTest, GoesOnWithoutACheckpoint) {
-  std::filesystem::create_directory(folder / "a.h5.checkpoint");
-  const auto slow = [](const Replica& replica) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    return measure(replica);
-  };
-  EXPECT_EQ(run(with(to_output, {"--checkpoint-interval", "0.01"}), slow), 0);
-  expect_complaint("a.h5.checkpoint");  // once
-  EXPECT_EQ(replicas_in(output), 16U);
-  EXPECT_EQ(run(with(to_output, {"--overwrite"}), failing_at(5)), 3);
-  EXPECT_NE(complaints.find("not saved"), std::string::npos) << complaints;
-}
-
 TEST_F(StudyTest, KeepsTheReplicasOfResultsThatCannotBeWritten) {
   const auto obstruct = [&](const Replica& replica) {
     if (replica.key.replica == 15) std::filesystem::create_directory(output);
@@ -210,16 +175,6 @@ TEST_F(StudyTest, KeepsTheReplicasOfResultsThatCannotBeWritten) {
   std::filesystem::remove(output);
   EXPECT_EQ(run(with(to_output, {"--resume"}), never), 0);
   expect_same_bytes_as({});
-}
-
-TEST_F(StudyTest, KeepsTheReplicasIfMemoryRunsOut) {
-  const auto greedy = [](const Replica& replica) {
-    if (replica.key.replica == 5) throw std::bad_alloc();
-    return measure(replica);
-  };
-  EXPECT_EQ(run(to_output, greedy), 2);
-  expect_complaint("--replicas");
-  EXPECT_EQ(replicas_kept(output).size(), 5U);
 }
 
 TEST_F(StudyTest, ResumesToEqualBytes) {
@@ -320,7 +275,14 @@ TEST_F(StudyTest, SignalsEndTheRunWithACheckpoint) {
                 testing::ExitedWithCode(128 + number), "");
     EXPECT_EQ(replicas_kept(output), (Indices{0, 1, 2}));
   }
-  const auto estimating = [] { return study_estimating([] { interrupt(SIGINT); }); };
+  const auto estimating = [] {
+    Study study = study_of(measure);
+    study.groups.front().statistics({{"more", "1", "Another"}}, [](const Records&) -> Estimate {
+      interrupt(SIGINT);
+      return {{1}, {0}};
+    });
+    return study;
+  };
   EXPECT_EXIT(run_program(with(to_output, {"--overwrite"}), estimating),
               testing::ExitedWithCode(128 + SIGINT), "");
   EXPECT_EQ(replicas_kept(output).size(), 16U);

@@ -6,16 +6,6 @@ namespace open_parameters_test {
 
 using namespace lorentz;
 
-// Detected mistake: the starts empty and warm are exchanged.
-TEST(OpenParameters, Starts) {
-  OpenParameters parameters{.scattering = {.cells = 5}};
-  EXPECT_GT(parameters.start_point(10, {1, 0}).particles.size(), 10U);
-  parameters.start = "empty";
-  const PhasePoint empty = parameters.start_point(10, {1, 0});
-  EXPECT_TRUE(empty.particles.empty());
-  EXPECT_EQ(empty.scatterers, std::vector<double>(5, 0));
-}
-
 // Detected mistakes: the starts cold and hot are exchanged; both use the left reservoir.
 TEST(OpenParameters, StartsFromEquilibriumWithOneReservoir) {
   const auto temperature = [](const OpenParameters& parameters) {

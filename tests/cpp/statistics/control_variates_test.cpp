@@ -79,18 +79,6 @@ TEST(ControlVariates, ThatDoNotVaryAreLeftOut) {
   for (std::size_t i = 0; i < source.size(); ++i) EXPECT_NEAR(with[i][0], without[i][0], 1e-12);
 }
 
-TEST(ControlVariates, MayBeOfAnySize) {
-  const Records usual = noisy(30, 0.5, 1), expected = *regress_out(usual, support::on_last(usual, 2));
-  for (const int exponent : {-1000, -600, 600, 1000}) {
-    Records extreme(3);
-    for (std::size_t i = 0; i < usual.size(); ++i)
-      extreme.append(
-          std::vector{usual[i][0], std::ldexp(usual[i][1], exponent), std::ldexp(usual[i][2], exponent)});
-    const Records reduced = *regress_out(extreme, support::on_last(extreme, 2));
-    for (std::size_t i = 0; i < usual.size(); ++i) EXPECT_EQ(reduced[i][0], expected[i][0]) << exponent;
-  }
-}
-
 TEST(ControlVariates, AreNotUsedWhereTheyCannotBeRegressed) {
   const Records few = noisy(5, 1, 1);
   EXPECT_FALSE(regress_out(few, support::on_last(few, 2)));

@@ -15,12 +15,11 @@ struct Tallies : TallySchema {
   Axis place = numbered_axis("place", "Where", 2);
   ScalarTally a = tally("a", "1", "A number");
   ScalarTally b = tally("b", "1", "Another");
-  Tally pair = tally("pair", {place}, "1", "Two, the first always 0");
 };
 
 Records records() {
   Records result(Tallies().width());
-  for (const double x : {1., 2., 6.}) result.append(std::vector{x, 2 * x + 1, 0., x});
+  for (const double x : {1., 2., 6.}) result.append(std::vector{x, 2 * x + 1});
   return result;
 }
 
@@ -48,47 +47,13 @@ TEST(Group, JackknifesFormulasOfTheMeanRecord) {
   EXPECT_NEAR(results[1].standard_error[0], std::sqrt(2. / 3 * squares), 1e-14);
 }
 
-// Detected mistakes: the quantity has another tally's name or values; where all replicas agree, rounding
-// gives an error.
-TEST(Group, HasQuantitiesThatAreTallies) {
-  const Tallies tallies;
-  Group group;
-  group.quantity(tallies, tallies.pair);
-  const Results results = group.estimate(records());
-  EXPECT_EQ(results[0].what.name, "pair");
-  EXPECT_EQ(results[0].what.axes[0].name, "place");
-  EXPECT_EQ(results[0].mean, (std::vector<double>{0, 3}));
-  EXPECT_EQ(results[0].standard_error[0], 0);
-  EXPECT_GT(results[0].standard_error[1], 0);
-}
-
-// Detected mistake: the errors of the statistic are replaced by those of a jackknife.
-TEST(Group, HasStatisticsWithTheirOwnErrors) {
-  Group group;
-  group.statistics({{"one", "1", "One"}, {"pair", "1", "Two", {numbered_axis("place", "Where", 2)}}},
-                   [](const Records&) { return Estimate{{1, 2, 0}, {0.1, 0.2, 0}}; });
-  const Results results = group.estimate(records());
-  ASSERT_EQ(results.size(), 2U);
-  EXPECT_EQ(results[0].standard_error, std::vector{0.1});
-  EXPECT_EQ(results[1].mean, (std::vector<double>{2, 0}));
-  EXPECT_EQ(results[1].standard_error, (std::vector<double>{0.2, 0}));
-  EXPECT_EQ(results[1].count, (std::vector<std::uint64_t>{3, 3}));
-}
-
 // Detected mistakes: uncorrected records are used; control variates are always reported as used.
 TEST(Group, EstimatesFromPreparedRecords) {
   const Tallies tallies;
-  const auto negative = [](const Records& given) {
-    Records result(given.width());
-    for (std::size_t i = 0; i < given.size(); ++i) {
-      std::vector<double> row(given[i].begin(), given[i].end());
-      for (double& value : row) value = -value;
-      result.append(row);
-    }
-    return result;
-  };
+  Records prepared(tallies.width());
+  prepared.append(std::vector{-3., 1.});
   for (const std::optional<bool> used : {std::optional<bool>(), std::optional(false), std::optional(true)}) {
-    Group corrected([&](const Records& given) { return Group::Prepared{negative(given), used}; });
+    Group corrected([&](const Records&) { return Group::Prepared{prepared, used}; });
     corrected.quantity("mean", "1", "A mean", [=](TallyMeans mean) { return mean[tallies.a]; });
     const Results results = corrected.estimate(records());
     EXPECT_EQ(results[0].mean, std::vector{-3.});

@@ -24,7 +24,6 @@ class TemporaryFolder {
   ~TemporaryFolder() { std::filesystem::remove_all(path_); }
 
   std::string operator/(const std::string& name) const { return path_ + "/" + name; }
-  const std::string& path() const { return path_; }
 
   /// Names of the files in the folder.
   std::set<std::string> names() const {

@@ -82,10 +82,4 @@ TEST(Blocking, SeldomRaisesAFalseAlarm) {
   EXPECT_LT(alarms, 12);
 }
 
-TEST(Blocking, OfOneReplicaHasNoErrorForTheWhole) {
-  const Blocking result = blocking(process(0, 1, 8, 1, 1));
-  EXPECT_TRUE(std::isnan(result.error.back()));
-  EXPECT_FALSE(result.converged());
-}
-
 }  // namespace blocking_test

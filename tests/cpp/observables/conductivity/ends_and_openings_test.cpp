@@ -91,11 +91,4 @@ TEST(EndsAndOpenings, ArrivalsAndScatteringControl) {
             (std::vector<double>{0, 0, -1.5, 0, 0, 0, 0, -2.5, 0, 0, 0, 0, 0, 0, 0, 0}));
 }
 
-TEST(EndsAndOpenings, BothEndsMayBeOneCell) {
-  const BlockTallies tallies;
-  EndsAndOpenings observer({.cells = 1, .left = {0, 1}, .right = {0, 1}}, window);
-  observer.finish({3}, 10);
-  EXPECT_EQ(recorded(observer, tallies, tallies.temperature), std::vector<double>(16, 9));
-}
-
 }  // namespace ends_and_openings_test

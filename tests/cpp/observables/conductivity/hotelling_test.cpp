@@ -76,12 +76,4 @@ TEST(Hotelling, CountsAColumnThatIsThereTwiceOnce) {
               zero_mean_p_value(twice, support::columns(0, 2), 0), 1e-12);
 }
 
-TEST(Hotelling, HasNoAnswerWithoutRecords) {
-  EXPECT_TRUE(std::isnan(zero_mean_p_value(drifting(1, 0, 1), support::columns(0, 3), 0)));
-  EXPECT_TRUE(std::isnan(zero_mean_p_value(drifting(5, 0, 1), support::columns(0, 3), 2)));
-  Records constant(1);
-  for (int i = 0; i < 9; ++i) constant.append(std::vector{0.});
-  EXPECT_TRUE(std::isnan(zero_mean_p_value(constant, support::columns(0, 1), 0)));
-}
-
 }  // namespace hotelling_test

@@ -92,12 +92,4 @@ TEST(ScatteringControl, HasMeanZeroAndExplainsTheNoise) {
   }
 }
 
-TEST(ScatteringControl, IsZeroWhereNothingIsLeftToChance) {
-  const Blocks blocks(0, 1, 1);
-  ScatteringControl control({.cells = 8, .gamma = 8}, blocks);
-  control.arrival(0.5, 2, true);
-  control.advance(1, 1);
-  EXPECT_EQ(control.sums()[0], 0);
-}
-
 }  // namespace scattering_control_test

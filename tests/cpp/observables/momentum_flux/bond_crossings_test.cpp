@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <vector>
 
 namespace bond_crossings_test {
@@ -55,37 +54,6 @@ TEST(BondCrossings, WithinTheWindow) {
   observer.on_flight(
       {.departure = 9, .arrival = 11, .velocity = 1, .from = 1, .first = 2, .last = 3, .time_per_place = 1});
   EXPECT_EQ(sums(observer, tallies, tallies.sums[0]), (Values{0, 0, 0, 0, 1, 0}));
-}
-
-// Detected mistakes: the rate of the other reservoir is used; the edges of a bin enter with their sign; every
-// bin has the whole injection.
-TEST(BondCrossings, ExpectedInjections) {
-  double sum = 0;
-  const Bins wide(40, 16);
-  for (std::size_t bin = 0; bin < 40; ++bin) {
-    const double expected = expected_injections(chain, window, wide, bin);
-    EXPECT_EQ(expected == 0, bin < 20) << bin;
-    sum += expected;
-  }
-  EXPECT_NEAR(sum, 3 * 8, 1e-12);
-  EXPECT_NEAR(expected_injections(chain, window, bins, 2), 24 * std::erf(2 / std::sqrt(2 * 2.)), 1e-12);
-}
-
-// Detected mistakes: injected particles are not counted; the expected number of all bins is subtracted from
-// each bin.
-TEST(BondCrossings, InjectionsMinusTheirMean) {
-  const BondTallies tallies(2, bins);
-  BondCrossings observer(chain, window, bins);
-  observer.on_injection(End::left, 5, 1);
-  observer.on_injection(End::left, 5, 3);
-  observer.on_injection(End::left, 5, 1.5);
-  TallySums sums(tallies);
-  observer.record(tallies, sums);
-  const auto found = sums[tallies.bin_injection];
-  EXPECT_EQ(found[0], 0);
-  EXPECT_DOUBLE_EQ(found[2], 2 - expected_injections(chain, window, bins, 2));
-  EXPECT_DOUBLE_EQ(found[3], 1 - expected_injections(chain, window, bins, 3));
-  EXPECT_EQ(sums[tallies.injection][0], 3 - 24);
 }
 
 }  // namespace bond_crossings_test
