@@ -11,27 +11,26 @@ help:  ## This list
 	sed -nE 's/^([a-z -]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 17
 	echo 'Options: QUALITY=smoke|standard|paper|deep  PANEL=fig05  FRESH=yes  SEED=7  REPLICAS=200  ERROR=0.005  JOBS=2  DRY=yes'
 	echo 'On a cluster (docs/cluster.md): PROFILE=slurm  ACCOUNT=physics  PARTITION=short'
-figures: build  ## Build, simulate and render every figure: figures/QUALITY/*.pdf, .png, .svg, .csv
-panel: build  ## One panel, PANEL=fig05; FRESH=yes: rerun from scratch and compare
-report: build  ## The paper's claims against the results: figures/QUALITY/report.html
-gallery: build  ## The report of the release, docs/gallery, from the results at QUALITY
+figures: setup  ## Build, simulate and render every figure: figures/QUALITY/*.pdf, .png, .svg, .csv
+panel: setup  ## One panel, PANEL=fig05; FRESH=yes: rerun from scratch and compare
+report: setup  ## The paper's claims against the results: figures/QUALITY/report.html
+gallery: setup  ## The report of the release, docs/gallery, from the results at QUALITY
 audit: setup  ## Check every result and figure against sources, parameters and packages
 status: setup  ## Fresh, stale (why) or missing
 verify: setup  ## Compile afresh, rerun a SAMPLE=0.1 of the results, or PANEL=fig05, and compare bytes
 provenance: setup  ## Where a file comes from, FILE=figures/standard/fig05.pdf or a copy
-deposit: build  ## Code, results and figures as one archive in build/deposit
+deposit: setup  ## Code, results and figures as one archive in build/deposit
 prune: setup  ## Remove a quality's results and figures that no plan names; DRY=yes: list
-figures panel report gallery audit status verify provenance deposit prune:
+build: setup  ## The programs, in build/bin
+figures panel report gallery audit status verify provenance deposit prune build:
 	$(ENTRY) $@
 setup:  ## System packages, and Python packages in .venv
 	bash workflow/environment/setup.sh $(PROFILE)
 setup-dev:
 	bash workflow/environment/setup.sh dev
-build: setup  ## The programs, in build/bin
-	bash workflow/environment/build.sh all
-test: setup-dev  ## Tests; make test-long: also those that take many minutes
+test: setup-dev build  ## Tests; make test-long: also those that take many minutes
 	bash workflow/environment/test.sh -m 'not long'
-test-long:
+test-long: setup-dev build
 	bash workflow/environment/setup.sh dev slurm
 	bash workflow/environment/test.sh
 check: setup-dev build docs  ## Format, lint, types, documentation
@@ -50,9 +49,7 @@ docs: setup-dev build  ## The documentation as a static site, build/docs/index.h
 	NO_MKDOCS_2_WARNING=1 $(DEV)/mkdocs build --strict --quiet
 	doxygen docs/site/Doxyfile
 	cp .venv/lib/python*/site-packages/mathjax/static/mathjax/es5/tex-svg.js build/docs/mathjax.js
-clean:  ## Remove programs, figures in the store, logs and caches; make distclean: also results, figures and .venv
+clean:  ## Remove programs, figures in the store, logs and caches; results and figures stay
 	rm -rf build .cache
-distclean: clean
-	rm -rf data/*/ figures/*/ .snakemake .venv
 .PHONY: help figures panel report gallery audit status verify provenance deposit prune setup setup-dev build test test-long check format \
-  bench docs clean distclean
+  bench docs clean

@@ -33,6 +33,8 @@ from workflow.publish import STORE
 
 clean()
 QUALITY = config.get("quality", "standard")
+if unknown := {*config} - {"quality", "panel"}:
+    sys.exit(f"--config {unknown.pop()}= is unknown; give quality= or panel=")
 try:
     EFFORT = Quality.of(QUALITY)
     PLAN = load_plan(QUALITY)

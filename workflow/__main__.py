@@ -10,14 +10,15 @@ import os
 import re
 import shutil
 import signal
+import subprocess
 import sys
 
 from workflow.configuration import ConfigurationError
 from workflow.environment.variables import clean
-from workflow.files import in_one_line
+from workflow.files import in_one_line, lock_products
 from workflow.identity import ROOT
 from workflow.lib.nearest import nearest
-from workflow.plan import EFFORTS, Quality, load_plan, panel_named, products_of
+from workflow.plan import EFFORTS, Quality, load_plan, panel_named, products_of, report_stem
 
 EFFORT = ("QUALITY", *map(str.upper, EFFORTS))
 EXECUTION = (*EFFORT, "FRESH", "DRY", "JOBS", "PROFILE", "ACCOUNT", "PARTITION")
@@ -25,23 +26,25 @@ TARGETS: dict[str, tuple[str, ...]] = {  # with their options
     "figures": EXECUTION,
     "panel": ("PANEL", *EXECUTION),
     "report": EXECUTION,
-    "gallery": EXECUTION,
+    "gallery": tuple(name for name in EXECUTION if name != "DRY"),
     "audit": ("PANEL", *EFFORT),
     "status": ("PANEL", *EFFORT),
     "verify": ("PANEL", "SAMPLE", *EFFORT),
     "provenance": ("FILE",),
     "deposit": EFFORT,
     "prune": ("DRY", "QUALITY"),
+    "build": (),
 }
 NEEDED = {"panel": "PANEL=fig05", "provenance": "FILE=figures/standard/fig05.pdf"}
 DEFAULTS = {"QUALITY": "standard", "SAMPLE": "0.1", "PROFILE": "default"}
-OF_MAKE = ("CXX",)  # options of make build
+OF_MAKE = "CXX="  # an option of the build, which make passes as a variable
 DONE = {  # of the targets of Snakemake
     "figures": "The figures are in figures/{quality}. Next: make report {effort}",
     "panel": "In figures/{quality}: {panel}.pdf and .png .svg .csv",
     "report": "The report is figures/{quality}/report.html",
     "gallery": "The gallery is docs/gallery",
 }
+COMPILED = (*DONE, "deposit", "build")  # targets that need the programs
 RULES = {  # pattern and description of the allowed values
     "JOBS": ("[1-9][0-9]*", "a whole number, at least 1"),
     "SAMPLE": (r"1|0?\.[0-9]+", "a fraction of the results, as 0.1"),
@@ -79,25 +82,34 @@ def parse(target: str, words: list[str]) -> argparse.Namespace:
     return argparse.Namespace(**{name.lower(): value for name, value in given.items()})
 
 
-def prepare(options: argparse.Namespace) -> None:
-    """Adds the effort to `quality`, `effort` as arguments of make, the `plan`, and the requested `panels`. Raises ConfigurationError."""
+def prepare(target: str, options: argparse.Namespace) -> None:
+    """Adds the effort to `quality`, `effort` as arguments of make, the `plan`, and the requested `panels`; compiles the programs if the
+    target needs them. Raises UsageError, ConfigurationError, OSError."""
     efforts = [f"{name}={value}" for name in EFFORTS if (value := getattr(options, name))]
     options.quality = "_".join([options.quality, *efforts])
     options.effort = Quality.of(options.quality).arguments
+    require_profile(options.profile)
+    if target in COMPILED and not options.dry:
+        lock_products()
+        subprocess.run(["bash", "workflow/environment/build.sh", "all"], check=True)
     options.plan = load_plan(options.quality)
     options.panels = [panel_named(options.plan, name).name for name in options.panel.split()]
 
 
-def snakemake(target: str, options: argparse.Namespace) -> int:
-    """Makes a target of the Snakefile. Raises UsageError."""
+def require_profile(profile: str) -> None:
+    """Raises UsageError."""
     known = os.listdir("profiles")
-    if options.profile not in known:
-        raise UsageError(f"{options.profile} is not a profile; {nearest(options.profile, known)}")
-    on_cluster = options.profile != "default"
-    if options.profile == "slurm" and not shutil.which("sbatch"):
+    if profile not in known:
+        raise UsageError(f"{profile} is not a profile; {nearest(profile, known)}")
+    if profile == "slurm" and not shutil.which("sbatch"):
         raise UsageError(
             "sbatch is not in PATH, so no job can be submitted; run make on a login node of Slurm"
         )
+
+
+def snakemake(target: str, options: argparse.Namespace) -> int:
+    """Makes a target of the Snakefile."""
+    on_cluster = options.profile != "default"
     words = [f"--workflow-profile=profiles/{options.profile}", *["--forceall"] * bool(options.fresh)]
     words += [f"--{'jobs' if on_cluster else 'cores'}={options.jobs}"] if options.jobs else []
     slurm = {"slurm_account": options.account, "slurm_partition": options.partition}
@@ -120,15 +132,17 @@ def snakemake(target: str, options: argparse.Namespace) -> int:
 
 def make(target: str, options: argparse.Namespace) -> int:
     """Makes a target of the Snakefile; with DRY=yes, lists what it would make. Compares with former results after FRESH, SEED and
-    REPLICAS. Raises UsageError, OSError."""
+    REPLICAS. Raises OSError."""
     if options.dry:
         planned = products_of(options.plan, options.panels or options.plan, options.quality)
+        planned += [f"{report_stem(options.plan, options.quality)}.html"] * (target == "report")
         made = [path for path in planned if options.fresh or not os.path.exists(path)]
         print("\n".join(made) or "Nothing to be made")
         return 0
     for panel in (options.plan[name] for name in options.panels if options.plan[name].replaced):
         print(
-            f"{panel.name}: at this quality other {', '.join(panel.replaced)} than in paper.yaml", flush=True
+            f"{panel.name}: other {', '.join(panel.replaced)} in quality/{options.quality.partition('_')[0]}.yaml than in paper.yaml",
+            flush=True,
         )
     compared = target in ("figures", "panel") and (options.seed or options.replicas or options.fresh)
     verify = importlib.import_module("workflow.provenance.verify") if compared else None
@@ -150,7 +164,9 @@ def main() -> int:
         options = parse(target, words)
         options.file = os.path.abspath(options.file)
         os.chdir(ROOT)
-        prepare(options)
+        prepare(target, options)
+        if target == "build":
+            return 0
         if target in DONE:
             return make(target, options)
         options.render = target == "audit"
@@ -159,6 +175,8 @@ def main() -> int:
     except (UsageError, ConfigurationError) as error:
         print(error, file=sys.stderr)
         return 2
+    except subprocess.CalledProcessError:  # which has printed why
+        return 1
     except OSError as error:
         print(in_one_line(error), file=sys.stderr)
         return 1

@@ -3,6 +3,7 @@
 import fcntl
 import os
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 
 
@@ -20,6 +21,7 @@ def write_together(contents: Mapping[Path, bytes]) -> None:
             file.unlink(missing_ok=True)
 
 
+@cache
 def lock_products() -> None:
     """Keeps other commands from making or removing products until this process ends. Raises OSError."""
     Path("build").mkdir(exist_ok=True)

@@ -83,7 +83,9 @@ def source_hash(program: str, cpp: Path = CPP) -> str:
 @cache
 def code_hashes(cpp: Path = CPP) -> dict[str, str]:
     """sha256 of the code of every source, by path. Raises OSError."""
-    sources = [path.relative_to(cpp).as_posix() for kind in ("*.cpp", "*.hpp") for path in cpp.rglob(kind)]
+    sources = [
+        path.relative_to(cpp).as_posix() for kind in ("cpp", "hpp") for path in cpp.rglob(f"[!.]*.{kind}")
+    ]
     texts = {path: (cpp / path).read_text("utf-8", "surrogateescape") for path in [*sorted(sources), FLAGS]}
     return {path: sha256(code(text, path).encode("utf-8", "surrogateescape")) for path, text in texts.items()}
 
@@ -102,11 +104,12 @@ def code(text: str, path: str) -> str:
 
 @cache
 def content_hash(path: str, root: Path = ROOT) -> str:
-    """sha256 of a file, or of names and contents of all files in a folder. Raises OSError."""
+    """sha256 of a file, or of names and contents of the files in a folder but hidden ones, backups and compiled modules. Raises OSError."""
     if not (root / path).is_dir():
         return sha256((root / path).read_bytes())
-    kept = (file for file in (root / path).rglob("[!.]*") if file.is_file() and file.suffix != ".pyc")
-    lines = [f"{file.relative_to(root).as_posix()} {sha256(file.read_bytes())}\n" for file in sorted(kept)]
+    names = sorted(file.relative_to(root).as_posix() for file in (root / path).rglob("*") if file.is_file())
+    kept = [name for name in names if not name.endswith((".pyc", "~")) and "/." not in name]
+    lines = [f"{name} {sha256((root / name).read_bytes())}\n" for name in kept]
     return sha256("".join(lines).encode())
 
 

@@ -159,6 +159,8 @@ def new_project(folder: Path) -> Project:
     (folder / "build/bin").mkdir(parents=True)
     for program in ("persistence", "ageing"):
         (folder / "build/bin" / program).symlink_to(ROOT / "build/bin" / program)
+    for script in ("setup.sh", "build.sh"):  # the programs are those of this project
+        (folder / "workflow/environment" / script).write_text("exit 0\n")
     share_packages(folder)
     (folder / ".cache").mkdir()
     (ROOT / ".cache/matplotlib").mkdir(parents=True, exist_ok=True)
@@ -173,13 +175,6 @@ def share_packages(folder: Path) -> None:
     (folder / ".venv/lib").symlink_to(ROOT / ".venv/lib")
     for name in ("pyvenv.cfg", "bin/snakemake"):
         shutil.copy(ROOT / ".venv" / name, folder / ".venv" / name)
-
-
-def without_installation(project: Project) -> Project:
-    """Of make's recipes, those that install and compile do nothing."""
-    for script in ("setup.sh", "build.sh"):
-        (project.folder / "workflow/environment" / script).write_text("exit 0\n")
-    return project
 
 
 @pytest.fixture(scope="session")

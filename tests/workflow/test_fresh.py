@@ -28,11 +28,13 @@ def append(path: str, line: str) -> Edit:
 
 
 def unimportant(project: Project) -> None:
-    """Comments, files named like literals, no memory of Snakemake, and other modification times in another order."""
+    """Comments, files named like literals, files of editors, no memory of Snakemake, and other modification times in another order."""
     for path in ("cpp/statistics/fit.hpp", "workflow/plan.py", "Snakefile", PAPER):
         append(path, "// x\n" if path.startswith("cpp") else "# x\n")(project)
     for name in ("log", "linear", "center", "data.csv"):
         (project.folder / name).write_text("x")
+    (project.folder / "workflow/lib/fit.py~").write_text("x")
+    (project.folder / "cpp/statistics/.#fit.cpp").symlink_to("of-emacs")
     shutil.rmtree(project.folder / ".snakemake")
     for number, path in enumerate(sorted(path for path in project.folder.rglob("*") if path.is_file())):
         os.utime(path, (1e9 - number, 1e9 - number), follow_symlinks=False)

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from tests.workflow.conftest import ROOT, Project, share_packages, without_installation
+from tests.workflow.conftest import ROOT, Project, share_packages
 from workflow.lib.load import load
 from workflow.plan import FOLDER, load_plan, stem_of
 
@@ -33,17 +33,16 @@ def follow(project: Project, block: re.Match[str]) -> str:
 
 @pytest.mark.long
 def test_a_panel_of_your_own(project: Project) -> None:
-    own = without_installation(project)
-    shutil.copytree(ROOT / "build/bin", own.folder / "build/bin", dirs_exist_ok=True, copy_function=link)
-    printed = "".join(follow(own, block) for block in BLOCK.finditer(PANEL))
-    table = pd.read_csv(own.folder / "figures/standard/kappa_sigma.csv", comment="#")
+    shutil.copytree(ROOT / "build/bin", project.folder / "build/bin", dirs_exist_ok=True, copy_function=link)
+    printed = "".join(follow(project, block) for block in BLOCK.finditer(PANEL))
+    table = pd.read_csv(project.folder / "figures/standard/kappa_sigma.csv", comment="#")
     assert list(table.sigma) == SIGMA
     assert (table.kappa > 0).all()
     assert "kappa_sigma" in printed
     assert "Dimensions:" in printed
     assert f"kappa at 0.6: {table.kappa[4]:.6g}"[:-1] in printed
     assert re.search(r"kappa: [0-9.]+ \+- [0-9.]+\n", printed)
-    alone = load(own.folder / "kappa.h5")
+    alone = load(project.folder / "kappa.h5")
     assert alone.converged == "reached"
     assert alone.provenance["achieved_error"] <= 0.02
     (stated,) = re.findall(r"From an empty chain κ is (.*) after 10", PANEL)

@@ -59,9 +59,9 @@ def caption(results: Sequence[Result]) -> str:
     exponent = style.with_error(results[0]["front_exponent"])
     return f"""
         Particles n_t(p) with momentum p in a filling chain, times |p|; {parameters(results, "cells", "sigma", "gamma")},
-        {baths(results[0])}. Columns: λ, unstated in the paper. Top: the paper's bins; middle: logarithmic, with the front p_0; bottom: p_0 over
+        {baths(results[0])}. Columns: λ, unstated in the paper. Top: the paper's bins; middle: logarithmic, with front p_0; bottom: p_0 over
         λ/2t, above 1 at λ = {style.spacing(results[-1])[1]}, as cells filled late. At λ = {style.spacing(results[0])[1]}, p_0 ∼ t^a, a = {exponent}.
-        Bands and bars: standard errors."""
+        Bands, bars: standard errors."""
 
 
 def draw(results: Sequence[Result]) -> Drawn:

@@ -65,7 +65,7 @@ def caption(results: Sequence[Result]) -> str:
     return f"""
         Flux F(p, x) of the particles at both ends by the kinetic equation; {parameters([paper], "sigma", "gamma")}, {baths(paper)}. (a) F; right
         axis: over ν_L + ν_R. F jumps by {jumps}. (b) Each half over the Gaussian of its rate and second moment: what the baths inject
-        is Gaussian, what leaves is not; dotted: T_L = T_R, but still ν_L > ν_R."""
+        is Gaussian, what leaves is not; dotted: T_L = T_R."""
 
 
 def draw(results: Sequence[Result]) -> Drawn:

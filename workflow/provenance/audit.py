@@ -19,7 +19,7 @@ from workflow.identity import DIGITS, drawing_sources, named_identity, sha256, s
 from workflow.lib.load import FormatError, load_provenance
 from workflow.lib.save import renderer
 from workflow.plan import Panel, Run, data_of, drawing_command, runs_of, stem_of
-from workflow.publish import SHOWN, copies, read_record
+from workflow.publish import SHOWN, STORE, copies, read_record
 
 
 class Fault(NamedTuple):
@@ -94,7 +94,8 @@ class Picture:
                 content = Path(path).read_bytes()
                 if sha256(content) != digest:
                     state = "edited" if stated(content) in (None, self.statement) else "stale"
-                    return Fault(state, path, f"it differs from its hash in {self.stem}.json; remove it")
+                    remedy = "remove it" if path.startswith(STORE) else "make figures writes it again"
+                    return Fault(state, path, f"it differs from its hash in {self.stem}.json; {remedy}")
         return self._fault_of_rendering() if render else None
 
     def _fault_without_record(self) -> Fault:
@@ -151,6 +152,7 @@ def main(options: argparse.Namespace) -> int:
     listed = ", ".join(f"{number} {state}" for state, number in states.items()) or "all hold"
     if made:
         print(f"{len(made)} panels with {len(runs_of(plan, made, quality))} results: {listed}")
-    if broken := states.keys() - {"not checked"}:
+    broken = states.keys() - {"not checked"}
+    if broken & {"stale", "missing"}:
         print(f"make figures {options.effort} makes what is stale or missing")
     return 1 if broken else 3 if states or not made else 0

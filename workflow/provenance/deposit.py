@@ -50,7 +50,9 @@ def main(options: argparse.Namespace) -> None:
     if faults := check(plan, [*plan], quality, render=False):
         first = faults[0]
         sys.exit(f"{first.path} is {first.state}: {first.reason}; run make figures {options.effort}")
-    paths = {*git("ls-files"), *runs_of(plan, plan, quality)}
+    results = runs_of(plan, plan, quality)
+    costs = [cost for path in results if os.path.exists(cost := path.replace(".h5", ".cost.json"))]
+    paths = {*git("ls-files"), *results, *costs}
     for stem in map(Path, [*(stem_of(plan, name, quality) for name in plan), report_stem(plan, quality)]):
         paths |= {*map(str, [*stem.parent.glob(f"{stem.name}.*"), *copies(stem)])}
     archive = Path(f"build/deposit/lorentz-gas-{quality}.zip")

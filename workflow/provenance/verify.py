@@ -1,6 +1,6 @@
 """Compares results with those of reruns, of freshly compiled programs (verify) or of FRESH=yes, and with other replicas (SEED, REPLICAS).
 
-Exit status: 0 if all agree, 1 if not, 3 if there is nothing to compare or a rerun failed.
+Exit status: 0 if all agree, 1 if not; of verify 3 if there is nothing to rerun or a rerun failed.
 """
 
 import argparse

@@ -39,6 +39,8 @@ def value(number: Number) -> str:
         power = math.floor(math.log10(size))
         scaled = value(number.over(10.0**power))
         return f"({scaled})·{power_of_ten(power)}" if BOUND in scaled else f"{scaled}·{power_of_ten(power)}"
+    if math.isnan(number.error):
+        return f"{number.value:.4g} (error unknown)".replace("-", MINUS)
     bound = f"{BOUND}{short(number.systematic)}" if number.systematic > 0.05 * number.error else ""
     return f"{with_error(number.value, number.error)}{bound}"
 

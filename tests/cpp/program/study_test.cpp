@@ -165,6 +165,19 @@ TEST_F(StudyTest, ReachesATargetErrorRelativeToAScale) {
   EXPECT_GT(replicas("0.25"), 500U);
 }
 
+TEST_F(StudyTest, GoesOnWithoutACheckpoint) {
+  std::filesystem::create_directory(folder / "a.h5.checkpoint");
+  const auto slow = [](const Replica& replica) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    return measure(replica);
+  };
+  EXPECT_EQ(run(with(to_output, {"--checkpoint-interval", "0.01"}), slow), 0);
+  expect_complaint("a.h5.checkpoint");  // once
+  EXPECT_EQ(replicas_in(output), 16U);
+  EXPECT_EQ(run(with(to_output, {"--overwrite"}), failing_at(5)), 3);
+  EXPECT_NE(complaints.find("not saved"), std::string::npos) << complaints;
+}
+
 TEST_F(StudyTest, KeepsTheReplicasOfResultsThatCannotBeWritten) {
   const auto obstruct = [&](const Replica& replica) {
     if (replica.key.replica == 15) std::filesystem::create_directory(output);
