@@ -55,7 +55,8 @@ class CellStream {
         marks_(2 * cells_ + 1),
         residence_(cells_) {}
 
-  void add(const Path& path) {
+  // Inlined with its callers, without which GCC executes 11 % more instructions.
+  [[gnu::always_inline]] void add(const Path& path) {
     // A path that departs exactly at the beginning of the window may start anywhere in a cell.
     if (!(path.departure > window_.begin && path.arrival < window_.end)) return add_clipped(path);
     const Marks marks = marks_in(path, window_);
@@ -109,7 +110,7 @@ class CellProfile {
         last_collision_(2, window.begin),
         momenta_(2, Histogram(bins)) {}
 
-  void on_flight(const Path& path) { streams_[path.direction()].add(path); }
+  [[gnu::always_inline]] void on_flight(const Path& path) { streams_[path.direction()].add(path); }
 
   void on_collision(const Collision& collision) {
     advance(collision.scatterer, collision.scatterer_before, collision.time);
@@ -151,7 +152,7 @@ class CellProfile {
 
  private:
   /// Adds the time since the last call up to `until`, during which the scatterer had this U.
-  void advance(std::uint32_t cell, double U, double until) {
+  [[gnu::always_inline]] void advance(std::uint32_t cell, double U, double until) {
     scatterers_[cell].advance(U * U, until);
     if (cell == 0) advance_end(0, U, until);
     if (cell + 1 == chain_.cells) advance_end(1, U, until);
