@@ -72,7 +72,8 @@ def parse(target: str, words: list[str]) -> argparse.Namespace:
         name, _, given[name] = word.partition("=")
         if name not in allowed:
             reason = f"has no effect on {target}" if name in every else "is not an option"
-            raise UsageError(f"{name} {reason}; {nearest(name.upper(), allowed)}")
+            remedy = nearest(name.upper(), allowed) if allowed else "leave it out"
+            raise UsageError(f"{name} {reason}; {remedy}")
         pattern, description = RULES.get(name, (".*", ""))
         if not re.fullmatch(pattern, given[name]):
             raise UsageError(f"{word} is invalid; give {description}")
