@@ -36,7 +36,7 @@ QUALITY = config.get("quality", "standard")
 if unknown := {*config} - {"quality", "panel"}:
     sys.exit(f"--config {unknown.pop()}= is unknown; give quality= or panel=")
 try:
-    EFFORT = Quality.of(QUALITY)
+    BASE = Quality.of(QUALITY).base
     PLAN = load_plan(QUALITY)
     PANELS = [panel_named(PLAN, name).name for name in str(config.get("panel", "")).split()] or [*PLAN]
     DATA = {name: data_of(PLAN, name, QUALITY) for name in PLAN}
@@ -60,7 +60,7 @@ def inputs_of(panels):
 
 
 wildcard_constraints:
-    quality=f"{EFFORT.base}|{QUALITY}",
+    quality=f"{BASE}|{QUALITY}",
     panel="[^/.]+",
     run="[^/]+",
     identity=IDENTITY,

@@ -20,18 +20,18 @@ from workflow.identity import ROOT
 from workflow.lib.nearest import nearest
 from workflow.plan import EFFORTS, Quality, load_plan, panel_named, products_of, report_stem
 
-EFFORT = ("QUALITY", *map(str.upper, EFFORTS))
-EXECUTION = (*EFFORT, "FRESH", "DRY", "JOBS", "PROFILE", "ACCOUNT", "PARTITION")
+SELECTION = ("QUALITY", *map(str.upper, EFFORTS))
+EXECUTION = (*SELECTION, "FRESH", "DRY", "JOBS", "PROFILE", "ACCOUNT", "PARTITION")
 TARGETS: dict[str, tuple[str, ...]] = {  # with their options
     "figures": EXECUTION,
     "panel": ("PANEL", *EXECUTION),
     "report": EXECUTION,
     "gallery": tuple(name for name in EXECUTION if name != "DRY"),
-    "audit": ("PANEL", *EFFORT),
-    "status": ("PANEL", *EFFORT),
-    "verify": ("PANEL", "SAMPLE", *EFFORT),
+    "audit": ("PANEL", *SELECTION),
+    "status": ("PANEL", *SELECTION),
+    "verify": ("PANEL", "SAMPLE", *SELECTION),
     "provenance": ("FILE",),
-    "deposit": EFFORT,
+    "deposit": SELECTION,
     "prune": ("DRY", "QUALITY"),
     "build": (),
 }
