@@ -223,8 +223,14 @@ def data_of(plan: dict[str, Panel], name: str, quality: str) -> list[str]:
 
 
 def stem_of(plan: dict[str, Panel], name: str, quality: str) -> str:
-    """Path of the files of a panel in the store, without suffix. Raises OSError."""
-    present = panel_identity(name, data_of(plan, name, quality), drawing_sources(plan[name].script))
+    """Path of the files of a panel in the store, without suffix. Raises ConfigurationError, OSError."""
+    try:
+        sources = drawing_sources(plan[name].script)
+    except FileNotFoundError as error:
+        raise ConfigurationError(
+            f"panel {name} of paper.yaml has no script: write {error.filename}"
+        ) from error
+    present = panel_identity(name, data_of(plan, name, quality), sources)
     return f"{STORE}/{quality}/{name}.{present}"
 
 

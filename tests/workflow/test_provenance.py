@@ -166,7 +166,7 @@ def test_a_rerun_is_compared_also_over_an_edited_result(project: Project) -> Non
     edit_value(project)
     printed = project.entry("panel", "PANEL=mu", "FRESH=yes")
     assert "Not compared" in printed
-    assert "1 of 1 results agree with the former: equal bytes" in printed
+    assert "1 of 1 results agree with the former (p > 0.0001): equal bytes" in printed
     assert project.products() == before
 
 
@@ -174,7 +174,7 @@ def test_other_replicas_are_compared_and_kept_beside(project: Project) -> None:
     before = {*project.files("data", "figures", "build/figures")}
     independent, shared = (project.entry("panel", "PANEL=mu", word) for word in ("SEED=7", "REPLICAS=8"))
     for printed in (independent, shared):
-        assert "2 of 2 results agree with the former: largest difference" in printed
+        assert "2 of 2 results agree with the former (p > 0.0001): largest difference" in printed
     assert ("shared" in independent, "shared" in shared) == (False, True)
     shutil.rmtree(project.folder / "build/figures/smoke_seed=7")  # as after an interruption
     shutil.rmtree(project.folder / "figures/smoke_replicas=8")  # its results are not planned any more

@@ -35,7 +35,7 @@ def tab() -> Iterator[Page]:
 
 def faults(tab: Page, messages: list[str], path: Path) -> list[str]:
     messages.clear()
-    tab.goto(path.as_uri())
+    tab.goto(path.as_uri(), timeout=180_000)  # of the formulas of a long page on a busy machine
     tab.evaluate("window.MathJax?.startup?.promise")
     headings = HEADING.findall(path.read_text("utf-8"))
     if headings and not tab.evaluate("id => document.getElementById(id) !== null", headings[-1]):

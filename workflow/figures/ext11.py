@@ -39,7 +39,7 @@ def caption(table: pd.DataFrame, tau: Mean, weak: Sequence[Result], strong: Sequ
     last = table[table.gas == THINNING].iloc[-1]
     ratio = last.kappa_0 / last.predicted
     error = ratio * np.hypot(last.kappa_0_error / last.kappa_0, last.predicted_error / last.predicted)
-    crosses = " Crosses: unsound." if not table.usable.all() else ""
+    crosses = " Crosses: not stationary." if not table.usable.all() else ""
     return f"""
         Linear response to small differences of temperature and pressure, {parameters(weak, "gamma", "sigma")}. (a) L_nn/N of the particle current.
         (b) Conductivity κ_0 without it; lines: rings until τN/c, when sound leaves the chain, τ = {with_error(tau.value, tau.error)}

@@ -200,7 +200,7 @@ def caption(table: pd.DataFrame, control: pd.DataFrame) -> str:
     return f"""
         Heat current of equilibrium rings, summed over cells and integrated over t to Q. (a) Mean square; lines: mode coupling, nothing
         fitted, up to {off:.0f} % off. (b) Exponents over octaves, the last {between(ends)}. (c), (d) ζ = {number(gas.zeta)}, M = {number(gas.mass)}: reversal of
-        scatterers in a fraction ε of collisions, the last {between(broken)}. {ERRORS}"""
+        scatterers in a fraction ε of collisions, the last {between(broken)}. Table: also random directions. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:

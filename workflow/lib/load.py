@@ -151,17 +151,12 @@ class Result:
             reasons.append("target error not reached")
         elif target is not None and np.isnan(target.mean).any():
             reasons.append(UNDEFINED)
-        of_a_stationary_state = {"nu-left", "relaxation-time"} <= self.parameters.keys()
-        if of_a_stationary_state and np.isnan(self._drift_p_value):
-            reasons.append(NOT_TESTED)
-        elif of_a_stationary_state and self["stationary"].mean != 1:
-            reasons.append("not stationary")
+        if "stationary" in self.quantities:
+            if np.isnan(self["drift_p_value"].mean):
+                reasons.append(NOT_TESTED)
+            elif self["stationary"].mean != 1:
+                reasons.append("not stationary")
         return reasons
-
-    @property
-    def _drift_p_value(self) -> float:
-        tested = self.quantities.get("drift_p_value")
-        return np.nan if tested is None else float(tested.mean)
 
     @property
     def sound(self) -> bool:

@@ -97,7 +97,9 @@ def compare(options: argparse.Namespace) -> int:
         return 0
     differing = [f"  {path}: {text}" for p, _, text, path in found if p <= SIGNIFICANCE]
     farthest = min(found, key=lambda entry: (entry[0], -entry[1]))[2]
-    print(f"{len(found) - len(differing)} of {len(found)} results agree with the former: {farthest}")
+    print(
+        f"{len(found) - len(differing)} of {len(found)} results agree with the former (p > {SIGNIFICANCE:g}): {farthest}"
+    )
     if quality.replicas and quality.seed is None:
         print("The first replicas are shared and not counted as independent: SEED=7 gives independent ones")
     print(*differing, sep="\n", end="\n" * bool(differing))
