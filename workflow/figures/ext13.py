@@ -197,10 +197,11 @@ def caption(table: pd.DataFrame, control: pd.DataFrame) -> str:
     gas = control.iloc[0]
     known = table.dropna(subset="middle")
     ends, broken = (known[known.rule == rule].groupby(GAS).tail(1) for rule in (ELASTIC, REVERSAL))
+    most = broken.loc[broken.local_exponent.idxmax()]
     return f"""
         Heat current of equilibrium rings, summed over cells and integrated over t to Q. (a) Mean square; lines: mode coupling, nothing
         fitted, up to {off:.0f} % off. (b) Exponents over octaves, the last {between(ends)}. (c), (d) ζ = {number(gas.zeta)}, M = {number(gas.mass)}: reversal of
-        scatterers in a fraction ε of collisions, the last {between(broken)}. Table: also random directions. {ERRORS}"""
+        scatterers in a fraction ε of collisions, the last at most {with_error(most.local_exponent, most.local_exponent_error)}. Table: also random directions. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
