@@ -147,7 +147,7 @@ def test_a_panel_is_submitted_cancelled_and_resumed(cluster: Cluster, made: Proj
         os.killpg(making.pid, signal.SIGINT)
         shown, _ = making.communicate(timeout=120)
     assert "Stopped; 0 of 4 done" in shown
-    assert not cluster.jobs("PENDING,RUNNING,COMPLETING")
+    soon(lambda: not cluster.jobs("PENDING,RUNNING,COMPLETING"))
     assert [*project.folder.glob(checkpoints)]
 
     with make(project, local) as making:

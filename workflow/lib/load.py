@@ -152,7 +152,8 @@ class Result:
         elif target is not None and np.isnan(target.mean).any():
             reasons.append(UNDEFINED)
         if "stationary" in self.quantities:
-            if np.isnan(self["drift_p_value"].mean):
+            tested = self.quantities.get("drift_p_value")
+            if tested is not None and np.isnan(tested.mean):
                 reasons.append(NOT_TESTED)
             elif self["stationary"].mean != 1:
                 reasons.append("not stationary")
