@@ -49,7 +49,7 @@ docs: setup-dev build  ## The documentation as a static site, build/docs/index.h
 	NO_MKDOCS_2_WARNING=1 $(DEV)/mkdocs build --strict --quiet
 	doxygen docs/site/Doxyfile
 	cp .venv/lib/python*/site-packages/mathjax/static/mathjax/es5/tex-svg.js build/docs/mathjax.js
-clean:  ## Remove programs, figures in the store, logs and caches; results and figures stay
+clean:  ## Remove build (programs, store, deposits, logs) and caches; results and figures stay
 	rm -rf build .cache
 .PHONY: help figures panel report gallery audit status verify provenance deposit prune setup setup-dev build test test-long check format \
   bench docs clean

@@ -13,6 +13,7 @@ from workflow.plan import Run
 PROGRAMS = ROOT / "build/bin"
 WRITTEN = (0, 4)  # exit statuses with a result; 4: stopped before the target error, and marked
 REPLICAS_PER_THREAD, MOST_THREADS = 32, 16
+LEAST = 64  # replicas of a run with a target error
 
 
 class ProgramError(ValueError):
@@ -21,7 +22,8 @@ class ProgramError(ValueError):
 
 def threads_of(run: Run) -> int:
     """Threads among which the replicas of a run are divided without waste."""
-    return max(1, min(MOST_THREADS, int(run.options.get("replicas", 1)) // REPLICAS_PER_THREAD))
+    replicas = LEAST if "target-error" in run.options else int(run.options.get("replicas", 1))
+    return max(1, min(MOST_THREADS, replicas // REPLICAS_PER_THREAD))
 
 
 def command_line(run: Run, threads: int = 1) -> list[str]:

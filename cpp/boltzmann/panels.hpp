@@ -24,7 +24,6 @@ class Panels {
   const Eigen::VectorXd& weights() const { return weights_; }  // of the Gauss quadrature
   Eigen::Index size() const { return nodes_.size(); }
   int order() const { return order_; }
-  double begin() const { return breaks_.front(); }
   double end() const { return breaks_.back(); }
 
   /// Panel of a point; the last one for points beyond the end.

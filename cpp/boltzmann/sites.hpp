@@ -8,7 +8,7 @@
 namespace lorentz {
 
 /// Matrices of free streaming. F(p > 0) starts at x = 0, F(p < 0) at x = 1, and each changes by the net gain
-/// S_j = gamma (G_j - F_j) per unit of length at the sites that it passes [eq. 36, 41]:
+/// S_j = gamma (G_j - F_j) per unit of length at the sites that it passes [eq. 36, eq. 41]:
 ///
 ///   F(x, p > 0) = F(0, p) + sum_j S_j from_left(x, j),   F(x, p < 0) = F(1, p) + sum_j S_j from_right(x, j).
 ///

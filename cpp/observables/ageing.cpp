@@ -1,5 +1,5 @@
 /// Ageing of the closed chain: mean energies of a scatterer and of a particle as functions of the time since
-/// the start.
+/// the end of the relaxation.
 ///
 /// The invariant density of the particles, exp(-u^2/2T)/|u| [eq. 8], is not normalisable. The number of slow
 /// particles keeps growing, and the energy that they lose heats the scatterers and the other particles
@@ -36,7 +36,7 @@ struct Tallies : ClosedTallies {
   ScalarTally total_energy = tally("total_energy", "1", "Total energy over its mean, minus 1; mean 0");
 
   explicit Tallies(const Parameters& parameters)
-      : time{"time", "time", "Time since the start", parameters.times()},
+      : time{"time", "time", "Time since the end of the relaxation", parameters.times()},
         window{"window", "time", "Geometric middle of a window",
                parameters.log_times.grid(parameters.observation_time).middles()} {}
 };

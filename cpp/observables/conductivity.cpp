@@ -1,5 +1,5 @@
 /// Heat conductivity kappa(N) of an open chain, from the energy current J_U (positive to the right) and the
-/// temperatures <P^2>/M of the first and the last scatterer [eq. 27, 28]:
+/// temperatures <P^2>/M of the first and the last scatterer [eq. 27, eq. 28]:
 ///
 ///   kappa = -J_U N / (T_N - T_1).
 ///

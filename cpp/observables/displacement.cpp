@@ -2,17 +2,16 @@
 /// the end of the relaxation, averaged over all particles, on a logarithmic grid of times.
 ///
 /// The closed chain conserves the total momentum [eq. 4]. The paper's random initial state gives it a value
-/// of order sqrt(nN T), and the centre of mass of the particles drifts [eq. 21, 22]. The square of the mean
-/// displacement of a replica's particles is stored; its subtraction does not restore diffusion [eq. 23],
+/// of order sqrt(nN T), and the centre of mass of the particles drifts [eq. 21, eq. 22]. The square of the
+/// mean displacement of a replica's particles is stored; its subtraction does not restore diffusion [eq. 23],
 /// whereas --zero-total-momentum removes the drift itself. The drift is common to all particles of a replica
 /// and dominates the noise. It is correlated with the total momentum, whose mean square is known, so that it
 /// is a control variate [eq. 33]; quantities named *_plain do without.
 ///
-/// Over the last --fit-decades decades alpha is the slope of ln <x^2> against ln t, and b the exponent of
-/// <x^2> ~ t ln(t/tau)^b [eq. 19], tau the time of a thermal flight. alpha = 1 and b = 0 mean t, b = -1 means
-/// t/ln t, alpha > 1 and b > 0 superdiffusion; both depend on the age of the chain [eq. 15, 20]. b is stored
-/// only without a common drift, which would dominate it. Where momentum is not conserved, by the collision
-/// rule or at sigma = 1, there is neither drift nor control variate.
+/// Over the last --fit-decades decades alpha is the slope of ln <x^2> against ln t [eq. 19]: 1 is diffusion,
+/// more is superdiffusion, and t/ln t has less; it depends on the age of the chain [eq. 15, eq. 20]. Where
+/// momentum is not conserved, by the collision rule or at sigma = 1, there is neither drift nor control
+/// variate.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -31,7 +30,6 @@ struct Parameters : ClosedParameters {
 
   Parameters() { observation_time = 1000; }
   std::vector<double> times() const { return log_times.times(observation_time); }
-  bool drifts() const { return mean_square_momentum() > 0 && conserves_momentum(); }
 };
 
 struct Tallies : ClosedTallies {
@@ -116,14 +114,9 @@ std::vector<Group> spreading(const Parameters& parameters, const Tallies& tallie
   const std::vector<double> times = tallies.time.values;
   const Axis middle{"time", "time", "Geometric middle of two neighbouring times",
                     parameters.log_times.grid(times.back()).middles()};
-  const double fit_from = parameters.log_times.fit_from(times.back()), tau = parameters.thermal_flight();
-  const auto slope = [=](std::span<const double> y) { return fit_power(times, y, fit_from, times.back()); };
-  const auto alpha = [=](TallyMeans mean) { return slope(mean[tallies.square]); };
-  const auto alpha_relative = [=](TallyMeans mean) {
-    std::vector<double> relative;
-    for (std::size_t k = 0; k < times.size(); ++k)
-      relative.push_back(mean[tallies.square][k] - mean[tallies.centre_square][k]);
-    return slope(relative);
+  const double fit_from = parameters.log_times.fit_from(times.back());
+  const auto alpha = [=](TallyMeans mean) {
+    return fit_power(times, mean[tallies.square], fit_from, times.back());
   };
 
   Group group([=](const Records& records) { return controlled(records, tallies); }), plain;
@@ -132,11 +125,6 @@ std::vector<Group> spreading(const Parameters& parameters, const Tallies& tallie
   group.quantity("local_slope", {middle}, "1", "d ln <x^2> / d ln t",
                  [=](TallyMeans mean) { return local_exponents(times, mean[tallies.square]); });
   group.quantity("alpha", "1", "Slope of ln <x^2> against ln t over the last --fit-decades decades", alpha);
-  group.quantity("alpha_relative", "1", "The same without the part of the centre of mass", alpha_relative);
-  if (!parameters.drifts())
-    group.quantity(
-        "logarithmic_power", "1", "b of <x^2> ~ t ln(t/tau)^b over the same times: 0 for t, -1 for t/ln t",
-        [=](TallyMeans mean) { return fit_logarithmic_power(times, mean[tallies.square], fit_from, tau); });
   plain.quantity("variance_plain", {tallies.time}, "length^2", "<x^2>, without the control variate",
                  mean_of(tallies.square));
   plain.quantity("alpha_plain", "1", "alpha, without the control variate", alpha);

@@ -5,8 +5,8 @@
 /// The ring is folded about its centre by mirror symmetry [eq. 45] before the moving peak is fitted
 /// (statistics/peak.hpp). At times without a peak, as before it leaves the centre, all quantities of the peak
 /// are NaN, and fits use the other times. The same holds from the time on at which the two sides of the pulse
-/// meet opposite to it, as a later peak may have gone around the ring. At gamma = 1 the result is compared
-/// with free flight [eq. 47].
+/// meet opposite to it, as a later peak may have gone around the ring. For gamma -> 0 the pulse is that of
+/// free flight [eq. 47].
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -150,7 +150,7 @@ struct Tallies : TallySchema {
 };
 
 /// One replica: means over its pairs of trajectories, with the pulse and without, that start from one state
-/// and use common random numbers [eq. 43, 44].
+/// and use common random numbers [eq. 43, eq. 44].
 std::uint64_t average_pairs(const Parameters& parameters, const Tallies& tallies, const Replica& replica,
                             TallySums& sums) {
   const ClosedChain chain = parameters.ring.chain();

@@ -4,9 +4,10 @@
 ///
 /// The temperature of the particles is <p^2>/m over the arrivals at a scatterer, that of the flux, not of the
 /// density. The density includes slow particles, whose number grows logarithmically in time [eq. 25], and
-/// thus depends on the window. All means are corrected by the injection controls [eq. 31, 34]. Differences,
-/// deviations and slopes are separate quantities with their own errors, because the noise of neighbouring
-/// cells and bonds is correlated. The bulk of the density is a line through the middle half of the chain.
+/// thus depends on the window. All means are corrected by the injection controls [eq. 31, eq. 34].
+/// Differences, deviations and slopes are separate quantities with their own errors, because the noise of
+/// neighbouring cells and bonds is correlated. The bulk of the density is a line through the middle half of
+/// the chain.
 #include "observables/steady_profile/cell_profile.hpp"
 #include "observables/steady_profile/profile.hpp"
 #include "sampling/open_run.hpp"

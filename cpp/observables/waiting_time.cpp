@@ -25,6 +25,8 @@ struct Parameters : ClosedParameters {
   double tail_from = 20;
 
   Parameters() { observation_time = 200; }
+  /// Time of a flight over one cell at the thermal speed.
+  double thermal_flight() const { return ring.cell_length / std::sqrt(temperature); }
   LogGrid bins() const { return {1e-3 * thermal_flight(), decades, bins_per_decade}; }
 };
 

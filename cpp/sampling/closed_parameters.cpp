@@ -37,8 +37,6 @@ std::optional<double> ClosedParameters::mean_energy() const {
 
 double ClosedParameters::longest_clock() const { return 0x1p32 * ring.cell_length / std::sqrt(hottest()); }
 
-double ClosedParameters::thermal_flight() const { return ring.cell_length / std::sqrt(temperature); }
-
 void declare(Options& options, ClosedParameters& parameters) {
   declare(options, parameters.ring);
   options.real("--temperature", parameters.temperature, positive, "temperature",

@@ -39,9 +39,6 @@ struct ClosedParameters {
   /// Longest time on a clock of type double that resolves a flight of the hottest particles to 5e-7 of its
   /// duration.
   double longest_clock() const;
-
-  /// Time of a flight over one cell at the thermal speed sqrt(temperature).
-  double thermal_flight() const;
 };
 
 void declare(Options& options, ClosedParameters& parameters);

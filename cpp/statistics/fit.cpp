@@ -37,17 +37,6 @@ double fit_logarithm(std::span<const double> x, std::span<const double> y, doubl
   return fit_line(log_x, part).slope;
 }
 
-double fit_logarithmic_power(std::span<const double> x, std::span<const double> y, double from,
-                             double scale) {
-  std::vector<double> logarithm, ratio;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    if (x[i] < from) continue;
-    logarithm.push_back(std::log(x[i] / scale));
-    ratio.push_back(y[i] / x[i]);
-  }
-  return fit_power(logarithm, ratio, logarithm.front(), logarithm.back());
-}
-
 std::vector<double> local_exponents(std::span<const double> x, std::span<const double> y) {
   std::vector<double> exponents;
   for (std::size_t i = 0; i + 1 < x.size(); ++i)

@@ -22,10 +22,6 @@ double fit_power(std::span<const double> x, std::span<const double> y, double fr
 /// Slope of y against ln x over the points with from <= x <= to.
 double fit_logarithm(std::span<const double> x, std::span<const double> y, double from, double to);
 
-/// Exponent b of y ~ x ln(x/scale)^b over the points with x >= from [eq. 19]; NaN unless these exceed the
-/// scale.
-double fit_logarithmic_power(std::span<const double> x, std::span<const double> y, double from, double scale);
-
 /// Local exponents d ln y / d ln x between neighbouring points; NaN unless y is positive.
 std::vector<double> local_exponents(std::span<const double> x, std::span<const double> y);
 

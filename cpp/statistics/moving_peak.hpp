@@ -47,7 +47,6 @@ class MovingPeak {
   std::vector<double> centre_shares(double total) const;  // part in the five central cells
   std::vector<double> odd_parts() const;                  // [time, distance]
   std::vector<double> exponents_from() const;             // fits from every time but the last on
-  double exponent() const { return exponent_from(0); }
 
   /// Fits over octaves. Between neighbouring times, heights that differ by the bias of the peak's fit, 1.3 %
   /// at the first times, would change the exponent by 0.06; over an octave of four times by less than 0.02.

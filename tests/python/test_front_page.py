@@ -27,11 +27,14 @@ def test_front_page_has_the_numbers_of_the_release() -> None:
 
 def test_front_page_has_the_verdicts_of_the_release() -> None:
     verdicts = {(line["claim"], line["kind"]): line["verdict"] for line in RELEASE}
-    literal = [verdict for (_, kind), verdict in verdicts.items() if kind == "literal"]
+    literal, intended = (
+        [verdict for (_, of), verdict in verdicts.items() if of == kind] for kind in ("literal", "intended")
+    )
     sentence = re.search(
         rf"Of {len(literal)} statements, taken literally, {literal.count('reproduced')} hold, "
-        rf"{literal.count('undecided')} are undecided, and these are contradicted:(.*?); of "
-        rf"{len(verdicts) - len(literal)} intended meanings that differ, these are contradicted:(.*?)\. \[",
+        rf"{literal.count('undecided')} are undecided, {literal.count('contradicted')} are contradicted \((.*?)\); of "
+        rf"{len(intended)} intended meanings that differ, {intended.count('reproduced')} hold, "
+        rf"{intended.count('undecided')} are undecided, {intended.count('contradicted')} are contradicted \((.*?)\)\.",
         " ".join((ROOT / "README.md").read_text().split()),
     )
     assert sentence

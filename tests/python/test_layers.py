@@ -14,7 +14,7 @@ BELOW = {
     "program": {"statistics", "numerics"},
     "sampling": {"engine", "program", "statistics", "model", "numerics"},
     "observables": {"sampling", "engine", "boltzmann", "program", "statistics", "model", "numerics"},
-    "bench": {"sampling", "engine", "boltzmann", "program", "model", "numerics", "reference"},  # of tests/cpp
+    "bench": {"engine", "boltzmann", "model", "numerics", "reference"},  # of tests/cpp
 }
 
 

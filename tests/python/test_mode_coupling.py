@@ -14,6 +14,8 @@ from sympy import Expr, Matrix, Symbol, exp, integrate, oo, simplify
 from workflow.lib import mode_coupling
 from workflow.lib.mode_coupling import Chain, f_kpz, levy, logarithm_at, slow_logarithm
 
+SQUARE_INTEGRAL = 0.389813  # of f_KPZ (Prähofer and Spohn, J. Stat. Phys. 115, 255, 2004)
+
 CHAINS = [Chain(1.6, 3), Chain(0.8, 1 / 3), Chain(3, 3, 2.5, 0.4), Chain(0.07, 10, 0.3, 2.0)]
 
 z, T, M, length, flux = (Symbol(name, positive=True) for name in ("z", "T", "M", "lambda", "F0"))
@@ -103,9 +105,12 @@ def test_speed_and_couplings(chain: Chain) -> None:
     coefficients = [
         float(current.coeff_monomial(x)) for x in (modes[0] ** 2, modes[1] ** 2, modes[0] * modes[1])
     ]
-    own, opposite, both = chain.couplings
-    assert coefficients == pytest.approx([own, opposite, 2 * both])
-    assert chain.self_coupling == pytest.approx(2 * sqrt(2) * own)
+    # Eq. M16.
+    unit = sqrt(chain.temperature / (2 * chain.inertia))
+    own, heat = chain.fugacity / chain.inertia, chain.fugacity / (2 * chain.heat_capacity)
+    expected = [own + heat, own - 3 * heat, 2 * (own - heat)]
+    assert coefficients == pytest.approx([unit * coupling for coupling in expected])
+    assert chain.self_coupling == pytest.approx(2 * sqrt(2) * coefficients[0])
 
 
 @cache
@@ -143,9 +148,9 @@ def test_three_fields_with_many_slow_particles(chain: Chain) -> None:
         # J_q = 2 z δT w, with w² = (T/2ρ) φ+² in a wave to the right.
         current = 2 * chain.fugacity * heating * chain.temperature / (2 * chain.inertia)
         amplitude = (2 * current / chain.temperature) ** 2 * finite.self_coupling ** (-2 / 3)
-        square = mode_coupling.SQUARE_INTEGRAL * finite.self_coupling ** (-2 / 3)
+        square = SQUARE_INTEGRAL * finite.self_coupling ** (-2 / 3)
         gaussian = finite.gaussian_heat_correlation(square)
-        assert gaussian == pytest.approx(mode_coupling.SQUARE_INTEGRAL * amplitude)
+        assert gaussian == pytest.approx(SQUARE_INTEGRAL * amplitude)
         # The ratio of eq. M25 to eq. M27.
         assert finite.heat_amplitude / gaussian == pytest.approx(8 / 9 * 0.510523 / 0.389813)
     _, steepening, _ = found(300.0)
@@ -170,7 +175,7 @@ def test_moments_of_f_kpz() -> None:
     assert np.all(f[1:-1] > 0)
     assert f.sum() * step == pytest.approx(1, abs=1e-7)
     assert (y**2 * f).sum() * step == pytest.approx(mode_coupling.SECOND_MOMENT, abs=1e-6)
-    assert (f**2).sum() * step == pytest.approx(mode_coupling.SQUARE_INTEGRAL, abs=1e-6)
+    assert (f**2).sum() * step == pytest.approx(SQUARE_INTEGRAL, abs=1e-6)
 
 
 def baik_rains(s: float, position: float) -> float:
@@ -244,7 +249,7 @@ def test_amplitude_from_the_width_of_the_sound_peak(chain: Chain) -> None:
         return float(peak @ (x - chain.sound_speed * at) ** 2 / peak.sum())
 
     curvature = squared_width(time + step) - 2 * squared_width(time) + squared_width(time - step)
-    squares = curvature / step**2 / 2 / chain.couplings[0] ** 2
+    squares = curvature / step**2 * 4 / chain.self_coupling**2  # G++ = λ_s/√8
     heat = (chain.temperature * chain.sound_speed / 2) ** 2 * 2 * squares
     expected = chain.temperature**2 * chain.heat_amplitude * time ** (-2 / 3)
     assert heat == pytest.approx(expected, rel=1e-3)

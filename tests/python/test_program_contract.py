@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import ROOT, Program
-from workflow.lib.described import declared, with_option
+from workflow.lib.described import declared
 from workflow.lib.load import load
 
 
@@ -50,7 +50,7 @@ def test_a_quantity_that_is_not_defined_misses_no_target(program: Program, tmp_p
     assert np.isnan(stored["mu"].mean)
 
 
-@pytest.mark.parametrize("name", with_option("replicas"))
+@pytest.mark.parametrize("name", [name for name, options in declared().items() if "replicas" in options])
 def test_a_single_replica_has_no_error(program: Program, tmp_path: Path, name: str) -> None:
     assert program(name, replicas=1).returncode == 0
     result = load(tmp_path / "out.h5")

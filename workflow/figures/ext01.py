@@ -50,7 +50,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
 
 
 def of_the_paper(table: pd.DataFrame) -> pd.DataFrame:
-    """The rows with the paper's number of particles, the smallest, after the longest relaxation."""
+    """Rows with the fewest particles per cell, the paper's number, after the longest relaxation."""
     few = table[table.particles_per_cell == table.particles_per_cell.min()]
     return few[few.relaxation_time == few.relaxation_time.max()]
 

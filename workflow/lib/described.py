@@ -25,8 +25,3 @@ def declared() -> dict[str, dict[str, dict[str, Any]]]:
         }
         for name, program in described().items()
     }
-
-
-def with_option(name: str) -> list[str]:
-    """The programs that declare this option."""
-    return [program for program, options in declared().items() if name in options]

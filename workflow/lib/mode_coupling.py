@@ -14,9 +14,8 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 from scipy.special import exp1
 
-# Integrals of f_KPZ (Prähofer and Spohn, J. Stat. Phys. 115, 255, 2004). The tests recompute them from f_kpz.csv.
+# Of f_KPZ (Prähofer and Spohn, J. Stat. Phys. 115, 255, 2004). The tests recompute it from f_kpz.csv.
 SECOND_MOMENT = 0.510523
-SQUARE_INTEGRAL = 0.389813
 
 
 @dataclass(frozen=True)
@@ -73,13 +72,6 @@ class Chain:
         return 1 / (2 * self.cell_length * (2 * self.slow_logarithm - 1))
 
     @property
-    def couplings(self) -> tuple[float, float, float]:
-        """G++, G-- and G+- [eq. M16] of the right-moving sound mode: to itself, to the other one, and to both; Λ infinite."""
-        unit = sqrt(self.temperature / (2 * self.inertia))
-        own, heat = self.fugacity / self.inertia, self.fugacity / (2 * self.heat_capacity)
-        return unit * (own + heat), unit * (own - 3 * heat), unit * (own - heat)
-
-    @property
     def self_coupling(self) -> float:
         """λ_s [eq. M17]: the peak has the width (λ_s t)^(2/3)."""
         return self.steepening * sqrt(self.temperature / self.inertia)
@@ -90,8 +82,8 @@ class Chain:
         return 8 / 9 * SECOND_MOMENT * self._amplitude_scale
 
     def gaussian_heat_correlation(self, square: ArrayLike) -> np.ndarray:
-        """<J_q(t) J_q(0)> per length and T² if φ+ were Gaussian [eq. M27], as mode coupling assumes, from the integral of the
-        square of a sound peak of unit area at t."""
+        """<J_q(t) J_q(0)> per length and T² if φ+ were Gaussian [eq. M27b, denominator], from the integral of the square of a
+        sound peak of unit area at t."""
         return self._heat_scale * np.asarray(square, dtype=float)
 
     @property

@@ -1,10 +1,10 @@
 """Linear response of the currents of energy and particles, and the heat conductivity without a particle current.
 
 J_i = sum_k L_ik X_k / N with X_u = 1/T_R - 1/T_L and X_n = (mu/T)_L - (mu/T)_R, where mu/T = ln(nu/sqrt(T)) + const for
-half-Gaussian baths [eq. 29]. The heat conductivity without a current of particles is κ_0 = (L_uu - L_un L_nu/L_nn)/T^2.
+half-Gaussian baths [eq. 56]. The heat conductivity without a current of particles is κ_0 = (L_uu - L_un L_nu/L_nn)/T^2.
 Sound leaves the chain after the time t = τN/c, where c is the speed of sound in cells per time. κ_0 is that of a ring of the same gas
 up to this time:
-κ_0 = (√T/λ) ½ d(<Q²>/N)/dt, <Q²> measured in the units of T and λ [mode_coupling.md, eq. M33].
+κ_0 = (√T/λ) ½ d(<Q²>/N)/dt, <Q²> measured in the units of T and λ [mode_coupling.md, eq. M34].
 """
 
 from collections.abc import Iterable, Sequence

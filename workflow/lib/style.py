@@ -167,7 +167,7 @@ def against_size(axes: Axes) -> None:
 
 
 def cross_out(axes: Axes, x: np.ndarray, y: np.ndarray, where: np.ndarray) -> None:
-    """Marks points whose run missed its target error."""
+    """Crosses out points that are in doubt."""
     axes.plot(x[where], y[where], linestyle="none", marker="x", color=BLACK, markersize=6, zorder=5)
 
 

@@ -1,4 +1,4 @@
-"""Numbers, bands and symbols as the report prints them."""
+"""Numbers, bands and text as the report prints them."""
 
 import math
 import re

@@ -15,7 +15,7 @@ rule simulate:
         "data/{quality}/{panel}/{run}.{identity}.h5",
     log:
         "data/{quality}/{panel}/{run}.{identity}.log",
-    priority: lambda wildcards: -[*PLAN].index(wildcards.panel)  # the figures in their order
+    priority: lambda wildcards: -[*PLAN].index(wildcards.panel)  # runs of earlier panels first, so that their figures are ready first
     group:
         lambda wildcards: "short" if threads_of(run_of(wildcards)) == 1 else None  # on a cluster, several in a job
     threads: lambda wildcards: threads_of(run_of(wildcards))

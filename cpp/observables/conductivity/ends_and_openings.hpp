@@ -17,8 +17,8 @@ namespace lorentz {
 
 constexpr std::size_t block_count = 8;  // blocks of the window
 
-/// Tallies of the currents through the openings and the temperatures of the end cells [eq. 26, 27], by blocks
-/// of the window, with their control variates; with one block those of the whole window.
+/// Tallies of the currents through the openings and the temperatures of the end cells [eq. 26, eq. 27], by
+/// blocks of the window, with their control variates; with one block those of the whole window.
 struct BlockTallies : TallySchema {
   Axis block;
   Axis end{"end", "1", "0: first cell, 1: last", {0, 1}};

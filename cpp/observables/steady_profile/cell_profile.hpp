@@ -99,7 +99,7 @@ class CellStream {
   RangeTally<> residence_;
 };
 
-/// Observer that fills CellTallies [eq. 26, 27].
+/// Observer that fills CellTallies [eq. 26, eq. 27].
 class CellProfile {
  public:
   CellProfile(const OpenChain& chain, const Window& window, const Bins& bins)

@@ -17,14 +17,6 @@ TEST(Fit, UsesThePointsInItsRange) {
   EXPECT_NEAR(fit_logarithm(x, y, 2, 4), 15 / std::log(2), 1e-13);
 }
 
-TEST(Fit, FindsPowersOfLogarithms) {
-  const std::vector<double> x = {1, 20, 300, 4000};
-  std::vector<double> y;
-  for (const double value : x) y.push_back(7 * value * std::pow(std::abs(std::log(value / 2)), 1.5));
-  EXPECT_NEAR(fit_logarithmic_power(x, y, 20, 2), 1.5, 1e-13);
-  EXPECT_TRUE(std::isnan(fit_logarithmic_power(x, y, 1, 2)));
-}
-
 TEST(Fit, FindsLocalExponentsOfPositiveValues) {
   const std::vector<double> found =
       local_exponents(std::vector<double>{1, 2, 4, 8}, std::vector<double>{3, 12, 6, 0});

@@ -53,7 +53,7 @@ TEST(MovingPeak, FollowsGaussianPeaks) {
     EXPECT_NEAR(peak.raw_heights()[k], heights[k], 1e-12) << k;
   }
   for (const double speed : speeds(times, peak.positions())) EXPECT_NEAR(speed, 5, 1e-3);
-  EXPECT_NEAR(peak.exponent(), 1, 1e-3);
+  EXPECT_NEAR(peak.values().back(), 1, 1e-3);
   ASSERT_EQ(peak.exponents_from().size(), 2U);
   EXPECT_NEAR(peak.exponents_from()[1], 1, 1e-3);
 }
@@ -96,7 +96,7 @@ TEST(MovingPeak, IsNaNBeforeThePeakHasLeftTheCentre) {
   EXPECT_TRUE(std::isnan(peak.exponents_by_octave()[0]));
   EXPECT_NEAR(peak.exponents_by_octave()[1], 1, 1e-3);
   EXPECT_NEAR(speeds(times, peak.positions())[1], 5, 1e-3);
-  EXPECT_NEAR(peak.exponent(), 1, 1e-3);
+  EXPECT_NEAR(peak.values().back(), 1, 1e-3);
 }
 
 // The mean has a peak, but without the second replica the profile rises up to the far side, so that the
