@@ -6,8 +6,9 @@ from pathlib import Path
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.configuration import FOLDER, ConfigurationError
-from workflow.plan import BATCH, QUALITIES, Quality, load_plan
+from workflow.configuration import FOLDER, ConfigurationError, Options
+from workflow.plan import BATCH, QUALITIES, Quality, Run, load_plan
+from workflow.program import threads_of
 
 
 @pytest.mark.parametrize("quality", QUALITIES)
@@ -50,6 +51,12 @@ def test_the_effort_of_the_user_replaces_that_of_the_quality() -> None:
     completed = quality.complete("fig05", "paper", {"replicas": 500, "sigma": 0}, 200)
     given = {key: completed[key] for key in ("replicas", "target-error", "target-scale")}
     assert given == {"replicas": BATCH, "target-error": 0.005, "target-scale": 200}
+
+
+def test_threads_share_the_replicas() -> None:
+    efforts: list[Options] = [{}, {"replicas": 63}, {"replicas": 320}, {"replicas": 10**6}]
+    efforts.append({"replicas": BATCH, "target-error": 0.1})  # at least 64 replicas
+    assert [threads_of(Run("paper", "persistence", effort)) for effort in efforts] == [1, 1, 10, 16, 2]
 
 
 @pytest.mark.parametrize(
