@@ -21,10 +21,10 @@ from workflow.lib.nearest import nearest
 from workflow.plan import EFFORTS, Quality, load_plan, panel_named, products_of, report_stem
 
 SELECTION = ("QUALITY", *map(str.upper, EFFORTS))
-EXECUTION = (*SELECTION, "FRESH", "DRY", "JOBS", "PROFILE", "ACCOUNT", "PARTITION")
+EXECUTION = (*SELECTION, "DRY", "JOBS", "PROFILE", "ACCOUNT", "PARTITION")
 TARGETS: dict[str, tuple[str, ...]] = {  # with their options
-    "figures": EXECUTION,
-    "panel": ("PANEL", *EXECUTION),
+    "figures": (*EXECUTION, "FRESH"),
+    "panel": ("PANEL", *EXECUTION, "FRESH"),
     "report": EXECUTION,
     "gallery": tuple(name for name in EXECUTION if name != "DRY"),
     "audit": ("PANEL", *SELECTION),
@@ -111,7 +111,7 @@ def require_profile(profile: str) -> None:
 def snakemake(target: str, options: argparse.Namespace) -> int:
     """Makes a target of the Snakefile."""
     on_cluster = options.profile != "default"
-    words = [f"--workflow-profile=profiles/{options.profile}", *["--forceall"] * bool(options.fresh)]
+    words = [f"--workflow-profile=profiles/{options.profile}"]
     words += [f"--{'jobs' if on_cluster else 'cores'}={options.jobs}"] if options.jobs else []
     slurm = {"slurm_account": options.account, "slurm_partition": options.partition}
     resources = [f"{name}={value}" for name, value in slurm.items() if value]
@@ -124,6 +124,8 @@ def snakemake(target: str, options: argparse.Namespace) -> int:
     sys.argv = ["snakemake", *words]  # Snakemake prints its command
     try:
         run(words)
+    except KeyboardInterrupt:  # another signal while Snakemake stops its jobs
+        return 128 + signal.SIGINT
     except SystemExit as end:
         if isinstance(end.code, str):
             print(end.code, file=sys.stderr)
@@ -148,7 +150,7 @@ def make(target: str, options: argparse.Namespace) -> int:
     compared = target in ("figures", "panel") and (options.seed or options.replicas or options.fresh)
     verify = importlib.import_module("workflow.provenance.verify") if compared else None
     if verify and options.fresh:
-        verify.keep(options)
+        verify.set_aside(options)
     status = snakemake(target, options)
     if status == 0:
         print(DONE[target].format_map(vars(options)))

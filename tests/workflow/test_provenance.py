@@ -145,9 +145,11 @@ def test_where_a_copy_of_a_figure_comes_from(project: Project, tmp_path: Path) -
     assert all(f"--seed {seed}" in printed for seed in seeds)
     copy.write_bytes(copy.read_bytes() + b"\n")
     substitute("workflow/lib/fit.py", '"""\n', '"""\n# mine\n')(project)
+    substitute("cpp/observables/persistence.cpp", "#include", "int x;\n#include")(project)
     printed = provenance(project, copy, status=1)
     assert "edited, made from 5 files" in printed
     assert "workflow/lib is another here" in printed
+    assert "sources of persistence are others here" in printed
     remove(RECORD)(project)
     assert "panel mu, quality smoke" in provenance(project, copy, status=3)
 
@@ -170,8 +172,25 @@ def test_a_rerun_is_compared_also_over_an_edited_result(project: Project) -> Non
     assert project.products() == before
 
 
+def test_an_interrupted_rerun_goes_on(project: Project) -> None:
+    done, interrupted = project.one(OTHER_MU), project.one(MU)
+    aside = project.folder / "build/before" / interrupted.relative_to(project.folder)
+    aside.parent.mkdir(parents=True)
+    interrupted.rename(aside)
+    times = done.stat().st_mtime_ns
+    assert "1 of 1 results agree" in project.entry("panel", "PANEL=mu", "FRESH=yes")
+    assert (done.stat().st_mtime_ns, aside.exists()) == (times, False)
+    assert "2 of 2 results agree" in project.entry("panel", "PANEL=mu", "FRESH=yes")
+    assert done.stat().st_mtime_ns > times
+
+
 def test_other_replicas_are_compared_and_kept_beside(project: Project) -> None:
     before = {*project.files("data", "figures", "build/figures")}
+    assert "has no errors" in project.entry("panel", "PANEL=mu", "REPLICAS=1")
+    assert "These are the results" in project.entry("panel", "PANEL=mu", "REPLICAS=4")
+    for number in (1, 4):
+        shutil.rmtree(project.folder / f"figures/smoke_replicas={number}")
+    project.entry("prune")
     independent, shared = (project.entry("panel", "PANEL=mu", word) for word in ("SEED=7", "REPLICAS=8"))
     for printed in (independent, shared):
         assert "2 of 2 results agree with the former (p > 0.0001): largest difference" in printed

@@ -17,7 +17,7 @@ from workflow.identity import ROOT, drawing_sources, named_identity, panel_ident
 from workflow.lib import style
 from workflow.lib.caption import with_rules
 from workflow.lib.columns import as_csv, inherited
-from workflow.lib.load import FormatError, Result, load
+from workflow.lib.load import REMEDY, FormatError, Result, load
 from workflow.lib.save import Parents, Text, save
 from workflow.lib.units import UnitsError
 
@@ -84,7 +84,9 @@ def read(paths: Sequence[Path], set_aside: bool) -> list[Result]:
             refused.append(str(error))
             if set_aside and path.exists():
                 path.rename(f"{path}.refused")
-                refused[-1] += f"; renamed to {path.name}.refused: the same command makes it again"
+                refused[-1] = (
+                    f"{refused[-1].removesuffix(REMEDY)}; renamed to {path.name}.refused: the same command makes it again"
+                )
     if refused:
         raise FormatError("\n".join(refused))
     return results

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 FORMAT = "lorentz-gas"
 FORMAT_VERSION = 3
+REMEDY = "; remove it and make it again"
 NOT_REACHED = "not reached"
 UNDEFINED = "target quantity not defined"
 NOT_TESTED = "stationarity not tested"
@@ -207,12 +208,10 @@ def _verified(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
             own = result_identity(*(provenance[name] for name in ("program", "words", "source_hash")))
             if (named_identity(path) or own) != own:
                 raise FormatError(
-                    "its content is that of another result: of other options or sources, copied or exchanged"
+                    f"its content is that of another result: of other options or sources, copied or exchanged{REMEDY}"
                 )
             if provenance["results_digest"] != results_digest(file["results"]):
-                raise FormatError(
-                    "edited or damaged: its values differ from those written; remove it and make it again"
-                )
+                raise FormatError(f"edited or damaged: its values differ from those written{REMEDY}")
             yield file, provenance
     except FileNotFoundError as error:
         raise FormatError(f"{path} is missing") from error
@@ -225,7 +224,7 @@ def _verified(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
             raise FormatError(
                 f"{path} is damaged, or not a result file: {error}; name a result file"
             ) from error
-        raise FormatError(f"{path} is damaged: {error}; remove it and make it again") from error
+        raise FormatError(f"{path} is damaged: {error}{REMEDY}") from error
 
 
 def _attributes(group: h5py.Group) -> dict[str, Any]:

@@ -50,7 +50,7 @@ def fault_of_result(path: str, run: Run) -> Fault | None:
             return Fault("edited", path, str(error).removeprefix(path).strip(": "))
         former = [(changes(run, sibling), str(sibling)) for sibling in siblings(path)]
         if not former:
-            return Fault("missing", path, "it was removed")
+            return Fault("missing", path, "it is not there")
         differing, nearest = min(former, key=lambda pair: len(pair[0]))
         return Fault("stale", nearest, ", ".join(differing))
     return None
@@ -90,7 +90,7 @@ class Picture:
         for kind, digest in self.record["files"].items():
             for path in (f"{self.stem}.{kind}", f"{self.shown}.{kind}"):
                 if not Path(path).exists():
-                    return Fault("missing", path, "it was removed")
+                    return Fault("missing", path, "it is not there")
                 content = Path(path).read_bytes()
                 if sha256(content) != digest:
                     state = "edited" if stated(content) in (None, self.statement) else "stale"
@@ -104,7 +104,7 @@ class Picture:
             return Fault("edited", record, "it is damaged; remove it")
         former = next((known["parents"] for path in siblings(record) if (known := read_record(path))), None)
         if former is None:
-            return Fault("missing", record, "it was removed")
+            return Fault("missing", record, "it is not there")
         changed = [
             path for path, digest in drawing_sources(self.script).items() if former.get(path) != digest
         ]

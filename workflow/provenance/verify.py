@@ -15,7 +15,7 @@ from scipy.special import stdtr
 
 from workflow.files import lock_products
 from workflow.lib.load import FormatError, Quantity, Result, load
-from workflow.plan import Quality, data_path, load_plan, runs_of
+from workflow.plan import SUFFIXES, Quality, data_path, load_plan, runs_of, stem_of
 from workflow.program import ProgramError, execute
 
 BEFORE, BUILD = Path("build/before"), Path("build/verify")
@@ -64,36 +64,47 @@ def compared(former: Path | str, path: Path | str, rerun: bool) -> tuple[float, 
     if one.provenance["results_digest"] == other.provenance["results_digest"]:
         return 1.0, 0.0, "equal values, by another compiler or other libraries"
     p, deviation, name = largest_difference(one, other)
-    p = 0.0 if rerun else p
+    if rerun:
+        p = 0.0
+    elif not name:
+        raise FormatError(f"{path} has no errors to compare with, as of one replica")
     return p, deviation, f"largest difference {deviation:.2g} standard errors ({name}), p = {p:.2g}"
 
 
-def keep(options: argparse.Namespace) -> None:
-    """Keeps the results that FRESH=yes replaces. An interrupted rerun keeps those from before its first start."""
-    for path in runs_of(options.plan, options.panels or options.plan, options.quality):
-        if Path(path).is_file() and not (BEFORE / path).exists():
-            (BEFORE / path).parent.mkdir(parents=True, exist_ok=True)
-            os.link(path, BEFORE / path)
+def set_aside(options: argparse.Namespace) -> None:
+    """Moves the results that FRESH=yes replaces, and removes their figures from the store. After an interruption, results that were made
+    again stay."""
+    panels = options.panels or options.plan
+    paths = [*runs_of(options.plan, panels, options.quality)]
+    if any((BEFORE / path).exists() and not Path(path).exists() for path in paths):
+        return
+    for path in filter(os.path.isfile, paths):
+        (BEFORE / path).parent.mkdir(parents=True, exist_ok=True)
+        os.replace(path, BEFORE / path)
+    for name in panels:
+        for suffix in SUFFIXES:
+            Path(f"{stem_of(options.plan, name, options.quality)}{suffix}").unlink(missing_ok=True)
 
 
 def compare(options: argparse.Namespace) -> int:
     """Compares the results of a command with SEED, REPLICAS or FRESH."""
     quality, plan = Quality.of(options.quality), options.plan
-    base, found = load_plan(quality.base), []
+    base, found, same = load_plan(quality.base), [], False
     for path, run in runs_of(plan, options.panels or plan, quality.name).items():
         panel = Path(path).parent.name
         own = data_path(quality.base, panel, base[panel].run(run.name))
         former = BEFORE / path if options.fresh else Path(own)
+        same |= str(former) == path
         if not former.is_file() or str(former) == path:
             continue
         try:
             found.append((*compared(former, path, options.fresh), path))
         except FormatError as error:
-            print(f"Not compared: {error}")
+            print(f"Not compared: {f'the former {path} was damaged' if options.fresh else error}")
         if options.fresh:
             former.unlink()
     if not found:
-        print(f"There are no results of {quality.base} to compare with")
+        print(f"{'These are the' if same else 'There are no'} results of {quality.base} to compare with")
         return 0
     differing = [f"  {path}: {text}" for p, _, text, path in found if p <= SIGNIFICANCE]
     farthest = min(found, key=lambda entry: (entry[0], -entry[1]))[2]
