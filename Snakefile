@@ -74,11 +74,20 @@ localrules:
     gallery,
 
 
+def stop(*_):
+    """Handles the first signal; a second one, as `timeout` sends it, would end in a traceback. Snakemake's own handler of SIGTERM waits for
+    a lock that the interrupted code may hold."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)
+    raise KeyboardInterrupt
+
+
 onstart:
     # An interrupted SEED, REPLICAS or ERROR is a plan from its start, whose results `make prune` keeps.
     os.makedirs(f"figures/{QUALITY}", exist_ok=True)
-    # Snakemake's own handler waits for a lock that the interrupted code may hold.
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    for number in (signal.SIGINT, signal.SIGTERM):
+        if signal.getsignal(number) != signal.SIG_IGN:  # as in the background
+            signal.signal(number, stop)
 
 
 # All, or those of --config panel="fig05 fig08". Without outputs it is always executed: it copies what is missing or edited in

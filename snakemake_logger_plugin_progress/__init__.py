@@ -6,7 +6,6 @@ printed instead with --dry-run, --verbose, --printshellcmds and --debug-dag.
 
 import logging
 import os
-import signal
 import time
 from contextlib import suppress
 from datetime import timedelta
@@ -96,8 +95,6 @@ class LogHandler(LogHandlerBase):
             self._print("\n  ".join([f"{name_of(job)} failed. The end of {log}:", *lines]))
 
     def close(self) -> None:
-        if self._stopped:
-            signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second Ctrl-C would end in a traceback
         self._live.stop()
         if self._stopped or self._failed:
             end = f"Failed: {', '.join(self._failed)}" if self._failed else "Stopped"

@@ -124,8 +124,6 @@ def snakemake(target: str, options: argparse.Namespace) -> int:
     sys.argv = ["snakemake", *words]  # Snakemake prints its command
     try:
         run(words)
-    except KeyboardInterrupt:  # another signal while Snakemake stops its jobs
-        return 128 + signal.SIGINT
     except SystemExit as end:
         if isinstance(end.code, str):
             print(end.code, file=sys.stderr)

@@ -15,7 +15,7 @@ from scipy.special import stdtr
 
 from workflow.files import lock_products
 from workflow.lib.load import FormatError, Quantity, Result, load
-from workflow.plan import SUFFIXES, Quality, data_path, load_plan, runs_of, stem_of
+from workflow.plan import SUFFIXES, Quality, data_path, load_plan, products_of, runs_of, stem_of
 from workflow.program import ProgramError, execute
 
 BEFORE, BUILD = Path("build/before"), Path("build/verify")
@@ -76,7 +76,8 @@ def set_aside(options: argparse.Namespace) -> None:
     again stay."""
     panels = options.panels or options.plan
     paths = [*runs_of(options.plan, panels, options.quality)]
-    if any((BEFORE / path).exists() and not Path(path).exists() for path in paths):
+    products = products_of(options.plan, panels, options.quality)
+    if any((BEFORE / path).exists() for path in paths) and not all(map(os.path.exists, products)):
         return
     for path in filter(os.path.isfile, paths):
         (BEFORE / path).parent.mkdir(parents=True, exist_ok=True)
