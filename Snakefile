@@ -6,12 +6,11 @@ What determines a product is in its name. A missing name is made; neither time s
 
 import os
 import shlex
-import signal
 import sys
 from pathlib import Path
 
 from workflow.configuration import ConfigurationError
-from workflow.environment.variables import clean
+from workflow.environment.variables import clean, stop_at_first_signal
 from workflow.files import in_one_line, lock_products
 from workflow.identity import IDENTITY
 from workflow.plan import (
@@ -74,20 +73,10 @@ localrules:
     gallery,
 
 
-def stop(*_):
-    """Handles the first signal; a second one, as `timeout` sends it, would end in a traceback. Snakemake's own handler of SIGTERM waits for
-    a lock that the interrupted code may hold."""
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, signal.SIG_IGN)
-    raise KeyboardInterrupt
-
-
 onstart:
     # An interrupted SEED, REPLICAS or ERROR is a plan from its start, whose results `make prune` keeps.
     os.makedirs(f"figures/{QUALITY}", exist_ok=True)
-    for number in (signal.SIGINT, signal.SIGTERM):
-        if signal.getsignal(number) != signal.SIG_IGN:  # as in the background
-            signal.signal(number, stop)
+    stop_at_first_signal()
 
 
 # All, or those of --config panel="fig05 fig08". Without outputs it is always executed: it copies what is missing or edited in

@@ -11,6 +11,9 @@ from pathlib import Path
 from tests.python.conftest import ROOT
 
 SNAKEFILE = """
+from workflow.environment.variables import stop_at_first_signal
+onstart:
+    stop_at_first_signal()
 rule panel:
     input: "fig05.svg"
 rule draw:

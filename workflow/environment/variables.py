@@ -1,6 +1,7 @@
-"""Environment of Snakemake and its jobs: variables of the caller's shell change no result, however Snakemake is started."""
+"""Environment of Snakemake and its jobs: variables of the caller's shell change no result, however Snakemake is started; its signals."""
 
 import os
+import signal
 from pathlib import Path
 
 KEPT = Path(__file__).with_name("kept").read_text().split()
@@ -24,3 +25,18 @@ def clean() -> None:
     os.environ.clear()
     # Snakemake needs a name, and the user of a container may have none.
     os.environ.update({"USER": f"user-{os.getuid()}"} | kept | FIXED)
+
+
+def stop_at_first_signal() -> None:
+    """Ignores a second Ctrl-C or SIGTERM, as `timeout` sends it, which would end in a traceback. Snakemake's own handler of SIGTERM waits for
+    a lock that the interrupted code may hold."""
+    signals = (signal.SIGINT, signal.SIGTERM)
+
+    def stop(*_: object) -> None:
+        for number in signals:
+            signal.signal(number, signal.SIG_IGN)
+        raise KeyboardInterrupt
+
+    for number in signals:
+        if signal.getsignal(number) != signal.SIG_IGN:  # as in the background
+            signal.signal(number, stop)
