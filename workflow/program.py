@@ -13,7 +13,7 @@ from workflow.plan import Run
 PROGRAMS = ROOT / "build/bin"
 WRITTEN = (0, 4)  # exit statuses with a result; 4: stopped before the target error, and marked
 REPLICAS_PER_THREAD, MOST_THREADS = 32, 16
-LEAST = 64  # replicas of a run with a target error
+LEAST = 64  # replicas of a run with a target error, as StoppingRule::least in cpp/program
 
 
 class ProgramError(ValueError):

@@ -21,7 +21,7 @@ struct Range {
   double high = std::numeric_limits<double>::infinity();
 };
 
-/// Magnitudes of every option with units. All that programs compute from such numbers is representable with
+/// Magnitudes of every option with units. All that programs compute from positive ones is representable with
 /// full precision, up to fourth powers of displacements.
 inline constexpr Range positive{1e-30, 1e30}, non_negative{0, 1e30};
 
