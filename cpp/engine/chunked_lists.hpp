@@ -33,6 +33,10 @@ class ChunkedLists {
   const Flight& operator[](std::uint32_t slot) const { return flights_[slot]; }
   std::size_t slots() const { return flights_.size(); }
 
+  /// All slots, until the next call of append().
+  Flight* flights() { return flights_.data(); }
+  std::uint32_t* links() { return next_.data(); }
+
   /// For links from slot to slot, whatever list they are in.
   std::uint32_t& next(std::uint32_t slot) { return next_[slot]; }
   std::uint32_t next(std::uint32_t slot) const { return next_[slot]; }

@@ -20,6 +20,8 @@ const ClosedChain& checked(const ClosedChain& chain, const PhasePoint& start) {
 
 }  // namespace
 
+template void simulate(ClosedDynamics&, double, NoObserver&, const Heartbeat&);
+
 ClosedDynamics::ClosedDynamics(const ClosedChain& chain, const PhasePoint& start, double end_time,
                                const StreamKey& key)
     : chain_(checked(chain, start)),

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <concepts>
 #include <cstdint>
 #include <variant>
 #include <vector>
@@ -28,7 +27,7 @@ class ClosedDynamics {
   void restart_clock(double time) { queue_.shift(time); }
 
   Invariants invariants() const;
-  std::uint64_t events() const { return events_; }
+  std::uint64_t events() const { return events_.events(); }
 
   /// Position of every particle relative to the scatterer at the end of its flight: negative while it flies
   /// to the right.
@@ -41,51 +40,58 @@ class ClosedDynamics {
   PhasePoint phase_point(double time) const;
 
  private:
-  template <class Observer, std::invocable<double> Heartbeat>
-  friend void simulate(ClosedDynamics&, double, Observer&, Heartbeat&&);
-  template <bool passing, CollisionRule Rule, class Observer, std::invocable<double> Heartbeat>
-  void advance(const Rule& rule, double until, Observer& observer, Heartbeat&& heartbeat);
+  template <class Observer>
+  friend void simulate(ClosedDynamics&, double, Observer&, const Heartbeat&);
+  template <bool passing, CollisionRule Rule, class Observer>
+  void advance(const Rule& rule, double until, Observer& observer, const Heartbeat& heartbeat);
 
   ClosedChain chain_;
   Rules rule_;
   std::vector<double> scatterers_;  // w, see Elastic
   FreeFlight free_flight_;
   EventQueue queue_;
-  std::uint64_t events_ = 0;
+  EventCounter events_;
 };
 
 /// Advances the chain through every collision before `until`, in the order of time (ties: lower
 /// particle first). Hooks of the observer, both optional (engine/observation.hpp): on_collision(const
-/// Collision&) and on_flight(const Departure&). heartbeat(time) is called every 65536 events and may throw to
-/// stop.
+/// Collision&) and on_flight(const Departure&).
 ///
 /// A particle with u = 0, or so slow that the flight's duration overflows, never arrives: it is frozen.
-template <class Observer, std::invocable<double> Heartbeat>
-void simulate(ClosedDynamics& chain, double until, Observer& observer, Heartbeat&& heartbeat) {
+template <class Observer>
+void simulate(ClosedDynamics& chain, double until, Observer& observer, const Heartbeat& heartbeat) {
   const auto advance = [&](const auto& rule) {
     if (chain.free_flight_.passing())
       chain.advance<true>(rule, until, observer, heartbeat);
     else
-      chain.advance<false>(rule, until, observer, heartbeat);
+      with_form(rule, [&](const auto& form) { chain.advance<false>(form, until, observer, heartbeat); });
   };
   std::visit(advance, chain.rule_);
 }
 
+/// The relaxation, compiled once.
+extern template void simulate(ClosedDynamics&, double, NoObserver&, const Heartbeat&);
+
 /// passing: see Scattering.
-template <bool passing, CollisionRule Rule, class Observer, std::invocable<double> Heartbeat>
-void ClosedDynamics::advance(const Rule& rule, double until, Observer& observer, Heartbeat&& heartbeat) {
+template <bool passing, CollisionRule Rule, class Observer>
+void ClosedDynamics::advance(const Rule& rule, double until, Observer& observer, const Heartbeat& heartbeat) {
   const Scattering<Rule, passing> scatter(chain_, rule);
   const double scale = rule.scatterer_scale();
-  const auto arrive = [&](Flight flight) __attribute__((always_inline)) {
+  double* const scatterers = scatterers_.data();
+  const auto arrive = [&](const Flight& arrival, EventQueue::Cursor& cursor) __attribute__((always_inline)) {
+    constexpr bool draws = passing || RandomRule<Rule>;
+    Flight flight{arrival.time, arrival.velocity, arrival.target, arrival.particle};
+    if constexpr (draws) flight.draws = arrival.draws;
     const std::uint32_t cell = flight.target;
-    const double particle = flight.velocity, scatterer = scatterers_[cell];
-    const Departure departure = scatter(flight, scatterers_[cell], free_flight_);
+    const double particle = flight.velocity, scatterer = scatterers[cell];
+    const Departure departure = scatter(flight, scatterers[cell], free_flight_);
     notify(observer, Collision{departure.time, flight.particle, cell, particle, departure.velocity,
-                               scale * scatterer, scale * scatterers_[cell]});
-    if constexpr (requires { observer.on_flight(departure); }) observer.on_flight(departure);
-    queue_.schedule(flight);
+                               scale * scatterer, scale * scatterers[cell]});
+    notify_flight(observer, departure);
+    cursor.reschedule<draws>(flight);
   };
-  process_arrivals(queue_, until, events_, arrive, heartbeat);
+  EventQueue::Cursor cursor(queue_);
+  process_arrivals(cursor, until, events_, arrive, heartbeat);
 }
 
 }  // namespace lorentz

@@ -1,29 +1,44 @@
 #pragma once
 
-#include <concepts>
 #include <cstdint>
+#include <functional>
+#include <utility>
 
 #include "engine/event_queue.hpp"
 
 namespace lorentz {
 
-/// Counts an event. heartbeat(time) is called every 65536 events and may throw to stop.
-template <std::invocable<double> Heartbeat>
-void count_event(std::uint64_t& events, double time, Heartbeat&& heartbeat) {
-  constexpr std::uint64_t events_per_heartbeat = 65536;
-  if (++events % events_per_heartbeat == 0) heartbeat(time);
-}
+/// The dynamics call it with the time, every 65536 events or later. It may throw to stop.
+using Heartbeat = std::function<void(double)>;
 
-/// Takes every flight that ends before `until`, in the order of (time, particle). arrive(flight) processes
-/// the collision and schedules the next flight.
-template <std::invocable<Flight> Arrive, std::invocable<double> Heartbeat>
-[[gnu::always_inline]] inline void process_arrivals(EventQueue& queue, double until, std::uint64_t& events,
-                                                    Arrive&& arrive, Heartbeat&& heartbeat) {
-  for (Flight flight; queue.take_before(until, flight);) {
-    const double time = flight.time;
-    arrive(flight);
-    count_event(events, time, heartbeat);
+/// Counts events and calls the heartbeat.
+class EventCounter {
+ public:
+  void add(std::uint64_t events, double time, const Heartbeat& heartbeat) {
+    events_ += events;
+    if (events_ >= next_heartbeat_) [[unlikely]] {
+      next_heartbeat_ = events_ + 65536;
+      heartbeat(time);
+    }
   }
+  std::uint64_t events() const { return events_; }
+
+ private:
+  std::uint64_t events_ = 0, next_heartbeat_ = 65536;
+};
+
+/// Takes every flight that arrives before `until`, in the order of (time, particle). arrive(flight, cursor)
+/// processes the collision and lets the flight go on.
+template <class Arrive>
+[[gnu::always_inline]] inline void process_arrivals(EventQueue::Cursor& cursor, double until,
+                                                    EventCounter& counter, const Arrive& arrive,
+                                                    const Heartbeat& heartbeat) {
+  std::uint64_t counted = cursor.taken();
+  const auto count = [&](double time) {
+    counter.add(cursor.taken() - std::exchange(counted, cursor.taken()), time, heartbeat);
+  };
+  cursor.take_before(until, arrive, count);
+  count(until);
 }
 
 }  // namespace lorentz

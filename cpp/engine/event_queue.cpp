@@ -11,7 +11,7 @@ constexpr double reach = 4;                  // of the later revolutions' lists,
 
 /// The branch on whether a flight outlasts the revolution is predictable if few or most flights do.
 double revolution_events(double particles) {
-  return particles < 6000 ? std::min(8 * particles, 16384.0) : std::min(particles / 32, 8192.0);
+  return particles < 6000 ? std::min(16 * particles, 16384.0) : std::min(particles / 32, 8192.0);
 }
 
 std::size_t power_of_two(double at_least, std::size_t least) {
@@ -38,10 +38,12 @@ void EventQueue::rebuild(const std::vector<Flight>& flights, double rate, double
   const std::uint64_t first = tick_of(now);
   revolution_end_ = (first | bucket_mask_) + 1;
   // The part of the revolution that is over counts as planned.
-  counted_ = static_cast<std::uint64_t>(events_per_bucket * static_cast<double>(first & bucket_mask_));
+  counted_from_ =
+      taken_ - static_cast<std::uint64_t>(events_per_bucket * static_cast<double>(first & bucket_mask_));
   waiting_ = word_ = word_bits_ = 0;
-  vacant_ = none;
-  for (const Flight& flight : flights) schedule(flight);
+  Cursor cursor(*this);
+  for (const Flight& flight : flights) cursor.add(flight);
+  cursor.save();
 }
 
 std::vector<Flight> EventQueue::flights() const {
@@ -62,9 +64,11 @@ void EventQueue::shift(double origin) {
   rebuild(all, ticks_per_time_ * events_per_bucket, 0);
 }
 
+void EventQueue::postpone(std::uint32_t slot, std::uint64_t tick) { add_later(Flight(lists_[slot]), tick); }
+
 /// The first flight's slot, or none if it does not arrive before `until`.
-std::uint32_t EventQueue::take_first_of(std::size_t bucket, double until) {
-  std::uint32_t* first = &buckets_[bucket];
+std::uint32_t EventQueue::take_first_of(std::uint32_t& bucket, double until) {
+  std::uint32_t* first = &bucket;
   for (std::uint32_t* link = &lists_.next(*first); *link != none; link = &lists_.next(*link)) {
     const Flight &a = lists_[*link], &b = lists_[*first];
     if (a.time < b.time || (a.time == b.time && a.particle < b.particle)) first = link;
@@ -79,7 +83,7 @@ bool EventQueue::begin_revolution(double until) {
   until = std::min(until, end_time_);
   if (tick_of(until) < revolution_end_) return false;
   const double planned = events_per_bucket * static_cast<double>(bucket_mask_ + 1);
-  const double ratio = static_cast<double>(std::exchange(counted_, 0)) / planned;
+  const double ratio = static_cast<double>(taken_ - std::exchange(counted_from_, taken_)) / planned;
   if (ratio < 0.5 || ratio > 1.5 || waiting_ > 2 * planned_for_) {
     const std::vector<Flight> all = flights();
     double now = until;
@@ -90,18 +94,20 @@ bool EventQueue::begin_revolution(double until) {
   ChunkedLists::List& due = later(revolution_end_);
   revolution_end_ += bucket_mask_ + 1;
   word_ = 0;
-  vacant_ = none;
   lists_.clear(current_);
   current_ = std::exchange(due, 0);
+  Cursor cursor(*this);
   lists_.for_each(current_, [&](std::uint32_t slot) {
     const std::uint64_t tick = tick_of(lists_[slot].time);
     if (tick < revolution_end_) {
-      link(slot, tick);
+      cursor.link(slot, tick);
       --waiting_;
     } else {
       lists_.append(due, Flight(lists_[slot]));
+      cursor.find_flights();
     }
   });
+  cursor.save();
   return true;
 }
 

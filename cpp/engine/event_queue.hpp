@@ -18,48 +18,151 @@ namespace lorentz {
 /// end_time are frozen: kept, never taken. The width of a bucket follows the rate of events and affects speed
 /// only: floor(time / width) is monotone in time, also when rounded.
 class EventQueue {
+  static constexpr std::uint32_t none = 0xffffffff;  // no slot
+
  public:
   /// rate: expected events per unit time, for the first revolution.
   EventQueue(const std::vector<Flight>& flights, double rate, double end_time) : end_time_(end_time) {
     rebuild(flights, rate, 0);
   }
 
-  /// Takes out the first flight that arrives before `until`; false if there is none. `until` must not
-  /// decrease from call to call.
-  [[gnu::always_inline]] bool take_before(double until, Flight& flight) {
-    while (word_bits_ == 0) {
-      if (word_ + 1 < occupied_.size())
-        word_bits_ = std::exchange(occupied_[++word_], 0);
-      else if (!begin_revolution(until))
-        return false;
-    }
-    const std::size_t bucket = (word_ << 6) + static_cast<std::size_t>(std::countr_zero(word_bits_));
-    const std::uint32_t head = buckets_[bucket];
-    if (lists_.next(head) == none) {
-      if (!(lists_[head].time < until)) return false;
-      buckets_[bucket] = none;
-      word_bits_ &= word_bits_ - 1;
-      vacant_ = head;
-    } else if ((vacant_ = take_first_of(bucket, until)) == none) {
-      return false;
-    }
-    ++counted_;
-    flight = lists_[vacant_];
-    return true;
-  }
+  /// The queue during a loop over events, with its state in local variables, which the compiler keeps in
+  /// registers. In its lifetime the queue changes through it alone; take_before() brings the queue up to
+  /// date.
+  class Cursor {
+   public:
+    explicit Cursor(EventQueue& queue) : queue_(queue) { load(); }
 
-  /// Adds a flight that arrives no earlier than the last one taken, or than the last `until`. Inlined, so
-  /// that the flight stays in registers.
-  [[gnu::always_inline]] void schedule(const Flight& flight) {
-    if (!(flight.time < end_time_)) {
-      lists_.append(frozen_, flight);
-    } else if (const std::uint64_t tick = tick_of(flight.time); tick < revolution_end_) {
-      link(slot_in_revolution(flight), tick);
-    } else {
-      lists_.append(later(tick), flight);
-      ++waiting_;
+    /// Takes every flight that arrives before `until`, in order, and calls arrive(flight, cursor), which may
+    /// return it by reschedule(). `until` must not decrease from call to call. every_revolution(time) is
+    /// called at the end of each revolution of the wheel.
+    template <class Arrive, class EveryRevolution>
+    [[gnu::always_inline]] void take_before(double until, const Arrive& arrive,
+                                            const EveryRevolution& every_revolution) {
+      until = until < end_time_ ? until : end_time_;
+      for (;;) {
+        while (word_bits_ == 0) {
+          if (word_ + 1 < words_) {
+            word_bits_ = std::exchange(occupied_[++word_], 0);
+          } else {
+            save();
+            every_revolution(static_cast<double>(revolution_end_) / ticks_per_time_);
+            if (!queue_.begin_revolution(until)) return;
+            load();
+          }
+        }
+        std::uint32_t& bucket =
+            buckets_[(word_ << 6) + static_cast<std::size_t>(std::countr_zero(word_bits_))];
+        const std::uint32_t head = bucket;
+        if (next_[head] == none) {
+          if (!(flights_[head].time < until)) break;
+          bucket = none;
+          word_bits_ &= word_bits_ - 1;
+          slot_ = head;
+        } else if ((slot_ = queue_.take_first_of(bucket, until)) == none) {
+          break;
+        }
+        ++taken_;
+        arrive(std::as_const(flights_[slot_]), *this);
+      }
+      save();
     }
-  }
+
+    /// The number of flights taken.
+    std::uint64_t taken() const { return taken_; }
+
+    /// Returns the flight that was taken last to the queue, with another time, which is no earlier, another
+    /// velocity and target, and if it `draws` random numbers, with another number of draws.
+    template <bool draws>
+    [[gnu::always_inline]] void reschedule(const Flight& changed) {
+      const std::uint64_t tick = tick_of(changed.time, ticks_per_time_);
+      if constexpr (draws) {  // flights over many cells, as at gamma < N, are often late
+        if (tick >= revolution_end_) return add_later(changed, tick);
+      }
+      // Member by member: a block copy fails store-to-load forwarding from stores of single members.
+      Flight& flight = flights_[slot_];
+      flight.time = changed.time;
+      flight.velocity = changed.velocity;
+      flight.target = changed.target;
+      if constexpr (draws) flight.draws = changed.draws;
+      if (draws || tick < revolution_end_)
+        link(slot_, tick);
+      else
+        postpone(tick);
+    }
+
+    /// Adds a flight that arrives no earlier than the last one taken, or than the last `until`.
+    void add(const Flight& flight) {
+      const std::uint64_t tick = tick_of(flight.time, ticks_per_time_);
+      if (tick >= revolution_end_ || !(flight.time < end_time_)) return add_later(flight, tick);
+      const std::uint32_t slot = queue_.lists_.append(queue_.current_, flight);
+      find_flights();
+      if (const std::uint64_t word = (tick & bucket_mask_) >> 6; word < word_) {  // it was empty
+        occupied_[word_] = std::exchange(word_bits_, 0);
+        word_ = word;
+      }
+      link(slot, tick);
+    }
+
+   private:
+    friend class EventQueue;
+
+    /// The bits of the word in use are held apart from the bitmap, as a load of them from there would wait
+    /// for the last store to it.
+    [[gnu::always_inline]] void link(std::uint32_t slot, std::uint64_t tick) {
+      const std::uint64_t bucket = tick & bucket_mask_, bit = std::uint64_t{1} << (tick & 63);
+      next_[slot] = std::exchange(buckets_[bucket], slot);
+      if (bucket >> 6 > word_) [[likely]]
+        occupied_[bucket >> 6] |= bit;
+      else
+        word_bits_ |= bit;
+    }
+
+    [[gnu::always_inline]] void add_later(const Flight& flight, std::uint64_t tick) {
+      queue_.add_later(flight, tick);
+      find_flights();
+    }
+
+    /// add_later() of the flight that was taken last, out of line, so that the loop needs fewer registers.
+    void postpone(std::uint64_t tick) {
+      queue_.postpone(slot_, tick);
+      find_flights();
+    }
+
+    /// After a list has grown, which moves the flights.
+    [[gnu::always_inline]] void find_flights() {
+      flights_ = queue_.lists_.flights();
+      next_ = queue_.lists_.links();
+    }
+
+    [[gnu::always_inline]] void load() {
+      buckets_ = queue_.buckets_.data();
+      occupied_ = queue_.occupied_.data();
+      words_ = queue_.occupied_.size();
+      find_flights();
+      word_ = queue_.word_;
+      word_bits_ = queue_.word_bits_;
+      taken_ = queue_.taken_;
+      ticks_per_time_ = queue_.ticks_per_time_;
+      end_time_ = queue_.end_time_;
+      bucket_mask_ = queue_.bucket_mask_;
+      revolution_end_ = queue_.revolution_end_;
+    }
+
+    [[gnu::always_inline]] void save() const {
+      queue_.word_ = word_;
+      queue_.word_bits_ = word_bits_;
+      queue_.taken_ = taken_;
+    }
+
+    EventQueue& queue_;
+    std::uint32_t *buckets_, *next_;
+    std::uint64_t* occupied_;
+    Flight* flights_;
+    std::uint64_t words_, word_, word_bits_, taken_, bucket_mask_, revolution_end_;
+    double ticks_per_time_, end_time_;
+    std::uint32_t slot_ = none;  // of the flight that was taken last
+  };
 
   /// Pending and frozen flights by the number of their particle.
   std::vector<Flight> flights() const;
@@ -71,41 +174,26 @@ class EventQueue {
   std::size_t slots() const { return lists_.slots(); }
 
  private:
-  static constexpr std::uint32_t none = 0xffffffff;  // no slot
-
-  std::uint64_t tick_of(double time) const {
-    return static_cast<std::uint64_t>(static_cast<std::int64_t>(time * ticks_per_time_));
+  [[gnu::always_inline]] static std::uint64_t tick_of(double time, double ticks_per_time) {
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(time * ticks_per_time));
   }
+  std::uint64_t tick_of(double time) const { return tick_of(time, ticks_per_time_); }
   ChunkedLists::List& later(std::uint64_t tick) {
     return later_[(tick >> bucket_bits_) & (later_.size() - 1)];
   }
 
-  /// Reuses the slot of the flight that was taken last.
-  [[gnu::always_inline]] std::uint32_t slot_in_revolution(const Flight& flight) {
-    const std::uint32_t slot = std::exchange(vacant_, none);
-    if (slot == none) [[unlikely]]
-      return lists_.append(current_, flight);
-    lists_.write(slot, flight);
-    return slot;
-  }
-
-  /// The bits of the word in use are held apart from the bitmap, as a load of them from there would wait for
-  /// the last store to it.
-  [[gnu::always_inline]] void link(std::uint32_t slot, std::uint64_t tick) {
-    const std::uint64_t bucket = tick & bucket_mask_, bit = std::uint64_t{1} << (tick & 63);
-    lists_.next(slot) = std::exchange(buckets_[bucket], slot);
-    if (bucket >> 6 > word_) [[likely]] {
-      occupied_[bucket >> 6] |= bit;
+  /// Copies a flight that arrives after the current revolution from its slot into a later list.
+  void postpone(std::uint32_t slot, std::uint64_t tick);
+  [[gnu::always_inline]] void add_later(const Flight& flight, std::uint64_t tick) {
+    if (!(flight.time < end_time_)) {
+      lists_.append(frozen_, flight);
     } else {
-      if (bucket >> 6 < word_) {  // a new particle arrives in a word that was empty
-        occupied_[word_] = std::exchange(word_bits_, 0);
-        word_ = bucket >> 6;
-      }
-      word_bits_ |= bit;
+      lists_.append(later(tick), flight);
+      ++waiting_;
     }
   }
 
-  std::uint32_t take_first_of(std::size_t bucket, double until);
+  std::uint32_t take_first_of(std::uint32_t& bucket, double until);
   bool begin_revolution(double until);
   void rebuild(const std::vector<Flight>& flights, double rate, double now);
 
@@ -116,14 +204,13 @@ class EventQueue {
   std::vector<std::uint64_t> occupied_;          // one bit per bucket
   std::uint64_t word_ = 0;                       // of occupied_; those before it are 0
   std::uint64_t word_bits_ = 0;                  // bits of that word, which is itself 0
-  std::uint32_t vacant_ = none;                  // slot of the flight that was taken last
   double end_time_, ticks_per_time_ = 0;         // a tick is the width of a bucket
   std::uint64_t bucket_mask_ = 0;                // number of buckets, a power of two, less 1
   int bucket_bits_ = 0;                          // log2 of the number of buckets
   std::uint64_t revolution_end_ = 0;             // first tick after the current revolution
   std::size_t waiting_ = 0;                      // flights that arrive in later revolutions
   std::size_t planned_for_ = 1;                  // particles
-  std::uint64_t counted_ = 0;                    // events of the current revolution
+  std::uint64_t taken_ = 0, counted_from_ = 0;   // flights taken: in all, before the current revolution
 };
 
 }  // namespace lorentz

@@ -34,4 +34,10 @@ template <class Observer>
   if constexpr (requires { observer.on_collision(collision); }) observer.on_collision(collision);
 }
 
+/// A Departure or a Path.
+template <class Observer, class Started>
+[[gnu::always_inline]] inline void notify_flight(Observer& observer, const Started& flight) {
+  if constexpr (requires { observer.on_flight(flight); }) observer.on_flight(flight);
+}
+
 }  // namespace lorentz

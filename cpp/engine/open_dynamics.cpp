@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "engine/relaxation.hpp"
+
 namespace lorentz {
 namespace {
 
@@ -13,6 +15,8 @@ const PhasePoint& checked(const PhasePoint& start, const OpenChain& chain) {
 }
 
 }  // namespace
+
+template void simulate(OpenDynamics&, double, UnfinishedFlights&, const Heartbeat&);
 
 OpenDynamics::OpenDynamics(const OpenChain& chain, const PhasePoint& start, double end_time,
                            const StreamKey& key)

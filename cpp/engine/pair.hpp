@@ -32,10 +32,8 @@ class PairDynamics {
   PairDynamics(const ClosedChain& chain, const PhasePoint& plain, const PhasePoint& perturbed,
                double end_time, const StreamKey& key, bool share = true);
 
-  /// Processes every collision before `until`. heartbeat(time) is called every 65536 events and may throw to
-  /// stop.
-  template <std::invocable<double> Heartbeat>
-  void run(double until, Heartbeat&& heartbeat) {
+  /// Processes every collision before `until`.
+  void run(double until, const Heartbeat& heartbeat) {
     const auto advance_with = [&](const auto& rule) {
       if (free_flight_.passing())
         advance<true>(rule, until, heartbeat);
@@ -72,15 +70,11 @@ class PairDynamics {
  private:
   static constexpr std::uint32_t shared = 0;
 
-  template <bool passing, CollisionRule Rule, class Heartbeat>
-  void advance(const Rule& rule, double until, Heartbeat&& heartbeat) {
+  template <bool passing, CollisionRule Rule>
+  void advance(const Rule& rule, double until, const Heartbeat& heartbeat) {
     const Scattering<Rule, passing> scatter(chain_, rule);
-    const auto collide = [&](Flight& flight, double& w) {
-      scatter(flight, w, free_flight_);
-      queue_.schedule(flight);
-    };
     const std::uint32_t particles = chain_.particles();
-    const auto arrive = [&](Flight flight) {
+    const auto arrive = [&](Flight flight, EventQueue::Cursor& cursor) {
       const std::uint32_t cell = flight.target;
       const bool perturbed = flight.particle >= particles;
       std::uint32_t index = indices_[perturbed ? flight.particle - particles : flight.particle];
@@ -88,18 +82,21 @@ class PairDynamics {
         if (index == shared) {
           Flight copy = flight;
           copy.particle += particles;
-          collide(copy, scatterers_[cell][1]);
+          scatter(copy, scatterers_[cell][1], free_flight_);
+          cursor.add(copy);
           index = diverge_particle(flight, copy);
           ++separate_events_;
         } else {
           diverge_scatterer(cell);
         }
       }
-      collide(flight, scatterers_[cell][perturbed]);
+      scatter(flight, scatterers_[cell][perturbed], free_flight_);
+      cursor.reschedule<true>(flight);
       diverged_flights_[index][perturbed] = flight;
       ++(index == shared ? shared_events_ : separate_events_);
     };
-    process_arrivals(queue_, until, taken_, arrive, heartbeat);
+    EventQueue::Cursor cursor(queue_);
+    process_arrivals(cursor, until, taken_, arrive, heartbeat);
   }
 
   std::uint32_t diverge_particle(const Flight& plain, const Flight& perturbed);
@@ -116,7 +113,8 @@ class PairDynamics {
   std::vector<std::uint32_t> diverged_cells_;
   std::vector<std::array<double, 2>> scatterers_;  // w, plain and perturbed; of a shared one the first counts
   EventQueue queue_;  // particles by number, then the perturbed copies in the same order
-  std::uint64_t taken_ = 0, shared_events_ = 0, separate_events_ = 0;
+  EventCounter taken_;
+  std::uint64_t shared_events_ = 0, separate_events_ = 0;
 };
 
 }  // namespace lorentz

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <concepts>
 #include <vector>
 
 #include "engine/open_dynamics.hpp"
@@ -17,10 +16,13 @@ struct UnfinishedFlights {
   }
 };
 
+/// Compiled once.
+extern template void simulate(OpenDynamics&, double, UnfinishedFlights&, const Heartbeat&);
+
 /// Advances the chain through every event before `until` without the observer, which costs less. Then
 /// notifies the observer of the pending flights and exits, as it would have been at their departure.
-template <class Observer, std::invocable<double> Heartbeat>
-void relax(OpenDynamics& chain, double until, Observer& observer, Heartbeat&& heartbeat) {
+template <class Observer>
+void relax(OpenDynamics& chain, double until, Observer& observer, const Heartbeat& heartbeat) {
   UnfinishedFlights flights{until};
   simulate(chain, until, flights, heartbeat);
   for (const Path& path : flights.paths) {

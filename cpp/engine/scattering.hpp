@@ -1,7 +1,10 @@
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "engine/flight.hpp"
 #include "engine/free_flight.hpp"
@@ -25,7 +28,10 @@ template <CollisionRule Rule, bool passing>
 class Scattering {
  public:
   Scattering(const ClosedChain& chain, const Rule& rule)
-      : cells_(chain.cells), cell_length_(chain.cell_length), collide_(rule) {}
+      : cells_(chain.cells), cell_length_(chain.cell_length), collide_(rule) {
+    for (std::uint32_t cell = 0; cell < cells_; ++cell)
+      neighbours_.push_back({cell + 1 < cells_ ? cell + 1 : 0, cell > 0 ? cell - 1 : cells_ - 1});
+  }
 
   /// Ends the flight at the scatterer w and begins the next one, in place.
   Departure operator()(Flight& flight, double& w, const FreeFlight& free_flight) const {
@@ -51,10 +57,7 @@ class Scattering {
 
  private:
   std::uint32_t neighbour(std::uint32_t cell, double velocity) const {
-    const std::int64_t step = direction(velocity);
-    const std::uint32_t next = cell + static_cast<std::uint32_t>(step);  // beyond the last one at both ends
-    const std::uint32_t entry = step < 0 ? cells_ - 1 : 0;
-    return next < cells_ ? next : entry;
+    return neighbours_[cell][std::bit_cast<std::uint64_t>(velocity) >> 63];
   }
 
   std::uint32_t cells_ahead(std::uint32_t cell, std::int64_t cells) const {
@@ -66,6 +69,7 @@ class Scattering {
   std::uint32_t cells_;
   double cell_length_;
   Rule collide_;
+  std::vector<std::array<std::uint32_t, 2>> neighbours_;  // to the right, to the left
 };
 
 }  // namespace lorentz

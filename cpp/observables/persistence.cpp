@@ -5,6 +5,8 @@
 /// For independent particles and scatterers at the temperatures T_p and T_s, mu follows from the ratio of the
 /// temperatures [eq. 11]. The mean energies before scatterings are stored to separate this part of the
 /// deviation from correlations.
+#include <bit>
+
 #include "sampling/closed_averages.hpp"
 
 namespace {
@@ -12,10 +14,10 @@ namespace {
 using namespace lorentz;
 
 /// 1 if u' u > 0, else 0. The signs are compared, because the product could underflow, and without a branch,
-/// because branch prediction fails for random signs.
+/// because branch prediction fails for random signs. A particle that arrives has u != 0.
 int keeps_direction(double before, double after) {
-  const auto positive = [](double u) { return int{u > 0}; };
-  return (positive(before) & positive(after)) | (positive(-before) & positive(-after));
+  const auto one = std::bit_cast<std::uint64_t>(before), other = std::bit_cast<std::uint64_t>(after);
+  return static_cast<int>(~(one ^ other) >> 63) & int{after != 0};
 }
 
 struct Encounters : Averages {

@@ -2,7 +2,6 @@
 
 #include <concepts>
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -52,7 +51,7 @@ class ClosedRun {
             requires(const Collision& collision) { observer.on_collision(collision); } ||
             requires(const Departure& departure) { observer.on_flight(departure); },
         "the observer has no hook: on_collision(const Collision&) or on_flight(const Departure&)");
-    const auto heartbeat = [this](double now) {
+    const Heartbeat heartbeat = [this](double now) {
       replica_.heartbeat((clock_start_ + now) / parameters_.end_time());
     };
     while (clock(time) > longest_clock_) {

@@ -32,7 +32,7 @@ class OpenRun {
             requires(const Collision& collision) { observer.on_collision(collision); } ||
             requires(const Path& path) { observer.on_flight(path); },
         "the observer has no hook: on_collision(const Collision&) or on_flight(const Path&)");
-    const auto heartbeat = [this](double now) { replica_.heartbeat(now / window_.end); };
+    const Heartbeat heartbeat = [this](double now) { replica_.heartbeat(now / window_.end); };
     lorentz::relax(chain_, window_.begin, observer, heartbeat);
     simulate(chain_, window_.end, observer, heartbeat);
     if constexpr (requires { observer.finish(chain_.scatterers(), window_.end); })

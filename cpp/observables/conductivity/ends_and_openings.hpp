@@ -58,6 +58,9 @@ class EndsAndOpenings {
   }
 
   [[gnu::always_inline]] void on_flight(const Path& path) {  // called once per event
+    const Marks marks = path.marks();
+    if (marks.low > ends_[0].mark && marks.high < ends_[1].mark) [[likely]]
+      return;
     for (EndCell& end : ends_) {
       if (!path.reaches(end.mark)) continue;
       const double time = path.time_at(end.mark);

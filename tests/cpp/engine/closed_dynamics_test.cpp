@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "engine/closed_start.hpp"
+#include "engine/open_dynamics.hpp"
+#include "engine/open_start.hpp"
 #include "support/collisions.hpp"
 
 namespace closed_dynamics_test {
@@ -54,14 +57,35 @@ TEST(Simulate, SimultaneousArrivalsGoInTheOrderOfTheParticles) {
   }
 }
 
+// A heartbeat may wait for the end of a revolution. More of them would make the threads of small chains wait
+// for each other. At gamma = 0 an open chain has injections only.
 TEST(Simulate, HeartbeatsComeEvery65536EventsAndMayStopTheRun) {
-  const ClosedChain chain{11, 20, 1, 0.5};
-  ClosedDynamics dynamics(chain, closed_chain_start(chain, {}, false, {5, 0}), 200, {1, 0});
   NoObserver nobody;
-  const auto stop = [](double) { throw std::runtime_error("stop"); };
-  for (const std::uint64_t beats : {1U, 2U}) {
-    EXPECT_THROW(simulate(dynamics, 200, nobody, stop), std::runtime_error);
-    EXPECT_EQ(dynamics.events(), beats * 65536U);
+  const auto check = [&](auto& dynamics, double end) {
+    std::uint64_t events = 0, beats = 0;
+    double time = 0;
+    simulate(dynamics, end, nobody, [&](double now) {
+      const std::uint64_t since = dynamics.events() - std::exchange(events, dynamics.events());
+      EXPECT_GE(since, 65536U);
+      EXPECT_LT(since, 2 * 65536U);
+      EXPECT_GT(now, std::exchange(time, now));
+      EXPECT_LE(now, end);
+      ++beats;
+    });
+    EXPECT_GE(beats, 4U);
+    const auto stop = [](double) { throw std::runtime_error("stop"); };
+    EXPECT_THROW(simulate(dynamics, 2 * end, nobody, stop), std::runtime_error);
+  };
+  for (const std::uint32_t cells : {1U, 11U}) {
+    const ClosedChain chain{cells, cells, 1, 0.5};
+    const double end = 8e5 / cells / cells;
+    ClosedDynamics dynamics(chain, closed_chain_start(chain, {}, false, {5, 0}), 2 * end, {1, 0});
+    check(dynamics, end);
+  }
+  for (const double gamma : {0., 4.}) {
+    const OpenChain chain{.cells = 4, .cell_length = 0.25, .gamma = gamma};
+    OpenDynamics dynamics(chain, empty_start(chain), 4000, {1, 0});
+    check(dynamics, 2000);
   }
 }
 

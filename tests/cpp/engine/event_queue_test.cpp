@@ -64,25 +64,35 @@ std::size_t compare_with_ordered_set(const Schedule& schedule, double rate) {
   for (std::uint32_t count = 0; count < schedule.population; ++count)
     expect(first.emplace_back(Flight{schedule.delay(generator), 1, 0, ids.take()}));
   EventQueue queue(first, rate, schedule.end_time);
+  EventQueue::Cursor cursor(queue);
 
   std::size_t events = 0;
   for (double until = 0; until < schedule.end_time && events < schedule.longest;) {
     until += interval(generator);  // beyond the end in the last iteration
-    for (Flight flight; queue.take_before(until, flight); ++events) {
+    bool failed = false;
+    const auto take = [&](Flight flight, EventQueue::Cursor&) {
+      ++events;
+      if (failed) return;
       if (expected.empty() || std::pair(flight.time, flight.particle) != *expected.begin() ||
           !(flight.time < until)) {
         ADD_FAILURE() << "event " << events << ": particle " << flight.particle << " at " << flight.time;
-        return events;
+        failed = true;
+        return;
       }
       expected.erase(expected.begin());
       if (schedule.exits > 0 && leaves(generator)) {
         ids.give_back(flight.particle);
-        continue;
+        return;
       }
       flight.time += schedule.delay(generator);
       expect(flight);
-      queue.schedule(flight);
-    }
+      if (flight.particle % 2 == 0)
+        cursor.reschedule<true>(flight);
+      else
+        cursor.reschedule<false>(flight);
+    };
+    cursor.take_before(until, take, [](double) {});
+    if (failed) return events;
     if (!expected.empty() && expected.begin()->first < until) {
       ADD_FAILURE() << "the queue stopped at " << until << " before " << expected.begin()->first;
       return events;
@@ -90,7 +100,7 @@ std::size_t compare_with_ordered_set(const Schedule& schedule, double rate) {
     if (!schedule.entering || !(until < schedule.end_time)) continue;
     const Flight newcomer{until + schedule.delay(generator), 1, 0, ids.take()};
     expect(newcomer);
-    queue.schedule(newcomer);
+    cursor.add(newcomer);
   }
   return events;
 }
@@ -170,15 +180,21 @@ TEST(EventQueue, TakesNoMoreMemoryInALongRun) {
   for (std::uint32_t particle = 0; particle < 2000; ++particle)
     first.push_back({delay(generator), 1, 0, particle});
   EventQueue queue(first, 2000, 1e4);
-  const auto run = [&](int events) {
-    for (Flight flight; events > 0 && queue.take_before(1e4, flight); --events) {
-      flight.time += delay(generator);
-      queue.schedule(flight);
+  EventQueue::Cursor cursor(queue);
+  const auto slots_after = [&](std::uint64_t events) {
+    for (double until = 0; cursor.taken() < events; until += 1) {
+      cursor.take_before(
+          until,
+          [&](Flight flight, EventQueue::Cursor&) {
+            flight.time += delay(generator);
+            cursor.reschedule<true>(flight);
+          },
+          [](double) {});
     }
     return queue.slots();
   };
-  const std::size_t slots = run(200000);
-  EXPECT_LT(run(1000000), 2 * slots);
+  const std::size_t slots = slots_after(200000);
+  EXPECT_LT(slots_after(1200000), 2 * slots);
 }
 
 }  // namespace event_queue_test
