@@ -25,6 +25,7 @@
 #include "observables/conductivity/hotelling.hpp"
 #include "sampling/open_run.hpp"
 #include "statistics/control_variates.hpp"
+#include "statistics/standardised.hpp"
 
 namespace {
 

@@ -1,48 +1,16 @@
 #include "statistics/control_variates.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "numerics/summation.hpp"
+#include "statistics/standardised.hpp"
 
 namespace lorentz {
-namespace {
 
 using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::MatrixXd;
-
-MatrixXd columns_of(const Records& records, const Columns& columns) {
-  MatrixXd result(records.size(), columns.size());
-  for (std::size_t i = 0; i < records.size(); ++i)
-    for (std::size_t k = 0; k < columns.size(); ++k)
-      result(static_cast<Index>(i), static_cast<Index>(k)) = records[i][columns[k]];
-  return result;
-}
-
-}  // namespace
-
-MatrixXd centred(const MatrixXd& x) { return x.rowwise() - x.colwise().mean(); }
-
-MatrixXd standardised(const Records& records, const Columns& columns) {
-  MatrixXd x = columns_of(records, columns);
-  for (auto column : x.colwise()) {
-    column *= towards_one(column.cwiseAbs().maxCoeff());
-    const double deviation = centred(column).norm(), rounding = 1e-12 * column.norm();
-    column *= deviation > rounding ? 1 / deviation : 0;
-  }
-  return x;
-}
-
-PseudoInverse pseudo_inverse(const MatrixXd& x) {
-  // Of the transpose, because Eigen solves for an identity matrix with as many rows as the matrix.
-  Eigen::CompleteOrthogonalDecomposition<MatrixXd> factors;
-  factors.setThreshold(1e-8);
-  factors.compute(x.transpose());
-  return {factors.pseudoInverse().transpose(), factors.rank()};
-}
 
 std::optional<Records> regress_out(const Records& records, const Regression& regression) {
   if (records.size() == 0 || regression.controls.empty()) return {};
@@ -62,7 +30,7 @@ std::optional<Records> regress_out(const Records& records, const Regression& reg
   Records reduced(regression.measured.size());
   for (Index i = 0; i < rows; ++i) reduced.append(std::vector<double>(reduced.width()));
   for (std::size_t k = 0; k < reduced.width(); ++k) {
-    const MatrixXd y = columns_of(records, {regression.measured[k]}), y_centred = centred(y);
+    const MatrixXd y = matrix_of(records, {regression.measured[k]}), y_centred = centred(y);
     const MatrixXd coefficients = gain * y_centred;
     const MatrixXd corrected =
         y - x * coefficients + (own * (y_centred - x_centred * coefficients).array()).matrix();
@@ -74,7 +42,7 @@ std::optional<Records> regress_out(const Records& records, const Regression& reg
 double variance_ratio(const Records& a, const Records& b, const Columns& columns) {
   double sum = 0, varying = 0;
   const auto deviation = [](const Records& records, std::size_t column) {
-    return centred(columns_of(records, {column})).stableNorm() /
+    return centred(matrix_of(records, {column})).stableNorm() /
            std::sqrt(static_cast<double>(records.size()) - 1);
   };
   for (const std::size_t column : columns) {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "statistics/control_variates.hpp"
+#include "statistics/standardised.hpp"
 
 namespace lorentz {
 
