@@ -15,7 +15,6 @@ from workflow.files import in_one_line, lock_products
 from workflow.identity import IDENTITY
 from workflow.plan import (
     SUFFIXES,
-    BuildError,
     Quality,
     data_of,
     drawing_command,
@@ -23,11 +22,10 @@ from workflow.plan import (
     panel_named,
     products_of,
     report_stem,
-    require_built,
     runs_of,
     stem_of,
 )
-from workflow.program import command_line, threads_of
+from workflow.program import BuildError, command_line, require_built, threads_of
 from workflow.publish import STORE
 
 clean()

@@ -80,6 +80,11 @@ def source_hash(program: str, cpp: Path = CPP) -> str:
     return sha256("".join(lines).encode())
 
 
+def programs(cpp: Path = CPP) -> list[str]:
+    """Names of the programs."""
+    return sorted(path.stem for path in (cpp / "observables").glob("[!.]*.cpp"))
+
+
 @cache
 def code_hashes(cpp: Path = CPP) -> dict[str, str]:
     """sha256 of the code of every source, by path. Raises OSError."""
@@ -115,9 +120,9 @@ def content_hash(path: str, root: Path = ROOT) -> str:
 
 def main(cpp: Path, folder: Path) -> None:
     template = (folder / "template").read_text("utf-8")
-    for observable in (cpp / "observables").glob("*.cpp"):
-        text = template.replace("SOURCE_HASH", source_hash(observable.stem, cpp))
-        path = folder / observable.name
+    for program in programs(cpp):
+        text = template.replace("SOURCE_HASH", source_hash(program, cpp))
+        path = folder / f"{program}.cpp"
         if not path.is_file() or path.read_text("utf-8") != text:
             path.write_text(text, "utf-8")
     sources = [str(cpp / path).replace(" ", "\\ ") for path in code_hashes(cpp)]

@@ -13,8 +13,8 @@ from workflow.identity import ROOT, code_hashes
 from workflow.lib.described import declared
 from workflow.lib.load import Result, load
 from workflow.lib.nearest import nearest
-from workflow.plan import Run, require_built, seed_of
-from workflow.program import ProgramError, execute
+from workflow.plan import Run, seed_of
+from workflow.program import ProgramError, execute, require_built
 
 if TYPE_CHECKING:
     import xarray

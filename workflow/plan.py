@@ -54,19 +54,6 @@ EFFORTS: dict[str, tuple[str, Any, str]] = {  # pattern, type and description of
 }
 
 
-class BuildError(ValueError):
-    """A program is missing or older than its sources."""
-
-
-def require_built(program: str) -> None:
-    """Raises BuildError. A program contains the hash of its sources, so that no time stamp is needed."""
-    path = ROOT / "build/bin" / program
-    if not path.is_file():
-        raise BuildError(f"build/bin/{program} is missing: run make build")
-    if source_hash(program).encode() not in path.read_bytes():
-        raise BuildError(f"build/bin/{program} is not built from the present sources: run make build")
-
-
 @dataclass(frozen=True)
 class Run:
     """One execution of a program, with a name that is unique within its panel."""

@@ -1,5 +1,6 @@
-"""Runs the programs of build/bin."""
+"""Compiles and runs the programs of build/bin."""
 
+import os
 import shutil
 import signal
 import subprocess
@@ -7,7 +8,8 @@ import sys
 from pathlib import Path
 
 from workflow.configuration import Options, arguments
-from workflow.identity import ROOT
+from workflow.identity import ROOT, programs, source_hash
+from workflow.lib.described import FOLDER as DESCRIBED
 from workflow.plan import Run
 
 PROGRAMS = ROOT / "build/bin"
@@ -18,6 +20,38 @@ LEAST = 64  # replicas of a run with a target error, as StoppingRule::least in c
 
 class ProgramError(ValueError):
     """A program has refused its options, or has failed."""
+
+
+class BuildError(ValueError):
+    """A program is missing or older than its sources."""
+
+
+def is_built(program: str) -> bool:
+    """Whether a program starts and states the hash of its present sources. Neither times nor folders decide."""
+    try:
+        done = subprocess.run([PROGRAMS / program, "--version"], capture_output=True, text=True, check=False)
+    except OSError:
+        return False
+    return source_hash(program) in done.stdout
+
+
+def require_built(program: str) -> None:
+    """Raises BuildError."""
+    if not (PROGRAMS / program).is_file():
+        raise BuildError(f"build/bin/{program} is missing: run make build")
+    if not is_built(program):
+        raise BuildError(f"build/bin/{program} is not built from the present sources: run make build")
+
+
+def build() -> None:
+    """Compiles the programs unless all are built and described. CXX may choose another compiler, so that the build is checked in any case.
+    Raises CalledProcessError."""
+    missing = [name for name in programs() if not (is_built(name) and (DESCRIBED / f"{name}.json").exists())]
+    if missing:
+        number = f"{len(missing)} program{'s' * (len(missing) > 1)}"
+        print(f"Compiling {number}; all take about a minute on two cores", flush=True)
+    if missing or "CXX" in os.environ:
+        subprocess.run(["bash", "workflow/environment/build.sh", "all"], check=True)
 
 
 def threads_of(run: Run) -> int:

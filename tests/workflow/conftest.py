@@ -157,8 +157,11 @@ def new_project(folder: Path) -> Project:
     for panel in ("mu", "energy"):
         (folder / f"workflow/figures/{panel}.py").write_text(SCRIPT)
     (folder / "build/bin").mkdir(parents=True)
-    for program in ("persistence", "ageing"):
-        (folder / "build/bin" / program).symlink_to(ROOT / "build/bin" / program)
+    for source in (folder / "cpp/observables").glob("*.cpp"):
+        if source.stem in ("persistence", "ageing"):
+            (folder / "build/bin" / source.stem).symlink_to(ROOT / "build/bin" / source.stem)
+        else:
+            source.unlink()
     for script in ("setup.sh", "build.sh"):  # the programs are those of this project
         (folder / "workflow/environment" / script).write_text("exit 0\n")
     share_packages(folder)

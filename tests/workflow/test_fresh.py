@@ -95,6 +95,22 @@ def test_a_program_that_is_older_than_its_sources_is_refused(project: Project) -
     assert "is missing: run make build" in project.entry("figures", status=1)
 
 
+def test_programs_are_compiled_if_they_do_not_state_the_hash_of_their_sources(project: Project) -> None:
+    """Not after other times, a move or a comment; but one that does not start, whatever it contains."""
+    (project.folder / "workflow/environment/build.sh").write_text("echo compiled\n")
+    unimportant(project)
+    assert project.workflow("build") == ""
+    build = (".venv/bin/python", "-m", "workflow", "build")
+    assert project.run(*build, CXX="c++").stdout == "compiled\n"
+    program = project.folder / "build/bin/ageing"
+    content = program.read_bytes()
+    program.unlink()
+    program.write_bytes(content)  # not executable
+    assert project.workflow("build").startswith("Compiling 1 program")
+    append("cpp/statistics/fit.hpp", "int x;\n")(project)
+    assert project.workflow("build").startswith("Compiling 2 programs")
+
+
 def test_wrong_results_are_refused_and_the_same_command_makes_them_again(project: Project) -> None:
     """A result of another run, one with an edited value, and a truncated one; then an edited and a deleted copy, and options in another
     order."""

@@ -17,7 +17,6 @@ from typing import NamedTuple
 from workflow.files import in_one_line
 from workflow.identity import DIGITS, drawing_sources, named_identity, sha256, source_hash, stated
 from workflow.lib.load import FormatError, load_provenance
-from workflow.lib.save import renderer
 from workflow.plan import Panel, Run, data_of, drawing_command, runs_of, stem_of
 from workflow.publish import SHOWN, STORE, copies, read_record
 
@@ -37,6 +36,14 @@ def siblings(path: str) -> list[Path]:
 def options_of(words: str) -> list[str]:
     """Options, each with its value, from the words of a command line."""
     return [f"--{option.strip()}" for option in words.split("--")[1:]]
+
+
+def hash_if_readable(path: str) -> str:
+    """sha256 of a file; empty if it cannot be read."""
+    try:
+        return sha256(Path(path).read_bytes())
+    except OSError:
+        return ""
 
 
 def fault_of_result(path: str, run: Run) -> Fault | None:
@@ -120,6 +127,8 @@ class Picture:
             return Fault("not checked", f"{self.shown}.pdf", f"rendering fails: {done.stderr.strip()[-200:]}")
         for copy, again in copies(rendered).items():
             if copy.read_bytes() != again.read_bytes():
+                from workflow.lib.save import renderer  # noqa: PLC0415  0.5 s, for matplotlib
+
                 if (former := self.record["renderer"]) != (here := renderer()):
                     return Fault("not checked", str(copy), f"rendered with {former}, this is {here}")
                 return Fault("edited", str(copy), f"rendering it again gives other bytes: compare {again}")
@@ -130,7 +139,12 @@ class Picture:
 def check(plan: dict[str, Panel], names: list[str], quality: str, render: bool) -> list[Fault]:
     """Faults of the figures of panels and of the results that they plot. A figure whose results do not hold is not rendered."""
     runs, pictures = runs_of(plan, names, quality), [Picture(plan, name, quality) for name in names]
-    results = {path: fault for path, run in runs.items() if (fault := fault_of_result(path, run))}
+    plotted = {
+        path: digest for picture in pictures for path, digest in picture.record.get("parents", {}).items()
+    }
+    # A result that has the bytes of when it was plotted was checked then; to check all values takes ten times as long.
+    unknown = {path: run for path, run in runs.items() if plotted.get(path) != hash_if_readable(path)}
+    results = {path: fault for path, run in unknown.items() if (fault := fault_of_result(path, run))}
     with ThreadPoolExecutor(os.cpu_count()) as threads:
         usable = [render and not {*results} & {*picture.data} for picture in pictures]
         figures = threads.map(Picture.fault, pictures, usable)
