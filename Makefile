@@ -9,10 +9,10 @@ DEV := .venv/bin
 
 help:  ## This list
 	sed -nE 's/^([a-z -]+):.*  ## (.*)/make \1\t\2/p' Makefile | expand -t 17
-	echo 'Options: QUALITY=smoke|standard|paper|deep  PANEL=fig05  FRESH=yes  SEED=7  REPLICAS=200  ERROR=0.005  JOBS=2  DRY=yes'
+	echo 'Options: QUALITY=smoke|standard|paper|deep  PANEL=fig05  SEED=7  REPLICAS=200  ERROR=0.005  JOBS=2  DRY=yes'
 	echo 'On a cluster (docs/cluster.md): PROFILE=slurm  ACCOUNT=physics  PARTITION=short'
 figures: setup  ## Build, simulate and render every figure: figures/QUALITY/*.pdf, .png, .svg, .csv
-panel: setup  ## One panel, PANEL=fig05; FRESH=yes: rerun from scratch and compare
+panel: setup  ## One panel, PANEL=fig05
 report: setup  ## The paper's claims against the results: figures/QUALITY/report.html
 gallery: setup  ## The report of the release, docs/gallery, from the results at QUALITY
 audit: setup  ## Check every result and figure against sources, parameters and packages

@@ -33,7 +33,6 @@ QUALITY = config.get("quality", "standard")
 if unknown := {*config} - {"quality", "panel"}:
     sys.exit(f"--config {unknown.pop()}= is unknown; give quality= or panel=")
 try:
-    BASE = Quality.of(QUALITY).base
     PLAN = load_plan(QUALITY)
     PANELS = [panel_named(PLAN, name).name for name in str(config.get("panel", "")).split()] or [*PLAN]
     DATA = {name: data_of(PLAN, name, QUALITY) for name in PLAN}
@@ -57,7 +56,7 @@ def inputs_of(panels):
 
 
 wildcard_constraints:
-    quality=f"{BASE}|{QUALITY}",
+    quality=QUALITY,
     panel="[^/.]+",
     run="[^/]+",
     identity=IDENTITY,
@@ -72,8 +71,6 @@ localrules:
 
 
 onstart:
-    # An interrupted SEED, REPLICAS or ERROR is a plan from its start, whose results `make prune` keeps.
-    os.makedirs(f"figures/{QUALITY}", exist_ok=True)
     stop_at_first_signal()
 
 

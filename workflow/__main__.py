@@ -26,8 +26,8 @@ from workflow.publish import publish
 SELECTION = ("QUALITY", *map(str.upper, EFFORTS))
 EXECUTION = (*SELECTION, "DRY", "JOBS", "PROFILE", "ACCOUNT", "PARTITION")
 TARGETS: dict[str, tuple[str, ...]] = {  # with their options
-    "figures": (*EXECUTION, "FRESH"),
-    "panel": ("PANEL", *EXECUTION, "FRESH"),
+    "figures": EXECUTION,
+    "panel": ("PANEL", *EXECUTION),
     "report": EXECUTION,
     "gallery": tuple(name for name in EXECUTION if name != "DRY"),
     "audit": ("PANEL", *SELECTION),
@@ -35,7 +35,7 @@ TARGETS: dict[str, tuple[str, ...]] = {  # with their options
     "verify": ("PANEL", "SAMPLE", *SELECTION),
     "provenance": ("FILE",),
     "deposit": SELECTION,
-    "prune": ("DRY", "QUALITY"),
+    "prune": ("DRY", *SELECTION),
     "build": (),
 }
 NEEDED = {"panel": "PANEL=fig05", "provenance": "FILE=figures/standard/fig05.pdf"}
@@ -51,7 +51,7 @@ COMPILED = (*DONE, "deposit", "build")  # targets that need the programs
 RULES = {  # pattern and description of the allowed values
     "JOBS": ("[1-9][0-9]*", "a whole number, at least 1"),
     "SAMPLE": (r"1|0?\.[0-9]+", "a fraction of the results, as 0.1"),
-    **dict.fromkeys(("FRESH", "DRY"), ("yes", "yes, or leave it out")),
+    "DRY": ("yes", "yes, or leave it out"),
 }
 
 
@@ -135,15 +135,15 @@ def snakemake(target: str, options: argparse.Namespace) -> int:
 
 
 def make(target: str, options: argparse.Namespace) -> int:
-    """Makes a target of the Snakefile, unless all its products exist; with DRY=yes, lists what it would make. Compares with former
-    results after FRESH, SEED and REPLICAS. Raises OSError."""
+    """Makes a target of the Snakefile, unless all its products exist; with DRY=yes, lists what it would make. After SEED and REPLICAS
+    compares with the results of the quality. Raises OSError."""
     names, quality = options.panels or [*options.plan], options.quality
     stems = [stem_of(options.plan, name, quality) for name in names]
     planned = products_of(options.plan, names, quality)
     if target == "report":
         stems.append(report_stem(options.plan, quality))
         planned.append(f"{stems[-1]}.html")
-    missing = [path for path in planned if options.fresh or not os.path.exists(path)]
+    missing = [path for path in planned if not os.path.exists(path)]
     if options.dry:
         print("\n".join(missing) or "Nothing to be made")
         return 0
@@ -152,10 +152,6 @@ def make(target: str, options: argparse.Namespace) -> int:
             f"{panel.name}: other {', '.join(panel.replaced)} in quality/{quality.partition('_')[0]}.yaml than in paper.yaml",
             flush=True,
         )
-    compared = target in ("figures", "panel") and (options.seed or options.replicas or options.fresh)
-    verify = importlib.import_module("workflow.provenance.verify") if compared else None
-    if verify and options.fresh:
-        verify.set_aside(options)
     if missing or target == "gallery":
         status = snakemake(target, options)
     else:  # by the same names Snakemake would find nothing to make; its import takes a second
@@ -164,7 +160,10 @@ def make(target: str, options: argparse.Namespace) -> int:
         status = 0
     if status == 0:
         print(DONE[target].format_map(vars(options)))
-        status = verify.compare(options) if verify else 0
+        if target in ("figures", "panel") and (options.seed or options.replicas):
+            from workflow.provenance.verify import compare  # noqa: PLC0415  0.5 s
+
+            status = compare(options)
     return status
 
 

@@ -5,7 +5,6 @@ import itertools
 import re
 import shlex
 from collections.abc import Iterable
-from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
@@ -22,7 +21,6 @@ from workflow.configuration import (
 )
 from workflow.identity import (
     DRAWING,
-    ROOT,
     content_hash,
     drawing_sources,
     identity,
@@ -33,7 +31,7 @@ from workflow.identity import (
 from workflow.lib.described import declared
 from workflow.lib.nearest import nearest
 from workflow.polynomial import evaluated
-from workflow.publish import SHOWN, STORE
+from workflow.publish import STORE
 
 SUFFIXES = (".pdf", ".png", ".svg", ".csv", ".json")  # of the files of a panel
 QUALITIES = ("smoke", "standard", "paper", "deep")
@@ -96,7 +94,7 @@ class Panel:
 
 @dataclass(frozen=True)
 class Quality:
-    """A quality with the effort of the command line, by the name of its folder of figures: `standard`, or
+    """A quality with the effort of the command line, by the name of its folders of data and figures: `standard`, or
     `standard_seed=7_replicas=200`."""
 
     name: str
@@ -172,15 +170,6 @@ def load_plan(name: str, folder: Path = FOLDER) -> dict[str, Panel]:
     return panels
 
 
-def plans_of(base: str) -> dict[str, dict[str, Panel]]:
-    """Plans of a quality and of its efforts, SEED, REPLICAS or ERROR, which have a folder of figures. Raises ConfigurationError."""
-    names = [base]
-    for folder in (ROOT / SHOWN).glob(f"{base}_*"):
-        with suppress(ConfigurationError):  # a folder of the user
-            names.append(Quality.of(folder.name).name)
-    return {name: load_plan(name) for name in names}
-
-
 def panel_named(plan: dict[str, Panel], name: str) -> Panel:
     """The panel of this name. Raises ConfigurationError with the most similar name."""
     if name in plan:
@@ -195,7 +184,7 @@ def with_used(plan: dict[str, Panel], name: str) -> list[Panel]:
 
 def data_path(quality: str, panel: str, run: Run) -> str:
     """Path of a result. Raises OSError."""
-    return f"data/{quality.partition('_')[0]}/{panel}/{run.name}.{run.identity}.h5"
+    return f"data/{quality}/{panel}/{run.name}.{run.identity}.h5"
 
 
 def runs_of(plan: dict[str, Panel], names: Iterable[str], quality: str) -> dict[str, Run]:

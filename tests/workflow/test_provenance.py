@@ -163,44 +163,22 @@ def test_where_a_copy_of_a_result_comes_from(project: Project, tmp_path: Path) -
     assert "edited" in provenance(project, project.one(MU), status=1)
 
 
-def test_a_rerun_is_compared_also_over_an_edited_result(project: Project) -> None:
+def test_other_replicas_are_compared_and_kept_apart(project: Project) -> None:
     before = project.products()
-    edit_value(project)
-    printed = project.entry("panel", "PANEL=mu", "FRESH=yes")
-    assert "Not compared" in printed
-    assert "1 of 1 results agree with the former (p > 0.0001): equal bytes" in printed
-    assert project.products() == before
-
-
-def test_an_interrupted_rerun_goes_on(project: Project) -> None:
-    done, interrupted = project.one(OTHER_MU), project.one(MU)
-    aside = project.folder / "build/before" / interrupted.relative_to(project.folder)
-    aside.parent.mkdir(parents=True)
-    interrupted.rename(aside)
-    times = done.stat().st_mtime_ns
-    assert "1 of 1 results agree" in project.entry("panel", "PANEL=mu", "FRESH=yes")
-    assert (done.stat().st_mtime_ns, aside.exists()) == (times, False)
-    assert "2 of 2 results agree" in project.entry("panel", "PANEL=mu", "FRESH=yes")
-    assert done.stat().st_mtime_ns > times
-
-
-def test_other_replicas_are_compared_and_kept_beside(project: Project) -> None:
-    before = {*project.files("data", "figures", "build/figures")}
     assert "has no errors" in project.entry("panel", "PANEL=mu", "REPLICAS=1")
-    assert "These are the results" in project.entry("panel", "PANEL=mu", "REPLICAS=4")
-    for number in (1, 4):
-        shutil.rmtree(project.folder / f"figures/smoke_replicas={number}")
-    project.entry("prune")
+    assert "2 of 2 results agree with those of smoke" in project.entry("panel", "PANEL=mu", "REPLICAS=4")
     independent, shared = (project.entry("panel", "PANEL=mu", word) for word in ("SEED=7", "REPLICAS=8"))
     for printed in (independent, shared):
-        assert "2 of 2 results agree with the former (p > 0.0001): largest difference" in printed
+        assert "2 of 2 results agree with those of smoke (p > 0.0001)\nLargest difference: " in printed
     assert ("shared" in independent, "shared" in shared) == (False, True)
-    shutil.rmtree(project.folder / "build/figures/smoke_seed=7")  # as after an interruption
-    shutil.rmtree(project.folder / "figures/smoke_replicas=8")  # its results are not planned any more
+    (kept,) = project.folder.glob("data/smoke_seed=7/mu/all_sigma=0.5.*.h5")
+    assert "panel mu, quality smoke_seed=7" in provenance(project, kept)
+    former = kept.rename(kept.with_name("former.0123456789ab.h5"))
     project.entry("prune")
-    beside = {*project.files("data", "figures", "build/figures")} - before
-    assert sum(path.endswith(".h5") for path in beside) == 2
-    assert all(path.startswith(("data/smoke/mu/", "figures/smoke_seed=7/")) for path in beside)
+    assert former.exists()
+    project.entry("prune", "SEED=7")
+    assert not former.exists()
+    assert project.products() == before
 
 
 @pytest.mark.parametrize("seed", [1, 2])
@@ -213,11 +191,11 @@ def test_a_difference_of_eight_standard_errors_is_found(project: Project, seed: 
         project.run("build/bin/persistence", *options.split(), "--observation-time", "5", "--output", path)
         results.append(load(path))
     few, many = results
-    assert largest_difference(few, many)[0] > SIGNIFICANCE
+    assert largest_difference(few, many).p > SIGNIFICANCE
     mu = few["mu"]
     shifted = replace(few, quantities=few.quantities | {"mu": replace(mu, mean=mu.mean + 8 * mu.error)})
-    p, _, quantity = largest_difference(shifted, many)
-    assert (p < SIGNIFICANCE, quantity) == (True, "mu")
+    found = largest_difference(shifted, many)
+    assert (found.p < SIGNIFICANCE, found.quantity) == (True, "mu")
 
 
 def test_verify_reruns_with_fresh_programs(project: Project) -> None:

@@ -4,12 +4,14 @@ Exit status: 0 if the file is unmodified, 1 if it is edited or states nothing, 3
 """
 
 import argparse
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from workflow.configuration import ConfigurationError
 from workflow.identity import content_hash, result_identity, sha256, source_hash, stated
 from workflow.lib.load import FormatError, load_provenance
-from workflow.plan import QUALITIES, Quality, plans_of, runs_of
+from workflow.plan import QUALITIES, Quality, load_plan, runs_of
 from workflow.publish import STORE, read_record
 
 HDF5 = b"\x89HDF"  # first bytes of a file
@@ -27,10 +29,20 @@ def print_command(origin: dict[str, Any], where: str = "") -> None:
         print(f"sources of {program} are others here")
 
 
+def selections() -> list[str]:
+    """Qualities, and those with an effort that have results here."""
+    names = [*QUALITIES]
+    for folder in Path("data").glob("*_*"):
+        with suppress(ConfigurationError):  # a folder of the user
+            names.append(Quality.of(folder.name).name)
+    return names
+
+
 def explain_result(path: Path) -> int:
     origin = load_provenance(path)
     program, words = origin["program"], origin["words"]
-    for quality, plan in (named for base in QUALITIES for named in plans_of(base).items()):
+    for quality in selections():
+        plan = load_plan(quality)
         for planned, run in runs_of(plan, plan, quality).items():
             if (run.program, run.words) == (program, words):
                 print_panel(Path(planned).parent.name, quality)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from workflow.files import lock_products
 from workflow.identity import IDENTITY, stated
-from workflow.plan import plans_of, report_stem, runs_of, stem_of
+from workflow.plan import Panel, report_stem, runs_of, stem_of
 from workflow.publish import SHOWN, STORE
 
 GIVEN = re.compile(
@@ -19,16 +19,14 @@ GIVEN = re.compile(
 )
 
 
-def obsolete(base: str) -> Iterator[Path]:
-    """Files of a quality and its efforts that no plan names. Raises ConfigurationError, OSError."""
-    planned: set[str] = set()
-    for quality, plan in plans_of(base).items():
-        planned |= {path.removesuffix(".h5") for path in runs_of(plan, plan, quality)}
-        planned |= {report_stem(plan, quality), *(stem_of(plan, name, quality) for name in plan)}
-        for copy in Path(SHOWN, quality).glob("*.*"):
-            if copy.stem not in plan and (stated(copy.read_bytes()) or ())[:2] == (copy.stem, quality):
-                yield copy
-    for path in [*Path("data", base).glob("*/*"), *Path(STORE).glob(f"{base}*/*")]:
+def obsolete(quality: str, plan: dict[str, Panel]) -> Iterator[Path]:
+    """Files of a quality and effort that its plan does not name. Raises OSError."""
+    planned = {path.removesuffix(".h5") for path in runs_of(plan, plan, quality)}
+    planned |= {report_stem(plan, quality), *(stem_of(plan, name, quality) for name in plan)}
+    for copy in Path(SHOWN, quality).glob("*.*"):
+        if copy.stem not in plan and (stated(copy.read_bytes()) or ())[:2] == (copy.stem, quality):
+            yield copy
+    for path in [*Path("data", quality).glob("*/*"), *Path(STORE, quality).glob("*")]:
         given = GIVEN.fullmatch(str(path))
         if given and (given[1] not in planned or given[3] == ".refused"):
             yield path
@@ -37,7 +35,7 @@ def obsolete(base: str) -> Iterator[Path]:
 def main(options: argparse.Namespace) -> None:
     if not options.dry:
         lock_products()
-    files = sorted(obsolete(options.quality))
+    files = sorted(obsolete(options.quality, options.plan))
     size = sum(path.stat().st_size for path in files) / 1e6
     for path in files:
         print(path)
