@@ -28,10 +28,12 @@ setup:  ## System packages, and Python packages in .venv
 	bash workflow/environment/setup.sh $(PROFILE)
 setup-dev:
 	bash workflow/environment/setup.sh dev
+setup-docs:
+	bash workflow/environment/setup.sh dev docs
 test: setup-dev build  ## Tests; make test-long: also those that take many minutes
 	bash workflow/environment/test.sh -m 'not long'
 test-long: setup-dev build
-	bash workflow/environment/setup.sh dev slurm
+	bash workflow/environment/setup.sh dev docs slurm
 	bash workflow/environment/test.sh
 check: setup-dev build docs  ## Format, lint, types, documentation
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 $(DEV)/clang-format --dry-run --Werror
@@ -45,11 +47,11 @@ format: setup-dev  ## Format every source in place
 bench: setup-dev build  ## Cost of an event
 	bash workflow/environment/build.sh benchmarks
 	build/bin/benchmarks
-docs: setup-dev build  ## The documentation as a static site, build/docs/index.html
+docs: setup-docs build  ## The documentation as a static site, build/docs/index.html
 	NO_MKDOCS_2_WARNING=1 $(DEV)/mkdocs build --strict --quiet
 	doxygen docs/site/Doxyfile
 	cp .venv/lib/python*/site-packages/mathjax/static/mathjax/es5/tex-svg.js build/docs/mathjax.js
 clean:  ## Remove build (programs, store, deposits, logs) and caches; results and figures stay
 	rm -rf build .cache
-.PHONY: help figures panel report gallery audit status verify provenance deposit prune setup setup-dev build test test-long check format \
+.PHONY: help figures panel report gallery audit status verify provenance deposit prune setup setup-dev setup-docs build test test-long check format \
   bench docs clean

@@ -72,8 +72,8 @@ def stated(content: bytes) -> tuple[str, str, str] | None:
 
 
 def source_hash(program: str, cpp: Path = CPP) -> str:
-    """Hash of all sources that can change a result of a program, without comments and empty lines: of cpp without benchmarks and
-    other observables, and of the numeric flags. Raises OSError."""
+    """Hash of all sources that can change a result of a program, without comments and empty lines: of cpp without benchmarks, other
+    observables and, but for boltzmann, the solver of the kinetic equation; and of the numeric flags. Raises OSError."""
     lines = [
         f"{path} {digest}\n" for path, digest in code_hashes(cpp).items() if owner(path) in ("", program)
     ]
@@ -98,7 +98,9 @@ def code_hashes(cpp: Path = CPP) -> dict[str, str]:
 def owner(path: str) -> str:
     """The program that alone depends on a source; bench for a benchmark, and empty for a source of all programs."""
     first, *rest = path.split("/")
-    return first if first == "bench" else rest[0].partition(".")[0] if first == "observables" else ""
+    if first == "observables":
+        return rest[0].partition(".")[0]
+    return first if first in ("bench", "boltzmann") else ""
 
 
 def code(text: str, path: str) -> str:

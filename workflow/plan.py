@@ -258,7 +258,7 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Q
         for *values, number in itertools.product(*(options[key] for key in listed), equal_runs):
             chosen = dict(zip(listed, values, strict=True))
             numbered = chosen if len(equal_runs) == 1 else {**chosen, "run": number}
-            run = "_".join([series, *(f"{key}={_in_name(value)}" for key, value in numbered.items())])
+            run = "_".join([series, *(f"{key}={_in_name(value)}" for key, value in sorted(numbered.items()))])
             given = {**options, **chosen}
             given = {key: evaluated(value, given.get("cells")) for key, value in given.items()}
             completed = quality.complete(name, run, given, scale) if replicated else given

@@ -1,5 +1,6 @@
 """Identities change with what determines a product, and with nothing else."""
 
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -7,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.identity import code, source_hash
+from workflow.identity import code, owner, source_hash
 
 PROGRAMS = sorted(path.stem for path in (ROOT / "cpp/observables").glob("*.cpp"))
 
@@ -20,6 +21,15 @@ def test_comments_are_removed_as_by_the_preprocessor() -> None:
     assert len(found) > 300_000
     bare, preprocessed = ("".join(each.split()).replace("#pragmaonce", "") for each in (found, expected))
     assert bare == preprocessed
+
+
+def test_no_other_program_uses_the_sources_of_one() -> None:
+    """Such a source would change results whose identity it is not part of."""
+    include = re.compile(r'#include "((?:observables|boltzmann)/[^"]+)"')
+    for path in (ROOT / "cpp").rglob("*.[ch]pp"):
+        source = path.relative_to(ROOT / "cpp").as_posix()
+        for included in include.findall(path.read_text()):
+            assert owner(source) in (owner(included), "bench"), f"{source} includes {included}"
 
 
 @pytest.fixture
@@ -35,6 +45,7 @@ def cpp(tmp_path: Path) -> Path:
         ("CMakeLists.txt", "set(X)\n", set()),
         ("bench/event_benchmark.cpp", "int x;\n", set()),
         ("observables/correlation/sound_peak.hpp", "int x;\n", {"correlation"}),
+        ("boltzmann/solver.cpp", "int x;\n", {"boltzmann"}),
         ("observables/mine.cpp", "int main() {}\n", set()),
     ],
 )

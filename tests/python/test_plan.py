@@ -4,6 +4,7 @@ import shutil
 from pathlib import Path
 
 import pytest
+from ruamel.yaml import YAML
 
 from tests.python.conftest import ROOT
 from workflow.configuration import FOLDER, ConfigurationError, Options
@@ -39,6 +40,20 @@ def test_seeds_stay_as_they_are() -> None:
     }
     changed = load_plan("paper_seed=7_replicas=5")["fig05"].run("paper_sigma=0.5")
     assert changed.options == run.options | {"replicas": 5, "seed": 3127557821}
+
+
+def test_seeds_do_not_depend_on_the_order_of_keys(tmp_path: Path) -> None:
+    folder = Path(shutil.copytree(FOLDER, tmp_path / "config"))
+    yaml = YAML(typ="safe", pure=True)
+    paper = yaml.load(folder / "paper.yaml")
+    for panel in paper["panels"].values():
+        panel["common"] = dict(reversed(panel.get("common", {}).items()))
+    yaml.dump(paper, folder / "paper.yaml")
+    former, swapped = (
+        {(panel.name, run.name): run.options for panel in plan.values() for run in panel.runs}
+        for plan in (load_plan("paper"), load_plan("paper", folder))
+    )
+    assert former == swapped
 
 
 def test_the_effort_of_the_user_replaces_that_of_the_quality() -> None:

@@ -1,6 +1,6 @@
 #!/bin/bash
-# System packages, and the locked Python packages in .venv; with "dev" also those of tests, checks and benchmarks, with "slurm" those of
-# PROFILE=slurm.
+# System packages, and the locked Python packages in .venv; with "dev" also those of tests, checks and benchmarks, with "docs" those of the
+# site, with "slurm" those of PROFILE=slurm.
 # uv installs them: from PATH, or a fixed version in .cache/uv.
 set -euo pipefail
 bash workflow/environment/system_packages.sh "$@"
