@@ -45,6 +45,7 @@ def test_seeds_stay_as_they_are() -> None:
 def test_seeds_do_not_depend_on_the_order_of_keys(tmp_path: Path) -> None:
     folder = Path(shutil.copytree(FOLDER, tmp_path / "config"))
     yaml = YAML(typ="safe", pure=True)
+    yaml.sort_base_mapping_type_on_output = False  # type: ignore[assignment]
     paper = yaml.load(folder / "paper.yaml")
     for panel in paper["panels"].values():
         panel["common"] = dict(reversed(panel.get("common", {}).items()))
