@@ -32,6 +32,16 @@ def test_no_other_program_uses_the_sources_of_one() -> None:
             assert owner(source) in (owner(included), "bench"), f"{source} includes {included}"
 
 
+@pytest.mark.parametrize("line", ["target_compile_options(ageing PRIVATE -Ofast)", 'set(CMAKE_CXX_FLAGS "-mfma")'])
+def test_flags_that_are_in_no_identity_are_refused(cpp: Path, line: str) -> None:
+    with (cpp / "CMakeLists.txt").open("a") as file:
+        file.write(f"{line}\n")
+    configure = ["cmake", "-S", cpp, "-B", cpp / "build"]
+    done = subprocess.run(configure, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert "move it to cpp/flags.cmake" in " ".join(done.stderr.split())
+
+
 @pytest.fixture
 def cpp(tmp_path: Path) -> Path:
     return Path(shutil.copytree(ROOT / "cpp", tmp_path / "cpp"))
