@@ -1,5 +1,5 @@
 # `make help` lists the targets. No environment has to be activated, and no variable of the caller's shell changes a result.
-SHELL := workflow/environment/shell
+SHELL := workflow/pipeline/environment/shell
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
@@ -25,27 +25,27 @@ build: setup  ## The programs, in build/bin
 figures panel report gallery audit status verify provenance deposit prune build:
 	$(ENTRY) $@
 setup:  ## System packages, and Python packages in .venv
-	bash workflow/environment/setup.sh $(PROFILE)
+	bash workflow/pipeline/environment/setup.sh $(PROFILE)
 setup-dev:
-	bash workflow/environment/setup.sh dev
+	bash workflow/pipeline/environment/setup.sh dev
 setup-docs:
-	bash workflow/environment/setup.sh dev docs
+	bash workflow/pipeline/environment/setup.sh dev docs
 test: setup-dev build  ## Tests; make test-long: also those that take many minutes
-	bash workflow/environment/test.sh -m 'not long'
+	bash workflow/pipeline/environment/test.sh -m 'not long'
 test-long: setup-dev build
-	bash workflow/environment/setup.sh dev docs slurm
-	bash workflow/environment/test.sh
+	bash workflow/pipeline/environment/setup.sh dev docs slurm
+	bash workflow/pipeline/environment/test.sh
 check: setup-dev build docs  ## Format, lint, types, documentation
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 $(DEV)/clang-format --dry-run --Werror
 	$(DEV)/ruff check --quiet . && $(DEV)/ruff format --quiet --check . && $(DEV)/mypy --no-error-summary
-	$(DEV)/snakefmt --no-format-shell --line-length 110 --check --compact-diff Snakefile workflow/rules
+	$(DEV)/snakefmt --no-format-shell --line-length 110 --check --compact-diff Snakefile workflow/pipeline/rules
 	$(DEV)/actionlint
 format: setup-dev  ## Format every source in place
 	git ls-files -z '*.hpp' '*.cpp' | xargs -0 $(DEV)/clang-format -i
 	$(DEV)/ruff check --quiet --fix . && $(DEV)/ruff format --quiet .
-	$(DEV)/snakefmt --no-format-shell --line-length 110 Snakefile workflow/rules
+	$(DEV)/snakefmt --no-format-shell --line-length 110 Snakefile workflow/pipeline/rules
 bench: setup-dev build  ## Cost of an event
-	bash workflow/environment/build.sh benchmarks
+	bash workflow/pipeline/environment/build.sh benchmarks
 	build/bin/benchmarks
 docs: setup-docs build  ## The documentation as a static site, build/docs/index.html
 	NO_MKDOCS_2_WARNING=1 $(DEV)/mkdocs build --strict --quiet

@@ -9,11 +9,11 @@ import shlex
 import sys
 from pathlib import Path
 
-from workflow.configuration import ConfigurationError
-from workflow.environment.variables import clean, stop_at_first_signal
-from workflow.files import in_one_line, lock_products
-from workflow.identity import IDENTITY
-from workflow.plan import (
+from workflow.pipeline.configuration import ConfigurationError
+from workflow.pipeline.environment.variables import clean, stop_at_first_signal
+from workflow.pipeline.files import in_one_line, lock_products
+from workflow.lib.identity import IDENTITY
+from workflow.pipeline.plan import (
     SUFFIXES,
     Quality,
     data_of,
@@ -25,8 +25,8 @@ from workflow.plan import (
     runs_of,
     stem_of,
 )
-from workflow.program import BuildError, command_line, require_built, threads_of
-from workflow.publish import STORE
+from workflow.pipeline.program import BuildError, command_line, require_built, threads_of
+from workflow.pipeline.publish import STORE
 
 clean()
 QUALITY = config.get("quality", "standard")
@@ -82,9 +82,9 @@ rule figures:
     params:
         stems=[STEMS[name] for name in PANELS],
     shell:
-        ".venv/bin/python -m workflow.publish {params.stems:q}"
+        ".venv/bin/python -m workflow.pipeline.publish {params.stems:q}"
 
 
-include: "workflow/rules/simulate.smk"
-include: "workflow/rules/draw.smk"
-include: "workflow/rules/report.smk"
+include: "workflow/pipeline/rules/simulate.smk"
+include: "workflow/pipeline/rules/draw.smk"
+include: "workflow/pipeline/rules/report.smk"

@@ -1,4 +1,4 @@
-# Compiler flags and definitions that can change a result. They are part of the identity of every result (workflow/identity.py).
+# Compiler flags and definitions that can change a result. They are part of the identity of every result (workflow/pipeline/sources.py).
 # Contraction and fast-math would change results, and the instruction set of the build machine would restrict the programs to it.
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)

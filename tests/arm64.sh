@@ -22,10 +22,10 @@ if [ "$(cat $root/complete 2>&1)" != "$packages" ]; then
   echo "$packages" >$root/complete
 fi
 
-mkdir -p $root/source/workflow
+mkdir -p $root/source/workflow/pipeline
 rm -rf $root/source/cpp
 cp -a cpp $root/source
-cp -a workflow/identity.py $root/source/workflow
+cp -a workflow/pipeline/sources.py $root/source/workflow/pipeline
 chroot $root cmake -S source/cpp -B build -G Ninja -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64 \
   -DCMAKE_CXX_COMPILER=aarch64-linux-gnu-g++ -DCMAKE_C_COMPILER=aarch64-linux-gnu-gcc
 chroot $root ninja -C build

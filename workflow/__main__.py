@@ -14,14 +14,14 @@ import subprocess
 import sys
 from pathlib import Path
 
-from workflow.configuration import ConfigurationError
-from workflow.environment.variables import clean
-from workflow.files import in_one_line, lock_products
-from workflow.identity import ROOT
-from workflow.lib.nearest import nearest
-from workflow.plan import EFFORTS, Quality, load_plan, panel_named, products_of, report_stem, stem_of
-from workflow.program import build
-from workflow.publish import publish
+from workflow.lib.identity import ROOT
+from workflow.lib.suggestion import nearest
+from workflow.pipeline.configuration import ConfigurationError
+from workflow.pipeline.environment.variables import clean
+from workflow.pipeline.files import in_one_line, lock_products
+from workflow.pipeline.plan import EFFORTS, Quality, load_plan, panel_named, products_of, report_stem, stem_of
+from workflow.pipeline.program import build
+from workflow.pipeline.publish import publish
 
 SELECTION = ("QUALITY", *map(str.upper, EFFORTS))
 EXECUTION = (*SELECTION, "DRY", "JOBS", "PROFILE", "ACCOUNT", "PARTITION")
@@ -161,7 +161,7 @@ def make(target: str, options: argparse.Namespace) -> int:
     if status == 0:
         print(DONE[target].format_map(vars(options)))
         if target in ("figures", "panel") and (options.seed or options.replicas):
-            from workflow.provenance.verify import compare  # noqa: PLC0415  0.5 s
+            from workflow.pipeline.provenance.verify import compare  # noqa: PLC0415  0.5 s
 
             status = compare(options)
     return status
@@ -182,7 +182,7 @@ def main() -> int:
         if target in DONE:
             return make(target, options)
         options.render = target == "audit"
-        module = importlib.import_module(f"workflow.provenance.{target.replace('status', 'audit')}")
+        module = importlib.import_module(f"workflow.pipeline.provenance.{target.replace('status', 'audit')}")
         return int(module.main(options) or 0)
     except (UsageError, ConfigurationError) as error:
         print(error, file=sys.stderr)

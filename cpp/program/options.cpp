@@ -161,7 +161,7 @@ std::optional<std::string> Options::parse(int argc, const char* const* argv, con
 std::vector<Parameter> Options::parameters() const {
   std::vector<Parameter> result;
   for (const Option& option : options_)
-    if (option.role == Role::result) result.push_back({option.name.substr(2), option.value()});
+    if (option.role == Role::result) result.push_back({option.name.substr(2), option.value(), option.units});
   std::ranges::sort(result, {}, &Parameter::name);
   return result;
 }

@@ -31,6 +31,7 @@ using AttributeValue = std::variant<bool, std::int64_t, std::uint64_t, double, s
 struct Parameter {
   std::string name;  // without the leading dashes
   AttributeValue value;
+  std::string units{};  // as those of Option
 };
 
 std::string as_text(const AttributeValue& value);
@@ -118,7 +119,7 @@ class Options {
                                    const std::function<std::string()>& footer);
 
   /// Words of the command line for options that determine the result, as they were given, separated by
-  /// spaces: a part of the result's identity (workflow/identity.py).
+  /// spaces: a part of the result's identity (workflow/pipeline/sources.py).
   const std::string& words() const { return words_; }
 
   /// Values of all options that determine the result, sorted by name.

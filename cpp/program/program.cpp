@@ -105,7 +105,7 @@ void Program::require_replaceable() const {
   const Hdf5Reader file(output_);
   require(file.has_attribute("/provenance", "source_hash", std::string(build_info.source_hash)),
           "not a result of these sources of the program");
-  for (const auto& [name, value] : options_.parameters())
+  for (const auto& [name, value, units] : options_.parameters())
     require(file.has_attribute("/parameters", name, value), "a result with another --" + name);
 }
 
@@ -113,7 +113,11 @@ ExitStatus Program::write(const Outcome& outcome) const {
   constexpr std::array names{"reached", "not reached", "no target"};
   Hdf5Writer file;
   file.group("/parameters");
-  for (const auto& [name, value] : options_.parameters()) file.attribute("/parameters", name, value);
+  file.group("/parameter_units");  // of those that have a dimension
+  for (const auto& [name, value, units] : options_.parameters()) {
+    file.attribute("/parameters", name, value);
+    if (!units.empty() && units != "1") file.attribute("/parameter_units", name, units);
+  }
   for (const Quantity& quantity : outcome.results) write_quantity(file, quantity);
   file.group("/provenance");
   const std::vector<Parameter> provenance = {
@@ -136,7 +140,7 @@ ExitStatus Program::write(const Outcome& outcome) const {
       {"units", std::string("m = k_B = 1")},
       {"documentation", std::string("docs/format.md of lorentz-gas")},
   };
-  for (const auto& [name, value] : provenance) file.attribute("/provenance", name, value);
+  for (const auto& [name, value, units] : provenance) file.attribute("/provenance", name, value);
   write_atomically(output_, file.image());
   const std::string spent = cost(elapsed(), outcome.events);
   write_atomically(cost_path(output_), std::as_bytes(std::span(spent)));

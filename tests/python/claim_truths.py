@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from tests.python.known_results import Truth
-from workflow.plan import Run
+from workflow.pipeline.plan import Run
 
 COLD, HOT = 900 / 11, 1100 / 9  # temperatures of the baths
 # Exact results: by panel, the true values of the quantities on which the function depends.

@@ -9,9 +9,9 @@ import numpy as np
 
 from tests.python.claim_truths import EXACT, World, claim, named, rare
 from tests.python.known_results import Truth, plan
-from workflow.lib.closed import quasi_stationary
-from workflow.lib.peaks import stable_densities
-from workflow.plan import Run
+from workflow.physics.closed import quasi_stationary
+from workflow.physics.peaks import stable_densities
+from workflow.pipeline.plan import Run
 
 
 def law(run: Run) -> float:

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from scipy.stats import chi2, norm
 
-from workflow.configuration import arguments
-from workflow.lib.described import declared
 from workflow.lib.load import Result, load
+from workflow.pipeline.configuration import arguments
+from workflow.pipeline.described import declared
 
 ROOT = Path(__file__).parents[2]
 T = TypeVar("T")

@@ -11,9 +11,9 @@ import numpy as np
 
 from tests.python.conftest import ROOT
 from workflow.claims.data import Data, MissingError
-from workflow.lib.described import described
 from workflow.lib.load import Quantity, Result
-from workflow.plan import Panel, Run, data_path, load_plan
+from workflow.pipeline.described import described
+from workflow.pipeline.plan import Panel, Run, data_path, load_plan
 
 DEFAULTS = {
     "cells": "continuum",

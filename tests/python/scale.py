@@ -1,13 +1,26 @@
 """Conversion of options and results to other units, and comparison of results in different units."""
 
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 
 from workflow.lib.load import Quantity, Result
-from workflow.lib.units import option_units, parse
+from workflow.lib.units import parse
+from workflow.pipeline.described import declared
 
 ROUNDING = 1e-9  # relative to the largest value of a dataset
+
+
+@cache
+def option_units() -> dict[str, str]:
+    """Declared units of the options of the programs; all others are dimensionless."""
+    return {
+        name: option["units"]
+        for options in declared().values()
+        for name, option in options.items()
+        if option.get("units", "1") != "1"
+    }
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from tests.python.known_results import Known, truth
 from workflow.claims import growth, judge
 from workflow.claims.data import MissingError, combination, ratio
 from workflow.claims.verdict import Number, Outcome
-from workflow.configuration import ConfigurationError
+from workflow.pipeline.configuration import ConfigurationError
 
 ROWS = judge.read_claims(ROOT)
 

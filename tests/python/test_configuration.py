@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from workflow.configuration import ConfigurationError
-from workflow.plan import load_plan
+from workflow.pipeline.configuration import ConfigurationError
+from workflow.pipeline.plan import load_plan
 
 PAPER = """panels:
   model: {}

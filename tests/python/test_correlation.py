@@ -7,7 +7,7 @@ from scipy.stats import chi2
 
 from tests.python.conftest import Measure, simulate
 from workflow.lib.load import Result
-from workflow.lib.mode_coupling import Chain
+from workflow.physics.mode_coupling import Chain
 
 FIELDS = ("momentum", "heat")
 CELLS, ZETA, T, SIGMA = 25, 1.5, 4.0, 0.5

@@ -3,7 +3,7 @@
 import pytest
 from jsonschema import Draft202012Validator
 
-from workflow.lib.described import described
+from workflow.pipeline.described import described
 
 
 @pytest.mark.parametrize("program", described())

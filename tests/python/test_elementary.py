@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from workflow.lib.described import described
+from workflow.pipeline.described import described
 
 ROOT = Path(__file__).parents[2]
 EXACT = {  # correctly rounded, or without rounding

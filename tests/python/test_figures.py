@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from tests.python.conftest import ROOT, command_line
-from workflow.identity import drawing_sources, panel_identity, sha256, stated
+from workflow.lib.identity import drawing_sources, panel_identity, sha256, stated
 from workflow.lib.load import load
 
 
@@ -30,7 +30,7 @@ def test_a_panel_states_what_it_is_and_has_the_numbers_of_the_results(tmp_path: 
     assert (record["panel"], record["quality"], record["identity"]) == ("panel", "smoke", identity)
     assert record["files"] == {kind: sha256(content) for kind, content in contents.items()}
     assert record["parents"] == {str(path): sha256(path.read_bytes()) for path in paths} | sources
-    assert {*sources} == {"workflow/figures/fig05.py", "workflow/lib", "uv.lock"}
+    assert {*sources} == {"workflow/figures/fig05.py", "workflow/lib", "workflow/physics", "uv.lock"}
 
     table = pd.read_csv(stem.with_suffix(".csv"), comment="#")
     assert len(table) == len(paths)

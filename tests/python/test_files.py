@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from workflow.files import in_one_line, write_together
+from workflow.lib.atomic import write_together
+from workflow.pipeline.files import in_one_line
 
 
 def test_a_failure_leaves_the_previous_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

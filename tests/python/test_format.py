@@ -6,7 +6,7 @@ import h5py
 import pytest
 
 from tests.python.conftest import Program
-from workflow.lib.described import declared, described
+from workflow.pipeline.described import declared, described
 
 MEASURED, COMPUTED = {"mean", "standard_error", "count"}, {"mean", "discretisation_error"}
 PROVENANCE = {"format", "format_version", "program", "words", "source_hash", "compiler", "flags", "libraries", "seed", "streams",

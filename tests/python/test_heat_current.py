@@ -11,7 +11,7 @@ from tests.python.conftest import ROOT, Measure, Program
 from tests.python.test_mode_coupling import SQUARE_INTEGRAL
 from workflow.figures.ext13 import amplitudes, longest_rings, tabulate
 from workflow.lib.load import Quantity, Result
-from workflow.lib.mode_coupling import Chain, logarithm_at
+from workflow.physics.mode_coupling import Chain, logarithm_at
 
 T, LENGTH, FUGACITY = 4.0, 0.5, 3.0
 ZETA = FUGACITY * LENGTH

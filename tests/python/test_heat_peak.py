@@ -10,9 +10,9 @@ from tests.python.known_results import EQUAL, Known, drawn, truth
 from tests.python.test_claim_numbers import outside
 from workflow.claims.data import MissingError
 from workflow.claims.pulse import heat_peak
-from workflow.lib.mode_coupling import Chain, levy
-from workflow.lib.peaks import CENTRE, Record, heat_area, heat_width, stable_densities, stable_law
-from workflow.plan import Run
+from workflow.physics.mode_coupling import Chain, levy
+from workflow.physics.peaks import CENTRE, Record, heat_area, heat_width, stable_densities, stable_law
+from workflow.pipeline.plan import Run
 
 
 def known(profile: Callable[..., object], error: float) -> Known:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.identity import code, owner, source_hash
+from workflow.pipeline.sources import code, owner, source_hash
 
 PROGRAMS = sorted(path.stem for path in (ROOT / "cpp/observables").glob("*.cpp"))
 
@@ -32,7 +32,9 @@ def test_no_other_program_uses_the_sources_of_one() -> None:
             assert owner(source) in (owner(included), "bench"), f"{source} includes {included}"
 
 
-@pytest.mark.parametrize("line", ["target_compile_options(ageing PRIVATE -Ofast)", 'set(CMAKE_CXX_FLAGS "-mfma")'])
+@pytest.mark.parametrize(
+    "line", ["target_compile_options(ageing PRIVATE -Ofast)", 'set(CMAKE_CXX_FLAGS "-mfma")']
+)
 def test_flags_that_are_in_no_identity_are_refused(cpp: Path, line: str) -> None:
     with (cpp / "CMakeLists.txt").open("a") as file:
         file.write(f"{line}\n")

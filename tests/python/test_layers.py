@@ -26,3 +26,24 @@ def test_includes_run_one_way() -> None:
     }
     assert {own for own, _ in included} <= BELOW.keys()
     assert {(own, layer) for own, layer in included if layer not in BELOW[own] | {own}} == set()
+
+
+# The same for the packages of workflow. What runs while a panel is rendered lies in figures, physics and lib, which its identity hashes.
+PYTHON = {
+    "lib": set(),
+    "physics": {"lib"},
+    "figures": {"lib", "physics"},
+    "pipeline": {"lib"},
+    "claims": {"lib", "physics", "pipeline"},
+    "report": {"lib", "physics", "pipeline", "claims"},
+}
+
+
+def test_imports_run_one_way() -> None:
+    imported = {
+        (source.relative_to(ROOT / "workflow").parts[0], package)
+        for source in (ROOT / "workflow").glob("*/**/*.py")
+        for package in re.findall(r"\bfrom workflow\.(\w+)", source.read_text())
+    }
+    assert {own for own, _ in imported} <= PYTHON.keys()
+    assert {(own, package) for own, package in imported if package not in PYTHON[own] | {own}} == set()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from workflow.lib.response import Response, onsager
+from workflow.physics.response import Response, onsager
 
 L = np.array([[2.0e7, 2.0e5], [2.0e5, 2.2e3]])
 

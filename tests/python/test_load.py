@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import Program
-from workflow.identity import result_identity
+from workflow.lib.identity import result_identity
 from workflow.lib.load import FormatError, load, load_provenance, results_digest
 
 FLUX = (

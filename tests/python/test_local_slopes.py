@@ -7,9 +7,9 @@ from scipy.stats import kstest
 
 from tests.python.conftest import ROOT
 from workflow.figures import ext07, ext09, ext13, fig01_inset, fig03_inset, fig09
-from workflow.lib.closed import quasi_stationary
 from workflow.lib.fit import fit_power
 from workflow.lib.load import Result
+from workflow.physics.closed import quasi_stationary
 
 
 def test_the_slope_against_the_cube_root_is_constant_for_one_law_only() -> None:

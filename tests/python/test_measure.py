@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import soon
-from workflow import measure as module
-from workflow.identity import ROOT
+from workflow.lib.identity import ROOT
 from workflow.lib.load import load
-from workflow.measure import MeasureError, measure
+from workflow.pipeline import measure as module
+from workflow.pipeline.measure import MeasureError, measure
 
 SMALL = {"cells": 4, "gamma": "N", "replicas": 4, "relaxation_time": 1, "observation_time": 2}
 
@@ -99,7 +99,7 @@ def test_an_interrupted_call_is_continued(folder: Path, number: signal.Signals) 
     that of the next call. test_interruption.py compares the bytes."""
     options = {"cells": 4, "relaxation_time": 1, "observation_time": 200, "replicas": 1000, "threads": 1}
     code = (
-        f"from pathlib import Path; from workflow import measure as m; m.FOLDER = Path({str(folder)!r}); "
+        f"from pathlib import Path; from workflow.pipeline import measure as m; m.FOLDER = Path({str(folder)!r}); "
         f"m.measure('persistence', **{options})"
     )
     command = ["env", "--default-signal=INT", sys.executable, "-c", code]

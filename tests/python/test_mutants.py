@@ -33,8 +33,8 @@ class Tree:
         self.folder = folder
         for name in ("cpp", "tests/cpp"):
             shutil.copytree(ROOT / name, folder / name)
-        (folder / "workflow").mkdir()
-        shutil.copy(ROOT / "workflow/identity.py", folder / "workflow")
+        (folder / "workflow/pipeline").mkdir(parents=True)
+        shutil.copy(ROOT / "workflow/pipeline/sources.py", folder / "workflow/pipeline")
         tests = ";".join(sorted({head(patch)["source"] for patch in PATCHES}))
         self.run("cmake", "-S", "cpp", "-B", "build", "-G", "Ninja", f"-DTESTS={tests}")
 

@@ -7,9 +7,9 @@ import pytest
 from ruamel.yaml import YAML
 
 from tests.python.conftest import ROOT
-from workflow.configuration import FOLDER, ConfigurationError, Options
-from workflow.plan import BATCH, QUALITIES, Quality, Run, load_plan
-from workflow.program import threads_of
+from workflow.pipeline.configuration import FOLDER, ConfigurationError, Options
+from workflow.pipeline.plan import BATCH, QUALITIES, Quality, Run, load_plan
+from workflow.pipeline.program import threads_of
 
 
 @pytest.mark.parametrize("quality", QUALITIES)

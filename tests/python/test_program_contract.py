@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import ROOT, Program
-from workflow.lib.described import declared
 from workflow.lib.load import load
+from workflow.pipeline.described import declared
 
 
 def test_provenance_parameters_and_cost(program: Program, tmp_path: Path) -> None:

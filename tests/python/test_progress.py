@@ -11,7 +11,7 @@ from pathlib import Path
 from tests.python.conftest import ROOT
 
 SNAKEFILE = """
-from workflow.environment.variables import stop_at_first_signal
+from workflow.pipeline.environment.variables import stop_at_first_signal
 onstart:
     stop_at_first_signal()
 rule panel:

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from tests.python.conftest import ROOT
-from workflow.configuration import arguments
 from workflow.lib.load import load
-from workflow.plan import Run, load_plan
+from workflow.pipeline.configuration import arguments
+from workflow.pipeline.plan import Run, load_plan
 
 # Processor features by which the C library selects its functions at run time.
 WITHOUT = ",".join(

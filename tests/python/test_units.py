@@ -14,10 +14,10 @@ import pytest
 
 from tests.python.conftest import small
 from tests.python.scale import OTHER, ROUNDING, agree
-from workflow.lib.described import described
 from workflow.lib.load import Result, load
-from workflow.lib.units import option_units, parse
-from workflow.program import execute
+from workflow.lib.units import parse
+from workflow.pipeline.described import described
+from workflow.pipeline.program import execute
 
 CLOSED = {"cells": 5, "particles-per-cell": 4, "relaxation-time": 5, "observation-time": 10, "replicas": 4}
 PULSE = {"cells": 41, "particles-per-cell": 20, "times": "0.01,0.02,0.03,0.04", "replicas": 8}
@@ -68,7 +68,7 @@ def measured(case: str) -> tuple[Result, Result]:
     """Results in the default units, and in other ones."""
     program, options = CASES[case]
     plain = call(program, options)
-    given_or_not = {name: value for name, value in plain.parameters.items() if name in option_units()}
+    given_or_not = {name: value for name, value in plain.parameters.items() if name in plain.parameter_units}
     scaled = {name: OTHER.option(name, value) for name, value in given_or_not.items()}
     return plain, call(program, options | scaled)
 

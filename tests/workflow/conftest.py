@@ -16,8 +16,8 @@ from pathlib import Path
 import pytest
 import snakemake.cli
 
-from workflow.identity import IDENTITY
-from workflow.provenance import audit, verify
+from workflow.lib.identity import IDENTITY
+from workflow.pipeline.provenance import audit, verify
 
 ROOT = Path(__file__).parents[2]
 # Imported here, so that each fork has them and what they import already.
@@ -143,7 +143,7 @@ def named(text: str) -> set[str]:
 
 def new_project(folder: Path) -> Project:
     ignored = shutil.ignore_patterns("__pycache__", "bench", "config", "[ef]*[0-9]*.py")
-    for name in ("workflow", "cpp", "profiles", "snakemake_logger_plugin_progress"):
+    for name in ("workflow", "cpp", "profiles"):
         shutil.copytree(ROOT / name, folder / name, ignore=ignored)
     for name in ("Snakefile", "Makefile", "uv.lock", "CITATION.cff"):
         shutil.copy(ROOT / name, folder / name)
@@ -163,7 +163,7 @@ def new_project(folder: Path) -> Project:
         else:
             source.unlink()
     for script in ("setup.sh", "build.sh"):  # the programs are those of this project
-        (folder / "workflow/environment" / script).write_text("exit 0\n")
+        (folder / "workflow/pipeline/environment" / script).write_text("exit 0\n")
     share_packages(folder)
     (folder / ".cache").mkdir()
     (ROOT / ".cache/matplotlib").mkdir(parents=True, exist_ok=True)

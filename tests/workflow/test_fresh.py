@@ -29,7 +29,7 @@ def append(path: str, line: str) -> Edit:
 
 def unimportant(project: Project) -> None:
     """Comments, files named like literals, files of editors, no memory of Snakemake, and other modification times in another order."""
-    for path in ("cpp/statistics/fit.hpp", "workflow/plan.py", "Snakefile", PAPER):
+    for path in ("cpp/statistics/fit.hpp", "workflow/pipeline/plan.py", "Snakefile", PAPER):
         append(path, "// x\n" if path.startswith("cpp") else "# x\n")(project)
     for name in ("log", "linear", "center", "data.csv"):
         (project.folder / name).write_text("x")
@@ -97,7 +97,7 @@ def test_a_program_that_is_older_than_its_sources_is_refused(project: Project) -
 
 def test_programs_are_compiled_if_they_do_not_state_the_hash_of_their_sources(project: Project) -> None:
     """Not after other times, a move or a comment; but one that does not start, whatever it contains."""
-    (project.folder / "workflow/environment/build.sh").write_text("echo compiled\n")
+    (project.folder / "workflow/pipeline/environment/build.sh").write_text("echo compiled\n")
     unimportant(project)
     assert project.workflow("build") == ""
     build = (".venv/bin/python", "-m", "workflow", "build")

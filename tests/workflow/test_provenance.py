@@ -14,7 +14,7 @@ import pytest
 
 from tests.workflow.conftest import ROOT, Project
 from workflow.lib.load import load, results_digest
-from workflow.provenance.verify import SIGNIFICANCE, largest_difference
+from workflow.pipeline.provenance.verify import SIGNIFICANCE, largest_difference
 
 Edit = Callable[[Project], object]
 MU, OTHER_MU = "data/smoke/mu/all_sigma=0.5.*.h5", "data/smoke/mu/all_sigma=-0.5.*.h5"
@@ -141,13 +141,13 @@ def test_where_a_copy_of_a_figure_comes_from(project: Project, tmp_path: Path) -
     copy = Path(shutil.copy(project.folder / "figures/smoke/mu.png", tmp_path / "my talk.png"))
     printed = provenance(project, copy)
     assert printed.startswith("panel mu, quality smoke: make panel PANEL=mu QUALITY=smoke\n")
-    assert "unmodified, made from 5 files" in printed
+    assert "unmodified, made from 6 files" in printed
     assert all(f"--seed {seed}" in printed for seed in seeds)
     copy.write_bytes(copy.read_bytes() + b"\n")
     substitute("workflow/lib/fit.py", '"""\n', '"""\n# mine\n')(project)
     substitute("cpp/observables/persistence.cpp", "#include", "int x;\n#include")(project)
     printed = provenance(project, copy, status=1)
-    assert "edited, made from 5 files" in printed
+    assert "edited, made from 6 files" in printed
     assert "workflow/lib is another here" in printed
     assert "sources of persistence are others here" in printed
     remove(RECORD)(project)
@@ -200,7 +200,7 @@ def test_a_difference_of_eight_standard_errors_is_found(project: Project, seed: 
 
 def test_verify_reruns_with_fresh_programs(project: Project) -> None:
     fresh = 'mkdir -p "$BUILD/bin"; cp build/bin/* "$BUILD/bin"\n'  # compiles nothing
-    (project.folder / "workflow/environment/build.sh").write_text(fresh)
+    (project.folder / "workflow/pipeline/environment/build.sh").write_text(fresh)
     assert project.entry("verify", "SAMPLE=1").count("equal bytes") == 4
     edit_value(project)
     with h5py.File(project.one(MU), "r+") as file:  # as of another program

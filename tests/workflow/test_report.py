@@ -13,9 +13,9 @@ from PIL import Image
 from workflow.claims.data import Data
 from workflow.claims.judge import judge_all, read_claims
 from workflow.claims.verdict import Outcome
-from workflow.identity import ROOT, stated
+from workflow.lib.identity import ROOT, stated
 from workflow.lib.load import FormatError
-from workflow.plan import data_of, load_plan, runs_of, stem_of
+from workflow.pipeline.plan import data_of, load_plan, runs_of, stem_of
 from workflow.report.write import write
 
 PLAN = load_plan("smoke")

@@ -16,7 +16,7 @@ from workflow.lib import style
 from workflow.lib.columns import BY_ROW, UNITS_LINE, as_csv
 from workflow.lib.load import NOT_REACHED, load
 from workflow.lib.units import UnitsError
-from workflow.plan import data_of
+from workflow.pipeline.plan import data_of
 
 PLAN = {name: panel for name, panel in plan("smoke").items() if panel.runs or panel.uses}
 

@@ -11,7 +11,7 @@ import pytest
 
 from tests.workflow.conftest import ROOT, Project, share_packages
 from workflow.lib.load import load
-from workflow.plan import FOLDER, load_plan, stem_of
+from workflow.pipeline.plan import FOLDER, load_plan, stem_of
 
 TEXT = (ROOT / "docs/tutorial.md").read_text()
 PANEL, _, REST = TEXT.partition("## An observable of your own")
@@ -33,6 +33,7 @@ def follow(project: Project, block: re.Match[str]) -> str:
 
 @pytest.mark.long
 def test_a_panel_of_your_own(project: Project) -> None:
+    shutil.copytree(ROOT / "cpp/observables", project.folder / "cpp/observables", dirs_exist_ok=True)
     shutil.copytree(ROOT / "build/bin", project.folder / "build/bin", dirs_exist_ok=True, copy_function=link)
     printed = "".join(follow(project, block) for block in BLOCK.finditer(PANEL))
     table = pd.read_csv(project.folder / "figures/standard/kappa_sigma.csv", comment="#")
@@ -65,7 +66,7 @@ def own(tmp_path: Path) -> Project:
             shutil.copy(ROOT / name, tmp_path / name)
     share_packages(tmp_path)
     (tmp_path / "build").mkdir()
-    (tmp_path / "workflow/environment/setup.sh").write_text("exit 0\n")
+    (tmp_path / "workflow/pipeline/environment/setup.sh").write_text("exit 0\n")
     return Project(tmp_path)
 
 

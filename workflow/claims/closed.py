@@ -8,8 +8,8 @@ import numpy as np
 
 from workflow.claims.data import Data, number, ratio
 from workflow.claims.verdict import Number, with_systematic
-from workflow.lib.closed import ROUNDING, persistence_law, quasi_stationary
 from workflow.lib.load import Result
+from workflow.physics.closed import ROUNDING, persistence_law, quasi_stationary
 
 
 def _named(results: list[Result], quantity: str, name: str) -> list[Number]:

@@ -9,7 +9,7 @@ import numpy as np
 from workflow.claims.verdict import Number, with_systematic
 from workflow.lib.fit import PowerLaw, fit_power
 from workflow.lib.load import Index, Result, load
-from workflow.plan import Run, data_path, load_plan
+from workflow.pipeline.plan import Run, data_path, load_plan
 
 
 class MissingError(LookupError):

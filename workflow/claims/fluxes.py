@@ -8,8 +8,8 @@ from scipy.special import erf
 
 from workflow.claims.data import Data, combination, freedom, number, ratio
 from workflow.claims.verdict import Number, with_systematic
-from workflow.lib.fluxes import SIMULATION, at, deviations
 from workflow.lib.load import Quantity, Result
+from workflow.physics.fluxes import SIMULATION, at, deviations
 
 # Nearly four thermal momenta of the hotter bath; beyond, a bin holds less than 1e-4 of the particles.
 REACH = 40

@@ -10,8 +10,8 @@ from workflow.claims.data import Data, MissingError, by_size, freedom, log_slope
 from workflow.claims.verdict import Number, with_systematic
 from workflow.lib.fit import fit_power
 from workflow.lib.load import Result
-from workflow.lib.response import tabulate
-from workflow.lib.rings import chain
+from workflow.physics.response import tabulate
+from workflow.physics.rings import chain
 
 T = TypeVar("T")
 

@@ -12,7 +12,7 @@ import pandas as pd
 from workflow.claims import closed, filling, fluxes, growth, profiles, pulse
 from workflow.claims.data import Claim, Data, MissingError
 from workflow.claims.verdict import Band, Verdict, level_of_each
-from workflow.configuration import ConfigurationError
+from workflow.pipeline.configuration import ConfigurationError
 
 CLAIMS_FILE = "data/claims.csv"
 COLUMNS = ["numbers", "kind", "place", "statement", "panel", "function", "band", "criterion", "caveat"]

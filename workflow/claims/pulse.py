@@ -12,7 +12,7 @@ from workflow.claims.data import Data, MissingError, combination, log_slope, num
 from workflow.claims.growth import of_largest, without_particle_current
 from workflow.claims.verdict import Number, with_systematic
 from workflow.lib.load import Result
-from workflow.lib.peaks import (
+from workflow.physics.peaks import (
     CENTRE,
     Record,
     determined,
@@ -21,7 +21,7 @@ from workflow.lib.peaks import (
     stable_law,
     stable_laws,
 )
-from workflow.lib.rings import chain
+from workflow.physics.rings import chain
 
 PAPERS_START = "rest"  # runs of figs. 9a and 9b
 HEAT = "heat"  # runs of ext. 3 for the heat peak

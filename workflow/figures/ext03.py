@@ -2,7 +2,7 @@
 
 C_g, the covariance of the momenta of two cells, has the sound peaks [mode_coupling.md, eq. M19]; that of E_s - theta E_p, the
 energies of scatterer and particles with theta = 1/(2 zeta), has the heat peak [eq. M29]. A stable law is fitted to it
-(workflow/lib/peaks.py).
+(workflow/physics/peaks.py).
 """
 
 from collections.abc import Callable, Sequence
@@ -17,8 +17,8 @@ from workflow.lib.caption import number
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
-from workflow.lib.mode_coupling import f_kpz, levy
-from workflow.lib.peaks import (
+from workflow.physics.mode_coupling import f_kpz, levy
+from workflow.physics.peaks import (
     CENTRE,
     GAUSSIAN,
     HEAT_ORDER,
@@ -30,7 +30,7 @@ from workflow.lib.peaks import (
     stable_law,
     stable_laws,
 )
-from workflow.lib.rings import LOOKS, chain
+from workflow.physics.rings import LOOKS, chain
 
 FIRST = 16  # first time that is used, in λ/√T: earlier peaks are as narrow as a cell
 HALF_WIDTH = 0.880466  # of f_KPZ at half of its maximum

@@ -12,6 +12,7 @@ from workflow.lib.caption import ERRORS, baths, listed, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import fit_line, with_error
 from workflow.lib.load import Result
+from workflow.physics import setting
 
 FITTED = 20  # cells of the smallest chain in the fit of the excess
 SIDES = {"rate_right": (">", "to the right"), "rate_left": ("<", "to the left")}
@@ -41,7 +42,7 @@ def tabulate(result: Result, names: Iterable[str]) -> pd.DataFrame:
             "deviation_percent": scale * deviation.mean,
             "deviation_percent_error": scale * deviation.error,
         }
-        labels = {"quantity": name, "units": whole.units, "gamma": style.gamma(result), "cells": cells}
+        labels = {"quantity": name, "units": whole.units, "gamma": setting.gamma(result), "cells": cells}
         parts.append(pd.DataFrame(columns).assign(**labels))
     return pd.concat(parts)
 
@@ -71,7 +72,7 @@ def draw_excess(axes: Axes, results: Sequence[Result]) -> pd.DataFrame:
         )
         table["fitted"] = np.where(fitted, line.at(np.log(cells)), np.nan)
         table["slope"], table["slope_error"], table["chi_square"] = line.slope, line.error, line.chi_square
-        tables.append(table.assign(units="1", gamma=style.gamma(results[0])))
+        tables.append(table.assign(units="1", gamma=setting.gamma(results[0])))
     return pd.concat(tables)
 
 
@@ -91,14 +92,14 @@ def caption(table: pd.DataFrame, profiles: Sequence[Result]) -> str:
 
 def draw(results: Sequence[Result]) -> Drawn:
     profiles = [result for result in results if result.parameters["cells"] == 30]
-    sizes = [result for result in results if style.gamma(result) == "1"]
+    sizes = [result for result in results if setting.gamma(result) == "1"]
     sizes.sort(key=lambda result: result.parameters["cells"])
     figure, (raw, deviations, excess) = plt.subplots(1, 3, figsize=(2.2 * style.COLUMN, style.HEIGHT))
     tables = []
     for result in profiles:
         tables.append(tabulate(result, (*SIDES, *CURRENTS)))
         draw_rates(raw, deviations, result, tables[-1])
-        label = rf"$\gamma = {style.gamma(result)}$"
+        label = rf"$\gamma = {setting.gamma(result)}$"
         deviations.errorbar([], [], [], **look_of(result, "rate_right"), label=label)
     for name, (_, label) in SIDES.items():
         raw.errorbar([], [], [], **look_of(profiles[0], name), label=label)

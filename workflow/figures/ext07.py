@@ -14,10 +14,10 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, GAS, parameters
-from workflow.lib.closed import quasi_stationary
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
+from workflow.physics.closed import quasi_stationary
 
 AGED = {"persistence": "mu", "waiting_time": "exponent", "displacement": "alpha"}  # quantities by program
 ENERGIES: dict[str, style.Look] = {

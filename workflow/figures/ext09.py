@@ -16,10 +16,10 @@ from matplotlib.typing import LineStyleType
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, listed, number, parameters
-from workflow.lib.conductivity import LOOKS, by_spacing, drive, spacings, tabulate
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import p_value
 from workflow.lib.load import Result
+from workflow.physics.conductivity import LOOKS, by_spacing, drive, spacings, tabulate
 
 THINNING = "thinning"  # the gas that has no thermodynamic limit
 

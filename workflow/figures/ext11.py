@@ -1,5 +1,5 @@
 """Ext. 11: linear response of the currents of energy and particles, and heat conductivity without a particle current, against rings in
-equilibrium (workflow/lib/response.py).
+equilibrium (workflow/physics/response.py).
 
 Open symbols: local exponents at the strong drive of ext. 9, of κ with the temperatures of the baths. At equal pressures κ is
 proportional to κ_0, as the ratio of convected to conducted heat does not depend on N.
@@ -13,12 +13,12 @@ import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, number, parameters
-from workflow.lib.conductivity import LOOKS, by_spacing, drive, gas, spacings, tabulate
 from workflow.lib.figure import Drawn, require_elastic, run
 from workflow.lib.fit import with_error
-from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
-from workflow.lib.response import DENSE, Mean, response
+from workflow.physics.conductivity import LOOKS, by_spacing, drive, gas, spacings, tabulate
+from workflow.physics.growth import local_exponents
+from workflow.physics.response import DENSE, Mean, response
 
 TOP = 1.15  # upper end of the axis over the largest value
 THINNING = "thinning"

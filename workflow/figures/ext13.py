@@ -19,8 +19,8 @@ from workflow.lib.caption import ERRORS, number
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import mean_of, with_error
 from workflow.lib.load import Result
-from workflow.lib.mode_coupling import Chain
-from workflow.lib.rings import LOOKS, chain
+from workflow.physics.mode_coupling import Chain
+from workflow.physics.rings import LOOKS, chain
 
 ELASTIC, REVERSAL = "elastic", "reversal"
 REACH = 4  # largest distance from the centre of a sound peak that counts, in widths

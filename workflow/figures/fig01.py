@@ -15,6 +15,7 @@ from workflow.lib import style
 from workflow.lib.caption import baths, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
+from workflow.physics import setting
 
 FRONT = style.points("o", style.BLACK, "white")
 
@@ -32,7 +33,7 @@ def tabulate(result: Result) -> pd.DataFrame:
         estimate = result[name]
         for column, values in ((name, estimate.mean), (f"{name}_error", estimate.error)):
             table[column] = table.time.map(dict(zip(estimate.axes["time"], values, strict=True)))
-    table.insert(0, "cell_length", style.spacing(result)[0])
+    table.insert(0, "cell_length", setting.spacing(result)[0])
     return table
 
 
@@ -60,12 +61,12 @@ def caption(results: Sequence[Result]) -> str:
     return f"""
         Particles n_t(p) with momentum p in a filling chain, times |p|; {parameters(results, "cells", "sigma", "gamma")},
         {baths(results[0])}. Columns: λ, unstated in the paper. Top: the paper's bins; middle: logarithmic, with front p_0; bottom: p_0 over
-        λ/2t, above 1 at λ = {style.spacing(results[-1])[1]}, as cells filled late. At λ = {style.spacing(results[0])[1]}, p_0 ∼ t^a, a = {exponent}.
+        λ/2t, above 1 at λ = {setting.spacing(results[-1])[1]}, as cells filled late. At λ = {setting.spacing(results[0])[1]}, p_0 ∼ t^a, a = {exponent}.
         Bands, bars: standard errors."""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
-    results = style.in_order_of_spacing(results)
+    results = setting.in_order_of_spacing(results)
     size = (len(results) * style.COLUMN, 2.3 * style.HEIGHT)
     figure, rows = plt.subplots(
         3, len(results), figsize=size, sharex="row", height_ratios=[2, 2, 1], squeeze=False
@@ -80,7 +81,7 @@ def draw(results: Sequence[Result]) -> Drawn:
         ratio = front.front / half_cell
         below.errorbar(front.time, ratio, front.front_error / half_cell, **FRONT)
         below.axhline(1, **style.GUIDE)
-        name = rf"$\lambda = {style.spacing(result)[1]}$"
+        name = rf"$\lambda = {setting.spacing(result)[1]}$"
         above.text(0.04, 0.94, name, transform=above.transAxes, va="top")
         above.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel=r"$|p|\,n_t(p)$", xlim=(-40, 40))
         number_bins(above, result)

@@ -16,6 +16,7 @@ from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
+from workflow.physics import setting
 
 SURE = 3  # standard errors above which a curvature is significant
 APART = 3  # number of time steps of a slope; slopes between neighbouring times would have large errors
@@ -38,7 +39,7 @@ def tabulate(result: Result) -> pd.DataFrame:
     line = count.mean[late].mean() + float(result["log_slope"].mean) * (x - x[late].mean())
     table = pd.DataFrame({"time": time, "number": count.mean, "number_error": count.error})
     table["number_fitted"] = np.where(late & straight(result), line, np.nan)
-    table.insert(0, "cell_length", style.spacing(result)[0])
+    table.insert(0, "cell_length", setting.spacing(result)[0])
     return pd.concat([table, slopes(table)], axis=1)
 
 
@@ -57,7 +58,7 @@ def draw_number(axes: Axes, table: pd.DataFrame, result: Result) -> None:
     axes.errorbar(table.time, table.number, table.number_error, **NUMBER, label="$n(t)$")
     if straight(result):
         axes.plot(table.time, table.number_fitted, color=style.BLACK, zorder=3, label=r"$a + b\,\ln t$")
-    title = rf"$\lambda = {style.spacing(result)[1]}$"
+    title = rf"$\lambda = {setting.spacing(result)[1]}$"
     filled = table.cell_length.iloc[0] < 1
     axes.legend(title=title, alignment="left", loc="lower right" if filled else "upper left")
     axes.set(xscale="log", ylabel="particles inside $n(t)$", ylim=(0, None))
@@ -77,11 +78,11 @@ def caption(results: Sequence[Result]) -> str:
     return f"""
         Particles n(t) in an initially empty chain; {parameters(results, "cells", "sigma", "gamma")}, {baths(chain)}. Top: n(t) and a + b ln t,
         fitted in the shaded window if straight. Bottom: dn/d ln t (circles) and height of |p| n_t(p) (squares), which agree once a chain is
-        filled: at λ = {style.spacing(chain)[1]}, {slope} and {height} in the end. {ERRORS}"""
+        filled: at λ = {setting.spacing(chain)[1]}, {slope} and {height} in the end. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
-    results = style.in_order_of_spacing(results)
+    results = setting.in_order_of_spacing(results)
     size = (len(results) * style.COLUMN, 1.5 * style.HEIGHT)
     figure, rows = plt.subplots(
         2, len(results), sharex="col", figsize=size, height_ratios=[2, 1], squeeze=False

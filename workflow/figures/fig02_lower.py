@@ -9,6 +9,7 @@ from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
+from workflow.physics import setting
 
 
 def tabulate(result: Result) -> pd.DataFrame:
@@ -22,13 +23,13 @@ def tabulate(result: Result) -> pd.DataFrame:
     )  # without weights, as in density_excess
     table["relative"] = table.density / table.bulk
     table["relative_error"] = table.density_error / table.bulk
-    table.insert(0, "gamma", style.gamma(result))
+    table.insert(0, "gamma", setting.gamma(result))
     return table
 
 
 def caption(results: Sequence[Result]) -> str:
     excess = listed(
-        f"{style.with_error(result['density_excess'], 0, 100)} % at γ = {style.gamma(result)}"
+        f"{style.with_error(result['density_excess'], 0, 100)} % at γ = {setting.gamma(result)}"
         for result in results
     )
     return f"""
@@ -42,7 +43,7 @@ def draw(results: Sequence[Result]) -> Drawn:
     tables = [tabulate(result) for result in results]
     for result, table in zip(results, tables, strict=True):
         look = style.points(*style.BY_GAMMA[result.parameters["gamma"]], "white")
-        label = rf"$\gamma = {style.gamma(result)}$"
+        label = rf"$\gamma = {setting.gamma(result)}$"
         above.errorbar(table.x, table.density, table.density_error, **look, label=label)
         above.plot(table.x, table.bulk, color=look["color"], linewidth=0.6, zorder=1)
         below.errorbar(table.x, table["relative"], table.relative_error, **look)

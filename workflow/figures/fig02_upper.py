@@ -12,6 +12,7 @@ from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
+from workflow.physics import setting
 
 
 def tabulate(result: Result) -> pd.DataFrame:
@@ -23,13 +24,13 @@ def tabulate(result: Result) -> pd.DataFrame:
     table["particle"], table["particle_error"] = particle.mean, particle.error
     table["particle_minus_scatterer"] = -difference.mean
     table["particle_minus_scatterer_error"] = difference.error
-    table.insert(0, "gamma", style.gamma(result))
+    table.insert(0, "gamma", setting.gamma(result))
     return table
 
 
 def caption(results: Sequence[Result]) -> str:
     first = listed(
-        f"{style.with_error(result['temperature_scatterer'], 0)} at γ = {style.gamma(result)}"
+        f"{style.with_error(result['temperature_scatterer'], 0)} at γ = {setting.gamma(result)}"
         for result in results
     )
     return f"""
@@ -44,8 +45,8 @@ def draw(results: Sequence[Result]) -> Drawn:
     for result, table in zip(results, tables, strict=True):
         marker, color = style.BY_GAMMA[result.parameters["gamma"]]
         look = style.points(marker, color, "white")
-        name = rf"$\gamma = {style.gamma(result)}$"
-        dashes = "solid" if style.gamma(result) == "N" else "dashed"
+        name = rf"$\gamma = {setting.gamma(result)}$"
+        dashes = "solid" if setting.gamma(result) == "N" else "dashed"
         above.errorbar(table.x, table.scatterer, table.scatterer_error, **look, label=f"{name}, scatterers")
         above.plot(table.x, table.particle, color=color, linestyle=dashes, label=f"{name}, particles")
         style.band(above, table.x, table.particle, table.particle_error, color)

@@ -15,6 +15,7 @@ from workflow.lib import style
 from workflow.lib.caption import baths, listed, number, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
+from workflow.physics import setting
 
 ENDS = [(0, "x = 0", style.BLUE, "solid"), (-1, "x = 1", style.VERMILLION, (0, (4, 1.5)))]
 PAPER, EQUAL, EXCHANGE = "as in the paper", "equal temperatures", "sigma = 0"
@@ -80,8 +81,8 @@ def draw(results: Sequence[Result]) -> Drawn:
         draw_halves(below, equal, departure[equal.index], color=color, linestyle="dotted", linewidth=0.8)
     for axes in (above, below):
         axes.axvline(0, **style.GUIDE)
-    above.set(ylabel="$F(p, x)$", xlim=(-style.SHOWN_MOMENTA, style.SHOWN_MOMENTA), ylim=(0, None))
-    style.second_axis(above, 1 / style.both_rates(results[0]), r"$F/(\nu_L + \nu_R)$")
+    above.set(ylabel="$F(p, x)$", xlim=(-setting.SHOWN_MOMENTA, setting.SHOWN_MOMENTA), ylim=(0, None))
+    style.second_axis(above, 1 / setting.both_rates(results[0]), r"$F/(\nu_L + \nu_R)$")
     below.plot([], [], color="grey", linestyle="dotted", label=r"$T_L = T_R$, $\nu_L > \nu_R$")
     below.set(xlabel=f"momentum $p$ ({style.UNITS})", ylabel="$F$ over Gaussian,\nminus 1 / %")
     above.legend(loc="upper right")

@@ -15,8 +15,8 @@ from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, parameters
 from workflow.lib.figure import Drawn, require_elastic, run
 from workflow.lib.fit import with_error
-from workflow.lib.fluxes import MEAN_FIELD, SIMULATION, deviations
 from workflow.lib.load import Result
+from workflow.physics.fluxes import MEAN_FIELD, SIMULATION, deviations
 
 SHOWN = 45  # largest momentum that is plotted
 LOWEST, HIGHEST = 7e-5, 0.08  # range of the deviations that are plotted

@@ -15,8 +15,9 @@ from workflow.lib import style
 from workflow.lib.caption import CHAIN, ERRORS, baths, listed, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
-from workflow.lib.fluxes import at
 from workflow.lib.load import Result
+from workflow.physics import setting
+from workflow.physics.fluxes import at
 
 # Bonds behind the first and behind the last scatterer: index, colour, line style and marker.
 ENDS = {"x = 1/N": (1, style.BLUE, "solid", "o"), "x = 1": (-1, style.VERMILLION, (0, (4, 1.5)), "s")}
@@ -34,7 +35,7 @@ def measured(results: Sequence[Result]) -> list[Result]:
 def uncorrelated(results: Sequence[Result], like: Result) -> Result | None:
     """The solution of the kinetic equation for the chain of `like`; None if there is none."""
     for result in results:
-        same = style.gamma(result) == style.gamma(like) and result.ends("nu") == like.ends("nu")
+        same = setting.gamma(result) == setting.gamma(like) and result.ends("nu") == like.ends("nu")
         same &= result.parameters["rule"] == like.parameters["rule"]
         if same and result.provenance["program"] == "boltzmann":
             return result
@@ -53,7 +54,7 @@ def at_ends(results: Sequence[Result]) -> pd.DataFrame:
             where = flux.axes["bond"][bond] / flux.axes["bond"][-1]
             part["kinetic"], part["kinetic_jump"] = at(expected["flux"], where), at(expected["jump"], where)
         part["nu_left"], part["nu_right"] = result.ends("nu")
-        part.insert(0, "gamma", style.gamma(result))
+        part.insert(0, "gamma", setting.gamma(result))
         parts.append(part)
     return pd.concat(parts, ignore_index=True)
 
@@ -80,7 +81,7 @@ def draw_distribution(axes: Axes, table: pd.DataFrame, reach: float) -> None:
 def draw_residuals(axes: Axes, table: pd.DataFrame) -> None:
     for end, part in table.groupby("x", sort=False):
         _, color, dashes, marker = ENDS[end]
-        for half in halves(part[part.momentum.abs() < style.SHOWN_MOMENTA]):
+        for half in halves(part[part.momentum.abs() < setting.SHOWN_MOMENTA]):
             unit = table.kinetic.max() / 100
             look: style.Look = {"marker": marker, "color": color, "markersize": 2}
             look |= {"elinewidth": 0.6, "linewidth": 0.6}
@@ -91,7 +92,7 @@ def draw_residuals(axes: Axes, table: pd.DataFrame) -> None:
     axes.set(
         xlabel="momentum $p$",
         ylabel=r"$F_N - F$ / % of max $F$",
-        xlim=(-style.SHOWN_MOMENTA, style.SHOWN_MOMENTA),
+        xlim=(-setting.SHOWN_MOMENTA, setting.SHOWN_MOMENTA),
     )
 
 
@@ -135,7 +136,7 @@ def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]) -> str:
-    runs = [result for result in measured(results) if style.gamma(result) == main.gamma.iloc[0]]
+    runs = [result for result in measured(results) if setting.gamma(result) == main.gamma.iloc[0]]
     chain = next(result for result in runs if len(set(result.ends("nu"))) > 1)
     jumps = listed(with_error(end.jump, end.jump_error) for end in unequal.drop_duplicates("x").itertuples())
     far = 100 * (unequal.flux - unequal.kinetic).abs().max() / unequal.kinetic.max()
@@ -156,9 +157,9 @@ def draw(results: Sequence[Result]) -> Drawn:
         figsize=(2 * style.COLUMN, 1.6 * style.HEIGHT),
         height_ratios=[1.7, 1],
     )
-    draw_distribution(panels["main"], unequal, style.SHOWN_MOMENTA)
+    draw_distribution(panels["main"], unequal, setting.SHOWN_MOMENTA)
     draw_distribution(panels["near"], unequal, NEAR)
-    style.second_axis(panels["main"], 1 / style.both_rates(results[0]), r"$F_N/(\nu_L + \nu_R)$")
+    style.second_axis(panels["main"], 1 / setting.both_rates(results[0]), r"$F_N/(\nu_L + \nu_R)$")
     draw_residuals(panels["residual"], unequal)
     draw_jumps(panels["jump"], main)
     corner: style.Look = {"transform": panels["main"].transAxes, "ha": "right"}

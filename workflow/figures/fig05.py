@@ -7,10 +7,10 @@ import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, listed, parameters
-from workflow.lib.closed import persistence_law
 from workflow.lib.figure import Drawn, require_elastic, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import NOT_REACHED, Result
+from workflow.physics.closed import persistence_law
 
 MARKS = [style.points("o", style.BLUE), style.points("s", style.VERMILLION, "white")]
 

@@ -16,11 +16,12 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, number, parameters, rule
-from workflow.lib.conductivity import drive, gas
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
-from workflow.lib.growth import local_exponents
 from workflow.lib.load import Result
+from workflow.physics import setting
+from workflow.physics.conductivity import drive, gas
+from workflow.physics.growth import local_exponents
 
 BELOW = 0.7  # ratio of a guide to the lowest point
 CURVE = ["curve", "rule"]  # columns that identify a curve
@@ -54,7 +55,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     for result in results:
         row: dict[str, Any] = {"curve": LONGER.get(gas(result), gas(result)), "rule": rule(result)}
         row |= {name: result.parameters[name] for name in ("gamma", "cells")}
-        row |= {"spacing": style.spacing(result)[1], "drive": drive(result), "usable": result.sound}
+        row |= {"spacing": setting.spacing(result)[1], "drive": drive(result), "usable": result.sound}
         rows.append(
             row | result.columns("kappa", "kappa_particle", "kappa_plain", "kappa_printed", "energy_current")
         )

@@ -14,11 +14,12 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import CHAIN, ERRORS, parameters
-from workflow.lib.closed import quasi_stationary
 from workflow.lib.figure import Drawn, run
 from workflow.lib.load import Result
-from workflow.lib.mode_coupling import Chain
-from workflow.lib.pulse import LOOKS, in_order, label, look, look_of, resolved, start
+from workflow.physics import setting
+from workflow.physics.closed import quasi_stationary
+from workflow.physics.mode_coupling import Chain
+from workflow.physics.pulse import LOOKS, in_order, label, look, look_of, resolved, start
 
 FAINT = 0.45
 
@@ -100,7 +101,7 @@ def draw(results: Sequence[Result]) -> Drawn:
     if results[0].parameters["gamma"] == "N":
         style.guide_at(speed, sound_speed(results[0]), "sound")
     rest.set_ylabel(rf"$\Delta E(x,t)\,/\,10^3$ ({style.UNITS})")
-    name = rf"$\gamma = {style.gamma(results[0])}$"
+    name = rf"$\gamma = {setting.gamma(results[0])}$"
     rest.text(0.04, 0.95, name, transform=rest.transAxes, va="top")
     position.set(ylabel=r"peak $x_p/\lambda$", xlim=(0, None), ylim=(0, None))
     speed.set(xlabel="time $t$", ylabel=r"$dx_p/dt\,/\,\lambda$")

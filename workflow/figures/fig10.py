@@ -15,7 +15,8 @@ from workflow.lib.caption import ERRORS, listed, parameters
 from workflow.lib.figure import Drawn, run
 from workflow.lib.fit import with_error
 from workflow.lib.load import Result
-from workflow.lib.pulse import in_order, label, look_of, start
+from workflow.physics import setting
+from workflow.physics.pulse import in_order, label, look_of, start
 
 # By gamma: slopes of the guides, the paper's first, with their labels.
 Guides = dict[float, tuple[str, str]]
@@ -116,7 +117,7 @@ def draw(results: Sequence[Result]) -> Drawn:
     for axis in (above.yaxis, below.xaxis):
         style.label_within_decades(axis)
     corner: style.Look = {"transform": above.transAxes, "ha": "right", "va": "top"}
-    above.text(0.95, 0.95, rf"$\gamma = {style.gamma(results[0])}$", **corner)
+    above.text(0.95, 0.95, rf"$\gamma = {setting.gamma(results[0])}$", **corner)
     figure.legend(*above.get_legend_handles_labels(), loc="outside upper left", ncols=2)
     return figure, table, caption(results)
 

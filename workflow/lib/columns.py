@@ -12,7 +12,7 @@ import pandas as pd
 from pandas.api.types import is_bool_dtype
 
 from workflow.lib.load import Result
-from workflow.lib.units import UnitsError, option_units, parse
+from workflow.lib.units import UnitsError, parse
 
 UNITS_LINE = "# units: "
 
@@ -31,7 +31,7 @@ def inherited(results: Sequence[Result]) -> dict[str, str]:
                 by_name[axis].add(units)
         for option in result.parameters:
             for name in (option, option.replace("-", "_")):
-                by_name[name].add(option_units().get(option, "1"))
+                by_name[name].add(result.parameter_units.get(option, "1"))
     return {name: units.pop() for name, units in by_name.items() if len(units) == 1}
 
 

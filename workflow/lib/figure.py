@@ -13,10 +13,10 @@ from pathlib import Path
 import pandas as pd
 from matplotlib.figure import Figure
 
-from workflow.identity import ROOT, drawing_sources, named_identity, panel_identity
 from workflow.lib import style
 from workflow.lib.caption import with_rules
 from workflow.lib.columns import as_csv, inherited
+from workflow.lib.identity import ROOT, drawing_sources, named_identity, panel_identity
 from workflow.lib.load import REMEDY, FormatError, Result, load
 from workflow.lib.save import Parents, Text, save
 from workflow.lib.units import UnitsError

@@ -5,7 +5,7 @@ import re
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
@@ -13,8 +13,8 @@ import h5py
 import numpy as np
 import pandas as pd
 
-from workflow.identity import IDENTITY, named_identity, result_identity
-from workflow.lib.nearest import nearest
+from workflow.lib.identity import IDENTITY, named_identity, result_identity
+from workflow.lib.suggestion import nearest
 from workflow.lib.units import parse
 
 if TYPE_CHECKING:
@@ -108,6 +108,7 @@ class Result:
     parameters: dict[str, Any]
     provenance: dict[str, Any]
     quantities: dict[str, Quantity]
+    parameter_units: dict[str, str] = field(default_factory=dict)  # of those that have a dimension
 
     def __getitem__(self, name: str) -> Quantity:
         if name not in self.quantities:
@@ -171,7 +172,8 @@ def load(path: Path | str) -> Result:
     file is unreadable."""
     with _verified(path) as (file, provenance):
         quantities = {name: _quantity(group) for name, group in file["results"].items()}
-        return Result(Path(path), _attributes(file["parameters"]), provenance, quantities)
+        parameters, units = _attributes(file["parameters"]), _attributes(file["parameter_units"])
+        return Result(Path(path), parameters, provenance, quantities, units)
 
 
 def load_provenance(path: Path | str) -> dict[str, Any]:

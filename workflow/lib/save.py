@@ -17,8 +17,8 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
-from workflow.files import write_together
-from workflow.identity import ROOT, sha256, statement
+from workflow.lib.atomic import write_together
+from workflow.lib.identity import ROOT, sha256, statement
 from workflow.lib.style import FONTS
 
 CREATOR = "lorentz-gas"

@@ -1,6 +1,5 @@
 """Style of the figures: sizes, fonts, and colours that are distinct in grey and for colour-blind readers."""
 
-from collections.abc import Sequence
 from pathlib import Path
 from string import ascii_lowercase
 from typing import Any
@@ -17,7 +16,7 @@ from matplotlib.typing import LineStyleType, RcKeyType
 from numpy.typing import ArrayLike
 
 from workflow.lib import fit
-from workflow.lib.load import Index, Quantity, Result
+from workflow.lib.load import Index, Quantity
 
 Look = dict[str, Any]  # keyword arguments of plotting functions
 
@@ -128,14 +127,6 @@ def letter(*panels: Axes, lift: float | None = None, first: int = 0) -> None:
         axes.set_title(f"({character})", loc="left", y=None if lift is None else 1, pad=lift)
 
 
-SHOWN_MOMENTA = 45  # largest |p| in panels of the flux F(p)
-
-
-def both_rates(result: Result) -> float:
-    """ν_L + ν_R. Divided by it, the flux has an integral of about 1, as in the paper."""
-    return sum(result.ends("nu"))
-
-
 def guide_at(axes: Axes, value: float, name: str) -> None:
     """Horizontal guide, labelled on the right of the frame."""
     axes.axhline(value, **GUIDE)
@@ -175,22 +166,3 @@ def with_error(quantity: Quantity, index: Index = (), unit: float = 1) -> str:
     """Value and error of a quantity at an index, as 1.8620(54)."""
     mean, error = unit * float(quantity.mean[index]), unit * float(quantity.error[index])
     return fit.with_error(mean, error)
-
-
-def gamma(result: Result) -> str:
-    """Value of gamma as text: N or a number."""
-    value = result.parameters["gamma"]
-    return value if value == "N" else f"{value:g}"
-
-
-def spacing(result: Result) -> tuple[float, str]:
-    """Distance between scatterers as a number and as text."""
-    given = result.parameters["cell-length"]
-    if given == "1/N":
-        return 1 / int(result.parameters["cells"]), "1/N"
-    return float(given), f"{given:g}"
-
-
-def in_order_of_spacing(results: Sequence[Result]) -> list[Result]:
-    """In ascending order, so that 1/N, the spacing of the paper's other chains, is first."""
-    return sorted(results, key=lambda result: spacing(result)[0])

@@ -13,8 +13,6 @@ import re
 from functools import cache
 from typing import NamedTuple
 
-from workflow.lib.described import declared
-
 
 class UnitsError(ValueError):
     """A text is not a unit, or a column of a table has none."""
@@ -53,17 +51,6 @@ def parse(text: str) -> Units:
     above, single, several = quotient.groups()
     below = _product(single or several or "1", text)
     return Units(*(a - b for a, b in zip(_product(above, text), below, strict=True)))
-
-
-@cache
-def option_units() -> dict[str, str]:
-    """Declared units of the options of the programs; all others are dimensionless."""
-    return {
-        name: option["units"]
-        for options in declared().values()
-        for name, option in options.items()
-        if option.get("units", "1") != "1"
-    }
 
 
 def _product(factors: str, text: str) -> Units:

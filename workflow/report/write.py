@@ -19,12 +19,13 @@ from PIL.PngImagePlugin import PngInfo
 from workflow.claims.data import Data
 from workflow.claims.judge import KINDS, Judgement, judge_all
 from workflow.claims.verdict import Number, Outcome
-from workflow.configuration import ConfigurationError
-from workflow.files import in_one_line, write_together
-from workflow.identity import ROOT
+from workflow.lib.atomic import write_together
+from workflow.lib.identity import ROOT
 from workflow.lib.load import FormatError
-from workflow.plan import Quality, stem_of
-from workflow.publish import read_record
+from workflow.pipeline.configuration import ConfigurationError
+from workflow.pipeline.files import in_one_line
+from workflow.pipeline.plan import Quality, stem_of
+from workflow.pipeline.publish import read_record
 from workflow.report import words
 
 GALLERY = "docs/gallery"

@@ -14,7 +14,7 @@ from scipy.interpolate import RectBivariateSpline
 from scipy.optimize import least_squares
 
 from workflow.lib.load import Result
-from workflow.lib.mode_coupling import Chain, levy
+from workflow.physics.mode_coupling import Chain, levy
 
 FITTED = 8  # largest distance in the fit of a heat peak, in predicted widths
 HEAT_ORDER, GAUSSIAN = 5 / 3, 2  # orders of the stable law in theory [eq. M29] and of diffusion

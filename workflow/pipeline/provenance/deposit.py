@@ -12,10 +12,10 @@ from collections.abc import Iterable
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from workflow.identity import sha256
-from workflow.plan import report_stem, runs_of, stem_of
-from workflow.provenance.audit import check
-from workflow.publish import copies
+from workflow.lib.identity import sha256
+from workflow.pipeline.plan import report_stem, runs_of, stem_of
+from workflow.pipeline.provenance.audit import check
+from workflow.pipeline.publish import copies
 
 
 def git(*words: str) -> list[str]:

@@ -3,7 +3,7 @@
 # site, with "slurm" those of PROFILE=slurm.
 # uv installs them: from PATH, or a fixed version in .cache/uv.
 set -euo pipefail
-bash workflow/environment/system_packages.sh "$@"
+bash workflow/pipeline/environment/system_packages.sh "$@"
 
 uv=$(command -v uv || echo .cache/uv/bin/uv)
 if [ ! -x "$uv" ]; then
@@ -17,7 +17,7 @@ for name; do case $name in dev | slurm) groups+=" --group $name" ;; esac; done
 # A relocatable environment may be copied and moved. Without its interpreter it is created again.
 .venv/bin/python -c '' 2>/dev/null || "$uv" venv --quiet --clear --relocatable .venv
 for packages in .venv/lib/python3*/site-packages; do
-  echo ../../../.. >"$packages/project.pth" # the folder that the environment is in
+  printf '../../../..%s\n' '' /workflow/pipeline/plugins >"$packages/project.pth" # from the folder that the environment is in
 done
 # `uv sync` would need the index in uv.lock; this installs from a mirror, too, with the locked hashes. Other packages of the user stay.
 "$uv" export --quiet --frozen --no-emit-project $groups >.venv/locked.txt

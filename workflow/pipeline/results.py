@@ -1,8 +1,8 @@
 """Results of a panel: `load_panel("fig05", quality="standard")["paper_sigma=0.5"]["mu"]`."""
 
-from workflow.identity import ROOT
+from workflow.lib.identity import ROOT
 from workflow.lib.load import FormatError, Result, load
-from workflow.plan import Quality, data_path, load_plan, panel_named
+from workflow.pipeline.plan import Quality, data_path, load_plan, panel_named
 
 
 def load_panel(panel: str, quality: str = "standard") -> dict[str, Result]:

@@ -6,7 +6,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from workflow.files import in_one_line, write_together
+from workflow.lib.atomic import write_together
+from workflow.pipeline.files import in_one_line
 
 STORE, SHOWN = "build/figures", "figures"
 KINDS = ("pdf", "png", "svg", "csv", "html")

@@ -7,10 +7,11 @@ import subprocess
 import sys
 from pathlib import Path
 
-from workflow.configuration import Options, arguments
-from workflow.identity import ROOT, programs, source_hash
-from workflow.lib.described import FOLDER as DESCRIBED
-from workflow.plan import Run
+from workflow.lib.identity import ROOT
+from workflow.pipeline.configuration import Options, arguments
+from workflow.pipeline.described import FOLDER as DESCRIBED
+from workflow.pipeline.plan import Run
+from workflow.pipeline.sources import programs, source_hash
 
 PROGRAMS = ROOT / "build/bin"
 WRITTEN = (0, 4)  # exit statuses with a result; 4: stopped before the target error, and marked
@@ -51,7 +52,7 @@ def build() -> None:
         number = f"{len(missing)} program{'s' * (len(missing) > 1)}"
         print(f"Compiling {number}; all take about a minute on two cores", flush=True)
     if missing or "CXX" in os.environ:
-        subprocess.run(["bash", "workflow/environment/build.sh", "all"], check=True)
+        subprocess.run(["bash", "workflow/pipeline/environment/build.sh", "all"], check=True)
 
 
 def threads_of(run: Run) -> int:

@@ -15,4 +15,4 @@ rule draw:
         ),
         stem=lambda wildcards: STEMS[wildcards.panel],
     shell:
-        "{{ {params.command} && .venv/bin/python -m workflow.publish {params.stem:q}; }} 2> {log:q}"
+        "{{ {params.command} && .venv/bin/python -m workflow.pipeline.publish {params.stem:q}; }} 2> {log:q}"

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
-from workflow.configuration import Options
-from workflow.identity import ROOT, code_hashes
-from workflow.lib.described import declared
+from workflow.lib.identity import ROOT
 from workflow.lib.load import Result, load
-from workflow.lib.nearest import nearest
-from workflow.plan import Run, seed_of
-from workflow.program import ProgramError, execute, require_built
+from workflow.lib.suggestion import nearest
+from workflow.pipeline.configuration import Options
+from workflow.pipeline.described import declared
+from workflow.pipeline.plan import Run, seed_of
+from workflow.pipeline.program import ProgramError, execute, require_built
+from workflow.pipeline.sources import code_hashes
 
 if TYPE_CHECKING:
     import xarray

@@ -11,11 +11,11 @@ from ruamel.yaml import YAML
 from ruamel.yaml.error import MarkedYAMLError, YAMLError
 from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
 
-from workflow.files import in_one_line
-from workflow.identity import ROOT
-from workflow.lib.described import declared
-from workflow.lib.nearest import nearest
-from workflow.polynomial import POLYNOMIAL
+from workflow.lib.identity import ROOT
+from workflow.lib.suggestion import nearest
+from workflow.pipeline.described import declared
+from workflow.pipeline.files import in_one_line
+from workflow.pipeline.polynomial import POLYNOMIAL
 
 Options = dict[str, Any]  # by name without leading dashes: a number, text, or a bool for a flag
 Schema = dict[str, Any]

@@ -14,11 +14,12 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import NamedTuple
 
-from workflow.files import in_one_line
-from workflow.identity import DIGITS, drawing_sources, named_identity, sha256, source_hash, stated
+from workflow.lib.identity import DIGITS, drawing_sources, named_identity, sha256, stated
 from workflow.lib.load import FormatError, load_provenance
-from workflow.plan import Panel, Run, data_of, drawing_command, runs_of, stem_of
-from workflow.publish import SHOWN, STORE, copies, read_record
+from workflow.pipeline.files import in_one_line
+from workflow.pipeline.plan import Panel, Run, data_of, drawing_command, runs_of, stem_of
+from workflow.pipeline.publish import SHOWN, STORE, copies, read_record
+from workflow.pipeline.sources import source_hash
 
 
 class Fault(NamedTuple):

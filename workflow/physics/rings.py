@@ -4,7 +4,7 @@ import numpy as np
 
 from workflow.lib import style
 from workflow.lib.load import Result
-from workflow.lib.mode_coupling import Chain, logarithm_at
+from workflow.physics.mode_coupling import Chain, logarithm_at
 
 LOOKS = [
     ("o", style.BLUE),

@@ -9,10 +9,10 @@ from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
-from workflow.files import lock_products
-from workflow.identity import IDENTITY, stated
-from workflow.plan import Panel, report_stem, runs_of, stem_of
-from workflow.publish import SHOWN, STORE
+from workflow.lib.identity import IDENTITY, stated
+from workflow.pipeline.files import lock_products
+from workflow.pipeline.plan import Panel, report_stem, runs_of, stem_of
+from workflow.pipeline.publish import SHOWN, STORE
 
 GIVEN = re.compile(
     rf"(.+\.{IDENTITY})\.(h5|log|cost\.json|pdf|png|svg|csv|json|html)(\.checkpoint|\.refused)?(\.\w+\.tmp)?"

@@ -8,7 +8,7 @@ rule report:
     params:
         stems=[*STEMS.values(), REPORT],
     shell:
-        ".venv/bin/python -m workflow.publish {params.stems:q}"
+        ".venv/bin/python -m workflow.pipeline.publish {params.stems:q}"
 
 
 rule report_page:

@@ -8,11 +8,12 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from workflow.configuration import ConfigurationError
-from workflow.identity import content_hash, result_identity, sha256, source_hash, stated
+from workflow.lib.identity import content_hash, result_identity, sha256, stated
 from workflow.lib.load import FormatError, load_provenance
-from workflow.plan import QUALITIES, Quality, load_plan, runs_of
-from workflow.publish import STORE, read_record
+from workflow.pipeline.configuration import ConfigurationError
+from workflow.pipeline.plan import QUALITIES, Quality, load_plan, runs_of
+from workflow.pipeline.publish import STORE, read_record
+from workflow.pipeline.sources import source_hash
 
 HDF5 = b"\x89HDF"  # first bytes of a file
 

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from workflow.lib.mode_coupling import logarithm_at
+from workflow.physics.mode_coupling import logarithm_at
 
 ROUNDING = 1e-9  # relative rounding error of times on a logarithmic grid
 ITERATIONS = 20  # of the quasi-stationary estimate; each reduces the distance from the fixed point by a factor of at least 8

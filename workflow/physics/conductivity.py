@@ -7,6 +7,7 @@ import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.load import Result
+from workflow.physics import setting
 
 LOOKS = {
     "thinning": ("o", style.BLACK),
@@ -22,7 +23,7 @@ def gas(result: Result) -> str:
 
 def spacings(results: Sequence[Result]) -> dict[str, str]:
     """Spacing of every gas, as in the configuration."""
-    return {gas(result): style.spacing(result)[1] for result in results}
+    return {gas(result): setting.spacing(result)[1] for result in results}
 
 
 def by_spacing(table: pd.DataFrame, spacing: Mapping[str, str]) -> pd.DataFrame:

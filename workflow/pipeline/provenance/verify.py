@@ -14,10 +14,10 @@ from typing import NamedTuple
 import numpy as np
 from scipy.special import stdtr
 
-from workflow.files import lock_products
 from workflow.lib.load import FormatError, Quantity, Result, load
-from workflow.plan import Quality, data_path, load_plan, runs_of
-from workflow.program import ProgramError, execute
+from workflow.pipeline.files import lock_products
+from workflow.pipeline.plan import Quality, data_path, load_plan, runs_of
+from workflow.pipeline.program import ProgramError, execute
 
 BUILD = Path("build/verify")
 SIGNIFICANCE = 1e-4  # p-value of the largest difference in a result
@@ -123,7 +123,9 @@ def main(options: argparse.Namespace) -> int:
     lock_products()
     shutil.rmtree(BUILD, ignore_errors=True)
     settings = os.environ | {"BUILD": str(BUILD)}
-    if subprocess.run(["bash", "workflow/environment/build.sh", "all"], env=settings, check=False).returncode:
+    if subprocess.run(
+        ["bash", "workflow/pipeline/environment/build.sh", "all"], env=settings, check=False
+    ).returncode:
         return 1
     differing = failed = 0
     for number, path in enumerate(made, 1):

@@ -10,7 +10,16 @@ from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
 
-from workflow.configuration import (
+from workflow.lib.identity import (
+    SHARED,
+    content_hash,
+    drawing_sources,
+    identity,
+    panel_identity,
+    result_identity,
+)
+from workflow.lib.suggestion import nearest
+from workflow.pipeline.configuration import (
     EFFORT,
     FOLDER,
     ConfigurationError,
@@ -19,28 +28,19 @@ from workflow.configuration import (
     load_configuration,
     programs_of,
 )
-from workflow.identity import (
-    DRAWING,
-    content_hash,
-    drawing_sources,
-    identity,
-    panel_identity,
-    result_identity,
-    source_hash,
-)
-from workflow.lib.described import declared
-from workflow.lib.nearest import nearest
-from workflow.polynomial import evaluated
-from workflow.publish import STORE
+from workflow.pipeline.described import declared
+from workflow.pipeline.polynomial import evaluated
+from workflow.pipeline.publish import STORE
+from workflow.pipeline.sources import source_hash
 
 SUFFIXES = (".pdf", ".png", ".svg", ".csv", ".json")  # of the files of a panel
 QUALITIES = ("smoke", "standard", "paper", "deep")
 REPORT_SOURCES = (
     "workflow/claims",
     "workflow/report",
-    "workflow/plan.py",
+    "workflow/pipeline/plan.py",
     "data/claims.csv",
-    *DRAWING,
+    *SHARED,
 )
 BATCH = 16  # replicas between two checks of a target error
 # Without +, as the text is part of the name of a folder and of a pattern of names.

@@ -14,11 +14,11 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from workflow.lib import style
-from workflow.lib.conductivity import gas
 from workflow.lib.fit import mean_of
 from workflow.lib.load import Result
-from workflow.lib.rings import chain
+from workflow.physics import setting
+from workflow.physics.conductivity import gas
+from workflow.physics.rings import chain
 
 DENSE = "dense"  # name of the gas at a fixed spacing
 DERIVED = ("L_uu", "L_un", "L_nu", "L_nn", "kappa_0", "asymmetry")  # numbers calculated from the currents
@@ -158,7 +158,7 @@ def rings(results: Sequence[Result]) -> dict[float, Ring]:
 def fugacity(result: Result) -> float:
     """ζ of the gas that the baths of an open chain would keep in equilibrium, from their flux at p = 0 [eq. 5]."""
     rate, temperature = (float(np.sqrt(np.prod(result.ends(name)))) for name in ("nu", "temperature"))
-    return rate * np.sqrt(2 / (np.pi * temperature)) * style.spacing(result)[0]
+    return rate * np.sqrt(2 / (np.pi * temperature)) * setting.spacing(result)[0]
 
 
 def nearest_of(value: float, given: Iterable[float]) -> float:
@@ -175,7 +175,7 @@ def with_theory(
     for result in open_chains:
         key = gas(result), int(result.parameters["cells"])
         ring_of[key] = by_zeta[nearest_of(fugacity(result), by_zeta)]
-        unit[key] = np.sqrt(np.sqrt(np.prod(result.ends("temperature")))) / style.spacing(result)[0]
+        unit[key] = np.sqrt(np.sqrt(np.prod(result.ends("temperature")))) / setting.spacing(result)[0]
     keys = [*zip(table.gas, table.cells, strict=True)]
     for k, (name, cells) in enumerate(keys):
         if name != DENSE:

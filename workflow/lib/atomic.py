@@ -1,0 +1,19 @@
+"""Atomic writing."""
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+
+def write_together(contents: Mapping[Path, bytes]) -> None:
+    """Writes all files under temporary names, then renames them in order. If the disk is full, the old files are kept. Raises OSError."""
+    files = {path: path.with_name(f"{path.name}.{os.getpid()}.tmp") for path in contents}
+    try:
+        for path, file in files.items():
+            path.parent.mkdir(parents=True, exist_ok=True)
+            file.write_bytes(contents[path])
+        for path, file in files.items():
+            file.replace(path)
+    finally:
+        for file in files.values():
+            file.unlink(missing_ok=True)

@@ -1,0 +1,66 @@
+"""Identities of results and panels: the name of a file contains a hash of all that determines it."""
+
+import hashlib
+import json
+import re
+from collections.abc import Iterable
+from functools import cache
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+DIGITS = 12  # 48 bits: two of a million names are equal with a probability of 0.2 %
+IDENTITY = f"[0-9a-f]{{{DIGITS}}}"  # regular expression of an identity
+SHARED = ("workflow/lib", "workflow/physics", "uv.lock")  # on which all figures depend
+STATEMENT = re.compile(rf"panel ([\w-]+), quality ([\w=.-]+), identity ({IDENTITY})".encode())
+
+
+def identity(*parts: object) -> str:
+    """First digits of the sha256 of the parts, values of JSON."""
+    return sha256(json.dumps(parts, sort_keys=True).encode())[:DIGITS]
+
+
+def sha256(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()
+
+
+def result_identity(program: str, words: str, sources: str) -> str:
+    """Identity of a result. words: options that determine it, as on the command line; sources: their hash, from source_hash()."""
+    return identity(program, words, sources)
+
+
+def panel_identity(panel: str, results: Iterable[str], sources: dict[str, str]) -> str:
+    """Identity of a panel. results: paths of the results that it plots, of which the names count; sources: drawing_sources(script)."""
+    return identity(panel, ["/".join(Path(path).parts[-2:]) for path in results], sources)
+
+
+def drawing_sources(script: str) -> dict[str, str]:
+    """Hashes of the script of a panel, of the library of all scripts, and of the locked packages. Raises OSError."""
+    return {path: content_hash(path) for path in (f"workflow/figures/{script}.py", *SHARED)}
+
+
+def named_identity(path: Path | str) -> str:
+    """Identity in the name of a file or of a stem, NAME.IDENTITY; empty for other names."""
+    named = re.search(rf"\.({IDENTITY})(\.\w+)?$", str(path))
+    return named[1] if named else ""
+
+
+def statement(panel: str, quality: str, name: str) -> str:
+    """The line by which each file of a panel states what it is."""
+    return f"panel {panel}, quality {quality}, identity {name}"
+
+
+def stated(content: bytes) -> tuple[str, str, str] | None:
+    """Panel, quality and identity that a file of a panel states; None for other files."""
+    found = STATEMENT.search(content)
+    return (found[1].decode(), found[2].decode(), found[3].decode()) if found else None
+
+
+@cache
+def content_hash(path: str, root: Path = ROOT) -> str:
+    """sha256 of a file, or of names and contents of the files in a folder but hidden ones, backups and compiled modules. Raises OSError."""
+    if not (root / path).is_dir():
+        return sha256((root / path).read_bytes())
+    names = sorted(file.relative_to(root).as_posix() for file in (root / path).rglob("*") if file.is_file())
+    kept = [name for name in names if not name.endswith((".pyc", "~")) and "/." not in name]
+    lines = [f"{name} {sha256((root / name).read_bytes())}\n" for name in kept]
+    return sha256("".join(lines).encode())

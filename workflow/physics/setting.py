@@ -1,0 +1,31 @@
+"""Setting of a run, from the parameters of its result: gamma, spacing of the scatterers, rates of the baths."""
+
+from collections.abc import Sequence
+
+from workflow.lib.load import Result
+
+SHOWN_MOMENTA = 45  # largest |p| in panels of the flux F(p)
+
+
+def both_rates(result: Result) -> float:
+    """ν_L + ν_R. Divided by it, the flux has an integral of about 1, as in the paper."""
+    return sum(result.ends("nu"))
+
+
+def gamma(result: Result) -> str:
+    """Value of gamma as text: N or a number."""
+    value = result.parameters["gamma"]
+    return value if value == "N" else f"{value:g}"
+
+
+def spacing(result: Result) -> tuple[float, str]:
+    """Distance between scatterers as a number and as text."""
+    given = result.parameters["cell-length"]
+    if given == "1/N":
+        return 1 / int(result.parameters["cells"]), "1/N"
+    return float(given), f"{given:g}"
+
+
+def in_order_of_spacing(results: Sequence[Result]) -> list[Result]:
+    """In ascending order, so that 1/N, the spacing of the paper's other chains, is first."""
+    return sorted(results, key=lambda result: spacing(result)[0])
