@@ -8,11 +8,13 @@ from dataclasses import dataclass
 from functools import cache
 from math import cos, erf, gamma, inf, pi, sqrt
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.interpolate import CubicSpline
-from scipy.special import exp1
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 # Of f_KPZ (Prähofer and Spohn, J. Stat. Phys. 115, 255, 2004). The tests recompute it from f_kpz.csv.
 SECOND_MOMENT = 0.510523
@@ -125,6 +127,8 @@ class Chain:
 
 def slow_logarithm(cut: float, temperature: float = 1.0) -> float:
     """Λ [eq. M2] of momenta |p| > cut."""
+    from scipy.special import exp1  # noqa: PLC0415  0.2 s
+
     return float(exp1(cut**2 / (2 * temperature)) / 2)
 
 
@@ -143,15 +147,19 @@ def f_kpz(y: ArrayLike) -> np.ndarray:
 
 
 @cache
-def _spline() -> CubicSpline:
+def _spline() -> "CubicSpline":
+    from scipy.interpolate import CubicSpline  # noqa: PLC0415  0.4 s
+
     y, f = np.loadtxt(Path(__file__).with_name("f_kpz.csv"), delimiter=",", skiprows=3).T
     return CubicSpline(np.concatenate([-y[:0:-1], y]), np.concatenate([f[:0:-1], f]))
 
 
-def levy(x: ArrayLike, order: float = 5 / 3) -> np.ndarray:
-    """Symmetric stable density of the given order: Fourier transform of exp(-|k|^order)."""
+def levy(x: ArrayLike, order: ArrayLike = 5 / 3) -> np.ndarray:
+    """Symmetric stable density of the given order: Fourier transform of exp(-|k|^order). Several orders are the last dimension."""
     # k = s^3 makes the integrand smooth at 0, where the singularity of |k|^order would spoil the trapezoidal rule.
     distance = np.asarray(x, dtype=float)
     s = np.linspace(0, 2.4, int(np.clip(150 * np.abs(distance).max(), 1000, 6000)))
-    weight = 3 * s**2 * np.exp(-(s ** (3 * order))) * (s[1] - s[0]) / pi
-    return np.cos(np.multiply.outer(distance, s**3)) @ weight
+    cosines = np.cos(np.multiply.outer(distance, s**3))  # for all orders, as they take most of the time
+    weights = [3 * s**2 * np.exp(-(s ** (3 * each))) * (s[1] - s[0]) / pi for each in np.ravel(order)]
+    values = np.stack([cosines @ weight for weight in weights], axis=-1)
+    return values.reshape(distance.shape + np.shape(order))

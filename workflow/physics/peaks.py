@@ -81,7 +81,7 @@ def heat_area(record: Record) -> float:
 def stable_densities() -> RectBivariateSpline:
     """Interpolates levy(x, order), which fits need thousands of times."""
     x, order = np.arange(0, 40, 0.1), np.arange(0.9, 3.15, 0.1)
-    return RectBivariateSpline(x, order, np.stack([levy(x, exponent) for exponent in order], axis=1))
+    return RectBivariateSpline(x, order, levy(x, order))
 
 
 def stable_law(
