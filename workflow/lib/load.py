@@ -170,32 +170,44 @@ class Result:
 def load(path: Path | str) -> Result:
     """Reads a result file. Raises FormatError, also if its values were edited or its name is that of another result, and OSError if the
     file is unreadable."""
-    with _verified(path) as (file, provenance):
-        quantities = {name: _quantity(group) for name, group in file["results"].items()}
+    with _verified(path) as (file, provenance, datasets):
+        quantities: dict[str, dict[str, h5py.Dataset]] = {}
+        for name, dataset in datasets.items():
+            *_, quantity, part = name.split("/")
+            quantities.setdefault(quantity, {})[part] = dataset
+        read = {name: _quantity(parts) for name, parts in quantities.items()}
         parameters, units = _attributes(file["parameters"]), _attributes(file["parameter_units"])
-        return Result(Path(path), parameters, provenance, quantities, units)
+        return Result(Path(path), parameters, provenance, read, units)
 
 
 def load_provenance(path: Path | str) -> dict[str, Any]:
     """The provenance of a result file, which is checked as by load()."""
-    with _verified(path) as (_, provenance):
+    with _verified(path) as (_, provenance, _):
         return provenance
 
 
 def results_digest(results: h5py.Group) -> str:
     """CRC-32 of path and little-endian values of all datasets below a group, in the order of the paths."""
-    datasets: dict[str, h5py.Dataset] = {}
+    return _digest(_datasets(results))
+
+
+def _digest(datasets: dict[str, h5py.Dataset]) -> str:
     digest = 0
-    results.visititems(lambda name, node: datasets.update({f"{results.name}/{name}": node}))
     for name, dataset in sorted(datasets.items()):
-        if isinstance(dataset, h5py.Dataset):
-            values = np.asarray(dataset[()], dtype=dataset.dtype.newbyteorder("<"))
-            digest = zlib.crc32(values.tobytes(), zlib.crc32(name.encode(), digest))
+        values = np.asarray(dataset[()], dtype=dataset.dtype.newbyteorder("<"))
+        digest = zlib.crc32(values.tobytes(), zlib.crc32(name.encode(), digest))
     return f"{digest:08x}"
 
 
+def _datasets(results: h5py.Group) -> dict[str, h5py.Dataset]:
+    """All datasets below a group by their paths. To open a dataset takes ten times as long as to read it."""
+    nodes: dict[str, h5py.Group | h5py.Dataset] = {}
+    results.visititems(lambda name, node: nodes.update({f"{results.name}/{name}": node}))
+    return {name: node for name, node in nodes.items() if isinstance(node, h5py.Dataset)}
+
+
 @contextmanager
-def _verified(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
+def _verified(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any], dict[str, h5py.Dataset]]]:
     """Opens a result file whose name is that of its content and whose values are those written. It is not locked, because results are
     written under another name and renamed."""
     try:
@@ -212,9 +224,10 @@ def _verified(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any]]]:
                 raise FormatError(
                     f"its content is that of another result: of other options or sources, copied or exchanged{REMEDY}"
                 )
-            if provenance["results_digest"] != results_digest(file["results"]):
+            datasets = _datasets(file["results"])
+            if provenance["results_digest"] != _digest(datasets):
                 raise FormatError(f"edited or damaged: its values differ from those written{REMEDY}")
-            yield file, provenance
+            yield file, provenance, datasets
     except FileNotFoundError as error:
         raise FormatError(f"{path} is missing") from error
     except FormatError as error:
@@ -237,11 +250,13 @@ def _text(value: Any) -> Any:
     return value.decode() if isinstance(value, bytes) else value
 
 
-def _quantity(group: h5py.Group) -> Quantity:
-    mean = group["mean"]
-    names = ("discretisation_error",) if "discretisation_error" in group else ("standard_error", "count")
-    axes = [Path(dimension[0].name).name for dimension in mean.dims]
-    stored = {"mean": mean, **{name: group[name] for name in (*names, *axes)}}
+def _quantity(parts: dict[str, h5py.Dataset]) -> Quantity:
+    mean = parts["mean"]
+    names = ("discretisation_error",) if "discretisation_error" in parts else ("standard_error", "count")
+    # The names of the axes as mean.dims has them, which opens every axis again.
+    scales = mean.attrs.get("DIMENSION_LIST", ())
+    axes = [h5py.h5r.get_name(scale[0], mean.id).decode().rpartition("/")[2] for scale in scales]
+    stored = {"mean": mean, **{name: parts[name] for name in (*names, *axes)}}
     units, descriptions = (
         {name: _text(dataset.attrs[attribute]) for name, dataset in stored.items()}
         for attribute in ("units", "description")
