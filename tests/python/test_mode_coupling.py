@@ -11,7 +11,7 @@ from scipy.integrate import quad
 from scipy.special import airy
 from sympy import Expr, Matrix, Symbol, exp, integrate, oo, simplify
 
-from workflow.lib import mode_coupling
+from workflow.physics import mode_coupling
 from workflow.physics.mode_coupling import Chain, f_kpz, levy, logarithm_at, slow_logarithm
 
 SQUARE_INTEGRAL = 0.389813  # of f_KPZ (Prähofer and Spohn, J. Stat. Phys. 115, 255, 2004)

@@ -35,7 +35,7 @@ std::vector<std::byte> image() {
   file.array("/results", {"number", "1", "A number"}, std::vector{0.25});
   file.array("/results", {"nothing", "1", "Nothing", {axis("none", 0)}}, std::vector<double>{});
   file.group("/parameters");
-  for (const auto& [name, value] : parameters) file.attribute("/parameters", name, value);
+  for (const auto& [name, value, units] : parameters) file.attribute("/parameters", name, value);
   return file.image();
 }
 
@@ -50,8 +50,8 @@ TEST(Hdf5File, ReadsBackWhatWasWritten) {
   EXPECT_EQ(file.doubles("/results/number"), std::vector{0.25});
   EXPECT_TRUE(file.doubles("/results/nothing").empty());
   EXPECT_TRUE(file.has_attribute("/results/profile/mean", "units", std::string("time")));
-  for (const auto& [name, value] : parameters)
-    for (const auto& [other, other_value] : parameters)
+  for (const auto& [name, value, units] : parameters)
+    for (const auto& [other, other_value, other_units] : parameters)
       EXPECT_EQ(file.has_attribute("/parameters", name, other_value), name == other) << name << other;
   EXPECT_FALSE(file.has_attribute("/parameters", "text", std::string("\xcf\x83 = 1/")));
   EXPECT_FALSE(file.has_attribute("/parameters", "absent", true));
