@@ -1,0 +1,1 @@
+"""One function per statement of the paper, and the verdict."""

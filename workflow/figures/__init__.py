@@ -1,0 +1,1 @@
+"""One script per panel: from results to figure, table and caption."""

@@ -1,0 +1,1 @@
+"""What is known about this model, beyond its simulation."""

@@ -1,0 +1,1 @@
+"""Set-up, build, and the variables that a command keeps."""

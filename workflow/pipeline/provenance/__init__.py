@@ -1,0 +1,1 @@
+"""Where products come from, and whether they are fresh and unmodified."""
