@@ -1,5 +1,5 @@
 # `make help` lists the targets. No environment has to be activated, and no variable of the caller's shell changes a result.
-SHELL := workflow/pipeline/environment/shell
+SHELL := workflow/pipeline/environment/clean_shell
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := help
 .NOTPARALLEL:

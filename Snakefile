@@ -1,7 +1,7 @@
 """Every figure of the paper: programs write data/<quality>/<panel>/<run>.<identity>.h5, scripts render build/figures/<quality>/
 <panel>.<identity>.*, and these are copied to figures/<quality>/<panel>.*
 
-What determines a product is in its name. A missing name is made; neither time stamps nor Snakemake's own records decide.
+Names contain a hash of their inputs; missing files are made. Neither time stamps nor Snakemake's own records decide.
 """
 
 import os
@@ -15,9 +15,8 @@ from workflow.pipeline.files import in_one_line, lock_products
 from workflow.lib.identity import IDENTITY
 from workflow.pipeline.plan import (
     SUFFIXES,
-    Quality,
     data_of,
-    drawing_command,
+    rendering_command,
     load_plan,
     panel_named,
     products_of,
@@ -26,7 +25,7 @@ from workflow.pipeline.plan import (
     stem_of,
 )
 from workflow.pipeline.program import BuildError, command_line, require_built, threads_of
-from workflow.pipeline.publish import STORE
+from workflow.pipeline.publish import RENDERED
 
 clean()
 QUALITY = config.get("quality", "standard")

@@ -15,15 +15,23 @@ import sys
 from pathlib import Path
 
 from workflow.lib.identity import ROOT
-from workflow.lib.suggestion import nearest
+from workflow.lib.suggestion import suggestion
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.environment.variables import clean
 from workflow.pipeline.files import in_one_line, lock_products
-from workflow.pipeline.plan import EFFORTS, Quality, load_plan, panel_named, products_of, report_stem, stem_of
+from workflow.pipeline.plan import (
+    OVERRIDES,
+    Selection,
+    load_plan,
+    panel_named,
+    products_of,
+    report_stem,
+    stem_of,
+)
 from workflow.pipeline.program import build
 from workflow.pipeline.publish import publish
 
-SELECTION = ("QUALITY", *map(str.upper, EFFORTS))
+SELECTION = ("QUALITY", *map(str.upper, OVERRIDES))
 EXECUTION = (*SELECTION, "DRY", "JOBS", "PROFILE", "ACCOUNT", "PARTITION")
 TARGETS: dict[str, tuple[str, ...]] = {  # with their options
     "figures": EXECUTION,
@@ -48,7 +56,7 @@ DONE = {  # of the targets of Snakemake
     "gallery": "The gallery is docs/gallery",
 }
 COMPILED = (*DONE, "deposit", "build")  # targets that need the programs
-RULES = {  # pattern and description of the allowed values
+ALLOWED = {  # pattern and description of the allowed values
     "JOBS": ("[1-9][0-9]*", "a whole number, at least 1"),
     "SAMPLE": (r"1|0?\.[0-9]+", "a fraction of the results, as 0.1"),
     "DRY": ("yes", "yes, or leave it out"),
@@ -68,16 +76,16 @@ def words_of_make(flags: str) -> list[str]:
 def parse(target: str, words: list[str]) -> argparse.Namespace:
     """Options of a target by lower-case name, empty if not given. Raises UsageError."""
     if target not in TARGETS:
-        raise UsageError(f"{target} is not a target; {nearest(target, TARGETS)}")
+        raise UsageError(f"{target} is not a target; {suggestion(target, TARGETS)}")
     allowed, every = TARGETS[target], {name for names in TARGETS.values() for name in names}
     given = dict.fromkeys(every, "") | DEFAULTS
     for word in words:
         name, _, given[name] = word.partition("=")
         if name not in allowed:
             reason = f"has no effect on {target}" if name in every else "is not an option"
-            remedy = nearest(name.upper(), allowed) if allowed else "leave it out"
+            remedy = suggestion(name.upper(), allowed) if allowed else "leave it out"
             raise UsageError(f"{name} {reason}; {remedy}")
-        pattern, description = RULES.get(name, (".*", ""))
+        pattern, description = ALLOWED.get(name, (".*", ""))
         if not re.fullmatch(pattern, given[name]):
             raise UsageError(f"{word} is invalid; give {description}")
     needed, _, _ = NEEDED.get(target, "").partition("=")
@@ -89,9 +97,9 @@ def parse(target: str, words: list[str]) -> argparse.Namespace:
 def prepare(target: str, options: argparse.Namespace) -> None:
     """Adds the effort to `quality`, `effort` as arguments of make, the `plan`, and the requested `panels`; compiles the programs if the
     target needs them. Raises UsageError, ConfigurationError, OSError."""
-    efforts = [f"{name}={value}" for name in EFFORTS if (value := getattr(options, name))]
+    efforts = [f"{name}={value}" for name in OVERRIDES if (value := getattr(options, name))]
     options.quality = "_".join([options.quality, *efforts])
-    options.effort = Quality.of(options.quality).arguments
+    options.effort = Selection.of(options.quality).arguments
     require_profile(options.profile)
     if target in COMPILED and not options.dry:
         lock_products()
@@ -104,7 +112,7 @@ def require_profile(profile: str) -> None:
     """Raises UsageError."""
     known = os.listdir("profiles")
     if profile not in known:
-        raise UsageError(f"{profile} is not a profile; {nearest(profile, known)}")
+        raise UsageError(f"{profile} is not a profile; {suggestion(profile, known)}")
     if profile == "slurm" and not shutil.which("sbatch"):
         raise UsageError(
             "sbatch is not in PATH, so no job can be submitted; run make on a login node of Slurm"

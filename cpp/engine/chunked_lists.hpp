@@ -11,7 +11,7 @@
 namespace lorentz {
 
 /// Unordered lists of flights in one array, in chunks of 256, so that appending and reading are sequential. A
-/// list is a number, one behind its last slot; 0 if it is empty.
+/// list is a handle, the index after its last slot; 0 if it is empty.
 class ChunkedLists {
  public:
   using List = std::uint32_t;

@@ -15,7 +15,7 @@ namespace lorentz {
 Flight first_flight(const ClosedChain& chain, const Particle& particle, std::uint32_t number,
                     const Rules& rule, const FreeFlight& free_flight);
 
-/// The same of every particle.
+/// First flights of all particles.
 std::vector<Flight> first_flights(const ClosedChain& chain, const PhasePoint& start, const Rules& rule,
                                   const FreeFlight& free_flight);
 

@@ -103,21 +103,21 @@ void OpenDynamics::advance(const Rule& rule, double until, Observer& observer, c
     }
     notify(observer, Collision{time, flight.particle, cell, particle, flight.velocity, scale * scatterer,
                                scale * scatterers[cell]});
-    const std::int64_t step = direction(flight.velocity), place = 2 * std::int64_t{cell} + 1;
+    const std::int64_t step = direction(flight.velocity), position = 2 * std::int64_t{cell} + 1;
     if constexpr (!passing) {
       if (const std::uint32_t target = cell + static_cast<std::uint32_t>(step); target < cells) [[likely]] {
         // The same as fly(), for the most frequent flight: over a whole cell.
-        const double time_per_place = half_cell / std::abs(flight.velocity);
-        const double arrival = time + 2 * time_per_place;
-        notify_flight(observer, Path{time, arrival, flight.velocity, static_cast<double>(place), place + step,
-                                     place + 2 * step, time_per_place});
+        const double time_per_half_cell = half_cell / std::abs(flight.velocity);
+        const double arrival = time + 2 * time_per_half_cell;
+        notify_flight(observer, Path{time, arrival, flight.velocity, static_cast<double>(position),
+                                     position + step, position + 2 * step, time_per_half_cell});
         flight.target = target;
         flight.time = arrival;
         cursor.reschedule<false>(flight);
         return;
       }
     }
-    fly<passing>(flight, static_cast<double>(place), place + step, cell + step, observer,
+    fly<passing>(flight, static_cast<double>(position), position + step, cell + step, observer,
                  [&](const Flight& next) __attribute__((always_inline)) { cursor.reschedule<false>(next); });
   };
   EventQueue::Cursor cursor(queue_);
@@ -154,9 +154,9 @@ inline void OpenDynamics::fly(Flight flight, double from, std::int64_t first, st
   const std::int64_t target = next_cell + direction(u) * (cells - 1);
   const bool leaves = static_cast<std::uint64_t>(target) >= chain_.cells;  // negative ones too
   const std::int64_t last = std::clamp<std::int64_t>(2 * target + 1, 0, chain_.right_opening());
-  const double time_per_place = half_cell_ / std::abs(u);
-  const double arrival = departure + std::abs(static_cast<double>(last) - from) * time_per_place;
-  notify_flight(observer, Path{departure, arrival, u, from, first, last, time_per_place});
+  const double time_per_half_cell = half_cell_ / std::abs(u);
+  const double arrival = departure + std::abs(static_cast<double>(last) - from) * time_per_half_cell;
+  notify_flight(observer, Path{departure, arrival, u, from, first, last, time_per_half_cell});
   if (leaves) [[unlikely]] {
     if constexpr (requires { observer.on_exit(End::left, arrival, u); })
       observer.on_exit(last > 0 ? End::right : End::left, arrival, u);

@@ -17,10 +17,10 @@ namespace {
 /// half-Gaussian v beyond slow_ where slow_ > 1. Above, rejection of a log-uniform v by exp(-v^2/2).
 /// Validity: age, T > 0; speeds beyond 9 sqrt(T), of probability below 1e-18, are left out.
 /// Reference: Devroye, Non-Uniform Random Variate Generation (Springer 1986), sections II.3 and II.4.
-class Stream {
+class EntryStream {
  public:
   /// flight: mean length of a flight.
-  Stream(const Reservoir& source, double flight, double age)
+  EntryStream(const Reservoir& source, double flight, double age)
       : rate_(source.rate), thermal_(std::sqrt(source.temperature)), slow_(flight / age / thermal_) {}
 
   /// Expected number of particles per unit length.
@@ -72,7 +72,7 @@ PhasePoint local_equilibrium_start(const OpenChain& chain, const Reservoir& left
     const double rate = std::lerp(left.rate, right.rate, x);
     const double power = std::lerp(left.rate * left.temperature, right.rate * right.temperature, x);
     const double temperature = rate > 0 ? power / rate : std::lerp(left.temperature, right.temperature, x);
-    const Stream particles({rate, temperature}, flight, age);
+    const EntryStream particles({rate, temperature}, flight, age);
     for (const double direction : {1., -1.}) {
       for (auto left_over = poisson(particles.density() * chain.cell_length, stream); left_over > 0;
            --left_over) {

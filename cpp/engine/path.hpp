@@ -30,7 +30,7 @@ struct Path {
   double velocity;            // u, energy-normalised; with m = 1 the momentum
   double from;                // position of the departure
   std::int64_t first, last;   // marks reached; the first mark of a particle that enters is the opening
-  double time_per_place;      // time for half a cell
+  double time_per_half_cell;  // time for half a cell
 
   Direction direction() const { return lorentz::direction(velocity) > 0 ? Direction::rightwards : leftwards; }
   bool rightwards() const { return direction() == Direction::rightwards; }
@@ -42,21 +42,22 @@ struct Path {
   }
   bool reaches(std::int64_t mark) const { return (mark - first) * (mark - last) <= 0; }
   double time_at(std::int64_t mark) const {
-    return departure + std::abs(static_cast<double>(mark) - from) * time_per_place;
+    return departure + std::abs(static_cast<double>(mark) - from) * time_per_half_cell;
   }
 
   /// Number of marks reached before a time.
   std::int64_t marks_before(double time) const {
     const std::int64_t all = std::abs(last - first) + 1;
     if (time > arrival) return all;
-    const double distance = (time - departure) / time_per_place - std::abs(static_cast<double>(first) - from);
+    const double distance =
+        (time - departure) / time_per_half_cell - std::abs(static_cast<double>(first) - from);
     return distance > 0 ? std::min(all, static_cast<std::int64_t>(std::ceil(distance))) : 0;
   }
 
   /// Position at a time of the flight.
-  double place(double time) const {
+  double position_at(double time) const {
     if (time >= arrival) return static_cast<double>(last);
-    const double moved = (time - departure) / time_per_place;
+    const double moved = (time - departure) / time_per_half_cell;
     return rightwards() ? from + moved : from - moved;
   }
 };
@@ -86,7 +87,7 @@ struct Stretch {
 inline Stretch stretch_in(const Path& path, const Window& window) {
   const double begin = std::max(path.departure, window.begin), end = std::min(path.arrival, window.end);
   if (!(begin < end)) return {0, 0, 0};
-  const double a = path.place(begin), b = path.place(end);
+  const double a = path.position_at(begin), b = path.position_at(end);
   return {std::min(a, b), std::max(a, b), end - begin};
 }
 

@@ -28,7 +28,7 @@ void relax(OpenDynamics& chain, double until, Observer& observer, const Heartbea
   for (const Path& path : flights.paths) {
     if constexpr (requires { observer.on_flight(path); }) observer.on_flight(path);
     if constexpr (requires { observer.on_exit(End::left, path.arrival, path.velocity); }) {
-      const bool leaves = path.last % 2 == 0;  // scatterers are at odd places
+      const bool leaves = path.last % 2 == 0;  // scatterers are at odd positions
       if (leaves) observer.on_exit(path.last > 0 ? End::right : End::left, path.arrival, path.velocity);
     }
   }

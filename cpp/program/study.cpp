@@ -137,7 +137,7 @@ ExitStatus StudyProgram::compute() try {
     return status;
   }
 } catch (...) {
-  if (!finished_.empty()) keep("stopped");
+  if (!finished_.empty()) checkpoint_on_exit("stopped");
   throw;
 }
 
@@ -166,7 +166,7 @@ void StudyProgram::in_threads(std::uint64_t number, const std::function<void()>&
   const auto attend = [this] {
     const std::scoped_lock lock(mutex_);
     if (received_signal == 0) return show_progress();
-    keep("interrupted");
+    checkpoint_on_exit("interrupted");
     std::_Exit(static_cast<int>(ExitStatus::interrupted) + received_signal);
   };
   for (const std::future<void>& each : threads)
@@ -217,7 +217,7 @@ bool StudyProgram::save(const std::string& prefix) try {
 }
 
 /// Saves the replicas when the run ends early, and reports why it ends and how to resume.
-void StudyProgram::keep(const std::string& why) {
+void StudyProgram::checkpoint_on_exit(const std::string& why) {
   const std::string state = fmt::format("{} after {}", why, counted(finished_.size()));
   if (finished_.empty()) return program_.progress().say(state);
   if (save(state + ", which are not saved: "))

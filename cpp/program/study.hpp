@@ -55,7 +55,7 @@ class StudyProgram {
   void measure(std::uint64_t end);
   void show_progress();
   bool save(const std::string& prefix);
-  void keep(const std::string& why);
+  void checkpoint_on_exit(const std::string& why);
   Outcome estimate(std::uint64_t replicas) const;
   void report(const Outcome& outcome, std::uint64_t replicas);
 

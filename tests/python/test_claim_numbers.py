@@ -17,7 +17,7 @@ from tests.python.claim_truths import CASES, Case
 from tests.python.conftest import ROOT
 from tests.python.known_results import Known, drawn, truth
 from workflow.claims import judge, pulse
-from workflow.claims.verdict import Number
+from workflow.claims.verdict import Estimate
 from workflow.lib.load import Quantity
 
 TRIALS, LEVEL = 100, 1e-5
@@ -31,7 +31,7 @@ def data(case: Case) -> Known:
     return Known({panel: truth(given, case.errors) for panel, given in case.world.items()}, case.quality)
 
 
-def numbers(name: str, known: Known) -> list[Number]:
+def numbers(name: str, known: Known) -> list[Estimate]:
     return judge.function_of({"function": name})(known)
 
 

@@ -10,7 +10,7 @@ from tests.python.conftest import ROOT
 from tests.python.known_results import Known, truth
 from workflow.claims import growth, judge
 from workflow.claims.data import MissingError, combination, ratio
-from workflow.claims.verdict import Number, Outcome
+from workflow.claims.verdict import Estimate, Outcome
 from workflow.pipeline.configuration import ConfigurationError
 
 ROWS = judge.read_claims(ROOT)
@@ -74,12 +74,12 @@ def test_the_last_octave_of_the_chains_without_particle_current() -> None:
 
 
 def test_errors_of_ratios_and_sums() -> None:
-    first, second = Number("", 4.0, 0.3, 7, 0.1), Number("", 2.0, 0.2, 9, 0.0)
+    first, second = Estimate("", 4.0, 0.3, 7, 0.1), Estimate("", 2.0, 0.2, 9, 0.0)
     result = ratio(first, second, "r")
     assert (result.value, result.freedom) == (2, 7)
     assert result.error == pytest.approx(2 * (0.075**2 + 0.1**2) ** 0.5)
     assert result.systematic == pytest.approx(0.05)
-    vanishing = ratio(Number("", 0.0, 0.3, 5, 0.1), Number("", -2.0, 0.5, 4, 0.2), "r")
+    vanishing = ratio(Estimate("", 0.0, 0.3, 5, 0.1), Estimate("", -2.0, 0.5, 4, 0.2), "r")
     assert (vanishing.value, vanishing.error, vanishing.systematic, vanishing.freedom) == (0, 0.15, 0.05, 4)
     total = combination([first, second], [1, -2], "d", 1)
     assert (total.value, total.freedom, total.systematic) == (-1, 7, 0.1)

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from tests.python.conftest import ROOT, command_line
-from workflow.lib.identity import drawing_sources, panel_identity, sha256, stated
+from workflow.lib.identity import panel_identity, sha256, sources_of_panel, stated
 from workflow.lib.load import load
 
 
@@ -24,7 +24,7 @@ def test_a_panel_states_what_it_is_and_has_the_numbers_of_the_results(tmp_path: 
 
     contents = {kind: stem.with_suffix(f".{kind}").read_bytes() for kind in ("pdf", "png", "svg", "csv")}
     record = json.loads(stem.with_suffix(".json").read_text())
-    sources = drawing_sources("fig05")
+    sources = sources_of_panel("fig05")
     identity = panel_identity("panel", map(str, paths), sources)
     assert {stated(content) for content in contents.values()} == {("panel", "smoke", identity)}
     assert (record["panel"], record["quality"], record["identity"]) == ("panel", "smoke", identity)

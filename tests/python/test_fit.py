@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
-from workflow.lib.fit import fit_power, mean_of, rejected, with_error
+from workflow.lib.fit import fit_power, format_with_error, mean_of, rejected
 
 SIZE = np.array([4, 8, 16, 64, 256])
 
@@ -29,7 +29,7 @@ def test_error_and_goodness_over_samples() -> None:
 
 def test_text_has_two_digits_of_the_error() -> None:
     law = fit_power(SIZE, SIZE**0.5, 0.01 * SIZE**0.5)
-    assert law.text == with_error(0.5, law.error)
+    assert law.text == format_with_error(0.5, law.error)
     texts = {(1.86204, 0.00541): "1.8620(54)", (745.03, 8.24): "745.0(8.2)", (12345.6, 123.4): "12346(120)"}
     texts |= {
         (0.5, 0.0996): "0.50(10)",
@@ -37,7 +37,7 @@ def test_text_has_two_digits_of_the_error() -> None:
         (2.5, np.nan): "2.5",
         (-2.5, 0): "−2.5",
     }
-    assert {numbers: with_error(*numbers) for numbers in texts} == texts
+    assert {numbers: format_with_error(*numbers) for numbers in texts} == texts
 
 
 def test_values_that_differ_are_rejected() -> None:

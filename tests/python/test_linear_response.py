@@ -9,7 +9,7 @@ L = np.array([[2.0e7, 2.0e5], [2.0e5, 2.2e3]])
 
 
 def response(forces: list[float], noise: np.ndarray, covariance: np.ndarray) -> Response:
-    return Response(16, np.array(forces), L @ forces / 16 + noise, covariance, 100, sound=True)
+    return Response(16, np.array(forces), L @ forces / 16 + noise, covariance, 100, usable=True)
 
 
 def test_matrix_symmetry_and_conductivity() -> None:

@@ -8,7 +8,7 @@ from ruamel.yaml import YAML
 
 from tests.python.conftest import ROOT
 from workflow.pipeline.configuration import FOLDER, ConfigurationError, Options
-from workflow.pipeline.plan import BATCH, QUALITIES, Quality, Run, load_plan
+from workflow.pipeline.plan import BATCH, QUALITIES, Run, Selection, load_plan
 from workflow.pipeline.program import threads_of
 
 
@@ -59,10 +59,10 @@ def test_seeds_do_not_depend_on_the_order_of_keys(tmp_path: Path) -> None:
 
 def test_the_effort_of_the_user_replaces_that_of_the_quality() -> None:
     for given in ({"replicas": 32}, {"error": 0.1}):
-        completed = Quality.of("smoke_replicas=5").complete("fig05", "paper", given | {"sigma": 0}, None)
+        completed = Selection.of("smoke_replicas=5").complete("fig05", "paper", given | {"sigma": 0}, None)
         assert {key: completed[key] for key in completed if key != "seed"} == {"replicas": 5, "sigma": 0}
-    assert Quality.of("smoke_seed=7_replicas=5").arguments == "QUALITY=smoke SEED=7 REPLICAS=5"
-    quality = Quality.of("smoke_seed=7_error=0.005")
+    assert Selection.of("smoke_seed=7_replicas=5").arguments == "QUALITY=smoke SEED=7 REPLICAS=5"
+    quality = Selection.of("smoke_seed=7_error=0.005")
     assert quality.arguments == "QUALITY=smoke SEED=7 ERROR=0.005"
     completed = quality.complete("fig05", "paper", {"replicas": 500, "sigma": 0}, 200)
     given = {key: completed[key] for key in ("replicas", "target-error", "target-scale")}
@@ -109,5 +109,5 @@ def test_effort_of_quality_panel_and_series(
 )  # fmt: skip
 def test_invalid_efforts(name: str, message: str) -> None:
     with pytest.raises(ConfigurationError) as error:
-        Quality.of(name)
+        Selection.of(name)
     assert str(error.value).startswith(message)

@@ -5,26 +5,26 @@ import pytest
 from tests.python.conftest import ROOT
 from workflow.claims.data import Data
 from workflow.claims.judge import Judgement, read_claims
-from workflow.claims.verdict import Band, Number, Verdict
-from workflow.lib.fit import with_error
-from workflow.report import words
+from workflow.claims.verdict import Band, Estimate, Verdict
+from workflow.lib.fit import format_with_error
+from workflow.report import typeset
 from workflow.report.write import numbers_file, rendered
 
-NUMBERS = (Number("first", 0.5, 0.001), Number("second", 0.25, 0.002))
+NUMBERS = (Estimate("first", 0.5, 0.001), Estimate("second", 0.25, 0.002))
 BANDS = {"reproduced": Band(0, 1), "contradicted": Band(1, 2), "undecided": Band(0, 0.5)}
 
 
 @pytest.mark.parametrize(
     ("number", "text"),
     [
-        (Number("", 0.6397, 0.0041, systematic=0.0234), f"{with_error(0.6397, 0.0041)} ± 0.023"),
-        (Number("", -0.000861, 0.0000168), f"{with_error(-8.61, 0.168)}·10⁻⁴"),
-        (Number("", 0.007544, 0.0, systematic=4.61e-12), "0.007544 ± 4.6·10⁻¹²"),
-        (Number("", 4.4e-16, 0.0, systematic=1.5e-13), "0 to rounding ± 1.5·10⁻¹³"),
+        (Estimate("", 0.6397, 0.0041, systematic=0.0234), f"{format_with_error(0.6397, 0.0041)} ± 0.023"),
+        (Estimate("", -0.000861, 0.0000168), f"{format_with_error(-8.61, 0.168)}·10⁻⁴"),
+        (Estimate("", 0.007544, 0.0, systematic=4.61e-12), "0.007544 ± 4.6·10⁻¹²"),
+        (Estimate("", 4.4e-16, 0.0, systematic=1.5e-13), "0 to rounding ± 1.5·10⁻¹³"),
     ],
 )
-def test_numbers(number: Number, text: str) -> None:
-    assert words.value(number) == text
+def test_numbers(number: Estimate, text: str) -> None:
+    assert typeset.value(number) == text
 
 
 def judged(verdict: str) -> list[Judgement]:

@@ -8,7 +8,7 @@ from scipy.stats import binom
 
 from workflow.claims.verdict import (
     Band,
-    Number,
+    Estimate,
     Outcome,
     Verdict,
     critical,
@@ -26,7 +26,7 @@ def measured(truth: float, spread: float, numbers: int = 1) -> list[Verdict]:
     replicas = np.random.default_rng(1).normal(truth, spread, (TRIALS, numbers, REPLICAS))
     mean, error = replicas.mean(axis=2), replicas.std(axis=2, ddof=1) / math.sqrt(REPLICAS)
     return [
-        Verdict(BAND, tuple(Number("", *one, REPLICAS - 1) for one in zip(*pair, strict=True)), LEVEL)
+        Verdict(BAND, tuple(Estimate("", *one, REPLICAS - 1) for one in zip(*pair, strict=True)), LEVEL)
         for pair in zip(mean, error, strict=True)
     ]
 
@@ -60,31 +60,31 @@ def test_numbers_deep_inside_or_far_outside_are_decided() -> None:
 @pytest.mark.parametrize(
     ("number", "outcome"),
     [
-        (Number("exact and inside", 1.0, 0.0), Outcome.REPRODUCED),
-        (Number("exact and outside", 1.001, 0.0), Outcome.CONTRADICTED),
-        (Number("its bound crosses the edge", 0.99, 0.0, systematic=0.02), Outcome.UNDECIDED),
-        (Number("its bound takes it back", 1.1, 0.01, systematic=0.2), Outcome.UNDECIDED),
-        (Number("beyond its bound", 1.5, 0.01, systematic=0.2), Outcome.CONTRADICTED),
-        (Number("error unknown", 5.0, math.nan, 9), Outcome.UNDECIDED),
-        (Number("value unknown", math.nan, 0.1, 9), Outcome.UNDECIDED),
-        (Number("one replica", 5.0, 0.1, 0), Outcome.UNDECIDED),
-        (Number("two replicas", 4.0, 0.5, 1), Outcome.UNDECIDED),
-        (Number("many replicas", 5.0, 0.5, 1000), Outcome.CONTRADICTED),
+        (Estimate("exact and inside", 1.0, 0.0), Outcome.REPRODUCED),
+        (Estimate("exact and outside", 1.001, 0.0), Outcome.CONTRADICTED),
+        (Estimate("its bound crosses the edge", 0.99, 0.0, systematic=0.02), Outcome.UNDECIDED),
+        (Estimate("its bound takes it back", 1.1, 0.01, systematic=0.2), Outcome.UNDECIDED),
+        (Estimate("beyond its bound", 1.5, 0.01, systematic=0.2), Outcome.CONTRADICTED),
+        (Estimate("error unknown", 5.0, math.nan, 9), Outcome.UNDECIDED),
+        (Estimate("value unknown", math.nan, 0.1, 9), Outcome.UNDECIDED),
+        (Estimate("one replica", 5.0, 0.1, 0), Outcome.UNDECIDED),
+        (Estimate("two replicas", 4.0, 0.5, 1), Outcome.UNDECIDED),
+        (Estimate("many replicas", 5.0, 0.5, 1000), Outcome.CONTRADICTED),
     ],
     ids=lambda value: getattr(value, "label", ""),
 )
-def test_each_case(number: Number, outcome: Outcome) -> None:
+def test_each_case(number: Estimate, outcome: Outcome) -> None:
     verdict = Verdict(BAND, (number,), LEVEL)
     assert verdict.outcome is outcome
 
 
 def test_one_contradiction_outweighs_what_is_open_and_what_agrees() -> None:
-    inside, open_, outside = Number("a", 0, 0.01), Number("b", 1, 0.5), Number("c", 2, 0.01)
+    inside, open_, outside = Estimate("a", 0, 0.01), Estimate("b", 1, 0.5), Estimate("c", 2, 0.01)
     assert Verdict(BAND, (inside, open_), LEVEL).outcome is Outcome.UNDECIDED
     verdict = Verdict(BAND, (inside, open_, outside), LEVEL)
     assert verdict.outcome is Outcome.CONTRADICTED
     assert verdict.shown is outside
-    near, far = Number("", 0.1, 0.001), Number("", 0.5, 0.01)
+    near, far = Estimate("", 0.1, 0.001), Estimate("", 0.5, 0.01)
     assert Verdict(Band(0, math.inf), (far, near), LEVEL).shown is near  # not in units of the errors
 
 
@@ -103,6 +103,6 @@ def test_bands_as_they_are_written() -> None:
 def test_level_and_bound() -> None:
     assert 34 * level_of_each(34) == pytest.approx(0.05)
     assert critical(0.05, math.inf) == pytest.approx(1.959964)
-    moved = with_systematic(Number("", 1.0, 0.1, systematic=0.5), [0.7, 1.1, math.nan])
+    moved = with_systematic(Estimate("", 1.0, 0.1, systematic=0.5), [0.7, 1.1, math.nan])
     assert moved.systematic == pytest.approx(0.8)
-    assert with_systematic(Number("", 1.0, 0.1), [math.nan]).systematic == 0
+    assert with_systematic(Estimate("", 1.0, 0.1), [math.nan]).systematic == 0

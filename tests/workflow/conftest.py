@@ -40,7 +40,7 @@ SCRIPT = '''"""A panel of a test."""
 import matplotlib.pyplot as plt
 import pandas as pd
 
-from workflow.lib.figure import run
+from workflow.lib.figure import main
 
 
 def draw(results):
@@ -49,7 +49,7 @@ def draw(results):
 
 
 if __name__ == "__main__":
-    run(draw, "A panel")
+    main(draw, "A panel")
 '''
 EFFORT = "default: {replicas: 4}\npanels:\n  energy: {replicas: 4}\n"
 PRODUCT = re.compile(rf"([^/\s]+/[^/\s]+)\.{IDENTITY}\.(h5|pdf)")

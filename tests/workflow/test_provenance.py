@@ -148,8 +148,8 @@ def test_where_a_copy_of_a_figure_comes_from(project: Project, tmp_path: Path) -
     substitute("cpp/observables/persistence.cpp", "#include", "int x;\n#include")(project)
     printed = provenance(project, copy, status=1)
     assert "edited, made from 6 files" in printed
-    assert "workflow/lib is another here" in printed
-    assert "sources of persistence are others here" in printed
+    assert "workflow/lib differs here" in printed
+    assert "sources of persistence differ here" in printed
     remove(RECORD)(project)
     assert "panel mu, quality smoke" in provenance(project, copy, status=3)
 

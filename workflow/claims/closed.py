@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from workflow.claims.data import Data, number, ratio
-from workflow.claims.verdict import Number, with_systematic
+from workflow.claims.data import Data, estimate, ratio
+from workflow.claims.verdict import Estimate, with_systematic
 from workflow.lib.load import Result
 from workflow.physics.closed import ROUNDING, persistence_law, quasi_stationary
 
 
-def _named(results: list[Result], quantity: str, name: str) -> list[Number]:
+def _named(results: list[Result], quantity: str, name: str) -> list[Estimate]:
     """One number per run. Labels have the name, the mass ratio and, if they differ between runs, particles per cell and relaxation time."""
     symbols = {"particles-per-cell": "n", "relaxation-time": "t_r"}
     differing = [key for key in symbols if len({result.parameters[key] for result in results}) > 1]
@@ -20,22 +20,22 @@ def _named(results: list[Result], quantity: str, name: str) -> list[Number]:
     for result in results:
         values = (f", {symbols[key]} = {result.parameters[key]:g}" for key in differing)
         label = f"{name}, σ = {result.parameters['sigma']:g}{''.join(values)}"
-        numbers.append(number(result, quantity, label=label))
+        numbers.append(estimate(result, quantity, label=label))
     return numbers
 
 
-def persistence_limits(data: Data) -> list[Number]:
+def persistence_limits(data: Data) -> list[Estimate]:
     """mu minus arccos(sigma)/pi at sigma = -1, 0 and 1."""
     runs = data.of("fig05", particles_per_cell=20)
     return _from_law([run for run in runs if run.parameters["sigma"] in (-1, 0, 1)])
 
 
-def persistence_in_dense_chain(data: Data) -> list[Number]:
+def persistence_in_dense_chain(data: Data) -> list[Estimate]:
     """mu minus arccos(sigma)/pi at every sigma in a chain of many particles per cell."""
     return _from_law(data.of("fig05", particles_per_cell=320))
 
 
-def _from_law(results: list[Result]) -> list[Number]:
+def _from_law(results: list[Result]) -> list[Estimate]:
     """At sigma = 1 and -1 every particle turns, or none: there is no error."""
     numbers = _named(results, "mu", "μ - arccos(σ)/π")
     sigmas = [float(result.parameters["sigma"]) for result in results]
@@ -45,38 +45,38 @@ def _from_law(results: list[Result]) -> list[Number]:
     ]
 
 
-def persistent(data: Data) -> list[Number]:
+def persistent(data: Data) -> list[Estimate]:
     """mu at the sigma of the paper's other figures."""
     return _named(data.of("fig05", particles_per_cell=20, sigma=0.5), "mu", "μ")
 
 
-def waiting_half(data: Data) -> list[Number]:
+def waiting_half(data: Data) -> list[Estimate]:
     """Exponent of the waiting times at sigma = 1/2. Its change with the relaxation time is a systematic error."""
     runs = [run for run in data.of("ext07", "waiting_time") if run.parameters["relaxation-time"] >= 10]
     return [with_systematic(_waiting(data, 0.5), [float(run["exponent"].mean) for run in runs])]
 
 
-def waiting_zero(data: Data) -> list[Number]:
+def waiting_zero(data: Data) -> list[Estimate]:
     return [_waiting(data, 0)]
 
 
-def _waiting(data: Data, sigma: float) -> Number:
+def _waiting(data: Data, sigma: float) -> Estimate:
     """Exponent of the waiting times. Its spread over cuts of the tail within a factor of three is a systematic error."""
     (result,) = data.of("fig06", sigma=sigma)
-    exponent = number(result, "exponent", label="exponent of Ψ(τ)")
+    exponent = estimate(result, "exponent", label="exponent of Ψ(τ)")
     return with_systematic(exponent, [exponent.value + float(result["exponent_spread"].mean)])
 
 
-def spreading_half(data: Data) -> list[Number]:
+def spreading_half(data: Data) -> list[Estimate]:
     """alpha at sigma = 1/2. Its change with the relaxation time is a systematic error."""
     (result,) = data.of("fig07", cells=11, zero_total_momentum=False)
-    return [with_systematic(number(result, "alpha", label="α, σ = 0.5"), _relaxed(data, 0.5))]
+    return [with_systematic(estimate(result, "alpha", label="α, σ = 0.5"), _relaxed(data, 0.5))]
 
 
-def spreading_zero(data: Data) -> list[Number]:
+def spreading_zero(data: Data) -> list[Estimate]:
     """alpha at sigma = 0. Its change with the relaxation time is a systematic error."""
     (result,) = data.of("fig07_inset", sigma=0, zero_total_momentum=False)
-    return [with_systematic(number(result, "alpha", label="α, σ = 0"), _relaxed(data, 0))]
+    return [with_systematic(estimate(result, "alpha", label="α, σ = 0"), _relaxed(data, 0))]
 
 
 def _relaxed(data: Data, sigma: float) -> list[float]:
@@ -84,27 +84,27 @@ def _relaxed(data: Data, sigma: float) -> list[float]:
     return [float(run["alpha"].mean) for run in runs]
 
 
-def spreading_with_drift(data: Data) -> list[Number]:
+def spreading_with_drift(data: Data) -> list[Estimate]:
     """alpha for every sigma but 0, with the paper's random total momentum."""
     return _spreading(data, zero_total_momentum=False)
 
 
-def spreading_without_drift(data: Data) -> list[Number]:
+def spreading_without_drift(data: Data) -> list[Estimate]:
     """alpha for every sigma but 0, with zero total momentum."""
     return _spreading(data, zero_total_momentum=True)
 
 
-def _spreading(data: Data, *, zero_total_momentum: bool) -> list[Number]:
+def _spreading(data: Data, *, zero_total_momentum: bool) -> list[Estimate]:
     runs = data.of("fig07_inset", zero_total_momentum=zero_total_momentum)
     name = "α at zero total momentum" if zero_total_momentum else "α"
     return _named([run for run in runs if run.parameters["sigma"]], "alpha", name)
 
 
-def random_directions(data: Data) -> list[Number]:
+def random_directions(data: Data) -> list[Estimate]:
     return _named(data.of("ext01", rule="random-direction"), "alpha", "α")
 
 
-def momentum_changes(data: Data) -> list[Number]:
+def momentum_changes(data: Data) -> list[Estimate]:
     """Change of the total momentum over a run, relative to the sum of all |momenta|, as a power of ten. Changes below
     the rounding error are replaced by it."""
     runs = [run for run in data.of("fig07_inset") if run.parameters["sigma"]]
@@ -112,11 +112,11 @@ def momentum_changes(data: Data) -> list[Number]:
     for drift in _named(runs, "momentum_drift", "log₁₀ of the relative change of Σp + ΣP"):
         change = max(drift.value, sys.float_info.epsilon)
         error = drift.error / (change * math.log(10))
-        changes.append(Number(drift.label, math.log10(change), error, drift.freedom))
+        changes.append(Estimate(drift.label, math.log10(change), error, drift.freedom))
     return changes
 
 
-def ageing(data: Data) -> list[Number]:
+def ageing(data: Data) -> list[Estimate]:
     """Against the quasi-stationary estimate: the energy of a scatterer of the paper's chain over it, minus 1, at the start of every decade from
     t = 1 on; and in a chain of few particles, whose energy saturates, the slope against ln t in the last decade over that in the first
     decade from t = 1 on, minus that of the estimate."""
@@ -129,13 +129,13 @@ def ageing(data: Data) -> list[Number]:
         label = (
             f"energy over eq. 14, minus 1, n = {paper.parameters['particles-per-cell']}, t = {times[k]:.3g}"
         )
-        numbers.append(number(paper, "scatterer_energy_mean", k, label).over(expected[k], 1))
+        numbers.append(estimate(paper, "scatterer_energy_mean", k, label).over(expected[k], 1))
     decades = few["decade_slope"].axes["decade"]
     first = _first(decades, 1.0)
     ends = [_estimate(few, factor * decades[[first, -1]]) for factor in (1, 10)]
     rise = ends[1] - ends[0]
     label = f"slope from t = {decades[-1]:g} over that from t = 1, minus eq. 14, n = {few.parameters['particles-per-cell']}"
-    change = ratio(number(few, "decade_slope", -1), number(few, "decade_slope", first), label)
+    change = ratio(estimate(few, "decade_slope", -1), estimate(few, "decade_slope", first), label)
     return [*numbers, change.over(1, float(rise[1] / rise[0]))]
 
 

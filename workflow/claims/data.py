@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from workflow.claims.verdict import Number, with_systematic
+from workflow.claims.verdict import Estimate, with_systematic
 from workflow.lib.fit import PowerLaw, fit_power
 from workflow.lib.load import Index, Result, load
 from workflow.pipeline.plan import Run, data_path, load_plan
@@ -59,7 +59,7 @@ class Data:
         return self.loaded[path]
 
 
-Claim = Callable[[Data], list[Number]]
+Claim = Callable[[Data], list[Estimate]]
 
 
 def freedom(*results: Result) -> float:
@@ -71,27 +71,29 @@ def by_size(results: Iterable[Result]) -> list[Result]:
     return sorted(results, key=lambda result: result.parameters["cells"])
 
 
-def number(result: Result, name: str, index: Index = (), label: str = "") -> Number:
+def estimate(result: Result, name: str, index: Index = (), label: str = "") -> Estimate:
     """A quantity of a run, or one element of an array. A computed quantity has a systematic error only."""
     quantity = result[name]
     value = float(quantity.mean[index])
     if quantity.discretisation_error is not None:
-        return Number(label, value, 0.0, systematic=float(quantity.discretisation_error[index]))
-    return Number(label, value, float(quantity.error[index]), freedom(result))
+        return Estimate(label, value, 0.0, systematic=float(quantity.discretisation_error[index]))
+    return Estimate(label, value, float(quantity.error[index]), freedom(result))
 
 
-def ratio(above: Number, below: Number, label: str) -> Number:
+def ratio(above: Estimate, below: Estimate, label: str) -> Estimate:
     """Ratio of two independent numbers."""
     value, size = above.value / below.value, abs(below.value)
     error = float(np.hypot(above.error, value * below.error)) / size
     systematic = (above.systematic + abs(value) * below.systematic) / size
-    return Number(label, value, error, min(above.freedom, below.freedom), systematic)
+    return Estimate(label, value, error, min(above.freedom, below.freedom), systematic)
 
 
-def combination(numbers: Sequence[Number], weights: Sequence[float], label: str, minus: float = 0) -> Number:
+def combination(
+    numbers: Sequence[Estimate], weights: Sequence[float], label: str, minus: float = 0
+) -> Estimate:
     """Weighted sum of independent numbers, minus an expected value."""
     terms = [*zip(weights, numbers, strict=True)]
-    return Number(
+    return Estimate(
         label,
         sum(weight * term.value for weight, term in terms) - minus,
         float(np.sqrt(sum((weight * term.error) ** 2 for weight, term in terms))),
@@ -100,14 +102,16 @@ def combination(numbers: Sequence[Number], weights: Sequence[float], label: str,
     )
 
 
-def log_slope(first: Number, last: Number, factor: float) -> Number:
+def log_slope(first: Estimate, last: Estimate, factor: float) -> Estimate:
     """Slope on logarithmic axes between two times, the later of which is `factor` times the first."""
     span = log(factor)
     error = hypot(first.error / first.value, last.error / last.value) / span
-    return Number("", log(last.value / first.value) / span, error, first.freedom)
+    return Estimate("", log(last.value / first.value) / span, error, first.freedom)
 
 
-def power(results: Sequence[Result], size: Sequence[float], values: Sequence[Number], label: str) -> Number:
+def power(
+    results: Sequence[Result], size: Sequence[float], values: Sequence[Estimate], label: str
+) -> Estimate:
     """Exponent of a power law through independent numbers; if they reject the law, the label states it. The systematic error is the change
     of the exponent without the first number."""
     x, y, error = (
@@ -117,7 +121,7 @@ def power(results: Sequence[Result], size: Sequence[float], values: Sequence[Num
     )
     law = fit_power(x, y, error)
     later = fit_power(x[1:], y[1:], error[1:]).exponent if len(x) > 2 else law.exponent
-    exponent = Number(mean_slope(label, law), law.exponent, law.error, freedom(*results))
+    exponent = Estimate(mean_slope(label, law), law.exponent, law.error, freedom(*results))
     return with_systematic(exponent, [later])
 
 

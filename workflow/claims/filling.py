@@ -1,23 +1,23 @@
 """Claims on the chain that fills (fig. 1), at the spacing 1/N of the paper's other open chains, as it states none for this one."""
 
-from workflow.claims.data import Data, number, ratio
-from workflow.claims.verdict import Number
+from workflow.claims.data import Data, estimate, ratio
+from workflow.claims.verdict import Estimate
 
 RUN = "unit-chain"
 
 
-def stationary_above_front(data: Data) -> list[Number]:
+def stationary_above_front(data: Data) -> list[Estimate]:
     """Relative changes of |p| n_t(p) above p_0 from each time to the next."""
     result = data.one("fig01", RUN)
     times = result["plateau"].axes["time"]
     changes = []
     for k in range(1, len(times)):
         label = f"change of |p| n_t(p) from t = {times[k - 1]:g} to {times[k]:g}"
-        before, after = (number(result, "plateau", index) for index in (k - 1, k))
+        before, after = (estimate(result, "plateau", index) for index in (k - 1, k))
         changes.append(ratio(after, before, label).over(1, 1))
     return changes
 
 
-def front_falls(data: Data) -> list[Number]:
+def front_falls(data: Data) -> list[Estimate]:
     """Exponent of p_0(t). For p_0 ~ 1/ln t it would be -1/ln t."""
-    return [number(data.one("fig01", RUN), "front_exponent", label="d ln p₀/d ln t")]
+    return [estimate(data.one("fig01", RUN), "front_exponent", label="d ln p₀/d ln t")]

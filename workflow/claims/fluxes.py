@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 from scipy.special import erf
 
-from workflow.claims.data import Data, combination, freedom, number, ratio
-from workflow.claims.verdict import Number, with_systematic
+from workflow.claims.data import Data, combination, estimate, freedom, ratio
+from workflow.claims.verdict import Estimate, with_systematic
 from workflow.lib.load import Quantity, Result
 from workflow.physics.fluxes import SIMULATION, at, deviations
 
@@ -20,7 +20,7 @@ PRINTED = {16: 1e-4}  # bounds that the paper states for F_N - F, by N
 OTHERWISE = 1e-3
 
 
-def equilibrium(data: Data) -> list[Number]:
+def equilibrium(data: Data) -> list[Estimate]:
     """Between equal baths: moments of the outgoing flux and of the end scatterers, relative to the Gaussian, and Kolmogorov distances."""
     numbers = []
     for gamma in (1, "N"):
@@ -31,10 +31,10 @@ def equilibrium(data: Data) -> list[Number]:
             for program in ("momentum_flux", "steady_profile")
         )
         for end, half, name in OUTGOING:
-            square = number(flux, "square", (end, half), f"⟨p²⟩/T - 1, {name}, γ = {gamma}")
-            kurtosis = number(flux, "kurtosis", (end, half), f"⟨p⁴⟩/(3⟨p²⟩²) - 1, {name}, γ = {gamma}")
+            square = estimate(flux, "square", (end, half), f"⟨p²⟩/T - 1, {name}, γ = {gamma}")
+            kurtosis = estimate(flux, "kurtosis", (end, half), f"⟨p⁴⟩/(3⟨p²⟩²) - 1, {name}, γ = {gamma}")
             label = f"⟨P²⟩/MT - 1 at x = {half}, γ = {gamma}"
-            scatterer = number(profile, "temperature_scatterer", end, label)
+            scatterer = estimate(profile, "temperature_scatterer", end, label)
             numbers += [square.over(EQUAL, 1), kurtosis.over(3, 1), scatterer.over(EQUAL, 1)]
         crossing, ends = flux["flux"], profile["scatterer_density"]
         momentum = crossing.axes["momentum"]
@@ -46,8 +46,8 @@ def equilibrium(data: Data) -> list[Number]:
         of_particles = largest_distance(momentum, density, error, EQUAL)
         of_scatterers = largest_distance(ends.axes["momentum"], both[0], both[1], EQUAL)
         numbers += [
-            Number(f"Kolmogorov's distance of F, γ = {gamma}", *of_particles, freedom(flux)),
-            Number(f"Kolmogorov's distance of g, γ = {gamma}", *of_scatterers, freedom(profile)),
+            Estimate(f"Kolmogorov's distance of F, γ = {gamma}", *of_particles, freedom(flux)),
+            Estimate(f"Kolmogorov's distance of g, γ = {gamma}", *of_scatterers, freedom(profile)),
         ]
     return numbers
 
@@ -64,35 +64,36 @@ def largest_distance(
     return float(distance[largest]), float(np.sqrt(np.nansum(error[: largest + 1] ** 2)) * width)
 
 
-def jump_and_halves(data: Data) -> list[Number]:
+def jump_and_halves(data: Data) -> list[Estimate]:
     """Jump of F at p = 0 over max F, and departure of the outgoing halves from a Gaussian, by the kinetic equation at both ends."""
     result = data.one("fig03", "paper")
     largest = float(result["flux_density"].mean.max())
     jumps = [
-        number(result, "jump", end, f"jump over max F, x = {half}").over(largest) for end, half, _ in OUTGOING
+        estimate(result, "jump", end, f"jump over max F, x = {half}").over(largest)
+        for end, half, _ in OUTGOING
     ]
     return [*jumps, *_departures(result)]
 
 
-def not_gaussian(data: Data) -> list[Number]:
+def not_gaussian(data: Data) -> list[Estimate]:
     """Departure of the outgoing halves from a Gaussian in the deterministic chain."""
     return _departures(data.one("fig04b", "deterministic"))
 
 
-def _departures(result: Result) -> list[Number]:
+def _departures(result: Result) -> list[Estimate]:
     """|<p^4>/<p^2>^2 - 3| of both outgoing halves, which is 0 for a Gaussian."""
     return [
-        _magnitude(number(result, "kurtosis", (end, half), f"|⟨p⁴⟩/⟨p²⟩² - 3|, {name}").over(1, 3))
+        _magnitude(estimate(result, "kurtosis", (end, half), f"|⟨p⁴⟩/⟨p²⟩² - 3|, {name}").over(1, 3))
         for end, half, name in OUTGOING
     ]
 
 
-def _magnitude(number: Number) -> Number:
+def _magnitude(number: Estimate) -> Estimate:
     """Absolute value of a number. The error is that of the number, also if its value is 0."""
     return replace(number, value=abs(number.value))
 
 
-def deviations_over_bounds(data: Data) -> list[Number]:
+def deviations_over_bounds(data: Data) -> list[Estimate]:
     """F_N - F of the outgoing particles over the printed bound, in every bin within REACH; bins beyond contain too few particles."""
     rows = deviations(data.of("fig03_inset"))
     degrees = freedom(*data.of("fig03_inset", "momentum_flux"))
@@ -101,11 +102,11 @@ def deviations_over_bounds(data: Data) -> list[Number]:
     for row in rows[(rows.kind == SIMULATION) & (rows.momentum.abs() < REACH)].itertuples():
         bound = PRINTED.get(row.cells, OTHERWISE)
         label = f"(F_N - F)/{100 * bound:g} %, N = {row.cells}, p = {row.momentum:g}"
-        numbers.append(Number(label, scale * row.deviation, scale * row.error, degrees).over(bound))
+        numbers.append(Estimate(label, scale * row.deviation, scale * row.error, degrees).over(bound))
     return numbers
 
 
-def deviations_central(data: Data) -> list[Number]:
+def deviations_central(data: Data) -> list[Estimate]:
     """Deviations at N = 2, where they are largest: those beyond the thermal momentum against those of the two central bins, and the odd part
     of the central ones over their mean magnitude."""
     table, degrees = deviations(data.of("fig03_inset")), freedom(*data.of("fig03_inset", "momentum_flux"))
@@ -113,25 +114,27 @@ def deviations_central(data: Data) -> list[Number]:
     part = table[(table.kind == SIMULATION) & (table.cells == 2)].sort_values("momentum")
     momentum, value, error = (part[name].to_numpy() for name in ("momentum", "deviation", "error"))
     middle = len(momentum) // 2
-    left, right = (Number("", value[k], error[k], degrees) for k in (middle - 1, middle))
+    left, right = (Estimate("", value[k], error[k], degrees) for k in (middle - 1, middle))
     centre = combination([_magnitude(left), _magnitude(right)], [0.5, 0.5], "")
     outer = np.flatnonzero((np.abs(momentum) > np.sqrt(temperature)) & (np.abs(momentum) < REACH))
     less = []
     for k in outer:
         label = f"1 - |deviation at p = {momentum[k]:g}| over that at p = 0"
-        both = [centre, Number("", abs(value[k]), error[k], degrees)]
+        both = [centre, Estimate("", abs(value[k]), error[k], degrees)]
         less.append(combination(both, [1 / centre.value, -1 / centre.value], label))
     half = 0.5 / abs(centre.value)
     odd = combination([left, right], [half, -half], "odd part over the whole at p = 0")
     return [*less, _magnitude(odd)]
 
 
-def on_top_of_kinetic(data: Data) -> list[Number]:
+def on_top_of_kinetic(data: Data) -> list[Estimate]:
     """F_N minus the solution F of the kinetic equation over the largest F, at both ends of the chain with gamma = 1."""
     simulated, kinetic = data.one("fig04a", "rare"), data.one("fig04a", "kinetic")["flux"]
     flux, scale = simulated["flux"], float(kinetic.mean.max())
     return [
-        number(simulated, "flux", (bond, k), f"(F_N - F)/max F, {name}, p = {p:g}").over(scale, value / scale)
+        estimate(simulated, "flux", (bond, k), f"(F_N - F)/max F, {name}, p = {p:g}").over(
+            scale, value / scale
+        )
         for bond, name in ENDS
         for k, (p, value) in enumerate(zip(flux.axes["momentum"], _behind(kinetic, bond, flux), strict=True))
         if abs(p) < REACH
@@ -144,22 +147,22 @@ def _behind(solution: Quantity, bond: int, flux: Quantity) -> np.ndarray:
     return at(solution, bonds[bond] / bonds[-1])
 
 
-def jump_smaller(data: Data) -> list[Number]:
+def jump_smaller(data: Data) -> list[Estimate]:
     rare, deterministic = data.one("fig04a", "rare"), data.one("fig04b", "deterministic")
     return [
-        ratio(number(deterministic, "jump", bond), number(rare, "jump", bond), f"jump(γ = N)/jump(γ = 1), {name}")
+        ratio(estimate(deterministic, "jump", bond), estimate(rare, "jump", bond), f"jump(γ = N)/jump(γ = 1), {name}")
         for bond, name in ENDS
     ]  # fmt: skip
 
 
-def jump_from_rates_only(data: Data) -> list[Number]:
+def jump_from_rates_only(data: Data) -> list[Estimate]:
     """Jump at equal rates, unequal temperatures and gamma = N, over max F. It is extrapolated by lines through two bins on either side; the
     error of this extrapolation in mean field bounds the systematic error."""
     equal, kinetic = (data.one("fig04b", run) for run in ("equal", "mean-field-equal"))
     scale = float(equal["flux"].mean.max())
     missed = max(_extrapolation_errors(kinetic, equal["flux"])) / scale
     jumps = [
-        number(equal, "jump", bond, f"jump over max F at ν_L = ν_R, {name}").over(scale)
+        estimate(equal, "jump", bond, f"jump over max F at ν_L = ν_R, {name}").over(scale)
         for bond, name in ENDS
     ]
     return [with_systematic(jump, [jump.value + missed]) for jump in jumps]

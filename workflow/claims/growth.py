@@ -6,8 +6,8 @@ from typing import TypeVar
 
 import numpy as np
 
-from workflow.claims.data import Data, MissingError, by_size, freedom, log_slope, mean_slope, number, power
-from workflow.claims.verdict import Number, with_systematic
+from workflow.claims.data import Data, MissingError, by_size, estimate, freedom, log_slope, mean_slope, power
+from workflow.claims.verdict import Estimate, with_systematic
 from workflow.lib.fit import fit_power
 from workflow.lib.load import Result
 from workflow.physics.response import tabulate
@@ -22,12 +22,12 @@ LATE = 64  # time in λ/√T from which the exponents of rings are judged: earli
 FIXED_SPACING = 0.1  # spacing of chains that have a thermodynamic limit
 
 
-def linear(data: Data) -> list[Number]:
+def linear(data: Data) -> list[Estimate]:
     """Exponent of kappa at gamma = 1 over the largest sizes."""
     return [of_largest(data, 1)]
 
 
-def of_largest(data: Data, gamma: str | int) -> Number:
+def of_largest(data: Data, gamma: str | int) -> Estimate:
     """Exponent of kappa over the largest sizes of fig. 8. Raises MissingError if they are small."""
     runs = sizes(data, gamma)
     if not runs or runs[-1].parameters["cells"] < LONG:
@@ -45,13 +45,13 @@ def _stationary(runs: Iterable[Result]) -> list[Result]:
     return by_size(run for run in runs if run["stationary"].mean == 1)
 
 
-def exponent(runs: Sequence[Result], name: str) -> Number:
+def exponent(runs: Sequence[Result], name: str) -> Estimate:
     """Exponent of the conductivity against the number of cells, over the sizes of the runs. Raises MissingError for fewer than two."""
     cells = [run.parameters["cells"] for run in runs]
     if len(runs) < 2:
         raise MissingError("fewer than two stationary sizes")
     return power(
-        runs, cells, [number(run, "kappa") for run in runs], f"{name}, N = {cells[0]} to {cells[-1]}"
+        runs, cells, [estimate(run, "kappa") for run in runs], f"{name}, N = {cells[0]} to {cells[-1]}"
     )
 
 
@@ -61,7 +61,7 @@ def halves(by_size: Sequence[T]) -> list[Sequence[T]]:
     return [part for part in (by_size[: middle + 1], by_size[middle:]) if len(part) > 1]
 
 
-def cube_root(data: Data) -> list[Number]:
+def cube_root(data: Data) -> list[Estimate]:
     """Exponents of kappa over the smaller and over the larger half of fig. 8's sizes at gamma = N, which agree for a power law."""
     parts = halves(_with_bulk(sizes(data, "N")))
     if not parts:
@@ -73,27 +73,27 @@ def _with_bulk(runs: Sequence[Result]) -> list[Result]:
     return [run for run in runs if run.parameters["cells"] >= BULK]
 
 
-def superdiffusive(data: Data) -> list[Number]:
+def superdiffusive(data: Data) -> list[Estimate]:
     """beta of <Q²> ∼ t^beta, of every gas from t = LATE on in its longest ring. The errors of both ends are taken as independent, which
     overestimates that of their ratio."""
     numbers = []
     for ring in _longest(data.of("ext13", rule="elastic")):
         times = ring["heat_variance"].axes["time"]
         first = int(np.searchsorted(times, LATE))
-        early, late = (number(ring, "heat_variance", k) for k in (first, -1))
+        early, late = (estimate(ring, "heat_variance", k) for k in (first, -1))
         label = f"β, {_gas(ring)}, t = {times[first]:g} to {times[-1]:g}"
         numbers.append(replace(log_slope(early, late, times[-1] / times[first]), label=label))
     return numbers
 
 
-def at_fixed_density(data: Data) -> list[Number]:
+def at_fixed_density(data: Data) -> list[Estimate]:
     """Exponents of kappa at a density that does not depend on N: beta - 1 in rings, and those of kappa_0 between baths over all sizes and over
     the last octave."""
     rings = _of_kappa(data.of("ext13", rule="elastic"))
     return [*rings, without_particle_current(data), without_particle_current(data, last=2)]
 
 
-def without_momentum(data: Data) -> list[Number]:
+def without_momentum(data: Data) -> list[Estimate]:
     """Exponents of kappa where a fraction of the collisions reverses the scatterer and so breaks the conservation of momentum: beta - 1 in the
     longest ring of every fraction, and that of kappa between the two largest sizes of chains between baths, as far as they are measured."""
     slopes = _of_kappa(data.of("ext13", rule="reversal"))
@@ -106,7 +106,7 @@ def without_momentum(data: Data) -> list[Number]:
     ]
 
 
-def _of_kappa(rings: Sequence[Result]) -> list[Number]:
+def _of_kappa(rings: Sequence[Result]) -> list[Estimate]:
     """The exponents beta - 1 of kappa over the last octave of the longest rings."""
     slopes = map(_last_octave, _longest(rings))
     return [replace(slope.over(1, 1), label=f"β - 1, {slope.label}") for slope in slopes]
@@ -121,9 +121,9 @@ def _longest(rings: Sequence[Result]) -> list[Result]:
     return found
 
 
-def _last_octave(ring: Result) -> Number:
+def _last_octave(ring: Result) -> Estimate:
     """d ln⟨Q²⟩/d ln t over the last octave."""
-    return number(ring, "local_exponent", -1, f"{_gas(ring)}, t = {_last_time(ring):.0f}")
+    return estimate(ring, "local_exponent", -1, f"{_gas(ring)}, t = {_last_time(ring):.0f}")
 
 
 def _gas(ring: Result) -> str:
@@ -137,7 +137,7 @@ def _last_time(ring: Result) -> float:
     return float(ring["local_exponent"].axes["middle"][-1])
 
 
-def without_particle_current(data: Data, last: int | None = None) -> Number:
+def without_particle_current(data: Data, last: int | None = None) -> Estimate:
     """Exponent of kappa_0, the conductivity at J_n = 0, at fixed spacing (ext. 11), over all sizes or over the `last` largest. The
     exponents over the smaller and over the larger half bound the systematic error."""
     planned = data.of("ext11", "conductivity", cell_length=FIXED_SPACING)
@@ -150,5 +150,5 @@ def without_particle_current(data: Data, last: int | None = None) -> Number:
     values = [*zip(table.cells, table.kappa_0, table.kappa_0_error, strict=True)]
     law, *parts = (fit_power(*np.array(part, float).T) for part in (values, *halves(values)))
     label = f"d ln κ₀/d ln N at J_n = 0, N = {table.cells.min()} to {table.cells.max()}"
-    slope = Number(mean_slope(label, law), law.exponent, law.error, freedom(*runs))
+    slope = Estimate(mean_slope(label, law), law.exponent, law.error, freedom(*runs))
     return with_systematic(slope, [part.exponent for part in parts])

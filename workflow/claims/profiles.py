@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from workflow.claims.data import Data, by_size, combination, freedom, number, ratio
-from workflow.claims.verdict import Number, with_systematic
+from workflow.claims.data import Data, by_size, combination, estimate, freedom, ratio
+from workflow.claims.verdict import Estimate, with_systematic
 from workflow.lib.fit import fit_line
 from workflow.lib.load import Result
 
@@ -23,44 +23,44 @@ def _both(data: Data) -> list[tuple[Result, str]]:
     return [(data.one("fig02_upper", run), name) for run, name in RUNS.items()]
 
 
-def temperatures_mismatch(data: Data) -> list[Number]:
+def temperatures_mismatch(data: Data) -> list[Estimate]:
     """The end cells' temperatures lie between those of the baths, and the profile is less steep at gamma = 1."""
     jumps = []
     for result, name in _both(data):
         low, high = result.ends("temperature")
         scale = high - low
-        first = number(result, "temperature_scatterer", 0, f"(T₁ - T_L)/(T_R - T_L), {name}")
-        last = number(result, "temperature_scatterer", -1, f"(T_R - T_N)/(T_R - T_L), {name}")
+        first = estimate(result, "temperature_scatterer", 0, f"(T₁ - T_L)/(T_R - T_L), {name}")
+        last = estimate(result, "temperature_scatterer", -1, f"(T_R - T_N)/(T_R - T_L), {name}")
         jumps += [first.over(scale, low / scale), last.over(-scale, -high / scale)]
     steeper = combination(jumps, [-1, -1, 1, 1], "(T_N - T₁)/(T_R - T_L), γ = N minus γ = 1")
     return [*jumps, steeper]
 
 
-def temperatures_coincide(data: Data) -> list[Number]:
+def temperatures_coincide(data: Data) -> list[Estimate]:
     """T of the scatterer minus T of the particles in every cell, relative to the latter."""
     numbers = []
     for result, name in _both(data):
         for k, local in enumerate(result["temperature_particle"].mean):
             label = f"T of scatterer over that of particles, minus 1, in cell {k + 1}, {name}"
-            numbers.append(number(result, "temperature_difference", k, label).over(local))
+            numbers.append(estimate(result, "temperature_difference", k, label).over(local))
     return numbers
 
 
-def density_profiles(data: Data) -> list[Number]:
+def density_profiles(data: Data) -> list[Estimate]:
     """Slope of the density in the bulk at gamma = 1 over that at gamma = N, and excess of particles in both end cells over the line through
     the bulk."""
     both = [result for result, _ in _both(data)]
-    above, below = (number(profile, "density_slope") for profile in reversed(both))
+    above, below = (estimate(profile, "density_slope") for profile in reversed(both))
     slope = ratio(above, below, "")
     less = replace(slope.over(-1, -1), label="1 - slope(γ = 1)/slope(γ = N)")
     excess = []
     for end, name in enumerate(("first", "last")):
-        ends = [number(profile, "density_excess", end) for profile in both]
+        ends = [estimate(profile, "density_excess", end) for profile in both]
         excess.append(combination(ends, [-1, 1], f"excess of the {name} cell, γ = 1 minus γ = N"))
     return [less, *excess]
 
 
-def linear_rates(data: Data) -> list[Number]:
+def linear_rates(data: Data) -> list[Estimate]:
     """Deviations of the rates from a straight line and of the current from its mean, over the mean rate."""
     numbers = []
     for result, name in _both(data):
@@ -68,21 +68,21 @@ def linear_rates(data: Data) -> list[Number]:
         for quantity, words, first in DEVIATIONS:
             for k in range(len(result[f"{quantity}_deviation"].mean)):
                 label = f"{words} {k + first}, {name}"
-                numbers.append(number(result, f"{quantity}_deviation", k, label).over(scale))
+                numbers.append(estimate(result, f"{quantity}_deviation", k, label).over(scale))
     return numbers
 
 
-def boundary_grows(data: Data) -> list[Number]:
+def boundary_grows(data: Data) -> list[Estimate]:
     """Excess density of the end cells against ln N at gamma = 1."""
     every = [*data.of("ext05"), data.one("fig02_upper", "rare")]
     results = by_size(run for run in every if run.parameters["cells"] >= FROM_SIZE)
     return [_slope(results, end, name) for end, name in enumerate(("first", "last"))]
 
 
-def _slope(results: Sequence[Result], end: int, name: str) -> Number:
+def _slope(results: Sequence[Result], end: int, name: str) -> Estimate:
     size = np.log([run.parameters["cells"] for run in results])
-    points = [number(run, "density_excess", end) for run in results]
+    points = [estimate(run, "density_excess", end) for run in results]
     value, error = [point.value for point in points], [point.error for point in points]
     line, later = fit_line(size, value, error), fit_line(size[1:], value[1:], error[1:])
     label = f"excess of the {name} cell per unit of ln N"
-    return with_systematic(Number(label, line.slope, line.error, freedom(*results)), [later.slope])
+    return with_systematic(Estimate(label, line.slope, line.error, freedom(*results)), [later.slope])

@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from workflow.claims.data import Data, MissingError, combination, log_slope, number
+from workflow.claims.data import Data, MissingError, combination, estimate, log_slope
 from workflow.claims.growth import of_largest, without_particle_current
-from workflow.claims.verdict import Number, with_systematic
+from workflow.claims.verdict import Estimate, with_systematic
 from workflow.lib.load import Result
 from workflow.physics.peaks import (
     CENTRE,
@@ -30,49 +30,49 @@ PEAK_BIAS = 0.02  # largest bias of the damping exponent of an octave (cpp/stati
 LEFT, ODD, SPEED = 0.1, 0.1, 0.25  # bounds of the numbers of peaks_leave
 
 
-def peaks_leave(data: Data) -> list[Number]:
+def peaks_leave(data: Data) -> list[Estimate]:
     """The fraction of the energy in the five central cells at the last time, the odd part at the peak over the peak at every time, and d ln
     v/d ln t of the peaks between the first and the last pair of times, each over its bound."""
     result = data.one("fig09a", PAPERS_START)
-    share = number(result, "centre_share", -1, "fraction in the centre over 0.1")
+    share = estimate(result, "centre_share", -1, "fraction in the centre over 0.1")
     slowing = replace(_slowing(result), label="d ln v/d ln t over 1/4")
     odd = [part.over(ODD) for part in _odd_parts(result)]
     return [share.over(LEFT), *odd, slowing.over(SPEED)]
 
 
-def _odd_parts(result: Result) -> list[Number]:
+def _odd_parts(result: Result) -> list[Estimate]:
     height, position, odd = result["peak"].mean, result["peak_position"].mean, result["odd_part"]
     distance, times = odd.axes["distance"], odd.axes["time"]
     numbers = []
     for k in np.flatnonzero(np.isfinite(position)):
         nearest = int(np.abs(distance - position[k]).argmin())
         label = f"odd part of the peak over 0.1, t = {times[k]:g}"
-        numbers.append(number(result, "odd_part", (k, nearest), label).over(height[k]))
+        numbers.append(estimate(result, "odd_part", (k, nearest), label).over(height[k]))
     return numbers
 
 
-def _slowing(result: Result) -> Number:
+def _slowing(result: Result) -> Estimate:
     speed = result["peak_speed"]
     resolved = np.flatnonzero(speed.mean > 0)
     if len(resolved) < 2:
         raise MissingError("too few times with a moving peak")
-    first, last = (number(result, "peak_speed", k) for k in resolved[[0, -1]])
+    first, last = (estimate(result, "peak_speed", k) for k in resolved[[0, -1]])
     time = speed.axes["middle"][resolved]
     return log_slope(first, last, time[-1] / time[0])
 
 
-def ballistic(data: Data) -> list[Number]:
+def ballistic(data: Data) -> list[Estimate]:
     """Exponent of the peak's position at gamma = 1 from the paper's start."""
     return [_way(data.one("fig09b", PAPERS_START))]
 
 
-def ballistic_later(data: Data) -> list[Number]:
+def ballistic_later(data: Data) -> list[Estimate]:
     """The same in a ring ten times as long at later times, where the width of the cell in which the pulse begins no longer counts."""
     (ring,) = data.of(program="energy_pulse", gamma=1, cells=1001)
     return [_way(ring)]
 
 
-def _way(result: Result) -> Number:
+def _way(result: Result) -> Estimate:
     """Exponent of the position between the first and the last time with a moving peak. The exponents without the first or
     without the last of them bound the systematic error."""
     resolved = np.flatnonzero(np.isfinite(result["peak_position"].mean))
@@ -80,8 +80,8 @@ def _way(result: Result) -> Number:
         raise MissingError("too few times with a moving peak")
     times = result["peak_position"].axes["time"]
 
-    def between(first: int, last: int) -> Number:
-        early, late = (number(result, "peak_position", k) for k in (first, last))
+    def between(first: int, last: int) -> Estimate:
+        early, late = (estimate(result, "peak_position", k) for k in (first, last))
         return log_slope(early, late, times[last] / times[first])
 
     slope, *others = (between(*resolved[list(ends)]) for ends in ((0, -1), (1, -1), (0, -2)))
@@ -89,51 +89,51 @@ def _way(result: Result) -> Number:
     return with_systematic(replace(slope, label=label), [other.value for other in others])
 
 
-def damping(data: Data) -> list[Number]:
+def damping(data: Data) -> list[Estimate]:
     """Damping exponents of every octave of the paper's pulse at gamma = N, which agree for a power law. The bias of the fits of the peak's
     height is a systematic error."""
     result = data.one("fig09a", PAPERS_START)
     local = result["local_damping_exponent"]
     octaves = [
-        number(result, "local_damping_exponent", k, f"damping exponent, octave to t = {until:g}")
+        estimate(result, "local_damping_exponent", k, f"damping exponent, octave to t = {until:g}")
         for k, until in enumerate(local.axes["until"])
         if np.isfinite(local.mean[k])
     ]
     return [with_systematic(octave, [octave.value + PEAK_BIAS]) for octave in octaves]
 
 
-def damping_of_sound(data: Data) -> list[Number]:
+def damping_of_sound(data: Data) -> list[Estimate]:
     """Damping exponent of the sound peak in equilibrium, of the longest record."""
     rings = [ring for ring in data.of("ext03", "correlation") if not ring.run.startswith(HEAT)]
     longest = max(rings, key=lambda ring: float(ring["peak"].axes["time"][-1]))
     return [_of_all_times(longest, f"sound peak in equilibrium, N = {longest.parameters['cells']}")]
 
 
-def damping_rare(data: Data) -> list[Number]:
+def damping_rare(data: Data) -> list[Estimate]:
     """Damping exponent at gamma = 1 from the paper's start."""
     return [_of_all_times(data.one("fig09b", PAPERS_START), "damping exponent")]
 
 
-def _of_all_times(result: Result, label: str) -> Number:
+def _of_all_times(result: Result, label: str) -> Estimate:
     """Damping exponent over all times. Fits that leave out up to half of the times bound the systematic error."""
     later = [float(slope) for slope in result["damping_exponent_from"].mean]
-    slope = number(result, "damping_exponent", label=label)
+    slope = estimate(result, "damping_exponent", label=label)
     return with_systematic(slope, later[1 : len(later) // 2 + 1])
 
 
-def relation_of_moving_peaks(data: Data) -> list[Number]:
+def relation_of_moving_peaks(data: Data) -> list[Estimate]:
     """2 - 1/xi minus the exponent of kappa over the largest sizes, with xi of the pulse's moving peaks, for both gamma."""
     excesses = []
     for panel, gamma in (("fig09a", "N"), ("fig09b", 1)):
         xi = _of_all_times(data.one(panel, PAPERS_START), "")
         slope = xi.value**-2
-        expected = Number("", 2 - 1 / xi.value, slope * xi.error, xi.freedom, slope * xi.systematic)
+        expected = Estimate("", 2 - 1 / xi.value, slope * xi.error, xi.freedom, slope * xi.systematic)
         label = f"2 - 1/ξ minus exponent of κ, γ = {gamma}"
         excesses.append(combination([expected, of_largest(data, gamma)], [1, -1], label))
     return excesses
 
 
-def relation_of_central_peak(data: Data) -> list[Number]:
+def relation_of_central_peak(data: Data) -> list[Estimate]:
     """2 - 1/xi minus the exponent of kappa_0, with the order 1/xi of the heat peak at the centre in equilibrium, at every time."""
     kappa_0 = without_particle_current(data)
     return [
@@ -142,7 +142,7 @@ def relation_of_central_peak(data: Data) -> list[Number]:
     ]
 
 
-def heat_peak(data: Data) -> list[Number]:
+def heat_peak(data: Data) -> list[Estimate]:
     """Order 1/xi of the stable law fitted to the heat peak in equilibrium, at every time at which the peak is several cells wide. The errors are
     those of a jackknife over equal runs, as neighbouring cells are correlated; the change without the central cells, in which slow
     particles make a cusp, is a systematic error. Raises MissingError."""
@@ -157,7 +157,7 @@ def heat_peak(data: Data) -> list[Number]:
         law, without_one = stable_laws(record)
         if determined(law, without_one):
             error = float(jackknife_error(without_one[:, -1]))
-            order = Number(f"t = {time:g}", float(law[-1]), error, len(runs) - 1)
+            order = Estimate(f"t = {time:g}", float(law[-1]), error, len(runs) - 1)
             profile = record.profiles("heat_correlation").mean(axis=0)
             outer = stable_law(record, profile, omitted=CENTRE, start=law)
             orders.append(with_systematic(order, [float(outer[-1])]))

@@ -23,7 +23,7 @@ class Outcome(StrEnum):
 
 
 @dataclass(frozen=True)
-class Number:
+class Estimate:
     """A measured number. error: standard error with `freedom` degrees of freedom; systematic: bound on the systematic error."""
 
     label: str
@@ -32,7 +32,7 @@ class Number:
     freedom: float = math.inf
     systematic: float = 0.0
 
-    def over(self, unit: float, minus: float = 0) -> "Number":
+    def over(self, unit: float, minus: float = 0) -> "Estimate":
         """The number value/unit - minus, with its errors divided by |unit|."""
         size = abs(unit)
         return replace(
@@ -70,10 +70,10 @@ class Verdict:
     """Verdict on a claim by which all its numbers lie in the band. level: significance level, of which each number has an equal part."""
 
     band: Band
-    numbers: tuple[Number, ...]
+    numbers: tuple[Estimate, ...]
     level: float
 
-    def of(self, number: Number) -> Outcome:
+    def of(self, number: Estimate) -> Outcome:
         """Verdict on one of the numbers."""
         low, high = number.interval(self.level / len(self.numbers))
         if self.band.low <= low and high <= self.band.high:
@@ -87,11 +87,11 @@ class Verdict:
         return next(outcome for outcome in order if outcome in outcomes)
 
     @property
-    def shown(self) -> Number:
+    def shown(self) -> Estimate:
         """The number farthest outside the band; without one, the number whose interval reaches farthest across an edge or is closest to it.
         Distances are in the unit of the band, which all numbers of a claim have in common."""
 
-        def reach(number: Number) -> tuple[bool, float]:
+        def reach(number: Estimate) -> tuple[bool, float]:
             low, high = number.interval(self.level / len(self.numbers))
             beyond = max(self.band.low - high, low - self.band.high)
             far = max(self.band.low - low, high - self.band.high)
@@ -110,7 +110,7 @@ def critical(level: float, freedom: float) -> float:
     return -float(stdtrit(freedom, level / 2))
 
 
-def with_systematic(number: Number, others: Sequence[float]) -> Number:
+def with_systematic(number: Estimate, others: Sequence[float]) -> Estimate:
     """Adds the largest distance from the values of other settings to the bound on the systematic error."""
     differences = [abs(other - number.value) for other in others if math.isfinite(other)]
     return replace(number, systematic=number.systematic + max(differences, default=0.0))

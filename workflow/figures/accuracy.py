@@ -15,7 +15,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import listed
-from workflow.lib.figure import Drawn, run
+from workflow.lib.figure import Drawn, main
 from workflow.lib.load import FormatError, Result
 
 LOOKS = {
@@ -153,4 +153,4 @@ def draw(results: Sequence[Result]) -> Drawn:
 
 if __name__ == "__main__":
     pure = dict.fromkeys(("error", "points"), "1")
-    run(draw, "Accuracy against time", cpu_seconds="second", **pure)
+    main(draw, "Accuracy against time", cpu_seconds="second", **pure)

@@ -11,15 +11,15 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, RULES, number, parameters, rule
-from workflow.lib.figure import Drawn, run
-from workflow.lib.fit import with_error
+from workflow.lib.caption import ERRORS, RULE_PHRASES, format_number, parameters, rule
+from workflow.lib.figure import Drawn, main
+from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 
 PAPER, ZERO, RANDOM = (
     "random total momentum, as in the paper",
     "zero total momentum",
-    RULES["random-direction"],
+    RULE_PHRASES["random-direction"],
 )
 LOOKS: dict[str, style.Look] = {
     PAPER: style.points("o", style.BLUE),
@@ -69,9 +69,11 @@ def draw_slopes(axes: Axes, table: pd.DataFrame) -> None:
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     runs = table.drop_duplicates(["kind", *KEYS])
     ordered = {name: part.sort_values("alpha") for name, part in runs.groupby("kind")}
-    least = with_error(*ordered[PAPER][["alpha", "alpha_error"]].iloc[0])
-    none, random = (with_error(*ordered[name][["alpha", "alpha_error"]].iloc[-1]) for name in (ZERO, RANDOM))
-    relaxed = number(of_the_paper(table).relaxation_time.iloc[0])
+    least = format_with_error(*ordered[PAPER][["alpha", "alpha_error"]].iloc[0])
+    none, random = (
+        format_with_error(*ordered[name][["alpha", "alpha_error"]].iloc[-1]) for name in (ZERO, RANDOM)
+    )
+    relaxed = format_number(of_the_paper(table).relaxation_time.iloc[0])
     return f"""
         Local exponents of ⟨x²⟩ of a tagged particle in a closed chain, {parameters(results, "cells", "temperature", "gamma")}, n =
         {table.particles_per_cell.min()}, relaxed for {relaxed}; dashed: ballistic, diffusive. Random directions do not conserve momentum. α, fitted in the
@@ -94,4 +96,4 @@ def draw(results: Sequence[Result]) -> Drawn:
 
 
 if __name__ == "__main__":
-    run(draw, "Spreading of a tagged particle with and without conserved momentum", slope="1")
+    main(draw, "Spreading of a tagged particle with and without conserved momentum", slope="1")

@@ -13,9 +13,9 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import number
-from workflow.lib.figure import Drawn, run
-from workflow.lib.fit import with_error
+from workflow.lib.caption import format_number
+from workflow.lib.figure import Drawn, main
+from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics.mode_coupling import f_kpz, levy
 from workflow.physics.peaks import (
@@ -181,7 +181,7 @@ def draw_heights(axes: Axes, table: pd.DataFrame) -> None:
     """Plots the heights of the sound peaks of all gases over the theory, where their errors are smaller than the frame."""
     sure = table[table.peak_ratio_error < UNSURE]
     for (marker, color), ((zeta, mass), part) in zip(LOOKS, sure.groupby(["zeta", "mass"]), strict=False):
-        look = style.points(marker, color, label=f"$\\zeta = {zeta:g}$, $M = {number(mass)}$")
+        look = style.points(marker, color, label=f"$\\zeta = {zeta:g}$, $M = {format_number(mass)}$")
         axes.errorbar(part.time, part.peak_ratio, part.peak_ratio_error, **look)
     axes.axhline(1, **style.GUIDE)
     axes.set(xscale="log", xlabel="time $t$", ylabel="height of the sound peak / theory", ylim=(0.8, 1.1))
@@ -219,10 +219,12 @@ def draw(results: Sequence[Result]) -> Drawn:
     draw_heights(panels[1, 0], table)
     draw_orders(panels[1, 1], law)
     style.letter(*panels.flat)
-    orders = [with_error(*law[["stable_order", "stable_order_error"]].iloc[k]) for k in (0, -1) if len(law)]
+    orders = [
+        format_with_error(*law[["stable_order", "stable_order_error"]].iloc[k]) for k in (0, -1) if len(law)
+    ]
     caption = f"""
         Peaks in rings in equilibrium; black: mode coupling, nothing fitted. (a) Covariance C_g of the momenta of two cells, ζ =
-        {number(first.zeta)}, M = {number(first.mass)}. (b) Covariance C_h of their heat, ζ = {number(heat[-1].gas.zeta)}, M = {number(heat[-1].gas.mass)}.
+        {format_number(first.zeta)}, M = {format_number(first.mass)}. (b) Covariance C_h of their heat, ζ = {format_number(heat[-1].gas.zeta)}, M = {format_number(heat[-1].gas.mass)}.
         (c) Height of the sound peaks. (d) Order of stable laws fitted to (b), {" and ".join(orders) or "unknown"} at the first
         and last time. Bars: standard errors, in (d) by jackknife over {len(heat[-1].results)} runs."""
     return figure, pd.concat([*parts, table]), caption
@@ -231,4 +233,4 @@ def draw(results: Sequence[Result]) -> Drawn:
 if __name__ == "__main__":
     names = (*(name for name, _ in RATIOS), "heat_area", "stable_width", "stable_area")
     ratios = {f"{name}_ratio": "1" for name in names} | {"stable_order": "1", "order_off_centre": "1"}
-    run(draw, "Sound and heat peaks in equilibrium", zeta="1", mass="1", x="1", y="1", **ratios)
+    main(draw, "Sound and heat peaks in equilibrium", zeta="1", mass="1", x="1", y="1", **ratios)

@@ -9,8 +9,8 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, parameters
-from workflow.lib.figure import Drawn, run
-from workflow.lib.fit import fit_line, with_error
+from workflow.lib.figure import Drawn, main
+from workflow.lib.fit import fit_line, format_with_error
 from workflow.lib.load import Result
 from workflow.physics import setting
 
@@ -87,7 +87,7 @@ def caption(table: pd.DataFrame, profiles: Sequence[Result]) -> str:
     return f"""
         Open chain, {parameters(profiles, "sigma", "cell-length")}, {baths(profiles[0])}. (a) Arrivals at a scatterer per time,
         {parameters(profiles, "cells")}; (b) their deviation from straight lines, up to {largest}. (c) Excess density of the
-        end cells; lines: a + b ln N from N = {FITTED} on, b = {listed(map(with_error, slopes.slope, slopes.slope_error))}. {ERRORS}"""
+        end cells; lines: a + b ln N from N = {FITTED} on, b = {listed(map(format_with_error, slopes.slope, slopes.slope_error))}. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
@@ -120,4 +120,4 @@ def draw(results: Sequence[Result]) -> Drawn:
 if __name__ == "__main__":
     by_row = dict.fromkeys(("value", "error", "line"), "column units")
     pure = dict.fromkeys(("x", "deviation_percent", "fitted", "slope", "chi_square"), "1")
-    run(draw, "Rates and density along the chain", **pure, **by_row)
+    main(draw, "Rates and density along the chain", **pure, **by_row)

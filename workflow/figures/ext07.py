@@ -14,8 +14,8 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, GAS, parameters
-from workflow.lib.figure import Drawn, run
-from workflow.lib.fit import with_error
+from workflow.lib.figure import Drawn, main
+from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics.closed import quasi_stationary
 
@@ -105,12 +105,12 @@ def plot_spreading(axes: Axes, table: pd.DataFrame) -> None:
 def caption(ageing: Sequence[Result], slopes: pd.DataFrame, spreading: pd.DataFrame) -> str:
     paper = ageing[0].parameters["particles-per-cell"]
     last = slopes[slopes.particles_per_cell == paper].iloc[-1]
-    ratio = with_error(last.value / last.estimate, last.error / last.estimate)
+    ratio = format_with_error(last.value / last.estimate, last.error / last.estimate)
     end = spreading.iloc[-1]
     return f"""
         Ageing of a closed chain from scatterers at rest, {parameters(ageing[:1], "cells", "sigma", *GAS)}. (a) Mean kinetic energies. (b) Slope of
         a scatterer's against ln t, by decade. Lines: quasi-stationary estimate, nothing fitted; for n = {paper} the last slope is {ratio} of it.
-        (c) Exponent α of the spreading at zero total momentum, {with_error(end.value, end.error)} at the end. {ERRORS}"""
+        (c) Exponent α of the spreading at zero total momentum, {format_with_error(end.value, end.error)} at the end. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
@@ -130,7 +130,7 @@ def draw(results: Sequence[Result]) -> Drawn:
 
 
 if __name__ == "__main__":
-    run(
+    main(
         draw,
         "Ageing of the closed chain",
         value="column units",

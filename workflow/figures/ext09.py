@@ -15,8 +15,8 @@ from matplotlib.lines import Line2D
 from matplotlib.typing import LineStyleType
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, listed, number, parameters
-from workflow.lib.figure import Drawn, run
+from workflow.lib.caption import ERRORS, format_number, listed, parameters
+from workflow.lib.figure import Drawn, main
 from workflow.lib.fit import p_value
 from workflow.lib.load import Result
 from workflow.physics.conductivity import LOOKS, by_spacing, drive, spacings, tabulate
@@ -111,7 +111,7 @@ def caption(tested: pd.DataFrame, results: Sequence[Result], spacing: Mapping[st
     p_values = listed(f"{p:.1g} (λ = {spacing[gas]})" for gas, p in largest.items())
     return f"""
         Conductivity κ = −J_U N/(T_N − T_1) of open chains at the paper's λ = 1/N, where the gas thins out, and at fixed λ;
-        {parameters(results, "gamma", "sigma")}, T_R/T_L = {number(max(map(drive, results)))}. (b) Slope against N^(1/3); lines: laws fitted to all sizes, of which
+        {parameters(results, "gamma", "sigma")}, T_R/T_L = {format_number(max(map(drive, results)))}. (b) Slope against N^(1/3); lines: laws fitted to all sizes, of which
         the best has the p-value {p_values}. {ERRORS}"""
 
 
@@ -131,4 +131,4 @@ if __name__ == "__main__":
     conductivities = ("kappa_baths", "slope", *(f"slope_{law}" for law in LAWS))
     units = dict.fromkeys(("between", "chi_square", "freedom", "p_value"), "1")
     units |= dict.fromkeys(conductivities, "energy/(time temperature)")
-    run(draw, "Heat conductivity at fixed spacing and at the spacing 1/N", **units)
+    main(draw, "Heat conductivity at fixed spacing and at the spacing 1/N", **units)

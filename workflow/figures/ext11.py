@@ -12,9 +12,9 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, number, parameters
-from workflow.lib.figure import Drawn, require_elastic, run
-from workflow.lib.fit import with_error
+from workflow.lib.caption import ERRORS, format_number, parameters
+from workflow.lib.figure import Drawn, main, require_elastic
+from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics.conductivity import LOOKS, by_spacing, drive, gas, spacings, tabulate
 from workflow.physics.growth import local_exponents
@@ -42,9 +42,9 @@ def caption(table: pd.DataFrame, tau: Mean, weak: Sequence[Result], strong: Sequ
     crosses = " Crosses: not stationary." if not table.usable.all() else ""
     return f"""
         Linear response to small differences of temperature and pressure, {parameters(weak, "gamma", "sigma")}. (a) L_nn/N of the particle current.
-        (b) Conductivity κ_0 without it; lines: rings until τN/c, when sound leaves the chain, τ = {with_error(tau.value, tau.error)}
-        from λ = {spacing[DENSE]}. At λ = 1/N, κ_0 is in the end {with_error(ratio, error)} of the line. (c) Exponents; open: κ at T_R/T_L =
-        {number(drive(strong[0]))}.{crosses} {ERRORS}"""
+        (b) Conductivity κ_0 without it; lines: rings until τN/c, when sound leaves the chain, τ = {format_with_error(tau.value, tau.error)}
+        from λ = {spacing[DENSE]}. At λ = 1/N, κ_0 is in the end {format_with_error(ratio, error)} of the line. (c) Exponents; open: κ at T_R/T_L =
+        {format_number(drive(strong[0]))}.{crosses} {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
@@ -91,4 +91,4 @@ if __name__ == "__main__":
     units = {"L_uu": "energy^2/time", "L_un": "energy/time", "L_nu": "energy/time", "L_nn": "1/time"}
     units |= dict.fromkeys(("kappa", "kappa_0", "predicted"), "energy/(time temperature)")
     units |= {"asymmetry": "energy/time", "tau": "1", "size": "1", "exponent": "1"}
-    run(draw, "Linear response of energy and particle currents", **units)
+    main(draw, "Linear response of energy and particle currents", **units)

@@ -15,9 +15,9 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, number
-from workflow.lib.figure import Drawn, run
-from workflow.lib.fit import mean_of, with_error
+from workflow.lib.caption import ERRORS, format_number
+from workflow.lib.figure import Drawn, main
+from workflow.lib.fit import format_with_error, mean_of
 from workflow.lib.load import Result
 from workflow.physics.mode_coupling import Chain
 from workflow.physics.rings import LOOKS, chain
@@ -139,7 +139,7 @@ def draw_gases(above: Axes, below: Axes, table: pd.DataFrame) -> None:
     """Plots the mean squares with those in theory, and the exponents, of the gases that conserve momentum."""
     gases = table[table.rule == ELASTIC].groupby(["zeta", "mass"])
     for look, ((zeta, mass), part) in zip(LOOKS, gases, strict=False):
-        points = style.points(*look, label=rf"$\zeta = {number(zeta)}$, $M = {number(mass)}$")
+        points = style.points(*look, label=rf"$\zeta = {format_number(zeta)}$, $M = {format_number(mass)}$")
         error = part.heat_variance_error / part.time
         above.errorbar(part.time, part.heat_variance / part.time, error, **points)
         above.plot(part.time, part.predicted / part.time, color=points["color"])
@@ -186,7 +186,7 @@ def between(exponents: pd.DataFrame) -> str:
     """The smallest and the largest of exponents."""
     ascending = exponents.sort_values("local_exponent")
     return " to ".join(
-        with_error(row.local_exponent, row.local_exponent_error)
+        format_with_error(row.local_exponent, row.local_exponent_error)
         for _, row in ascending.iloc[[0, -1]].iterrows()
     )
 
@@ -200,8 +200,8 @@ def caption(table: pd.DataFrame, control: pd.DataFrame) -> str:
     most = broken.loc[broken.local_exponent.idxmax()]
     return f"""
         Heat current of equilibrium rings, summed over cells and integrated over t to Q. (a) Mean square; lines: mode coupling, nothing
-        fitted, up to {off:.0f} % off. (b) Exponents over octaves, the last {between(ends)}. (c), (d) ζ = {number(gas.zeta)}, M = {number(gas.mass)}: reversal of
-        scatterers in a fraction ε of collisions, the last at most {with_error(most.local_exponent, most.local_exponent_error)}. Table: also random directions. {ERRORS}"""
+        fitted, up to {off:.0f} % off. (b) Exponents over octaves, the last {between(ends)}. (c), (d) ζ = {format_number(gas.zeta)}, M = {format_number(gas.mass)}: reversal of
+        scatterers in a fraction ε of collisions, the last at most {format_with_error(most.local_exponent, most.local_exponent_error)}. Table: also random directions. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
@@ -231,7 +231,7 @@ def draw(results: Sequence[Result]) -> Drawn:
 if __name__ == "__main__":
     own = dict.fromkeys(("zeta", "mass", "epsilon", "amplitude_ratio", "gaussian_ratio"), "1")
     own |= dict.fromkeys(("fit_from", "fit_to"), "time")
-    run(
+    main(
         draw,
         "Heat current in equilibrium",
         predicted="energy^2 length^2",

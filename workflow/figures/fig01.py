@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import baths, parameters
-from workflow.lib.figure import Drawn, run
+from workflow.lib.figure import Drawn, main
 from workflow.lib.load import Result
 from workflow.physics import setting
 
@@ -57,7 +57,7 @@ def number_bins(axes: Axes, result: Result) -> None:
 
 
 def caption(results: Sequence[Result]) -> str:
-    exponent = style.with_error(results[0]["front_exponent"])
+    exponent = style.format_quantity(results[0]["front_exponent"])
     return f"""
         Particles n_t(p) with momentum p in a filling chain, times |p|; {parameters(results, "cells", "sigma", "gamma")},
         {baths(results[0])}. Columns: λ, unstated in the paper. Top: the paper's bins; middle: logarithmic, with front p_0; bottom: p_0 over
@@ -98,4 +98,4 @@ def draw(results: Sequence[Result]) -> Drawn:
 
 if __name__ == "__main__":
     density = {"weighted_density": "1", "error": "1"}
-    run(draw, "Momentum distribution of the particles in a filling chain", momentum="momentum", **density)
+    main(draw, "Momentum distribution of the particles in a filling chain", momentum="momentum", **density)

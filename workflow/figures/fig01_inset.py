@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, parameters
-from workflow.lib.figure import Drawn, run
+from workflow.lib.figure import Drawn, main
 from workflow.lib.load import Result
 from workflow.physics import setting
 
@@ -74,7 +74,7 @@ def draw_slopes(axes: Axes, table: pd.DataFrame, result: Result) -> None:
 
 def caption(results: Sequence[Result]) -> str:
     chain = results[0]
-    slope, height = style.with_error(chain["log_slope"]), style.with_error(chain["plateau"], -1)
+    slope, height = style.format_quantity(chain["log_slope"]), style.format_quantity(chain["plateau"], -1)
     return f"""
         Particles n(t) in an initially empty chain; {parameters(results, "cells", "sigma", "gamma")}, {baths(chain)}. Top: n(t) and a + b ln t,
         fitted in the shaded window if straight. Bottom: dn/d ln t (circles) and height of |p| n_t(p) (squares), which agree once a chain is
@@ -101,4 +101,4 @@ def draw(results: Sequence[Result]) -> Drawn:
 UNITS = {"slope": "1", "slope_time": "time"}
 
 if __name__ == "__main__":
-    run(draw, "Number of particles in a filling chain", number="1", number_fitted="1", **UNITS)
+    main(draw, "Number of particles in a filling chain", number="1", number_fitted="1", **UNITS)

@@ -7,7 +7,7 @@ import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, parameters
-from workflow.lib.figure import Drawn, run
+from workflow.lib.figure import Drawn, main
 from workflow.lib.load import Result
 from workflow.physics import setting
 
@@ -29,7 +29,7 @@ def tabulate(result: Result) -> pd.DataFrame:
 
 def caption(results: Sequence[Result]) -> str:
     excess = listed(
-        f"{style.with_error(result['density_excess'], 0, 100)} % at γ = {setting.gamma(result)}"
+        f"{style.format_quantity(result['density_excess'], 0, 100)} % at γ = {setting.gamma(result)}"
         for result in results
     )
     return f"""
@@ -57,4 +57,4 @@ def draw(results: Sequence[Result]) -> Drawn:
 
 
 if __name__ == "__main__":
-    run(draw, "Density profiles", x="1", bulk="1", relative="1")
+    main(draw, "Density profiles", x="1", bulk="1", relative="1")

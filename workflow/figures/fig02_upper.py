@@ -10,7 +10,7 @@ import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, listed, parameters
-from workflow.lib.figure import Drawn, run
+from workflow.lib.figure import Drawn, main
 from workflow.lib.load import Result
 from workflow.physics import setting
 
@@ -30,7 +30,7 @@ def tabulate(result: Result) -> pd.DataFrame:
 
 def caption(results: Sequence[Result]) -> str:
     first = listed(
-        f"{style.with_error(result['temperature_scatterer'], 0)} at γ = {setting.gamma(result)}"
+        f"{style.format_quantity(result['temperature_scatterer'], 0)} at γ = {setting.gamma(result)}"
         for result in results
     )
     return f"""
@@ -70,4 +70,4 @@ def draw(results: Sequence[Result]) -> Drawn:
 
 if __name__ == "__main__":
     kinds = ("scatterer", "particle", "particle_minus_scatterer")
-    run(draw, "Temperature profiles", x="1", **dict.fromkeys(kinds, "temperature"))
+    main(draw, "Temperature profiles", x="1", **dict.fromkeys(kinds, "temperature"))

@@ -12,8 +12,8 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import baths, listed, number, parameters
-from workflow.lib.figure import Drawn, run
+from workflow.lib.caption import baths, format_number, listed, parameters
+from workflow.lib.figure import Drawn, main
 from workflow.lib.load import Result
 from workflow.physics import setting
 
@@ -62,7 +62,7 @@ def draw_halves(axes: Axes, part: pd.DataFrame, values: pd.Series, **look: Any) 
 
 def caption(results: Sequence[Result]) -> str:
     (paper,) = (result for result in results if case(result) == PAPER)
-    jumps = listed(f"{number(paper['jump'].mean[index])} at {end}" for index, end, *_ in ENDS)
+    jumps = listed(f"{format_number(paper['jump'].mean[index])} at {end}" for index, end, *_ in ENDS)
     return f"""
         Flux F(p, x) of the particles at both ends by the kinetic equation; {parameters([paper], "sigma", "gamma")}, {baths(paper)}. (a) F; right
         axis: over ν_L + ν_R. F jumps by {jumps}. (b) Each half over the Gaussian of its rate and second moment: what the baths inject
@@ -92,4 +92,4 @@ def draw(results: Sequence[Result]) -> Drawn:
 
 if __name__ == "__main__":
     title = "Momentum distribution of the particles at both ends, by the kinetic equation"
-    run(draw, title, gaussian="1/(time momentum)")
+    main(draw, title, gaussian="1/(time momentum)")

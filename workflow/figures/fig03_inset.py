@@ -13,8 +13,8 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, baths, parameters
-from workflow.lib.figure import Drawn, require_elastic, run
-from workflow.lib.fit import with_error
+from workflow.lib.figure import Drawn, main, require_elastic
+from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics.fluxes import MEAN_FIELD, SIMULATION, deviations
 
@@ -94,7 +94,7 @@ def draw_decay(axes: Axes, table: pd.DataFrame) -> None:
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     runs = [result for result in results if result.provenance["program"] == "momentum_flux"]
     first, last = (
-        f"{with_error(row.amplitude, row.error)} at N = {row.cells:.0f}"
+        f"{format_with_error(row.amplitude, row.error)} at N = {row.cells:.0f}"
         for row in amplitudes(table).iloc[[0, -1]].itertuples()
     )
     return f"""
@@ -120,6 +120,6 @@ def draw(results: Sequence[Result]) -> Drawn:
 
 if __name__ == "__main__":
     pure = dict.fromkeys(("deviation", "error", "amplitude", "amplitude_error", "centre"), "1")
-    run(
+    main(
         draw, "Deviation of finite chains from the kinetic equation", absolute_as_printed="1/momentum", **pure
     )

@@ -13,8 +13,8 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import CHAIN, ERRORS, baths, listed, parameters
-from workflow.lib.figure import Drawn, run
-from workflow.lib.fit import with_error
+from workflow.lib.figure import Drawn, main
+from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import setting
 from workflow.physics.fluxes import at
@@ -112,7 +112,7 @@ def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
             look = {"marker": marker, "color": color, **style.POINTS}
             axes.errorbar(end.jump, -row + shift, xerr=end.jump_error, **look)
             axes.plot(end.kinetic_jump, -row + shift, "|", color=style.BLACK, markersize=8, zorder=1)
-            text, position = with_error(end.jump, end.jump_error), (0.98, -row + shift)
+            text, position = format_with_error(end.jump, end.jump_error), (0.98, -row + shift)
             axes.annotate(
                 text,
                 position,
@@ -138,7 +138,9 @@ def draw_jumps(axes: Axes, table: pd.DataFrame) -> None:
 def caption(main: pd.DataFrame, unequal: pd.DataFrame, results: Sequence[Result]) -> str:
     runs = [result for result in measured(results) if setting.gamma(result) == main.gamma.iloc[0]]
     chain = next(result for result in runs if len(set(result.ends("nu"))) > 1)
-    jumps = listed(with_error(end.jump, end.jump_error) for end in unequal.drop_duplicates("x").itertuples())
+    jumps = listed(
+        format_with_error(end.jump, end.jump_error) for end in unequal.drop_duplicates("x").itertuples()
+    )
     far = 100 * (unequal.flux - unequal.kinetic).abs().max() / unequal.kinetic.max()
     difference = f"Difference, up to {float(f'{far:.1g}'):g} % of max F"
     if chain.parameters["gamma"] == "N":
@@ -175,4 +177,4 @@ def title(results: Sequence[Result]) -> str:
 
 
 if __name__ == "__main__":
-    run(draw, title, **dict.fromkeys(("kinetic", "kinetic_jump"), "1/(time momentum)"))
+    main(draw, title, **dict.fromkeys(("kinetic", "kinetic_jump"), "1/(time momentum)"))

@@ -7,8 +7,8 @@ import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, listed, parameters
-from workflow.lib.figure import Drawn, require_elastic, run
-from workflow.lib.fit import with_error
+from workflow.lib.figure import Drawn, main, require_elastic
+from workflow.lib.fit import format_with_error
 from workflow.lib.load import NOT_REACHED, Result
 from workflow.physics.closed import persistence_law
 
@@ -48,7 +48,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     largest = []
     for particles, series in table.groupby("particles_per_cell"):
         far = series.loc[series.deviation.abs().idxmax()]
-        largest.append(f"{with_error(far.deviation, far.mu_error)} at n = {particles}")
+        largest.append(f"{format_with_error(far.deviation, far.mu_error)} at n = {particles}")
     return f"""
         Probability μ that a particle keeps its direction in a scattering, closed chains, n particles per cell;
         {parameters(results, "cells", "gamma", "temperature")}. (a) μ and the law arccos(σ)/π. (b) μ minus the law, largest {listed(largest)}; dashes:
@@ -79,4 +79,4 @@ def draw(results: Sequence[Result]) -> Drawn:
 
 if __name__ == "__main__":
     numbers = ("law", "deviation", "law_at_local_energies")
-    run(draw, "Persistence probability against the mass ratio", **dict.fromkeys(numbers, "1"))
+    main(draw, "Persistence probability against the mass ratio", **dict.fromkeys(numbers, "1"))

@@ -11,8 +11,8 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, GAS, listed, number, parameters
-from workflow.lib.figure import Drawn, run
+from workflow.lib.caption import ERRORS, GAS, format_number, listed, parameters
+from workflow.lib.figure import Drawn, main
 from workflow.lib.load import Result
 
 MARKS = {0.0: ("o", style.BLUE, "dashed"), 0.5: ("s", style.VERMILLION, "dotted")}
@@ -75,13 +75,13 @@ def mark_outside(axes: Axes, table: pd.DataFrame, power: float, top: float) -> N
 
 def caption(results: Sequence[Result]) -> str:
     exponents = listed(
-        f"{style.with_error(result['exponent'])} at σ = {number(result.parameters['sigma'])}"
+        f"{style.format_quantity(result['exponent'])} at σ = {format_number(result.parameters['sigma'])}"
         for result in results
     )
     return f"""
         Density Ψ(τ) of waiting times in closed chains, {parameters(results, "cells", "gamma", *GAS)}. (a) Ψ; blue: exact for σ = 0, n → ∞.
         (b), (c) Ψ times the paper's powers of τ. Black: fits of the shaded tail, exponents {exponents}. Open: errors above
-        {number(100 * UNSURE)} %; triangles: off frame. {ERRORS}"""
+        {format_number(100 * UNSURE)} %; triangles: off frame. {ERRORS}"""
 
 
 def draw(results: Sequence[Result]) -> Drawn:
@@ -90,7 +90,7 @@ def draw(results: Sequence[Result]) -> Drawn:
     figure, (above, *strips) = style.stacked(2.4, 1, 1, height=1.8)
     for strip, result, table in zip(strips, results, tables, strict=True):
         sigma = float(result.parameters["sigma"])
-        exponent = style.with_error(result["exponent"])
+        exponent = style.format_quantity(result["exponent"])
         draw_density(above, table, label=rf"$\sigma = {sigma:g}$: $\tau^{{{exponent}}}$")
         draw_density(strip, table, POWERS[sigma])
         if sigma == 0:
@@ -111,4 +111,4 @@ def draw(results: Sequence[Result]) -> Drawn:
 
 if __name__ == "__main__":
     laws = {"fitted": "1/time", "gaussian_start": "1/time"}
-    run(draw, "Waiting-time density for σ = 0 and 1/2", **laws)
+    main(draw, "Waiting-time density for σ = 0 and 1/2", **laws)

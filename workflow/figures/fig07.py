@@ -10,8 +10,8 @@ import pandas as pd
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, GAS, parameters
-from workflow.lib.figure import Drawn, run
-from workflow.lib.fit import with_error
+from workflow.lib.figure import Drawn, main
+from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 
 GUIDED = 100  # last time over the first time of the guides
@@ -50,11 +50,11 @@ def tabulate(result: Result) -> pd.DataFrame:
 
 def caption(random: pd.DataFrame, results: Sequence[Result]) -> str:
     last, paper = random.iloc[-1], results[0]
-    (without,) = (style.with_error(result["alpha"]) for result in results if zero(result))
+    (without,) = (style.format_quantity(result["alpha"]) for result in results if zero(result))
     return f"""
         Spreading of tagged particles in closed chains, {parameters([paper], "sigma", "gamma", *GAS)}. (a) Mean square displacement;
-        lines: of the centre of mass. (b) Local exponents. In the shaded window α is {style.with_error(paper["alpha"])} at N = {cells(paper)}, as in
-        the paper: drift of the centre of mass, {with_error(100 * last.fraction, 100 * last.fraction_error)} % of ⟨x²⟩. With zero total
+        lines: of the centre of mass. (b) Local exponents. In the shaded window α is {style.format_quantity(paper["alpha"])} at N = {cells(paper)}, as in
+        the paper: drift of the centre of mass, {format_with_error(100 * last.fraction, 100 * last.fraction_error)} % of ⟨x²⟩. With zero total
         momentum α is {without}. {ERRORS}"""
 
 
@@ -96,4 +96,4 @@ def draw(results: Sequence[Result]) -> Drawn:
 
 
 if __name__ == "__main__":
-    run(draw, "Mean square displacement of a tagged particle", fraction="1", slope_to_next="1")
+    main(draw, "Mean square displacement of a tagged particle", fraction="1", slope_to_next="1")

@@ -6,9 +6,9 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, GAS, number, parameters
-from workflow.lib.figure import Drawn, run
-from workflow.lib.fit import with_error
+from workflow.lib.caption import ERRORS, GAS, format_number, parameters
+from workflow.lib.figure import Drawn, main
+from workflow.lib.fit import format_with_error
 from workflow.lib.load import NOT_REACHED, Result
 
 TICKS = (-1, -0.5, 0, 0.5, 1)
@@ -42,13 +42,13 @@ def draw_curve(axes: Axes, table: pd.DataFrame, zero: bool) -> None:
 
 def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     generic = table[table.sigma != 0].sort_values("alpha")  # at σ = 0 momenta are only exchanged
-    least = with_error(*generic[~generic.zero_total_momentum][["alpha", "alpha_error"]].iloc[0])
-    most = with_error(*generic[generic.zero_total_momentum][["alpha", "alpha_error"]].iloc[-1])
+    least = format_with_error(*generic[~generic.zero_total_momentum][["alpha", "alpha_error"]].iloc[0])
+    most = format_with_error(*generic[generic.zero_total_momentum][["alpha", "alpha_error"]].iloc[-1])
     options = results[0].parameters
     first = options["observation-time"] / 10 ** options["fit-decades"]
     return f"""
         Exponent α of the spreading of tagged particles, closed chains, {parameters(results, "cells", "gamma", *GAS)}, fitted from t =
-        {number(first)} on. (a) With random total momentum, as in the paper, and with none; dashed: ballistic, diffusive. (b) The latter
+        {format_number(first)} on. (a) With random total momentum, as in the paper, and with none; dashed: ballistic, diffusive. (b) The latter
         enlarged. For σ ≠ 0, α is at least {least} with and at most {most} without total momentum. {ERRORS}"""
 
 
@@ -63,10 +63,10 @@ def draw(results: Sequence[Result]) -> Drawn:
         axes.axhline(value, **style.GUIDE)
     above.set(ylabel=r"exponent $\alpha$", xlim=(-1, 1), ylim=(0.8, 2.2))
     below.set(xlabel=r"mass ratio $\sigma$", ylabel=r"$\alpha$ without drift")
-    below.set_xticks(TICKS, [number(sigma) for sigma in TICKS])
+    below.set_xticks(TICKS, [format_number(sigma) for sigma in TICKS])
     figure.legend(*above.get_legend_handles_labels(), loc="outside upper left")
     return figure, table, caption(table, results)
 
 
 if __name__ == "__main__":
-    run(draw, "Exponent of the mean square displacement against the mass ratio")
+    main(draw, "Exponent of the mean square displacement against the mass ratio")

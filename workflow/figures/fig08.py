@@ -15,9 +15,9 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from workflow.lib import style
-from workflow.lib.caption import ERRORS, number, parameters, rule
-from workflow.lib.figure import Drawn, run
-from workflow.lib.fit import with_error
+from workflow.lib.caption import ERRORS, format_number, parameters, rule
+from workflow.lib.figure import Drawn, main
+from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import setting
 from workflow.physics.conductivity import drive, gas
@@ -55,7 +55,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
     for result in results:
         row: dict[str, Any] = {"curve": LONGER.get(gas(result), gas(result)), "rule": rule(result)}
         row |= {name: result.parameters[name] for name in ("gamma", "cells")}
-        row |= {"spacing": setting.spacing(result)[1], "drive": drive(result), "usable": result.sound}
+        row |= {"spacing": setting.spacing(result)[1], "drive": drive(result), "usable": result.usable}
         rows.append(
             row | result.columns("kappa", "kappa_particle", "kappa_plain", "kappa_printed", "energy_current")
         )
@@ -87,7 +87,7 @@ def compared(table: pd.DataFrame, control: str) -> str:
         return "at no common sizes"
     cells, between = common.max()
     elastic, broken = (
-        with_error(*rows.loc[(cells, between), ["exponent_to_next", "exponent_to_next_error"]])
+        format_with_error(*rows.loc[(cells, between), ["exponent_to_next", "exponent_to_next_error"]])
         for rows in exponents
     )
     return f"{elastic} and {broken} between N = {cells} and {between**2 / cells:.0f}"
@@ -102,7 +102,7 @@ def caption(table: pd.DataFrame, results: Sequence[Result]) -> str:
     control = table[table.curve == "reversal"].rule.min()
     return f"""
         Conductivity κ = −J_U N/(T_N − T_1) of open chains, {parameters(results, "sigma")}, the paper's baths at λ = 1/N, else T_R/T_L =
-        {number(table.drive.max())}. (a) Grey: the paper's powers. (b) Exponents between neighbouring sizes. At fixed density (λ =
+        {format_number(table.drive.max())}. (a) Grey: the paper's powers. (b) Exponents between neighbouring sizes. At fixed density (λ =
         {table[table.curve == "dense"].spacing.iloc[0]}), without and with a fraction ε = {fraction(control)} of collisions that break conservation of
         momentum (reversal), {compared(table, control)}. {ERRORS}"""
 
@@ -153,4 +153,4 @@ def draw(results: Sequence[Result]) -> Drawn:
 
 if __name__ == "__main__":
     units = {"drive": "1", "exponent_to_next": "1", "mean_field_kappa": "energy/(time temperature)"}
-    run(draw, "Heat conductivity against the size of the chain", **units)
+    main(draw, "Heat conductivity against the size of the chain", **units)

@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import CHAIN, ERRORS, parameters
-from workflow.lib.figure import Drawn, run
+from workflow.lib.figure import Drawn, main
 from workflow.lib.load import Result
 from workflow.physics import setting
 from workflow.physics.closed import quasi_stationary
@@ -68,7 +68,9 @@ def draw_motion(position: Axes, speed: Axes, result: Result) -> None:
 def caption(results: Sequence[Result]) -> str:
     rest = results[0]["peak_speed"]
     ends = (
-        [style.with_error(rest, k) for k in resolved(rest.mean)[[0, -1]]] if len(resolved(rest.mean)) else []
+        [style.format_quantity(rest, k) for k in resolved(rest.mean)[[0, -1]]]
+        if len(resolved(rest.mean))
+        else []
     )
     speed = "changes from {} to {}".format(*ends) if ends else "is not resolved"
     closed = any(result["ring_closed"].mean.any() for result in results)
@@ -113,4 +115,4 @@ def draw(results: Sequence[Result]) -> Drawn:
 
 if __name__ == "__main__":
     title = "Energy difference after a pulse, {}"
-    run(draw, lambda pulses: title.format(parameters(pulses[:1], "gamma")), distance="1")
+    main(draw, lambda pulses: title.format(parameters(pulses[:1], "gamma")), distance="1")

@@ -12,8 +12,8 @@ from matplotlib.axes import Axes
 
 from workflow.lib import style
 from workflow.lib.caption import ERRORS, listed, parameters
-from workflow.lib.figure import Drawn, run
-from workflow.lib.fit import with_error
+from workflow.lib.figure import Drawn, main
+from workflow.lib.fit import format_with_error
 from workflow.lib.load import Result
 from workflow.physics import setting
 from workflow.physics.pulse import in_order, label, look_of, start
@@ -84,7 +84,7 @@ def octaves(result: Result) -> str:
     """Exponents of the octaves with a moving peak."""
     found = by_octave(result).dropna()
     pairs = zip(found.octave_exponent, found.octave_exponent_error, strict=True)
-    return listed(with_error(*pair) for pair in pairs) if len(found) else "not resolved"
+    return listed(format_with_error(*pair) for pair in pairs) if len(found) else "not resolved"
 
 
 def caption(results: Sequence[Result]) -> str:
@@ -130,4 +130,4 @@ if __name__ == "__main__":
         "octave_middle": "time",
     }
     title = "Damping of the moving peak of an energy pulse, {}"
-    run(draw, lambda pulses: title.format(parameters(pulses[:1], "gamma")), **units)
+    main(draw, lambda pulses: title.format(parameters(pulses[:1], "gamma")), **units)

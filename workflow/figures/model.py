@@ -14,8 +14,8 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import LinearSegmentedColormap, PowerNorm
 
 from workflow.lib import style
-from workflow.lib.caption import number
-from workflow.lib.figure import Drawn, run
+from workflow.lib.caption import format_number
+from workflow.lib.figure import Drawn, main
 from workflow.lib.load import Result
 
 # The part of the perceptually uniform map plasma that is visible on white: low energies are dark, high ones bright.
@@ -99,7 +99,7 @@ def baths(axes: Axes, energies: PowerNorm) -> None:
         axes.axvspan(left, left + BATH, color=COLOURS(energies(temperature)), linewidth=0, zorder=3)
         kind = "hot" if temperature == max(TEMPERATURES) else "cold"
         axes.text(
-            left + BATH / 2, 0.5, f"{kind} bath, $T_{side} = {number(temperature)}$",
+            left + BATH / 2, 0.5, f"{kind} bath, $T_{side} = {format_number(temperature)}$",
             color="black" if kind == "hot" else "white", transform=axes.get_xaxis_transform(), rotation=90,
             ha="center", va="center", zorder=4,
         )  # fmt: skip
@@ -126,7 +126,7 @@ def draw(_: Sequence[Result]) -> Drawn:
     baths(panels[1], energies)
     label = "energy of the particle, $p^2/2m$"
     figure.colorbar(lines, ax=panels, label=label, extend="max", aspect=30, pad=0.01)
-    caption = f"""The model: world lines of particles in (a) a closed and (b) an open chain, N = {CELLS}, σ = {number(SIGMA)}, γ = N.
+    caption = f"""The model: world lines of particles in (a) a closed and (b) an open chain, N = {CELLS}, σ = {format_number(SIGMA)}, γ = N.
         A particle flies past all others to the next scatterer (grey), fixed in place, and the two exchange energy and momentum. Colour: energy of the particle. (a) A ring, joined at the dashed ends. (b) Baths inject particles and absorb those that
         reach them; colour: temperature."""
     return figure, table, caption
@@ -137,4 +137,4 @@ if __name__ == "__main__":
         ("start_position", "end_position"), "length"
     )
     own = {"particle": "1", "momentum": "momentum", "energy": "energy"}
-    run(draw, "World lines of particles in a closed and in an open chain", **units, **own)
+    main(draw, "World lines of particles in a closed and in an open chain", **units, **own)

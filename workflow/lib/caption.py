@@ -26,13 +26,13 @@ GAS = ("particles-per-cell", "temperature")
 BATHS = ("nu-left", "nu-right", "temperature-left", "temperature-right")
 PAPERS_BATHS = (220, 180, 900 / 11, 1100 / 9)
 
-RULES = {"random-direction": "random directions"}  # in words, where the name of --rule is no phrase
+RULE_PHRASES = {"random-direction": "random directions"}  # in words, where the name of --rule is no phrase
 BASE = 10
 ERRORS = "Bars: standard errors."
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-def number(value: float) -> str:
+def format_number(value: float) -> str:
     """The value with four digits, or as a fraction of up to three digits over 2, 3 or 9, and with a typographic minus sign."""
     fraction = Fraction(value).limit_denominator(10)
     exact = fraction.denominator > 1 and abs(fraction - Fraction(value)) < 1e-12
@@ -57,7 +57,9 @@ def parameters(results: Sequence[Result], *names: str) -> str:
         numbers = sorted(value for value in values if not isinstance(value, str))
         words = sorted(value for value in values if isinstance(value, str))
         if values:
-            texts.append(SYMBOLS.get(name, f"{name} = {{}}").format(listed([*map(number, numbers), *words])))
+            texts.append(
+                SYMBOLS.get(name, f"{name} = {{}}").format(listed([*map(format_number, numbers), *words]))
+            )
     return ", ".join(texts)
 
 
@@ -69,8 +71,8 @@ def rule(result: Result) -> str:
         for option, value in result.parameters.items()
         if option.startswith(f"{name}-") and value != "none"
     ]
-    values = f" ({', '.join(map(number, own))})" if own else ""
-    return RULES.get(name, name) + values
+    values = f" ({', '.join(map(format_number, own))})" if own else ""
+    return RULE_PHRASES.get(name, name) + values
 
 
 def with_rules(caption: str, results: Sequence[Result]) -> str:
@@ -85,7 +87,7 @@ def baths(result: Result) -> str:
     values = [float(result.parameters[name]) for name in BATHS]
     if np.allclose(values, PAPERS_BATHS):
         return "the paper's baths"
-    both = [listed(dict.fromkeys(map(number, result.ends(name)))) for name in ("nu", "temperature")]
+    both = [listed(dict.fromkeys(map(format_number, result.ends(name)))) for name in ("nu", "temperature")]
     return f"baths ν = {both[0]}, T = {both[1]}"
 
 

@@ -55,7 +55,7 @@ def _units(table: pd.DataFrame, known: Mapping[str, str]) -> dict[str, str]:
         )
         raise UnitsError(
             f"the columns {', '.join(without)} have no units; name them after a quantity, or declare their units in the "
-            f"script: run(draw, title, {declared})"
+            f"script: main(draw, title, {declared})"
         )
     units = {name: known[name] for name in numbers}
     for name, text in units.items():

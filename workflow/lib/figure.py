@@ -1,8 +1,8 @@
 """Entry point of the figure scripts: loads the results, renders and saves a panel.
 
-A script defines draw(results) and ends with `run(draw, title)`. A title that differs between panels is a function of the results.
+A script defines draw(results) and ends with `main(draw, title)`. A title that differs between panels is a function of the results.
 Units of columns that are not named after a quantity, an axis or an option are keyword arguments, which also hold for the columns of
-their errors: `run(draw, title, deviation="1")`.
+their errors: `main(draw, title, deviation="1")`.
 """
 
 import argparse
@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from workflow.lib import style
 from workflow.lib.caption import with_rules
 from workflow.lib.columns import as_csv, inherited
-from workflow.lib.identity import ROOT, drawing_sources, named_identity, panel_identity
+from workflow.lib.identity import ROOT, named_identity, panel_identity, sources_of_panel
 from workflow.lib.load import REMEDY, FormatError, Result, load
 from workflow.lib.save import Parents, Text, save
 from workflow.lib.units import UnitsError
@@ -42,7 +42,7 @@ def require_elastic(results: Sequence[Result], theory: str) -> None:
             )
 
 
-def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str) -> None:
+def main(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str) -> None:
     """Renders the panel that the command line names."""
     parser = argparse.ArgumentParser(description="Renders a panel from its results.")
     parser.add_argument("--data", type=Path, nargs="*", default=[], help="result files of the panel")
@@ -53,7 +53,7 @@ def run(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: str
         sys.exit(f"{script} is not in {ROOT}/workflow/figures: move it there")
     if others := [name for name in sys.modules if name.startswith("workflow.figures.")]:
         sys.exit(f"{script.name} imports the script {others[0]}: move what they share to workflow/lib")
-    sources = drawing_sources(script.stem)
+    sources = sources_of_panel(script.stem)
     panel = options.output.name.partition(".")[0]
     name = panel_identity(panel, map(str, options.data), sources)
     if named_identity(options.output) not in (name, ""):

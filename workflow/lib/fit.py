@@ -34,7 +34,7 @@ class PowerLaw:
 
     @property
     def text(self) -> str:
-        return with_error(self.exponent, self.error)
+        return format_with_error(self.exponent, self.error)
 
     @property
     def rejected(self) -> bool:
@@ -56,7 +56,7 @@ def rejected(chi_square: float, freedom: int) -> bool:
     return p_value(chi_square, freedom) < LEVEL
 
 
-def with_error(value: float, error: float) -> str:
+def format_with_error(value: float, error: float) -> str:
     """Value and error with two digits of the error: 1.8620(54), or 745.0(8.2) for errors of 1 and above."""
     if not (np.isfinite(error) and error > 0):
         return f"{value:.4g}".replace("-", "−")

@@ -33,7 +33,7 @@ def panel_identity(panel: str, results: Iterable[str], sources: dict[str, str]) 
     return identity(panel, ["/".join(Path(path).parts[-2:]) for path in results], sources)
 
 
-def drawing_sources(script: str) -> dict[str, str]:
+def sources_of_panel(script: str) -> dict[str, str]:
     """Hashes of the script of a panel, of the library of all scripts, and of the locked packages. Raises OSError."""
     return {path: content_hash(path) for path in (f"workflow/figures/{script}.py", *SHARED)}
 

@@ -14,7 +14,7 @@ import numpy as np
 import pandas as pd
 
 from workflow.lib.identity import IDENTITY, named_identity, result_identity
-from workflow.lib.suggestion import nearest
+from workflow.lib.suggestion import suggestion
 from workflow.lib.units import parse
 
 if TYPE_CHECKING:
@@ -112,7 +112,7 @@ class Result:
 
     def __getitem__(self, name: str) -> Quantity:
         if name not in self.quantities:
-            raise FormatError(f"{self.path} has no quantity {name}; {nearest(name, self.quantities)}")
+            raise FormatError(f"{self.path} has no quantity {name}; {suggestion(name, self.quantities)}")
         return self.quantities[name]
 
     @property
@@ -162,7 +162,7 @@ class Result:
         return reasons
 
     @property
-    def sound(self) -> bool:
+    def usable(self) -> bool:
         """Whether the run was stationary and did not miss its target error. Raises FormatError without a test of stationarity."""
         return bool(self["stationary"].mean.size and not self.doubts)
 
@@ -208,8 +208,8 @@ def _datasets(results: h5py.Group) -> dict[str, h5py.Dataset]:
 
 @contextmanager
 def _verified(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any], dict[str, h5py.Dataset]]]:
-    """Opens a result file whose name is that of its content and whose values are those written. It is not locked, because results are
-    written under another name and renamed."""
+    """Opens a result file after checking identity and checksum. It is not locked, because results are written under another name and
+    renamed."""
     try:
         with h5py.File(path, locking=False) as file:
             provenance = _attributes(file["provenance"]) if "provenance" in file else {}

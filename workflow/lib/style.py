@@ -162,7 +162,7 @@ def cross_out(axes: Axes, x: np.ndarray, y: np.ndarray, where: np.ndarray) -> No
     axes.plot(x[where], y[where], linestyle="none", marker="x", color=BLACK, markersize=6, zorder=5)
 
 
-def with_error(quantity: Quantity, index: Index = (), unit: float = 1) -> str:
+def format_quantity(quantity: Quantity, index: Index = (), unit: float = 1) -> str:
     """Value and error of a quantity at an index, as 1.8620(54)."""
     mean, error = unit * float(quantity.mean[index]), unit * float(quantity.error[index])
-    return fit.with_error(mean, error)
+    return fit.format_with_error(mean, error)

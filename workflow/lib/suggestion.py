@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 
 
-def nearest(name: str, names: Iterable[str]) -> str:
+def suggestion(name: str, names: Iterable[str]) -> str:
     """`did you mean fig05?`, or a list of all names if none is similar."""
     known = [*names]
     similar = get_close_matches(name, known, 1)

@@ -46,7 +46,7 @@ def tabulate(results: Sequence[Result]) -> pd.DataFrame:
         per_current = 1 / drop_per_cell(result)
         row["kappa_baths"] = per_current * row["energy_current"]
         row["kappa_baths_error"] = abs(per_current) * row["energy_current_error"]
-        row["usable"] = result.sound
+        row["usable"] = result.usable
         rows.append(row)
     return pd.DataFrame(rows).sort_values("cells", ignore_index=True)
 

@@ -41,7 +41,7 @@ class Response:
     currents: np.ndarray  # J_u, J_n
     covariance: np.ndarray
     temperature: float  # geometric mean of the temperatures of the baths
-    sound: bool
+    usable: bool
 
     @classmethod
     def of(cls, result: Result) -> "Response":
@@ -56,7 +56,7 @@ class Response:
             np.array([float(quantity.mean) for quantity in quantities]),
             np.outer(errors, errors) * np.array([[1, correlation], [correlation, 1]]),
             float(np.sqrt(np.prod(temperatures))),
-            result.sound,
+            result.usable,
         )
 
 
@@ -80,7 +80,7 @@ def onsager(temperature: Response, pressure: Response) -> dict[str, float]:
             shift[current, index] = step
             gradient[current] = (derived(currents + shift) - derived(currents - shift)) / (2 * step)
         variances += np.einsum("iq,ij,jq->q", gradient, run.covariance, gradient)
-    row: dict[str, float] = {"usable": all(run.sound for run in runs)}
+    row: dict[str, float] = {"usable": all(run.usable for run in runs)}
     for name, value, variance in zip(DERIVED, values, variances, strict=True):
         row |= {name: float(value), f"{name}_error": float(np.sqrt(variance))}
     per_current = temperature.cells / (temperature.forces[0] * temperature.temperature**2)

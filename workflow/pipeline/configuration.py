@@ -12,7 +12,7 @@ from ruamel.yaml.error import MarkedYAMLError, YAMLError
 from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
 
 from workflow.lib.identity import ROOT
-from workflow.lib.suggestion import nearest
+from workflow.lib.suggestion import suggestion
 from workflow.pipeline.described import declared
 from workflow.pipeline.files import in_one_line
 from workflow.pipeline.polynomial import POLYNOMIAL
@@ -23,7 +23,7 @@ Keys = tuple[Any, ...]  # path in nested mappings and lists
 
 FOLDER = ROOT / "workflow/config"
 ERROR = "error"  # relative error, in place of a number of replicas
-EFFORT = ("cells", "observation-time", "pairs-per-replica", "replicas", ERROR)
+EFFORT_OPTIONS = ("cells", "observation-time", "pairs-per-replica", "replicas", ERROR)
 ALSO_PHYSICS = ("cells", "observation-time")  # given in paper.yaml, too
 SCALE: Schema = {"type": "number", "exclusiveMinimum": 0, "allowed": "a number greater than 0"}
 FRACTION = {**SCALE, "exclusiveMaximum": 1, "allowed": "a number greater than 0 and less than 1"}
@@ -31,7 +31,7 @@ OF_SERIES: Schema = {
     "program": True,
     # Equal runs, which differ by their seeds.
     "runs": {"type": "integer", "minimum": 1, "allowed": "a whole number of at least 1"},
-    "target-scale": SCALE,  # size of a target quantity that can be 0, to which ERROR refers then
+    "target-scale": SCALE,  # reference value of ERROR where the target may be 0
 }
 NAME: Schema = {"type": "string", "pattern": "^[A-Za-z0-9_-]+$", "allowed": "letters, digits, _ and -"}
 NAMED: Schema = {"type": "object", "propertyNames": NAME, "minProperties": 1}
@@ -143,7 +143,7 @@ def _panels(programs: dict[str, Schema]) -> Schema:
 
 def _physics(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
     """Schema of the options in paper.yaml: all but effort."""
-    elsewhere = {name: "belongs into quality/*.yaml" for name in EFFORT if name not in ALSO_PHYSICS}
+    elsewhere = {name: "belongs into quality/*.yaml" for name in EFFORT_OPTIONS if name not in ALSO_PHYSICS}
     elsewhere["seed"] = "follows from the names of panel and run; `make panel SEED=7` chooses another"
     common = {name: _options(name, options, elsewhere) for name, options in programs.items()}
     series = {name: own | {"properties": OF_SERIES | own["properties"]} for name, own in common.items()}
@@ -158,7 +158,7 @@ def _physics(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
 
 def _efforts(paper: dict[str, Any], programs: dict[str, Schema]) -> Schema:
     """Schema of quality/*.yaml: the effort of all series of a panel with replicas, and that of single series."""
-    physics = {name for options in programs.values() for name in options if name not in EFFORT}
+    physics = {name for options in programs.values() for name in options if name not in EFFORT_OPTIONS}
     elsewhere = dict.fromkeys(physics, "belongs into paper.yaml")
     series = {name: _options(name, options, elsewhere) for name, options in programs.items()}
     every = {name: schema for one in series.values() for name, schema in one["properties"].items()}
@@ -202,10 +202,10 @@ def _problems(error: ValidationError) -> Iterator[tuple[Keys, str]]:
     if error.validator == "additionalProperties" and isinstance(error.instance, dict):
         for name in error.instance.keys() - schema["properties"].keys():
             unknown = f"{schema['title']} has no such option" if "title" in schema else "unknown key"
-            remedy = nearest(str(name), schema["properties"]) + (NEW if "title" in schema else "")
+            remedy = suggestion(str(name), schema["properties"]) + (NEW if "title" in schema else "")
             yield (*keys, name), schema.get("elsewhere", {}).get(name, f"{unknown}; {remedy}")
     elif error.validator == "enum":
-        yield keys, f"{value} is unknown; {nearest(str(error.instance), schema['enum'])}{NEW}"
+        yield keys, f"{value} is unknown; {suggestion(str(error.instance), schema['enum'])}{NEW}"
     elif "allowed" in schema:
         yield keys, f"{value} is invalid; allowed: {schema['allowed']}"
     else:

@@ -10,7 +10,7 @@ import pandas as pd
 
 from workflow.lib.identity import ROOT
 from workflow.lib.load import Result, load
-from workflow.lib.suggestion import nearest
+from workflow.lib.suggestion import suggestion
 from workflow.pipeline.configuration import Options
 from workflow.pipeline.described import declared
 from workflow.pipeline.plan import Run, seed_of
@@ -41,7 +41,7 @@ def measure(program: str, **options: object) -> "xarray.DataTree":
     Raises MeasureError; BuildError if the program is missing or older than its sources."""
     known = declared()
     if program not in known:
-        raise MeasureError(f"{program} is not a program; {nearest(program, known)}")
+        raise MeasureError(f"{program} is not a program; {suggestion(program, known)}")
     given = _checked(program, options, known[program])
     code_hashes.cache_clear()  # the sources may have changed in this session
     require_built(program)
@@ -65,7 +65,7 @@ def _checked(program: str, options: Mapping[str, object], known: Mapping[str, An
     for key, value in options.items():
         name = key.replace("_", "-")
         if name not in allowed:
-            raise MeasureError(f"{program} has no option {name}; {nearest(name, allowed)}")
+            raise MeasureError(f"{program} has no option {name}; {suggestion(name, allowed)}")
         given[name] = value
         if isinstance(value, str) or not isinstance(value, Iterable) or getattr(value, "ndim", 1) == 0:
             continue

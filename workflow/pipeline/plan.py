@@ -13,14 +13,14 @@ from typing import Any
 from workflow.lib.identity import (
     SHARED,
     content_hash,
-    drawing_sources,
     identity,
     panel_identity,
     result_identity,
+    sources_of_panel,
 )
-from workflow.lib.suggestion import nearest
+from workflow.lib.suggestion import suggestion
 from workflow.pipeline.configuration import (
-    EFFORT,
+    EFFORT_OPTIONS,
     FOLDER,
     ConfigurationError,
     Options,
@@ -30,7 +30,7 @@ from workflow.pipeline.configuration import (
 )
 from workflow.pipeline.described import declared
 from workflow.pipeline.polynomial import evaluated
-from workflow.pipeline.publish import STORE
+from workflow.pipeline.publish import RENDERED
 from workflow.pipeline.sources import source_hash
 
 SUFFIXES = (".pdf", ".png", ".svg", ".csv", ".json")  # of the files of a panel
@@ -45,7 +45,7 @@ REPORT_SOURCES = (
 BATCH = 16  # replicas between two checks of a target error
 # Without +, as the text is part of the name of a folder and of a pattern of names.
 NUMBER = r"[0-9]+\.?[0-9]*|[0-9]*\.?[0-9]+|[0-9]+\.?[0-9]*[eE]-?[0-9]+"
-EFFORTS: dict[str, tuple[str, Any, str]] = {  # pattern, type and description of the allowed values
+OVERRIDES: dict[str, tuple[str, Any, str]] = {  # pattern, type and description of the allowed values
     "seed": ("0|[1-9][0-9]{0,17}", int, "a whole number from 0 to 10^18 - 1"),
     "replicas": ("[1-9][0-9]{0,17}", int, "a whole number, at least 1"),
     "error": (NUMBER, float, "a number greater than 0 and less than 1, as 0.02 for 2 %"),
@@ -67,14 +67,14 @@ class Run:
         return "replicas" in self.options
 
     @property
-    def words(self) -> str:
+    def options_text(self) -> str:
         """Options as on the command line, as the program states them in its result."""
         return " ".join(arguments(self.options))
 
     @cached_property
     def identity(self) -> str:
         """Hash of all that determines the result. Raises OSError."""
-        return result_identity(self.program, self.words, source_hash(self.program))
+        return result_identity(self.program, self.options_text, source_hash(self.program))
 
 
 @dataclass(frozen=True)
@@ -93,29 +93,29 @@ class Panel:
 
 
 @dataclass(frozen=True)
-class Quality:
+class Selection:
     """A quality with the effort of the command line, by the name of its folders of data and figures: `standard`, or
     `standard_seed=7_replicas=200`."""
 
     name: str
-    base: str
+    quality: str
     seed: int | None = None
     replicas: int | None = None
     error: float | None = None  # relative standard error of the target quantity of every run
 
     @classmethod
-    def of(cls, name: str) -> "Quality":
+    def of(cls, name: str) -> "Selection":
         """Parses the name of the folder. Raises ConfigurationError."""
         base, *given = name.split("_")
         if base not in QUALITIES:
             raise ConfigurationError(f"{base} is not a quality; choose one of {', '.join(QUALITIES)}")
         values: dict[str, Any] = {}
         for key, _, text in (word.partition("=") for word in given):
-            if key not in EFFORTS:
-                raise ConfigurationError(f"{key}={text} is no effort; {nearest(key, EFFORTS)}")
+            if key not in OVERRIDES:
+                raise ConfigurationError(f"{key}={text} is no effort; {suggestion(key, OVERRIDES)}")
             if key in values:
                 raise ConfigurationError(f"{key}={text} is given more than once; give it once")
-            pattern, number, allowed = EFFORTS[key]
+            pattern, number, allowed = OVERRIDES[key]
             if not re.fullmatch(pattern, text) or (number is float and not 0 < float(text) < 1):
                 raise ConfigurationError(f"{key.upper()}={text} is invalid; give {allowed}")
             values[key] = number(text)
@@ -128,12 +128,12 @@ class Quality:
     @property
     def arguments(self) -> str:
         """Arguments of make that select this quality and effort."""
-        given = {"QUALITY": self.base, **{key.upper(): getattr(self, key) for key in EFFORTS}}
+        given = {"QUALITY": self.quality, **{key.upper(): getattr(self, key) for key in OVERRIDES}}
         return " ".join(f"{name}={value}" for name, value in given.items() if value is not None)
 
     def complete(self, panel: str, run: str, options: Options, scale: float | None) -> Options:
-        """Options of a replicated run with its effort as options of the program, and its seed. scale: size of a target quantity that
-        can be 0, to which an error refers then."""
+        """Options of a replicated run with its effort as options of the program, and its seed. scale: reference value of
+        the error where the target may be 0."""
         own = {key: value for key, value in options.items() if key not in ("replicas", "error")}
         replicas, error = options.get("replicas"), options.get("error")
         if self.replicas is not None or self.error is not None:
@@ -155,17 +155,17 @@ def seed_of(text: str) -> int:
 @cache
 def load_plan(name: str, folder: Path = FOLDER) -> dict[str, Panel]:
     """All panels of a quality, by name. Raises ConfigurationError."""
-    quality = Quality.of(name)
-    paper, efforts = load_configuration(quality.base, folder)
+    selection = Selection.of(name)
+    paper, efforts = load_configuration(selection.quality, folder)
     effort = efforts.content
-    panels = {name: _panel(name, panel, effort, quality) for name, panel in paper.content["panels"].items()}
+    panels = {name: _panel(name, panel, effort, selection) for name, panel in paper.content["panels"].items()}
     for panel in panels.values():
         if "series" in paper.content["panels"][panel.name] and not panel.runs and not panel.uses:
             text = f"no runs at quality {name}, and no panel whose runs it uses"
             raise ConfigurationError(paper.complaint(("panels", panel.name), text))
         for number, used in enumerate(panel.uses):
             if used not in panels or not panels[used].runs:
-                text = f"{used} has no runs; {nearest(used, {*panels} - {panel.name, used})}"
+                text = f"{used} has no runs; {suggestion(used, {*panels} - {panel.name, used})}"
                 raise ConfigurationError(paper.complaint(("panels", panel.name, "uses", number), text))
     return panels
 
@@ -174,7 +174,7 @@ def panel_named(plan: dict[str, Panel], name: str) -> Panel:
     """The panel of this name. Raises ConfigurationError with the most similar name."""
     if name in plan:
         return plan[name]
-    raise ConfigurationError(f"{name} is not a panel; {nearest(name, plan)}")
+    raise ConfigurationError(f"{name} is not a panel; {suggestion(name, plan)}")
 
 
 def with_used(plan: dict[str, Panel], name: str) -> list[Panel]:
@@ -201,13 +201,13 @@ def data_of(plan: dict[str, Panel], name: str, quality: str) -> list[str]:
 def stem_of(plan: dict[str, Panel], name: str, quality: str) -> str:
     """Path of the files of a panel in the store, without suffix. Raises ConfigurationError, OSError."""
     try:
-        sources = drawing_sources(plan[name].script)
+        sources = sources_of_panel(plan[name].script)
     except FileNotFoundError as error:
         raise ConfigurationError(
             f"panel {name} of paper.yaml has no script: write {error.filename}"
         ) from error
     present = panel_identity(name, data_of(plan, name, quality), sources)
-    return f"{STORE}/{quality}/{name}.{present}"
+    return f"{RENDERED}/{quality}/{name}.{present}"
 
 
 def products_of(plan: dict[str, Panel], names: Iterable[str], quality: str) -> list[str]:
@@ -219,10 +219,10 @@ def products_of(plan: dict[str, Panel], names: Iterable[str], quality: str) -> l
 def report_stem(plan: dict[str, Panel], quality: str) -> str:
     """Path of the report in the store, without suffix. Raises OSError."""
     sources = {path: content_hash(path) for path in REPORT_SOURCES}
-    return f"{STORE}/{quality}/report.{identity([stem_of(plan, name, quality) for name in plan], sources)}"
+    return f"{RENDERED}/{quality}/report.{identity([stem_of(plan, name, quality) for name in plan], sources)}"
 
 
-def drawing_command(script: str, stem: str, data: list[str]) -> str:
+def rendering_command(script: str, stem: str, data: list[str]) -> str:
     """Shell command that renders a panel to stem.*"""
     words = [".venv/bin/python", "-m", f"workflow.figures.{script}", "--output", stem, "--data", *data]
     return shlex.join(words)
@@ -238,10 +238,10 @@ def _merged(*efforts: dict[str, Any]) -> dict[str, Any]:
     return merged
 
 
-def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Quality) -> Panel:
+def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], selection: Selection) -> Panel:
     runs, replaced = [], []
     effort_of = efforts.get("panels", {}).get(name, {})
-    of_all = {key: value for key, value in effort_of.items() if key in EFFORT}
+    of_all = {key: value for key, value in effort_of.items() if key in EFFORT_OPTIONS}
     for series, program in programs_of(panel).items():
         if series in effort_of.get("omit", ()):
             continue
@@ -261,7 +261,7 @@ def _panel(name: str, panel: dict[str, Any], efforts: dict[str, Any], quality: Q
             run = "_".join([series, *(f"{key}={_in_name(value)}" for key, value in sorted(numbered.items()))])
             given = {**options, **chosen}
             given = {key: evaluated(value, given.get("cells")) for key, value in given.items()}
-            completed = quality.complete(name, run, given, scale) if replicated else given
+            completed = selection.complete(name, run, given, scale) if replicated else given
             runs.append(Run(run, program, completed, series))
     return Panel(name, panel.get("script", name), tuple(runs), tuple(panel.get("uses", ())), tuple(replaced))
 

@@ -16,7 +16,7 @@ from workflow.pipeline.sources import programs, source_hash
 PROGRAMS = ROOT / "build/bin"
 WRITTEN = (0, 4)  # exit statuses with a result; 4: stopped before the target error, and marked
 REPLICAS_PER_THREAD, MOST_THREADS = 32, 16
-LEAST = 64  # replicas of a run with a target error, as StoppingRule::least in cpp/program
+LEAST_REPLICAS = 64  # replicas of a run with a target error, as StoppingRule::least in cpp/program
 
 
 class ProgramError(ValueError):
@@ -57,7 +57,7 @@ def build() -> None:
 
 def threads_of(run: Run) -> int:
     """Threads among which the replicas of a run are divided without waste."""
-    replicas = LEAST if "target-error" in run.options else int(run.options.get("replicas", 1))
+    replicas = LEAST_REPLICAS if "target-error" in run.options else int(run.options.get("replicas", 1))
     return max(1, min(MOST_THREADS, replicas // REPLICAS_PER_THREAD))
 
 

@@ -9,13 +9,14 @@ from typing import Any
 from workflow.lib.atomic import write_together
 from workflow.pipeline.files import in_one_line
 
-STORE, SHOWN = "build/figures", "figures"
+RENDERED = "build/figures"
+FIGURES = "figures"
 KINDS = ("pdf", "png", "svg", "csv", "html")
 
 
 def copies(stem: Path) -> dict[Path, Path]:
     """Paths of the copies of a product, with their originals. stem: STORE/QUALITY/NAME.IDENTITY."""
-    folder = Path(SHOWN) / stem.parent.name
+    folder = Path(FIGURES) / stem.parent.name
     originals = [stem.with_name(f"{stem.name}.{kind}") for kind in KINDS]
     return {folder / f"{stem.stem}{path.suffix}": path for path in originals if path.exists()}
 

@@ -2,7 +2,7 @@
 
 from workflow.lib.identity import ROOT
 from workflow.lib.load import FormatError, Result, load
-from workflow.pipeline.plan import Quality, data_path, load_plan, panel_named
+from workflow.pipeline.plan import Selection, data_path, load_plan, panel_named
 
 
 def load_panel(panel: str, quality: str = "standard") -> dict[str, Result]:
@@ -12,5 +12,5 @@ def load_panel(panel: str, quality: str = "standard") -> dict[str, Result]:
     try:
         return {run.name: load(ROOT / data_path(quality, panel, run)) for run in planned.runs}
     except FormatError as error:
-        remedy = f"run make panel PANEL={panel} {Quality.of(quality).arguments}"
+        remedy = f"run make panel PANEL={panel} {Selection.of(quality).arguments}"
         raise FormatError(f"{error}; {remedy}") from error

@@ -18,19 +18,19 @@ from PIL.PngImagePlugin import PngInfo
 
 from workflow.claims.data import Data
 from workflow.claims.judge import KINDS, Judgement, judge_all
-from workflow.claims.verdict import Number, Outcome
+from workflow.claims.verdict import Estimate, Outcome
 from workflow.lib.atomic import write_together
 from workflow.lib.identity import ROOT
 from workflow.lib.load import FormatError
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.files import in_one_line
-from workflow.pipeline.plan import Quality, stem_of
+from workflow.pipeline.plan import Selection, stem_of
 from workflow.pipeline.publish import read_record
-from workflow.report import words
+from workflow.report import typeset
 
 GALLERY = "docs/gallery"
 SIGNS = {Outcome.REPRODUCED: "✓", Outcome.CONTRADICTED: "✗", Outcome.UNDECIDED: "?"}
-MOST = 12  # numbers of a claim on the page; of more, only the one that is closest to the band's edge or farthest outside
+MOST_NUMBERS = 12  # numbers of a claim on the page; of more, only the one that is closest to the band's edge or farthest outside
 WIDTH, COLORS = 1440, 256  # of pictures in the gallery: largest width in pixels, number of colours
 
 
@@ -44,7 +44,7 @@ def rendered(judgements: Sequence[Judgement], data: Data, *, release: bool) -> b
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    environment.filters["typeset"] = words.typeset
+    environment.filters["typeset"] = typeset.typeset
     rows = [shown(judgement) for judgement in judgements]
     panels = []
     for name in data.plan:
@@ -57,7 +57,7 @@ def rendered(judgements: Sequence[Judgement], data: Data, *, release: bool) -> b
     page = environment.get_template("page.html.j2").render(
         release=release,
         quality=data.quality,
-        effort=Quality.of(data.quality).arguments,
+        effort=Selection.of(data.quality).arguments,
         kinds=KINDS,
         outcomes=[*Outcome],
         rows=rows,
@@ -71,14 +71,14 @@ def shown(judgement: Judgement) -> dict[str, Any]:
     """A row of the table of claims with its verdict, for the template. least, most: its smallest and largest number."""
     verdict = judgement.verdict
     numbers = sorted(verdict.numbers, key=lambda number: number.value)
-    listed = verdict.numbers if len(numbers) <= MOST else [verdict.shown]
+    listed = verdict.numbers if len(numbers) <= MOST_NUMBERS else [verdict.shown]
     return dict(judgement.row) | {
         "outcome": verdict.outcome,
         "sign": SIGNS[verdict.outcome],
-        "band": words.acceptance(verdict.band),
-        "value": words.value(verdict.shown) if numbers else "not measured",
+        "band": typeset.acceptance(verdict.band),
+        "value": typeset.value(verdict.shown) if numbers else "not measured",
         "label": verdict.shown.label if numbers else "",
-        "list": [(number.label, words.value(number), verdict.of(number).value) for number in listed],
+        "list": [(number.label, typeset.value(number), verdict.of(number).value) for number in listed],
         "omitted": len(numbers) - len(listed),
         "outside": sum(verdict.of(number) is Outcome.CONTRADICTED for number in numbers),
         "least": plain(numbers[0]) if numbers else "",
@@ -87,9 +87,9 @@ def shown(judgement: Judgement) -> dict[str, Any]:
     }
 
 
-def plain(number: Number) -> str:
+def plain(number: Estimate) -> str:
     """The number with its standard error only, for sentences."""
-    return words.value(Number("", number.value, number.error))
+    return typeset.value(Estimate("", number.value, number.error))
 
 
 def numbers_file(judgements: Sequence[Judgement]) -> bytes:

@@ -44,8 +44,8 @@ struct CellTallies : TallySchema {
 /// the cells [eq. 35].
 ///
 /// A flight that lies in the window is added to its range of bonds only: each bond implies one arrival at the
-/// scatterer behind it, if there is one, and a stay of time_per_place in each of its two half cells. Flights
-/// that overlap an end of the window are added mark by mark.
+/// scatterer behind it, if there is one, and a stay of time_per_half_cell in each of its two half cells.
+/// Flights that overlap an end of the window are added mark by mark.
 class CellStream {
  public:
   CellStream(const OpenChain& chain, const Window& window)
@@ -60,7 +60,8 @@ class CellStream {
     // A path that departs exactly at the beginning of the window may start anywhere in a cell.
     if (!(path.departure > window_.begin && path.arrival < window_.end)) return add_clipped(path);
     const Marks marks = marks_in(path, window_);
-    bonds_.add((marks.low + 1) / 2, marks.high / 2, {1, path.velocity * path.velocity, path.time_per_place});
+    bonds_.add((marks.low + 1) / 2, marks.high / 2,
+               {1, path.velocity * path.velocity, path.time_per_half_cell});
   }
 
   /// Arrivals (kind 0) or sums of u^2 over arrivals (kind 1) at every mark; `behind` is the offset from a

@@ -4,7 +4,7 @@ import os
 import signal
 from pathlib import Path
 
-KEPT = Path(__file__).with_name("kept").read_text().split()
+ALLOWED = Path(__file__).with_name("allowed_variables").read_text().split()
 FIXED = {
     "LC_ALL": "C.UTF-8",
     "TZ": "UTC",
@@ -20,8 +20,8 @@ FIXED = {
 
 
 def clean() -> None:
-    """Removes all variables that are not listed in `kept`; those of Slurm remain."""
-    kept = {name: text for name, text in os.environ.items() if name in KEPT or name.startswith("SLURM_")}
+    """Removes all variables that are not listed in `allowed_variables`; those of Slurm remain."""
+    kept = {name: text for name, text in os.environ.items() if name in ALLOWED or name.startswith("SLURM_")}
     os.environ.clear()
     # Snakemake needs a name, and the user of a container may have none.
     os.environ.update({"USER": f"user-{os.getuid()}"} | kept | FIXED)

@@ -14,11 +14,11 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import NamedTuple
 
-from workflow.lib.identity import DIGITS, drawing_sources, named_identity, sha256, stated
+from workflow.lib.identity import DIGITS, named_identity, sha256, sources_of_panel, stated
 from workflow.lib.load import FormatError, load_provenance
 from workflow.pipeline.files import in_one_line
-from workflow.pipeline.plan import Panel, Run, data_of, drawing_command, runs_of, stem_of
-from workflow.pipeline.publish import SHOWN, STORE, copies, read_record
+from workflow.pipeline.plan import Panel, Run, data_of, rendering_command, runs_of, stem_of
+from workflow.pipeline.publish import FIGURES, RENDERED, copies, read_record
 from workflow.pipeline.sources import source_hash
 
 
@@ -70,7 +70,7 @@ def changes(run: Run, sibling: Path) -> list[str]:
         former = load_provenance(sibling)
     except (FormatError, OSError) as error:
         return [str(error)]
-    was, now = options_of(former["words"]), options_of(run.words)
+    was, now = options_of(former["words"]), options_of(run.options_text)
     differing = [f"it has {option}" for option in was if option not in now]
     differing += [f"planned is {option}" for option in now if option not in was]
     if former["source_hash"] != source_hash(run.program):
@@ -78,11 +78,11 @@ def changes(run: Run, sibling: Path) -> list[str]:
     return differing
 
 
-class Picture:
+class FigureFiles:
     """Figure of a panel: in the store, under its present identity, and the copy that is shown."""
 
     def __init__(self, plan: dict[str, Panel], name: str, quality: str) -> None:
-        self.script, self.shown = plan[name].script, f"{SHOWN}/{quality}/{name}"
+        self.script, self.shown = plan[name].script, f"{FIGURES}/{quality}/{name}"
         self.data, self.stem = data_of(plan, name, quality), stem_of(plan, name, quality)
         self.record = read_record(f"{self.stem}.json")
         self.statement = (name, quality, named_identity(self.stem))
@@ -102,7 +102,7 @@ class Picture:
                 content = Path(path).read_bytes()
                 if sha256(content) != digest:
                     state = "edited" if stated(content) in (None, self.statement) else "stale"
-                    remedy = "remove it" if path.startswith(STORE) else "make figures writes it again"
+                    remedy = "remove it" if path.startswith(RENDERED) else "make figures writes it again"
                     return Fault(state, path, f"it differs from its hash in {self.stem}.json; {remedy}")
         return self._fault_of_rendering() if render else None
 
@@ -114,7 +114,7 @@ class Picture:
         if former is None:
             return Fault("missing", record, "it is not there")
         changed = [
-            path for path, digest in drawing_sources(self.script).items() if former.get(path) != digest
+            path for path, digest in sources_of_panel(self.script).items() if former.get(path) != digest
         ]
         changed += ["results"] * ({path for path in former if path.endswith(".h5")} != {*self.data})
         return Fault("stale", f"{self.shown}.pdf", f"changed: {', '.join(changed)}")
@@ -122,7 +122,7 @@ class Picture:
     def _fault_of_rendering(self) -> Fault | None:
         name, quality, _ = self.statement
         rendered = Path("build/audit", quality, name)
-        command = drawing_command(self.script, str(rendered), self.data)
+        command = rendering_command(self.script, str(rendered), self.data)
         done = subprocess.run(command, shell=True, capture_output=True, text=True, check=False)
         if done.returncode:
             return Fault("not checked", f"{self.shown}.pdf", f"rendering fails: {done.stderr.strip()[-200:]}")
@@ -139,7 +139,7 @@ class Picture:
 
 def check(plan: dict[str, Panel], names: list[str], quality: str, render: bool) -> list[Fault]:
     """Faults of the figures of panels and of the results that they plot. A figure whose results do not hold is not rendered."""
-    runs, pictures = runs_of(plan, names, quality), [Picture(plan, name, quality) for name in names]
+    runs, pictures = runs_of(plan, names, quality), [FigureFiles(plan, name, quality) for name in names]
     plotted = {
         path: digest for picture in pictures for path, digest in picture.record.get("parents", {}).items()
     }
@@ -148,14 +148,14 @@ def check(plan: dict[str, Panel], names: list[str], quality: str, render: bool) 
     results = {path: fault for path, run in unknown.items() if (fault := fault_of_result(path, run))}
     with ThreadPoolExecutor(os.cpu_count()) as threads:
         usable = [render and not {*results} & {*picture.data} for picture in pictures]
-        figures = threads.map(Picture.fault, pictures, usable)
+        figures = threads.map(FigureFiles.fault, pictures, usable)
     return [*results.values(), *filter(None, figures)]
 
 
 def main(options: argparse.Namespace) -> int:
     quality, plan = options.quality, options.plan
     names = options.panels or [*plan]
-    made = [name for name in names if Picture(plan, name, quality).is_made()]
+    made = [name for name in names if FigureFiles(plan, name, quality).is_made()]
     faults, alike = check(plan, made, quality, options.render), defaultdict(list)
     for fault in faults:
         alike[fault.state, fault.reason, os.path.dirname(fault.path)].append(fault.path)

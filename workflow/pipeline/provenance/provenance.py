@@ -11,15 +11,15 @@ from typing import Any
 from workflow.lib.identity import content_hash, result_identity, sha256, stated
 from workflow.lib.load import FormatError, load_provenance
 from workflow.pipeline.configuration import ConfigurationError
-from workflow.pipeline.plan import QUALITIES, Quality, load_plan, runs_of
-from workflow.pipeline.publish import STORE, read_record
+from workflow.pipeline.plan import QUALITIES, Selection, load_plan, runs_of
+from workflow.pipeline.publish import RENDERED, read_record
 from workflow.pipeline.sources import source_hash
 
 HDF5 = b"\x89HDF"  # first bytes of a file
 
 
 def print_panel(panel: str, quality: str) -> None:
-    print(f"panel {panel}, quality {quality}: make panel PANEL={panel} {Quality.of(quality).arguments}")
+    print(f"panel {panel}, quality {quality}: make panel PANEL={panel} {Selection.of(quality).arguments}")
 
 
 def print_command(origin: dict[str, Any], where: str = "") -> None:
@@ -27,7 +27,7 @@ def print_command(origin: dict[str, Any], where: str = "") -> None:
     program = origin["program"]
     print(f"{where}{program} {origin['words']}")
     if origin["source_hash"] != source_hash(program):
-        print(f"sources of {program} are others here")
+        print(f"sources of {program} differ here")
 
 
 def selections() -> list[str]:
@@ -35,7 +35,7 @@ def selections() -> list[str]:
     names = [*QUALITIES]
     for folder in Path("data").glob("*_*"):
         with suppress(ConfigurationError):  # a folder of the user
-            names.append(Quality.of(folder.name).name)
+            names.append(Selection.of(folder.name).name)
     return names
 
 
@@ -45,7 +45,7 @@ def explain_result(path: Path) -> int:
     for quality in selections():
         plan = load_plan(quality)
         for planned, run in runs_of(plan, plan, quality).items():
-            if (run.program, run.words) == (program, words):
+            if (run.program, run.options_text) == (program, words):
                 print_panel(Path(planned).parent.name, quality)
     print_command(origin)
     print(f"unmodified, identity {result_identity(program, words, origin['source_hash'])}")
@@ -56,11 +56,11 @@ def explain_result(path: Path) -> int:
 def explain_figure(path: Path) -> int:
     content = path.read_bytes()
     if not (statement := stated(content)):
-        print(f"{path} states no panel: it is no file of a panel, or another program has written it again")
+        print(f"{path} has no panel metadata: it is no file of a panel, or another program rewrote it")
         return 1
     panel, quality, identity = statement
     print_panel(panel, quality)
-    known = f"{STORE}/{quality}/{panel}.{identity}.json"
+    known = f"{RENDERED}/{quality}/{panel}.{identity}.json"
     if not (record := read_record(known)):
         print(f"identity {identity}, of which there is no record here")
         return 3
@@ -71,7 +71,7 @@ def explain_figure(path: Path) -> int:
             except (FormatError, OSError) as error:
                 print(error)
         elif not (Path(parent).exists() and content_hash(parent) == digest):
-            print(f"{parent} is another here")
+            print(f"{parent} differs here")
     edited = sha256(content) not in record["files"].values()
     print(f"{'edited' if edited else 'unmodified'}, made from {len(record['parents'])} files: {known}")
     print(f"commit {record['commit'] or 'unknown'}, rendered by {record['renderer']}")

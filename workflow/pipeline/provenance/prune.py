@@ -12,7 +12,7 @@ from pathlib import Path
 from workflow.lib.identity import IDENTITY, stated
 from workflow.pipeline.files import lock_products
 from workflow.pipeline.plan import Panel, report_stem, runs_of, stem_of
-from workflow.pipeline.publish import SHOWN, STORE
+from workflow.pipeline.publish import FIGURES, RENDERED
 
 GIVEN = re.compile(
     rf"(.+\.{IDENTITY})\.(h5|log|cost\.json|pdf|png|svg|csv|json|html)(\.checkpoint|\.refused)?(\.\w+\.tmp)?"
@@ -23,10 +23,10 @@ def obsolete(quality: str, plan: dict[str, Panel]) -> Iterator[Path]:
     """Files of a quality and effort that its plan does not name. Raises OSError."""
     planned = {path.removesuffix(".h5") for path in runs_of(plan, plan, quality)}
     planned |= {report_stem(plan, quality), *(stem_of(plan, name, quality) for name in plan)}
-    for copy in Path(SHOWN, quality).glob("*.*"):
+    for copy in Path(FIGURES, quality).glob("*.*"):
         if copy.stem not in plan and (stated(copy.read_bytes()) or ())[:2] == (copy.stem, quality):
             yield copy
-    for path in [*Path("data", quality).glob("*/*"), *Path(STORE, quality).glob("*")]:
+    for path in [*Path("data", quality).glob("*/*"), *Path(RENDERED, quality).glob("*")]:
         given = GIVEN.fullmatch(str(path))
         if given and (given[1] not in planned or given[3] == ".refused"):
             yield path

@@ -16,7 +16,7 @@ from scipy.special import stdtr
 
 from workflow.lib.load import FormatError, Quantity, Result, load
 from workflow.pipeline.files import lock_products
-from workflow.pipeline.plan import Quality, data_path, load_plan, runs_of
+from workflow.pipeline.plan import Selection, data_path, load_plan, runs_of
 from workflow.pipeline.program import ProgramError, execute
 
 BUILD = Path("build/verify")
@@ -88,24 +88,26 @@ def compared(former: Path | str, path: Path | str, rerun: bool) -> tuple[float, 
 
 def compare(options: argparse.Namespace) -> int:
     """Compares the results of a command with SEED or REPLICAS with those of the quality."""
-    quality, found = Quality.of(options.quality), []
-    plan = load_plan(quality.base)
-    for path, run in runs_of(options.plan, options.panels or options.plan, quality.name).items():
+    selection, found = Selection.of(options.quality), []
+    plan = load_plan(selection.quality)
+    for path, run in runs_of(options.plan, options.panels or options.plan, selection.name).items():
         panel = Path(path).parent.name
-        former = data_path(quality.base, panel, plan[panel].run(run.name))
+        former = data_path(selection.quality, panel, plan[panel].run(run.name))
         if Path(former).is_file():
             try:
                 found.append((*compared(former, path, rerun=False), path))
             except FormatError as error:
                 print(f"Not compared: {error}")
     if not found:
-        print(f"There are no results of {quality.base} to compare with")
+        print(f"There are no results of {selection.quality} to compare with")
         return 0
     differing = [f"  {path}: {text}" for p, text, path in found if p <= SIGNIFICANCE]
     agreeing = len(found) - len(differing)
-    print(f"{agreeing} of {len(found)} results agree with those of {quality.base} (p > {SIGNIFICANCE:g})")
+    print(
+        f"{agreeing} of {len(found)} results agree with those of {selection.quality} (p > {SIGNIFICANCE:g})"
+    )
     print(f"Largest difference: {min(found)[1]}")
-    if quality.replicas and quality.seed is None:
+    if selection.replicas and selection.seed is None:
         print("The first replicas are shared and not counted as independent: SEED=7 gives independent ones")
     print(*differing, sep="\n", end="\n" * bool(differing))
     return int(bool(differing))

@@ -5,12 +5,12 @@ rule draw:
     input:
         lambda wildcards: [ancient(path) for path in DATA[wildcards.panel]],
     output:
-        multiext(f"{STORE}/{{quality}}/{{panel}}.{{identity}}", *SUFFIXES),
+        multiext(f"{RENDERED}/{{quality}}/{{panel}}.{{identity}}", *SUFFIXES),
     log:
         "build/logs/{quality}/{panel}.{identity}.log",
     priority: 10**9  # before any run
     params:
-        command=lambda wildcards: drawing_command(
+        command=lambda wildcards: rendering_command(
             PLAN[wildcards.panel].script, STEMS[wildcards.panel], DATA[wildcards.panel]
         ),
         stem=lambda wildcards: STEMS[wildcards.panel],

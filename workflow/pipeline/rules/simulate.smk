@@ -1,8 +1,8 @@
 """One run of a program: data/<quality>/<panel>/<run>.<identity>.h5.
 
 Exit status 4: stopped before the target error; the result and the figure are marked. --resume continues from the checkpoint of an
-interrupted program. The log is beside the result, as Snakemake removes empty folders when it is terminated, and with them a
-checkpoint that is written later.
+interrupted program. The log is beside the result:
+otherwise Snakemake deletes the empty folder before the checkpoint is written.
 """
 
 

@@ -74,14 +74,14 @@ TEST(EndsAndOpenings, ArrivalsAndScatteringControl) {
                       .from = 0,
                       .first = 0,
                       .last = 5,
-                      .time_per_place = 0.5});
+                      .time_per_half_cell = 0.5});
   observer.on_flight({.departure = 1,
                       .arrival = 1.5,
                       .velocity = 7,
                       .from = 0,
                       .first = 0,
                       .last = 1,
-                      .time_per_place = 0.5});
+                      .time_per_half_cell = 0.5});
   observer.finish({1, 0, 3}, 10);
   EXPECT_EQ(recorded(observer, tallies, tallies.arrivals), (std::vector<double>{1, 1}));
   EXPECT_EQ(recorded(observer, tallies, tallies.arriving_energy), (std::vector<double>{4, 4}));

@@ -28,17 +28,27 @@ Values sums(const BondCrossings& observer, const BondTallies& tallies, Tally tal
 TEST(BondCrossings, ByMomentumAndDirection) {
   const BondTallies tallies(2, bins);
   BondCrossings observer(chain, window, bins);
-  observer.on_flight(
-      {.departure = 3, .arrival = 6, .velocity = 1, .from = 0, .first = 0, .last = 3, .time_per_place = 1});
+  observer.on_flight({.departure = 3,
+                      .arrival = 6,
+                      .velocity = 1,
+                      .from = 0,
+                      .first = 0,
+                      .last = 3,
+                      .time_per_half_cell = 1});
   observer.on_flight({.departure = 5,
                       .arrival = 6,
                       .velocity = -2.5,
                       .from = 1,
                       .first = 0,
                       .last = 0,
-                      .time_per_place = 1});
-  observer.on_flight(
-      {.departure = 5, .arrival = 6, .velocity = 5, .from = 3, .first = 4, .last = 4, .time_per_place = 1});
+                      .time_per_half_cell = 1});
+  observer.on_flight({.departure = 5,
+                      .arrival = 6,
+                      .velocity = 5,
+                      .from = 3,
+                      .first = 4,
+                      .last = 4,
+                      .time_per_half_cell = 1});
   EXPECT_EQ(sums(observer, tallies, tallies.crossings), (Values{1, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0}));
   EXPECT_EQ(sums(observer, tallies, tallies.sums[0]), (Values{1, 0, 0, 1, 1, 1}));
   EXPECT_EQ(sums(observer, tallies, tallies.sums[1]), (Values{6.25, 0, 0, 1, 1, 25}));
@@ -49,10 +59,20 @@ TEST(BondCrossings, ByMomentumAndDirection) {
 TEST(BondCrossings, WithinTheWindow) {
   const BondTallies tallies(2, bins);
   BondCrossings observer(chain, window, bins);
-  observer.on_flight(
-      {.departure = 1, .arrival = 4, .velocity = 1, .from = 0, .first = 0, .last = 3, .time_per_place = 1});
-  observer.on_flight(
-      {.departure = 9, .arrival = 11, .velocity = 1, .from = 1, .first = 2, .last = 3, .time_per_place = 1});
+  observer.on_flight({.departure = 1,
+                      .arrival = 4,
+                      .velocity = 1,
+                      .from = 0,
+                      .first = 0,
+                      .last = 3,
+                      .time_per_half_cell = 1});
+  observer.on_flight({.departure = 9,
+                      .arrival = 11,
+                      .velocity = 1,
+                      .from = 1,
+                      .first = 2,
+                      .last = 3,
+                      .time_per_half_cell = 1});
   EXPECT_EQ(sums(observer, tallies, tallies.sums[0]), (Values{0, 0, 0, 0, 1, 0}));
 }
 

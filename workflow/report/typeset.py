@@ -5,9 +5,9 @@ import re
 
 from markupsafe import Markup, escape
 
-from workflow.claims.verdict import Band, Number
+from workflow.claims.verdict import Band, Estimate
 from workflow.lib.caption import power_of_ten, scientific
-from workflow.lib.fit import with_error
+from workflow.lib.fit import format_with_error
 
 BOUND = " ± "
 MINUS = "\N{MINUS SIGN}"
@@ -30,7 +30,7 @@ def acceptance(band: Band) -> str:
     return f"below {high}" if math.isinf(band.low) else f"{low} to {high}"
 
 
-def value(number: Number) -> str:
+def value(number: Estimate) -> str:
     """Number with its standard error in units of the last digit, and the bound on its systematic error."""
     if not number.error and abs(number.value) < number.systematic:
         return f"0 to rounding{BOUND}{short(number.systematic)}"
@@ -42,7 +42,7 @@ def value(number: Number) -> str:
     if math.isnan(number.error):
         return f"{number.value:.4g} (error unknown)".replace("-", MINUS)
     bound = f"{BOUND}{short(number.systematic)}" if number.systematic > 0.05 * number.error else ""
-    return f"{with_error(number.value, number.error)}{bound}"
+    return f"{format_with_error(number.value, number.error)}{bound}"
 
 
 def short(size: float) -> str:
