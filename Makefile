@@ -23,7 +23,7 @@ deposit: setup  ## Code, results and figures as one archive in build/deposit
 prune: setup  ## Remove a quality's results and figures that no plan names; DRY=yes: list
 build: setup  ## The programs, in build/bin
 figures panel report gallery audit status verify provenance deposit prune build:
-	$(ENTRY) $@
+	$(ENTRY) $@  # which reads PANEL=, QUALITY= and the other options from MAKEFLAGS
 setup:  ## System packages, and Python packages in .venv
 	bash workflow/pipeline/environment/setup.sh $(PROFILE)
 setup-dev:

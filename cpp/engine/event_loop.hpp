@@ -8,7 +8,8 @@
 
 namespace lorentz {
 
-/// The dynamics call it with the time, every 65536 events or later. It may throw to stop.
+/// The dynamics call it with the time after at least 65536 more events. It may throw to stop, after which the
+/// chain may only be destroyed.
 using Heartbeat = std::function<void(double)>;
 
 /// Counts events and calls the heartbeat.

@@ -43,7 +43,9 @@ def test_imports_run_one_way() -> None:
     imported = {
         (source.relative_to(ROOT / "workflow").parts[0], package)
         for source in (ROOT / "workflow").glob("*/**/*.py")
-        for package in re.findall(r"\bfrom workflow\.(\w+)", source.read_text())
+        for package in re.findall(
+            r"(?:\bfrom|^import) workflow(?:\.(\w+))?", source.read_text(), re.MULTILINE
+        )
     }
     assert {own for own, _ in imported} <= PYTHON.keys()
     assert {(own, package) for own, package in imported if package not in PYTHON[own] | {own}} == set()

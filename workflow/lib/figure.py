@@ -52,12 +52,16 @@ def main(draw: Draw, title: str | Callable[[Sequence[Result]], str], **units: st
     if script.parent != ROOT / "workflow/figures":
         sys.exit(f"{script} is not in {ROOT}/workflow/figures: move it there")
     if others := [name for name in sys.modules if name.startswith("workflow.figures.")]:
-        sys.exit(f"{script.name} imports the script {others[0]}: move what they share to workflow/lib")
+        sys.exit(
+            f"{script.name} imports the script {others[0]}: move what they share to workflow/physics or workflow/lib"
+        )
     sources = sources_of_panel(script.stem)
     panel = options.output.name.partition(".")[0]
     name = panel_identity(panel, map(str, options.data), sources)
     if named_identity(options.output) not in (name, ""):
-        sys.exit(f"{script.name}, workflow/lib or uv.lock was edited meanwhile: repeat the command")
+        sys.exit(
+            f"{script.name}, workflow/lib, workflow/physics or uv.lock was edited meanwhile: repeat the command"
+        )
     try:
         results = read(options.data, set_aside=bool(named_identity(options.output)))
         style.apply()

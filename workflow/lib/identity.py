@@ -29,12 +29,12 @@ def result_identity(program: str, words: str, sources: str) -> str:
 
 
 def panel_identity(panel: str, results: Iterable[str], sources: dict[str, str]) -> str:
-    """Identity of a panel. results: paths of the results that it plots, of which the names count; sources: drawing_sources(script)."""
+    """Identity of a panel. results: paths of the results that it plots, of which the names count; sources: sources_of_panel(script)."""
     return identity(panel, ["/".join(Path(path).parts[-2:]) for path in results], sources)
 
 
 def sources_of_panel(script: str) -> dict[str, str]:
-    """Hashes of the script of a panel, of the library of all scripts, and of the locked packages. Raises OSError."""
+    """Hashes of the script of a panel, of lib and physics, and of the locked packages. Raises OSError."""
     return {path: content_hash(path) for path in (f"workflow/figures/{script}.py", *SHARED)}
 
 

@@ -1,1 +1,1 @@
-"""What is known about this model, beyond its simulation."""
+"""Theory of this model, and what panels share of it: tables, parameters, looks."""

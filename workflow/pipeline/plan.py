@@ -38,7 +38,9 @@ QUALITIES = ("smoke", "standard", "paper", "deep")
 REPORT_SOURCES = (
     "workflow/claims",
     "workflow/report",
+    "workflow/pipeline/configuration.py",
     "workflow/pipeline/plan.py",
+    "workflow/pipeline/publish.py",
     "data/claims.csv",
     *SHARED,
 )

@@ -1,6 +1,6 @@
 """Hashes of the sources of the programs.
 
-CMake runs this module with the system's Python (3.8 or later, standard library only) to write the hash of its sources into every
+CMake runs this module with the system's Python (3.9 or later, standard library only) to write the hash of its sources into every
 program: `sources.py CPP FOLDER` writes FOLDER/PROGRAM.cpp from FOLDER/template, if it changes, and FOLDER/sources.d.
 """
 

@@ -8,7 +8,7 @@ compiler=$(command -v "${CXX:-c++}") || { echo "the compiler CXX=${CXX:-c++} is 
 inputs="$PWD $compiler $("$compiler" --version | head -n 1)"
 forget() { rm -rf "$build/CMakeCache.txt" "$build/CMakeFiles" "$build/sums"; }
 [ "$(cat "$build/configured" 2>/dev/null)" = "$inputs" ] || forget
-find cpp tests/cpp -type f -exec cksum {} + | sort >"$build/sums.new"
+find cpp tests/cpp workflow/pipeline/sources.py -type f -exec cksum {} + | sort >"$build/sums.new"
 if ! cmp -s "$build/sums" "$build/sums.new"; then
   # ninja compares times. A source whose content differs from that of the last build is newer than it, also if it was copied or restored
   # with an old time; and hashes of the sources change with added and removed ones.
