@@ -64,8 +64,6 @@ void EventQueue::shift(double origin) {
   rebuild(all, ticks_per_time_ * events_per_bucket, 0);
 }
 
-void EventQueue::postpone(std::uint32_t slot, std::uint64_t tick) { add_later(Flight(lists_[slot]), tick); }
-
 /// The first flight's slot, or none if it does not arrive before `until`.
 std::uint32_t EventQueue::take_first_of(std::uint32_t& bucket, double until) {
   std::uint32_t* first = &bucket;

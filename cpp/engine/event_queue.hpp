@@ -71,24 +71,19 @@ class EventQueue {
     /// The number of flights taken.
     std::uint64_t taken() const { return taken_; }
 
-    /// Returns the flight that was taken last to the queue, with another time, which is no earlier, another
-    /// velocity and target, and if it `draws` random numbers, with another number of draws.
+    /// Puts the flight that was taken last back, with a later or equal time and a new velocity and target;
+    /// with `draws` also a new number of draws.
     template <bool draws>
     [[gnu::always_inline]] void reschedule(const Flight& changed) {
       const std::uint64_t tick = tick_of(changed.time, ticks_per_time_);
-      if constexpr (draws) {  // flights over many cells, as at gamma < N, are often late
-        if (tick >= revolution_end_) return add_later(changed, tick);
-      }
+      if (tick >= revolution_end_) return add_later(changed, tick);
       // Member by member: a block copy fails store-to-load forwarding from stores of single members.
       Flight& flight = flights_[slot_];
       flight.time = changed.time;
       flight.velocity = changed.velocity;
       flight.target = changed.target;
       if constexpr (draws) flight.draws = changed.draws;
-      if (draws || tick < revolution_end_)
-        link(slot_, tick);
-      else
-        postpone(tick);
+      link(slot_, tick);
     }
 
     /// Adds a flight that arrives no earlier than the last one taken, or than the last `until`.
@@ -120,12 +115,6 @@ class EventQueue {
 
     [[gnu::always_inline]] void add_later(const Flight& flight, std::uint64_t tick) {
       queue_.add_later(flight, tick);
-      find_flights();
-    }
-
-    /// add_later() of the flight that was taken last, out of line, so that the loop needs fewer registers.
-    void postpone(std::uint64_t tick) {
-      queue_.postpone(slot_, tick);
       find_flights();
     }
 
@@ -182,8 +171,6 @@ class EventQueue {
     return later_[(tick >> bucket_bits_) & (later_.size() - 1)];
   }
 
-  /// Copies a flight that arrives after the current revolution from its slot into a later list.
-  void postpone(std::uint32_t slot, std::uint64_t tick);
   [[gnu::always_inline]] void add_later(const Flight& flight, std::uint64_t tick) {
     if (!(flight.time < end_time_)) {
       lists_.append(frozen_, flight);
