@@ -12,7 +12,6 @@ import shutil
 import signal
 import subprocess
 import sys
-from pathlib import Path
 
 from workflow.lib.identity import ROOT
 from workflow.lib.suggestion import suggestion
@@ -163,8 +162,7 @@ def make(target: str, options: argparse.Namespace) -> int:
     if missing or target == "gallery":
         status = snakemake(target, options)
     else:  # by the same names Snakemake would find nothing to make; its import takes a second
-        for stem in stems:
-            publish(Path(stem))
+        publish(stems)
         status = 0
     if status == 0:
         print(DONE[target].format_map(vars(options)))

@@ -35,7 +35,7 @@ class EventQueue {
 
     /// Takes every flight that arrives before `until`, in order, and calls arrive(flight, cursor), which may
     /// return it by reschedule(). `until` must not decrease from call to call. every_revolution(time) is
-    /// called at the end of each revolution of the wheel.
+    /// called when the revolution has no flight left, with its end, which may exceed `until`.
     template <class Arrive, class EveryRevolution>
     [[gnu::always_inline]] void take_before(double until, const Arrive& arrive,
                                             const EveryRevolution& every_revolution) {

@@ -2,6 +2,7 @@
 
 import json
 import sys
+from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -28,10 +29,11 @@ def read_record(path: Path | str) -> dict[str, Any]:
     return {}
 
 
-def publish(stem: Path) -> None:
-    """Raises OSError."""
-    contents = {copy: original.read_bytes() for copy, original in copies(stem).items()}
-    write_together({path: content for path, content in contents.items() if not _has(path, content)})
+def publish(stems: Iterable[str]) -> None:
+    """Copies the files of products where they differ. Raises OSError."""
+    for stem in stems:
+        contents = {copy: original.read_bytes() for copy, original in copies(Path(stem)).items()}
+        write_together({path: content for path, content in contents.items() if not _has(path, content)})
 
 
 def _has(path: Path, content: bytes) -> bool:
@@ -40,7 +42,6 @@ def _has(path: Path, content: bytes) -> bool:
 
 if __name__ == "__main__":
     try:
-        for name in sys.argv[1:]:
-            publish(Path(name))
+        publish(sys.argv[1:])
     except OSError as error:
         sys.exit(in_one_line(error))
