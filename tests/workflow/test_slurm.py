@@ -140,7 +140,9 @@ def test_a_panel_is_submitted_cancelled_and_resumed(cluster: Cluster, made: Proj
     shutil.rmtree(project.folder / "data/smoke")
     project.edit("workflow/config/paper.yaml", lambda text: text.replace("time: 5}", "time: 500}", 1))
     local += ["PANEL=mu", "REPLICAS=2000"]
-    logs, checkpoints, results = (f"data/smoke/mu/*.{kind}" for kind in ("log", "h5.checkpoint", "h5"))
+    logs, checkpoints, results = (
+        f"data/smoke_replicas=2000/mu/*.{kind}" for kind in ("log", "h5.checkpoint", "h5")
+    )
     with make(project, local) as making:
         soon(lambda: [*project.folder.glob(logs)])
         time.sleep(2)
