@@ -138,7 +138,7 @@ def test_a_panel_is_submitted_cancelled_and_resumed(cluster: Cluster, made: Proj
     assert len(cluster.jobs("all")) == 1
 
     shutil.rmtree(project.folder / "data/smoke")
-    project.edit("workflow/config/paper.yaml", lambda text: text.replace("time: 5}", "time: 500}", 1))
+    project.edit("workflow/config/paper.yaml", lambda text: text.replace("time: 5}", "time: 2000}", 1))
     local += ["PANEL=mu", "REPLICAS=2000"]
     logs, checkpoints, results = (
         f"data/smoke_replicas=2000/mu/*.{kind}" for kind in ("log", "h5.checkpoint", "h5")
