@@ -11,9 +11,12 @@ from pathlib import Path
 
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.environment.variables import clean, stop_at_first_signal
-from workflow.pipeline.files import in_one_line, lock_products
+from workflow.lib.files import in_one_line
+from workflow.pipeline.lock import lock_products
 from workflow.lib.identity import IDENTITY
 from workflow.pipeline.plan import (
+    RENDERING,
+    RESULT,
     SUFFIXES,
     data_of,
     rendering_command,
@@ -25,7 +28,6 @@ from workflow.pipeline.plan import (
     stem_of,
 )
 from workflow.pipeline.program import BuildError, command_line, require_built, threads_of
-from workflow.pipeline.publish import RENDERED
 
 clean()
 QUALITY = config.get("quality", "standard")
@@ -63,7 +65,7 @@ wildcard_constraints:
 
 localrules:
     figures,
-    draw,
+    render,
     report,
     report_page,
     gallery,
@@ -85,5 +87,5 @@ rule figures:
 
 
 include: "workflow/pipeline/rules/simulate.smk"
-include: "workflow/pipeline/rules/draw.smk"
+include: "workflow/pipeline/rules/render.smk"
 include: "workflow/pipeline/rules/report.smk"

@@ -13,11 +13,12 @@ import signal
 import subprocess
 import sys
 
+from workflow.lib.files import in_one_line
 from workflow.lib.identity import ROOT
 from workflow.lib.suggestion import suggestion
 from workflow.pipeline.configuration import ConfigurationError
 from workflow.pipeline.environment.variables import clean
-from workflow.pipeline.files import in_one_line, lock_products
+from workflow.pipeline.lock import lock_products
 from workflow.pipeline.plan import (
     OVERRIDES,
     Selection,
@@ -167,9 +168,9 @@ def make(target: str, options: argparse.Namespace) -> int:
     if status == 0:
         print(DONE[target].format_map(vars(options)))
         if target in ("figures", "panel") and (options.seed or options.replicas):
-            from workflow.pipeline.provenance.verify import compare  # noqa: PLC0415  0.5 s
+            from workflow.pipeline.provenance import compare  # noqa: PLC0415  0.5 s
 
-            status = compare(options)
+            status = compare.main(options)
     return status
 
 
@@ -188,7 +189,8 @@ def main() -> int:
         if target in DONE:
             return make(target, options)
         options.render = target == "audit"
-        module = importlib.import_module(f"workflow.pipeline.provenance.{target.replace('status', 'audit')}")
+        name = "audit" if target == "status" else target
+        module = importlib.import_module(f"workflow.pipeline.provenance.{name}")
         return int(module.main(options) or 0)
     except (UsageError, ConfigurationError) as error:
         print(error, file=sys.stderr)

@@ -19,7 +19,7 @@ using FinishedReplicas = std::map<std::uint64_t, FinishedReplica>;
 /// The finished replicas of a run in an HDF5 file, with a digest as that of a result.
 struct Checkpoint {
   std::string path;
-  std::string identity{};  // everything that the tallies depend on: parameters and sources
+  std::string identity{};  // of the run, as of its result: options that determine it, and sources
 
   /// At least one replica. Throws UsageError if the file cannot be written.
   void save(const FinishedReplicas& finished) const;

@@ -97,16 +97,13 @@ double Program::elapsed() const {
 void Program::require_replaceable() const {
   std::error_code unknown;
   if (overwrite_ || !std::filesystem::exists(output_, unknown)) return;
-  const auto require = [this](bool equal, const std::string& what) {
-    if (!equal)
-      throw UsageError(fmt::format(
-          "'{}' exists and is {}. Choose another --output, or replace it with --overwrite.", output_, what));
-  };
   const Hdf5Reader file(output_);
-  require(file.has_attribute("/provenance", "source_hash", std::string(build_info.source_hash)),
-          "not a result of these sources of the program");
-  for (const auto& [name, value, units] : options_.parameters())
-    require(file.has_attribute("/parameters", name, value), "a result with another --" + name);
+  if (!file.has_attribute("/provenance", "source_hash", std::string(build_info.source_hash)) ||
+      !file.has_attribute("/provenance", "words", options_.words()))
+    throw UsageError(fmt::format(
+        "'{}' exists and is not a result of these options and sources. Choose another --output, or replace "
+        "it with --overwrite.",
+        output_));
 }
 
 ExitStatus Program::write(const Outcome& outcome) const {

@@ -95,9 +95,7 @@ void StudyProgram::require_memory() const {
 void StudyProgram::prepare() {
   require_memory();
   checkpoint_.path = program_.output() + ".checkpoint";
-  for (const Parameter& each : options().parameters())
-    checkpoint_.identity += fmt::format("{} = {}\n", each.name, as_text(each.value));
-  checkpoint_.identity += fmt::format("source_hash = {}\n", build_info.source_hash);
+  checkpoint_.identity = fmt::format("{} {}", options().words(), build_info.source_hash);
   if (std::error_code unknown; std::filesystem::is_regular_file(checkpoint_.path, unknown)) {
     if (resume_) finished_ = checkpoint_.load();
     if (finished_.empty() && !options().given("--overwrite"))

@@ -5,8 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from workflow.lib.atomic import write_together
-from workflow.pipeline.files import in_one_line
+from workflow.lib.files import in_one_line, write_together
 
 
 def test_a_failure_leaves_the_previous_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

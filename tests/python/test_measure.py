@@ -20,7 +20,7 @@ SMALL = {"cells": 4, "gamma": "N", "replicas": 4, "relaxation_time": 1, "observa
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setattr(module, "FOLDER", tmp_path)
+    monkeypatch.setattr(module, "MEASURED", tmp_path)
     return tmp_path
 
 
@@ -99,7 +99,7 @@ def test_an_interrupted_call_is_continued(folder: Path, number: signal.Signals) 
     that of the next call. test_interruption.py compares the bytes."""
     options = {"cells": 4, "relaxation_time": 1, "observation_time": 200, "replicas": 1000, "threads": 1}
     code = (
-        f"from pathlib import Path; from workflow.pipeline import measure as m; m.FOLDER = Path({str(folder)!r}); "
+        f"from pathlib import Path; from workflow.pipeline import measure as m; m.MEASURED = Path({str(folder)!r}); "
         f"m.measure('persistence', **{options})"
     )
     command = ["env", "--default-signal=INT", sys.executable, "-c", code]

@@ -7,7 +7,7 @@ import pytest
 from ruamel.yaml import YAML
 
 from tests.python.conftest import ROOT
-from workflow.pipeline.configuration import FOLDER, ConfigurationError, Options
+from workflow.pipeline.configuration import CONFIGURATION, ConfigurationError, Options
 from workflow.pipeline.plan import BATCH, QUALITIES, Run, Selection, load_plan
 from workflow.pipeline.program import threads_of
 
@@ -43,7 +43,7 @@ def test_seeds_stay_as_they_are() -> None:
 
 
 def test_seeds_do_not_depend_on_the_order_of_keys(tmp_path: Path) -> None:
-    folder = Path(shutil.copytree(FOLDER, tmp_path / "config"))
+    folder = Path(shutil.copytree(CONFIGURATION, tmp_path / "config"))
     yaml = YAML(typ="safe", pure=True)
     yaml.sort_base_mapping_type_on_output = False  # type: ignore[assignment]
     paper = yaml.load(folder / "paper.yaml")
@@ -87,7 +87,7 @@ def test_threads_share_the_replicas() -> None:
 def test_effort_of_quality_panel_and_series(
     tmp_path: Path, effort: str, replicas: set[int], errors: set[float]
 ) -> None:
-    folder = Path(shutil.copytree(FOLDER, tmp_path / "config"))
+    folder = Path(shutil.copytree(CONFIGURATION, tmp_path / "config"))
     smoke = (folder / "quality/smoke.yaml").read_text()
     former = "  fig05: {replicas: 8, dense: {replicas: 2}}"
     assert former in smoke

@@ -14,7 +14,7 @@ import pytest
 
 from tests.workflow.conftest import ROOT, Project
 from workflow.lib.load import load, results_digest
-from workflow.pipeline.provenance.verify import SIGNIFICANCE, largest_difference
+from workflow.pipeline.provenance.compare import SIGNIFICANCE, largest_difference
 
 Edit = Callable[[Project], object]
 MU, OTHER_MU = "data/smoke/mu/all_sigma=0.5.*.h5", "data/smoke/mu/all_sigma=-0.5.*.h5"

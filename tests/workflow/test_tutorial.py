@@ -11,7 +11,7 @@ import pytest
 
 from tests.workflow.conftest import ROOT, Project, share_packages
 from workflow.lib.load import load
-from workflow.pipeline.plan import FOLDER, load_plan, stem_of
+from workflow.pipeline.plan import CONFIGURATION, load_plan, stem_of
 
 TEXT = (ROOT / "docs/tutorial.md").read_text()
 PANEL, _, REST = TEXT.partition("## An observable of your own")
@@ -119,7 +119,7 @@ def test_a_collision_rule_of_your_own(own: Project) -> None:
 
 def test_grammar(tmp_path) -> None:
     block, runs = (match["text"] for match in BLOCK.finditer(GRAMMAR))
-    shutil.copytree(FOLDER, tmp_path, dirs_exist_ok=True)
+    shutil.copytree(CONFIGURATION, tmp_path, dirs_exist_ok=True)
     with (tmp_path / "paper.yaml").open("a") as file:
         file.write(block)
     panel = load_plan("standard", tmp_path)["example"]

@@ -17,7 +17,7 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
-from workflow.lib.atomic import write_together
+from workflow.lib.files import write_together
 from workflow.lib.identity import ROOT, sha256, statement
 from workflow.lib.style import FONTS
 

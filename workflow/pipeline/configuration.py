@@ -11,17 +11,17 @@ from ruamel.yaml import YAML
 from ruamel.yaml.error import MarkedYAMLError, YAMLError
 from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
 
+from workflow.lib.files import in_one_line
 from workflow.lib.identity import ROOT
 from workflow.lib.suggestion import suggestion
 from workflow.pipeline.described import declared
-from workflow.pipeline.files import in_one_line
 from workflow.pipeline.polynomial import POLYNOMIAL
 
 Options = dict[str, Any]  # by name without leading dashes: a number, text, or a bool for a flag
 Schema = dict[str, Any]
 Keys = tuple[Any, ...]  # path in nested mappings and lists
 
-FOLDER = ROOT / "workflow/config"
+CONFIGURATION = ROOT / "workflow/config"
 ERROR = "error"  # relative error, in place of a number of replicas
 EFFORT_OPTIONS = ("cells", "observation-time", "pairs-per-replica", "replicas", ERROR)
 ALSO_PHYSICS = ("cells", "observation-time")  # given in paper.yaml, too
@@ -96,7 +96,7 @@ def _shown(path: Path) -> str:
     return str(path.relative_to(ROOT) if path.is_relative_to(ROOT) else path)
 
 
-def load_configuration(quality: str, folder: Path = FOLDER) -> tuple[Document, Document]:
+def load_configuration(quality: str, folder: Path = CONFIGURATION) -> tuple[Document, Document]:
     """Validated `paper.yaml` and `quality/<quality>.yaml`. Raises ConfigurationError."""
     programs: dict[str, Schema] = declared()
     paper, efforts = read(folder, "paper.yaml"), read(folder, f"quality/{quality}.yaml")

@@ -5,13 +5,15 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-FOLDER = Path(__file__).parents[2] / "build/describe"
+DESCRIPTIONS = Path(__file__).parents[2] / "build/describe"
 
 
 @cache
 def described() -> dict[str, dict[str, Any]]:
     """What each program prints with --describe; docs/format.md has the keys. Empty before the first build."""
-    return {path.stem: json.loads(path.read_text("utf-8")) for path in sorted(FOLDER.glob("[!.]*.json"))}
+    return {
+        path.stem: json.loads(path.read_text("utf-8")) for path in sorted(DESCRIPTIONS.glob("[!.]*.json"))
+    }
 
 
 @cache

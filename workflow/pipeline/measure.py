@@ -20,7 +20,7 @@ from workflow.pipeline.sources import code_hashes
 if TYPE_CHECKING:
     import xarray
 
-FOLDER = ROOT / "data/measured"
+MEASURED = ROOT / "data/measured"
 CONDUCT = ("threads",)  # options of the execution
 
 
@@ -95,7 +95,7 @@ def _result(program: str, options: Options, known: Mapping[str, Any]) -> Result:
     if "seed" in known and "seed" not in options:
         options["seed"] = seed_of(json.dumps([program, options], sort_keys=True))
     run = Run(program, program, options)
-    path = FOLDER / f"{run.name}.{run.identity}.h5"
+    path = MEASURED / f"{run.name}.{run.identity}.h5"
     if not path.exists():
         path.parent.mkdir(parents=True, exist_ok=True)
         resume = ["--resume", "--progress", "log"] if "replicas" in known else []

@@ -20,8 +20,8 @@ from workflow.lib.identity import (
 )
 from workflow.lib.suggestion import suggestion
 from workflow.pipeline.configuration import (
+    CONFIGURATION,
     EFFORT_OPTIONS,
-    FOLDER,
     ConfigurationError,
     Options,
     arguments,
@@ -29,24 +29,21 @@ from workflow.pipeline.configuration import (
     programs_of,
 )
 from workflow.pipeline.described import declared
-from workflow.pipeline.polynomial import evaluated
-from workflow.pipeline.publish import RENDERED
+from workflow.pipeline.polynomial import NUMBER, evaluated
 from workflow.pipeline.sources import source_hash
 
+RESULT = "data/{quality}/{panel}/{run}.{identity}.h5"
+RENDERING = "build/figures/{quality}/{panel}.{identity}"  # stem of the files of a panel
 SUFFIXES = (".pdf", ".png", ".svg", ".csv", ".json")  # of the files of a panel
 QUALITIES = ("smoke", "standard", "paper", "deep")
 REPORT_SOURCES = (
     "workflow/claims",
     "workflow/report",
-    "workflow/pipeline/configuration.py",
-    "workflow/pipeline/plan.py",
-    "workflow/pipeline/publish.py",
+    "workflow/pipeline",
     "data/claims.csv",
     *SHARED,
 )
 BATCH = 16  # replicas between two checks of a target error
-# Without +, as the text is part of the name of a folder and of a pattern of names.
-NUMBER = r"[0-9]+\.?[0-9]*|[0-9]*\.?[0-9]+|[0-9]+\.?[0-9]*[eE]-?[0-9]+"
 OVERRIDES: dict[str, tuple[str, Any, str]] = {  # pattern, type and description of the allowed values
     "seed": ("0|[1-9][0-9]{0,17}", int, "a whole number from 0 to 10^18 - 1"),
     "replicas": ("[1-9][0-9]{0,17}", int, "a whole number, at least 1"),
@@ -155,7 +152,7 @@ def seed_of(text: str) -> int:
 
 
 @cache
-def load_plan(name: str, folder: Path = FOLDER) -> dict[str, Panel]:
+def load_plan(name: str, folder: Path = CONFIGURATION) -> dict[str, Panel]:
     """All panels of a quality, by name. Raises ConfigurationError."""
     selection = Selection.of(name)
     paper, efforts = load_configuration(selection.quality, folder)
@@ -186,7 +183,7 @@ def with_used(plan: dict[str, Panel], name: str) -> list[Panel]:
 
 def data_path(quality: str, panel: str, run: Run) -> str:
     """Path of a result. Raises OSError."""
-    return f"data/{quality}/{panel}/{run.name}.{run.identity}.h5"
+    return RESULT.format(quality=quality, panel=panel, run=run.name, identity=run.identity)
 
 
 def runs_of(plan: dict[str, Panel], names: Iterable[str], quality: str) -> dict[str, Run]:
@@ -209,7 +206,7 @@ def stem_of(plan: dict[str, Panel], name: str, quality: str) -> str:
             f"panel {name} of paper.yaml has no script: write {error.filename}"
         ) from error
     present = panel_identity(name, data_of(plan, name, quality), sources)
-    return f"{RENDERED}/{quality}/{name}.{present}"
+    return RENDERING.format(quality=quality, panel=name, identity=present)
 
 
 def products_of(plan: dict[str, Panel], names: Iterable[str], quality: str) -> list[str]:
@@ -221,7 +218,8 @@ def products_of(plan: dict[str, Panel], names: Iterable[str], quality: str) -> l
 def report_stem(plan: dict[str, Panel], quality: str) -> str:
     """Path of the report in the store, without suffix. Raises OSError."""
     sources = {path: content_hash(path) for path in REPORT_SOURCES}
-    return f"{RENDERED}/{quality}/report.{identity([stem_of(plan, name, quality) for name in plan], sources)}"
+    present = identity([stem_of(plan, name, quality) for name in plan], sources)
+    return RENDERING.format(quality=quality, panel="report", identity=present)
 
 
 def rendering_command(script: str, stem: str, data: list[str]) -> str:

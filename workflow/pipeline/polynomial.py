@@ -5,7 +5,7 @@ Programs get numbers.
 
 import re
 
-NUMBER = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
+NUMBER = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE]-?[0-9]+)?"  # without +, which separates terms
 TERM = re.compile(rf"({NUMBER})(?:(N)(?:\^(2))?)?")
 POLYNOMIAL = rf"{TERM.pattern}(\+{TERM.pattern})*"
 

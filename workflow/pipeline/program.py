@@ -9,7 +9,7 @@ from pathlib import Path
 
 from workflow.lib.identity import ROOT
 from workflow.pipeline.configuration import Options, arguments
-from workflow.pipeline.described import FOLDER as DESCRIBED
+from workflow.pipeline.described import DESCRIPTIONS
 from workflow.pipeline.plan import Run
 from workflow.pipeline.sources import programs, source_hash
 
@@ -47,7 +47,9 @@ def require_built(program: str) -> None:
 def build() -> None:
     """Compiles the programs unless all are built and described. CXX may choose another compiler, so that the build is checked in any case.
     Raises CalledProcessError."""
-    missing = [name for name in programs() if not (is_built(name) and (DESCRIBED / f"{name}.json").exists())]
+    missing = [
+        name for name in programs() if not (is_built(name) and (DESCRIPTIONS / f"{name}.json").exists())
+    ]
     if missing:
         number = f"{len(missing)} program{'s' * (len(missing) > 1)}"
         print(f"Compiling {number}; all take about a minute on two cores", flush=True)

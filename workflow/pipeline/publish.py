@@ -7,8 +7,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from workflow.lib.atomic import write_together
-from workflow.pipeline.files import in_one_line
+from workflow.lib.files import in_one_line, write_together
 
 RENDERED = "build/figures"
 FIGURES = "figures"

@@ -19,11 +19,10 @@ from PIL.PngImagePlugin import PngInfo
 from workflow.claims.data import Data
 from workflow.claims.judge import KINDS, Judgement, judge_all
 from workflow.claims.verdict import Estimate, Outcome
-from workflow.lib.atomic import write_together
+from workflow.lib.files import in_one_line, write_together
 from workflow.lib.identity import ROOT
 from workflow.lib.load import FormatError
 from workflow.pipeline.configuration import ConfigurationError
-from workflow.pipeline.files import in_one_line
 from workflow.pipeline.plan import Selection, stem_of
 from workflow.pipeline.publish import read_record
 from workflow.report import typeset

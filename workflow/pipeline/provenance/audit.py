@@ -14,9 +14,10 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import NamedTuple
 
+from workflow.lib.files import in_one_line
 from workflow.lib.identity import DIGITS, named_identity, sha256, sources_of_panel, stated
 from workflow.lib.load import FormatError, load_provenance
-from workflow.pipeline.files import in_one_line
+from workflow.pipeline.lock import lock_products
 from workflow.pipeline.plan import Panel, Run, data_of, rendering_command, runs_of, stem_of
 from workflow.pipeline.publish import FIGURES, RENDERED, copies, read_record
 from workflow.pipeline.sources import source_hash
@@ -155,6 +156,8 @@ def check(plan: dict[str, Panel], names: list[str], quality: str, render: bool) 
 def main(options: argparse.Namespace) -> int:
     quality, plan = options.quality, options.plan
     names = options.panels or [*plan]
+    if options.render:
+        lock_products()  # build/audit is one folder
     made = [name for name in names if FigureFiles(plan, name, quality).is_made()]
     faults, alike = check(plan, made, quality, options.render), defaultdict(list)
     for fault in faults:

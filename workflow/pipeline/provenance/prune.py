@@ -10,7 +10,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from workflow.lib.identity import IDENTITY, stated
-from workflow.pipeline.files import lock_products
+from workflow.pipeline.lock import lock_products
 from workflow.pipeline.plan import Panel, report_stem, runs_of, stem_of
 from workflow.pipeline.publish import FIGURES, RENDERED
 

@@ -1,6 +1,6 @@
-"""Compares results with those of reruns by freshly compiled programs (verify), and with other replicas (SEED, REPLICAS).
+"""Compares results with reruns by freshly compiled programs.
 
-Exit status: 0 if all agree, 1 if not; of verify 3 if there is nothing to rerun or a rerun failed.
+Exit status: 0 if all agree, 1 if not, 3 if there is nothing to rerun or a rerun failed.
 """
 
 import argparse
@@ -9,108 +9,14 @@ import random
 import shutil
 import subprocess
 from pathlib import Path
-from typing import NamedTuple
 
-import numpy as np
-from scipy.special import stdtr
-
-from workflow.lib.load import FormatError, Quantity, Result, load
-from workflow.pipeline.files import lock_products
-from workflow.pipeline.plan import Selection, data_path, load_plan, runs_of
+from workflow.lib.load import FormatError
+from workflow.pipeline.lock import lock_products
+from workflow.pipeline.plan import runs_of
 from workflow.pipeline.program import ProgramError, execute
+from workflow.pipeline.provenance.compare import compared
 
 BUILD = Path("build/verify")
-SIGNIFICANCE = 1e-4  # p-value of the largest difference in a result
-COMPUTED = 1e6  # degrees of freedom of a discretisation error
-FEW = 16  # degrees of freedom, below which the error of an error exceeds 18 %
-
-
-def error_of_difference(a: Quantity, b: Quantity, shared: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Standard error of the difference between two estimates, and its degrees of freedom. shared: the fewer replicas are contained in
-    the more; for equal replicas, the error of one estimate."""
-    if a.count is None or b.count is None:
-        return np.asarray(a.discretisation_error), np.full(a.mean.shape, COMPUTED)
-    few, many = sorted((a, b), key=lambda quantity: quantity.replicas.max(initial=0))
-    if not shared:
-        return np.hypot(few.error, many.error), 2.0 * (few.replicas - 1.0)
-    # s² (1/m - 1/n) for means of m of n replicas; more where control variates work only with the larger number.
-    with np.errstate(divide="ignore", invalid="ignore"):
-        variance = many.error**2 * (many.replicas / few.replicas - 1)
-    variance = np.maximum(variance, few.error**2 - many.error**2)
-    return np.where(many.replicas > few.replicas, np.sqrt(variance), many.error), few.replicas - 1.0
-
-
-class Difference(NamedTuple):
-    """Least probable difference between two results of a run. p: its p-value by Student's distribution with Bonferroni's correction;
-    deviation: its size in standard errors."""
-
-    p: float
-    deviation: float
-    freedom: float
-    quantity: str
-
-    def __str__(self) -> str:
-        few = (
-            ", as errors from few replicas are uncertain" if self.freedom < FEW and self.deviation > 4 else ""
-        )
-        return f"{self.deviation:.2g} standard errors ({self.quantity}), p = {self.p:.2g}{few}"
-
-
-def largest_difference(one: Result, other: Result) -> Difference:
-    """Quantities of different sizes are left out."""
-    largest, number = Difference(1.0, 0.0, COMPUTED, ""), 0
-    shared = one.parameters.get("seed") == other.parameters.get("seed")
-    for name, a in one.quantities.items():
-        b = other[name]
-        if a.mean.shape == b.mean.shape:
-            error, freedom = map(np.atleast_1d, error_of_difference(a, b, shared))
-            difference = np.atleast_1d(np.abs(a.mean - b.mean))
-            usable = (error > 0) & (freedom > 0) & np.isfinite(difference)
-            deviations, freedom = difference[usable] / error[usable], freedom[usable]
-            for numbers in zip(2 * stdtr(freedom, -deviations), deviations, freedom, strict=True):
-                p, deviation, free = map(float, numbers)
-                largest, number = min(largest, Difference(p, deviation, free, name)), number + 1
-    return largest._replace(p=min(1.0, number * largest.p))
-
-
-def compared(former: Path | str, path: Path | str, rerun: bool) -> tuple[float, str]:
-    """p-value and description of the difference between two results. Values of a rerun have to be equal. Raises FormatError, OSError."""
-    if Path(former).read_bytes() == Path(path).read_bytes():
-        return 1.0, "equal bytes"
-    one, other = load(former), load(path)
-    if one.provenance["results_digest"] == other.provenance["results_digest"]:
-        return 1.0, "equal values, by another compiler or other libraries"
-    largest = largest_difference(one, other)
-    if not (rerun or largest.quantity):
-        raise FormatError(f"{path} has no errors to compare with, as of one replica")
-    return 0.0 if rerun else largest.p, str(largest)
-
-
-def compare(options: argparse.Namespace) -> int:
-    """Compares the results of a command with SEED or REPLICAS with those of the quality."""
-    selection, found = Selection.of(options.quality), []
-    plan = load_plan(selection.quality)
-    for path, run in runs_of(options.plan, options.panels or options.plan, selection.name).items():
-        panel = Path(path).parent.name
-        former = data_path(selection.quality, panel, plan[panel].run(run.name))
-        if Path(former).is_file():
-            try:
-                found.append((*compared(former, path, rerun=False), path))
-            except FormatError as error:
-                print(f"Not compared: {error}")
-    if not found:
-        print(f"There are no results of {selection.quality} to compare with")
-        return 0
-    differing = [f"  {path}: {text}" for p, text, path in found if p <= SIGNIFICANCE]
-    agreeing = len(found) - len(differing)
-    print(
-        f"{agreeing} of {len(found)} results agree with those of {selection.quality} (p > {SIGNIFICANCE:g})"
-    )
-    print(f"Largest difference: {min(found)[1]}")
-    if selection.replicas and selection.seed is None:
-        print("The first replicas are shared and not counted as independent: SEED=7 gives independent ones")
-    print(*differing, sep="\n", end="\n" * bool(differing))
-    return int(bool(differing))
 
 
 def main(options: argparse.Namespace) -> int:

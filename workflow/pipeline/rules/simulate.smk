@@ -12,9 +12,9 @@ def run_of(wildcards):
 
 rule simulate:
     output:
-        "data/{quality}/{panel}/{run}.{identity}.h5",
+        RESULT,
     log:
-        "data/{quality}/{panel}/{run}.{identity}.log",
+        RESULT.removesuffix("h5") + "log",
     priority: lambda wildcards: -[*PLAN].index(wildcards.panel)  # runs of earlier panels first, so that their figures are ready first
     group:
         lambda wildcards: "short" if threads_of(run_of(wildcards)) == 1 else None  # on a cluster, several in a job

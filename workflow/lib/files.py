@@ -1,4 +1,4 @@
-"""Atomic writing."""
+"""Atomic writing, and errors of the system in one line."""
 
 import os
 from collections.abc import Mapping
@@ -17,3 +17,9 @@ def write_together(contents: Mapping[Path, bytes]) -> None:
     finally:
         for file in files.values():
             file.unlink(missing_ok=True)
+
+
+def in_one_line(error: OSError) -> str:
+    """File name and error as one line."""
+    names = [str(name) for name in (error.filename, error.filename2) if name is not None]
+    return f"{' to '.join(names)}: {error.strerror}" if names else str(error)

@@ -1,4 +1,4 @@
-"""The lock of the products, and errors of the system in one line."""
+"""The lock of the products."""
 
 import fcntl
 import os
@@ -18,9 +18,3 @@ def lock_products() -> None:
         raise BlockingIOError(
             "Another command is making products in this folder: wait for it to finish, or stop it."
         ) from error
-
-
-def in_one_line(error: OSError) -> str:
-    """File name and error as one line."""
-    names = [str(name) for name in (error.filename, error.filename2) if name is not None]
-    return f"{' to '.join(names)}: {error.strerror}" if names else str(error)

@@ -1,11 +1,11 @@
 """One panel from its results."""
 
 
-rule draw:
+rule render:
     input:
         lambda wildcards: [ancient(path) for path in DATA[wildcards.panel]],
     output:
-        multiext(f"{RENDERED}/{{quality}}/{{panel}}.{{identity}}", *SUFFIXES),
+        multiext(RENDERING, *SUFFIXES),
     log:
         "build/logs/{quality}/{panel}.{identity}.log",
     priority: 10**9  # before any run
