@@ -228,10 +228,10 @@ TEST_F(StudyTest, ReplacesNoResultOfOtherOptions) {
   EXPECT_EQ(run(to_output), 0);
   EXPECT_EQ(run({"--output", output, "--threads", "2"}), 0);
   const std::string before = content_of(output);
-  expect_refused_run(with(to_output, {"--seed", "2"}), "--seed");
+  expect_refused_run(with(to_output, {"--seed", "2"}), "--overwrite");
   EXPECT_EQ(content_of(output), before);
   EXPECT_EQ(run(with(to_output, {"--seed", "2", "--overwrite"})), 0);
-  expect_refused_run(to_output, "--seed");
+  expect_refused_run(to_output, "--overwrite");
   write_file(output, "notes");
   expect_refused_run(to_output, "a.h5");
 }
