@@ -29,7 +29,7 @@ def test_no_other_program_uses_the_sources_of_one() -> None:
     for path in (ROOT / "cpp").rglob("*.[ch]pp"):
         source = path.relative_to(ROOT / "cpp").as_posix()
         for included in include.findall(path.read_text()):
-            assert owner(source) in (owner(included), "bench"), f"{source} includes {included}"
+            assert owner(source) == owner(included), f"{source} includes {included}"
 
 
 @pytest.mark.parametrize(
@@ -55,7 +55,6 @@ def cpp(tmp_path: Path) -> Path:
         ("statistics/fit.hpp", "int x;\n", {*PROGRAMS}),
         ("flags.cmake", "set(X -Ofast)\n", {*PROGRAMS}),
         ("CMakeLists.txt", "set(X)\n", set()),
-        ("bench/event_benchmark.cpp", "int x;\n", set()),
         ("observables/correlation/sound_peak.hpp", "int x;\n", {"correlation"}),
         ("boltzmann/solver.cpp", "int x;\n", {"boltzmann"}),
         ("observables/mine.cpp", "int main() {}\n", set()),

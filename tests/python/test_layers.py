@@ -14,7 +14,6 @@ BELOW = {
     "program": {"statistics", "numerics"},
     "sampling": {"engine", "program", "statistics", "model", "numerics"},
     "observables": {"sampling", "engine", "boltzmann", "program", "statistics", "model", "numerics"},
-    "bench": {"engine", "boltzmann", "model", "numerics", "reference"},  # of tests/cpp
 }
 
 

@@ -142,7 +142,7 @@ def named(text: str) -> set[str]:
 
 
 def new_project(folder: Path) -> Project:
-    ignored = shutil.ignore_patterns("__pycache__", "bench", "config", "[ef]*[0-9]*.py")
+    ignored = shutil.ignore_patterns("__pycache__", "config", "[ef]*[0-9]*.py")
     for name in ("workflow", "cpp", "profiles"):
         shutil.copytree(ROOT / name, folder / name, ignore=ignored)
     for name in ("Snakefile", "Makefile", "uv.lock", "CITATION.cff"):

@@ -28,8 +28,8 @@ def sha256(text: str) -> str:
 
 
 def source_hash(program: str, cpp: Path = CPP) -> str:
-    """Hash of all sources that can change a result of a program, without comments and empty lines: of cpp without benchmarks, other
-    observables and, but for boltzmann, the solver of the kinetic equation; and of the numeric flags. Raises OSError."""
+    """Hash of all sources that can change a result of a program, without comments and empty lines: of cpp without other observables and,
+    but for boltzmann, the solver of the kinetic equation; and of the numeric flags. Raises OSError."""
     lines = [
         f"{path} {digest}\n" for path, digest in code_hashes(cpp).items() if owner(path) in ("", program)
     ]
@@ -52,11 +52,11 @@ def code_hashes(cpp: Path = CPP) -> dict[str, str]:
 
 
 def owner(path: str) -> str:
-    """The program that alone depends on a source; bench for a benchmark, and empty for a source of all programs."""
+    """The program that alone depends on a source; empty for a source of all programs."""
     first, *rest = path.split("/")
     if first == "observables":
         return rest[0].partition(".")[0]
-    return first if first in ("bench", "boltzmann") else ""
+    return first if first == "boltzmann" else ""
 
 
 def code(text: str, path: str) -> str:
