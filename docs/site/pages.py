@@ -11,6 +11,8 @@ from typing import Any
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 
+from workflow.pipeline.described import described
+
 ROOT = Path(__file__).parents[2]
 TOP = {
     "README.md": "index.md",
@@ -53,9 +55,7 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
 
 
 def on_page_markdown(markdown: str, **_: Any) -> str:
-    programs = [
-        json.loads(path.read_text("utf-8")) for path in sorted((ROOT / "build/describe").glob("*.json"))
-    ]
+    programs = [*described().values()]
     for name, rows in {"options": options(programs), "quantities": quantities(programs)}.items():
         lines = (" | ".join(re.sub(r"[|<]", r"\\\g<0>", cell) for cell in row) for row in rows)
         table = "\n".join(f"| {line} |" for line in lines)

@@ -95,6 +95,13 @@ def test_a_program_that_is_older_than_its_sources_is_refused(project: Project) -
     assert "is missing: run make build" in project.entry("figures", status=1)
 
 
+def test_a_program_without_a_source_is_unknown(project: Project) -> None:
+    """Also if the description that a former build wrote is still there."""
+    assert (project.folder / "build/describe/displacement.json").exists()
+    text(PAPER, "program: ageing", "program: displacement")(project)
+    assert "displacement" in project.entry("status", status=2)
+
+
 def test_programs_are_compiled_if_they_do_not_state_the_hash_of_their_sources(project: Project) -> None:
     """Not after other times, a move or a comment; but one that does not start, whatever it contains."""
     (project.folder / "workflow/pipeline/environment/build.sh").write_text("echo compiled\n")

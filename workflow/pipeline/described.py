@@ -5,15 +5,16 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from workflow.pipeline.sources import programs
+
 DESCRIPTIONS = Path(__file__).parents[2] / "build/describe"
 
 
 @cache
 def described() -> dict[str, dict[str, Any]]:
-    """What each program prints with --describe; docs/format.md has the keys. Empty before the first build."""
-    return {
-        path.stem: json.loads(path.read_text("utf-8")) for path in sorted(DESCRIPTIONS.glob("[!.]*.json"))
-    }
+    """What each present program prints with --describe; docs/format.md has the keys. Empty before the first build."""
+    paths = {name: DESCRIPTIONS / f"{name}.json" for name in programs()}
+    return {name: json.loads(path.read_text("utf-8")) for name, path in paths.items() if path.exists()}
 
 
 @cache
