@@ -6,12 +6,22 @@
 /// temperatures [eq. 11]. The mean energies before scatterings are stored to separate this part of the
 /// deviation from correlations.
 #include <bit>
+#include <cstdint>
 
-#include "sampling/closed_averages.hpp"
+#include "sampling/closed_run.hpp"
 
 namespace {
 
 using namespace lorentz;
+
+struct Tallies : ClosedTallies {
+  ScalarTally all = tally("all", "1", "Scatterings");
+  ScalarTally keeping = tally("keeping", "1", "Scatterings with p' p > 0");
+  ScalarTally particle_energy =
+      tally("particle_energy", "energy", "Sum over scatterings of the energy of the particle before");
+  ScalarTally scatterer_energy =
+      tally("scatterer_energy", "energy", "Sum over scatterings of the energy of the scatterer before");
+};
 
 /// 1 if u' u > 0, else 0. The signs are compared, because the product could underflow, and without a branch,
 /// because branch prediction fails for random signs. A particle that arrives has u != 0.
@@ -20,27 +30,47 @@ int keeps_direction(double before, double after) {
   return static_cast<int>(~(one ^ other) >> 63) & int{after != 0};
 }
 
-struct Encounters : Averages {
-  Average mu{this, "mu", "1", "Fraction of scatterings with p' p > 0"};
-  Average particle_energy{this, "particle_energy", "energy",
-                          "Mean kinetic energy of a particle as it meets a scatterer"};
-  Average scatterer_energy{this, "scatterer_energy", "energy",
-                           "Mean kinetic energy of a scatterer as a particle meets it"};
-
-  explicit Encounters(const ClosedParameters&) {}
+struct Scatterings {
+  std::int64_t all = 0, keeping = 0;
+  double particle_energy = 0, scatterer_energy = 0;
 
   void on_collision(const Collision& collision) {
-    mu += keeps_direction(collision.particle_before, collision.particle_after);
+    ++all;
+    keeping += keeps_direction(collision.particle_before, collision.particle_after);
     particle_energy += 0.5 * collision.particle_before * collision.particle_before;
     scatterer_energy += 0.5 * collision.scatterer_before * collision.scatterer_before;
-    count();
   }
 };
+
+Study persistence(const ClosedParameters& parameters) {
+  validate(parameters);
+  const Tallies tallies;
+  const auto observe = [=](ClosedRun& run, TallySums& sums) {
+    Scatterings scatterings;
+    run.observe(scatterings);
+    sums[tallies.all] = static_cast<double>(scatterings.all);
+    sums[tallies.keeping] = static_cast<double>(scatterings.keeping);
+    sums[tallies.particle_energy] = scatterings.particle_energy;
+    sums[tallies.scatterer_energy] = scatterings.scatterer_energy;
+  };
+  const auto per_scattering = [=](ScalarTally sum) {
+    return [=](TallyMeans mean) { return mean[sum] / mean[tallies.all]; };
+  };
+  Group group;
+  group.quantity("mu", "1", "Fraction of scatterings with p' p > 0", per_scattering(tallies.keeping));
+  group.quantity("particle_energy", "energy", "Mean kinetic energy of a particle as it meets a scatterer",
+                 per_scattering(tallies.particle_energy));
+  group.quantity("scatterer_energy", "energy", "Mean kinetic energy of a scatterer as a particle meets it",
+                 per_scattering(tallies.scatterer_energy));
+  return closed_study(parameters, tallies, observe, {group}, "mu");
+}
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run_closed_averages<Encounters>(
-      argc, argv, "persistence",
-      "Probability that a particle keeps its direction when it scatters, in a closed chain", "mu");
+  StudyProgram program("persistence",
+                       "Probability that a particle keeps its direction when it scatters, in a closed chain");
+  ClosedParameters parameters;
+  declare(program.options(), parameters);
+  return program.run(argc, argv, [&] { return persistence(parameters); });
 }
