@@ -11,6 +11,7 @@ namespace lorentz {
 /// A time interval [begin, end).
 struct Window {
   double begin, end;
+  bool contains(double time) const { return time >= begin && time < end; }
 };
 
 /// Index of a direction; axes of directions have this order.

@@ -10,20 +10,14 @@
 /// = N and with deterministic collisions are the only randomness, and for gamma < N the scattering
 /// martingales of the end scatterers [eq. 32], whose means are exact for every collision rule. Quantities
 /// named *_plain do without. kappa is NaN, and the reason is printed, where reservoirs do not impose a
-/// difference of temperature, or where it is less than five of its standard errors. Stationarity is tested by
-/// the differences between the halves of the window [eq. 51], and by blocking, for which blocks must be
-/// longer than the correlation time [eq. 50].
-#include <fmt/format.h>
-
+/// difference of temperature, or where it is less than five of its standard errors.
 #include <cmath>
 #include <functional>
 #include <limits>
 
 #include "model/rules.hpp"
-#include "observables/conductivity/blocking.hpp"
 #include "observables/conductivity/ends_and_openings.hpp"
-#include "observables/conductivity/hotelling.hpp"
-#include "sampling/open_run.hpp"
+#include "sampling/stationarity.hpp"
 #include "statistics/control_variates.hpp"
 #include "statistics/standardised.hpp"
 
@@ -31,40 +25,7 @@ namespace {
 
 using namespace lorentz;
 
-const BlockTallies of_blocks, of_window(1);
-constexpr double level = 0.01;  // of the test of stationarity
-
-/// The tallies by blocks as tallies with one block: means over the window or, for the test of stationarity,
-/// over its second half minus those over the first [eq. 51]. Arrivals are those of the whole window.
-Records joined(const Records& records, bool difference) {
-  Records result(of_window.width());
-  for (std::size_t replica = 0; replica < records.size(); ++replica) {
-    const TallyMeans row = records[replica];
-    TallySums window(of_window);
-    const auto join = [&](Tally from, Tally to, double scale) {
-      for (std::size_t i = 0; i < to.size; ++i) {
-        double sum = 0;
-        for (std::size_t block = 0; block < block_count; ++block)
-          sum += (difference && block < block_count / 2 ? -1 : 1) * row[from.row(block)][i];
-        window[to][i] = scale * sum;
-      }
-    };
-    const double per_block = (difference ? 2. : 1.) / block_count;
-    join(of_blocks.energy_current, of_window.energy_current, per_block);
-    join(of_blocks.particle_current, of_window.particle_current, per_block);
-    join(of_blocks.temperature, of_window.temperature, per_block);
-    join(of_blocks.injection, of_window.injection, 1);
-    join(of_blocks.scattering, of_window.scattering, 1);
-    window.set(of_window.arriving_energy, row[of_blocks.arriving_energy]);
-    window.set(of_window.arrivals, row[of_blocks.arrivals]);
-    result.append(window.values());
-  }
-  return result;
-}
-
-Group::Prepared reduced(const Records& records) {
-  return reduce_variance(records, {{of_window.measured(), of_window.controls()}});
-}
+const EndTallies tallies;
 
 /// Why a chain has no heat conductivity, with the remedy; empty if it has one.
 std::string reason_without_kappa(const OpenChain& chain) {
@@ -83,10 +44,10 @@ std::string reason_without_kappa(const OpenChain& chain) {
   return chain.cells == 1 ? "a single cell has no difference of temperature; choose more --cells" : "";
 }
 
-double rise(TallyMeans mean) { return mean[of_window.temperature][1] - mean[of_window.temperature][0]; }
+double rise(TallyMeans mean) { return mean[tallies.temperature][1] - mean[tallies.temperature][0]; }
 
 double rise_of_particles(TallyMeans mean) {
-  const auto energy = mean[of_window.arriving_energy], arrivals = mean[of_window.arrivals];
+  const auto energy = mean[tallies.arriving_energy], arrivals = mean[tallies.arrivals];
   return energy[1] / arrivals[1] - energy[0] / arrivals[0];
 }
 
@@ -98,7 +59,7 @@ Group::Array current_per_rise(const Records& records, double (*of)(TallyMeans), 
   const double error = records.size() > 1 ? found.standard_error.front() : 0;
   const bool resolved = defined && std::abs(found.mean.front()) > 5 * error;
   return [=](TallyMeans mean) {
-    return std::vector{resolved ? -mean[of_window.energy_current][0] / of(mean) * factor
+    return std::vector{resolved ? -mean[tallies.energy_current][0] / of(mean) * factor
                                 : std::numeric_limits<double>::quiet_NaN()};
   };
 }
@@ -116,10 +77,10 @@ void add_conductivity(Group& group, const OpenChain& chain, const std::string& s
     group.quantities({{name + suffix, "energy/(time temperature)", description + remark}},
                      [=](const Records& records) { return current_per_rise(records, to, factor, defined); });
   };
-  element("energy_current", "energy/time", "J_U, positive to the right", of_window.energy_current, 0);
-  element("particle_current", "1/time", "J_n, positive to the right", of_window.particle_current, 0);
-  element("temperature_first", "temperature", "<P^2>/M of the first scatterer", of_window.temperature, 0);
-  element("temperature_last", "temperature", "<P^2>/M of the last scatterer", of_window.temperature, 1);
+  element("energy_current", "energy/time", "J_U, positive to the right", tallies.energy_current, 0);
+  element("particle_current", "1/time", "J_n, positive to the right", tallies.particle_current, 0);
+  element("temperature_first", "temperature", "<P^2>/M of the first scatterer", tallies.temperature, 0);
+  element("temperature_last", "temperature", "<P^2>/M of the last scatterer", tallies.temperature, 1);
   ratio("kappa", "-J_U N / (T_N - T_1)", rise, chain.cells);
   ratio("kappa_printed", "-J_U / (T_N - T_1), the paper's definition", rise, 1);
   ratio("kappa_particle", "-J_U N / difference of <p^2>/m of the arrivals", rise_of_particles, chain.cells);
@@ -134,33 +95,6 @@ Estimate correlation_coefficient(const Records& records, Tally one, Tally other)
   return {{r}, {(1 - r * r) / std::sqrt(static_cast<double>(records.size()) - 1)}};
 }
 
-/// Error of J_U by blocking [eq. 50], p-value of the hypothesis that all four drifts are 0 [eq. 51], and
-/// `stationary`: 1 if the p-value exceeds 0.01, so that the test rejects one stationary run in a hundred, and
-/// the blocking has converged.
-void add_stationarity(Group& group) {
-  const Axis length{"length", "1", "Part of the window that a block takes", {0.125, 0.25, 0.5, 1}};
-  const std::vector<Description> descriptions{
-      {"blocking_error", "energy/time", "Error of the plain J_U from blocks", {length}},
-      {"drift_p_value", "1", "p-value of the four drifts being 0, by Hotelling's T^2 test"},
-      {"stationary", "1", "1: drift_p_value above 0.01, and blocking has converged"}};
-  group.statistics(descriptions, [](const Records& records) {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    const Group::Prepared differences = reduced(joined(records, true));
-    const double p_value = zero_mean_p_value(differences.records, of_window.currents_and_temperatures(),
-                                             *differences.control_variates ? of_window.controls().size() : 0);
-    Records currents(block_count);
-    for (std::size_t replica = 0; replica < records.size(); ++replica)
-      currents.append(TallyMeans(records[replica])[of_blocks.energy_current]);
-    const Blocking blocks = blocking(currents);
-    Estimate estimate{blocks.error, blocks.uncertainty};
-    for (const double value : {p_value, p_value > level && blocks.converged() ? 1.0 : 0.0}) {
-      estimate.mean.push_back(value);
-      estimate.standard_error.push_back(none);
-    }
-    return estimate;
-  });
-}
-
 /// What restricts the meaning of the results.
 std::vector<std::string> remarks(const OpenChain& chain, const Results& results) {
   std::vector<std::string> lines;
@@ -170,18 +104,7 @@ std::vector<std::string> remarks(const OpenChain& chain, const Results& results)
     lines.emplace_back(
         "kappa is not defined: T_N - T_1 is less than five of its standard errors; choose more --replicas or "
         "a longer --observation-time");
-  if (quantity_named(results, "stationary").mean.front() == 1) return lines;
-  const double p_value = quantity_named(results, "drift_p_value").mean.front();
-  if (std::isnan(p_value))
-    lines.emplace_back(
-        "not tested whether stationary: too few replicas, or nothing varies; choose more --replicas");
-  else if (p_value <= level)
-    lines.push_back(fmt::format(
-        "not stationary: the p-value of no drift is {:.1g}; choose a longer --relaxation-time", p_value));
-  else
-    lines.emplace_back(
-        "not stationary: correlations last longer than half the window; choose a longer "
-        "--observation-time");
+  for (const std::string& line : remarks_on_stationarity(results)) lines.push_back(line);
   return lines;
 }
 
@@ -189,20 +112,20 @@ Study conductivity(const StationaryParameters& parameters) {
   validate(parameters);
   const OpenChain chain = parameters.chain();
   const Window window = parameters.window();
-  Group corrected([](const Records& records) { return reduced(joined(records, false)); });
-  Group plain([](const Records& records) { return Group::Prepared{joined(records, false)}; });
-  Group stationary;
+  Group corrected([](const Records& records) {
+    return reduce_variance(records, {{tallies.measured(), tallies.controls()}});
+  });
+  Group plain;
   add_conductivity(corrected, chain, "", "");
   corrected.statistics({{"current_correlation", "1", "Correlation coefficient over replicas of J_U and J_n"}},
                        [](const Records& records) {
-                         return correlation_coefficient(records, of_window.energy_current,
-                                                        of_window.particle_current);
+                         return correlation_coefficient(records, tallies.energy_current,
+                                                        tallies.particle_current);
                        });
   add_conductivity(plain, chain, "_plain", ", without control variates");
-  add_stationarity(stationary);
-  Study study = open_study(
-      parameters, window, of_blocks, [=] { return EndsAndOpenings(chain, window); },
-      {corrected, plain, stationary}, reason_without_kappa(chain).empty() ? "kappa" : "energy_current");
+  Study study = stationary_study(
+      parameters, tallies, [=] { return EndsAndOpenings(chain, window); }, {corrected, plain},
+      reason_without_kappa(chain).empty() ? "kappa" : "energy_current");
   study.remarks = [chain](const Results& results) { return remarks(chain, results); };
   return study;
 }

@@ -12,7 +12,7 @@
 
 #include "observables/momentum_flux/bond_crossings.hpp"
 #include "sampling/momentum_bins.hpp"
-#include "sampling/open_run.hpp"
+#include "sampling/stationarity.hpp"
 #include "statistics/control_variates.hpp"
 
 namespace {
@@ -98,8 +98,8 @@ Study momentum_flux(const Parameters& parameters) {
   const Window window = parameters.window();
   const Bins bins = parameters.bins.bins();
   const BondTallies tallies(chain.cells, bins);
-  return open_study(
-      parameters, window, tallies, [=] { return BondCrossings(chain, window, bins); },
+  return stationary_study(
+      parameters, tallies, [=] { return BondCrossings(chain, window, bins); },
       flux_and_shape(tallies, bins.width(), regressions_by_bin(tallies, chain, window, bins)), "crossings");
 }
 

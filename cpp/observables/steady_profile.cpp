@@ -10,7 +10,7 @@
 /// the chain.
 #include "observables/steady_profile/cell_profile.hpp"
 #include "observables/steady_profile/profile.hpp"
-#include "sampling/open_run.hpp"
+#include "sampling/stationarity.hpp"
 #include "statistics/control_variates.hpp"
 
 namespace {
@@ -97,8 +97,8 @@ Study steady_profile(const Parameters& parameters) {
   const Window window = parameters.window();
   const Bins bins = parameters.bins.bins();
   const CellTallies tallies(chain.cells, bins);
-  return open_study(
-      parameters, window, tallies, [=] { return CellProfile(chain, window, bins); },
+  return stationary_study(
+      parameters, tallies, [=] { return CellProfile(chain, window, bins); },
       {profiles(tallies, bins.width())}, "energy_current_mean");
 }
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <stdexcept>
 
 #include "program/errors.hpp"
@@ -67,9 +66,11 @@ Hdf5Handle type_of(const AttributeValue& value) {
   return {H5Tcopy(real ? H5T_IEEE_F64LE : count ? H5T_STD_U64LE : H5T_STD_I64LE), H5Tclose};
 }
 
-const void* data_of(const AttributeValue& value) {
-  if (const auto* text = std::get_if<std::string>(&value)) return text->c_str();
-  return std::visit([](const auto& each) -> const void* { return &each; }, value);
+/// An empty text is a null byte, as no type has the size 0.
+std::span<const std::byte> data_of(const AttributeValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value))
+    return std::as_bytes(std::span(text->c_str(), std::max<std::size_t>(text->size(), 1)));
+  return std::visit([](const auto& each) { return std::as_bytes(std::span(&each, 1)); }, value);
 }
 
 template <class Value>
@@ -118,7 +119,7 @@ void Hdf5Writer::write(const std::string& group, const Description& what, hid_t 
     const Hdf5Handle scale(H5Dopen2(file_, axis.c_str(), H5P_DEFAULT), H5Dclose);
     check(H5DSattach_scale(dataset, scale, i));
   }
-  checksums_[path] = {crc32(crc32(0, std::as_bytes(std::span(path))), values), path.size() + values.size()};
+  add_to_digest(path, values);
 }
 
 void Hdf5Writer::axis(const std::string& group, const Axis& axis) {
@@ -133,14 +134,19 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, c
   const Hdf5Handle attribute(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
                                                H5P_DEFAULT, H5P_DEFAULT),
                              H5Aclose);
-  check(H5Awrite(attribute, type, data_of(value)));
+  const std::span<const std::byte> data = data_of(value);
+  check(H5Awrite(attribute, type, data.data()));
+  add_to_digest(object + '/' + name, data);
 }
 
-std::string Hdf5Writer::digest(const std::string& group) const {
+void Hdf5Writer::add_to_digest(const std::string& path, std::span<const std::byte> values) {
+  checksums_[path] = {crc32(crc32(0, std::as_bytes(std::span(path))), values), path.size() + values.size()};
+}
+
+std::string Hdf5Writer::digest() const {
   unsigned long digest = 0;
   for (const auto& [path, checksum] : checksums_)
-    if (path.starts_with(group + '/'))
-      digest = ::crc32_combine(digest, checksum.first, static_cast<z_off_t>(checksum.second));
+    digest = ::crc32_combine(digest, checksum.first, static_cast<z_off_t>(checksum.second));
   return fmt::format("{:08x}", digest);
 }
 
@@ -170,7 +176,7 @@ bool Hdf5Reader::has_attribute(const std::string& object, const std::string& nam
   return H5LTget_attribute_info(file_, object.c_str(), name.c_str(), nullptr, &kind, &size) >= 0 &&
          size == stored.size() &&
          H5LTget_attribute(file_, object.c_str(), name.c_str(), type, stored.data()) >= 0 &&
-         std::memcmp(stored.data(), data_of(value), size) == 0;
+         std::ranges::equal(stored, data_of(value));
 }
 
 }  // namespace lorentz

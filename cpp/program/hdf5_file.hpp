@@ -60,15 +60,17 @@ class Hdf5Writer {
 
   void attribute(const std::string& object, const std::string& name, const AttributeValue& value);
 
-  /// CRC-32 over the datasets below a group, in ascending order of their paths, as 8 hexadecimal digits: of
-  /// each, the path and then the values as they are stored, row-major and little-endian.
-  std::string digest(const std::string& group) const;
+  /// CRC-32 over all datasets and attributes so far, in ascending order of their paths, as 8 hexadecimal
+  /// digits: of each, the path, for an attribute OBJECT/NAME, and then the values as they are stored,
+  /// row-major and little-endian.
+  std::string digest() const;
 
   std::vector<std::byte> image();  // bytes of the file
 
  private:
   void write(const std::string& group, const Description& what, hid_t type,
              std::span<const std::byte> values);
+  void add_to_digest(const std::string& path, std::span<const std::byte> values);
 
   Hdf5Handle file_, with_parents_, without_times_;                          // and two lists of properties
   std::map<std::string, std::pair<unsigned long, std::size_t>> checksums_;  // CRC-32 and length, by path

@@ -119,7 +119,7 @@ ExitStatus Program::write(const Outcome& outcome) const {
   file.group("/provenance");
   const std::vector<Parameter> provenance = {
       {"format", std::string("lorentz-gas")},
-      {"format_version", std::int64_t{3}},
+      {"format_version", std::int64_t{4}},
       {"program", options_.program()},
       {"words", options_.words()},
       {"source_hash", std::string(build_info.source_hash)},
@@ -133,11 +133,11 @@ ExitStatus Program::write(const Outcome& outcome) const {
       {"target_error", outcome.target_error},
       {"achieved_error", outcome.achieved_error},
       {"converged", std::string(names.at(static_cast<std::size_t>(outcome.convergence)))},
-      {"results_digest", file.digest("/results")},
       {"units", std::string("m = k_B = 1")},
       {"documentation", std::string("docs/format.md of lorentz-gas")},
   };
   for (const auto& [name, value, units] : provenance) file.attribute("/provenance", name, value);
+  file.attribute("/provenance", "digest", file.digest());
   write_atomically(output_, file.image());
   const std::string spent = cost(elapsed(), outcome.events);
   write_atomically(cost_path(output_), std::as_bytes(std::span(spent)));

@@ -10,7 +10,7 @@ from workflow.pipeline.described import declared, described
 
 MEASURED, COMPUTED = {"mean", "standard_error", "count"}, {"mean", "discretisation_error"}
 PROVENANCE = {"format", "format_version", "program", "words", "source_hash", "compiler", "flags", "libraries", "seed", "streams",
-              "events", "target_quantity", "target_error", "achieved_error", "converged", "results_digest", "units",
+              "events", "target_quantity", "target_error", "achieved_error", "converged", "digest", "units",
               "documentation"}  # fmt: skip
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from tests.python.conftest import Program
 from workflow.lib.identity import result_identity
-from workflow.lib.load import FormatError, load, load_provenance, results_digest
+from workflow.lib.load import FormatError, digest, load, load_provenance, nodes_of
 
 FLUX = (
     "results/flux"  # over 4 bonds and 4 bins of the momentum, so that lengths do not identify the dimensions
@@ -26,7 +26,7 @@ def path(program: Program, tmp_path: Path) -> Path:
 
 def seal(file: h5py.File) -> None:
     """Writes the digest of the present values into the file, as a program does."""
-    file["provenance"].attrs["results_digest"] = results_digest(file["results"])
+    file["provenance"].attrs["digest"] = digest(nodes_of(file))
 
 
 def transpose(dataset: h5py.Dataset) -> None:
@@ -96,7 +96,7 @@ def attribute(name: str, value: object) -> Callable[[Path], object]:
         (Path.unlink, " is missing"),
         (lambda path: path.write_bytes(path.read_bytes()[:3000]), " is damaged, or not a result file: "),
         (attribute("format", "another"), ": not a result of this project"),
-        (attribute("format_version", 2), ": format version 2, not 3; remake it with make figures"),
+        (attribute("format_version", 2), ": format version 2, not 4; remake it with make figures"),
     ],
 )
 def test_what_is_no_result(path: Path, change: Callable[[Path], object], words: str) -> None:
@@ -112,7 +112,26 @@ def test_what_is_no_result(path: Path, change: Callable[[Path], object], words: 
 def test_an_edited_value_is_refused(path: Path, name: str) -> None:
     with h5py.File(path, "r+") as file:
         file[FLUX][name][-1] += 1
-    with pytest.raises(FormatError, match="edited or damaged: its values differ from those written"):
+    with pytest.raises(FormatError, match="edited or damaged"):
+        load(path)
+
+
+@pytest.mark.parametrize(
+    ("group", "name", "value"),
+    [
+        ("parameters", "sigma", 0.05),  # a default
+        ("parameters", "cells", np.uint64(4)),  # given
+        ("parameter_units", "relaxation-time", "energy"),
+        ("provenance", "converged", "reached"),
+        (f"{FLUX}/mean", "units", "energy"),
+    ],
+)
+def test_an_edited_attribute_is_refused(path: Path, group: str, name: str, value: object) -> None:
+    """Otherwise a figure would plot values at parameters that are not theirs."""
+    with h5py.File(path, "r+") as file:
+        assert name in file[group].attrs
+        file[group].attrs[name] = value
+    with pytest.raises(FormatError, match="edited or damaged"):
         load(path)
 
 

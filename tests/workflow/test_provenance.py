@@ -13,7 +13,7 @@ import h5py
 import pytest
 
 from tests.workflow.conftest import ROOT, Project
-from workflow.lib.load import load, results_digest
+from workflow.lib.load import digest, load, nodes_of
 from workflow.pipeline.provenance.compare import SIGNIFICANCE, largest_difference
 
 Edit = Callable[[Project], object]
@@ -204,7 +204,7 @@ def test_verify_reruns_with_fresh_programs(project: Project) -> None:
     assert project.entry("verify", "SAMPLE=1").count("equal bytes") == 4
     edit_value(project)
     with h5py.File(project.one(MU), "r+") as file:  # as of another program
-        file["provenance"].attrs["results_digest"] = results_digest(file["results"])
+        file["provenance"].attrs["digest"] = digest(nodes_of(file))
     assert "standard errors (mu)" in project.entry("verify", "PANEL=mu", status=1)
 
 

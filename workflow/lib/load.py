@@ -21,7 +21,14 @@ if TYPE_CHECKING:
     import xarray
 
 FORMAT = "lorentz-gas"
-FORMAT_VERSION = 3
+FORMAT_VERSION = 4
+NOT_IN_DIGEST = {
+    "digest",
+    "CLASS",
+    "NAME",
+    "DIMENSION_LIST",
+    "REFERENCE_LIST",
+}  # attributes: its own, and those of axes
 REMEDY = "; remove it and make it again"
 NOT_REACHED = "not reached"
 UNDEFINED = "target quantity not defined"
@@ -73,7 +80,7 @@ class Quantity:
         import xarray  # noqa: PLC0415  # 0.5 s, not needed for figures
 
         attributes = self._attributes()
-        values = {name: (tuple(self.axes), array, attributes[name]) for name, array in self._values().items()}
+        values = {name: (tuple(self.axes), array, attributes[name]) for name, array in self.arrays().items()}
         axes = {name: (name, array, attributes[name]) for name, array in self.axes.items()}
         return xarray.Dataset(values, axes)
 
@@ -81,13 +88,14 @@ class Quantity:
         """One row per value; attrs["units"] and attrs["description"] map columns to theirs."""
         grids = np.meshgrid(*self.axes.values(), indexing="ij")
         axes = {name: grid.ravel() for name, grid in zip(self.axes, grids, strict=True)}
-        frame = pd.DataFrame(axes | {name: array.ravel() for name, array in self._values().items()})
+        frame = pd.DataFrame(axes | {name: array.ravel() for name, array in self.arrays().items()})
         attributes = self._attributes()
         for kind in ("units", "description"):
             frame.attrs[kind] = {name: attributes[name][kind] for name in frame}
         return frame
 
-    def _values(self) -> dict[str, np.ndarray]:
+    def arrays(self) -> dict[str, np.ndarray]:
+        """Mean, errors and count by their names."""
         values = {name: getattr(self, name) for name in VALUES}
         return {name: np.asarray(array) for name, array in values.items() if array is not None}
 
@@ -186,24 +194,30 @@ def load_provenance(path: Path | str) -> dict[str, Any]:
         return provenance
 
 
-def results_digest(results: h5py.Group) -> str:
-    """CRC-32 of path and little-endian values of all datasets below a group, in the order of the paths."""
-    return _digest(_datasets(results))
+def digest(nodes: dict[str, h5py.Group | h5py.Dataset]) -> str:
+    """CRC-32 of path and little-endian values of all datasets and attributes, in ascending order of the paths. nodes: all objects of a file."""
+    values: dict[str, bytes] = {}
+    for path, node in nodes.items():
+        if isinstance(node, h5py.Dataset):
+            values[path] = np.asarray(node[()], dtype=node.dtype.newbyteorder("<")).tobytes()
+        attributes = {name: _text(node.attrs[name]) for name in node.attrs if name not in NOT_IN_DIGEST}
+        values |= {f"{path}/{name}": _bytes(value) for name, value in attributes.items()}
+    crc = 0
+    for path, content in sorted(values.items()):
+        crc = zlib.crc32(content, zlib.crc32(path.encode(), crc))
+    return f"{crc:08x}"
 
 
-def _digest(datasets: dict[str, h5py.Dataset]) -> str:
-    digest = 0
-    for name, dataset in sorted(datasets.items()):
-        values = np.asarray(dataset[()], dtype=dataset.dtype.newbyteorder("<"))
-        digest = zlib.crc32(values.tobytes(), zlib.crc32(name.encode(), digest))
-    return f"{digest:08x}"
+def _bytes(value: Any) -> bytes:
+    """Value of an attribute as it is stored; an empty text is a null byte."""
+    return value.encode() or b"\0" if isinstance(value, str) else np.asarray(value).tobytes()
 
 
-def _datasets(results: h5py.Group) -> dict[str, h5py.Dataset]:
-    """All datasets below a group by their paths. To open a dataset takes ten times as long as to read it."""
+def nodes_of(file: h5py.File) -> dict[str, h5py.Group | h5py.Dataset]:
+    """All objects by their paths. To open a dataset takes ten times as long as to read it."""
     nodes: dict[str, h5py.Group | h5py.Dataset] = {}
-    results.visititems(lambda name, node: nodes.update({f"{results.name}/{name}": node}))
-    return {name: node for name, node in nodes.items() if isinstance(node, h5py.Dataset)}
+    file.visititems(lambda name, node: nodes.update({f"/{name}": node}))
+    return nodes
 
 
 @contextmanager
@@ -224,9 +238,10 @@ def _verified(path: Path | str) -> Iterator[tuple[h5py.File, dict[str, Any], dic
                 raise FormatError(
                     f"its content is that of another result: of other options or sources, copied or exchanged{REMEDY}"
                 )
-            datasets = _datasets(file["results"])
-            if provenance["results_digest"] != _digest(datasets):
-                raise FormatError(f"edited or damaged: its values differ from those written{REMEDY}")
+            nodes = nodes_of(file)
+            if provenance["digest"] != digest(nodes):
+                raise FormatError(f"edited or damaged: its content differs from what was written{REMEDY}")
+            datasets = {path: node for path, node in nodes.items() if isinstance(node, h5py.Dataset)}
             yield file, provenance, datasets
     except FileNotFoundError as error:
         raise FormatError(f"{path} is missing") from error

@@ -15,42 +15,32 @@
 
 namespace lorentz {
 
-constexpr std::size_t block_count = 8;  // blocks of the window
-
-/// Tallies of the currents through the openings and the temperatures of the end cells [eq. 26, eq. 27], by
-/// blocks of the window, with their control variates; with one block those of the whole window.
-struct BlockTallies : TallySchema {
-  Axis block;
+/// Tallies of the currents through the openings and the temperatures of the end cells [eq. 26, eq. 27], with
+/// their control variates.
+struct EndTallies : TallySchema {
   Axis end{"end", "1", "0: first cell, 1: last", {0, 1}};
-  Tally energy_current = tally("energy_current", {block}, "energy/time", "J_U, mean of both openings");
-  Tally particle_current = tally("particle_current", {block}, "1/time", "J_n, mean of both openings");
-  Tally temperature = tally("temperature", {block, end}, "temperature", "Time average of P^2/M");
+  Tally energy_current = tally("energy_current", "energy/time", "J_U, mean of both openings");
+  Tally particle_current = tally("particle_current", "1/time", "J_n, mean of both openings");
+  Tally temperature = tally("temperature", {end}, "temperature", "Time average of P^2/M");
   Tally arriving_energy =
       tally("arriving_energy", {end}, "energy", "Sum of u^2 over arrivals at the scatterer");
   Tally arrivals = tally("arrivals", {end}, "1", "Arrivals at the scatterer");
-  Tally injection =
-      tally("injection", {block, InjectionControls::axis()}, "1", "Injected, minus its known mean");
-  Tally scattering = tally("scattering", {block, end}, "energy", "Scattering martingale; mean 0");
+  Tally injection = tally("injection", {InjectionControls::axis()}, "1", "Injected, minus its known mean");
+  Tally scattering = tally("scattering", {end}, "energy", "Scattering martingale; mean 0");
 
-  explicit BlockTallies(std::size_t blocks = block_count)
-      : block(numbered_axis("block", "Block of the window", blocks)) {}
-
-  Columns currents_and_temperatures() const {
-    return columns_of({energy_current, particle_current, temperature});
-  }
   Columns measured() const {
     return columns_of({energy_current, particle_current, temperature, arriving_energy, arrivals});
   }
   Columns controls() const { return columns_of({injection, scattering}); }
 };
 
-/// Observer that fills BlockTallies.
+/// Observer that fills EndTallies.
 class EndsAndOpenings {
  public:
   EndsAndOpenings(const OpenChain& chain, const Window& window)
       : chain_(chain),
-        blocks_(window.begin, window.end, block_count),
-        ends_{EndCell(0, chain, blocks_), EndCell(chain.cells - 1, chain, blocks_)} {}
+        window_(window),
+        ends_{EndCell(0, chain, window), EndCell(chain.cells - 1, chain, window)} {}
 
   [[gnu::always_inline]] void on_collision(const Collision& collision) {
     for (EndCell& end : ends_)
@@ -64,42 +54,37 @@ class EndsAndOpenings {
     for (EndCell& end : ends_) {
       if (!path.reaches(end.mark)) continue;
       const double time = path.time_at(end.mark);
-      if (!blocks_.contain(time)) continue;
+      if (!window_.contains(time)) continue;
       end.chance.arrival(time, path.velocity, path.last == end.mark);
       end.arrivals += 1;
       end.arriving_energy += path.velocity * path.velocity;
     }
   }
 
-  void on_injection(End end, double time, double u) {
-    if (!blocks_.contain(time)) return;
-    injections_[blocks_[time]].add(end, u);
-    cross_opening(time, u);
+  void on_injection(End end, double, double u) {
+    injections_.add(end, u);
+    cross_opening(u);
   }
 
   void on_exit(End, double time, double u) {
-    if (blocks_.contain(time)) cross_opening(time, u);
+    if (window_.contains(time)) cross_opening(u);
   }
 
   void finish(const std::vector<double>& scatterers, double end_time) {
     for (EndCell& end : ends_) end.advance(scatterers[end.scatterer], end_time);
   }
 
-  void record(const BlockTallies& tallies, TallySums& sums) const {
-    for (std::size_t block = 0; block < block_count; ++block) {
-      sums[tallies.energy_current][block] = energy_[block] / blocks_.length();
-      sums[tallies.particle_current][block] = particles_[block] / blocks_.length();
-      const auto injected = injections_[block].deviations(chain_, blocks_.length());
-      sums.set(tallies.injection.row(block), injected);
-    }
+  void record(const EndTallies& tallies, TallySums& sums) const {
+    const double duration = window_.end - window_.begin;
+    sums[tallies.energy_current][0] = energy_ / duration;
+    sums[tallies.particle_current][0] = particles_ / duration;
+    sums.set(tallies.injection, injections_.deviations(chain_, duration));
     for (std::size_t i = 0; i < ends_.size(); ++i) {
       const EndCell& end = ends_[i];
       sums[tallies.arriving_energy][i] = end.arriving_energy;
       sums[tallies.arrivals][i] = end.arrivals;
-      for (std::size_t block = 0; block < block_count; ++block) {
-        sums[tallies.temperature.row(block)][i] = end.scatterer_energy.sums()[block] / blocks_.length();
-        sums[tallies.scattering.row(block)][i] = end.chance.sums()[block];
-      }
+      sums[tallies.temperature][i] = end.scatterer_energy.sums().front() / duration;
+      sums[tallies.scattering][i] = end.chance.sum();
     }
   }
 
@@ -111,11 +96,11 @@ class EndsAndOpenings {
     ScatteringControl chance;
     double arrivals = 0, arriving_energy = 0;  // sum of u^2
 
-    EndCell(std::uint32_t cell, const OpenChain& chain, const Blocks& blocks)
+    EndCell(std::uint32_t cell, const OpenChain& chain, const Window& window)
         : scatterer(cell),
           mark(2 * std::int64_t{cell} + 1),
-          scatterer_energy(blocks),
-          chance(chain, blocks) {}
+          scatterer_energy(Blocks(window.begin, window.end, 1)),
+          chance(chain) {}
 
     /// Adds the time since the last call up to `until`, during which the scatterer had this U.
     void advance(double momentum, double until) {
@@ -125,17 +110,16 @@ class EndsAndOpenings {
   };
 
   /// Adds a crossing with the weight 1/2, because the current is the mean over both openings.
-  void cross_opening(double time, double u) {
-    const std::size_t block = blocks_[time];
-    energy_[block] += 0.25 * u * std::abs(u);
-    particles_[block] += std::copysign(0.5, u);
+  void cross_opening(double u) {
+    energy_ += 0.25 * u * std::abs(u);
+    particles_ += std::copysign(0.5, u);
   }
 
   OpenChain chain_;
-  Blocks blocks_;
+  Window window_;
   std::array<EndCell, 2> ends_;
-  std::array<double, block_count> energy_{}, particles_{};
-  std::array<InjectionControls, block_count> injections_;
+  double energy_ = 0, particles_ = 0;
+  InjectionControls injections_;
 };
 
 }  // namespace lorentz

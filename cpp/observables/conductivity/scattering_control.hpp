@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "model/open_chain.hpp"
-#include "statistics/time_integral.hpp"
 
 namespace lorentz {
 
@@ -25,14 +24,12 @@ namespace lorentz {
 /// rules the control is valid, but may reduce the variance less.
 class ScatteringControl {
  public:
-  ScatteringControl(const OpenChain& chain, const Blocks& blocks)
+  explicit ScatteringControl(const OpenChain& chain)
       : sigma_(chain.sigma),
         c_(std::sqrt((1 - chain.sigma) * (1 + chain.sigma))),
-        probability_(chain.deterministic() ? 1 : chain.gamma / chain.cells),
-        blocks_(blocks),
-        sums_(blocks.count(), 0) {}
+        probability_(chain.deterministic() ? 1 : chain.gamma / chain.cells) {}
 
-  /// Registers a particle of velocity u that arrives at a time, which the blocks contain, and is scattered or
+  /// Registers a particle of velocity u that arrives at a time in the window, and is scattered or
   /// not. Ignored for gamma = N, where the control is 0.
   void arrival(double time, double u, bool scattered) {
     if (probability_ < 1) pending_.push_back({time, u, (scattered ? 1 : 0) - probability_});
@@ -44,13 +41,13 @@ class ScatteringControl {
     std::erase_if(pending_, [&](const Arrival& arrival) {
       if (arrival.time > until) return false;
       const double after = c_ * arrival.velocity + sigma_ * scatterer;
-      sums_[blocks_[arrival.time]] += arrival.residual * (after * after - scatterer * scatterer);
+      sum_ += arrival.residual * (after * after - scatterer * scatterer);
       return true;
     });
   }
 
-  /// Sum over each block; its mean is 0.
-  const std::vector<double>& sums() const { return sums_; }
+  /// Its mean is 0.
+  double sum() const { return sum_; }
 
  private:
   struct Arrival {
@@ -60,9 +57,8 @@ class ScatteringControl {
   };
 
   double sigma_, c_, probability_;
-  Blocks blocks_;
+  double sum_ = 0;
   std::vector<Arrival> pending_;
-  std::vector<double> sums_;
 };
 
 }  // namespace lorentz

@@ -66,12 +66,20 @@ def largest_difference(one: Result, other: Result) -> Difference:
     return largest._replace(p=min(1.0, number * largest.p))
 
 
+def equal_values(one: Result, other: Result) -> bool:
+    return one.quantities.keys() == other.quantities.keys() and all(
+        np.array_equal(array, other[name].arrays()[part], equal_nan=True)
+        for name, quantity in one.quantities.items()
+        for part, array in quantity.arrays().items()
+    )
+
+
 def compared(former: Path | str, path: Path | str, rerun: bool) -> tuple[float, str]:
     """p-value and description of the difference between two results. Values of a rerun have to be equal. Raises FormatError, OSError."""
     if Path(former).read_bytes() == Path(path).read_bytes():
         return 1.0, "equal bytes"
     one, other = load(former), load(path)
-    if one.provenance["results_digest"] == other.provenance["results_digest"]:
+    if equal_values(one, other):
         return 1.0, "equal values, by another compiler or other libraries"
     largest = largest_difference(one, other)
     if not (rerun or largest.quantity):

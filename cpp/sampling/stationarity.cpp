@@ -1,0 +1,66 @@
+#include "sampling/stationarity.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "statistics/control_variates.hpp"
+#include "statistics/standardised.hpp"
+
+namespace lorentz {
+namespace {
+
+constexpr double level = 1e-4;
+constexpr std::size_t least = 8;  // replicas; with fewer even ten standard errors could be chance
+
+/// Smallest p-value of the hypotheses that the mean of a column is 0, times their number [eq. 51]. Records
+/// are those left after `fitted` coefficients have been estimated from them. Columns that do not vary are
+/// left out; NaN if none is left, or with too few records.
+double smallest_p_value(const Records& records, const Columns& columns, std::size_t fitted) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (records.size() < least + fitted) return none;
+  const auto rows = static_cast<double>(records.size());
+  const Eigen::MatrixXd x = standardised(records, columns);
+  double smallest = 2, number = 0;
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    if (x.col(i).isZero(0)) continue;
+    const double t = std::abs(x.col(i).mean()) * std::sqrt(rows * (rows - 1));  // the deviations have norm 1
+    smallest = std::min(smallest, 2 * gsl_cdf_tdist_Q(t, rows - 1 - static_cast<double>(fitted)));
+    number += 1;
+  }
+  return number > 0 ? std::min(1., number * smallest) : none;
+}
+
+}  // namespace
+
+Group stationarity(const DriftTallies& tallies) {
+  Group group;
+  const std::vector<Description> descriptions{
+      {"drift_p_value", "1", "p-value of no drift of currents, temperatures and energy"},
+      {"stationary", "1", "1: drift_p_value above 1e-4"}};
+  group.statistics(descriptions, [=](const Records& records) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const Columns controls = columns_of({tallies.injection});
+    const Group::Prepared halves = reduce_variance(records, {{tallies.halves(), controls}});
+    const double of_halves = smallest_p_value(halves.records, tallies.halves(),
+                                              *halves.control_variates ? controls.size() : 0),
+                 of_energy = smallest_p_value(records, columns_of({tallies.energy}), 0);
+    // Half of the level for each, NaN left out.
+    const double p_value = std::min(2 * std::fmin(of_halves, of_energy), 1.);
+    return Estimate{{p_value, p_value > level ? 1. : 0.}, {none, none}};
+  });
+  return group;
+}
+
+std::vector<std::string> remarks_on_stationarity(const Results& results) {
+  const double p_value = quantity_named(results, "drift_p_value").mean.front();
+  if (std::isnan(p_value))
+    return {"not tested whether stationary: too few replicas, or nothing varies; choose more --replicas"};
+  if (quantity_named(results, "stationary").mean.front() == 1) return {};
+  return {fmt::format("not stationary: the p-value of no drift is {:.1g}; choose a longer --relaxation-time",
+                      p_value)};
+}
+
+}  // namespace lorentz

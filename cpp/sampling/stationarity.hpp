@@ -1,0 +1,159 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/observation.hpp"
+#include "engine/open_dynamics.hpp"
+#include "sampling/injection_controls.hpp"
+#include "sampling/open_run.hpp"
+#include "statistics/group.hpp"
+#include "statistics/tally.hpp"
+#include "statistics/time_integral.hpp"
+
+namespace lorentz {
+
+/// Differences that are 0 on average in a stationary state [eq. 50]: of the second half of the window minus
+/// the first, and the energy that the chain gains.
+struct DriftTallies {
+  Axis scatterer{"scatterer", "1", "First, middle, last", {0, 1, 2}};
+  Tally energy_current, particle_current, temperature, energy, injection;
+
+  explicit DriftTallies(TallySchema& schema)
+      : energy_current(schema.tally("energy_current_drift", "energy/time", "Change of J_U")),
+        particle_current(schema.tally("particle_current_drift", "1/time", "Change of J_n")),
+        temperature(schema.tally("temperature_drift", {scatterer}, "temperature", "Change of <P^2>/M")),
+        energy(schema.tally("energy_gain", "energy/time", "Energy that enters minus energy that leaves")),
+        injection(schema.tally("injection_drift", {InjectionControls::axis()}, "1",
+                               "Change of the numbers, momenta and energies injected; mean 0")) {}
+
+  Columns halves() const { return columns_of({energy_current, particle_current, temperature}); }
+};
+
+/// Observer that fills DriftTallies.
+class Drift {
+ public:
+  Drift(const OpenChain& chain, const Window& window)
+      : chain_(chain),
+        halves_(window.begin, window.end, 2),
+        scatterers_{0, chain.cells / 2, chain.cells - 1},
+        squares_(scatterers_.size(), TimeIntegral(halves_)) {}
+
+  [[gnu::always_inline]] void on_collision(const Collision& collision) {
+    for (std::size_t i = 0; i < scatterers_.size(); ++i)
+      if (collision.scatterer == scatterers_[i])
+        squares_[i].advance(collision.scatterer_before * collision.scatterer_before, collision.time);
+  }
+
+  void on_injection(End end, double time, double u) {
+    if (!halves_.contain(time)) return;
+    injections_[halves_[time]].add(end, u);
+    cross_opening(time, u, 1);
+  }
+
+  void on_exit(End, double time, double u) {
+    if (halves_.contain(time)) cross_opening(time, u, -1);
+  }
+
+  void finish(const std::vector<double>& scatterers, double end_time) {
+    for (std::size_t i = 0; i < scatterers_.size(); ++i) {
+      const double last = scatterers[scatterers_[i]];
+      squares_[i].advance(last * last, end_time);
+    }
+  }
+
+  void record(const DriftTallies& tallies, TallySums& sums) const {
+    const double half = halves_.length();
+    sums[tallies.energy_current][0] = (energy_[1] - energy_[0]) / half;
+    sums[tallies.particle_current][0] = (particles_[1] - particles_[0]) / half;
+    sums[tallies.energy][0] = gain_ / (2 * half);
+    for (std::size_t i = 0; i < scatterers_.size(); ++i)
+      sums[tallies.temperature][i] = (squares_[i].sums()[1] - squares_[i].sums()[0]) / half;
+    const auto first = injections_[0].deviations(chain_, half),
+               second = injections_[1].deviations(chain_, half);
+    for (std::size_t i = 0; i < first.size(); ++i) sums[tallies.injection][i] = second[i] - first[i];
+  }
+
+ private:
+  /// sign: 1 for a particle that enters. Currents are means over both openings, hence the factor 1/2.
+  void cross_opening(double time, double u, double sign) {
+    const std::size_t half = halves_[time];
+    energy_[half] += 0.25 * u * std::abs(u);
+    particles_[half] += std::copysign(0.5, u);
+    gain_ += sign * 0.5 * u * u;
+  }
+
+  OpenChain chain_;
+  Blocks halves_;
+  std::array<std::uint32_t, 3> scatterers_;
+  std::vector<TimeIntegral> squares_;  // of U
+  std::array<double, 2> energy_{}, particles_{};
+  std::array<InjectionControls, 2> injections_;
+  double gain_ = 0;
+};
+
+/// Quantities `drift_p_value` and `stationary`, 1 if the p-value is at least 1e-4, so that the test rejects
+/// one stationary run in ten thousand [eq. 51].
+Group stationarity(const DriftTallies& tallies);
+
+/// Line that restricts the meaning of results that are not stationary, with the remedy; none if they are.
+std::vector<std::string> remarks_on_stationarity(const Results& results);
+
+/// Tallies of an observable with those of the test.
+template <class Tallies>
+struct WithDrift : Tallies {
+  DriftTallies drift;
+  explicit WithDrift(const Tallies& tallies) : Tallies(tallies), drift(*this) {}
+};
+
+/// An observer of the stationary state and that of the test.
+template <class Observer>
+struct ObserverWithDrift {
+  Observer observer;
+  Drift drift;
+
+  [[gnu::always_inline]] void on_collision(const Collision& collision) {
+    notify(observer, collision);
+    drift.on_collision(collision);
+  }
+  [[gnu::always_inline]] void on_flight(const Path& path) { notify_flight(observer, path); }
+  void on_injection(End end, double time, double u) {
+    observer.on_injection(end, time, u);
+    drift.on_injection(end, time, u);
+  }
+  void on_exit(End end, double time, double u) {
+    if constexpr (requires { observer.on_exit(end, time, u); }) observer.on_exit(end, time, u);
+    drift.on_exit(end, time, u);
+  }
+  void finish(const std::vector<double>& scatterers, double end_time) {
+    if constexpr (requires { observer.finish(scatterers, end_time); }) observer.finish(scatterers, end_time);
+    drift.finish(scatterers, end_time);
+  }
+  template <class Tallies>
+  void record(const WithDrift<Tallies>& tallies, TallySums& sums) const {
+    observer.record(tallies, sums);
+    drift.record(tallies.drift, sums);
+  }
+};
+
+/// Study of a chain in its stationary state, as open_study(), with the test of stationarity.
+template <class Tallies, std::invocable MakeObserver>
+Study stationary_study(const StationaryParameters& parameters, const Tallies& tallies,
+                       const MakeObserver& make_observer, std::vector<Group> groups,
+                       const std::string& target) {
+  const Window window = parameters.window();
+  const WithDrift<Tallies> all(tallies);
+  groups.push_back(stationarity(all.drift));
+  const auto make = [=] { return ObserverWithDrift{make_observer(), Drift(parameters.chain(), window)}; };
+  Study study = open_study(parameters, window, all, make, std::move(groups), target);
+  study.remarks = remarks_on_stationarity;
+  return study;
+}
+
+}  // namespace lorentz

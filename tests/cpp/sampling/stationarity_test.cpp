@@ -1,0 +1,74 @@
+#include "sampling/stationarity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+namespace stationarity_test {
+
+using namespace lorentz;
+
+/// The expected injections are 0, so that nothing is subtracted from the controls.
+const OpenChain chain{.cells = 5, .left = {0, 1}, .right = {0, 1}};
+const Window window{2, 10};
+
+// Detected mistakes: the middle scatterer is another one; the first half is not subtracted; the energy of a
+// particle that leaves is added; exits after the window count.
+TEST(Drift, ChangesBetweenTheHalves) {
+  TallySchema schema;
+  const DriftTallies tallies(schema);
+  Drift drift(chain, window);
+  drift.on_injection(End::left, 3, 2);
+  drift.on_exit(End::right, 7, 4);
+  drift.on_exit(End::left, 10, -8);
+  for (const std::uint32_t scatterer : {0U, 1U, 2U, 3U, 4U})
+    drift.on_collision({6, 0, scatterer, 0, 0, 1. * scatterer, 2. * scatterer});
+  drift.finish({0, 2, 4, 6, 8}, 10);
+  TallySums sums(schema);
+  drift.record(tallies, sums);
+  EXPECT_EQ(sums[tallies.energy_current][0], (0.25 * 16 - 0.25 * 4) / 4);
+  EXPECT_EQ(sums[tallies.particle_current][0], 0);
+  EXPECT_EQ(sums[tallies.energy][0], (2. - 8.) / 8);
+  const auto temperature = sums[tallies.temperature], injection = sums[tallies.injection];
+  EXPECT_EQ(std::vector(temperature.begin(), temperature.end()), (std::vector<double>{0, 16 - 4, 64 - 16}));
+  EXPECT_EQ(std::vector(injection.begin(), injection.end()), (std::vector<double>{-1, -2, -2, 0, 0, 0}));
+}
+
+/// drift_p_value of normal records of variance 1, with `shift` standard errors of the mean in one column.
+double p_value(std::size_t replicas, std::size_t shifted, double shift, std::uint64_t seed) {
+  TallySchema schema;
+  const DriftTallies tallies(schema);
+  std::mt19937_64 generator(seed);
+  std::normal_distribution<double> normal;
+  Records records(schema.width());
+  for (std::size_t replica = 0; replica < replicas; ++replica) {
+    std::vector<double> row(schema.width());
+    for (double& value : row) value = normal(generator);
+    row[shifted] += shift / std::sqrt(static_cast<double>(replicas));
+    records.append(row);
+  }
+  return quantity_named(stationarity(tallies).estimate(records), "drift_p_value").mean.front();
+}
+
+// The energy has half of the level, the other five columns the other half, which is exact for p << 1.
+// Detected mistakes: one-sided p-values; no correction for the number of columns.
+TEST(Stationarity, FalseAlarmsHaveTheStatedFrequency) {
+  constexpr int runs = 20'000;
+  int alarms = 0;
+  for (std::uint64_t seed = 0; seed < runs; ++seed) alarms += p_value(16, 0, 0, seed) < 0.02 ? 1 : 0;
+  EXPECT_NEAR(alarms, 0.02 * runs, 4 * std::sqrt(0.02 * runs));
+}
+
+// Detected mistake: a column is left out.
+TEST(Stationarity, DriftOfOneColumnIsFound) {
+  for (std::size_t column = 0; column < 6; ++column) {
+    EXPECT_LT(p_value(32, column, 12, 1), 1e-4) << column;
+    EXPECT_GT(p_value(32, column, 0, 1), 1e-4) << column;
+  }
+}
+
+// Detected mistake: the p-value of too few replicas is 1, so that they count as stationary.
+TEST(Stationarity, FewReplicasAreNotTested) { EXPECT_TRUE(std::isnan(p_value(4, 0, 0, 1))); }
+
+}  // namespace stationarity_test
