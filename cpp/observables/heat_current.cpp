@@ -6,10 +6,11 @@
 ///
 ///   <Q^2>/N = (T lambda)^2 [ 4.5 A s^(4/3) + 2 D s ],  s = t sqrt(T)/lambda,
 ///
-/// elsewhere A = 0. J_n keeps a part proportional to the total momentum, which is subtracted
-/// exactly [eq. M31]. The totals of a ring fluctuate: at fixed totals <Q^2> would be smaller by a part of
-/// order t^2/N. Sound must not travel around the ring within the longest time. Without conserved momentum it
-/// decays, but after many collisions, unless the direction of a particle is drawn in each.
+/// elsewhere A = 0, for gamma = N: passing changes the transport coefficients. J_n keeps a part proportional
+/// to the total momentum, which is subtracted exactly [eq. M31]. The totals of a ring fluctuate: at fixed
+/// totals <Q^2> would be smaller by a part of order t^2/N. Sound must not travel around the ring within the
+/// longest time. Without conserved momentum it decays, but after many collisions, unless the direction of a
+/// particle is drawn in each.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -158,6 +159,8 @@ int main(int argc, char** argv) {
   Parameters parameters;
   declare(program.options(), parameters,
           "Times over which the currents are integrated, multiples of the first");
+  program.options().real_or_word("--gamma", parameters.ring.scattering.gamma, positive, "N", "1",
+                                 "Mean number of scatterings in N cells; N: every scatterer scatters");
   program.options().real("--fit-from", parameters.fit_from, positive, "time", "First time of the fit");
   return program.run(argc, argv, [&] { return heat_current(parameters); });
 }

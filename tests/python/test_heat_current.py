@@ -5,7 +5,6 @@ from functools import partial
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
 
 from tests.python.conftest import ROOT, Measure, Program
 from tests.python.test_mode_coupling import SQUARE_INTEGRAL
@@ -51,28 +50,35 @@ def test_short_times_have_the_variances_of_the_currents(heat_current: Measure) -
     assert np.abs(scores(result["number_variance"], 2 * ZETA * T * time**2)).min() > 10
 
 
-def of_walkers(time: float, power: int) -> float:
-    """<Q²> per cell for the current Σ u (u²/2 − T)^power: independent walkers whose direction is drawn at every scatterer.
-    The correlation of a velocity is u² times the probability that no scatterer was met yet."""
+def of_walkers(time: float, power: int, scattered: float) -> float:
+    """<Q²> per cell for the current Σ u (u²/2 − T)^power: independent walkers that every scatterer scatters with this probability,
+    which draws the direction. The correlation of a velocity is u² times the probability that no scattering took place yet."""
+    ages = np.linspace(0, time, 4001)
 
     def of_speed(u: float) -> float:
-        free = min(time, LENGTH / u)
-        square = 2 * u**2 * (time * free - free**2 / 2 - u / LENGTH * (time * free**2 / 2 - free**3 / 3))
-        return 2 * ZETA / u * np.exp(-(u**2) / (2 * T)) * (u**2 / 2 - T) ** (2 * power) * square
+        passed, part = np.divmod(u * ages / LENGTH, 1)
+        free = (1 - scattered) ** passed * (1 - part * scattered)
+        square = 2 * u**2 * np.trapezoid((time - ages) * free, ages)
+        return float(2 * ZETA / u * np.exp(-(u**2) / (2 * T)) * (u**2 / 2 - T) ** (2 * power) * square)
 
-    value: float = quad(of_speed, SLOWEST, 40, limit=400, points=[LENGTH / time])[0]
-    return value
+    speeds = np.geomspace(SLOWEST, 40, 801)
+    return float(np.trapezoid([u * of_speed(u) for u in speeds], np.log(speeds)))
 
 
-def test_drawn_directions(heat_current: Measure) -> None:
-    result = heat_current(**LONGER | {"cells": 5, "replicas": 20000}, sigma=-1, rule="random-direction")
+@pytest.mark.parametrize("scattered", [1.0, 0.3])
+def test_drawn_directions(heat_current: Measure, scattered: float) -> None:
+    gamma = {} if scattered == 1 else {"gamma": 5 * scattered}
+    options = {"cells": 5, "replicas": 20000, "sigma": -1, "rule": "random-direction"}
+    result = heat_current(**LONGER | options | gamma)
     times = result["heat_variance"].axes["time"]
     for name, power in (("heat_variance", 1), ("number_variance", 0)):
-        expected = np.array([of_walkers(time, power) for time in times])
+        expected = np.array([of_walkers(time, power, scattered) for time in times])
         assert np.abs(scores(result[name], expected)).max() < 4, name
-        # Detected mistake: windows that are 5 % longer.
-        longer = np.array([of_walkers(1.05 * time, power) for time in times])
+        # Detected mistakes: windows that are 5 % longer; a probability that is 25 % smaller.
+        longer = np.array([of_walkers(1.05 * time, power, scattered) for time in times])
+        rarer = np.array([of_walkers(time, power, 0.75 * scattered) for time in times])
         assert np.abs(scores(result[name], longer)).max() > 6, name
+        assert np.abs(scores(result[name], rarer)).max() > 6, name
 
 
 def test_growth_is_the_weighted_fit(heat_current: Measure) -> None:

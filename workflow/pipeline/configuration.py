@@ -185,9 +185,10 @@ def _options(program: str, options: Schema, elsewhere: dict[str, str]) -> Schema
 
 
 def _of_size(name: str, option: Schema) -> Schema:
-    """Schema of an option in the configuration, where times may be polynomials in N, which the plan evaluates."""
+    """Schema of an option in the configuration, where times and gamma may be polynomials in N, which the plan evaluates."""
     polynomial = {"type": "string", "pattern": f"^{POLYNOMIAL}$"}
-    return {"if": polynomial, "then": True, "else": option} if name.endswith("-time") else option
+    of_size = name.endswith("-time") or name == "gamma"
+    return {"if": polynomial, "then": True, "else": option} if of_size else option
 
 
 def _object(properties: Schema) -> Schema:
